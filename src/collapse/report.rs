@@ -1,0 +1,216 @@
+//! What an analysis says: plain data, SI units, radians.
+
+use crate::geometry::Vec2;
+
+/// How the question was answered.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Outcome {
+    /// Stands at load factor 0 and collapses at a finite one.
+    Collapse,
+    /// Does not stand under its fixed loads, at no load factor in reach.
+    FallsAsBuilt,
+    /// Does not stand at load factor 0, but does between two others.
+    StandsInWindow,
+    /// Stands however far the load factor goes (up to the cap).
+    NeverCollapses,
+    /// Collapses by crushing of the stone.
+    Crushes,
+    /// The path and the certificate contradict each other, or the path could not be followed.
+    CannotTell,
+}
+
+/// How the arch moves when it falls.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mode {
+    /// The crown goes up.
+    CrownRises,
+    /// The crown goes down.
+    CrownDescends,
+    /// The crown moves sideways more than up or down.
+    Sway,
+    /// Joints slide more than they open.
+    Sliding,
+}
+
+/// A face of the arch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Face {
+    /// Inner, lower face.
+    Intrados,
+    /// Outer, upper face.
+    Extrados,
+}
+
+/// A joint pressed at one face and opening at the other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hinge {
+    /// Joint number.
+    pub joint: usize,
+    /// Face at which the joint stays pressed (the axis of rotation); it opens at the other.
+    pub face: Face,
+    /// Angle of the joint from the nearer springing, about the arch's angle centre, rad.
+    pub angle_from_springing: f64,
+    /// Angle of the joint from the crown, negative on the left, rad.
+    pub angle_from_crown: f64,
+    /// Relative rotation rate in the mechanism (largest of all hinges = 1), positive.
+    pub rotation: f64,
+}
+
+/// A joint that slides in the mechanism.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Slide {
+    /// Joint number.
+    pub joint: usize,
+    /// Sliding rate of the stone after the joint towards the extrados, relative to the one before it, in the
+    /// mechanism's scale (m per rad of the largest hinge rotation; largest slide = 1 where no hinge turns).
+    pub rate: f64,
+}
+
+/// Resultant carried by one joint.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Thrust {
+    /// Joint number.
+    pub joint: usize,
+    /// Normal force, compression positive, N/m.
+    pub normal: f64,
+    /// Shear force on the stone after the joint, towards the extrados positive, N/m.
+    pub shear: f64,
+    /// Distance of the resultant from the joint's middle, towards the extrados positive, m. Zero where N = 0.
+    pub eccentricity: f64,
+    /// Where the resultant crosses the joint's line, m.
+    pub at: Vec2,
+}
+
+/// Force at one contact point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactForce {
+    /// Joint number.
+    pub joint: usize,
+    /// Which end of the joint.
+    pub face: Face,
+    /// Normal force, compression positive, N/m.
+    pub normal: f64,
+    /// Tangential force on the stone after the joint, towards the extrados positive, N/m.
+    pub tangential: f64,
+    /// Opening, positive when open, m.
+    pub gap: f64,
+}
+
+/// Movement of one voussoir's centroid and the state of stress in it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BlockState {
+    /// Displacement of the centroid, m.
+    pub displacement: Vec2,
+    /// Rotation, counter-clockwise positive, rad.
+    pub rotation: f64,
+    /// sigma_x, sigma_y, tau_xy, Pa, compression negative.
+    pub stress: [f64; 3],
+}
+
+/// The arch at one load factor.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Snapshot {
+    /// Load factor.
+    pub load_factor: f64,
+    /// Every voussoir, left to right.
+    pub blocks: Vec<BlockState>,
+    /// Every contact point, joint by joint, intrados first.
+    pub contacts: Vec<ContactForce>,
+}
+
+/// One point of the load-displacement history.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HistoryPoint {
+    /// Load factor.
+    pub load_factor: f64,
+    /// Displacement of the stone at the crown, m.
+    pub crown: Vec2,
+    /// Largest displacement of any centroid, m.
+    pub largest: f64,
+}
+
+/// Lowest and highest load factor for which the static theorem finds equilibrium; infinite where unbounded.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LimitWindow {
+    /// Lowest.
+    pub lowest: f64,
+    /// Highest.
+    pub highest: f64,
+}
+
+/// One end of the load path.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PathEnd {
+    /// Load factor at which the arch falls (first order), polished on the final static conditions.
+    pub load_factor: f64,
+    /// Largest equilibrium residual of any block at any event, as a share of the arch's weight.
+    pub residual: f64,
+    /// The mechanism.
+    pub mechanism: Mechanism,
+    /// Resultants per joint at collapse.
+    pub thrust_line: Vec<Thrust>,
+}
+
+/// How the arch falls.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mechanism {
+    /// In one word.
+    pub mode: Mode,
+    /// Hinges from left to right.
+    pub hinges: Vec<Hinge>,
+    /// Sliding joints from left to right.
+    pub slides: Vec<Slide>,
+    /// Velocity (u, v) and rotation rate of every voussoir in the mechanism, in the hinges' scale.
+    pub velocities: Vec<[f64; 3]>,
+}
+
+/// Counts of the work done; the same for the same request on any machine.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Cost {
+    /// Contact events passed.
+    pub events: usize,
+    /// Factorisations, partial ones included.
+    pub factorisations: usize,
+    /// Displacement unknowns.
+    pub unknowns: usize,
+}
+
+/// Least and greatest horizontal thrust under the fixed loads, N/m (static theorem).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ThrustRange {
+    /// Least.
+    pub lowest: f64,
+    /// Greatest.
+    pub highest: f64,
+}
+
+/// The whole answer.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CollapseReport {
+    /// What happened.
+    pub outcome: Outcome,
+    /// The exact limit window (static theorem, associated friction): the certificate. None where nothing stands.
+    pub limit_window: Option<LimitWindow>,
+    /// Thrust range under the fixed loads, where they stand.
+    pub thrust_range: Option<ThrustRange>,
+    /// The end of the path in the asked direction: collapse, or the mechanism of an arch that falls as built.
+    pub end: Option<PathEnd>,
+    /// The end of the path in the other direction, for an arch that stands in a window only.
+    pub other_end: Option<PathEnd>,
+    /// Load factor from which the path was followed.
+    pub start: f64,
+    /// Share of the way to collapse at which `near_collapse` was taken.
+    pub share: f64,
+    /// The arch just before collapse.
+    pub near_collapse: Option<Snapshot>,
+    /// The arch at load factor 1, where the path passes it.
+    pub at_unit_load: Option<Snapshot>,
+    /// The arch at the start of the path (load factor `start`).
+    pub at_start: Option<Snapshot>,
+    /// The path, event by event.
+    pub history: Vec<HistoryPoint>,
+    /// Counts.
+    pub cost: Cost,
+    /// What an engineer should know before using the numbers: why intensity and window differ, what was not reached.
+    pub notes: Vec<String>,
+}
