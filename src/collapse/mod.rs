@@ -59,8 +59,8 @@ pub struct Analysis {
     pub scaled: Vec<PointForce>,
     /// Which way the load factor goes.
     pub direction: Direction,
-    /// Largest absolute load factor to try.
-    pub cap: f64,
+    /// Largest absolute load factor to try; by default the one at which the scaled loads are 1e6 times the fixed ones.
+    pub cap: Option<f64>,
     /// How the path is read.
     pub method: Method,
     /// At which share of the way to collapse displacements and contact forces are reported, in (0, 1).

@@ -199,6 +199,8 @@ pub struct CollapseReport {
     pub other_end: Option<PathEnd>,
     /// Load factor from which the path was followed.
     pub start: f64,
+    /// Largest absolute load factor that was tried.
+    pub cap: f64,
     /// Share of the way to collapse at which `near_collapse` was taken.
     pub share: f64,
     /// The arch just before collapse.
