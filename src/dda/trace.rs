@@ -8,7 +8,7 @@
 use super::block::{M6, V6};
 use super::chain::Chain;
 use super::contact::{Contact, Law, State};
-use super::factor::Factor;
+use super::factor::{Factor, Tridiagonal};
 use std::ops::ControlFlow;
 
 /// What is driven along the path: loads `base + parameter * rate`, and a pre-load that keeps every contact pressed,
@@ -82,9 +82,8 @@ pub struct Tracer<'a> {
 
     elastic: Vec<M6>,
     interface: Vec<[[M6; 2]; 2]>,
-    diagonal: Vec<M6>,
-    upper: Vec<M6>,
-    lower: Vec<M6>,
+    matrix: Tridiagonal,
+    load_rate: Vec<V6>,
     factor: Factor,
     /// Scratch: gaps and gap rates of all contacts, tangent direction.
     gaps: Vec<[f64; 2]>,
@@ -125,10 +124,13 @@ impl<'a> Tracer<'a> {
             peak: None,
             elastic: chain.blocks().iter().map(|b| b.stiffness()).collect(),
             interface: vec![[[M6::zeros(); 2]; 2]; n + 1],
-            diagonal: vec![M6::zeros(); n],
-            upper: vec![M6::zeros(); n.saturating_sub(1)],
-            lower: vec![M6::zeros(); n.saturating_sub(1)],
-            factor: Factor::default(),
+            matrix: Tridiagonal {
+                diagonal: vec![M6::zeros(); n],
+                upper: vec![M6::zeros(); n.saturating_sub(1)],
+                lower: vec![M6::zeros(); n.saturating_sub(1)],
+            },
+            load_rate: vec![V6::zeros(); n],
+            factor: Factor::new(n),
             gaps: Vec::new(),
             rates: Vec::new(),
             direction: vec![V6::zeros(); n],
@@ -162,10 +164,10 @@ impl<'a> Tracer<'a> {
                 _ => {}
             }
         }
+        (self.drive, self.parameter, self.peak) = (drive, parameter, None);
         for k in 0..self.chain.interfaces() {
             self.reassemble(k);
         }
-        (self.drive, self.parameter, self.peak) = (drive, parameter, None);
     }
 
     /// Traces until the parameter reaches `target` (> the current one) or the path ends. `see` is called at the start
@@ -234,13 +236,8 @@ impl<'a> Tracer<'a> {
 
     /// Solves for the tangent of the path, its largest entry 1 m.
     fn solve_tangent(&mut self) {
-        self.factor.update(&self.diagonal, &self.upper, &self.lower);
+        self.factor.update(&self.matrix, &self.load_rate, &mut self.direction);
         self.factorisations += 1;
-        self.direction.copy_from_slice(&self.drive.rate);
-        if self.drive.offset[1] != 0.0 {
-            self.add_offset_load();
-        }
-        self.factor.solve(&self.lower, &mut self.direction);
         let largest = self.direction.iter().map(|d| d.amax()).fold(0.0, f64::max);
         self.rate = if largest > 0.0 { 1.0 / largest } else { 1.0 };
         self.direction.iter_mut().for_each(|d| *d *= self.rate);
@@ -253,20 +250,24 @@ impl<'a> Tracer<'a> {
         self.rate = -self.rate;
     }
 
-    /// Loads that the fading offset puts on the blocks, per unit of the parameter.
-    fn add_offset_load(&mut self) {
-        for k in 0..self.chain.interfaces() {
-            for p in self.chain.at_interface(k) {
+    /// Load on block `i` per unit of the parameter: the drive's own and what the fading offset puts on it.
+    fn load_rate_of(&self, i: usize) -> V6 {
+        let mut load = self.drive.rate[i];
+        if self.drive.offset[1] == 0.0 {
+            return load;
+        }
+        for (interface, side) in [(i, 1), (i + 1, 0)] {
+            for p in self.chain.at_interface(interface) {
                 let contact = &self.chain.contacts()[p];
-                let force = contact.pressure(self.drive.offset[1]);
                 let slope = match self.states[p] {
                     State::Open | State::Bonded => continue,
                     State::Stick => 0.0,
                     State::Slip { sign, branch } => sign * contact.law.branches()[branch].0,
                 };
-                push(&mut self.direction, contact, k, force, slope * force);
+                load += (contact.normal[side] + contact.tangent[side] * slope) * contact.pressure(self.drive.offset[1]);
             }
         }
+        load
     }
 
     /// Calls `see(value, rate, next)` for every way out of `state` at contact `p`, along the current direction.
@@ -303,8 +304,9 @@ impl<'a> Tracer<'a> {
     fn keep_equilibrium(&mut self) -> bool {
         let mut worst = self.find_residual();
         if worst > CORRECT && !self.is_mechanism() {
-            self.factor.solve(&self.lower, &mut self.residual);
-            for (d, correction) in self.displacements.iter_mut().zip(&self.residual) {
+            let mut corrections = vec![V6::zeros(); self.residual.len()];
+            self.factor.solve(&self.matrix, &self.residual, &mut corrections);
+            for (d, correction) in self.displacements.iter_mut().zip(&corrections) {
                 *d += correction;
             }
             worst = self.find_residual();
@@ -355,14 +357,16 @@ impl<'a> Tracer<'a> {
 
     fn reassemble(&mut self, k: usize) {
         self.interface[k] = self.chain.interface_stiffness(k, &self.states);
-        let n = self.diagonal.len();
+        let n = self.elastic.len();
         for i in k.saturating_sub(1)..(k + 1).min(n) {
-            self.diagonal[i] = self.elastic[i] + self.interface[i][1][1] + self.interface[i + 1][0][0];
+            self.matrix.diagonal[i] = self.elastic[i] + self.interface[i][1][1] + self.interface[i + 1][0][0];
+            self.load_rate[i] = self.load_rate_of(i);
+            self.factor.invalidate(i);
         }
         if k > 0 && k < n {
-            (self.upper[k - 1], self.lower[k - 1]) = (self.interface[k][0][1], self.interface[k][1][0]);
+            self.matrix.upper[k - 1] = self.interface[k][0][1];
+            self.matrix.lower[k - 1] = self.interface[k][1][0];
         }
-        self.factor.invalidate(k.saturating_sub(1));
     }
 
     fn offset(&self) -> f64 {
