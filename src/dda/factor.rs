@@ -28,7 +28,7 @@ impl Pivot {
             }
         }
         self.order = [0, 1, 2, 3, 4, 5];
-        let (mut smallest, mut largest) = (f64::INFINITY, 0f64);
+        let (mut smallest, mut largest, scale) = (f64::INFINITY, 0f64, a.amax().max(f64::MIN_POSITIVE / f64::EPSILON));
         for k in 0..6 {
             let best = (k + 1..6).fold(k, |best, i| if rows[i][k].abs() > rows[best][k].abs() { i } else { best });
             if best != k {
@@ -38,7 +38,7 @@ impl Pivot {
             }
             // An exactly singular block is left singular to working precision: its inverse then points along the
             // mechanism, which is what the caller looks for.
-            let pivot = if rows[k][k] == 0.0 { largest.max(f64::MIN_POSITIVE) * f64::EPSILON } else { rows[k][k] };
+            let pivot = if rows[k][k] == 0.0 { scale * f64::EPSILON } else { rows[k][k] };
             (smallest, largest) = (smallest.min(pivot.abs()), largest.max(pivot.abs()));
             let (reciprocal, pivot_row) = (1.0 / pivot, rows[k]);
             for i in k + 1..6 {
