@@ -277,3 +277,80 @@ fn angles(arch: &Arch, joint: usize) -> (f64, f64) {
     let right = if arch.half { f64::INFINITY } else { (from_vertical(last) - here).abs() };
     (left.min(right), here)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arch::{Joint, Voussoir};
+    use crate::geometry::Region;
+
+    fn semicircle(n: usize) -> Arch {
+        let law = JointLaw::Dry { friction: 0.7, cohesion: 0.0 };
+        let joints: Vec<Joint> = (0..=n)
+            .map(|k| {
+                let (sin, cos) = (std::f64::consts::PI * (1.0 - k as f64 / n as f64)).sin_cos();
+                let ray = Vec2::new(cos, sin);
+                Joint { intrados: ray * 0.9, extrados: ray * 1.1, law }
+            })
+            .collect();
+        let region = |w: &[Joint]| Region::polygon(&[w[0].extrados, w[0].intrados, w[1].intrados, w[1].extrados]);
+        let voussoirs = joints.windows(2).map(|w| Voussoir { region: region(w) }).collect();
+        Arch { voussoirs, joints, abutments: [None, None], half: false, angle_centre: Vec2::zeros() }
+    }
+
+    /// Joint forces with hinges at the given joints and faces, pressed in the middle elsewhere.
+    fn resultants(n: usize, hinges: &[(usize, Face)]) -> Vec<Resultant> {
+        let mut all = vec![Resultant { intrados: 1.0, extrados: 1.0, shear: 0.0 }; n + 1];
+        for &(k, face) in hinges {
+            let freed = if face == Face::Intrados { &mut all[k].extrados } else { &mut all[k].intrados };
+            *freed = 0.0;
+        }
+        all
+    }
+
+    fn crown_load(arch: &Arch) -> Vec<PointForce> {
+        let n = arch.voussoirs.len();
+        let down = |voussoir| PointForce { voussoir, at: Vec2::new(0.0, 1.1), force: Vec2::new(0.0, -1.0) };
+        vec![down((n - 1) / 2), down(n / 2)]
+    }
+
+    #[test]
+    fn a_symmetric_set_of_five_hinges_falls_symmetrically_and_closes() {
+        use Face::{Extrados, Intrados};
+        let arch = semicircle(12);
+        let set = [(0, Extrados), (3, Intrados), (6, Extrados), (9, Intrados), (12, Extrados)];
+        let none = vec![None; 13];
+        let mechanism = from_statics(&arch, &resultants(12, &set), &none, &crown_load(&arch)).unwrap();
+        let found: Vec<_> = mechanism.hinges.iter().map(|h| (h.joint, h.face)).collect();
+        assert_eq!(found, set);
+        assert_eq!(mechanism.mode, Mode::CrownDescends);
+        for (h, mirror) in mechanism.hinges.iter().zip(mechanism.hinges.iter().rev()) {
+            assert!((h.rotation - mirror.rotation).abs() < 1e-9);
+            assert!((h.angle_from_crown + mirror.angle_from_crown).abs() < 1e-12);
+        }
+        // The last stone turns about its hinge on the right springing: the chain closes.
+        let ([u, v, spin], centroid) = (mechanism.velocities[11], arch.voussoirs[11].region.centroid);
+        let at_hinge = motion_at(centroid, Vec2::new(u, v), spin).at(arch.joints[12].extrados);
+        assert!(at_hinge.norm() < 1e-9);
+    }
+
+    #[test]
+    fn three_hinges_are_no_mechanism() {
+        let arch = semicircle(12);
+        let set = [(0, Face::Extrados), (6, Face::Extrados), (12, Face::Extrados)];
+        assert_eq!(from_statics(&arch, &resultants(12, &set), &[None; 13], &crown_load(&arch)), None);
+    }
+
+    #[test]
+    fn sliding_follows_the_shear() {
+        let arch = semicircle(4);
+        let mut all = resultants(4, &[]);
+        // Shear up to the limit at the two haunch joints, the middle stones being pushed down between them.
+        (all[1].shear, all[3].shear) = (1.4, -1.4);
+        (all[0].shear, all[4].shear) = (0.0, 0.0);
+        let slides = |r: &[Resultant], k: usize| joint_releases(&arch, k, &r[k], None);
+        assert_eq!(slides(&all, 1), vec![(1, Release::Sliding(-1.0))]);
+        assert_eq!(slides(&all, 3), vec![(3, Release::Sliding(1.0))]);
+        assert_eq!(slides(&all, 0), vec![]);
+    }
+}
