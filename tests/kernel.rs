@@ -2,6 +2,8 @@
 //!
 //! No arch here: chains are built by hand, and the expected values are one-line statics.
 
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
 use std::ops::ControlFlow;
 use voussoir::dda::{Block, Chain, ChainBuilder, Drive, Elasticity, End, Law, Tracer, V6, covering};
 use voussoir::geometry::{Region, Vec2};

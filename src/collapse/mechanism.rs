@@ -1,10 +1,10 @@
 //! How the arch moves when it falls: hinges, slides and the mode, from the joints that are at their limits.
 
+use super::smallest_motion::{Column, smallest_motion};
 use super::{Face, Hinge, Mechanism, Mode, Slide};
 use crate::arch::{Arch, JointLaw, PointForce};
 use crate::geometry::{Vec2, cross, perpendicular};
 use crate::limit::Resultant;
-use nalgebra::{SMatrix, SVector};
 
 /// A normal force below this share of the joint's is none; shear within this share of capacity is at its limit. Polished
 /// forces are good to about 1e-12, and next to a hinge of a 2001-voussoir arch the share is 1e-5.
@@ -121,43 +121,6 @@ fn tail_loads(arch: &Arch, loads: &[PointForce]) -> Vec<[f64; 3]> {
         tails[k] = std::array::from_fn(|i| tails[k][i] + tails[k + 1][i]);
     }
     tails
-}
-
-/// Closure of the chain (two velocities and a spin) and power, per unit rate of a release.
-type Column = SVector<f64, 4>;
-
-/// Smallest rates x >= 0 (in the sum of squares) with closure 0 and power 1.
-///
-/// The dual of this quadratic program is an unconstrained convex function of four multipliers y with
-/// x = max(0, a . y); its stationary point is found by Newton's method with backtracking.
-fn smallest_motion(columns: &[Column]) -> Option<Vec<f64>> {
-    let target = Column::new(0.0, 0.0, 0.0, 1.0);
-    let rates = |y: &Column| -> Vec<f64> { columns.iter().map(|a| a.dot(y).max(0.0)).collect() };
-    let value = |y: &Column| 0.5 * rates(y).iter().map(|x| x * x).sum::<f64>() - target.dot(y);
-    let mut y = columns.iter().fold(Column::zeros(), |sum, a| sum + a * a.dot(&target).max(0.0));
-    for _ in 0..200 {
-        let x = rates(&y);
-        let gradient = columns.iter().zip(&x).fold(-target, |g, (a, &x)| g + a * x);
-        let scale = 1.0 + columns.iter().zip(&x).map(|(a, x)| a.norm() * x).sum::<f64>();
-        if gradient.norm() < 1e-11 * scale {
-            return Some(x);
-        }
-        let active = columns.iter().zip(&x).filter(|&(_, &x)| x > 0.0);
-        let mut hessian = active.fold(SMatrix::<f64, 4, 4>::zeros(), |h, (a, _)| h + a * a.transpose());
-        let ridge = 1e-14 * hessian.trace().max(1e-6);
-        hessian += SMatrix::identity() * ridge;
-        let step = hessian.lu().solve(&-gradient)?;
-        let (before, slope) = (value(&y), gradient.dot(&step));
-        let mut length = 1.0;
-        while value(&(y + step * length)) > before + 1e-4 * length * slope + 1e-16 * before.abs() && length > 1e-12 {
-            length *= 0.5;
-        }
-        y += step * length;
-        if !y.iter().all(|v| v.is_finite()) || y.norm() > 1e14 {
-            return None;
-        }
-    }
-    None
 }
 
 fn describe(arch: &Arch, releases: &[(usize, Release)], rates: &[f64]) -> Mechanism {

@@ -3,6 +3,8 @@
 //! The matrix is eliminated from both ends towards the block row that changed last (a twisted factorisation), so that
 //! the next change costs only the rows between the two.
 
+#![allow(clippy::needless_range_loop, reason = "indices are the mathematics here")]
+
 use super::block::{M6, V6};
 
 /// LU of one 6 x 6 pivot block, rows exchanged by partial pivoting.
@@ -48,9 +50,7 @@ impl Pivot {
                 }
                 self.rows[i][k] = l;
             }
-            for j in k + 1..6 {
-                self.rows[k][j] = pivot_row[j];
-            }
+            self.rows[k][k + 1..].copy_from_slice(&pivot_row[k + 1..6]);
             self.rows[k][k] = reciprocal;
         }
         self.ratio = smallest / largest;
