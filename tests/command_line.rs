@@ -1,5 +1,6 @@
 //! The program as it is called.
 #![cfg(feature = "server")]
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test stops at the first surprise")]
 
 mod support;
 

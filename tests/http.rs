@@ -1,5 +1,6 @@
 //! The HTTP interface, over real connections.
 #![cfg(feature = "server")]
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test stops at the first surprise")]
 
 mod support;
 

@@ -1,4 +1,5 @@
 //! Who may import what: the table of the architecture, checked against the source.
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test stops at the first surprise")]
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -78,7 +79,7 @@ fn room(name: &str) -> Vec<(PathBuf, String)> {
     while let Some(path) = open.pop() {
         if path.is_dir() {
             open.extend(fs::read_dir(path).unwrap().map(|entry| entry.unwrap().path()));
-        } else if path.extension().is_some_and(|extension| extension == "rs") {
+        } else if path.is_file() && path.extension().is_some_and(|extension| extension == "rs") {
             let text = fs::read_to_string(&path).unwrap();
             let code = text.split("#[cfg(test)]\nmod tests").next().unwrap_or_default();
             let lines = code.lines().map(|line| line.split("//").next().unwrap_or_default());
@@ -142,8 +143,8 @@ fn the_interface_runs_no_analysis() {
 
 #[test]
 fn files_are_of_a_size_one_can_read() {
-    for (file, _) in room("") {
-        let lines = fs::read_to_string(&file).unwrap().lines().count();
-        assert!(lines <= 300, "{}: {lines} lines", file.display());
+    for (file, code) in room("") {
+        let lines = code.lines().filter(|line| !line.trim().is_empty()).count();
+        assert!(lines <= 300, "{}: {lines} lines of code", file.display());
     }
 }
