@@ -8,7 +8,7 @@ use voussoir::api::response::{AnalysisResult, Collapse, HingeBody, OutcomeWord, 
 
 /// Everything but the rows of numbers per stone and joint.
 pub fn summary(result: &AnalysisResult, wall_time: Duration) -> String {
-    let mut text = format!("{}\n\n{}\n", headline(result), facts(result, wall_time));
+    let mut text = format!("{}\n\n{}\n", headline(result), facts(result, wall_time).trim_fmt());
     append(&mut text, "Hinges", hinges(&result.hinges));
     append(&mut text, "Slides", slides(&result.slides));
     if let Some(other) = &result.other_end {
@@ -100,7 +100,7 @@ fn bare() -> Table {
 fn append(text: &mut String, title: &str, table: Option<Table>) {
     if let Some(table) = table {
         // Writing to a string cannot fail.
-        let _ = write!(text, "\n{title}\n{table}\n");
+        let _ = write!(text, "\n{title}\n{}\n", table.trim_fmt());
     }
 }
 
