@@ -3,7 +3,6 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test stops at the first surprise")]
 #![allow(clippy::disallowed_methods, reason = "tests wait for jobs by looking again")]
 
-use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 use std::thread::sleep;
@@ -39,20 +38,24 @@ const PANIC: f64 = 2.0;
 const ERROR: f64 = 3.0;
 
 fn stand_in(analysis: &Analysis, watch: &mut dyn Watch) -> Result<CollapseReport, AnalysisError> {
-    let mut events = 0;
-    while analysis.penalty_ratio == ENDLESS {
-        let step = LoadStep { load_factor: 0.5 * events as f64, events };
-        if let ControlFlow::Break(_) = watch.on_step(&step) {
-            return Err(AnalysisError::Stopped { load_factor: step.load_factor, events });
-        }
-        events += 1;
-        sleep(Duration::from_millis(1));
+    if analysis.penalty_ratio == ENDLESS {
+        return endless(watch);
     }
     assert!(analysis.penalty_ratio != PANIC, "asked to panic");
     if analysis.penalty_ratio == ERROR {
         return Err(AnalysisError::NotFinite { what: "asked to fail" });
     }
     Ok(report())
+}
+
+/// Steps on until told to stop.
+fn endless(watch: &mut dyn Watch) -> Result<CollapseReport, AnalysisError> {
+    let mut step = LoadStep { load_factor: 0.0, events: 0 };
+    while watch.on_step(&step).is_continue() {
+        step = LoadStep { load_factor: step.load_factor + 0.5, events: step.events + 1 };
+        sleep(Duration::from_millis(1));
+    }
+    Err(AnalysisError::Stopped { load_factor: step.load_factor, events: step.events })
 }
 
 fn report() -> CollapseReport {

@@ -8,7 +8,6 @@ pub mod broken;
 use serde_json::{Value, json};
 use std::io::{Read, Write};
 use std::net::{SocketAddr, TcpStream};
-use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
@@ -29,20 +28,24 @@ pub const ERROR: f64 = 0.125;
 
 /// The mechanics, except for requests that ask for trouble by their `share_of_collapse`.
 fn analyse(analysis: &Analysis, watch: &mut dyn Watch) -> Result<CollapseReport, AnalysisError> {
-    let mut events = 0;
-    while analysis.share == ENDLESS {
-        let step = LoadStep { load_factor: 0.25 * events as f64, events };
-        if let ControlFlow::Break(_) = watch.on_step(&step) {
-            return Err(AnalysisError::Stopped { load_factor: step.load_factor, events });
-        }
-        events += 1;
-        sleep(Duration::from_millis(1));
+    if analysis.share == ENDLESS {
+        return endless(watch);
     }
     assert!(analysis.share != PANIC, "asked to panic");
     if analysis.share == ERROR {
         return Err(AnalysisError::NotFinite { what: "asked to fail" });
     }
     collapse::run(analysis, watch)
+}
+
+/// Steps on until told to stop.
+fn endless(watch: &mut dyn Watch) -> Result<CollapseReport, AnalysisError> {
+    let mut step = LoadStep { load_factor: 0.0, events: 0 };
+    while watch.on_step(&step).is_continue() {
+        step = LoadStep { load_factor: step.load_factor + 0.25, events: step.events + 1 };
+        sleep(Duration::from_millis(1));
+    }
+    Err(AnalysisError::Stopped { load_factor: step.load_factor, events: step.events })
 }
 
 /// A semicircular arch with a point load at its quarter.
