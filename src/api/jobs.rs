@@ -2,10 +2,10 @@
 
 use super::Service;
 use super::problem::Problem;
+use super::read;
 use super::request::AnalysisRequest;
 use super::response::AnalysisResult;
 use super::status::{self, JobList, JobStatus};
-use super::{read, translate};
 use crate::jobs::{Dismissal, Job, JobId, State};
 use axum::Json;
 use axum::body::Bytes;
@@ -53,8 +53,7 @@ pub(super) async fn submit(
     }
     let body = body.map_err(|rejection| Problem::body(&rejection, state.body_limit))?;
     check_syntax(&body)?;
-    let request = read::read(&body).map_err(Problem::faults)?;
-    let analysis = translate::translate(&request).map_err(Problem::faults)?;
+    let (request, analysis) = read::read_analysis(&body).map_err(Problem::faults)?;
     let job = state.jobs.submit(analysis, request)?;
     let location = [(header::LOCATION, status::path(job.id))];
     Ok((StatusCode::CREATED, location, Json(JobStatus::from(&job))).into_response())

@@ -1,6 +1,7 @@
 //! The HTTP interface: a request becomes an [`Analysis`](crate::collapse::Analysis), a report becomes JSON. Nothing is
 //! computed here.
 
+pub mod fault;
 mod jobs;
 mod layers;
 mod meta;
@@ -11,6 +12,7 @@ pub mod response;
 pub mod status;
 mod timestamp;
 pub mod translate;
+mod tree;
 
 use crate::jobs::JobStore;
 use axum::Router;

@@ -1,6 +1,6 @@
 //! Problems, RFC 9457: the only shape in which this service says no.
 
-use super::read::Fault;
+use super::fault::Fault;
 use crate::collapse::AnalysisError;
 use crate::jobs::{Failure, JobId, Refusal};
 use axum::extract::rejection::BytesRejection;
@@ -30,18 +30,9 @@ pub struct Problem {
     /// Every fault of the request, each with the place where it sits.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     #[schema(required = false)]
-    errors: Vec<FieldError>,
+    errors: Vec<Fault>,
     #[serde(skip)]
     retry_after: Option<u64>,
-}
-
-/// One fault of a request.
-#[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
-pub struct FieldError {
-    /// JSON Pointer (RFC 6901) into the request.
-    pointer: String,
-    /// What is wrong there, and how to mend it.
-    detail: String,
 }
 
 impl Problem {
@@ -56,8 +47,7 @@ impl Problem {
     }
 
     /// The request is JSON, but describes no analysis.
-    pub fn faults(faults: Vec<Fault>) -> Self {
-        let errors = faults.into_iter().map(|Fault { pointer, detail }| FieldError { pointer, detail }).collect();
+    pub fn faults(errors: Vec<Fault>) -> Self {
         let (kind, title) = ("urn:voussoir:problem:invalid-request", "The request cannot be analysed");
         let detail = "every fault is listed in errors, with the place where it sits";
         Problem { errors, ..Problem::new(StatusCode::UNPROCESSABLE_ENTITY, kind, title, detail) }

@@ -117,7 +117,7 @@ impl AnalysisResult {
         };
         AnalysisResult {
             outcome: report.outcome.into(),
-            method: MethodWord::EventPath,
+            method: (&request.method).into(),
             unit: scale.unit.to_owned(),
             collapse,
             limit_window: window.map(|window| scale.window(window)),

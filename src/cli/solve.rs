@@ -7,9 +7,9 @@ use std::io::{self, Read};
 use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
-use voussoir::api::read::{Fault, read};
+use voussoir::api::fault::Fault;
+use voussoir::api::read::read_analysis;
 use voussoir::api::response::AnalysisResult;
-use voussoir::api::translate::translate;
 use voussoir::collapse::{self, Unwatched};
 
 /// Exit code for a request that cannot be analysed.
@@ -21,8 +21,8 @@ pub fn solve(options: &Solve) -> ExitCode {
         Ok(body) => body,
         Err(error) => return fail(format_args!("cannot read {}: {error}", options.file.display())),
     };
-    let (request, analysis) = match read(&body).and_then(|request| Ok((translate(&request)?, request))) {
-        Ok((analysis, request)) => (request, analysis),
+    let (request, analysis) = match read_analysis(&body) {
+        Ok(pair) => pair,
         Err(faults) => return refuse(&faults),
     };
     let clock = Instant::now();

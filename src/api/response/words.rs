@@ -1,5 +1,6 @@
 //! Words of the answer.
 
+use crate::api::request::MethodRequest;
 use crate::collapse::{Face, Mode, Outcome};
 use serde::Serialize;
 use utoipa::ToSchema;
@@ -83,6 +84,15 @@ impl From<Outcome> for OutcomeWord {
             Outcome::NeverCollapses => OutcomeWord::NeverCollapses,
             Outcome::Crushes => OutcomeWord::Crushes,
             Outcome::CannotTell => OutcomeWord::CannotTell,
+        }
+    }
+}
+
+impl From<&MethodRequest> for MethodWord {
+    fn from(method: &MethodRequest) -> Self {
+        match method {
+            MethodRequest::EventPath => MethodWord::EventPath,
+            MethodRequest::FixedSteps(_) => MethodWord::FixedSteps,
         }
     }
 }
