@@ -4,7 +4,7 @@ use super::job::{Failure, Observer, Progress, State};
 use super::lock;
 use super::store::{Analyse, Shared};
 use super::table::Task;
-use crate::collapse::Analysis;
+use crate::collapse::{Analysis, AnalysisError};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, PoisonError};
 
@@ -16,6 +16,7 @@ pub(super) fn work<T>(shared: &Shared<T>) {
         tracing::info!("started");
         let state = attempt(&*shared.analyse, &task.analysis, &task.progress);
         match &state {
+            State::Failed(Failure::Analysis(error @ AnalysisError::Stopped { .. })) => tracing::info!("{error}"),
             State::Failed(failure) => tracing::warn!(%failure, "failed"),
             _ => tracing::info!("ended"),
         }
