@@ -5,3 +5,4 @@ pub mod collapse;
 pub mod dda;
 pub mod geometry;
 pub mod limit;
+pub mod render;
