@@ -1,6 +1,12 @@
 //! Incremental limit analysis: what grows, how far, and what happens then.
 
+mod discretise;
+mod ending;
+mod mechanism;
+mod path;
+mod record;
 pub mod report;
+mod verdict;
 
 pub use report::*;
 
@@ -114,10 +120,10 @@ pub enum AnalysisError {
     },
 }
 
-/// Runs the analysis.
+/// Runs the analysis: limit window, then the load path from where it says the arch stands, then the comparison.
 ///
 /// # Errors
 /// When stopped by `watch`, or when a result is not finite.
-pub fn run(_analysis: &Analysis, _watch: &mut dyn Watch) -> Result<CollapseReport, AnalysisError> {
-    Err(AnalysisError::NotFinite { what: "not built yet" })
+pub fn run(analysis: &Analysis, watch: &mut dyn Watch) -> Result<CollapseReport, AnalysisError> {
+    verdict::run(analysis, watch)
 }

@@ -1,1 +1,20 @@
-//! Blocks and contacts.
+//! Discontinuous deformation analysis of a chain of blocks: constant-strain blocks, unilateral penalty contacts with
+//! Coulomb friction, and the load path traced exactly from one change of contact state to the next.
+//!
+//! Nothing here knows that the chain is an arch: a block on a slope, a stack and a portal are chains too.
+//!
+//! Signs, said once: compression is negative in stress; a contact's normal force `N` is positive in compression; a gap
+//! is positive when open; a tangential force `T` acts on the block after the contact, along the contact's tangent.
+//! Block `i` lies between interfaces `i` and `i + 1`; interface `k` joins block `k - 1` (before) to block `k` (after), and
+//! the rigid ground takes the place of a block that is not there.
+
+pub mod block;
+pub mod chain;
+pub mod contact;
+pub mod factor;
+pub mod trace;
+
+pub use block::{Block, Elasticity, V6};
+pub use chain::{Chain, ChainBuilder};
+pub use contact::{Contact, ContactForce, Law, State};
+pub use trace::{Drive, End, Peak, Tracer, covering};

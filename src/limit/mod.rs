@@ -1,1 +1,10 @@
-//! Rigid-block limit analysis.
+//! Rigid-block limit analysis of a single arch: the certificate of every answer.
+//!
+//! An arch between two supports has three redundants. With the force and moment at one springing and the load factor
+//! as unknowns, the resultant at every joint is known, and "no tension, no sliding" at every joint is the whole static
+//! theorem (associated friction): a linear program in four unknowns, solved exactly.
+
+mod linear_program;
+mod static_theorem;
+
+pub use static_theorem::{Condition, Equilibrium, Resultant, StaticTheorem};

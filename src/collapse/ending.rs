@@ -1,0 +1,137 @@
+//! One end of a load path: its load polished on the unperturbed statics, its mechanism and its thrust line.
+
+use super::discretise::Model;
+use super::mechanism::{self, motion_at};
+use super::{Analysis, PathEnd, Thrust};
+use crate::arch::{Arch, PointForce};
+use crate::dda::{Peak, State, V6};
+use crate::limit::{Condition, Resultant, StaticTheorem};
+
+/// Polishing undoes a disturbance of about 1e-9; a larger change means that other conditions were solved.
+const POLISH: f64 = 1e-5;
+
+/// Reads the collapse off the peak of the path. `sign` is the direction of the load factor.
+pub(super) fn at_peak(
+    analysis: &Analysis,
+    model: &Model,
+    theorem: &StaticTheorem,
+    peak: &Peak,
+    anchors: &[f64],
+    sign: f64,
+    residual: f64,
+) -> PathEnd {
+    let arch = &analysis.arch;
+    let conditions = conditions(model, arch, &peak.states);
+    let polished = theorem.solve(&conditions).filter(|e| {
+        let scale = peak.parameter.abs().max(theorem.load_factor_scale());
+        (e.load_factor - peak.parameter).abs() <= POLISH * scale
+    });
+    let resultants = match &polished {
+        Some(equilibrium) => theorem.resultants(equilibrium),
+        None => carried(model, &peak.displacements, anchors),
+    };
+    let driving: Vec<PointForce> = analysis.scaled.iter().map(|f| PointForce { force: f.force * sign, ..*f }).collect();
+    let slipping: Vec<Option<f64>> = (0..arch.joints.len()).map(|k| sliding_shear(model, k, &peak.states)).collect();
+    let mechanism = mechanism::from_statics(arch, &resultants, &slipping, &driving)
+        .unwrap_or_else(|| from_direction(model, arch, &peak.direction));
+    PathEnd {
+        load_factor: polished.map_or(peak.parameter, |e| e.load_factor),
+        residual,
+        mechanism,
+        thrust_line: thrust_line(arch, &resultants),
+    }
+}
+
+/// The mechanism in which a path that never stood moves on.
+pub(super) fn at_fall(
+    analysis: &Analysis,
+    model: &Model,
+    direction: &[V6],
+    load_factor: f64,
+    residual: f64,
+) -> PathEnd {
+    let mechanism = from_direction(model, &analysis.arch, direction);
+    PathEnd { load_factor, residual, mechanism, thrust_line: Vec::new() }
+}
+
+fn from_direction(model: &Model, arch: &Arch, direction: &[V6]) -> super::Mechanism {
+    let motions: Vec<_> = (0..model.voussoirs)
+        .map(|v| {
+            let (velocity, spin) =
+                model.chain.blocks()[model.first_voussoir + v].motion(&direction[model.first_voussoir + v]);
+            motion_at(arch.voussoirs[v].region.centroid, velocity, spin)
+        })
+        .collect();
+    mechanism::from_velocities(arch, &motions)
+}
+
+/// What the contact states at the peak say of the joint forces there.
+fn conditions(model: &Model, arch: &Arch, states: &[State]) -> Vec<Condition> {
+    let mut conditions = Vec::new();
+    for joint in 0..arch.joints.len() {
+        let corners = model.corners(joint).map(|p| states[p]);
+        for (face, state) in corners.iter().enumerate() {
+            if *state == State::Open {
+                let mut weights = [0.0; 3];
+                weights[face] = 1.0;
+                conditions.push(Condition { joint, weights, constant: 0.0 });
+            }
+        }
+        if let Some((weights, constant)) = shear_condition(model, joint, states) {
+            conditions.push(Condition { joint, weights, constant });
+        }
+    }
+    conditions
+}
+
+/// T - sum s (slope N + intercept) over the pressed corners, where all of them slide the same way.
+fn shear_condition(model: &Model, joint: usize, states: &[State]) -> Option<([f64; 3], f64)> {
+    let (mut weights, mut constant, mut way) = ([0.0, 0.0, 1.0], 0.0, 0.0);
+    for (face, p) in model.corners(joint).into_iter().enumerate() {
+        match states[p] {
+            State::Open => {}
+            State::Slip { sign, branch } if way == 0.0 || way == sign => {
+                let (slope, intercept) = model.chain.contacts()[p].law.branches()[branch];
+                weights[face] = -sign * slope;
+                constant -= sign * intercept;
+                way = sign;
+            }
+            _ => return None,
+        }
+    }
+    Some((weights, constant))
+}
+
+/// Sign of the shear of a joint all of whose pressed corners slide one way; None for any other joint.
+fn sliding_shear(model: &Model, joint: usize, states: &[State]) -> Option<f64> {
+    shear_condition(model, joint, states)?;
+    model.corners(joint).into_iter().find_map(|p| match states[p] {
+        State::Slip { sign, .. } if !model.chain.contacts()[p].law.frictionless() => Some(sign),
+        _ => None,
+    })
+}
+
+/// Joint forces that the contact points carry.
+fn carried(model: &Model, displacements: &[V6], anchors: &[f64]) -> Vec<Resultant> {
+    let forces = model.chain.contact_forces(displacements, anchors);
+    (0..=model.voussoirs)
+        .map(|joint| {
+            let [i, e] = model.corners(joint).map(|p| forces[p]);
+            Resultant { intrados: i.normal, extrados: e.normal, shear: i.tangential + e.tangential }
+        })
+        .collect()
+}
+
+fn thrust_line(arch: &Arch, resultants: &[Resultant]) -> Vec<Thrust> {
+    arch.joints
+        .iter()
+        .zip(resultants)
+        .enumerate()
+        .map(|(joint, (j, r))| {
+            let normal = r.normal();
+            let share = if normal == 0.0 { 0.0 } else { 0.5 * (r.extrados - r.intrados) / normal };
+            let eccentricity = share * j.length();
+            Thrust { joint, normal, shear: r.shear, eccentricity, at: j.middle() + j.tangent() * eccentricity }
+        })
+        .collect()
+}

@@ -1,0 +1,278 @@
+//! How the arch moves when it falls: hinges, slides and the mode, from the joints that are at their limits.
+
+use super::{Face, Hinge, Mechanism, Mode, Slide};
+use crate::arch::{Arch, JointLaw, PointForce};
+use crate::geometry::{Vec2, cross, perpendicular};
+use crate::limit::Resultant;
+use nalgebra::{SMatrix, SVector};
+
+/// A normal force below this share of the joint's is none; shear within this share of capacity is at its limit.
+const AT_LIMIT: f64 = 1e-6;
+/// Releases slower than this share of the fastest do not move.
+const MOVES: f64 = 1e-6;
+
+/// A relative motion that a joint at its limit allows, of unit rate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Release {
+    /// Rotation about the end on this face.
+    Rotation(Face),
+    /// Sliding of the stone after the joint, +1 towards the extrados, -1 towards the intrados.
+    Sliding(f64),
+}
+
+/// A plane rigid velocity field: v(x) = velocity + spin * perpendicular(x).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Motion {
+    velocity: Vec2,
+    spin: f64,
+}
+
+impl Motion {
+    const STILL: Motion = Motion { velocity: Vec2::new(0.0, 0.0), spin: 0.0 };
+
+    /// Rotation with the given spin about `centre`.
+    fn about(centre: Vec2, spin: f64) -> Self {
+        Motion { velocity: -perpendicular(centre) * spin, spin }
+    }
+
+    fn plus(self, other: Motion, rate: f64) -> Self {
+        Motion { velocity: self.velocity + other.velocity * rate, spin: self.spin + other.spin * rate }
+    }
+
+    /// Velocity of the point `x`.
+    pub(super) fn at(&self, x: Vec2) -> Vec2 {
+        self.velocity + perpendicular(x) * self.spin
+    }
+}
+
+/// Finds the mechanism of an arch whose joints carry `resultants` at collapse: of all motions that open and slide only
+/// joints at their limits, and in which the `driving` loads do work, the smallest (so that a symmetric arch under
+/// symmetric loads falls symmetrically). None when the joints at their limits do not make a mechanism.
+///
+/// `slipping` holds the sign of the shear where a joint is known to slide (a hinge that slides has only half of the
+/// joint's cohesion left, which the resultant alone does not tell).
+pub(super) fn from_statics(
+    arch: &Arch,
+    resultants: &[Resultant],
+    slipping: &[Option<f64>],
+    driving: &[PointForce],
+) -> Option<Mechanism> {
+    let releases: Vec<(usize, Release)> =
+        resultants.iter().enumerate().flat_map(|(k, r)| joint_releases(arch, k, r, slipping[k])).collect();
+    let motions: Vec<Motion> = releases.iter().map(|&(k, release)| relative_motion(arch, k, release)).collect();
+    let tails = tail_loads(arch, driving);
+    let total = driving.iter().map(|f| f.force.norm()).sum::<f64>();
+    let size = arch.joints.iter().map(|j| j.middle().norm()).fold(0.0, f64::max);
+    let columns: Vec<Column> = releases
+        .iter()
+        .zip(&motions)
+        .map(|(&(k, _), m)| {
+            let ([fx, fy, moment], closure) = (tails[k], m.velocity / size);
+            let power = (fx * m.velocity.x + fy * m.velocity.y + moment * m.spin) / (total * size);
+            Column::new(closure.x, closure.y, m.spin, power)
+        })
+        .collect();
+    let rates = smallest_motion(&columns)?;
+    Some(describe(arch, &releases, &rates))
+}
+
+/// What a joint at its limits lets happen.
+fn joint_releases(arch: &Arch, k: usize, r: &Resultant, slipping: Option<f64>) -> Vec<(usize, Release)> {
+    let JointLaw::Dry { friction, cohesion } = arch.joints[k].law else { return Vec::new() };
+    let normal = r.normal();
+    let scale = AT_LIMIT * normal.abs().max(r.shear.abs());
+    let mut releases = Vec::new();
+    if r.extrados <= scale {
+        releases.push((k, Release::Rotation(Face::Intrados)));
+    }
+    if r.intrados <= scale {
+        releases.push((k, Release::Rotation(Face::Extrados)));
+    }
+    let capacity = friction * normal + cohesion * arch.joints[k].length();
+    for sign in [1.0, -1.0] {
+        // The shear on the stone after the joint opposes its sliding.
+        if capacity + sign * r.shear <= scale || slipping == Some(-sign) {
+            releases.push((k, Release::Sliding(sign)));
+        }
+    }
+    releases
+}
+
+/// Motion of everything after joint `k` relative to everything before it, for a release of unit rate.
+fn relative_motion(arch: &Arch, k: usize, release: Release) -> Motion {
+    let joint = &arch.joints[k];
+    match release {
+        // Clockwise about the intrados, counter-clockwise about the extrados: the other end opens.
+        Release::Rotation(Face::Intrados) => Motion::about(joint.intrados, -1.0),
+        Release::Rotation(Face::Extrados) => Motion::about(joint.extrados, 1.0),
+        Release::Sliding(sign) => Motion { velocity: joint.tangent() * sign, spin: 0.0 },
+    }
+}
+
+/// Resultant (F_x, F_y, M about the origin) of the loads on all stones after joint k.
+fn tail_loads(arch: &Arch, loads: &[PointForce]) -> Vec<[f64; 3]> {
+    let mut tails = vec![[0.0; 3]; arch.joints.len()];
+    for f in loads {
+        let part = [f.force.x, f.force.y, cross(f.at, f.force)];
+        tails[f.voussoir] = std::array::from_fn(|i| tails[f.voussoir][i] + part[i]);
+    }
+    for k in (0..tails.len() - 1).rev() {
+        tails[k] = std::array::from_fn(|i| tails[k][i] + tails[k + 1][i]);
+    }
+    tails
+}
+
+/// Closure of the chain (two velocities and a spin) and power, per unit rate of a release.
+type Column = SVector<f64, 4>;
+
+/// Smallest rates x >= 0 (in the sum of squares) with closure 0 and power 1.
+///
+/// The dual of this quadratic program is an unconstrained convex function of four multipliers y with
+/// x = max(0, a . y); its stationary point is found by Newton's method with backtracking.
+fn smallest_motion(columns: &[Column]) -> Option<Vec<f64>> {
+    let target = Column::new(0.0, 0.0, 0.0, 1.0);
+    let rates = |y: &Column| -> Vec<f64> { columns.iter().map(|a| a.dot(y).max(0.0)).collect() };
+    let value = |y: &Column| 0.5 * rates(y).iter().map(|x| x * x).sum::<f64>() - target.dot(y);
+    let mut y = columns.iter().fold(Column::zeros(), |sum, a| sum + a * a.dot(&target).max(0.0));
+    for _ in 0..200 {
+        let x = rates(&y);
+        let gradient = columns.iter().zip(&x).fold(-target, |g, (a, &x)| g + a * x);
+        let scale = 1.0 + columns.iter().zip(&x).map(|(a, x)| a.norm() * x).sum::<f64>();
+        if gradient.norm() < 1e-11 * scale {
+            return Some(x);
+        }
+        let active = columns.iter().zip(&x).filter(|&(_, &x)| x > 0.0);
+        let mut hessian = active.fold(SMatrix::<f64, 4, 4>::zeros(), |h, (a, _)| h + a * a.transpose());
+        let ridge = 1e-14 * hessian.trace().max(1e-6);
+        hessian += SMatrix::identity() * ridge;
+        let step = hessian.lu().solve(&-gradient)?;
+        let (before, slope) = (value(&y), gradient.dot(&step));
+        let mut length = 1.0;
+        while value(&(y + step * length)) > before + 1e-4 * length * slope + 1e-16 * before.abs() && length > 1e-12 {
+            length *= 0.5;
+        }
+        y += step * length;
+        if !y.iter().all(|v| v.is_finite()) || y.norm() > 1e14 {
+            return None;
+        }
+    }
+    None
+}
+
+fn describe(arch: &Arch, releases: &[(usize, Release)], rates: &[f64]) -> Mechanism {
+    let fastest = rates.iter().copied().fold(0.0, f64::max);
+    let mut relative = vec![Motion::STILL; arch.joints.len()];
+    let mut openings = vec![[0.0; 2]; arch.joints.len()];
+    for (&(k, release), &rate) in releases.iter().zip(rates) {
+        relative[k] = relative[k].plus(relative_motion(arch, k, release), rate);
+        match release {
+            _ if rate <= MOVES * fastest => {}
+            Release::Rotation(Face::Intrados) => openings[k][1] += rate,
+            Release::Rotation(Face::Extrados) => openings[k][0] += rate,
+            Release::Sliding(_) => {}
+        }
+    }
+    let slides = |k: usize| {
+        let at_joint = releases.iter().zip(rates).filter(|&(&(joint, _), &rate)| joint == k && rate > MOVES * fastest);
+        at_joint.map(|((_, r), rate)| if let Release::Sliding(sign) = r { sign * rate } else { 0.0 }).sum::<f64>()
+    };
+    let slid: Vec<f64> = (0..arch.joints.len()).map(slides).collect();
+    assemble(arch, &relative, &openings, &slid)
+}
+
+/// Reads a mechanism off velocities of the stones; for paths whose peak is not a mechanism of the joints at their limits.
+pub(super) fn from_velocities(arch: &Arch, motions: &[Motion]) -> Mechanism {
+    let before = |k: usize| if k == 0 { Motion::STILL } else { motions[k - 1] };
+    let relative: Vec<Motion> = (0..arch.joints.len())
+        .map(|k| motions.get(k).copied().unwrap_or(Motion::STILL).plus(before(k), -1.0))
+        .collect();
+    let mut openings = Vec::new();
+    let mut slid = Vec::new();
+    for (joint, motion) in arch.joints.iter().zip(&relative) {
+        let opening = [joint.intrados, joint.extrados].map(|corner| motion.at(corner).dot(&joint.normal()));
+        let length = joint.length();
+        openings.push(if opening[0] > opening[1] { [opening[0] / length, 0.0] } else { [0.0, opening[1] / length] });
+        slid.push(if matches!(joint.law, JointLaw::Bonded) {
+            0.0
+        } else {
+            motion.at(joint.middle()).dot(&joint.tangent())
+        });
+    }
+    // What is left of elastic strain in the direction is not a hinge.
+    let elastic = 1e-3;
+    let fastest = openings.iter().flatten().copied().fold(0.0, f64::max);
+    openings.iter_mut().flatten().filter(|o| **o < elastic * fastest).for_each(|o| *o = 0.0);
+    let longest = arch.joints.iter().map(|j| j.length()).fold(0.0, f64::max);
+    let quickest = slid.iter().map(|s| s.abs()).fold(fastest * longest, f64::max);
+    slid.iter_mut().filter(|s| s.abs() < elastic * quickest).for_each(|s| *s = 0.0);
+    assemble(arch, &relative, &openings, &slid)
+}
+
+/// Velocity field of a block from the velocity and spin at its centroid.
+pub(super) fn motion_at(centroid: Vec2, velocity: Vec2, spin: f64) -> Motion {
+    Motion { velocity: velocity - perpendicular(centroid) * spin, spin }
+}
+
+fn assemble(arch: &Arch, relative: &[Motion], openings: &[[f64; 2]], slid: &[f64]) -> Mechanism {
+    let hinge_rate = openings.iter().flatten().copied().fold(0.0, f64::max);
+    let slide_rate = slid.iter().map(|s| s.abs()).fold(0.0, f64::max);
+    let scale = if hinge_rate > 0.0 { 1.0 / hinge_rate } else { 1.0 / slide_rate.max(f64::MIN_POSITIVE) };
+    let hinges = openings.iter().enumerate().filter(|(_, o)| o[0] != o[1]).map(|(joint, o)| {
+        // Open at the intrados, pressed at the extrados, and the other way round.
+        let face = if o[0] > o[1] { Face::Extrados } else { Face::Intrados };
+        let (angle_from_springing, angle_from_crown) = angles(arch, joint);
+        Hinge { joint, face, angle_from_springing, angle_from_crown, rotation: (o[0] - o[1]).abs() * scale }
+    });
+    let wall = if arch.half { arch.joints.len() - 1 } else { arch.joints.len() };
+    let sliding = slid.iter().enumerate().filter(|&(k, &s)| s != 0.0 && k != wall);
+    let slides: Vec<Slide> = sliding.map(|(joint, &s)| Slide { joint, rate: s * scale }).collect();
+    let mut motion = Motion::STILL;
+    let motions: Vec<Motion> = relative[..arch.voussoirs.len()]
+        .iter()
+        .map(|&r| {
+            motion = motion.plus(r, scale);
+            motion
+        })
+        .collect();
+    let velocities = arch.voussoirs.iter().zip(&motions).map(|(v, m)| {
+        let velocity = m.at(v.region.centroid);
+        [velocity.x, velocity.y, m.spin]
+    });
+    let opening = openings.iter().zip(&arch.joints).map(|(o, j)| (o[0] - o[1]).abs() * scale * j.length());
+    let fastest_slide = slides.iter().map(|s| s.rate.abs()).fold(0.0, f64::max);
+    let mode = if fastest_slide > opening.fold(0.0, f64::max) { Mode::Sliding } else { crown_mode(arch, &motions) };
+    Mechanism { mode, hinges: hinges.collect(), slides, velocities: velocities.collect() }
+}
+
+/// Joint with the highest middle: the crown, or the joint next to a keystone's top.
+fn crown_mode(arch: &Arch, motions: &[Motion]) -> Mode {
+    let [a, b] = crown(arch);
+    let top = 0.5 * (arch.voussoirs[a].region.centroid + arch.voussoirs[b].region.centroid);
+    let velocity = 0.5 * (motions[a].at(top) + motions[b].at(top));
+    if velocity.x.abs() > velocity.y.abs() && !arch.half {
+        Mode::Sway
+    } else if velocity.y > 0.0 {
+        Mode::CrownRises
+    } else {
+        Mode::CrownDescends
+    }
+}
+
+/// The voussoirs whose mean is the crown: the keystone twice, or the two stones beside the crown joint.
+pub(super) fn crown(arch: &Arch) -> [usize; 2] {
+    let n = arch.voussoirs.len();
+    if arch.half { [n - 1, n - 1] } else { [(n - 1) / 2, n / 2] }
+}
+
+/// Angles of a joint's middle about the angle centre: from the nearer springing, and from the crown (left negative), rad.
+fn angles(arch: &Arch, joint: usize) -> (f64, f64) {
+    let from_vertical = |k: usize| {
+        let r = arch.joints[k].middle() - arch.angle_centre;
+        r.x.atan2(r.y)
+    };
+    let here = from_vertical(joint);
+    let last = arch.joints.len() - 1;
+    let left = (here - from_vertical(0)).abs();
+    let right = if arch.half { f64::INFINITY } else { (from_vertical(last) - here).abs() };
+    (left.min(right), here)
+}

@@ -1,0 +1,116 @@
+//! The load path: from an unstressed start to the loads that stand, and on to collapse.
+
+use super::discretise::{Model, Scatter};
+use super::record::Recorder;
+use crate::dda::{Drive, End, Peak, Tracer, V6, covering};
+use std::ops::ControlFlow;
+
+/// Loads of a path: `base + parameter * rate`, per block.
+#[derive(Debug, Clone)]
+pub(super) struct Loads {
+    pub fixed: Vec<V6>,
+    pub scaled: Vec<V6>,
+}
+
+impl Loads {
+    fn at(&self, load_factor: f64) -> Vec<V6> {
+        self.fixed.iter().zip(&self.scaled).map(|(f, s)| f + s * load_factor).collect()
+    }
+}
+
+/// Tie-breaking disturbance of one attempt.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Attempt {
+    /// Seed of stiffness scatter and load disturbance.
+    pub seed: u64,
+    /// Load disturbance as a share of the largest block load.
+    pub disturbance: f64,
+}
+
+/// Attempts made before a path is given up. The disturbance grows, since a tie that survives one may need a larger.
+pub(super) const ATTEMPTS: usize = 6;
+
+impl Attempt {
+    pub(super) fn number(i: usize) -> Self {
+        Attempt { seed: 1 + i as u64, disturbance: 1e-9 * 30f64.powi(i.saturating_sub(1).min(2) as i32) }
+    }
+}
+
+/// Largest entry of any block's load, N/m.
+fn largest(loads: &[V6]) -> f64 {
+    loads.iter().map(|l| l.amax()).fold(0.0, f64::max)
+}
+
+/// Adds the disturbance to the fixed loads: forces and moments of every block.
+pub(super) fn disturb(loads: &Loads, start: f64, attempt: Attempt) -> Loads {
+    let mut scatter = Scatter::new(attempt.seed ^ 0xA5A5);
+    let scale = attempt.disturbance * largest(&loads.at(start));
+    let mut disturbed = loads.clone();
+    for load in &mut disturbed.fixed {
+        for entry in load.iter_mut().take(3) {
+            *entry += scale * scatter.next();
+        }
+    }
+    disturbed
+}
+
+/// Brings the chain from its unstressed start to the loads at load factor `start`.
+pub(super) fn stand<'a>(
+    model: &'a Model,
+    loads: &Loads,
+    start: f64,
+    load_scale: f64,
+    see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>,
+) -> (Tracer<'a>, End) {
+    let target = loads.at(start);
+    // Deep enough that nothing has opened yet when the true loads begin to act.
+    let preload = target.len() as f64 * largest(&target) / model.penalty;
+    let mut tracer = Tracer::new(&model.chain, covering(&model.chain, &target, preload), model.size, load_scale);
+    let end = tracer.trace(1.0, see);
+    (tracer, end)
+}
+
+/// How a path that stood at its start ended.
+#[derive(Debug, Clone)]
+pub(super) enum Leg {
+    /// Collapse at the peak.
+    Peak(Peak),
+    /// Nothing more happens however far the load goes, or the cap was reached.
+    Endless,
+    /// The recorder's own criterion was met at this load factor (fixed steps only).
+    Criterion(f64),
+    /// Asked to stop.
+    Stopped,
+    /// Could not be followed.
+    Lost,
+}
+
+/// Follows the load factor from `start` up (`sign` = 1) or down (-1) to collapse or to the cap.
+pub(super) fn follow(
+    tracer: &mut Tracer,
+    loads: &Loads,
+    start: f64,
+    sign: f64,
+    cap: f64,
+    recorder: &mut Recorder,
+    see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>,
+) -> Leg {
+    let rate = loads.scaled.iter().map(|s| s * sign).collect();
+    tracer.commit(Drive { base: loads.fixed.clone(), rate, offset: [0.0, 0.0] }, sign * start);
+    let mut met = None;
+    let end = tracer.trace(cap, &mut |tracer| {
+        met = recorder.see(sign * tracer.parameter(), tracer.displacements());
+        if met.is_some() { ControlFlow::Break(()) } else { see(tracer) }
+    });
+    match (met, end) {
+        (Some(load_factor), _) => Leg::Criterion(load_factor),
+        (None, End::Stopped) => Leg::Stopped,
+        (None, End::Lost) => Leg::Lost,
+        (None, End::Reached | End::Rising) => Leg::Endless,
+        (None, End::Mechanism) => tracer.peak().map_or(Leg::Lost, |peak| {
+            let mut peak = peak.clone();
+            peak.parameter *= sign;
+            Leg::Peak(peak)
+        }),
+    }
+}

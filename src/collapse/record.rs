@@ -1,0 +1,162 @@
+//! What is kept of a path: its history, the arch at load factor 1 and just before collapse.
+
+use super::discretise::Model;
+use super::{BlockState, ContactForce, Face, HistoryPoint, Method, Snapshot};
+use crate::dda::V6;
+use crate::geometry::Vec2;
+use std::collections::VecDeque;
+
+/// A point of the path.
+type Point = (f64, Vec<V6>);
+
+/// Keeps what will be asked of a path while it is traced.
+#[derive(Debug)]
+pub(super) struct Recorder<'a> {
+    model: &'a Model,
+    method: Method,
+    share: f64,
+    start: f64,
+    crown: [usize; 2],
+    /// Points from which the one at `share` of the way to the highest load factor so far can be interpolated.
+    recent: VecDeque<Point>,
+    /// Load factor farthest from the start so far.
+    farthest: f64,
+    last: Option<Point>,
+    steps_done: usize,
+    /// Load-displacement history.
+    pub history: Vec<HistoryPoint>,
+    /// Displacements at load factor 1, once passed.
+    pub at_one: Option<Vec<V6>>,
+}
+
+impl<'a> Recorder<'a> {
+    /// A recorder for a path that starts at load factor `start`. `crown`: the voussoirs whose mean is the crown.
+    pub(super) fn new(model: &'a Model, method: Method, share: f64, start: f64, crown: [usize; 2]) -> Self {
+        Recorder {
+            model,
+            method,
+            share,
+            start,
+            crown,
+            recent: VecDeque::new(),
+            farthest: start,
+            last: None,
+            steps_done: 0,
+            history: Vec::new(),
+            at_one: None,
+        }
+    }
+
+    /// Takes in the next point; returns a load factor when the fixed-steps criterion says collapse.
+    pub(super) fn see(&mut self, load_factor: f64, displacements: &[V6]) -> Option<f64> {
+        let now = (load_factor, displacements.to_vec());
+        if let Some(before) = self.last.take() {
+            if self.at_one.is_none() && (before.0 - 1.0) * (load_factor - 1.0) <= 0.0 && before.0 != load_factor {
+                self.at_one = Some(interpolate(&before, &now, 1.0));
+            }
+            if let Some(met) = self.fixed_steps(&before, &now) {
+                let load_factor = met.0;
+                self.last = Some(met);
+                return Some(load_factor);
+            }
+        }
+        self.history.push(self.history_point(load_factor, displacements));
+        self.keep(&now);
+        self.last = Some(now);
+        None
+    }
+
+    /// The displacements seen last: those at which the fixed-steps criterion was met, where it was.
+    pub(super) fn displacements(&self) -> &[V6] {
+        self.last.as_ref().map_or(&[], |point| &point.1)
+    }
+
+    fn keep(&mut self, now: &Point) {
+        if (now.0 - self.start).abs() < (self.farthest - self.start).abs() {
+            return;
+        }
+        self.farthest = now.0;
+        self.recent.push_back(now.clone());
+        let wanted = self.share * (self.farthest - self.start).abs();
+        while self.recent.len() > 2 && (self.recent[1].0 - self.start).abs() <= wanted {
+            self.recent.pop_front();
+        }
+    }
+
+    /// Displacements at `share` of the way from the start to `collapse`, with the load factor there.
+    pub(super) fn near(&self, collapse: f64) -> Option<Point> {
+        let wanted = self.start + self.share * (collapse - self.start);
+        let after = self.recent.iter().position(|p| (p.0 - self.start).abs() >= (wanted - self.start).abs())?;
+        let displacements = if after == 0 {
+            self.recent[0].1.clone()
+        } else {
+            interpolate(&self.recent[after - 1], &self.recent[after], wanted)
+        };
+        Some((wanted, displacements))
+    }
+
+    fn history_point(&self, load_factor: f64, displacements: &[V6]) -> HistoryPoint {
+        let first = self.model.first_voussoir;
+        let of = |voussoir: usize| {
+            let block = first + voussoir;
+            self.model.chain.blocks()[block].motion(&displacements[block]).0
+        };
+        let crown = 0.5 * (of(self.crown[0]) + of(self.crown[1]));
+        let largest = (0..self.model.voussoirs).map(|v| of(v).norm()).fold(0.0, f64::max);
+        HistoryPoint { load_factor, crown, largest }
+    }
+
+    /// Looks at every whole step between two points of the path with the criterion of section 4.2 of the paper.
+    fn fixed_steps(&mut self, before: &Point, now: &Point) -> Option<Point> {
+        let Method::FixedSteps { step, opening, hinges } = self.method else { return None };
+        let sign = (now.0 - before.0).signum();
+        loop {
+            let at = self.start + sign * step * (self.steps_done + 1) as f64;
+            if (at - before.0) * (at - now.0) > 0.0 || now.0 == before.0 {
+                return None;
+            }
+            self.steps_done += 1;
+            let displacements = interpolate(before, now, at);
+            let mut gaps = Vec::new();
+            self.model.chain.gaps(&displacements, &mut gaps);
+            let open =
+                (0..=self.model.voussoirs).filter(|&k| self.model.corners(k).iter().any(|&p| gaps[p][0] > opening));
+            if open.count() >= hinges {
+                return Some((at, displacements));
+            }
+        }
+    }
+}
+
+fn interpolate(a: &Point, b: &Point, load_factor: f64) -> Vec<V6> {
+    let t = (load_factor - a.0) / (b.0 - a.0);
+    let t = if t.is_finite() { t.clamp(0.0, 1.0) } else { 1.0 };
+    a.1.iter().zip(&b.1).map(|(x, y)| x + (y - x) * t).collect()
+}
+
+/// The arch at one point of the path.
+pub(super) fn snapshot(model: &Model, load_factor: f64, displacements: &[V6], anchors: &[f64]) -> Snapshot {
+    let blocks = (0..model.voussoirs)
+        .map(|v| {
+            let (block, d) =
+                (&model.chain.blocks()[model.first_voussoir + v], &displacements[model.first_voussoir + v]);
+            let (displacement, rotation) = block.motion(d);
+            BlockState { displacement: Vec2::new(displacement.x, displacement.y), rotation, stress: block.stress(d) }
+        })
+        .collect();
+    let forces = model.chain.contact_forces(displacements, anchors);
+    let contacts = (0..=model.voussoirs)
+        .flat_map(|joint| {
+            let faces = [Face::Intrados, Face::Extrados];
+            model.corners(joint).into_iter().zip(faces).map(move |(p, face)| (joint, face, p))
+        })
+        .map(|(joint, face, p)| ContactForce {
+            joint,
+            face,
+            normal: forces[p].normal,
+            tangential: forces[p].tangential,
+            gap: forces[p].gap,
+        })
+        .collect();
+    Snapshot { load_factor, blocks, contacts }
+}

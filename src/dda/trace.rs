@@ -1,0 +1,444 @@
+//! The load path, traced from one change of contact state to the next.
+//!
+//! Between changes of state the response is linear, and with friction anchored for the length of a load step the law is
+//! a continuous piecewise-linear map: its solutions form a path that crosses one border at a time. The tracer follows
+//! that path exactly. It never asks for a direction of loading: after each crossing the sign of the new tangent is the
+//! one that goes on crossing, so rises and falls of the load factor, and momentary mechanisms, pass by themselves.
+
+use super::block::{M6, V6};
+use super::chain::Chain;
+use super::contact::{Contact, Law, State};
+use super::factor::Factor;
+use std::ops::ControlFlow;
+
+/// What is driven along the path: loads `base + parameter * rate`, and a pre-load that keeps every contact pressed,
+/// fading as `preload * (1 - parameter)`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Drive {
+    /// Generalised loads at parameter 0, one per block.
+    pub base: Vec<V6>,
+    /// Change of the loads per unit of the parameter.
+    pub rate: Vec<V6>,
+    /// Gap offset at parameter 0 and its change per unit of the parameter, m (the same for all unbonded contacts).
+    pub offset: [f64; 2],
+}
+
+/// How a trace ended.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum End {
+    /// The parameter reached the value asked for.
+    Reached,
+    /// The chain moves on without any further change: a mechanism.
+    Mechanism,
+    /// The parameter rises without any further change: nothing will ever happen under this load.
+    Rising,
+    /// The caller asked to stop.
+    Stopped,
+    /// The path could not be followed (ties that do not resolve, or lost equilibrium).
+    Lost,
+}
+
+/// The point of the path with the largest parameter, and how the chain moves on from there.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Peak {
+    /// Parameter.
+    pub parameter: f64,
+    /// Displacements.
+    pub displacements: Vec<V6>,
+    /// Direction in which the path goes on, its largest entry 1 m.
+    pub direction: Vec<V6>,
+    /// Contact states along that direction.
+    pub states: Vec<State>,
+}
+
+/// A pivot ratio below this is a mechanism (measured: regular 1e-2 to 1e-8, singular below 1e-14).
+const SINGULAR: f64 = 1e-13;
+/// In a mechanism, gap rates below this are rounding (the direction's largest entry is 1).
+const STILL: f64 = 1e-7;
+/// A mechanism that meets no new contact within so many chain sizes goes on for ever.
+const FAR: f64 = 10.0;
+/// So many steps of length zero in a row mean that ties do not resolve.
+const MOST_ZERO_STEPS: usize = 60;
+/// Equilibrium residual, as a share of the load scale, above which the displacements are corrected; and above which
+/// the path is given up.
+const CORRECT: f64 = 1e-11;
+const GIVE_UP: f64 = 1e-6;
+
+/// Follows the load path of a chain.
+#[derive(Debug, Clone)]
+pub struct Tracer<'a> {
+    chain: &'a Chain,
+    drive: Drive,
+    /// Extent of the chain and scale of its loads.
+    size: f64,
+    load_scale: f64,
+    states: Vec<State>,
+    anchors: Vec<f64>,
+    displacements: Vec<V6>,
+    parameter: f64,
+    /// Change of the parameter along the current direction.
+    rate: f64,
+    peak: Option<Peak>,
+
+    elastic: Vec<M6>,
+    interface: Vec<[[M6; 2]; 2]>,
+    diagonal: Vec<M6>,
+    upper: Vec<M6>,
+    lower: Vec<M6>,
+    factor: Factor,
+    /// Scratch: gaps and gap rates of all contacts, tangent direction.
+    gaps: Vec<[f64; 2]>,
+    rates: Vec<[f64; 2]>,
+    direction: Vec<V6>,
+    residual: Vec<V6>,
+
+    events: usize,
+    factorisations: usize,
+    worst_residual: f64,
+}
+
+/// The next change of state on the path.
+#[derive(Debug, Clone, Copy)]
+struct Event {
+    step: f64,
+    contact: usize,
+    next: State,
+}
+
+impl<'a> Tracer<'a> {
+    /// A tracer at parameter 0 with zero displacements, every contact closed and stuck.
+    ///
+    /// `size` is the chain's extent in m, `load_scale` a load in N/m (its weight) that residuals are measured against.
+    /// The drive must be in equilibrium there: `base` balances the offset's contact forces (see [`covering`]).
+    pub fn new(chain: &'a Chain, drive: Drive, size: f64, load_scale: f64) -> Self {
+        let n = chain.blocks().len();
+        let mut tracer = Tracer {
+            chain,
+            drive,
+            size,
+            load_scale,
+            states: chain.contacts().iter().map(|c| c.closed_state()).collect(),
+            anchors: vec![0.0; chain.contacts().len()],
+            displacements: vec![V6::zeros(); n],
+            parameter: 0.0,
+            rate: 0.0,
+            peak: None,
+            elastic: chain.blocks().iter().map(|b| b.stiffness()).collect(),
+            interface: vec![[[M6::zeros(); 2]; 2]; n + 1],
+            diagonal: vec![M6::zeros(); n],
+            upper: vec![M6::zeros(); n.saturating_sub(1)],
+            lower: vec![M6::zeros(); n.saturating_sub(1)],
+            factor: Factor::default(),
+            gaps: Vec::new(),
+            rates: Vec::new(),
+            direction: vec![V6::zeros(); n],
+            residual: vec![V6::zeros(); n],
+            events: 0,
+            factorisations: 0,
+            worst_residual: 0.0,
+        };
+        for k in 0..=n {
+            tracer.reassemble(k);
+        }
+        tracer
+    }
+
+    /// Ends a load step: friction is anchored anew where contacts slid or opened. The next step is driven by `drive`
+    /// from `parameter` on, which must leave the loads and offsets of this instant unchanged.
+    pub fn commit(&mut self, drive: Drive, parameter: f64) {
+        let offset = self.offset();
+        self.chain.gaps(&self.displacements, &mut self.gaps);
+        for p in 0..self.states.len() {
+            let contact = &self.chain.contacts()[p];
+            let [gap, slip] = self.gaps[p];
+            match self.states[p] {
+                State::Open => self.anchors[p] = slip,
+                State::Slip { sign, branch } if !contact.law.frictionless() => {
+                    let (slope, intercept) = contact.law.branches()[branch];
+                    let shear = sign * (slope * contact.pressure(gap + offset) + intercept);
+                    self.anchors[p] = slip + shear / contact.stiffness[1];
+                    self.states[p] = State::Stick;
+                }
+                _ => {}
+            }
+        }
+        for k in 0..self.chain.interfaces() {
+            self.reassemble(k);
+        }
+        (self.drive, self.parameter, self.peak) = (drive, parameter, None);
+    }
+
+    /// Traces until the parameter reaches `target` (> the current one) or the path ends. `see` is called at the start
+    /// and after every event.
+    pub fn trace(&mut self, target: f64, see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>) -> End {
+        let far = FAR * self.size;
+        let most_events = self.events + 200 + 100 * self.states.len();
+        let (mut zero_steps, mut barred) = (0, None);
+        self.solve_tangent();
+        if self.rate < 0.0 {
+            self.turn_round();
+        }
+        if !self.keep_equilibrium() {
+            return End::Lost;
+        }
+        loop {
+            self.note_peak();
+            if see(self).is_break() {
+                return End::Stopped;
+            }
+            let event = self.nearest_event(barred).filter(|event| event.step <= far);
+            let reach = event.map_or(far, |event| event.step);
+            let to_target = (target - self.parameter) / self.rate;
+            if self.rate > 0.0 && to_target <= reach && !self.is_mechanism() {
+                self.advance(to_target);
+                self.parameter = target;
+                return if self.keep_equilibrium() { End::Reached } else { End::Lost };
+            }
+            let Some(event) = event else {
+                return if self.rate > 0.0 && !self.is_mechanism() { End::Rising } else { End::Mechanism };
+            };
+            zero_steps = if event.step > 0.0 { 0 } else { zero_steps + 1 };
+            barred = Some((event.contact, self.states[event.contact]));
+            self.advance(event.step);
+            self.cross(event);
+            if zero_steps > MOST_ZERO_STEPS || self.events > most_events || !self.keep_equilibrium() {
+                return End::Lost;
+            }
+        }
+    }
+
+    fn advance(&mut self, step: f64) {
+        for (d, along) in self.displacements.iter_mut().zip(&self.direction) {
+            *d += along * step;
+        }
+        self.parameter += step * self.rate;
+    }
+
+    /// Switches one contact and turns into the new cell so that the event goes on crossing its border.
+    fn cross(&mut self, event: Event) {
+        let before = self.states[event.contact];
+        self.states[event.contact] = event.next;
+        self.reassemble(self.chain.interface_of(event.contact));
+        self.events += 1;
+        self.solve_tangent();
+        let mut crossing = 0.0;
+        self.ways_out(event.contact, before, |_, change, next| {
+            if next == event.next {
+                crossing = change;
+            }
+        });
+        if crossing > 0.0 {
+            self.turn_round();
+        }
+    }
+
+    /// Solves for the tangent of the path, its largest entry 1 m.
+    fn solve_tangent(&mut self) {
+        self.factor.update(&self.diagonal, &self.upper, &self.lower);
+        self.factorisations += 1;
+        self.direction.copy_from_slice(&self.drive.rate);
+        if self.drive.offset[1] != 0.0 {
+            self.add_offset_load();
+        }
+        self.factor.solve(&self.lower, &mut self.direction);
+        let largest = self.direction.iter().map(|d| d.amax()).fold(0.0, f64::max);
+        self.rate = if largest > 0.0 { 1.0 / largest } else { 1.0 };
+        self.direction.iter_mut().for_each(|d| *d *= self.rate);
+        self.chain.gaps(&self.direction, &mut self.rates);
+    }
+
+    fn turn_round(&mut self) {
+        self.direction.iter_mut().for_each(|d| *d = -*d);
+        self.rates.iter_mut().for_each(|g| *g = g.map(|x| -x));
+        self.rate = -self.rate;
+    }
+
+    /// Loads that the fading offset puts on the blocks, per unit of the parameter.
+    fn add_offset_load(&mut self) {
+        for k in 0..self.chain.interfaces() {
+            for p in self.chain.at_interface(k) {
+                let contact = &self.chain.contacts()[p];
+                let force = contact.pressure(self.drive.offset[1]);
+                let slope = match self.states[p] {
+                    State::Open | State::Bonded => continue,
+                    State::Stick => 0.0,
+                    State::Slip { sign, branch } => sign * contact.law.branches()[branch].0,
+                };
+                push(&mut self.direction, contact, k, force, slope * force);
+            }
+        }
+    }
+
+    /// Calls `see(value, rate, next)` for every way out of `state` at contact `p`, along the current direction.
+    fn ways_out(&self, p: usize, state: State, see: impl FnMut(f64, f64, State)) {
+        let contact = &self.chain.contacts()[p];
+        let ([gap, slip], [gap_rate, slip_rate]) = (self.gaps[p], self.rates[p]);
+        let normal =
+            [contact.pressure(gap + self.offset()), contact.pressure(gap_rate + self.drive.offset[1] * self.rate)];
+        let shear = [contact.trial_shear(slip, self.anchors[p]), contact.trial_shear(slip_rate, 0.0)];
+        contact.ways_out(state, normal, shear, see);
+    }
+
+    fn nearest_event(&self, barred: Option<(usize, State)>) -> Option<Event> {
+        let still = if self.is_mechanism() { STILL } else { 0.0 };
+        let mut nearest: Option<Event> = None;
+        for (p, &state) in self.states.iter().enumerate() {
+            // Rates of forces are measured against the penalty, rates of gaps against 1.
+            let threshold = if state == State::Open { still } else { still * self.chain.contacts()[p].stiffness[0] };
+            self.ways_out(p, state, |value, change, next| {
+                let back = barred.is_some_and(|(contact, old)| contact == p && (next == old || state == State::Open));
+                if change < -threshold && !back {
+                    let step = (value / -change).max(0.0);
+                    if nearest.is_none_or(|event| step < event.step) {
+                        nearest = Some(Event { step, contact: p, next });
+                    }
+                }
+            });
+        }
+        nearest
+    }
+
+    /// Measures the equilibrium residual of every block, corrects the displacements where it matters; false when
+    /// equilibrium is lost.
+    fn keep_equilibrium(&mut self) -> bool {
+        let mut worst = self.find_residual();
+        if worst > CORRECT && !self.is_mechanism() {
+            self.factor.solve(&self.lower, &mut self.residual);
+            for (d, correction) in self.displacements.iter_mut().zip(&self.residual) {
+                *d += correction;
+            }
+            worst = self.find_residual();
+        }
+        self.worst_residual = self.worst_residual.max(worst);
+        worst < GIVE_UP
+    }
+
+    /// Fills `residual` with load minus resistance of every block; returns the largest entry over the load scale.
+    fn find_residual(&mut self) -> f64 {
+        self.chain.gaps(&self.displacements, &mut self.gaps);
+        for (i, r) in self.residual.iter_mut().enumerate() {
+            *r = self.drive.base[i] + self.drive.rate[i] * self.parameter - self.elastic[i] * self.displacements[i];
+        }
+        let offset = self.offset();
+        for k in 0..self.chain.interfaces() {
+            for p in self.chain.at_interface(k) {
+                let contact = &self.chain.contacts()[p];
+                let [gap, slip] = self.gaps[p];
+                let trial = contact.trial_shear(slip, self.anchors[p]);
+                let (normal, shear) = match self.states[p] {
+                    State::Open => continue,
+                    State::Bonded => (contact.pressure(gap), trial),
+                    State::Stick => (contact.pressure(gap + offset), trial),
+                    State::Slip { sign, branch } => {
+                        let normal = contact.pressure(gap + offset);
+                        let (slope, intercept) = contact.law.branches()[branch];
+                        (normal, sign * (slope * normal + intercept))
+                    }
+                };
+                push(&mut self.residual, contact, k, normal, shear);
+            }
+        }
+        self.residual.iter().map(|r| r.amax()).fold(0.0, f64::max) / self.load_scale
+    }
+
+    fn note_peak(&mut self) {
+        let highest = self.peak.as_ref().is_none_or(|peak| self.parameter >= peak.parameter);
+        if highest && (self.rate <= 0.0 || self.is_mechanism()) {
+            self.peak = Some(Peak {
+                parameter: self.parameter,
+                displacements: self.displacements.clone(),
+                direction: self.direction.clone(),
+                states: self.states.clone(),
+            });
+        }
+    }
+
+    fn reassemble(&mut self, k: usize) {
+        self.interface[k] = self.chain.interface_stiffness(k, &self.states);
+        let n = self.diagonal.len();
+        for i in k.saturating_sub(1)..(k + 1).min(n) {
+            self.diagonal[i] = self.elastic[i] + self.interface[i][1][1] + self.interface[i + 1][0][0];
+        }
+        if k > 0 && k < n {
+            (self.upper[k - 1], self.lower[k - 1]) = (self.interface[k][0][1], self.interface[k][1][0]);
+        }
+        self.factor.invalidate(k.saturating_sub(1));
+    }
+
+    fn offset(&self) -> f64 {
+        self.drive.offset[0] + self.drive.offset[1] * self.parameter
+    }
+
+    /// True where the present contact state leaves the chain free to move.
+    pub fn is_mechanism(&self) -> bool {
+        self.factor.pivot_ratio() < SINGULAR
+    }
+
+    /// Parameter reached.
+    pub fn parameter(&self) -> f64 {
+        self.parameter
+    }
+
+    /// Displacements reached, one per block.
+    pub fn displacements(&self) -> &[V6] {
+        &self.displacements
+    }
+
+    /// Direction in which the path goes on.
+    pub fn direction(&self) -> &[V6] {
+        &self.direction
+    }
+
+    /// Points from which friction is measured, one per contact, m.
+    pub fn anchors(&self) -> &[f64] {
+        &self.anchors
+    }
+
+    /// The highest point after which the parameter did not rise at once; none if it always rose.
+    pub fn peak(&self) -> Option<&Peak> {
+        self.peak.as_ref()
+    }
+
+    /// Changes of contact state so far.
+    pub fn events(&self) -> usize {
+        self.events
+    }
+
+    /// Factorisations so far, partial ones included.
+    pub fn factorisations(&self) -> usize {
+        self.factorisations
+    }
+
+    /// Largest equilibrium residual of any block at any event, as a share of the load scale.
+    pub fn worst_residual(&self) -> f64 {
+        self.worst_residual
+    }
+}
+
+/// Adds the generalised force of a contact of interface `k` to the blocks beside it.
+fn push(blocks: &mut [V6], contact: &Contact, k: usize, normal: f64, shear: f64) {
+    if k > 0 {
+        blocks[k - 1] += contact.normal[0] * normal + contact.tangent[0] * shear;
+    }
+    if k < blocks.len() {
+        blocks[k] += contact.normal[1] * normal + contact.tangent[1] * shear;
+    }
+}
+
+/// The drive that takes a chain from an unstressed start, where every contact is pressed by a fictitious pre-load and
+/// the exact answer is D = 0, to its true `loads` at parameter 1.
+///
+/// The pre-load is a gap offset that fades with the parameter, balanced by fictitious block loads that fade with it.
+pub fn covering(chain: &Chain, loads: &[V6], preload: f64) -> Drive {
+    let mut base = vec![V6::zeros(); loads.len()];
+    for k in 0..chain.interfaces() {
+        for p in chain.at_interface(k) {
+            let contact = &chain.contacts()[p];
+            if contact.law != Law::Bonded {
+                push(&mut base, contact, k, -contact.pressure(-preload), 0.0);
+            }
+        }
+    }
+    let rate = loads.iter().zip(&base).map(|(load, start)| load - start).collect();
+    Drive { base, rate, offset: [-preload, preload] }
+}
