@@ -4,10 +4,15 @@
 //! file's name; each was computed there by two independent codes or in closed form.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-mod common;
+#[allow(dead_code)]
+#[path = "common/masonry.rs"]
+mod masonry;
+#[allow(dead_code, clippy::expect_used)]
+#[path = "common/oracle.rs"]
+mod oracle;
 
-use common::masonry::Ring;
-use common::oracle::{Aim, Answer, Problem};
+use masonry::Ring;
+use oracle::{Aim, Answer, Problem};
 
 /// No sliding.
 const ROUGH: f64 = 100.0;
@@ -23,7 +28,7 @@ fn compare(title: &str, rows: &[(String, f64, f64, f64)]) {
     assert_eq!(bad, 0, "{title}: {bad} rows outside their tolerance");
 }
 
-fn highest(ring: &Ring, friction: f64, fixed: Vec<common::oracle::Push>, scaled: Vec<common::oracle::Push>) -> f64 {
+fn highest(ring: &Ring, friction: f64, fixed: Vec<oracle::Push>, scaled: Vec<oracle::Push>) -> f64 {
     Problem { fixed, scaled, ..ring.problem(friction) }.solve(Aim::Highest).value(Aim::Highest).unwrap()
 }
 

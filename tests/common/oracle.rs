@@ -11,7 +11,13 @@
 //! 0.5 / 9 / 120 ms.
 
 use clarabel::algebra::CscMatrix;
-use clarabel::solver::{DefaultSettingsBuilder, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus, ZeroConeT};
+use clarabel::solver::{
+    DefaultSettings, DefaultSettingsBuilder, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus, ZeroConeT,
+};
+use programme::{Programme, Scale};
+
+#[path = "programme.rs"]
+mod programme;
 
 /// A point or a vector in the plane.
 pub type Point = [f64; 2];
@@ -114,140 +120,76 @@ impl Problem {
 
     /// Lowest and highest load factor, or none where nothing stands.
     pub fn window(&self) -> Option<(f64, f64)> {
+        if self.scaled.is_empty() {
+            return self.stands().then_some((f64::NEG_INFINITY, f64::INFINITY));
+        }
         let lowest = self.solve(Aim::Lowest).value(Aim::Lowest)?;
         Some((lowest, self.solve(Aim::Highest).value(Aim::Highest)?))
     }
 
-    /// Solves the linear programme.
+    /// Solves the linear programme, as sharply as it lets itself be solved.
     pub fn solve(&self, aim: Aim) -> Answer {
         let scale = Scale::of(self, aim);
         let programme = Programme::build(self, aim, &scale);
-        programme.solve(self, &scale)
+        let mut answer = Answer::Undecided("no attempt".into());
+        for tolerance in TOLERANCES {
+            answer = self.attempt(&programme, &scale, tolerance);
+            if !matches!(answer, Answer::Undecided(_)) {
+                break;
+            }
+        }
+        answer
+    }
+
+    fn attempt(&self, programme: &Programme, scale: &Scale, tolerance: f64) -> Answer {
+        let (unknowns, all) = (programme.cost.len(), programme.right.len());
+        let (rows, columns) = (programme.rows.clone(), programme.columns.clone());
+        let matrix = CscMatrix::new_from_triplets(all, unknowns, rows, columns, programme.values.clone());
+        let cones = [ZeroConeT(programme.equations), NonnegativeConeT(all - programme.equations)];
+        let none = CscMatrix::zeros((unknowns, unknowns));
+        let settings = settings(tolerance);
+        let mut solver =
+            DefaultSolver::new(&none, &programme.cost, &matrix, &programme.right, &cones, settings).expect("input");
+        solver.solve();
+        match solver.solution.status {
+            SolverStatus::Solved | SolverStatus::AlmostSolved => self.read(&solver.solution.x, scale),
+            SolverStatus::PrimalInfeasible => Answer::Infeasible,
+            SolverStatus::DualInfeasible => Answer::Unbounded,
+            other => Answer::Undecided(format!("{other:?}")),
+        }
+    }
+
+    /// Value and joint forces in the units of the problem.
+    fn read(&self, x: &[f64], scale: &Scale) -> Answer {
+        let joints = self.seams.len();
+        let forces: Vec<_> = (0..joints).map(|j| [0, 1, 2].map(|k| x[3 * j + k] * scale.force)).collect();
+        let value = match x.get(3 * joints) {
+            _ if scale.with_give => x[x.len() - 1],
+            Some(factor) => factor * scale.factor,
+            None => {
+                let (normal, along) = unit_vectors(&self.seams[0]);
+                (forces[0][0] + forces[0][1]) * normal[0] + forces[0][2] * along[0]
+            }
+        };
+        Answer::Optimal { value, forces }
     }
 }
 
-/// Units in which the numbers are of order one.
-struct Scale {
-    force: f64,
-    factor: f64,
-    with_factor: bool,
-    with_give: bool,
-}
+/// Accuracies asked of the solver, one after the other: at times round-off does not let it reach the first.
+const TOLERANCES: [f64; 4] = [1e-11, 1e-10, 1e-9, 1e-8];
 
-impl Scale {
-    fn of(problem: &Problem, aim: Aim) -> Scale {
-        let total = |pushes: &[Push]| pushes.iter().map(|p| p.force[0].hypot(p.force[1])).sum::<f64>();
-        let (fixed, scaled) = (total(&problem.fixed), total(&problem.scaled));
-        let with_factor = !matches!(aim, Aim::LeastThrust | Aim::GreatestThrust) && scaled > 0.0;
-        let force = if fixed > 0.0 { fixed } else { scaled.max(f64::MIN_POSITIVE) };
-        let factor = if with_factor { force / scaled } else { 1.0 };
-        Scale { force, factor, with_factor, with_give: aim == Aim::Give }
-    }
-}
-
-/// Rows as triplets: equations first, then inequalities, in clarabel's form A x + s = b.
-#[derive(Default)]
-struct Programme {
-    cost: Vec<f64>,
-    rows: Vec<usize>,
-    columns: Vec<usize>,
-    values: Vec<f64>,
-    right: Vec<f64>,
-    equations: usize,
-}
-
-impl Programme {
-    fn build(problem: &Problem, aim: Aim, scale: &Scale) -> Programme {
-        let joints = problem.seams.len();
-        let unknowns = 3 * joints + usize::from(scale.with_factor) + usize::from(scale.with_give);
-        let mut programme = Programme { cost: vec![0.0; unknowns], ..Programme::default() };
-        programme.equilibrium(problem, scale);
-        programme.equations = programme.right.len();
-        programme.conditions(problem, scale);
-        let thrust = problem.seams.first().map(unit_vectors);
-        match (aim, thrust) {
-            (Aim::Lowest, _) if scale.with_factor => programme.cost[3 * joints] = 1.0,
-            (Aim::Highest, _) if scale.with_factor => programme.cost[3 * joints] = -1.0,
-            (Aim::LeastThrust | Aim::GreatestThrust, Some((normal, along))) => {
-                let sign = if aim == Aim::LeastThrust { 1.0 } else { -1.0 };
-                programme.cost[..3].copy_from_slice(&[sign * normal[0], sign * normal[0], sign * along[0]]);
-            }
-            (Aim::Give, _) => programme.cost[unknowns - 1] = 1.0,
-            _ => {}
-        }
-        programme
-    }
-
-    fn entry(&mut self, column: usize, value: f64) {
-        self.rows.push(self.right.len());
-        self.columns.push(column);
-        self.values.push(value);
-    }
-
-    /// Sum of forces and moments of every block, about the mean of its corners, moments over its size.
-    fn equilibrium(&mut self, problem: &Problem, scale: &Scale) {
-        for block in 0..problem.seams.len() - 1 {
-            let (below, above) = (&problem.seams[block], &problem.seams[block + 1]);
-            let corners = [below.intrados, below.extrados, above.intrados, above.extrados];
-            let centre = [0, 1].map(|i| corners.iter().map(|c| c[i]).sum::<f64>() / 4.0);
-            let arm = distance(below.intrados, below.extrados).max(distance(above.intrados, above.extrados));
-            let wrench = |at: Point, force: Point| {
-                let moment = (at[0] - centre[0]) * force[1] - (at[1] - centre[1]) * force[0];
-                [force[0], force[1], moment / arm]
-            };
-            let sum = |pushes: &[Push]| {
-                pushes.iter().filter(|p| p.block == block).fold([0.0; 3], |sum, p| {
-                    let w = wrench(p.at, p.force);
-                    [sum[0] + w[0], sum[1] + w[1], sum[2] + w[2]]
-                })
-            };
-            let (fixed, scaled) = (sum(&problem.fixed), sum(&problem.scaled));
-            for row in 0..3 {
-                for (joint, seam, sign) in [(block, below, 1.0), (block + 1, above, -1.0)] {
-                    let (normal, along) = unit_vectors(seam);
-                    let columns = [(seam.intrados, normal), (seam.extrados, normal), (seam.intrados, along)];
-                    for (k, (at, direction)) in columns.into_iter().enumerate() {
-                        self.entry(3 * joint + k, sign * wrench(at, direction)[row]);
-                    }
-                }
-                if scale.with_factor {
-                    self.entry(3 * problem.seams.len(), scaled[row] * scale.factor / scale.force);
-                }
-                self.right.push(-fixed[row] / scale.force);
-            }
-        }
-    }
-
-    /// No tension at either corner and Coulomb's law, for every dry joint.
-    fn conditions(&mut self, problem: &Problem, scale: &Scale) {
-        for (joint, seam) in problem.seams.iter().enumerate() {
-            let Bond::Dry { friction, cohesion } = seam.bond else { continue };
-            for corner in 0..2 {
-                self.entry(3 * joint + corner, -1.0);
-                self.give(scale);
-                self.right.push(0.0);
-            }
-            let strength = cohesion * distance(seam.intrados, seam.extrados) / scale.force;
-            for sign in [1.0, -1.0] {
-                self.entry(3 * joint, -friction);
-                self.entry(3 * joint + 1, -friction);
-                self.entry(3 * joint + 2, sign);
-                self.give(scale);
-                self.right.push(strength);
-            }
-        }
-        if scale.with_give {
-            // Prestress can put any amount in hand; one is plenty.
-            self.give(scale);
-            self.right.push(1.0);
-        }
-    }
-
-    fn give(&mut self, scale: &Scale) {
-        if scale.with_give {
-            self.entry(self.cost.len() - 1, -1.0);
-        }
-    }
+fn settings(tolerance: f64) -> DefaultSettings<f64> {
+    DefaultSettingsBuilder::default()
+        .verbose(false)
+        .max_threads(1)
+        .tol_gap_abs(tolerance)
+        .tol_gap_rel(tolerance)
+        .tol_feas(tolerance)
+        .reduced_tol_gap_abs(10.0 * tolerance)
+        .reduced_tol_gap_rel(10.0 * tolerance)
+        .reduced_tol_feas(10.0 * tolerance)
+        .build()
+        .expect("settings")
 }
 
 /// Unit normal (from the block before into the block after) and unit vector along the joint (outwards).
@@ -260,46 +202,4 @@ fn unit_vectors(seam: &Seam) -> (Point, Point) {
 /// Distance of two points.
 pub fn distance(a: Point, b: Point) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
-}
-
-impl Programme {
-    fn solve(self, problem: &Problem, scale: &Scale) -> Answer {
-        let with_give = scale.with_give;
-        let (unknowns, all) = (self.cost.len(), self.right.len());
-        let conditions = all - self.equations;
-        let matrix = CscMatrix::new_from_triplets(all, unknowns, self.rows, self.columns, self.values);
-        let settings = DefaultSettingsBuilder::default()
-            .verbose(false)
-            .max_threads(1)
-            .tol_gap_abs(1e-11)
-            .tol_gap_rel(1e-11)
-            .tol_feas(1e-11)
-            .reduced_tol_gap_abs(1e-9)
-            .reduced_tol_gap_rel(1e-9)
-            .reduced_tol_feas(1e-9)
-            .build()
-            .expect("settings");
-        let cones = [ZeroConeT(self.equations), NonnegativeConeT(conditions)];
-        let none = CscMatrix::zeros((unknowns, unknowns));
-        let mut solver = DefaultSolver::new(&none, &self.cost, &matrix, &self.right, &cones, settings).expect("input");
-        solver.solve();
-        let (x, joints) = (&solver.solution.x, problem.seams.len());
-        match solver.solution.status {
-            SolverStatus::Solved | SolverStatus::AlmostSolved => {
-                let forces = (0..joints).map(|j| [0, 1, 2].map(|k| x[3 * j + k] * scale.force)).collect::<Vec<_>>();
-                let value = match x.get(3 * joints) {
-                    _ if with_give => x[unknowns - 1],
-                    Some(factor) => factor * scale.factor,
-                    None => {
-                        let (normal, along) = unit_vectors(&problem.seams[0]);
-                        (forces[0][0] + forces[0][1]) * normal[0] + forces[0][2] * along[0]
-                    }
-                };
-                Answer::Optimal { value, forces }
-            }
-            SolverStatus::PrimalInfeasible | SolverStatus::AlmostPrimalInfeasible => Answer::Infeasible,
-            SolverStatus::DualInfeasible | SolverStatus::AlmostDualInfeasible => Answer::Unbounded,
-            other => Answer::Undecided(format!("{other:?}")),
-        }
-    }
 }
