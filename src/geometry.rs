@@ -1,4 +1,4 @@
-//! Plane geometry: polygons, circular segments, orientation.
+//! Plane geometry: polygons, circular segments, orientation, where lines meet.
 
 use nalgebra::Vector2;
 
@@ -13,6 +13,37 @@ pub fn cross(a: Vec2, b: Vec2) -> f64 {
 /// `v` turned by +90 degrees.
 pub fn perpendicular(v: Vec2) -> Vec2 {
     Vec2::new(-v.y, v.x)
+}
+
+/// `v` mirrored about the vertical x = `axis`.
+pub fn mirrored(v: Vec2, axis: f64) -> Vec2 {
+    Vec2::new(2.0 * axis - v.x, v.y)
+}
+
+/// True when the closed segments `a`-`b` and `c`-`d` have a point in common, be it an end.
+pub fn segments_meet(a: Vec2, b: Vec2, c: Vec2, d: Vec2) -> bool {
+    let side = |p: Vec2, q: Vec2, r: Vec2| cross(q - p, r - p);
+    let (d1, d2) = (side(c, d, a), side(c, d, b));
+    let (d3, d4) = (side(a, b, c), side(a, b, d));
+    if d1 == 0.0 && d2 == 0.0 {
+        // On one line: they meet when their boxes do.
+        let overlap = |p: f64, q: f64, r: f64, s: f64| p.max(q) >= r.min(s) && r.max(s) >= p.min(q);
+        return overlap(a.x, b.x, c.x, d.x) && overlap(a.y, b.y, c.y, d.y);
+    }
+    d1 * d2 <= 0.0 && d3 * d4 <= 0.0
+}
+
+/// Distance along the unit vector `direction` from a point inside a circle to the circle, m; `None` from outside.
+pub fn exit_from_circle(from: Vec2, direction: Vec2, centre: Vec2, radius: f64) -> Option<f64> {
+    let arm = from - centre;
+    let inside = radius * radius - arm.norm_squared();
+    if inside <= 0.0 {
+        return None;
+    }
+    let half = arm.dot(&direction);
+    let root = (half * half + inside).sqrt();
+    // The form without cancellation, whichever way the ray looks.
+    Some(if half > 0.0 { inside / (root + half) } else { root - half })
 }
 
 /// Area and centroid of a plane region.
@@ -39,6 +70,24 @@ impl Region {
         Region { area, centroid: base + moment / area }
     }
 
+    /// The circular segment between the chord `from`-`to` and the arc about `centre` (shorter than half a circle).
+    ///
+    /// The area `r^2 (theta - sin theta) / 2` is positive for a counter-clockwise arc; the centroid lies at
+    /// `4 r sin^3(theta/2) / (3 (theta - sin theta))` from the centre (textbook closed forms).
+    pub fn segment(centre: Vec2, from: Vec2, to: Vec2) -> Self {
+        let (a, b) = (from - centre, to - centre);
+        let radius = 0.5 * (a.norm() + b.norm());
+        let theta = cross(a, b).atan2(a.dot(&b));
+        let excess = angle_less_sine(theta);
+        let area = 0.5 * radius * radius * excess;
+        if area == 0.0 {
+            return Region { area, centroid: 0.5 * (from + to) };
+        }
+        let arm = 4.0 * radius * (0.5 * theta).sin().powi(3) / (3.0 * excess);
+        let bisector = perpendicular(to - from) * -theta.signum();
+        Region { area, centroid: centre + bisector.normalize() * arm }
+    }
+
     /// The union of two disjoint regions (a negative area cuts away).
     pub fn join(self, other: Region) -> Region {
         let area = self.area + other.area;
@@ -46,9 +95,19 @@ impl Region {
     }
 }
 
+/// theta - sin theta without cancellation.
+fn angle_less_sine(theta: f64) -> f64 {
+    if theta.abs() > 0.1 {
+        return theta - theta.sin();
+    }
+    let sq = theta * theta;
+    theta * sq / 6.0 * (1.0 - sq / 20.0 * (1.0 - sq / 42.0 * (1.0 - sq / 72.0 * (1.0 - sq / 110.0))))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::PI;
 
     #[test]
     fn square_has_its_area_and_centre() {
@@ -65,5 +124,49 @@ mod tests {
         let backward = Region::polygon(&quad);
         assert!((forward.area + backward.area).abs() < 1e-15);
         assert!((forward.centroid - backward.centroid).norm() < 1e-15);
+    }
+
+    #[test]
+    fn quarter_of_a_disc_less_its_triangle() {
+        let centre = Vec2::new(3.0, -2.0);
+        let region = Region::segment(centre, centre + Vec2::new(2.0, 0.0), centre + Vec2::new(0.0, 2.0));
+        assert!((region.area - (PI - 2.0)).abs() < 1e-14);
+        // First moment about the x axis through the centre: quarter disc r^3/3, triangle r^3/6.
+        let lever = (8.0 / 3.0 - 8.0 / 6.0) / (PI - 2.0);
+        assert!((region.centroid - centre - Vec2::new(lever, lever)).norm() < 1e-14);
+    }
+
+    #[test]
+    fn a_clockwise_segment_is_cut_away_and_lies_in_the_same_place() {
+        let (a, b) = (Vec2::new(1.0, 0.1), Vec2::new(0.2, 1.0));
+        let (a, b) = (a.normalize(), b.normalize());
+        let (there, back) = (Region::segment(Vec2::zeros(), a, b), Region::segment(Vec2::zeros(), b, a));
+        assert!((there.area + back.area).abs() < 1e-16 && there.area > 0.0);
+        assert!((there.centroid - back.centroid).norm() < 1e-14);
+    }
+
+    #[test]
+    fn segments_of_small_angle_keep_their_digits() {
+        assert!((angle_less_sine(0.1) - (0.1 - 0.1f64.sin())).abs() < 1e-16);
+        assert!((angle_less_sine(1e-4) / (1e-12 / 6.0) - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn segments_meet_when_they_cross_or_touch_only() {
+        let p = |x: f64, y: f64| Vec2::new(x, y);
+        assert!(segments_meet(p(0.0, 0.0), p(2.0, 2.0), p(0.0, 2.0), p(2.0, 0.0)));
+        assert!(segments_meet(p(0.0, 0.0), p(1.0, 0.0), p(1.0, 0.0), p(1.0, 5.0)));
+        assert!(segments_meet(p(0.0, 0.0), p(2.0, 0.0), p(1.0, 0.0), p(3.0, 0.0)));
+        assert!(!segments_meet(p(0.0, 0.0), p(1.0, 0.0), p(2.0, 0.0), p(3.0, 0.0)));
+        assert!(!segments_meet(p(0.0, 0.0), p(1.0, 0.0), p(0.0, 1.0), p(1.0, 1.0)));
+        assert!(!segments_meet(p(0.0, 0.0), p(1.0, 1.0), p(3.0, 0.0), p(0.0, 3.0)));
+    }
+
+    #[test]
+    fn a_ray_leaves_the_circle_it_starts_in() {
+        let (centre, up) = (Vec2::new(0.0, -1.0), Vec2::new(0.0, 1.0));
+        assert_eq!(exit_from_circle(Vec2::new(0.0, 1.0), up, centre, 3.0), Some(1.0));
+        assert_eq!(exit_from_circle(Vec2::new(0.0, 1.0), -up, centre, 3.0), Some(5.0));
+        assert_eq!(exit_from_circle(Vec2::new(0.0, 3.0), up, centre, 3.0), None);
     }
 }

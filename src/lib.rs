@@ -1,5 +1,7 @@
 //! Voussoir: tells when a masonry arch falls, how, and how sure we are.
 
+#[cfg(feature = "server")]
+pub mod api;
 pub mod arch;
 pub mod collapse;
 pub mod dda;

@@ -1,1 +1,275 @@
-//! Loads.
+//! Loads: what stands on an arch or shakes it, as forces on its voussoirs.
+//!
+//! Pressures act on the straight extrados sides, from left to right: `F_x = +integral q_h dy`,
+//! `F_y = -integral q_v dx` with their signs (eq. (2) of the paper), so that both flanks are pushed inwards and an
+//! overhanging side is pushed up.
+
+use super::{Arch, GRAVITY, PointForce};
+use crate::geometry::Vec2;
+
+/// Fill and embankment, eq. (7) of the paper: `q_v = (H - y) g rho_f + h_e g rho_e`, `q_h = K q_v`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fill {
+    /// Height H of the top of the fill above y = 0, m; without one there is an embankment only.
+    pub height: Option<f64>,
+    /// Density of the fill, kg/m3.
+    pub density: f64,
+    /// Thickness h_e of the embankment on top, m.
+    pub embankment: f64,
+    /// Density of the embankment, kg/m3.
+    pub embankment_density: f64,
+    /// Ratio K of horizontal to vertical pressure.
+    pub lateral_ratio: f64,
+}
+
+/// A horizontal pressure between two heights.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Band {
+    /// Lower end, m.
+    pub from: f64,
+    /// Upper end, m.
+    pub to: f64,
+    /// Pressure towards the arch, Pa.
+    pub pressure: f64,
+}
+
+/// Where a vertical point load stands.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Place {
+    /// On the topmost extrados side at this abscissa, m.
+    Abscissa(f64),
+    /// In the middle of the extrados side of this voussoir.
+    Voussoir(usize),
+}
+
+/// A load on an arch.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Load {
+    /// Weight of the stones; their density in kg/m3.
+    SelfWeight(f64),
+    /// Pressure of fill and embankment.
+    Fill(Fill),
+    /// Horizontal pressure in bands of height.
+    Lateral(Vec<Band>),
+    /// A vertical force, N/m, downwards.
+    Point(f64, Place),
+    /// A vertical force, N/m, downwards, spread evenly over a plan width.
+    Patch {
+        /// Total force, N/m.
+        force: f64,
+        /// Middle, m.
+        centre: f64,
+        /// Plan width, m.
+        width: f64,
+    },
+    /// Density times this acceleration, m/s2, on every stone; density in kg/m3.
+    BodyAcceleration(f64, Vec2),
+}
+
+/// Why a load cannot be put on an arch.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum LoadFault {
+    /// An embankment needs fill (or a level) under it everywhere.
+    #[error("the extrados reaches {top:.6} m, above the top of the fill, so the embankment would cut through the arch")]
+    ArchAboveFill {
+        /// Highest point of the extrados, m.
+        top: f64,
+    },
+    /// Nothing to stand on.
+    #[error("the load is not over the extrados, which reaches in plan from {from:.6} m to {to:.6} m")]
+    OffTheArch {
+        /// Left end of the extrados in plan, m.
+        from: f64,
+        /// Right end, m.
+        to: f64,
+    },
+    /// There is no such voussoir.
+    #[error("there is no voussoir of this number; they run from 0 to {last}")]
+    NoSuchVoussoir {
+        /// Number of the last one.
+        last: usize,
+    },
+}
+
+/// Places and halves of the two-point Gauss rule: exact for a linear pressure and for its moment.
+const GAUSS_2: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
+
+impl Load {
+    /// The forces on the voussoirs, each multiplied by `coefficient`.
+    ///
+    /// # Errors
+    /// When the load does not fit the arch.
+    pub fn on(&self, arch: &Arch, coefficient: f64) -> Result<Vec<PointForce>, LoadFault> {
+        let mut forces = match self {
+            Load::SelfWeight(density) => body_force(arch, *density, Vec2::new(0.0, -GRAVITY)),
+            Load::BodyAcceleration(density, acceleration) => body_force(arch, *density, *acceleration),
+            Load::Fill(fill) => fill.on(arch)?,
+            Load::Lateral(bands) => lateral(arch, bands),
+            Load::Point(force, Place::Abscissa(x)) => point_load(arch, *force, *x)?,
+            Load::Point(force, Place::Voussoir(k)) => vec![middle_load(arch, *force, *k)?],
+            Load::Patch { force, centre, width } => patch_load(arch, *force, *centre, *width)?,
+        };
+        for force in &mut forces {
+            force.force *= coefficient;
+        }
+        forces.retain(|force| force.force != Vec2::zeros());
+        Ok(forces)
+    }
+}
+
+fn body_force(arch: &Arch, density: f64, acceleration: Vec2) -> Vec<PointForce> {
+    let force = |(voussoir, stone): (usize, &super::Voussoir)| PointForce {
+        voussoir,
+        at: stone.region.centroid,
+        force: density * stone.region.area * acceleration,
+    };
+    arch.voussoirs.iter().enumerate().map(force).collect()
+}
+
+impl Fill {
+    fn on(&self, arch: &Arch) -> Result<Vec<PointForce>, LoadFault> {
+        let top = arch.joints.iter().map(|joint| joint.extrados.y).fold(f64::NEG_INFINITY, f64::max);
+        let level = self.height.unwrap_or(f64::NEG_INFINITY);
+        if self.height.is_some() && self.embankment > 0.0 && top > level {
+            return Err(LoadFault::ArchAboveFill { top });
+        }
+        let above = self.embankment * self.embankment_density * GRAVITY;
+        let mut forces = Vec::new();
+        for k in 0..arch.voussoirs.len() {
+            let (a, b) = arch.extrados_side(k);
+            if above != 0.0 && self.height.is_none() {
+                forces.extend(self.push(k, a, b, |_| above));
+            }
+            if let Some((a, b)) = clip(a, b, f64::NEG_INFINITY, level) {
+                forces.extend(self.push(k, a, b, |y| (level - y) * GRAVITY * self.density + above));
+            }
+        }
+        Ok(forces)
+    }
+
+    /// Forces of a pressure that is linear in height on the stretch `a`-`b` of the side of voussoir `k`.
+    fn push(&self, voussoir: usize, a: Vec2, b: Vec2, pressure: impl Fn(f64) -> f64) -> [PointForce; 2] {
+        GAUSS_2.map(|share| {
+            let at = a + share * (b - a);
+            let vertical = 0.5 * pressure(at.y);
+            let force = Vec2::new(self.lateral_ratio * vertical * (b.y - a.y), -vertical * (b.x - a.x));
+            PointForce { voussoir, at, force }
+        })
+    }
+}
+
+/// The part of `a`-`b` between two heights, in the same sense; `None` when there is none.
+fn clip(a: Vec2, b: Vec2, low: f64, high: f64) -> Option<(Vec2, Vec2)> {
+    if a.y.max(b.y) <= low || a.y.min(b.y) >= high {
+        return None;
+    }
+    let inside = |p: Vec2| {
+        if (low..=high).contains(&p.y) {
+            return p;
+        }
+        let level = p.y.clamp(low, high);
+        Vec2::new(a.x + (b.x - a.x) * ((level - a.y) / (b.y - a.y)), level)
+    };
+    Some((inside(a), inside(b)))
+}
+
+fn lateral(arch: &Arch, bands: &[Band]) -> Vec<PointForce> {
+    let mut forces = Vec::new();
+    for voussoir in 0..arch.voussoirs.len() {
+        let (a, b) = arch.extrados_side(voussoir);
+        for band in bands {
+            if let Some((a, b)) = clip(a, b, band.from, band.to) {
+                let force = Vec2::new(band.pressure * (b.y - a.y), 0.0);
+                forces.push(PointForce { voussoir, at: 0.5 * (a + b), force });
+            }
+        }
+    }
+    forces
+}
+
+fn down(force: f64) -> Vec2 {
+    Vec2::new(0.0, -force)
+}
+
+fn middle_load(arch: &Arch, force: f64, voussoir: usize) -> Result<PointForce, LoadFault> {
+    if voussoir >= arch.voussoirs.len() {
+        return Err(LoadFault::NoSuchVoussoir { last: arch.voussoirs.len() - 1 });
+    }
+    let (a, b) = arch.extrados_side(voussoir);
+    Ok(PointForce { voussoir, at: 0.5 * (a + b), force: down(force) })
+}
+
+/// How far the extrados reaches in plan, m.
+fn plan(arch: &Arch) -> (f64, f64) {
+    let xs = || arch.joints.iter().map(|joint| joint.extrados.x);
+    (xs().fold(f64::INFINITY, f64::min), xs().fold(f64::NEG_INFINITY, f64::max))
+}
+
+/// The sides one can stand on: those that run to the right.
+fn upper_sides(arch: &Arch) -> impl Iterator<Item = (usize, Vec2, Vec2)> + '_ {
+    let side = |k| (k, arch.extrados_side(k).0, arch.extrados_side(k).1);
+    (0..arch.voussoirs.len()).map(side).filter(|(_, a, b)| b.x > a.x)
+}
+
+/// A vertical load at abscissa `x`, on the topmost side; over a joint, each neighbour takes half.
+fn point_load(arch: &Arch, force: f64, x: f64) -> Result<Vec<PointForce>, LoadFault> {
+    let (from, to) = plan(arch);
+    let near = 1e-9 * (to - from);
+    let height = |a: Vec2, b: Vec2| a.y + (b.y - a.y) * ((x - a.x) / (b.x - a.x)).clamp(0.0, 1.0);
+    let under: Vec<_> = upper_sides(arch)
+        .filter(|(_, a, b)| x >= a.x - near && x <= b.x + near)
+        .map(|(k, a, b)| (k, height(a, b)))
+        .collect();
+    let &(top, y) = under.iter().max_by(|a, b| a.1.total_cmp(&b.1)).ok_or(LoadFault::OffTheArch { from, to })?;
+    let over = |joint: usize| (arch.joints[joint].extrados.x - x).abs() <= near;
+    let stands_too = |&&(k, _): &&(usize, f64)| (k + 1 == top && over(top)) || (k == top + 1 && over(k));
+    let mut bearers = vec![top];
+    bearers.extend(under.iter().filter(stands_too).map(|&(k, _)| k));
+    bearers.sort_unstable();
+    let share = force / bearers.len() as f64;
+    Ok(bearers.into_iter().map(|voussoir| PointForce { voussoir, at: Vec2::new(x, y), force: down(share) }).collect())
+}
+
+/// A vertical load spread over a plan width; every voussoir takes what lies over it, in the middle of its share.
+fn patch_load(arch: &Arch, force: f64, centre: f64, width: f64) -> Result<Vec<PointForce>, LoadFault> {
+    let (left, right) = (centre - 0.5 * width, centre + 0.5 * width);
+    let mut forces = Vec::new();
+    let mut covered = 0.0;
+    for (voussoir, a, b) in upper_sides(arch) {
+        let (from, to) = (left.max(a.x), right.min(b.x));
+        if to > from {
+            covered += to - from;
+            let x = 0.5 * (from + to);
+            let at = Vec2::new(x, a.y + (b.y - a.y) * ((x - a.x) / (b.x - a.x)));
+            forces.push(PointForce { voussoir, at, force: down(force * (to - from) / width) });
+        }
+    }
+    if (covered - width).abs() > 1e-9 * width.max(right.abs()) {
+        let (from, to) = plan(arch);
+        return Err(LoadFault::OffTheArch { from, to });
+    }
+    Ok(forces)
+}
+
+/// True when the forces on every voussoir are the mirror image, about x = `axis`, of those on its partner.
+pub fn is_symmetric(forces: &[PointForce], voussoirs: usize, axis: f64) -> bool {
+    let origin = Vec2::new(axis, 0.0);
+    let mut sums = vec![[0.0; 3]; voussoirs];
+    let mut scale = [0.0f64; 2];
+    for force in forces {
+        let arm = force.at - origin;
+        let sum = &mut sums[force.voussoir];
+        sum[0] += force.force.x;
+        sum[1] += force.force.y;
+        sum[2] += crate::geometry::cross(arm, force.force);
+        scale = [scale[0] + force.force.norm(), scale[1].max(arm.norm())];
+    }
+    let (force, moment) = (1e-9 * scale[0], 1e-9 * scale[0] * scale[1]);
+    (0..voussoirs.div_ceil(2)).all(|k| {
+        let (a, b) = (sums[k], sums[voussoirs - 1 - k]);
+        (a[0] + b[0]).abs() <= force && (a[1] - b[1]).abs() <= force && (a[2] + b[2]).abs() <= moment
+    })
+}
+
+#[cfg(test)]
+mod tests;

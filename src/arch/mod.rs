@@ -4,8 +4,13 @@
 //! right, y upwards, the springing level is y = 0. Voussoirs and joints are counted from the left springing:
 //! joint `k` lies below voussoir `k`, joint `n` is the right springing.
 
+mod build;
+mod ellipse;
 pub mod load;
 pub mod profile;
+pub mod ring;
+
+pub use build::{ArchFault, MAX_VOUSSOIRS, straight_regions};
 
 use crate::geometry::{Region, Vec2};
 
@@ -40,6 +45,21 @@ impl Default for Stone {
             cohesion: 0.0,
             compressive_strength: 1e7,
         }
+    }
+}
+
+/// A face of the arch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Face {
+    /// Inner, lower face.
+    Intrados,
+    /// Outer, upper face.
+    Extrados,
+}
+
+impl std::fmt::Display for Face {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(if *self == Face::Intrados { "intrados" } else { "extrados" })
     }
 }
 

@@ -1,5 +1,6 @@
 //! What an analysis says: plain data, SI units, radians.
 
+pub use crate::arch::Face;
 use crate::geometry::Vec2;
 
 /// How the question was answered.
@@ -30,15 +31,6 @@ pub enum Mode {
     Sway,
     /// Joints slide more than they open.
     Sliding,
-}
-
-/// A face of the arch.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Face {
-    /// Inner, lower face.
-    Intrados,
-    /// Outer, upper face.
-    Extrados,
 }
 
 /// A joint pressed at one face and opening at the other.

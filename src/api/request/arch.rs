@@ -1,0 +1,224 @@
+//! The arch in a request.
+
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+/// An arch: a profile, its thickness, and how it is cut into voussoirs.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct ArchRequest {
+    /// The curve the arch follows, or its surveyed corners.
+    pub profile: ProfileRequest,
+    /// Which curve the profile is: the axis (default; half the thickness on each side) or the intrados. Not with
+    /// `surveyed`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub line: Option<LineRequest>,
+    /// Thickness. Required, but not with `surveyed`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub thickness: Option<ThicknessRequest>,
+    /// Number of voussoirs, 2 to 2001. Required, but not with `surveyed`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(minimum = 2, maximum = 2001)]
+    pub voussoirs: Option<usize>,
+    /// Which way the joints run: normal to the profile (default) or on rays from a centre. Not with `surveyed`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub joints: Option<JointsRequest>,
+    /// Lengths of the voussoirs along the profile in any common unit, left to right; equal by default. Not with
+    /// `surveyed`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub relative_lengths: Option<Vec<f64>>,
+    /// Areas and centroids of the true circular sectors instead of straight-sided blocks; for circular arcs of
+    /// constant thickness with normal joints. Pressures still act on the straight sides.
+    #[serde(default)]
+    pub curved_sides: bool,
+    /// Rectangular blocks between the springing joints and the foundation.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub abutments: Option<AbutmentsRequest>,
+    /// Whether the springing joints are dry like the others, or glued.
+    #[serde(default)]
+    pub springing_joints: SpringingJoints,
+    /// Only the left half, its crown joint against a frictionless wall; for symmetric arches of an even number of
+    /// voussoirs under symmetric loads.
+    #[serde(default)]
+    pub half: bool,
+}
+
+/// The curve an arch follows, symmetric about x = 0 and springing from y = 0; or its corners.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ProfileRequest {
+    /// An arc of a circle.
+    Circular(Circular),
+    /// Two arcs that meet at an apex.
+    Pointed(Pointed),
+    /// Half an ellipse.
+    Elliptical(Elliptical),
+    /// Tangent arcs, such as an oval or a basket handle.
+    MultiCentre(MultiCentre),
+    /// Corners as surveyed.
+    Surveyed(Surveyed),
+}
+
+/// An arc of a circle: radius and opening angle, or span and rise.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Circular {
+    /// Radius, m; with `opening_angle_deg`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(exclusive_minimum = 0.0)]
+    pub radius_m: Option<f64>,
+    /// Full opening angle, degrees: 180 for a semicircle.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(exclusive_minimum = 0.0, exclusive_maximum = 360.0)]
+    pub opening_angle_deg: Option<f64>,
+    /// Span, m; with `rise_m`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(exclusive_minimum = 0.0)]
+    pub span_m: Option<f64>,
+    /// Rise, m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(exclusive_minimum = 0.0)]
+    pub rise_m: Option<f64>,
+}
+
+/// Two arcs with centres on the springing level: radius and offset of the centres, or span and rise.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Pointed {
+    /// Radius of both arcs, m; with `centre_offset_m`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(exclusive_minimum = 0.0)]
+    pub radius_m: Option<f64>,
+    /// Distance of the centre of the left arc from mid-span, to the right, m; less than the radius.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(minimum = 0.0)]
+    pub centre_offset_m: Option<f64>,
+    /// Span, m; with `rise_m`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(exclusive_minimum = 0.0)]
+    pub span_m: Option<f64>,
+    /// Rise, m; at least half the span.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(exclusive_minimum = 0.0)]
+    pub rise_m: Option<f64>,
+}
+
+/// Half an ellipse.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Elliptical {
+    /// Span, m.
+    #[schema(exclusive_minimum = 0.0)]
+    pub span_m: f64,
+    /// Rise, m.
+    #[schema(exclusive_minimum = 0.0)]
+    pub rise_m: f64,
+}
+
+/// Tangent arcs from the left springing to the crown, mirrored to the right. The tangent at the crown is
+/// horizontal, so the arch leans outwards at the springing by the sum of the angles less 90 degrees.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct MultiCentre {
+    /// The arcs of the left half, from the springing upwards.
+    #[schema(min_items = 1)]
+    pub arcs: Vec<ArcRequest>,
+}
+
+/// One of several tangent arcs.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct ArcRequest {
+    /// Radius, m.
+    #[schema(exclusive_minimum = 0.0)]
+    pub radius_m: f64,
+    /// Angle, degrees.
+    #[schema(exclusive_minimum = 0.0)]
+    pub angle_deg: f64,
+}
+
+/// Ends of every joint, from left to right.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Surveyed {
+    /// Intrados end [x, y] of every joint, m.
+    #[schema(min_items = 3)]
+    pub intrados_m: Vec<[f64; 2]>,
+    /// Extrados end [x, y] of every joint, m.
+    #[schema(min_items = 3)]
+    pub extrados_m: Vec<[f64; 2]>,
+}
+
+/// Which curve of the arch the profile is.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum LineRequest {
+    /// The middle.
+    #[default]
+    Axis,
+    /// The inner face.
+    Intrados,
+}
+
+/// Thickness, normal to the profile.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ThicknessRequest {
+    /// The same everywhere, m.
+    ConstantM(f64),
+    /// Linear in the length along the profile, from crown to springing.
+    Linear(LinearThickness),
+    /// As the extrados makes it, a circle of its own; `line` must be `intrados`.
+    ExtradosCircle(ExtradosCircle),
+}
+
+/// Thickness at crown and springings.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct LinearThickness {
+    /// At the crown, m.
+    #[schema(exclusive_minimum = 0.0)]
+    pub crown_m: f64,
+    /// At the springings, m.
+    #[schema(exclusive_minimum = 0.0)]
+    pub springing_m: f64,
+}
+
+/// The circle of the extrados, its centre on x = 0.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct ExtradosCircle {
+    /// Radius, m.
+    #[schema(exclusive_minimum = 0.0)]
+    pub radius_m: f64,
+    /// Height of the centre above the springing level, m; usually negative.
+    pub centre_y_m: f64,
+}
+
+/// Which way the joints run.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum JointsRequest {
+    /// Normal to the profile.
+    #[default]
+    Normal,
+    /// Along rays from one centre.
+    Rays(Rays),
+}
+
+/// Centre of the rays.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Rays {
+    /// Centre [x, y], m.
+    pub centre_m: [f64; 2],
+}
+
+/// Rectangular blocks below the springing joints.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct AbutmentsRequest {
+    /// Height, normal to the springing joint, m.
+    #[schema(exclusive_minimum = 0.0)]
+    pub height_m: f64,
+}
+
+/// How the first and the last joint hold.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SpringingJoints {
+    /// Like every other joint.
+    #[default]
+    Dry,
+    /// Glued: neither open nor slide.
+    Bonded,
+}

@@ -1,0 +1,139 @@
+//! The loads in a request. Forces per metre of depth.
+
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+/// A load, and whether the load factor multiplies it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct LoadEntry {
+    /// The load.
+    pub load: LoadRequest,
+    /// False: it stays as it is. True: the load factor multiplies it.
+    #[serde(default)]
+    pub scaled: bool,
+    /// A factor of its own.
+    #[serde(default = "one")]
+    pub coefficient: f64,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+/// A load.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum LoadRequest {
+    /// Weight of the stones.
+    SelfWeight(SelfWeight),
+    /// Fill and embankment on the extrados.
+    FillPressure(FillPressure),
+    /// Horizontal pressure in bands of height.
+    LateralPressure(LateralPressure),
+    /// A vertical force at one point of the extrados.
+    PointLoad(PointLoad),
+    /// A vertical force spread over a plan width.
+    PatchLoad(PatchLoad),
+    /// Every stone's mass times an acceleration.
+    BodyAcceleration(BodyAcceleration),
+}
+
+/// Weight of the stones from their density, with g = 9.81 m/s2.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct SelfWeight {}
+
+/// Pressure of fill and embankment, eq. (7) of the paper: `q_v = (H - y) g rho_f + h_e g rho_e` on the plan
+/// projection of the extrados, `q_h = K q_v` on its vertical projection, `K = 1 - sin phi_f`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(default)]
+pub struct FillPressure {
+    /// Height H of the top of the fill above y = 0, m. Left out: an embankment only.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fill_height_m: Option<f64>,
+    /// Density of the fill, kg/m3.
+    #[schema(minimum = 0.0)]
+    pub fill_density_kg_m3: f64,
+    /// Thickness of the embankment on top of the fill, m.
+    #[schema(minimum = 0.0)]
+    pub embankment_thickness_m: f64,
+    /// Density of the embankment, kg/m3.
+    #[schema(minimum = 0.0)]
+    pub embankment_density_kg_m3: f64,
+    /// Ratio K of horizontal to vertical pressure; left out: 1 - sin of the fill's friction angle.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(minimum = 0.0)]
+    pub lateral_ratio: Option<f64>,
+    /// Friction angle of the fill, degrees.
+    #[schema(minimum = 0.0, exclusive_maximum = 90.0)]
+    pub fill_friction_angle_deg: f64,
+}
+
+impl Default for FillPressure {
+    /// Gravel as in Table 1 of the paper.
+    fn default() -> Self {
+        FillPressure {
+            fill_height_m: None,
+            fill_density_kg_m3: 1600.0,
+            embankment_thickness_m: 0.0,
+            embankment_density_kg_m3: 1600.0,
+            lateral_ratio: None,
+            fill_friction_angle_deg: 30.0,
+        }
+    }
+}
+
+/// Horizontal pressures towards the arch, on the vertical projection of the extrados.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct LateralPressure {
+    /// Bands of height; where bands overlap they add up.
+    #[schema(min_items = 1)]
+    pub bands: Vec<PressureBand>,
+}
+
+/// A horizontal pressure between two heights.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct PressureBand {
+    /// Lower end, m.
+    pub from_m: f64,
+    /// Upper end, m.
+    pub to_m: f64,
+    /// Pressure, Pa, towards the arch positive.
+    pub pressure_pa: f64,
+}
+
+/// A vertical force on the extrados, at an abscissa or in the middle of a voussoir.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct PointLoad {
+    /// Force per metre of depth, N/m, downwards positive.
+    pub force_n_per_m: f64,
+    /// Abscissa, m; over a joint, its two voussoirs take half each. Either this or `voussoir`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub x_m: Option<f64>,
+    /// Number of a voussoir, from 0 on the left: the middle of its extrados side.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub voussoir: Option<usize>,
+}
+
+/// A vertical force spread evenly over a plan width: every voussoir takes the share that lies over it, in the
+/// middle of that share on its extrados side.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct PatchLoad {
+    /// Abscissa of the middle, m.
+    pub centre_x_m: f64,
+    /// Plan width, m.
+    #[schema(exclusive_minimum = 0.0)]
+    pub width_m: f64,
+    /// Total force per metre of depth, N/m, downwards positive.
+    pub force_n_per_m: f64,
+}
+
+/// Mass times acceleration on every stone.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct BodyAcceleration {
+    /// To the right, multiples of g.
+    #[serde(default)]
+    pub x_g: f64,
+    /// Upwards, multiples of g.
+    #[serde(default)]
+    pub y_g: f64,
+}

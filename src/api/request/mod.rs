@@ -1,0 +1,208 @@
+//! The body of a request: one arch, its stone, its loads, and what is asked. Lengths in m, other units in the names.
+
+mod arch;
+mod loads;
+
+pub use arch::*;
+pub use loads::*;
+
+use crate::arch::Stone;
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+/// Longest `name` and `unit`, characters.
+pub const MAX_TEXT: usize = 200;
+
+/// One question: when does this arch fall?
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct AnalysisRequest {
+    /// A name to find it again, up to 200 characters.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(max_length = 200)]
+    pub name: Option<String>,
+    /// The arch. Springing level y = 0, mid-span x = 0.
+    pub arch: ArchRequest,
+    /// The stone; what is left out is Table 1 of the paper.
+    #[serde(default)]
+    pub stone: StoneRequest,
+    /// Joints that differ from the rest.
+    #[serde(default)]
+    pub joint_overrides: Vec<JointOverride>,
+    /// Loads, fixed and scaled by the load factor. Without a scaled one, only whether the arch stands is asked.
+    #[schema(min_items = 1)]
+    pub loads: Vec<LoadEntry>,
+    /// How the load factor grows and how the intensity is called.
+    #[serde(default)]
+    pub load_factor: LoadFactorRequest,
+    /// How the load path is followed.
+    #[serde(default)]
+    pub method: MethodRequest,
+    /// What the answer shows.
+    #[serde(default)]
+    pub report: ReportRequest,
+}
+
+/// Stone and joint material. Defaults: Table 1 of the paper.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(default)]
+pub struct StoneRequest {
+    /// Density, kg/m3.
+    #[schema(exclusive_minimum = 0.0, maximum = 100_000.0)]
+    pub density_kg_m3: f64,
+    /// Young's modulus, Pa.
+    #[schema(exclusive_minimum = 0.0)]
+    pub youngs_modulus_pa: f64,
+    /// Poisson's ratio, between -1 and 0.5.
+    #[schema(exclusive_minimum = -1.0, exclusive_maximum = 0.5)]
+    pub poissons_ratio: f64,
+    /// Friction angle of the joints, degrees.
+    #[schema(minimum = 0.0, exclusive_maximum = 90.0)]
+    pub friction_angle_deg: f64,
+    /// Cohesion of the joints, Pa.
+    #[schema(minimum = 0.0)]
+    pub cohesion_pa: f64,
+    /// Compressive strength, Pa.
+    #[schema(exclusive_minimum = 0.0)]
+    pub compressive_strength_pa: f64,
+    /// Plane stress or plane strain inside the stones.
+    pub plane: PlaneRequest,
+    /// Contact penalty as a multiple of Young's modulus.
+    #[schema(exclusive_minimum = 0.0)]
+    pub penalty_ratio: f64,
+}
+
+/// Contact penalty as a multiple of Young's modulus in Table 1 of the paper (1e10 N/m over 1e9 Pa).
+pub const DEFAULT_PENALTY_RATIO: f64 = 10.0;
+
+impl Default for StoneRequest {
+    fn default() -> Self {
+        let stone = Stone::default();
+        StoneRequest {
+            density_kg_m3: stone.density,
+            youngs_modulus_pa: stone.youngs_modulus,
+            poissons_ratio: stone.poissons_ratio,
+            // Degrees as people write them: 30, not 29.999999999999996.
+            friction_angle_deg: (stone.friction_angle.to_degrees() * 1e9).round() / 1e9,
+            cohesion_pa: stone.cohesion,
+            compressive_strength_pa: stone.compressive_strength,
+            plane: PlaneRequest::Stress,
+            penalty_ratio: DEFAULT_PENALTY_RATIO,
+        }
+    }
+}
+
+/// Plane stress (no stress across the arch) or plane strain (no strain across it).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum PlaneRequest {
+    /// Plane stress.
+    Stress,
+    /// Plane strain.
+    Strain,
+}
+
+/// A joint with a law of its own; what is left out is that of the stone.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct JointOverride {
+    /// Which joint, from 0 at the left springing.
+    pub joint: usize,
+    /// Friction angle, degrees.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(minimum = 0.0, exclusive_maximum = 90.0)]
+    pub friction_angle_deg: Option<f64>,
+    /// Cohesion, Pa.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(minimum = 0.0)]
+    pub cohesion_pa: Option<f64>,
+}
+
+/// How the load factor grows, and what it means to an engineer: intensity = load factor * `intensity_per_unit`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(default)]
+pub struct LoadFactorRequest {
+    /// From 0 upwards or downwards.
+    pub direction: DirectionRequest,
+    /// Largest absolute load factor to try.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(exclusive_minimum = 0.0)]
+    pub cap: Option<f64>,
+    /// Unit of the intensity, such as `kN/m` or `m`: a label only.
+    #[schema(max_length = 200)]
+    pub unit: String,
+    /// Intensity at load factor 1.
+    #[schema(exclusive_minimum = 0.0)]
+    pub intensity_per_unit: f64,
+}
+
+impl Default for LoadFactorRequest {
+    fn default() -> Self {
+        LoadFactorRequest {
+            direction: DirectionRequest::Increase,
+            cap: None,
+            unit: "-".to_owned(),
+            intensity_per_unit: 1.0,
+        }
+    }
+}
+
+/// Which way the load factor goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum DirectionRequest {
+    /// From 0 upwards.
+    Increase,
+    /// From 0 downwards.
+    Decrease,
+}
+
+/// How the load path is followed.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum MethodRequest {
+    /// Exactly, from one change of contact to the next.
+    #[default]
+    EventPath,
+    /// In equal steps with the paper's own hinge criterion, for comparison.
+    FixedSteps(FixedSteps),
+}
+
+/// Steps and hinge criterion of section 4.2 of the paper.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct FixedSteps {
+    /// Step of the load factor.
+    #[schema(exclusive_minimum = 0.0)]
+    pub step: f64,
+    /// Opening beyond which a joint counts as a hinge, m.
+    #[serde(default = "FixedSteps::default_opening")]
+    #[schema(exclusive_minimum = 0.0)]
+    pub opening_m: f64,
+    /// How many hinges make a collapse.
+    #[serde(default = "FixedSteps::default_hinges")]
+    #[schema(minimum = 1)]
+    pub hinges: usize,
+}
+
+impl FixedSteps {
+    fn default_opening() -> f64 {
+        0.01
+    }
+
+    fn default_hinges() -> usize {
+        3
+    }
+}
+
+/// What the answer shows.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(default)]
+pub struct ReportRequest {
+    /// At which share of the way to collapse displacements and contact forces are shown, between 0 and 1.
+    #[schema(exclusive_minimum = 0.0, exclusive_maximum = 1.0)]
+    pub share_of_collapse: f64,
+}
+
+impl Default for ReportRequest {
+    fn default() -> Self {
+        ReportRequest { share_of_collapse: 0.999 }
+    }
+}

@@ -1,0 +1,305 @@
+//! The arch of a request, set out.
+
+use super::MAX_LENGTH_M;
+use crate::api::fault::Faults;
+use crate::api::request::{
+    ArchRequest, Circular, JointsRequest, LineRequest, MultiCentre, Pointed, ProfileRequest, SpringingJoints, Surveyed,
+    ThicknessRequest,
+};
+use crate::arch::profile::Profile;
+use crate::arch::ring::{JointEnds, JointLines, Line, Ring, Thickness, stations};
+use crate::arch::{Arch, ArchFault, JointLaw, MAX_VOUSSOIRS, straight_regions};
+use crate::geometry::Vec2;
+
+/// Most faults of single stones that are listed.
+const MAX_STONE_FAULTS: usize = 20;
+
+/// The whole arch (never halved here), or faults.
+pub fn arch(request: &ArchRequest, law: JointLaw, faults: &mut Faults) -> Option<Arch> {
+    let before = faults.len();
+    if let Some(abutments) = &request.abutments {
+        faults.within("/arch/abutments/height_m", abutments.height_m, 0.0, MAX_LENGTH_M);
+    }
+    let (ends, ring, centre) = if let ProfileRequest::Surveyed(surveyed) = &request.profile {
+        let ends = surveyed_ends(request, surveyed, faults)?;
+        let centre = 0.25 * (ends[0][0] + ends[0][1] + ends[ends.len() - 1][0] + ends[ends.len() - 1][1]);
+        (ends, None, centre)
+    } else {
+        let ring = ring(request, faults)?;
+        let ends = ring.set_out().map_err(|found| list(&found, request, faults)).ok()?;
+        let centre = ring.profile.angle_centre();
+        (ends, Some(ring), centre)
+    };
+    let mut regions = straight_regions(&ends).map_err(|found| list(&found, request, faults)).ok()?;
+    if let Some(ring) = ring.filter(|_| request.curved_sides) {
+        regions = ring.curved_regions(&ends)?;
+    }
+    if faults.len() > before {
+        return None;
+    }
+    let mut arch = Arch::assemble(&ends, regions, law, centre);
+    if request.springing_joints == SpringingJoints::Bonded {
+        let last = arch.joints.len() - 1;
+        arch.joints[0].law = JointLaw::Bonded;
+        arch.joints[last].law = JointLaw::Bonded;
+    }
+    if let Some(abutments) = &request.abutments {
+        arch.stand_on_abutments(abutments.height_m);
+    }
+    Some(arch)
+}
+
+/// Where in a request a fault of the setting out is best mended.
+fn list(found: &[ArchFault], request: &ArchRequest, faults: &mut Faults) {
+    let surveyed = matches!(request.profile, ProfileRequest::Surveyed(_));
+    for fault in found.iter().take(MAX_STONE_FAULTS) {
+        match *fault {
+            ArchFault::JointMisses { .. } if matches!(request.joints, Some(JointsRequest::Rays(_))) => {
+                faults.add(
+                    "/arch/joints/rays/centre_m",
+                    format!("{fault}: move the centre so that every ray crosses the arch from inside to outside"),
+                );
+            }
+            ArchFault::JointMisses { .. } => {
+                faults.add("/arch/thickness", format!("{fault}: make the extrados enclose the intrados"));
+            }
+            ArchFault::JointsCross { voussoir } | ArchFault::InsideOut { voussoir } if surveyed => {
+                let pointer = format!("/arch/profile/surveyed/intrados_m/{voussoir}");
+                faults.add(
+                    pointer,
+                    format!("{fault}: list the joints from left to right, each from intrados to extrados"),
+                );
+            }
+            ArchFault::JointsCross { .. } | ArchFault::InsideOut { .. } => {
+                faults.add("/arch", format!("{fault}: make the arch thinner, or the voussoirs fewer or more equal"));
+            }
+            ArchFault::SpringingsCross => {
+                let pointer = if surveyed { "/arch/profile/surveyed" } else { "/arch/profile" };
+                faults.add(pointer, format!("{fault}: reduce the opening angle or the thickness"));
+            }
+        }
+    }
+}
+
+fn surveyed_ends(request: &ArchRequest, surveyed: &Surveyed, faults: &mut Faults) -> Option<Vec<JointEnds>> {
+    let before = faults.len();
+    let given = [
+        ("line", request.line.is_some()),
+        ("thickness", request.thickness.is_some()),
+        ("voussoirs", request.voussoirs.is_some()),
+        ("joints", request.joints.is_some()),
+        ("relative_lengths", request.relative_lengths.is_some()),
+    ];
+    for (name, is_given) in given {
+        let detail = "a surveyed arch has its corners and nothing else: leave this out";
+        faults.require(!is_given, format!("/arch/{name}"), detail);
+    }
+    faults.require(
+        !request.curved_sides,
+        "/arch/curved_sides",
+        "a surveyed arch has straight sides: set this to false",
+    );
+    let here = "/arch/profile/surveyed";
+    let (intrados, extrados) = (&surveyed.intrados_m, &surveyed.extrados_m);
+    let detail =
+        format!("{} intrados points but {} extrados points: give one pair per joint", intrados.len(), extrados.len());
+    faults.require(intrados.len() == extrados.len(), format!("{here}/extrados_m"), detail);
+    let detail =
+        format!("{} joints: an arch needs 3 to {} (2 to {MAX_VOUSSOIRS} voussoirs)", intrados.len(), MAX_VOUSSOIRS + 1);
+    faults.require((3..=MAX_VOUSSOIRS + 1).contains(&intrados.len()), format!("{here}/intrados_m"), detail);
+    for (name, points) in [("intrados_m", intrados), ("extrados_m", extrados)] {
+        let far = |value: &f64| value.abs() > MAX_LENGTH_M;
+        let bad = points.iter().enumerate().filter(|(_, point)| point.iter().any(far)).take(MAX_STONE_FAULTS);
+        for (k, _) in bad {
+            faults.add(format!("{here}/{name}/{k}"), format!("coordinates are in m and reach at most {MAX_LENGTH_M}"));
+        }
+    }
+    let pair = |(a, b): (&[f64; 2], &[f64; 2])| [Vec2::from(*a), Vec2::from(*b)];
+    (faults.len() == before).then(|| intrados.iter().zip(extrados).map(pair).collect())
+}
+
+fn ring(request: &ArchRequest, faults: &mut Faults) -> Option<Ring> {
+    let before = faults.len();
+    let profile = profile(&request.profile, faults);
+    let line = request.line.unwrap_or_default();
+    let thickness = thickness(request, line, profile.as_ref(), faults);
+    let lengths = lengths(request, faults);
+    let joints = match &request.joints {
+        Some(JointsRequest::Rays(rays)) => {
+            let near = rays.centre_m.iter().all(|value| value.abs() <= MAX_LENGTH_M);
+            let detail = format!("coordinates are in m and reach at most {MAX_LENGTH_M}");
+            faults.require(near, "/arch/joints/rays/centre_m", detail);
+            JointLines::Rays(Vec2::from(rays.centre_m))
+        }
+        _ => JointLines::Normal,
+    };
+    if request.curved_sides {
+        let circular = !matches!(request.profile, ProfileRequest::Elliptical(_));
+        let constant = matches!(thickness, Some(Thickness::Linear { crown, springing }) if crown == springing);
+        let exact = circular && (constant || thickness.is_none()) && joints == JointLines::Normal;
+        faults.require(exact, "/arch/curved_sides", "curved sides are for circular arcs of constant thickness with normal joints: set this to false, or change profile, thickness or joints");
+    }
+    let (profile, thickness, lengths) = (profile?, thickness?, lengths?);
+    let line = match line {
+        LineRequest::Axis => Line::Axis,
+        LineRequest::Intrados => Line::Intrados,
+    };
+    let stations = stations(profile.length(), &lengths);
+    (faults.len() == before).then_some(Ring { profile, line, thickness, joints, stations })
+}
+
+fn lengths(request: &ArchRequest, faults: &mut Faults) -> Option<Vec<f64>> {
+    let before = faults.len();
+    let Some(n) = request.voussoirs else {
+        faults.add("/arch/voussoirs", "the number of voussoirs is missing: add it");
+        return None;
+    };
+    let detail = format!("{n} voussoirs: an arch needs 2 to {MAX_VOUSSOIRS}");
+    faults.require((2..=MAX_VOUSSOIRS).contains(&n), "/arch/voussoirs", detail);
+    let Some(lengths) = &request.relative_lengths else { return (faults.len() == before).then(|| vec![1.0; n]) };
+    let here = "/arch/relative_lengths";
+    let detail = format!("{} lengths for {n} voussoirs: give one each", lengths.len());
+    faults.require(lengths.len() == n, here, detail);
+    for (i, &length) in lengths.iter().enumerate().filter(|(_, length)| **length <= 0.0).take(MAX_STONE_FAULTS) {
+        faults.add(format!("{here}/{i}"), format!("{length} is not positive: a voussoir has a length"));
+    }
+    faults.require(
+        lengths.iter().all(|&length| length <= MAX_LENGTH_M),
+        here,
+        format!("lengths reach at most {MAX_LENGTH_M}"),
+    );
+    (faults.len() == before).then(|| lengths.clone())
+}
+
+fn thickness(
+    request: &ArchRequest,
+    line: LineRequest,
+    profile: Option<&Profile>,
+    faults: &mut Faults,
+) -> Option<Thickness> {
+    let Some(thickness) = &request.thickness else {
+        faults.add("/arch/thickness", "the thickness is missing: add it");
+        return None;
+    };
+    let mut length = |pointer: &str, value: f64| {
+        let positive = faults.within(pointer, value, 0.0, MAX_LENGTH_M);
+        let least = profile.map_or(f64::INFINITY, Profile::least_radius);
+        if positive && line == LineRequest::Axis && 0.5 * value >= least {
+            faults.add(pointer, format!("half of {value} m is not less than the least radius of the axis, {least:.6} m: make the arch thinner"));
+            return false;
+        }
+        positive
+    };
+    match thickness {
+        ThicknessRequest::ConstantM(t) => {
+            length("/arch/thickness/constant_m", *t).then_some(Thickness::Linear { crown: *t, springing: *t })
+        }
+        ThicknessRequest::Linear(linear) => {
+            let crown = length("/arch/thickness/linear/crown_m", linear.crown_m);
+            let springing = length("/arch/thickness/linear/springing_m", linear.springing_m);
+            (crown && springing).then_some(Thickness::Linear { crown: linear.crown_m, springing: linear.springing_m })
+        }
+        ThicknessRequest::ExtradosCircle(circle) => {
+            let here = "/arch/thickness/extrados_circle";
+            let radius = faults.within(format!("{here}/radius_m"), circle.radius_m, 0.0, MAX_LENGTH_M);
+            let near = circle.centre_y_m.abs() <= MAX_LENGTH_M;
+            faults.require(near, format!("{here}/centre_y_m"), format!("a height in m, at most {MAX_LENGTH_M}"));
+            let on_intrados = line == LineRequest::Intrados;
+            faults.require(
+                on_intrados,
+                "/arch/line",
+                "with an extrados circle the profile has to be the intrados: set line to `intrados`",
+            );
+            (radius && near && on_intrados)
+                .then_some(Thickness::ExtradosCircle { radius: circle.radius_m, centre_y: circle.centre_y_m })
+        }
+    }
+}
+
+fn profile(request: &ProfileRequest, faults: &mut Faults) -> Option<Profile> {
+    match request {
+        ProfileRequest::Circular(circular) => circular_profile(circular, faults),
+        ProfileRequest::Pointed(pointed) => pointed_profile(pointed, faults),
+        ProfileRequest::Elliptical(ellipse) => {
+            let here = "/arch/profile/elliptical";
+            let span = faults.within(format!("{here}/span_m"), ellipse.span_m, 0.0, MAX_LENGTH_M);
+            let rise = faults.within(format!("{here}/rise_m"), ellipse.rise_m, 0.0, MAX_LENGTH_M);
+            let ratio = 2.0 * ellipse.rise_m / ellipse.span_m;
+            let measurable = !(span && rise) || (0.01..=100.0).contains(&ratio);
+            let detail = format!("the rise is {ratio} times half the span: it must be 0.01 to 100 times");
+            faults.require(measurable, format!("{here}/rise_m"), detail);
+            (span && rise && measurable).then(|| Profile::elliptical(ellipse.span_m, ellipse.rise_m))
+        }
+        ProfileRequest::MultiCentre(oval) => multi_centre_profile(oval, faults),
+        ProfileRequest::Surveyed(_) => None,
+    }
+}
+
+/// Of two ways to give a pair of sizes, the one that is complete and alone.
+fn either<'a>(
+    here: &str,
+    pairs: [[(&'a str, Option<f64>); 2]; 2],
+    faults: &mut Faults,
+) -> Option<(usize, [(&'a str, f64); 2])> {
+    let complete = pairs.map(|[(a, x), (b, y)]| Some([(a, x?), (b, y?)]));
+    let given = pairs.as_flattened().iter().filter(|(_, value)| value.is_some()).count();
+    match complete {
+        [Some(pair), None] if given == 2 => Some((0, pair)),
+        [None, Some(pair)] if given == 2 => Some((1, pair)),
+        _ => {
+            let [[(a, _), (b, _)], [c, d]] = [pairs[0], pairs[1]];
+            faults.add(here, format!("give either {a} and {b}, or {} and {}, and not the others", c.0, d.0));
+            None
+        }
+    }
+}
+
+fn circular_profile(circular: &Circular, faults: &mut Faults) -> Option<Profile> {
+    let here = "/arch/profile/circular";
+    let by_radius = [("radius_m", circular.radius_m), ("opening_angle_deg", circular.opening_angle_deg)];
+    let by_span = [("span_m", circular.span_m), ("rise_m", circular.rise_m)];
+    let (which, [(a, x), (b, y)]) = either(here, [by_radius, by_span], faults)?;
+    let first = faults.within(format!("{here}/{a}"), x, 0.0, MAX_LENGTH_M);
+    if which == 0 {
+        let detail = format!("{y} is out of range: the full opening angle is greater than 0 and less than 360 degrees");
+        let second = faults.require(y > 0.0 && y < 360.0, format!("{here}/{b}"), detail);
+        return (first && second).then(|| Profile::circular(x, y.to_radians()));
+    }
+    let second = faults.within(format!("{here}/{b}"), y, 0.0, MAX_LENGTH_M);
+    (first && second).then(|| Profile::circular_by_span(x, y))
+}
+
+fn pointed_profile(pointed: &Pointed, faults: &mut Faults) -> Option<Profile> {
+    let here = "/arch/profile/pointed";
+    let by_radius = [("radius_m", pointed.radius_m), ("centre_offset_m", pointed.centre_offset_m)];
+    let by_span = [("span_m", pointed.span_m), ("rise_m", pointed.rise_m)];
+    let (which, [(a, x), (b, y)]) = either(here, [by_radius, by_span], faults)?;
+    if !faults.within(format!("{here}/{a}"), x, 0.0, MAX_LENGTH_M) {
+        return None;
+    }
+    let second = format!("{here}/{b}");
+    if which == 0 {
+        let detail =
+            format!("{y} is out of range: the centres lie at least 0 and less than the radius, {x} m, from mid-span");
+        return faults.require(y >= 0.0 && y < x, second, detail).then(|| Profile::pointed(x, y));
+    }
+    let detail = format!("{y} is out of range: a pointed arch rises at least half its span, {} m", 0.5 * x);
+    let rises = faults.require(y >= 0.5 * x && y <= MAX_LENGTH_M, second, detail);
+    rises.then(|| Profile::pointed_by_span(x, y))
+}
+
+fn multi_centre_profile(oval: &MultiCentre, faults: &mut Faults) -> Option<Profile> {
+    let (here, before) = ("/arch/profile/multi_centre/arcs", faults.len());
+    let arcs = &oval.arcs;
+    let count = format!("{} arcs: give 1 to {MAX_VOUSSOIRS}", arcs.len());
+    faults.require((1..=MAX_VOUSSOIRS).contains(&arcs.len()), here, count);
+    for (i, arc) in arcs.iter().enumerate() {
+        faults.within(format!("{here}/{i}/radius_m"), arc.radius_m, 0.0, MAX_LENGTH_M);
+        faults.within(format!("{here}/{i}/angle_deg"), arc.angle_deg, 0.0, 180.0);
+    }
+    let sum: f64 = arcs.iter().map(|arc| arc.angle_deg).sum();
+    let detail = format!("the angles add up to {sum} degrees: half an arch turns by less than 180");
+    faults.require(faults.len() > before || sum < 180.0, here, detail);
+    let pairs: Vec<_> = arcs.iter().map(|arc| (arc.radius_m, arc.angle_deg.to_radians())).collect();
+    (faults.len() == before).then(|| Profile::multi_centre(&pairs))
+}

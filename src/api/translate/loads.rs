@@ -1,0 +1,165 @@
+//! The loads of a request as forces on voussoirs.
+
+use super::{MAX_DENSITY_KG_M3, MAX_FACTOR, MAX_FORCE_N_PER_M, MAX_LENGTH_M, MAX_STRESS_PA, friction_angle};
+use crate::api::fault::Faults;
+use crate::api::request::{FillPressure, LateralPressure, LoadEntry, LoadRequest, PatchLoad, PointLoad};
+use crate::arch::load::{Band, Fill, Load, LoadFault, Place};
+use crate::arch::{Arch, GRAVITY, PointForce};
+use crate::geometry::Vec2;
+
+/// Most loads of one request.
+pub const MAX_LOADS: usize = 1000;
+
+/// Fixed and scaled forces, on the whole arch where there is one.
+pub fn loads(
+    entries: &[LoadEntry],
+    arch: Option<&Arch>,
+    density: f64,
+    faults: &mut Faults,
+) -> (Vec<PointForce>, Vec<PointForce>) {
+    let (mut fixed, mut scaled) = (Vec::new(), Vec::new());
+    faults.require(
+        !entries.is_empty(),
+        "/loads",
+        "there is nothing to carry: list at least one load, such as self_weight",
+    );
+    if entries.len() > MAX_LOADS {
+        faults.add("/loads", format!("{} loads: list at most {MAX_LOADS}", entries.len()));
+        return (fixed, scaled);
+    }
+    for (i, entry) in entries.iter().enumerate() {
+        let before = faults.len();
+        check(&format!("/loads/{i}"), entry, faults);
+        let Some(arch) = arch.filter(|_| faults.len() == before) else { continue };
+        match load(&entry.load, density).on(arch, entry.coefficient) {
+            Ok(forces) if forces.is_empty() => {
+                faults.add(format!("/loads/{i}"), "this load puts no force on the arch: correct it or leave it out");
+            }
+            Ok(forces) => if entry.scaled { &mut scaled } else { &mut fixed }.extend(forces),
+            Err(fault) => {
+                faults.add(place(i, &entry.load, fault), format!("{fault}: correct it or leave the load out"));
+            }
+        }
+    }
+    (fixed, scaled)
+}
+
+/// Where a load that does not fit the arch is best mended.
+fn place(i: usize, load: &LoadRequest, fault: LoadFault) -> String {
+    let field = match (load, fault) {
+        (LoadRequest::FillPressure(_), _) => "fill_pressure/fill_height_m",
+        (LoadRequest::PointLoad(_), LoadFault::NoSuchVoussoir { .. }) => "point_load/voussoir",
+        (LoadRequest::PointLoad(_), _) => "point_load/x_m",
+        (LoadRequest::PatchLoad(_), _) => "patch_load/centre_x_m",
+        _ => return format!("/loads/{i}/load"),
+    };
+    format!("/loads/{i}/load/{field}")
+}
+
+/// A load in SI; of a point load with two places, the abscissa counts.
+pub fn load(request: &LoadRequest, density: f64) -> Load {
+    match request {
+        LoadRequest::SelfWeight(_) => Load::SelfWeight(density),
+        LoadRequest::FillPressure(fill) => Load::Fill(Fill {
+            height: fill.fill_height_m,
+            density: fill.fill_density_kg_m3,
+            embankment: fill.embankment_thickness_m,
+            embankment_density: fill.embankment_density_kg_m3,
+            lateral_ratio: fill.lateral_ratio.unwrap_or(1.0 - fill.fill_friction_angle_deg.to_radians().sin()),
+        }),
+        LoadRequest::LateralPressure(lateral) => {
+            let band = |band: &crate::api::request::PressureBand| Band {
+                from: band.from_m,
+                to: band.to_m,
+                pressure: band.pressure_pa,
+            };
+            Load::Lateral(lateral.bands.iter().map(band).collect())
+        }
+        LoadRequest::PointLoad(point) => {
+            let place = match (point.x_m, point.voussoir) {
+                (None, Some(voussoir)) => Place::Voussoir(voussoir),
+                (x, _) => Place::Abscissa(x.unwrap_or(0.0)),
+            };
+            Load::Point(point.force_n_per_m, place)
+        }
+        LoadRequest::PatchLoad(patch) => {
+            Load::Patch { force: patch.force_n_per_m, centre: patch.centre_x_m, width: patch.width_m }
+        }
+        LoadRequest::BodyAcceleration(body) => Load::BodyAcceleration(density, GRAVITY * Vec2::new(body.x_g, body.y_g)),
+    }
+}
+
+fn check(here: &str, entry: &LoadEntry, faults: &mut Faults) {
+    not_zero(&format!("{here}/coefficient"), entry.coefficient, MAX_FACTOR, faults);
+    let here = format!("{here}/load");
+    match &entry.load {
+        LoadRequest::SelfWeight(_) => {}
+        LoadRequest::FillPressure(fill) => check_fill(&format!("{here}/fill_pressure"), fill, faults),
+        LoadRequest::LateralPressure(lateral) => check_lateral(&format!("{here}/lateral_pressure"), lateral, faults),
+        LoadRequest::PointLoad(point) => check_point(&format!("{here}/point_load"), point, faults),
+        LoadRequest::PatchLoad(patch) => check_patch(&format!("{here}/patch_load"), patch, faults),
+        LoadRequest::BodyAcceleration(body) => {
+            for (name, value) in [("x_g", body.x_g), ("y_g", body.y_g)] {
+                at_most(&format!("{here}/body_acceleration/{name}"), value, MAX_FACTOR, faults);
+            }
+        }
+    }
+}
+
+fn at_most(pointer: &str, value: f64, most: f64, faults: &mut Faults) {
+    faults.require(
+        value.abs() <= most,
+        pointer,
+        format!("{value} is out of range: it lies between -{most} and {most}"),
+    );
+}
+
+fn not_zero(pointer: &str, value: f64, most: f64, faults: &mut Faults) {
+    at_most(pointer, value, most, faults);
+    faults.require(value != 0.0, pointer, "0 makes this load vanish: give another number or leave the load out");
+}
+
+fn check_fill(here: &str, fill: &FillPressure, faults: &mut Faults) {
+    if let Some(height) = fill.fill_height_m {
+        at_most(&format!("{here}/fill_height_m"), height, MAX_LENGTH_M, faults);
+    }
+    let thickness = fill.embankment_thickness_m;
+    let some = fill.fill_height_m.is_some() || thickness > 0.0;
+    faults.require(some, here, "neither fill nor embankment: give fill_height_m, embankment_thickness_m or both");
+    faults.from_to(format!("{here}/embankment_thickness_m"), thickness, 0.0, MAX_LENGTH_M);
+    faults.from_to(format!("{here}/fill_density_kg_m3"), fill.fill_density_kg_m3, 0.0, MAX_DENSITY_KG_M3);
+    faults.from_to(format!("{here}/embankment_density_kg_m3"), fill.embankment_density_kg_m3, 0.0, MAX_DENSITY_KG_M3);
+    friction_angle(&format!("{here}/fill_friction_angle_deg"), fill.fill_friction_angle_deg, faults);
+    if let Some(ratio) = fill.lateral_ratio {
+        faults.from_to(format!("{here}/lateral_ratio"), ratio, 0.0, MAX_FACTOR);
+    }
+}
+
+fn check_lateral(here: &str, lateral: &LateralPressure, faults: &mut Faults) {
+    let bands = &lateral.bands;
+    let count = (1..=MAX_LOADS).contains(&bands.len());
+    if !faults.require(count, format!("{here}/bands"), format!("{} bands: list 1 to {MAX_LOADS}", bands.len())) {
+        return;
+    }
+    for (i, band) in bands.iter().enumerate() {
+        let here = format!("{here}/bands/{i}");
+        at_most(&format!("{here}/from_m"), band.from_m, MAX_LENGTH_M, faults);
+        at_most(&format!("{here}/pressure_pa"), band.pressure_pa, MAX_STRESS_PA, faults);
+        let detail = format!(
+            "a band goes upwards: to_m must be greater than from_m = {} and at most {MAX_LENGTH_M}",
+            band.from_m
+        );
+        faults.require(band.to_m > band.from_m && band.to_m <= MAX_LENGTH_M, format!("{here}/to_m"), detail);
+    }
+}
+
+fn check_point(here: &str, point: &PointLoad, faults: &mut Faults) {
+    not_zero(&format!("{here}/force_n_per_m"), point.force_n_per_m, MAX_FORCE_N_PER_M, faults);
+    let one = point.x_m.is_some() != point.voussoir.is_some();
+    faults.require(one, here, "give either x_m or voussoir, not both and not neither");
+}
+
+fn check_patch(here: &str, patch: &PatchLoad, faults: &mut Faults) {
+    not_zero(&format!("{here}/force_n_per_m"), patch.force_n_per_m, MAX_FORCE_N_PER_M, faults);
+    faults.within(format!("{here}/width_m"), patch.width_m, 0.0, MAX_LENGTH_M);
+}

@@ -1,0 +1,114 @@
+//! JSON text to a tree, noticing names that stand twice in one object.
+
+use super::fault::child;
+use serde::de::{DeserializeSeed, Deserializer, Error, MapAccess, SeqAccess, Visitor};
+use serde_json::{Map, Value};
+use std::cell::RefCell;
+
+/// Reads JSON text; beside the tree, pointers to all names that stand twice (the later value is kept).
+///
+/// # Errors
+/// When the text is not one JSON value.
+pub fn parse(text: &[u8]) -> Result<(Value, Vec<String>), serde_json::Error> {
+    let repeated = RefCell::new(Vec::new());
+    let mut reader = serde_json::Deserializer::from_slice(text);
+    let value = Node { pointer: String::new(), repeated: &repeated }.deserialize(&mut reader)?;
+    reader.end()?;
+    Ok((value, repeated.into_inner()))
+}
+
+struct Node<'a> {
+    pointer: String,
+    repeated: &'a RefCell<Vec<String>>,
+}
+
+impl Node<'_> {
+    fn child(&self, key: &str) -> Self {
+        Node { pointer: child(&self.pointer, key), repeated: self.repeated }
+    }
+}
+
+impl<'de> DeserializeSeed<'de> for Node<'_> {
+    type Value = Value;
+
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Value, D::Error> {
+        deserializer.deserialize_any(self)
+    }
+}
+
+impl<'de> Visitor<'de> for Node<'_> {
+    type Value = Value;
+
+    fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("a JSON value")
+    }
+
+    fn visit_bool<E>(self, value: bool) -> Result<Value, E> {
+        Ok(value.into())
+    }
+
+    fn visit_i64<E>(self, value: i64) -> Result<Value, E> {
+        Ok(value.into())
+    }
+
+    fn visit_u64<E>(self, value: u64) -> Result<Value, E> {
+        Ok(value.into())
+    }
+
+    fn visit_f64<E>(self, value: f64) -> Result<Value, E> {
+        Ok(value.into())
+    }
+
+    fn visit_str<E: Error>(self, value: &str) -> Result<Value, E> {
+        Ok(value.into())
+    }
+
+    fn visit_unit<E>(self) -> Result<Value, E> {
+        Ok(Value::Null)
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut items: A) -> Result<Value, A::Error> {
+        let mut list = Vec::new();
+        while let Some(item) = items.next_element_seed(self.child(&list.len().to_string()))? {
+            list.push(item);
+        }
+        Ok(Value::Array(list))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut members: A) -> Result<Value, A::Error> {
+        let mut object = Map::new();
+        while let Some(name) = members.next_key::<String>()? {
+            let node = self.child(&name);
+            let pointer = node.pointer.clone();
+            let value = members.next_value_seed(node)?;
+            if object.insert(name, value).is_some() {
+                self.repeated.borrow_mut().push(pointer);
+            }
+        }
+        Ok(Value::Object(object))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_tree_is_that_of_serde_json() {
+        let text = br#"{"a": [1, -2, 2.5, "x", null, true, {"b/c": []}], "d": 1e300}"#;
+        let (tree, repeated) = parse(text).unwrap();
+        assert_eq!(tree, serde_json::from_slice::<Value>(text).unwrap());
+        assert!(repeated.is_empty());
+    }
+
+    #[test]
+    fn repeated_names_are_found_at_any_depth() {
+        let (_, repeated) = parse(br#"{"a": [{"x": 1, "x": 2}], "a/": {"y": 1}, "a/": 3}"#).unwrap();
+        assert_eq!(repeated, ["/a/0/x", "/a~1"]);
+    }
+
+    #[test]
+    fn more_than_one_value_is_refused() {
+        assert!(parse(b"{} {}").is_err());
+    }
+}
