@@ -6,6 +6,7 @@ mod mechanism;
 mod path;
 mod record;
 pub mod report;
+mod smallest_motion;
 mod verdict;
 
 pub use report::*;

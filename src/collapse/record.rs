@@ -5,6 +5,7 @@ use super::{BlockState, ContactForce, Face, HistoryPoint, Method, Snapshot};
 use crate::dda::V6;
 use crate::geometry::Vec2;
 use std::collections::VecDeque;
+use std::rc::Rc;
 
 /// A point of the path.
 type Point = (f64, Vec<V6>);
@@ -18,10 +19,10 @@ pub(super) struct Recorder<'a> {
     start: f64,
     crown: [usize; 2],
     /// Points from which the one at `share` of the way to the highest load factor so far can be interpolated.
-    recent: VecDeque<Point>,
+    recent: VecDeque<Rc<Point>>,
     /// Load factor farthest from the start so far.
     farthest: f64,
-    last: Option<Point>,
+    last: Option<Rc<Point>>,
     steps_done: usize,
     /// Load-displacement history.
     pub history: Vec<HistoryPoint>,
@@ -49,14 +50,14 @@ impl<'a> Recorder<'a> {
 
     /// Takes in the next point; returns a load factor when the fixed-steps criterion says collapse.
     pub(super) fn see(&mut self, load_factor: f64, displacements: &[V6]) -> Option<f64> {
-        let now = (load_factor, displacements.to_vec());
+        let now = Rc::new((load_factor, displacements.to_vec()));
         if let Some(before) = self.last.take() {
             if self.at_one.is_none() && (before.0 - 1.0) * (load_factor - 1.0) <= 0.0 && before.0 != load_factor {
                 self.at_one = Some(interpolate(&before, &now, 1.0));
             }
             if let Some(met) = self.fixed_steps(&before, &now) {
                 let load_factor = met.0;
-                self.last = Some(met);
+                self.last = Some(Rc::new(met));
                 return Some(load_factor);
             }
         }
@@ -71,12 +72,12 @@ impl<'a> Recorder<'a> {
         self.last.as_ref().map_or(&[], |point| &point.1)
     }
 
-    fn keep(&mut self, now: &Point) {
+    fn keep(&mut self, now: &Rc<Point>) {
         if (now.0 - self.start).abs() < (self.farthest - self.start).abs() {
             return;
         }
         self.farthest = now.0;
-        self.recent.push_back(now.clone());
+        self.recent.push_back(Rc::clone(now));
         let wanted = self.share * (self.farthest - self.start).abs();
         while self.recent.len() > 2 && (self.recent[1].0 - self.start).abs() <= wanted {
             self.recent.pop_front();
@@ -102,7 +103,7 @@ impl<'a> Recorder<'a> {
             self.model.chain.blocks()[block].motion(&displacements[block]).0
         };
         let crown = 0.5 * (of(self.crown[0]) + of(self.crown[1]));
-        let largest = (0..self.model.voussoirs).map(|v| of(v).norm()).fold(0.0, f64::max);
+        let largest = (0..self.model.voussoirs).map(|v| of(v).norm_squared()).fold(0.0, f64::max).sqrt();
         HistoryPoint { load_factor, crown, largest }
     }
 

@@ -117,9 +117,9 @@ impl Chain {
                     ([0, 1].map(|i| (c.normal[i] + c.tangent[i] * slope) * k_n), [V6::zeros(); 2])
                 }
             };
-            for i in 0..2 {
-                for j in 0..2 {
-                    blocks[i][j] += on_normal[i] * c.normal[j].transpose() + on_tangent[i] * c.tangent[j].transpose();
+            for (i, row) in blocks.iter_mut().enumerate() {
+                for (j, block) in row.iter_mut().enumerate() {
+                    *block += on_normal[i] * c.normal[j].transpose() + on_tangent[i] * c.tangent[j].transpose();
                 }
             }
         }

@@ -5,10 +5,14 @@
 //! that path exactly. It never asks for a direction of loading: after each crossing the sign of the new tangent is the
 //! one that goes on crossing, so rises and falls of the load factor, and momentary mechanisms, pass by themselves.
 
+mod equilibrium;
+
+pub use equilibrium::covering;
+
 use super::block::{M6, V6};
 use super::chain::Chain;
-use super::contact::{Contact, Law, State};
-use super::factor::Factor;
+use super::contact::State;
+use super::factor::{Factor, Tridiagonal};
 use std::ops::ControlFlow;
 
 /// What is driven along the path: loads `base + parameter * rate`, and a pre-load that keeps every contact pressed,
@@ -59,11 +63,6 @@ const STILL: f64 = 1e-7;
 const FAR: f64 = 10.0;
 /// So many steps of length zero in a row mean that ties do not resolve.
 const MOST_ZERO_STEPS: usize = 60;
-/// Equilibrium residual, as a share of the load scale, above which the displacements are corrected; and above which
-/// the path is given up.
-const CORRECT: f64 = 1e-11;
-const GIVE_UP: f64 = 1e-6;
-
 /// Follows the load path of a chain.
 #[derive(Debug, Clone)]
 pub struct Tracer<'a> {
@@ -82,9 +81,8 @@ pub struct Tracer<'a> {
 
     elastic: Vec<M6>,
     interface: Vec<[[M6; 2]; 2]>,
-    diagonal: Vec<M6>,
-    upper: Vec<M6>,
-    lower: Vec<M6>,
+    matrix: Tridiagonal,
+    load_rate: Vec<V6>,
     factor: Factor,
     /// Scratch: gaps and gap rates of all contacts, tangent direction.
     gaps: Vec<[f64; 2]>,
@@ -125,10 +123,13 @@ impl<'a> Tracer<'a> {
             peak: None,
             elastic: chain.blocks().iter().map(|b| b.stiffness()).collect(),
             interface: vec![[[M6::zeros(); 2]; 2]; n + 1],
-            diagonal: vec![M6::zeros(); n],
-            upper: vec![M6::zeros(); n.saturating_sub(1)],
-            lower: vec![M6::zeros(); n.saturating_sub(1)],
-            factor: Factor::default(),
+            matrix: Tridiagonal {
+                diagonal: vec![M6::zeros(); n],
+                upper: vec![M6::zeros(); n.saturating_sub(1)],
+                lower: vec![M6::zeros(); n.saturating_sub(1)],
+            },
+            load_rate: vec![V6::zeros(); n],
+            factor: Factor::new(n),
             gaps: Vec::new(),
             rates: Vec::new(),
             direction: vec![V6::zeros(); n],
@@ -162,10 +163,10 @@ impl<'a> Tracer<'a> {
                 _ => {}
             }
         }
+        (self.drive, self.parameter, self.peak) = (drive, parameter, None);
         for k in 0..self.chain.interfaces() {
             self.reassemble(k);
         }
-        (self.drive, self.parameter, self.peak) = (drive, parameter, None);
     }
 
     /// Traces until the parameter reaches `target` (> the current one) or the path ends. `see` is called at the start
@@ -234,13 +235,8 @@ impl<'a> Tracer<'a> {
 
     /// Solves for the tangent of the path, its largest entry 1 m.
     fn solve_tangent(&mut self) {
-        self.factor.update(&self.diagonal, &self.upper, &self.lower);
+        self.factor.update(&self.matrix, &self.load_rate, &mut self.direction);
         self.factorisations += 1;
-        self.direction.copy_from_slice(&self.drive.rate);
-        if self.drive.offset[1] != 0.0 {
-            self.add_offset_load();
-        }
-        self.factor.solve(&self.lower, &mut self.direction);
         let largest = self.direction.iter().map(|d| d.amax()).fold(0.0, f64::max);
         self.rate = if largest > 0.0 { 1.0 / largest } else { 1.0 };
         self.direction.iter_mut().for_each(|d| *d *= self.rate);
@@ -251,22 +247,6 @@ impl<'a> Tracer<'a> {
         self.direction.iter_mut().for_each(|d| *d = -*d);
         self.rates.iter_mut().for_each(|g| *g = g.map(|x| -x));
         self.rate = -self.rate;
-    }
-
-    /// Loads that the fading offset puts on the blocks, per unit of the parameter.
-    fn add_offset_load(&mut self) {
-        for k in 0..self.chain.interfaces() {
-            for p in self.chain.at_interface(k) {
-                let contact = &self.chain.contacts()[p];
-                let force = contact.pressure(self.drive.offset[1]);
-                let slope = match self.states[p] {
-                    State::Open | State::Bonded => continue,
-                    State::Stick => 0.0,
-                    State::Slip { sign, branch } => sign * contact.law.branches()[branch].0,
-                };
-                push(&mut self.direction, contact, k, force, slope * force);
-            }
-        }
     }
 
     /// Calls `see(value, rate, next)` for every way out of `state` at contact `p`, along the current direction.
@@ -298,49 +278,6 @@ impl<'a> Tracer<'a> {
         nearest
     }
 
-    /// Measures the equilibrium residual of every block, corrects the displacements where it matters; false when
-    /// equilibrium is lost.
-    fn keep_equilibrium(&mut self) -> bool {
-        let mut worst = self.find_residual();
-        if worst > CORRECT && !self.is_mechanism() {
-            self.factor.solve(&self.lower, &mut self.residual);
-            for (d, correction) in self.displacements.iter_mut().zip(&self.residual) {
-                *d += correction;
-            }
-            worst = self.find_residual();
-        }
-        self.worst_residual = self.worst_residual.max(worst);
-        worst < GIVE_UP
-    }
-
-    /// Fills `residual` with load minus resistance of every block; returns the largest entry over the load scale.
-    fn find_residual(&mut self) -> f64 {
-        self.chain.gaps(&self.displacements, &mut self.gaps);
-        for (i, r) in self.residual.iter_mut().enumerate() {
-            *r = self.drive.base[i] + self.drive.rate[i] * self.parameter - self.elastic[i] * self.displacements[i];
-        }
-        let offset = self.offset();
-        for k in 0..self.chain.interfaces() {
-            for p in self.chain.at_interface(k) {
-                let contact = &self.chain.contacts()[p];
-                let [gap, slip] = self.gaps[p];
-                let trial = contact.trial_shear(slip, self.anchors[p]);
-                let (normal, shear) = match self.states[p] {
-                    State::Open => continue,
-                    State::Bonded => (contact.pressure(gap), trial),
-                    State::Stick => (contact.pressure(gap + offset), trial),
-                    State::Slip { sign, branch } => {
-                        let normal = contact.pressure(gap + offset);
-                        let (slope, intercept) = contact.law.branches()[branch];
-                        (normal, sign * (slope * normal + intercept))
-                    }
-                };
-                push(&mut self.residual, contact, k, normal, shear);
-            }
-        }
-        self.residual.iter().map(|r| r.amax()).fold(0.0, f64::max) / self.load_scale
-    }
-
     fn note_peak(&mut self) {
         let highest = self.peak.as_ref().is_none_or(|peak| self.parameter >= peak.parameter);
         if highest && (self.rate <= 0.0 || self.is_mechanism()) {
@@ -351,22 +288,6 @@ impl<'a> Tracer<'a> {
                 states: self.states.clone(),
             });
         }
-    }
-
-    fn reassemble(&mut self, k: usize) {
-        self.interface[k] = self.chain.interface_stiffness(k, &self.states);
-        let n = self.diagonal.len();
-        for i in k.saturating_sub(1)..(k + 1).min(n) {
-            self.diagonal[i] = self.elastic[i] + self.interface[i][1][1] + self.interface[i + 1][0][0];
-        }
-        if k > 0 && k < n {
-            (self.upper[k - 1], self.lower[k - 1]) = (self.interface[k][0][1], self.interface[k][1][0]);
-        }
-        self.factor.invalidate(k.saturating_sub(1));
-    }
-
-    fn offset(&self) -> f64 {
-        self.drive.offset[0] + self.drive.offset[1] * self.parameter
     }
 
     /// True where the present contact state leaves the chain free to move.
@@ -413,32 +334,4 @@ impl<'a> Tracer<'a> {
     pub fn worst_residual(&self) -> f64 {
         self.worst_residual
     }
-}
-
-/// Adds the generalised force of a contact of interface `k` to the blocks beside it.
-fn push(blocks: &mut [V6], contact: &Contact, k: usize, normal: f64, shear: f64) {
-    if k > 0 {
-        blocks[k - 1] += contact.normal[0] * normal + contact.tangent[0] * shear;
-    }
-    if k < blocks.len() {
-        blocks[k] += contact.normal[1] * normal + contact.tangent[1] * shear;
-    }
-}
-
-/// The drive that takes a chain from an unstressed start, where every contact is pressed by a fictitious pre-load and
-/// the exact answer is D = 0, to its true `loads` at parameter 1.
-///
-/// The pre-load is a gap offset that fades with the parameter, balanced by fictitious block loads that fade with it.
-pub fn covering(chain: &Chain, loads: &[V6], preload: f64) -> Drive {
-    let mut base = vec![V6::zeros(); loads.len()];
-    for k in 0..chain.interfaces() {
-        for p in chain.at_interface(k) {
-            let contact = &chain.contacts()[p];
-            if contact.law != Law::Bonded {
-                push(&mut base, contact, k, -contact.pressure(-preload), 0.0);
-            }
-        }
-    }
-    let rate = loads.iter().zip(&base).map(|(load, start)| load - start).collect();
-    Drive { base, rate, offset: [-preload, preload] }
 }

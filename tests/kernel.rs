@@ -1,0 +1,206 @@
+//! The mechanics alone, against closed forms: blocks on slopes, stacks, portals and overhangs.
+//!
+//! No arch here: chains are built by hand, and the expected values are one-line statics.
+
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+use std::ops::ControlFlow;
+use voussoir::dda::{Block, Chain, ChainBuilder, Drive, Elasticity, End, Law, Tracer, V6, covering};
+use voussoir::geometry::{Region, Vec2};
+
+const PENALTY: f64 = 1e10;
+const WEIGHT_DENSITY: f64 = 2300.0 * 9.81;
+
+/// An axis-parallel block by its lower left and upper right corner.
+#[derive(Clone, Copy)]
+struct Rectangle {
+    low: Vec2,
+    high: Vec2,
+}
+
+fn rectangle(x: f64, y: f64, width: f64, height: f64) -> Rectangle {
+    Rectangle { low: Vec2::new(x, y), high: Vec2::new(x + width, y + height) }
+}
+
+impl Rectangle {
+    fn area(&self) -> f64 {
+        let size = self.high - self.low;
+        size.x * size.y
+    }
+
+    fn block(&self) -> Block {
+        let region = Region { area: self.area(), centroid: 0.5 * (self.low + self.high) };
+        Block::new(region, Elasticity { youngs_modulus: 1e9, poissons_ratio: 0.25, plane_strain: false })
+    }
+}
+
+/// A horizontal contact face at height `y` from `left` to `right`; `up` is the side the block after lies on.
+struct Face {
+    y: f64,
+    left: f64,
+    right: f64,
+    up: f64,
+}
+
+/// A chain of rectangles from the ground through `faces` (one per interface, as many as there are).
+fn chain(rectangles: &[Rectangle], faces: &[Face], friction: f64) -> Chain {
+    let mut builder = ChainBuilder::new(rectangles.iter().map(Rectangle::block).collect());
+    for (i, face) in faces.iter().enumerate() {
+        for (j, x) in [face.left, face.right].into_iter().enumerate() {
+            // A little scatter in stiffness, as analyses have it, so that ties resolve.
+            let stiffness = [PENALTY * (1.0 + 1e-5 * (2 * i + j) as f64); 2];
+            let law = Law::Coulomb { friction, cohesion: 0.0 };
+            builder.contact(Vec2::new(x, face.y), Vec2::y() * face.up, Vec2::x(), stiffness, law);
+        }
+        builder.next_interface();
+    }
+    builder.finish()
+}
+
+/// Blocks of equal size one on the other, each set off by `shift[i]` from the left.
+fn stack(shifts: &[f64], b: f64, h: f64, friction: f64) -> (Vec<Rectangle>, Chain) {
+    let blocks: Vec<_> = shifts.iter().enumerate().map(|(i, &x)| rectangle(x, i as f64 * h, b, h)).collect();
+    let faces: Vec<_> = (0..shifts.len())
+        .map(|i| {
+            let below = if i == 0 { f64::NEG_INFINITY } else { shifts[i - 1] };
+            let under = if i == 0 { f64::INFINITY } else { shifts[i - 1] + b };
+            Face { y: i as f64 * h, left: shifts[i].max(below), right: (shifts[i] + b).min(under), up: 1.0 }
+        })
+        .collect();
+    let chain = chain(&blocks, &faces, friction);
+    (blocks, chain)
+}
+
+/// Loads that a uniform acceleration (in g) puts on the blocks.
+fn body_loads(blocks: &[Rectangle], chain: &Chain, acceleration: Vec2) -> Vec<V6> {
+    let pairs = blocks.iter().zip(chain.blocks());
+    pairs.map(|(r, b)| b.load(0.5 * (r.low + r.high), acceleration * (WEIGHT_DENSITY * r.area()))).collect()
+}
+
+fn weight(blocks: &[Rectangle]) -> f64 {
+    blocks.iter().map(|b| b.area() * WEIGHT_DENSITY).sum()
+}
+
+fn watch(_: &Tracer) -> ControlFlow<()> {
+    ControlFlow::Continue(())
+}
+
+/// Brings the loads on; the tracer stands at them if the end says so.
+fn stand<'a>(blocks: &[Rectangle], chain: &'a Chain, loads: &[V6]) -> (Tracer<'a>, End) {
+    let largest = loads.iter().map(|l| l.amax()).fold(0.0, f64::max);
+    let preload = loads.len() as f64 * largest / PENALTY;
+    let mut tracer = Tracer::new(chain, covering(chain, loads, preload), 10.0, weight(blocks));
+    let end = tracer.trace(1.0, &mut watch);
+    (tracer, end)
+}
+
+/// Horizontal acceleration in g at which the blocks fall.
+fn lateral_capacity(blocks: &[Rectangle], chain: &Chain) -> f64 {
+    let gravity = body_loads(blocks, chain, Vec2::new(0.0, -1.0));
+    let (mut tracer, end) = stand(blocks, chain, &gravity);
+    assert_eq!(end, End::Reached);
+    let rate = body_loads(blocks, chain, Vec2::new(1.0, 0.0));
+    tracer.commit(Drive { base: gravity, rate, offset: [0.0, 0.0] }, 0.0);
+    assert_eq!(tracer.trace(1e3, &mut watch), End::Mechanism);
+    assert!(tracer.worst_residual() < 1e-9);
+    tracer.peak().unwrap().parameter
+}
+
+/// What a block on a slope does: its first motion as gravity comes on.
+fn on_slope(b: f64, h: f64, slope_deg: f64, friction_deg: f64) -> &'static str {
+    let (blocks, chain) = stack(&[0.0], b, h, friction_deg.to_radians().tan());
+    let slope = slope_deg.to_radians();
+    let loads = body_loads(&blocks, &chain, Vec2::new(slope.sin(), -slope.cos()));
+    let (tracer, end) = stand(&blocks, &chain, &loads);
+    if end == End::Reached {
+        return "stable";
+    }
+    assert_eq!(end, End::Mechanism);
+    let (_, rotation) = chain.blocks()[0].motion(&tracer.peak().unwrap().direction[0]);
+    if rotation.abs() * h > 1e-6 { "topple" } else { "slide" }
+}
+
+#[test]
+fn block_on_a_slope() {
+    // Verification problem "sliding and toppling blocks" (after Wyllie and Mah 2004) and rigid-body statics.
+    let rows = [
+        (10.0, 10.0, 40.0, 40.1, "stable"),
+        (10.0, 5.0, 40.0, 20.0, "slide"),
+        (0.4, 1.0, 40.0, 40.1, "topple"),
+        (0.4, 1.0, 40.0, 20.0, "slide"),
+        (0.4, 1.0, 18.0, 30.0, "stable"),
+        (0.5, 1.0, 30.0, 28.0, "topple"),
+        (0.5, 1.0, 30.0, 20.0, "slide"),
+    ];
+    for (b, h, slope, friction, expected) in rows {
+        assert_eq!(on_slope(b, h, slope, friction), expected, "b={b} h={h} slope={slope} phi={friction}");
+    }
+}
+
+#[test]
+fn stacks_slide_or_topple_at_the_smaller_of_mu_and_b_over_nh() {
+    for (n, b, h, friction) in
+        [(1, 0.2, 1.0, 0.7), (2, 1.0, 1.0, 0.3), (3, 1.0, 1.0, 0.7), (3, 1.0, 1.0, 0.2), (5, 1.0, 0.5, 0.7)]
+    {
+        let (blocks, chain) = stack(&vec![0.0; n], b, h, friction);
+        let expected = friction.min(b / (n as f64 * h));
+        let got = lateral_capacity(&blocks, &chain);
+        assert!((got / expected - 1.0).abs() < 1e-9, "n={n} b={b} h={h} mu={friction}: {got} not {expected}");
+    }
+}
+
+#[test]
+fn portal_falls_as_a_four_hinge_sway_or_slides() {
+    // Columns 1 x 4 under a lintel 6 x 1. Sway by theta: the columns' weights rise by 0.5 theta at their centres and
+    // the lintel's by 1.0 theta, while they move sideways by 2 theta, 2 theta and 4 theta: lambda = 10/40.
+    let blocks = [rectangle(0.0, 0.0, 1.0, 4.0), rectangle(0.0, 4.0, 6.0, 1.0), rectangle(5.0, 0.0, 1.0, 4.0)];
+    let face = |y, left, right, up| Face { y, left, right, up };
+    for (friction, expected) in [(10.0, 0.25), (0.2, 0.2)] {
+        let faces =
+            [face(0.0, 0.0, 1.0, 1.0), face(4.0, 0.0, 1.0, 1.0), face(4.0, 5.0, 6.0, -1.0), face(0.0, 5.0, 6.0, -1.0)];
+        let got = lateral_capacity(&blocks, &chain(&blocks, &faces, friction));
+        assert!((got / expected - 1.0).abs() < 1e-9, "mu={friction}: {got} not {expected}");
+    }
+}
+
+#[test]
+fn overhang_stands_just_below_the_harmonic_limit_and_falls_just_above() {
+    for n in [2, 3, 5, 10] {
+        for (share, expected) in [(0.999, End::Reached), (1.001, End::Mechanism)] {
+            // From the top down the blocks jut out by 1/2, 1/4, 1/6, ... of a length; the lowest over the table edge.
+            let mut shifts = vec![0.0; n];
+            let mut x = 0.0;
+            for (i, shift) in shifts.iter_mut().enumerate() {
+                x += share * 0.5 / (n - i) as f64;
+                *shift = x;
+            }
+            let (blocks, _) = stack(&shifts, 1.0, 0.1, 0.7);
+            let faces: Vec<_> = (0..n)
+                .map(|i| Face {
+                    y: 0.1 * i as f64,
+                    left: shifts[i],
+                    right: if i == 0 { 1.0 } else { shifts[i - 1] + 1.0 },
+                    up: 1.0,
+                })
+                .collect();
+            let chain = chain(&blocks, &faces, 0.7);
+            let (_, end) = stand(&blocks, &chain, &body_loads(&blocks, &chain, Vec2::new(0.0, -1.0)));
+            assert_eq!(end, expected, "n={n} at {share} of the limit");
+        }
+    }
+}
+
+#[test]
+fn a_pile_carries_its_weight_as_mean_stress_and_penetrates_by_n_over_2k() {
+    let (blocks, chain) = stack(&[0.0; 4], 1.0, 0.5, 0.7);
+    let (tracer, end) = stand(&blocks, &chain, &body_loads(&blocks, &chain, Vec2::new(0.0, -1.0)));
+    assert_eq!(end, End::Reached);
+    for (i, (block, d)) in chain.blocks().iter().zip(tracer.displacements()).enumerate() {
+        let above = (3 - i) as f64 * 0.5;
+        let expected = -WEIGHT_DENSITY * (above + 0.25);
+        assert!((block.stress(d)[1] / expected - 1.0).abs() < 1e-9, "block {i}: {} not {expected}", block.stress(d)[1]);
+    }
+    let forces = chain.contact_forces(tracer.displacements(), tracer.anchors());
+    let penetration = WEIGHT_DENSITY * 4.0 * 0.5 / (2.0 * PENALTY);
+    assert!((-forces[0].gap / penetration - 1.0).abs() < 1e-3);
+}
