@@ -9,3 +9,4 @@ pub mod geometry;
 #[cfg(feature = "server")]
 pub mod jobs;
 pub mod limit;
+pub mod render;

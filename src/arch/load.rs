@@ -270,3 +270,6 @@ pub fn is_symmetric(forces: &[PointForce], voussoirs: usize, axis: f64) -> bool 
         (a[0] + b[0]).abs() <= force && (a[1] - b[1]).abs() <= force && (a[2] + b[2]).abs() <= moment
     })
 }
+
+#[cfg(test)]
+mod tests;

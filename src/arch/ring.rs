@@ -237,3 +237,6 @@ fn halve(f: &impl Fn(f64) -> f64, mut a: (f64, f64), mut b: (f64, f64)) -> f64 {
     }
     if a.1.abs() < b.1.abs() { a.0 } else { b.0 }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,98 @@
+//! Thousands of random arches against the limit window, and a share of them against the oracle.
+//!
+//! `cargo bench --bench random_arches -- [count] [first seed] [oracle every n-th]`, by default 10000 0 10.
+#![allow(clippy::print_stdout, missing_docs)]
+
+#[path = "../tests/common/mod.rs"]
+mod common;
+
+use common::verify::{Checked, check};
+use std::collections::BTreeMap;
+use std::time::Instant;
+
+fn main() {
+    // Cargo passes `--bench`; a panic is a finding here, not a page of text.
+    std::panic::set_hook(Box::new(|_| {}));
+    let numbers: Vec<u64> = std::env::args().filter_map(|arg| arg.parse().ok()).collect();
+    let number = |i: usize, default: u64| numbers.get(i).copied().unwrap_or(default);
+    let (count, first, every) = (number(0, 10_000), number(1, 0), number(2, 10).max(1));
+    let start = Instant::now();
+    let all: Vec<Checked> = (first..first + count).map(|seed| check(seed, seed % every == 0)).collect();
+    println!("{count} random arches, seeds {first} to {}, {:.1} s", first + count - 1, start.elapsed().as_secs_f64());
+    outcomes(&all);
+    measures(&all);
+    times(&all);
+    ratios(&all);
+    complaints(&all);
+}
+
+fn outcomes(all: &[Checked]) {
+    let mut counts: BTreeMap<String, usize> = BTreeMap::new();
+    for checked in all {
+        let name = checked.outcome.map_or("none (see complaints)".to_owned(), |outcome| format!("{outcome:?}"));
+        *counts.entry(name).or_default() += 1;
+    }
+    println!("\noutcomes");
+    for (name, count) in counts {
+        println!("  {name:<24} {count:>7}  {:5.1} %", 100.0 * count as f64 / all.len() as f64);
+    }
+}
+
+/// The largest of a measure and its seed.
+fn worst(all: &[Checked], measure: impl Fn(&Checked) -> Option<f64>) -> String {
+    let found: Vec<(f64, u64)> = all.iter().filter_map(|c| Some((measure(c)?, c.seed))).collect();
+    match found.iter().max_by(|a, b| a.0.total_cmp(&b.0)) {
+        Some((value, seed)) => format!("{value:>9.1e}  (seed {seed}, of {})", found.len()),
+        None => "none".to_owned(),
+    }
+}
+
+fn measures(all: &[Checked]) {
+    println!("\nworst");
+    println!("  above the limit window, relative        {}", worst(all, |c| c.excess));
+    println!("  off it where no joint slides, relative  {}", worst(all, |c| c.deviation));
+    println!("  limit window against oracle, relative   {}", worst(all, |c| c.window_error));
+    println!("  equilibrium residual, share of weight   {}", worst(all, |c| Some(c.residual)));
+}
+
+fn quantiles(mut values: Vec<f64>, unit: &str, scale: f64) -> String {
+    values.sort_by(f64::total_cmp);
+    let at = |share: f64| scale * values[((values.len() - 1) as f64 * share).round() as usize];
+    let shown = [0.0, 0.05, 0.5, 0.95, 1.0].map(|share| format!("{:.3}", at(share)));
+    format!("{} {unit} (least, 5 %, median, 95 %, greatest; {} arches)", shown.join("  "), values.len())
+}
+
+fn times(all: &[Checked]) {
+    println!("\ntime of one analysis by number of voussoirs");
+    for (low, high) in [(5, 10), (11, 30), (31, 80), (81, 201)] {
+        let some = all.iter().filter(|c| (low..=high).contains(&c.voussoirs) && c.seconds > 0.0);
+        let values: Vec<f64> = some.map(|c| c.seconds).collect();
+        if !values.is_empty() {
+            println!("  {low:>3} to {high:<3}  {}", quantiles(values, "ms", 1e3));
+        }
+    }
+}
+
+fn ratios(all: &[Checked]) {
+    let values: Vec<f64> = all.iter().filter_map(|c| c.ratio).collect();
+    println!("\nintensity over the end of the limit window where joints slide");
+    if values.is_empty() {
+        return println!("  none");
+    }
+    let equal = values.iter().filter(|v| (**v - 1.0).abs() < 1e-6).count();
+    let close = values.iter().filter(|v| (**v - 1.0).abs() < 0.03).count();
+    println!("  equal to 1e-6: {equal}, to 3 %: {close}, of {}", values.len());
+    println!("  {}", quantiles(values, "", 1.0));
+    let mut lowest: Vec<(f64, u64)> = all.iter().filter_map(|c| Some((c.ratio?, c.seed))).collect();
+    lowest.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let shown: Vec<String> = lowest.iter().take(12).map(|(ratio, seed)| format!("{ratio:.4} (seed {seed})")).collect();
+    println!("  lowest: {}", shown.join(", "));
+}
+
+fn complaints(all: &[Checked]) {
+    let bad: Vec<&Checked> = all.iter().filter(|c| !c.complaints.is_empty()).collect();
+    println!("\ncomplaints: {} of {} arches", bad.len(), all.len());
+    for checked in bad.iter().take(200) {
+        println!("  seed {} ({} voussoirs): {}", checked.seed, checked.voussoirs, checked.complaints.join("; "));
+    }
+}

@@ -1,0 +1,201 @@
+use super::*;
+use crate::arch::profile::Profile;
+use crate::arch::ring::{JointLines, Line, Ring, Thickness, stations};
+use crate::arch::{JointLaw, straight_regions};
+use crate::geometry::cross;
+use std::f64::consts::PI;
+
+const LAW: JointLaw = JointLaw::Dry { friction: 0.5, cohesion: 0.0 };
+
+fn arch_of(ring: &Ring) -> Arch {
+    let ends = ring.set_out().unwrap();
+    Arch::assemble(&ends, straight_regions(&ends).unwrap(), LAW, Vec2::zeros())
+}
+
+fn ring(profile: Profile, thickness: f64, n: usize) -> Ring {
+    Ring {
+        stations: stations(profile.length(), &vec![1.0; n]),
+        profile,
+        line: Line::Axis,
+        thickness: Thickness::Linear { crown: thickness, springing: thickness },
+        joints: JointLines::Normal,
+    }
+}
+
+fn sum(forces: &[PointForce]) -> Vec2 {
+    forces.iter().map(|force| force.force).sum()
+}
+
+fn left(forces: &[PointForce], n: usize) -> Vec2 {
+    forces.iter().filter(|force| force.voussoir < n / 2).map(|force| force.force).sum()
+}
+
+fn fill(height: Option<f64>) -> Fill {
+    Fill { height, density: 1600.0, embankment: 0.0, embankment_density: 1600.0, lateral_ratio: 0.5 }
+}
+
+fn close(a: f64, b: f64, tolerance: f64) {
+    assert!((a - b).abs() <= tolerance, "{a} is not {b}");
+}
+
+#[test]
+fn gravel_on_the_buried_arch_pushes_as_the_reference_says() {
+    // references/paper_case1.json (an estimated geometry), resultants of one half, kN/m.
+    let (ri, tc, ts) = (4.3f64, 0.35f64, 1.01f64);
+    let depth = ((ri + ts).powi(2) - (ri + tc).powi(2)) / (2.0 * (ri + tc));
+    for (joints, vertical) in [(9, 100.04), (17, 94.82), (27, 93.73), (61, 93.19), (201, 93.08)] {
+        let ring = Ring {
+            line: Line::Intrados,
+            thickness: Thickness::ExtradosCircle { radius: ri + tc + depth, centre_y: -depth },
+            joints: JointLines::Rays(Vec2::zeros()),
+            ..ring(Profile::circular(ri, PI), 1.0, joints - 1)
+        };
+        let arch = arch_of(&ring);
+        let half = left(&Load::Fill(fill(Some(4.65))).on(&arch, 1e-3).unwrap(), joints - 1);
+        close(-half.y, vertical, 0.0051);
+        close(half.x, 84.85, 0.0051);
+        let jack = Load::Patch { force: 1.675, centre: -1.5, width: 1.5 }.on(&arch, 1.0).unwrap();
+        close(sum(&jack).y, -1.675, 1e-14);
+        let mean: f64 = jack.iter().map(|force| force.at.x * force.force.y).sum::<f64>() / sum(&jack).y;
+        close(mean, -1.5, 1e-12);
+    }
+}
+
+#[test]
+fn fill_on_a_quarter_circle_has_its_closed_form() {
+    // references/fill_load_resultants.json: gamma 16 kN/m3, H = 1.5 m, K = 0.5, extrados of radius 1 m.
+    let density = 16_000.0 / GRAVITY;
+    for (n, vertical) in [(20, 11.48524), (200, 11.43415)] {
+        let arch = arch_of(&ring(Profile::circular(0.9, PI), 0.2, n));
+        let forces = Load::Fill(Fill { density, ..fill(Some(1.5)) }).on(&arch, 1e-3).unwrap();
+        let half = left(&forces, n);
+        close(half.x, 8.0, 1e-12);
+        close(-half.y, vertical, 6e-6);
+    }
+    let exact = 16.0 * (1.5 - PI / 4.0);
+    close(exact, 11.43362939, 1e-8);
+}
+
+#[test]
+fn pressure_of_deep_fill_is_even_on_an_overhanging_arch() {
+    // An even pressure p = q_v = q_h on a polyline from A to B pushes like one on the chord.
+    let arch = arch_of(&ring(Profile::circular(2.0, 4.2), 0.5, 9));
+    let even = Fill { height: None, embankment: 2.0, lateral_ratio: 1.0, ..fill(None) };
+    let forces = Load::Fill(even).on(&arch, 1.0).unwrap();
+    let (a, b) = (arch.joints[0].extrados, arch.joints[9].extrados);
+    let p = 2.0 * 1600.0 * GRAVITY;
+    close(sum(&forces).x, p * (b.y - a.y), 1e-9);
+    close(sum(&forces).y, -p * (b.x - a.x), 1e-9);
+    let moment: f64 = forces.iter().map(|force| cross(force.at, force.force)).sum();
+    // integral of r x (p dr turned by -90 degrees) = -p (|B|^2 - |A|^2) / 2.
+    close(moment, -0.5 * p * (b.norm_squared() - a.norm_squared()), 1e-8);
+    // The lowest side overhangs and is pushed up.
+    assert!(forces[0].force.y > 0.0 && forces[0].force.x > 0.0);
+}
+
+#[test]
+fn moments_of_a_linear_pressure_are_exact() {
+    let arch = arch_of(&ring(Profile::circular(2.0, 2.0), 0.5, 3));
+    let forces = Load::Fill(fill(Some(5.0))).on(&arch, 1.0).unwrap();
+    let (a, b) = arch.extrados_side(0);
+    let (mut moment, steps) = (0.0, 4000);
+    for i in 0..steps {
+        let at = a + (b - a) * ((f64::from(i) + 0.5) / f64::from(steps));
+        let (q, d) = ((5.0 - at.y) * 1600.0 * GRAVITY, (b - a) / f64::from(steps));
+        moment += cross(at, Vec2::new(0.5 * q * d.y, -q * d.x));
+    }
+    let here: f64 = forces.iter().filter(|force| force.voussoir == 0).map(|force| cross(force.at, force.force)).sum();
+    close(here / moment, 1.0, 1e-7);
+}
+
+#[test]
+fn fill_ends_at_its_top() {
+    let arch = arch_of(&ring(Profile::circular(2.0, PI), 0.5, 12));
+    let forces = Load::Fill(fill(Some(1.0))).on(&arch, 1.0).unwrap();
+    assert!(forces.iter().all(|force| force.at.y < 1.0));
+    // K gamma H^2 / 2 from the springing to the top.
+    close(left(&forces, 12).x, 0.25 * 1600.0 * GRAVITY, 1e-9);
+    let above = Load::Fill(Fill { embankment: 0.1, ..fill(Some(1.0)) }).on(&arch, 1.0);
+    assert!(matches!(above, Err(LoadFault::ArchAboveFill { top }) if (top - 2.25).abs() < 1e-12));
+}
+
+#[test]
+fn lateral_bands_push_by_their_height() {
+    let arch = arch_of(&ring(Profile::circular(2.0, PI), 0.5, 11));
+    let bands = vec![Band { from: 0.3, to: 0.9, pressure: 700.0 }, Band { from: 0.9, to: 50.0, pressure: 10.0 }];
+    let forces = Load::Lateral(bands).on(&arch, 2.0).unwrap();
+    let inwards: f64 = forces.iter().map(|force| force.force.x.abs()).sum();
+    let top = arch.joints[5].extrados.y;
+    close(inwards, 2.0 * 2.0 * (700.0 * 0.6 + 10.0 * (top - 0.9)), 1e-9);
+    close(sum(&forces).x, 0.0, 1e-9);
+    assert!(is_symmetric(&forces, 11, 0.0));
+}
+
+#[test]
+fn a_point_load_over_a_joint_is_shared() {
+    let arch = arch_of(&ring(Profile::circular(2.0, PI), 0.5, 12));
+    let at = |x: f64| Load::Point(100.0, Place::Abscissa(x)).on(&arch, 1.0).unwrap();
+    let crown = at(0.0);
+    assert_eq!(crown.iter().map(|force| (force.voussoir, force.force.y)).collect::<Vec<_>>(), [(5, -50.0), (6, -50.0)]);
+    assert!(is_symmetric(&crown, 12, arch.axis()));
+    let beside = at(0.01);
+    assert_eq!((beside.len(), beside[0].voussoir, beside[0].force.y), (1, 6, -100.0));
+    assert_eq!(at(-2.25)[0].voussoir, 0);
+    assert!(!is_symmetric(&beside, 12, 0.0));
+    assert!(Load::Point(1.0, Place::Abscissa(2.3)).on(&arch, 1.0).is_err());
+    assert!(Load::Point(1.0, Place::Voussoir(12)).on(&arch, 1.0).is_err());
+    let middle = Load::Point(1.0, Place::Voussoir(3)).on(&arch, -2.0).unwrap();
+    assert_eq!((middle[0].force.y, middle[0].at), (2.0, 0.5 * (arch.extrados_side(3).0 + arch.extrados_side(3).1)));
+}
+
+#[test]
+fn loads_on_an_overhanging_arch_stand_on_its_top() {
+    let arch = arch_of(&ring(Profile::circular(2.0, 4.4), 0.5, 20));
+    let widest = arch.joints.iter().map(|joint| joint.extrados.x).fold(f64::INFINITY, f64::min);
+    for x in [widest, widest + 1e-3, widest + 0.1] {
+        let forces = Load::Point(1.0, Place::Abscissa(x)).on(&arch, 1.0).unwrap();
+        assert!(forces.iter().all(|force| force.at.y > 0.5 && force.at.y > arch.joints[0].extrados.y));
+        close(sum(&forces).y, -1.0, 1e-15);
+    }
+}
+
+#[test]
+fn a_patch_beyond_the_arch_is_refused() {
+    let arch = arch_of(&ring(Profile::circular(2.0, PI), 0.5, 12));
+    assert!(Load::Patch { force: 1.0, centre: 2.0, width: 1.0 }.on(&arch, 1.0).is_err());
+    let whole = Load::Patch { force: 1.0, centre: 0.0, width: 4.5 }.on(&arch, 1.0).unwrap();
+    assert_eq!(whole.len(), 12);
+    assert!(is_symmetric(&whole, 12, 0.0));
+}
+
+#[test]
+fn body_forces_are_mass_times_acceleration() {
+    let arch = arch_of(&ring(Profile::circular(2.0, 2.0), 0.5, 5));
+    let area: f64 = arch.voussoirs.iter().map(|stone| stone.region.area).sum();
+    close(sum(&Load::SelfWeight(2000.0).on(&arch, 1.0).unwrap()).y, -2000.0 * GRAVITY * area, 1e-9);
+    let shaken = Load::BodyAcceleration(2000.0, Vec2::new(3.0, 0.5)).on(&arch, 1.0).unwrap();
+    assert!((sum(&shaken) - 2000.0 * area * Vec2::new(3.0, 0.5)).norm() < 1e-9);
+    assert!(!is_symmetric(&shaken, 5, 0.0));
+}
+
+#[test]
+fn abutments_lie_outside_the_springings_and_the_half_is_the_left_one() {
+    let mut arch = arch_of(&ring(Profile::circular(2.0, 2.4), 0.5, 6));
+    arch.stand_on_abutments(0.7);
+    for (abutment, joint, sign) in
+        [(&arch.abutments[0], arch.joints[0], -0.7), (&arch.abutments[1], arch.joints[6], 0.7)]
+    {
+        let abutment = abutment.as_ref().unwrap();
+        close(abutment.region.area, 0.35, 1e-14);
+        let middle = joint.middle() + 0.5 * sign * joint.normal();
+        assert!((abutment.region.centroid - middle).norm() < 1e-14 && abutment.base.law == JointLaw::Bonded);
+        assert!(abutment.base.middle().y < joint.middle().y);
+    }
+    assert_eq!(arch.asymmetry(), None);
+    let half = arch.left_half();
+    assert_eq!((half.voussoirs.len(), half.joints.len(), half.half), (3, 4, true));
+    assert_eq!(half.joints[3].law, JointLaw::Dry { friction: 0.0, cohesion: 0.0 });
+    assert!(half.abutments[0].is_some() && half.abutments[1].is_none());
+    arch.joints[1].extrados.x -= 0.01;
+    assert_eq!(arch.asymmetry(), Some(1));
+}

@@ -1,0 +1,218 @@
+//! One picture of an arch at collapse: stones, hinges, slides, thrust line, and how it moves.
+
+use super::canvas::{Canvas, WIDTH};
+use crate::arch::Arch;
+use crate::collapse::{Face, PathEnd};
+use crate::geometry::{Vec2, cross, perpendicular};
+
+/// Largest movement of the drawn mechanism, as a share of the arch's extent in plan.
+const MOVEMENT: f64 = 0.08;
+/// A resultant further from the joint's middle than this many joint lengths is not drawn.
+const FARTHEST_THRUST: f64 = 1.0;
+
+const STYLE: &str = "\
+.paper{fill:#fff}
+.stone{fill:#efe8da;stroke:#93897a;stroke-width:.8;stroke-linejoin:round}
+.abutment{fill:#e0dbd1;stroke:#93897a;stroke-width:.8;stroke-linejoin:round}
+.ground{stroke:#55524d;stroke-width:2}
+.hatch{stroke:#55524d;stroke-width:1}
+.ghost{fill:#3b6ea5;fill-opacity:.1;stroke:#3b6ea5;stroke-opacity:.85;stroke-width:1.3;stroke-linejoin:round}
+.thrust{fill:none;stroke:#c8392b;stroke-width:2.2;stroke-linejoin:round;stroke-linecap:round}
+.hinge{fill:#fff;stroke:#1d1d1f;stroke-width:2.4}
+.slide{stroke:#b06a00;stroke-width:2.4;stroke-linecap:round}
+.bar{stroke:#1d1d1f;stroke-width:1.6}
+text{font-family:Inter,'Helvetica Neue',Helvetica,Arial,sans-serif;fill:#1d1d1f}
+.title{font-size:19px;font-weight:600}
+.line{font-size:15px;fill:#55524d}
+.label{font-size:14px;font-weight:600;text-anchor:middle;stroke:#fff;stroke-width:4;stroke-linejoin:round;paint-order:stroke}
+.small{font-size:13px;fill:#55524d}
+.centred{font-size:13px;fill:#55524d;text-anchor:middle}
+";
+
+/// Draws an arch as it falls. `caption` stands above it; its first line is the title.
+pub fn svg(arch: &Arch, end: &PathEnd, caption: &str) -> String {
+    let pieces = moved_pieces(arch, end);
+    let (low, high) = extent(arch, &pieces);
+    let lines: Vec<&str> = caption.lines().collect();
+    let head = if lines.is_empty() { 48.0 } else { 50.0 + 22.0 * lines.len() as f64 };
+    let mut canvas = Canvas::new(low, high, head);
+    draw_supports(&mut canvas, arch);
+    for k in 0..arch.voussoirs.len() {
+        canvas.polygon("stone", &corners(arch, k));
+    }
+    for piece in &pieces {
+        canvas.polygon("ghost", piece);
+    }
+    canvas.polyline("thrust", &thrust_line(arch, end));
+    draw_slides(&mut canvas, arch, end);
+    draw_hinges(&mut canvas, arch, end);
+    for (i, line) in lines.iter().enumerate() {
+        let (class, drop) = if i == 0 { ("title", 0.0) } else { ("line", 2.0) };
+        canvas.text(class, Vec2::new(40.0, 40.0 + drop + 22.0 * i as f64), line);
+    }
+    draw_foot(&mut canvas, end);
+    canvas.finish(lines.first().unwrap_or(&"Arch at collapse"), STYLE)
+}
+
+fn corners(arch: &Arch, k: usize) -> [Vec2; 4] {
+    let (a, b) = (&arch.joints[k], &arch.joints[k + 1]);
+    [a.intrados, a.extrados, b.extrados, b.intrados]
+}
+
+/// Extent of the arch in plan, m.
+fn plan_size(arch: &Arch) -> f64 {
+    let xs = || arch.joints.iter().flat_map(|joint| [joint.intrados.x, joint.extrados.x]);
+    xs().fold(f64::NEG_INFINITY, f64::max) - xs().fold(f64::INFINITY, f64::min)
+}
+
+/// Outlines of the parts that move as one (between hinges and slides), moved; parts at rest are left out.
+fn moved_pieces(arch: &Arch, end: &PathEnd) -> Vec<Vec<Vec2>> {
+    let mechanism = &end.mechanism;
+    let velocity = |k: usize, p: Vec2| {
+        let [u, v, w] = mechanism.velocities[k];
+        Vec2::new(u, v) + w * perpendicular(p - arch.voussoirs[k].region.centroid)
+    };
+    let count = arch.voussoirs.len().min(mechanism.velocities.len());
+    let fastest = (0..count).flat_map(|k| corners(arch, k).map(|p| velocity(k, p).norm())).fold(0.0, f64::max);
+    if !(fastest > 0.0 && fastest.is_finite()) {
+        return Vec::new();
+    }
+    let scale = MOVEMENT * plan_size(arch) / fastest;
+    let breaks = |joint: usize| {
+        mechanism.hinges.iter().any(|h| h.joint == joint) || mechanism.slides.iter().any(|s| s.joint == joint)
+    };
+    let mut pieces = Vec::new();
+    let mut first = 0;
+    for last in 0..count {
+        if last + 1 < count && !breaks(last + 1) {
+            continue;
+        }
+        let moves = (first..=last).any(|k| corners(arch, k).iter().any(|&p| velocity(k, p).norm() > 1e-3 * fastest));
+        if moves {
+            let moved = |k: usize, p: Vec2| p + scale * velocity(k, p);
+            let outer =
+                (first..=last).flat_map(|k| corners(arch, k)[1..3].iter().map(|&p| moved(k, p)).collect::<Vec<_>>());
+            let inner =
+                (first..=last).rev().flat_map(|k| [corners(arch, k)[3], corners(arch, k)[0]].map(|p| moved(k, p)));
+            pieces.push(outer.chain(inner).collect());
+        }
+        first = last + 1;
+    }
+    pieces
+}
+
+fn extent(arch: &Arch, pieces: &[Vec<Vec2>]) -> (Vec2, Vec2) {
+    let joints = arch.joints.iter().chain(arch.abutments.iter().flatten().map(|abutment| &abutment.base));
+    let ends = joints.flat_map(|joint| [joint.intrados, joint.extrados]);
+    let all = ends.chain(pieces.iter().flatten().copied());
+    let none = (Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY));
+    all.fold(none, |(low, high), p| (low.inf(&p), high.sup(&p)))
+}
+
+/// Where the thrust crosses each joint; joints without thrust, or with it far outside, are left out.
+fn thrust_line(arch: &Arch, end: &PathEnd) -> Vec<Vec2> {
+    let near = |t: &&crate::collapse::Thrust| {
+        t.normal > 0.0 && t.eccentricity.abs() <= FARTHEST_THRUST * arch.joints[t.joint].length()
+    };
+    end.thrust_line.iter().filter(near).map(|thrust| thrust.at).collect()
+}
+
+/// Abutments, and hatched ground under whatever the arch stands on (a wall beside a half arch).
+fn draw_supports(canvas: &mut Canvas, arch: &Arch) {
+    let Some((first, last)) = arch.joints.first().zip(arch.joints.last()) else { return };
+    for (springing, abutment, sign) in [(first, &arch.abutments[0], -1.0), (last, &arch.abutments[1], 1.0)] {
+        if let Some(abutment) = abutment {
+            let base = &abutment.base;
+            canvas.polygon("abutment", &[springing.intrados, springing.extrados, base.extrados, base.intrados]);
+        }
+        let held = abutment.as_ref().map_or(springing, |abutment| &abutment.base);
+        let (a, b) = (canvas.place(held.intrados), canvas.place(held.extrados));
+        let along = (b - a).normalize();
+        let out = sign * held.normal();
+        let out = Vec2::new(out.x, -out.y);
+        let (a, b) = (a - 8.0 * along, b + 8.0 * along);
+        canvas.line("ground", a, b);
+        let strokes = ((b - a).norm() / 9.0).floor().max(1.0);
+        let mirror = if out.x.abs() > 0.7 { 1.0 } else { sign };
+        for i in 0..=strokes as usize {
+            let from = a + (b - a) * (i as f64 / strokes);
+            canvas.line("hatch", from, from + 8.0 * out + 6.0 * mirror * cross(out, along).signum() * along);
+        }
+    }
+}
+
+fn draw_hinges(canvas: &mut Canvas, arch: &Arch, end: &PathEnd) {
+    for hinge in &end.mechanism.hinges {
+        let joint = &arch.joints[hinge.joint];
+        let (at, other) = match hinge.face {
+            Face::Intrados => (joint.intrados, joint.extrados),
+            Face::Extrados => (joint.extrados, joint.intrados),
+        };
+        let (at, other) = (canvas.place(at), canvas.place(other));
+        let away = (at - other).normalize();
+        canvas.dot("hinge", at, 5.5);
+        canvas.text("label", at + 20.0 * away + Vec2::new(0.0, 5.0), &hinge.joint.to_string());
+    }
+}
+
+/// Two half arrows along every sliding joint: the stone after it goes with the one, the stone before with the other.
+fn draw_slides(canvas: &mut Canvas, arch: &Arch, end: &PathEnd) {
+    for slide in &end.mechanism.slides {
+        let joint = &arch.joints[slide.joint];
+        let flip = |v: Vec2| Vec2::new(v.x, -v.y);
+        let (along, normal) = (flip(joint.tangent()), flip(joint.normal()));
+        let middle = canvas.place(joint.middle());
+        let half = (0.32 * joint.length() * canvas.scale()).clamp(12.0, 40.0);
+        for side in [1.0, -1.0] {
+            let (reach, at) = (side * slide.rate.signum() * half * along, middle + side * 6.0 * normal);
+            canvas.arrow("slide", at - reach, at + reach);
+        }
+        let label = middle - (half + 18.0) * along;
+        if !end.mechanism.hinges.iter().any(|hinge| hinge.joint == slide.joint) {
+            canvas.text("label", label + Vec2::new(0.0, 5.0), &slide.joint.to_string());
+        }
+    }
+}
+
+/// Scale bar on the left, legend on the right.
+fn draw_foot(canvas: &mut Canvas, end: &PathEnd) {
+    let y = canvas.height() - 28.0;
+    let (length, words) = scale_bar(180.0 / canvas.scale());
+    let (a, b) = (Vec2::new(40.0, y), Vec2::new(40.0 + length * canvas.scale(), y));
+    canvas.line("bar", a, b);
+    for end in [a, b] {
+        canvas.line("bar", end - Vec2::new(0.0, 5.0), end + Vec2::new(0.0, 5.0));
+    }
+    canvas.text("centred", 0.5 * (a + b) - Vec2::new(0.0, 8.0), &words);
+    let mut x = WIDTH - 40.0;
+    let mut entry = |canvas: &mut Canvas, words: &str, width: f64| {
+        x -= width;
+        canvas.text("small", Vec2::new(x + 34.0, y + 4.5), words);
+        Vec2::new(x + 14.0, y)
+    };
+    let half = Vec2::new(13.0, 0.0);
+    let at = entry(canvas, "movement, enlarged", 160.0);
+    canvas.rectangle("ghost", at - Vec2::new(13.0, 7.0), Vec2::new(26.0, 14.0));
+    let at = entry(canvas, "thrust line", 120.0);
+    canvas.line("thrust", at - half, at + half);
+    if !end.mechanism.slides.is_empty() {
+        let at = entry(canvas, "sliding joint", 132.0);
+        canvas.arrow("slide", at - half, at + half);
+    }
+    if !end.mechanism.hinges.is_empty() {
+        let at = entry(canvas, "hinge at joint", 136.0);
+        canvas.dot("hinge", at, 5.5);
+    }
+}
+
+/// A round length not above `most` (1, 2 or 5 times a power of ten), m, and its name.
+fn scale_bar(most: f64) -> (f64, String) {
+    let power = 10f64.powf(most.log10().floor());
+    let length = [5.0, 2.0, 1.0].map(|step| step * power).into_iter().find(|&l| l <= most).unwrap_or(power);
+    let decimals = (-length.log10().floor()).max(0.0) as usize;
+    (length, format!("{length:.decimals$} m"))
+}
+
+#[cfg(test)]
+#[path = "figure_tests.rs"]
+mod tests;

@@ -1,0 +1,4 @@
+//! Reports as pictures and files. Draws only: nothing here runs an analysis.
+
+mod canvas;
+pub mod figure;

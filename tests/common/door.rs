@@ -1,0 +1,46 @@
+//! The front door: wire JSON in, analysis and report out; and an analysis as plain numbers for the oracle.
+
+use super::oracle::{Bond, Problem, Push, Seam};
+use serde_json::Value;
+use voussoir::arch::{JointLaw, PointForce};
+use voussoir::collapse::{Analysis, CollapseReport, Unwatched, run};
+
+/// Reads a request as the service does.
+///
+/// # Errors
+/// What is wrong with it, one line a fault.
+pub fn analysis(request: &Value) -> Result<Analysis, String> {
+    match voussoir::api::read::read_analysis(request.to_string().as_bytes()) {
+        Ok((_, analysis)) => Ok(analysis),
+        Err(faults) => Err(faults.iter().map(|f| format!("{}: {}\n", f.pointer, f.detail)).collect()),
+    }
+}
+
+/// Runs a request that has to be a good one.
+pub fn solve(request: &Value) -> CollapseReport {
+    let analysis = analysis(request).unwrap_or_else(|faults| panic!("{faults}{request}"));
+    run(&analysis, &mut Unwatched).unwrap_or_else(|error| panic!("{error}: {request}"))
+}
+
+/// The numbers the oracle needs.
+pub fn problem(analysis: &Analysis) -> Problem {
+    let arch = &analysis.arch;
+    let mut seams: Vec<Seam> = arch
+        .joints
+        .iter()
+        .map(|joint| Seam {
+            intrados: joint.intrados.into(),
+            extrados: joint.extrados.into(),
+            bond: match joint.law {
+                JointLaw::Dry { friction, cohesion } => Bond::Dry { friction, cohesion },
+                JointLaw::Bonded => Bond::Bonded,
+            },
+        })
+        .collect();
+    if let Some(crown) = seams.last_mut().filter(|_| arch.half) {
+        crown.bond = Bond::Dry { friction: 0.0, cohesion: 0.0 };
+    }
+    let push = |f: &PointForce| Push { block: f.voussoir, at: f.at.into(), force: f.force.into() };
+    let pushes = |forces: &[PointForce]| forces.iter().map(push).collect();
+    Problem { seams, fixed: pushes(&analysis.fixed), scaled: pushes(&analysis.scaled) }
+}

@@ -1,0 +1,9 @@
+//! Shared by the integration tests and the benchmark: the oracle, a geometry of its own, random requests.
+#![allow(dead_code, clippy::unwrap_used, clippy::expect_used, missing_docs)]
+
+pub mod door;
+pub mod masonry;
+pub mod oracle;
+pub mod random_arch;
+pub mod verify;
+pub mod wire;

@@ -1,0 +1,127 @@
+//! The rows of the oracle's linear programme.
+
+use super::{Aim, Bond, Point, Problem, Push, distance, unit_vectors};
+
+/// Units in which the numbers are of order one.
+pub struct Scale {
+    pub force: f64,
+    pub factor: f64,
+    pub with_factor: bool,
+    pub with_give: bool,
+}
+
+impl Scale {
+    pub fn of(problem: &Problem, aim: Aim) -> Scale {
+        let total = |pushes: &[Push]| pushes.iter().map(|p| p.force[0].hypot(p.force[1])).sum::<f64>();
+        let (fixed, scaled) = (total(&problem.fixed), total(&problem.scaled));
+        let with_factor = !matches!(aim, Aim::LeastThrust | Aim::GreatestThrust) && scaled > 0.0;
+        let force = if fixed > 0.0 { fixed } else { scaled.max(f64::MIN_POSITIVE) };
+        let factor = if with_factor { force / scaled } else { 1.0 };
+        Scale { force, factor, with_factor, with_give: aim == Aim::Give }
+    }
+}
+
+/// Rows as triplets: equations first, then inequalities, in clarabel's form A x + s = b.
+#[derive(Default)]
+pub struct Programme {
+    pub cost: Vec<f64>,
+    pub rows: Vec<usize>,
+    pub columns: Vec<usize>,
+    pub values: Vec<f64>,
+    pub right: Vec<f64>,
+    pub equations: usize,
+}
+
+impl Programme {
+    pub fn build(problem: &Problem, aim: Aim, scale: &Scale) -> Programme {
+        let joints = problem.seams.len();
+        let unknowns = 3 * joints + usize::from(scale.with_factor) + usize::from(scale.with_give);
+        let mut programme = Programme { cost: vec![0.0; unknowns], ..Programme::default() };
+        programme.equilibrium(problem, scale);
+        programme.equations = programme.right.len();
+        programme.conditions(problem, scale);
+        let thrust = problem.seams.first().map(unit_vectors);
+        match (aim, thrust) {
+            (Aim::Lowest, _) if scale.with_factor => programme.cost[3 * joints] = 1.0,
+            (Aim::Highest, _) if scale.with_factor => programme.cost[3 * joints] = -1.0,
+            (Aim::LeastThrust | Aim::GreatestThrust, Some((normal, along))) => {
+                let sign = if aim == Aim::LeastThrust { 1.0 } else { -1.0 };
+                programme.cost[..3].copy_from_slice(&[sign * normal[0], sign * normal[0], sign * along[0]]);
+            }
+            (Aim::Give, _) => programme.cost[unknowns - 1] = 1.0,
+            _ => {}
+        }
+        programme
+    }
+
+    fn entry(&mut self, column: usize, value: f64) {
+        self.rows.push(self.right.len());
+        self.columns.push(column);
+        self.values.push(value);
+    }
+
+    /// Sum of forces and moments of every block, about the mean of its corners, moments over its size.
+    fn equilibrium(&mut self, problem: &Problem, scale: &Scale) {
+        for block in 0..problem.seams.len() - 1 {
+            let (below, above) = (&problem.seams[block], &problem.seams[block + 1]);
+            let corners = [below.intrados, below.extrados, above.intrados, above.extrados];
+            let centre = [0, 1].map(|i| corners.iter().map(|c| c[i]).sum::<f64>() / 4.0);
+            let arm = distance(below.intrados, below.extrados).max(distance(above.intrados, above.extrados));
+            let wrench = |at: Point, force: Point| {
+                let moment = (at[0] - centre[0]) * force[1] - (at[1] - centre[1]) * force[0];
+                [force[0], force[1], moment / arm]
+            };
+            let sum = |pushes: &[Push]| {
+                pushes.iter().filter(|p| p.block == block).fold([0.0; 3], |sum, p| {
+                    let w = wrench(p.at, p.force);
+                    [sum[0] + w[0], sum[1] + w[1], sum[2] + w[2]]
+                })
+            };
+            let (fixed, scaled) = (sum(&problem.fixed), sum(&problem.scaled));
+            for row in 0..3 {
+                for (joint, seam, sign) in [(block, below, 1.0), (block + 1, above, -1.0)] {
+                    let (normal, along) = unit_vectors(seam);
+                    let columns = [(seam.intrados, normal), (seam.extrados, normal), (seam.intrados, along)];
+                    for (k, (at, direction)) in columns.into_iter().enumerate() {
+                        self.entry(3 * joint + k, sign * wrench(at, direction)[row]);
+                    }
+                }
+                if scale.with_factor {
+                    self.entry(3 * problem.seams.len(), scaled[row] * scale.factor / scale.force);
+                }
+                self.right.push(-fixed[row] / scale.force);
+            }
+        }
+    }
+
+    /// No tension at either corner and Coulomb's law, for every dry joint.
+    fn conditions(&mut self, problem: &Problem, scale: &Scale) {
+        for (joint, seam) in problem.seams.iter().enumerate() {
+            let Bond::Dry { friction, cohesion } = seam.bond else { continue };
+            for corner in 0..2 {
+                self.entry(3 * joint + corner, -1.0);
+                self.give(scale);
+                self.right.push(0.0);
+            }
+            let strength = cohesion * distance(seam.intrados, seam.extrados) / scale.force;
+            for sign in [1.0, -1.0] {
+                self.entry(3 * joint, -friction);
+                self.entry(3 * joint + 1, -friction);
+                self.entry(3 * joint + 2, sign);
+                self.give(scale);
+                self.right.push(strength);
+            }
+        }
+        if scale.with_give {
+            // Prestress can put any amount in hand; one is plenty.
+            self.give(scale);
+            self.right.push(1.0);
+        }
+    }
+
+    fn give(&mut self, scale: &Scale) {
+        if scale.with_give {
+            self.entry(self.cost.len() - 1, -1.0);
+        }
+    }
+}

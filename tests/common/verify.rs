@@ -1,0 +1,179 @@
+//! One random arch through the front door, held against the criteria and the oracle.
+
+use super::{door, oracle::Problem, random_arch};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::time::Instant;
+use voussoir::collapse::{Analysis, CollapseReport, Direction, LimitWindow, Outcome, PathEnd, Unwatched, run};
+
+/// The intensity may pass the limit window by this share.
+pub const ABOVE: f64 = 1e-6;
+/// Where no joint slides the intensity equals the end of the limit window to this share.
+pub const EQUAL: f64 = 1e-7;
+/// Limit window and oracle agree to this share.
+pub const WINDOW: f64 = 1e-7;
+/// Equilibrium residual, share of the weight.
+pub const RESIDUAL: f64 = 1e-8;
+/// Closer than this to standing or falling the oracle itself cannot say which.
+const BALANCE: f64 = 1e-8;
+/// Load factors below this share of (fixed loads / scaled loads) are compared absolutely.
+const SMALL: f64 = 1e-3;
+
+/// What was measured on one arch.
+#[derive(Debug, Default, Clone)]
+pub struct Checked {
+    pub seed: u64,
+    pub outcome: Option<Outcome>,
+    /// How far the intensity lies above the limit window, relative; at most zero if it does not.
+    pub excess: Option<f64>,
+    /// How far it lies from the window's end where no joint slides, relative.
+    pub deviation: Option<f64>,
+    /// Intensity over the window's end where joints slide.
+    pub ratio: Option<f64>,
+    /// Difference between limit window and oracle, relative.
+    pub window_error: Option<f64>,
+    pub residual: f64,
+    pub voussoirs: usize,
+    pub events: usize,
+    pub seconds: f64,
+    /// Everything that is wrong.
+    pub complaints: Vec<String>,
+}
+
+/// Runs the arch of a seed; `with_oracle` compares the window too.
+pub fn check(seed: u64, with_oracle: bool) -> Checked {
+    let mut checked = Checked { seed, ..Checked::default() };
+    let request = random_arch::request(seed);
+    let analysis = match door::analysis(&request) {
+        Ok(analysis) => analysis,
+        Err(faults) => {
+            checked.complaints.push(format!("refused: {faults}"));
+            return checked;
+        }
+    };
+    checked.voussoirs = analysis.arch.voussoirs.len();
+    let start = Instant::now();
+    let result = catch_unwind(AssertUnwindSafe(|| run(&analysis, &mut Unwatched)));
+    checked.seconds = start.elapsed().as_secs_f64();
+    match result {
+        Err(panic) => checked.complaints.push(format!("panic: {}", said(&*panic))),
+        Ok(Err(error)) => checked.complaints.push(format!("error: {error}")),
+        Ok(Ok(report)) => {
+            checked.measure(&analysis, &report);
+            if with_oracle && let Err(panic) = catch_unwind(AssertUnwindSafe(|| checked.compare(&analysis, &report))) {
+                checked.complaints.push(format!("oracle: {}", said(&*panic)));
+            }
+        }
+    }
+    checked
+}
+
+/// The words of a panic.
+fn said(panic: &(dyn std::any::Any + Send)) -> String {
+    let text = panic.downcast_ref::<String>().map(String::as_str);
+    text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no words").to_owned()
+}
+
+/// Fixed over scaled loads: the size of a load factor that matters.
+fn balance(analysis: &Analysis) -> f64 {
+    let total = |forces: &[voussoir::arch::PointForce]| forces.iter().map(|f| f.force.norm()).sum::<f64>();
+    let (fixed, scaled) = (total(&analysis.fixed), total(&analysis.scaled));
+    if fixed > 0.0 && scaled > 0.0 { fixed / scaled } else { 1.0 }
+}
+
+/// Difference of two load factors, relative; infinities equal themselves.
+fn relative(a: f64, b: f64, floor: f64) -> f64 {
+    if a == b { 0.0 } else { (a - b).abs() / a.abs().max(b.abs()).max(floor) }
+}
+
+impl Checked {
+    fn complain(&mut self, fails: bool, words: impl FnOnce() -> String) {
+        if fails {
+            self.complaints.push(words());
+        }
+    }
+
+    fn measure(&mut self, analysis: &Analysis, report: &CollapseReport) {
+        self.outcome = Some(report.outcome);
+        self.events = report.cost.events;
+        let cannot = report.outcome == Outcome::CannotTell;
+        self.complain(cannot, || {
+            let window = report.limit_window.map(|w| (w.lowest, w.highest));
+            format!("cannot tell: {} (limit window {window:?}, start {})", report.notes.join(" "), report.start)
+        });
+        let sign = if analysis.direction == Direction::Increase { 1.0 } else { -1.0 };
+        let Some(window) = report.limit_window else { return };
+        for (end, sign) in [(&report.end, sign), (&report.other_end, -sign)] {
+            if let Some(end) = end {
+                self.measure_end(analysis, window, end, sign, cannot);
+            }
+        }
+    }
+
+    fn measure_end(&mut self, analysis: &Analysis, window: LimitWindow, end: &PathEnd, sign: f64, cannot: bool) {
+        self.residual = self.residual.max(end.residual);
+        self.complain(end.residual > RESIDUAL || end.residual.is_nan(), || format!("residual {:e}", end.residual));
+        if cannot {
+            return;
+        }
+        let limit = if sign > 0.0 { window.highest } else { window.lowest };
+        if limit.is_infinite() {
+            let explained = !end.mechanism.slides.is_empty();
+            self.complain(!explained, || format!("falls at {} without sliding, window {limit}", end.load_factor));
+            return;
+        }
+        let floor = SMALL * balance(analysis);
+        let excess = sign * (end.load_factor - limit) / limit.abs().max(floor);
+        self.excess = Some(self.excess.unwrap_or(f64::NEG_INFINITY).max(excess));
+        self.complain(excess > ABOVE || excess.is_nan(), || format!("{:e} above the window {limit}", excess));
+        if end.mechanism.slides.is_empty() {
+            self.deviation = Some(self.deviation.unwrap_or(0.0).max(excess.abs()));
+            self.complain(excess.abs() > EQUAL, || format!("{excess:e} off the window {limit} without sliding"));
+        } else if limit.abs() > floor {
+            self.ratio = Some(self.ratio.unwrap_or(1.0).min(end.load_factor / limit));
+        }
+    }
+
+    fn compare(&mut self, analysis: &Analysis, report: &CollapseReport) {
+        let problem: Problem = door::problem(analysis);
+        let give = problem.give();
+        if give.abs() <= BALANCE {
+            return;
+        }
+        let oracle = if give < 0.0 { problem.window() } else { None };
+        let floor = SMALL * balance(analysis);
+        match (oracle, report.limit_window) {
+            (None, None) => {}
+            (Some((low, high)), Some(window)) => {
+                let error = relative(low, window.lowest, floor).max(relative(high, window.highest, floor));
+                self.window_error = Some(error);
+                let fails = error > WINDOW || error.is_nan();
+                self.complain(fails, || {
+                    format!("window [{}, {}], oracle [{low}, {high}]", window.lowest, window.highest)
+                });
+            }
+            (a, b) => self.complaints.push(format!("window {b:?}, oracle {a:?} (give {give:e})")),
+        }
+        self.consistent(analysis, report, oracle);
+    }
+
+    fn consistent(&mut self, analysis: &Analysis, report: &CollapseReport, oracle: Option<(f64, f64)>) {
+        let floor = 1e-6 * balance(analysis);
+        let slides = report.end.as_ref().is_some_and(|end| !end.mechanism.slides.is_empty());
+        let expected = match oracle {
+            None => Outcome::FallsAsBuilt,
+            Some((low, high)) if low.abs() < floor || high.abs() < floor => return,
+            Some((low, high)) if low > 0.0 || high < 0.0 => Outcome::StandsInWindow,
+            Some((low, high)) => {
+                let limit = if analysis.direction == Direction::Increase { high } else { -low };
+                if limit < report.cap { Outcome::Collapse } else { Outcome::NeverCollapses }
+            }
+        };
+        let explained = report.outcome == Outcome::CannotTell
+            || report.outcome == Outcome::Crushes
+            || (slides && report.outcome == Outcome::FallsAsBuilt)
+            || (slides && expected == Outcome::NeverCollapses && report.outcome == Outcome::Collapse);
+        self.complain(report.outcome != expected && !explained, || {
+            format!("outcome {:?}, the oracle expects {expected:?}", report.outcome)
+        });
+    }
+}
