@@ -16,7 +16,6 @@ pub(super) fn at_peak(
     model: &Model,
     theorem: &StaticTheorem,
     peak: &Peak,
-    anchors: &[f64],
     sign: f64,
     residual: f64,
 ) -> PathEnd {
@@ -28,7 +27,7 @@ pub(super) fn at_peak(
     });
     let resultants = match &polished {
         Some(equilibrium) => theorem.resultants(equilibrium),
-        None => carried(model, &peak.displacements, anchors),
+        None => carried(model, &peak.displacements),
     };
     let driving: Vec<PointForce> = analysis.scaled.iter().map(|f| PointForce { force: f.force * sign, ..*f }).collect();
     let slipping: Vec<Option<f64>> = (0..arch.joints.len()).map(|k| sliding_shear(model, k, peak)).collect();
@@ -118,8 +117,8 @@ fn sliding_shear(model: &Model, joint: usize, peak: &Peak) -> Option<f64> {
 }
 
 /// Joint forces that the contact points carry.
-fn carried(model: &Model, displacements: &[V6], anchors: &[f64]) -> Vec<Resultant> {
-    let forces = model.chain.contact_forces(displacements, anchors);
+fn carried(model: &Model, displacements: &[V6]) -> Vec<Resultant> {
+    let forces = model.chain.contact_forces(displacements);
     (0..=model.voussoirs)
         .map(|joint| {
             let [i, e] = model.corners(joint).map(|p| forces[p]);

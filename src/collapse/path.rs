@@ -96,7 +96,7 @@ pub(super) fn follow(
     see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>,
 ) -> Leg {
     let rate = loads.scaled.iter().map(|s| s * sign).collect();
-    tracer.commit(Drive { base: loads.fixed.clone(), rate, offset: [0.0, 0.0] }, sign * start);
+    tracer.drive_on(Drive { base: loads.fixed.clone(), rate, offset: [0.0, 0.0] }, sign * start);
     let mut met = None;
     let end = tracer.trace(cap, &mut |tracer| {
         met = recorder.see(sign * tracer.parameter(), tracer.displacements());

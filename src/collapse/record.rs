@@ -136,7 +136,7 @@ fn interpolate(a: &Point, b: &Point, load_factor: f64) -> Vec<V6> {
 }
 
 /// The arch at one point of the path.
-pub(super) fn snapshot(model: &Model, load_factor: f64, displacements: &[V6], anchors: &[f64]) -> Snapshot {
+pub(super) fn snapshot(model: &Model, load_factor: f64, displacements: &[V6]) -> Snapshot {
     let blocks = (0..model.voussoirs)
         .map(|v| {
             let (block, d) =
@@ -145,7 +145,7 @@ pub(super) fn snapshot(model: &Model, load_factor: f64, displacements: &[V6], an
             BlockState { displacement: Vec2::new(displacement.x, displacement.y), rotation, stress: block.stress(d) }
         })
         .collect();
-    let forces = model.chain.contact_forces(displacements, anchors);
+    let forces = model.chain.contact_forces(displacements);
     let contacts = (0..=model.voussoirs)
         .flat_map(|joint| {
             let faces = [Face::Intrados, Face::Extrados];

@@ -95,11 +95,11 @@ impl Chain {
         }
     }
 
-    /// Contact forces at displacements `d`, friction anchored at `anchors`.
-    pub fn contact_forces(&self, d: &[V6], anchors: &[f64]) -> Vec<ContactForce> {
+    /// Contact forces at displacements `d`.
+    pub fn contact_forces(&self, d: &[V6]) -> Vec<ContactForce> {
         let mut gaps = Vec::new();
         self.gaps(d, &mut gaps);
-        self.contacts.iter().zip(&gaps).zip(anchors).map(|((c, g), &a)| c.force(g[0], g[1], a)).collect()
+        self.contacts.iter().zip(&gaps).map(|(c, [gap, slip])| c.force(*gap, *slip)).collect()
     }
 
     /// Tangent stiffness of the contacts of interface `k` between [before, after] x [before, after].

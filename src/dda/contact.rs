@@ -116,34 +116,34 @@ impl Contact {
         matches!(self.law, Law::Coulomb { friction: 0.0, cohesion: 0.0 })
     }
 
-    /// Tangential force as if stuck to `anchor`, N/m.
-    pub fn trial_shear(&self, slip: f64, anchor: f64) -> f64 {
-        -self.stiffness[1] * (slip - anchor)
+    /// Tangential force as if it had stuck from the start, N/m.
+    fn trial_shear(&self, slip: f64) -> f64 {
+        -self.stiffness[1] * slip
     }
 
     /// Normal and tangential force in a state, as the linear functions they are within it, N/m.
-    pub fn force_in(&self, state: State, gap: f64, slip: f64, anchor: f64) -> [f64; 2] {
+    pub fn force_in(&self, state: State, gap: f64, slip: f64) -> [f64; 2] {
         let pressure = -self.stiffness[0] * gap;
         let normal = |zone| if zone == Zone::Pressed { pressure } else { 0.0 };
         match state {
             State::Open => [0.0, 0.0],
-            State::Bonded => [pressure, self.trial_shear(slip, anchor)],
-            State::Stick(zone) => [normal(zone), self.trial_shear(slip, anchor)],
+            State::Bonded => [pressure, self.trial_shear(slip)],
+            State::Stick(zone) => [normal(zone), self.trial_shear(slip)],
             State::Slip { sign, zone } => [normal(zone), sign * self.capacity(zone, gap)],
         }
     }
 
     /// Change of normal and tangential force in a state per change `gap` of the gap alone, N/m.
     pub fn force_rate(&self, state: State, gap: f64) -> [f64; 2] {
-        let [there, here] = [gap, 0.0].map(|gap| self.force_in(state, gap, 0.0, 0.0));
+        let [there, here] = [gap, 0.0].map(|gap| self.force_in(state, gap, 0.0));
         [there[0] - here[0], there[1] - here[1]]
     }
 
     /// Force by the law itself, whatever the state: N = max(0, -k_n gap), T = trial T within the capacity.
-    pub fn force(&self, gap: f64, slip: f64, anchor: f64) -> ContactForce {
-        let trial = self.trial_shear(slip, anchor);
+    pub fn force(&self, gap: f64, slip: f64) -> ContactForce {
+        let trial = self.trial_shear(slip);
         let [normal, tangential] = match self.law {
-            Law::Bonded => self.force_in(State::Bonded, gap, slip, anchor),
+            Law::Bonded => self.force_in(State::Bonded, gap, slip),
             _ if gap >= self.reach().max(0.0) => [0.0, 0.0],
             _ => {
                 let zone = if gap < 0.0 { Zone::Pressed } else { Zone::Adhering };
@@ -165,8 +165,8 @@ impl Contact {
 
     /// Calls `see(value, next state)` for every way out of `state`, each a function that is positive inside the state and
     /// vanishes at its border.
-    pub fn ways_out(&self, state: State, gap: Moving, slip: Moving, anchor: f64, mut see: impl FnMut(Moving, State)) {
-        let trial = [self.trial_shear(slip[0], anchor), self.trial_shear(slip[1], 0.0)];
+    pub fn ways_out(&self, state: State, gap: Moving, slip: Moving, mut see: impl FnMut(Moving, State)) {
+        let trial = slip.map(|s| self.trial_shear(s));
         let capacity = |zone| [self.capacity(zone, gap[0]), -self.slope(zone) * gap[1]];
         let negative = |x: Moving| [-x[0], -x[1]];
         let excess = |sign: f64, zone: Zone| [0, 1].map(|i| sign * trial[i] - capacity(zone)[i]);
@@ -221,7 +221,7 @@ mod tests {
         for cohesion in [0.0, 3.0] {
             let c = contact(cohesion);
             let reach = 10.0 * cohesion / 1e4;
-            let at = |gap: f64, slip: f64| c.force(gap, slip, 0.0);
+            let at = |gap: f64, slip: f64| c.force(gap, slip);
             for i in -200..200 {
                 let (gap, slip) = (f64::from(i) * reach.max(1e-3) / 100.0, -1.0);
                 let (here, next) = (at(gap, slip), at(gap + 1e-12, slip));
@@ -243,13 +243,13 @@ mod tests {
             (State::Stick(Zone::Adhering), [1e-3, 0.3]),
             (State::Open, [4e-3, -1.0]),
         ] {
-            c.ways_out(state, gap, slip, 0.0, |value, next| {
+            c.ways_out(state, gap, slip, |value, next| {
                 if value[1] == 0.0 {
                     return;
                 }
                 let step = -value[0] / value[1];
                 let (gap, slip) = (gap[0] + step * gap[1], slip[0] + step * slip[1]);
-                let (here, there) = (c.force_in(state, gap, slip, 0.0), c.force_in(next, gap, slip, 0.0));
+                let (here, there) = (c.force_in(state, gap, slip), c.force_in(next, gap, slip));
                 assert!((here[0] - there[0]).abs() + (here[1] - there[1]).abs() < 1e-9, "{state:?} -> {next:?}");
             });
         }
@@ -259,7 +259,7 @@ mod tests {
     fn a_point_sticks_inside_its_capacity_only() {
         let c = contact(0.0);
         let mut out = Vec::new();
-        c.ways_out(State::Stick(Zone::Pressed), [-1e-3, 0.0], [0.0, -1.0], 0.0, |value, next| out.push((value, next)));
+        c.ways_out(State::Stick(Zone::Pressed), [-1e-3, 0.0], [0.0, -1.0], |value, next| out.push((value, next)));
         // N = 10, capacity 5, T rising by 2e4 per unit: slips after 2.5e-4.
         let slip = out.iter().find(|(_, next)| *next == State::Slip { sign: 1.0, zone: Zone::Pressed }).unwrap();
         assert!((slip.0[0] / -slip.0[1] - 2.5e-4).abs() < 1e-15);

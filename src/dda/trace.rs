@@ -1,6 +1,6 @@
 //! The load path, traced from one change of contact state to the next.
 //!
-//! Between changes of state the response is linear, and with friction anchored for the length of a load step the law is
+//! Between changes of state the response is linear, and with slip measured from the unstressed start the law is
 //! a continuous piecewise-linear map: its solutions form a path that crosses one border at a time. The tracer follows
 //! that path exactly. It never asks for a direction of loading: after each crossing the sign of the new tangent is the
 //! one that goes on crossing, so rises and falls of the load factor, and momentary mechanisms, pass by themselves.
@@ -65,8 +65,7 @@ const SOFT: f64 = 1e-6;
 const STILL: f64 = 1e-7;
 /// A mechanism that meets no new contact within so many chain sizes goes on for ever.
 const FAR: f64 = 10.0;
-/// So many steps of length zero in a row, and four more per contact, mean that ties do not resolve. (After a commit every
-/// contact that slid stands at the border of its state.)
+/// So many steps of length zero in a row mean that ties do not resolve.
 const MOST_ZERO_STEPS: usize = 60;
 /// Follows the load path of a chain.
 #[derive(Debug, Clone)]
@@ -77,7 +76,6 @@ pub struct Tracer<'a> {
     size: f64,
     load_scale: f64,
     states: Vec<State>,
-    anchors: Vec<f64>,
     displacements: Vec<V6>,
     parameter: f64,
     /// Change of the parameter along the current direction.
@@ -123,7 +121,6 @@ impl<'a> Tracer<'a> {
             size,
             load_scale,
             states: chain.contacts().iter().map(|c| c.pressed_state()).collect(),
-            anchors: vec![0.0; chain.contacts().len()],
             displacements: vec![V6::zeros(); n],
             parameter: 0.0,
             rate: 0.0,
@@ -150,24 +147,12 @@ impl<'a> Tracer<'a> {
         tracer
     }
 
-    /// Ends a load step: friction is anchored anew where contacts slid or opened. The next step is driven by `drive`
-    /// from `parameter` on, which must leave the loads and offsets of this instant unchanged.
-    pub fn commit(&mut self, drive: Drive, parameter: f64) {
-        let offset = self.offset();
-        self.chain.gaps(&self.displacements, &mut self.gaps);
-        for p in 0..self.states.len() {
-            let contact = &self.chain.contacts()[p];
-            let [gap, slip] = self.gaps[p];
-            match self.states[p] {
-                State::Open => self.anchors[p] = slip,
-                State::Slip { sign, zone } if !contact.frictionless() => {
-                    let shear = sign * contact.capacity(zone, gap + offset);
-                    self.anchors[p] = slip + shear / contact.stiffness[1];
-                    self.states[p] = State::Stick(zone);
-                }
-                _ => {}
-            }
-        }
+    /// Goes on with another drive from `parameter` on, which must leave the loads and offsets of this instant unchanged.
+    ///
+    /// Friction stays anchored where it was: slip is measured from the unstressed start, all loading being one load
+    /// step. Anchoring it anew here would leave every sliding contact exactly on the border of its state, a point from
+    /// which the path may go backwards (measured: arches that then "fall" at load factor 0).
+    pub fn drive_on(&mut self, drive: Drive, parameter: f64) {
         (self.drive, self.parameter, self.peak) = (drive, parameter, None);
         self.reassemble_all();
     }
@@ -259,7 +244,7 @@ impl<'a> Tracer<'a> {
     fn ways_out(&self, p: usize, state: State, see: impl FnMut(Moving, State)) {
         let ([gap, slip], [gap_rate, slip_rate]) = (self.gaps[p], self.rates[p]);
         let gap = [gap + self.offset(), gap_rate + self.drive.offset[1] * self.rate];
-        self.chain.contacts()[p].ways_out(state, gap, [slip, slip_rate], self.anchors[p], see);
+        self.chain.contacts()[p].ways_out(state, gap, [slip, slip_rate], see);
     }
 
     fn nearest_event(&self, barred: Option<(usize, State)>) -> Option<Event> {
@@ -314,11 +299,6 @@ impl<'a> Tracer<'a> {
     /// Direction in which the path goes on.
     pub fn direction(&self) -> &[V6] {
         &self.direction
-    }
-
-    /// Points from which friction is measured, one per contact, m.
-    pub fn anchors(&self) -> &[f64] {
-        &self.anchors
     }
 
     /// The highest point after which the parameter did not rise at once; none if it always rose.

@@ -40,7 +40,7 @@ impl Tracer<'_> {
                 let [gap, slip] = self.gaps[p];
                 let state = self.states[p];
                 let offset = if state == State::Bonded { 0.0 } else { offset };
-                let [normal, shear] = contact.force_in(state, gap + offset, slip, self.anchors[p]);
+                let [normal, shear] = contact.force_in(state, gap + offset, slip);
                 push(&mut self.residual, contact, k, normal, shear);
             }
         }
