@@ -53,6 +53,7 @@ fn measures(all: &[Checked]) {
     println!("  off it where no joint slides, relative  {}", worst(all, |c| c.deviation));
     println!("  limit window against oracle, relative   {}", worst(all, |c| c.window_error));
     println!("  equilibrium residual, share of weight   {}", worst(all, |c| Some(c.residual)));
+    println!("  work in the mechanism without sliding     {}", worst(all, |c| Some(c.power)));
 }
 
 fn quantiles(mut values: Vec<f64>, unit: &str, scale: f64) -> String {
@@ -87,6 +88,12 @@ fn ratios(all: &[Checked]) {
     lowest.sort_by(|a, b| a.0.total_cmp(&b.0));
     let shown: Vec<String> = lowest.iter().take(12).map(|(ratio, seed)| format!("{ratio:.4} (seed {seed})")).collect();
     println!("  lowest: {}", shown.join(", "));
+    println!("  stones entering each other in the mechanism (share of the fastest corner), by that intensity:");
+    for (name, low, high) in [("equal", 1.0 - 1e-6, 2.0), ("within 3 %", 0.97, 1.0 - 1e-6), ("lower", -1.0, 0.97)] {
+        let some: Vec<&Checked> = all.iter().filter(|c| c.ratio.is_some_and(|r| r > low && r <= high)).collect();
+        let count = |share: f64| some.iter().filter(|c| c.entering > share).count();
+        println!("    {name:<12} {:>6} arches, over 1e-6: {}, over 1e-2: {}", some.len(), count(1e-6), count(1e-2));
+    }
 }
 
 fn complaints(all: &[Checked]) {

@@ -3,6 +3,7 @@
 
 pub mod door;
 pub mod masonry;
+pub mod motion;
 pub mod oracle;
 pub mod random_arch;
 pub mod verify;
