@@ -6,5 +6,7 @@ pub mod arch;
 pub mod collapse;
 pub mod dda;
 pub mod geometry;
+#[cfg(feature = "server")]
+pub mod jobs;
 pub mod limit;
 pub mod render;

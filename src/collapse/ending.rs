@@ -4,7 +4,7 @@ use super::discretise::Model;
 use super::mechanism::{self, motion_at};
 use super::{Analysis, PathEnd, Thrust};
 use crate::arch::{Arch, PointForce};
-use crate::dda::{Peak, State, V6};
+use crate::dda::{Peak, State, V6, Zone};
 use crate::limit::{Condition, Resultant, StaticTheorem};
 
 /// Polishing undoes a disturbance of about 1e-9; a larger change means that other conditions were solved.
@@ -21,7 +21,7 @@ pub(super) fn at_peak(
     residual: f64,
 ) -> PathEnd {
     let arch = &analysis.arch;
-    let conditions = conditions(model, arch, &peak.states);
+    let conditions = conditions(model, arch, peak);
     let polished = theorem.solve(&conditions).filter(|e| {
         let scale = peak.parameter.abs().max(theorem.load_factor_scale());
         (e.load_factor - peak.parameter).abs() <= POLISH * scale
@@ -31,7 +31,7 @@ pub(super) fn at_peak(
         None => carried(model, &peak.displacements, anchors),
     };
     let driving: Vec<PointForce> = analysis.scaled.iter().map(|f| PointForce { force: f.force * sign, ..*f }).collect();
-    let slipping: Vec<Option<f64>> = (0..arch.joints.len()).map(|k| sliding_shear(model, k, &peak.states)).collect();
+    let slipping: Vec<Option<f64>> = (0..arch.joints.len()).map(|k| sliding_shear(model, k, peak)).collect();
     let mechanism = mechanism::from_statics(arch, &resultants, &slipping, &driving)
         .unwrap_or_else(|| from_direction(model, arch, &peak.direction));
     PathEnd {
@@ -66,35 +66,41 @@ fn from_direction(model: &Model, arch: &Arch, direction: &[V6]) -> super::Mechan
 }
 
 /// What the contact states at the peak say of the joint forces there.
-fn conditions(model: &Model, arch: &Arch, states: &[State]) -> Vec<Condition> {
+fn conditions(model: &Model, arch: &Arch, peak: &Peak) -> Vec<Condition> {
     let mut conditions = Vec::new();
     for joint in 0..arch.joints.len() {
-        let corners = model.corners(joint).map(|p| states[p]);
+        let corners = model.corners(joint).map(|p| peak.states[p]);
         for (face, state) in corners.iter().enumerate() {
-            if *state == State::Open {
+            if matches!(state, State::Open | State::Stick(Zone::Adhering) | State::Slip { zone: Zone::Adhering, .. }) {
                 let mut weights = [0.0; 3];
                 weights[face] = 1.0;
                 conditions.push(Condition { joint, weights, constant: 0.0 });
             }
         }
-        if let Some((weights, constant)) = shear_condition(model, joint, states) {
+        if let Some((weights, constant)) = shear_condition(model, joint, peak) {
             conditions.push(Condition { joint, weights, constant });
         }
     }
     conditions
 }
 
-/// T - sum s (slope N + intercept) over the pressed corners, where all of them slide the same way.
-fn shear_condition(model: &Model, joint: usize, states: &[State]) -> Option<([f64; 3], f64)> {
+/// T - sum of the capacities of the corners, where all that can carry shear slide the same way. Corners that only
+/// adhere carry what their gap leaves them.
+fn shear_condition(model: &Model, joint: usize, peak: &Peak) -> Option<([f64; 3], f64)> {
     let (mut weights, mut constant, mut way) = ([0.0, 0.0, 1.0], 0.0, 0.0);
     for (face, p) in model.corners(joint).into_iter().enumerate() {
-        match states[p] {
+        let contact = &model.chain.contacts()[p];
+        match peak.states[p] {
             State::Open => {}
-            State::Slip { sign, branch } if way == 0.0 || way == sign => {
-                let (slope, intercept) = model.chain.contacts()[p].law.branches()[branch];
-                weights[face] = -sign * slope;
-                constant -= sign * intercept;
+            State::Slip { sign, zone } if way == 0.0 || way == sign => {
                 way = sign;
+                match zone {
+                    Zone::Adhering => constant -= sign * contact.capacity(zone, model.gap(p, &peak.displacements)),
+                    Zone::Pressed => {
+                        weights[face] = -sign * contact.slope(zone) / contact.stiffness[0];
+                        constant -= sign * contact.capacity(zone, 0.0);
+                    }
+                }
             }
             _ => return None,
         }
@@ -103,10 +109,10 @@ fn shear_condition(model: &Model, joint: usize, states: &[State]) -> Option<([f6
 }
 
 /// Sign of the shear of a joint all of whose pressed corners slide one way; None for any other joint.
-fn sliding_shear(model: &Model, joint: usize, states: &[State]) -> Option<f64> {
-    shear_condition(model, joint, states)?;
-    model.corners(joint).into_iter().find_map(|p| match states[p] {
-        State::Slip { sign, .. } if !model.chain.contacts()[p].law.frictionless() => Some(sign),
+fn sliding_shear(model: &Model, joint: usize, peak: &Peak) -> Option<f64> {
+    shear_condition(model, joint, peak)?;
+    model.corners(joint).into_iter().find_map(|p| match peak.states[p] {
+        State::Slip { sign, .. } if !model.chain.contacts()[p].frictionless() => Some(sign),
         _ => None,
     })
 }

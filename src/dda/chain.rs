@@ -1,7 +1,7 @@
 //! The chain: blocks in a row, joined at interfaces by contact points.
 
 use super::block::{Block, M6, V6};
-use super::contact::{Contact, ContactForce, Law, State};
+use super::contact::{Contact, ContactForce, Law, State, Zone};
 use crate::geometry::Vec2;
 
 /// Blocks in a row. Interface `k` joins block `k - 1` to block `k`; beyond either end lies the rigid ground.
@@ -108,15 +108,16 @@ impl Chain {
         for p in self.at_interface(k) {
             let c = &self.contacts[p];
             let [k_n, k_t] = c.stiffness;
-            // Row vectors that the normal and the tangential gap rate are multiplied by.
-            let (on_normal, on_tangent): ([V6; 2], [V6; 2]) = match states[p] {
+            let pressed = |zone| if zone == Zone::Pressed { k_n } else { 0.0 };
+            // Stiffness against the normal and against the tangential gap, and shear per unit of normal gap.
+            let (against_gap, against_slip, coupling) = match states[p] {
                 State::Open => continue,
-                State::Stick | State::Bonded => (c.normal.map(|g| g * k_n), c.tangent.map(|g| g * k_t)),
-                State::Slip { sign, branch } => {
-                    let slope = sign * c.law.branches()[branch].0;
-                    ([0, 1].map(|i| (c.normal[i] + c.tangent[i] * slope) * k_n), [V6::zeros(); 2])
-                }
+                State::Bonded => (k_n, k_t, 0.0),
+                State::Stick(zone) => (pressed(zone), k_t, 0.0),
+                State::Slip { sign, zone } => (pressed(zone), 0.0, sign * c.slope(zone)),
             };
+            let on_normal = [0, 1].map(|i| c.normal[i] * against_gap + c.tangent[i] * coupling);
+            let on_tangent = c.tangent.map(|g| g * against_slip);
             for (i, row) in blocks.iter_mut().enumerate() {
                 for (j, block) in row.iter_mut().enumerate() {
                     *block += on_normal[i] * c.normal[j].transpose() + on_tangent[i] * c.tangent[j].transpose();

@@ -1,4 +1,4 @@
-//! The contact point: gap, Coulomb law, and the functions whose zeros are its changes of state.
+//! The contact point: gap, Coulomb law with cohesion, and the functions whose zeros are its changes of state.
 
 use super::block::V6;
 
@@ -7,7 +7,7 @@ use super::block::V6;
 pub enum Law {
     /// Neither opens nor slides.
     Bonded,
-    /// Unilateral, with |T| <= min(friction N + cohesion, steep N).
+    /// Unilateral, with |T| <= friction N + cohesion.
     Coulomb {
         /// tan(phi).
         friction: f64,
@@ -16,41 +16,20 @@ pub enum Law {
     },
 }
 
-/// Slope of the branch that brings a cohesive point's shear capacity down to zero as its normal force vanishes.
+/// Gap over which a cohesive point that opens loses its cohesion, as a multiple of cohesion / k_n.
 ///
-/// Coulomb's law with cohesion jumps where N -> 0 with T != 0, and no continuous path passes a jump. Below
-/// N = cohesion / (steep - friction) the capacity is `STEEP * N` instead: inside Coulomb's law, so still safe, and
-/// continuous. A larger value comes closer to the jump and worsens the conditioning in proportion.
-pub const STEEP: f64 = 100.0;
+/// Coulomb's law with cohesion jumps where N -> 0 with T != 0, and no continuous path passes a jump. Over this gap,
+/// some hundredths of a millimetre, the shear capacity falls linearly to zero instead. A larger reach softens the fall
+/// (at 10 it acts like friction of 0.1); the joint's capacity never exceeds Coulomb's with all its cohesion.
+pub const ADHESION_REACH: f64 = 10.0;
 
-impl Law {
-    /// Branches (slope, intercept) of the shear capacity: the capacity is their smallest value at N >= 0.
-    pub fn branches(&self) -> [(f64, f64); 2] {
-        match *self {
-            Law::Bonded => [(f64::INFINITY, f64::INFINITY); 2],
-            Law::Coulomb { friction, cohesion: 0.0 } => [(friction, 0.0); 2],
-            Law::Coulomb { friction, cohesion } => [(friction, cohesion), (friction + STEEP, 0.0)],
-        }
-    }
-
-    /// Number of distinct branches.
-    pub fn branch_count(&self) -> usize {
-        match *self {
-            Law::Bonded => 0,
-            Law::Coulomb { cohesion: 0.0, .. } => 1,
-            Law::Coulomb { .. } => 2,
-        }
-    }
-
-    /// True where the point can carry no shear at all.
-    pub fn frictionless(&self) -> bool {
-        matches!(*self, Law::Coulomb { friction: 0.0, cohesion: 0.0 })
-    }
-
-    /// Largest |T| under the normal force `n` >= 0.
-    pub fn capacity(&self, n: f64) -> f64 {
-        self.branches().iter().map(|(slope, intercept)| slope * n + intercept).fold(f64::INFINITY, f64::min)
-    }
+/// Where on the gap axis a point that can carry shear is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Zone {
+    /// Gap < 0: N = -k_n gap, capacity = friction N + cohesion.
+    Pressed,
+    /// 0 <= gap < reach: N = 0, capacity falls from the cohesion to zero.
+    Adhering,
 }
 
 /// State of a contact point.
@@ -58,17 +37,25 @@ impl Law {
 pub enum State {
     /// Apart: N = T = 0.
     Open,
-    /// Pressed and held by friction: T from the tangential spring.
-    Stick,
-    /// Pressed and sliding: T = sign * (slope N + intercept) of the branch.
+    /// Held: T from the tangential spring.
+    Stick(Zone),
+    /// Sliding: T = sign * capacity.
     Slip {
         /// +1 or -1: the sign of T.
         sign: f64,
-        /// Which branch of the capacity.
-        branch: usize,
+        /// Where.
+        zone: Zone,
     },
     /// Glued for good.
     Bonded,
+}
+
+/// Zone of a state that can carry shear.
+pub(super) fn zone(state: State) -> Option<Zone> {
+    match state {
+        State::Stick(zone) | State::Slip { zone, .. } => Some(zone),
+        State::Open | State::Bonded => None,
+    }
 }
 
 /// A contact point between the block before and the block after an interface.
@@ -93,14 +80,40 @@ pub struct ContactForce {
     pub tangential: f64,
     /// Normal gap, open positive, m.
     pub gap: f64,
-    /// Tangential gap, m.
-    pub slip: f64,
 }
 
+/// A quantity and its rate along the path.
+pub type Moving = [f64; 2];
+
 impl Contact {
-    /// Normal force as the linear function it is while closed (negative when open), N/m.
-    pub fn pressure(&self, gap: f64) -> f64 {
-        -self.stiffness[0] * gap
+    fn cohesion(&self) -> f64 {
+        match self.law {
+            Law::Bonded => f64::INFINITY,
+            Law::Coulomb { cohesion, .. } => cohesion,
+        }
+    }
+
+    /// Gap at which the point has nothing left to carry shear with, m.
+    fn reach(&self) -> f64 {
+        ADHESION_REACH * self.cohesion() / self.stiffness[0]
+    }
+
+    /// Fall of the shear capacity per unit of gap in a zone, N/m2: the capacity is cohesion - slope * gap.
+    pub fn slope(&self, zone: Zone) -> f64 {
+        match (zone, self.law) {
+            (Zone::Pressed, Law::Coulomb { friction, .. }) => friction * self.stiffness[0],
+            _ => self.stiffness[0] / ADHESION_REACH,
+        }
+    }
+
+    /// Shear capacity in a zone, N/m.
+    pub fn capacity(&self, zone: Zone, gap: f64) -> f64 {
+        self.cohesion() - self.slope(zone) * gap
+    }
+
+    /// True where the point can carry no shear at all.
+    pub fn frictionless(&self) -> bool {
+        matches!(self.law, Law::Coulomb { friction: 0.0, cohesion: 0.0 })
     }
 
     /// Tangential force as if stuck to `anchor`, N/m.
@@ -108,64 +121,147 @@ impl Contact {
         -self.stiffness[1] * (slip - anchor)
     }
 
-    /// Force by the law itself, whatever the state: N = max(0, -k_n g_n), T = trial T within the capacity.
-    pub fn force(&self, gap: f64, slip: f64, anchor: f64) -> ContactForce {
-        let (n, t) = (self.pressure(gap), self.trial_shear(slip, anchor));
-        let (normal, tangential) = match self.law {
-            Law::Bonded => (n, t),
-            _ if n <= 0.0 => (0.0, 0.0),
-            law => (n, t.clamp(-law.capacity(n), law.capacity(n))),
-        };
-        ContactForce { normal, tangential, gap, slip }
-    }
-
-    /// State in which a closed point starts.
-    pub fn closed_state(&self) -> State {
-        match self.law {
-            Law::Bonded => State::Bonded,
-            law if law.frictionless() => State::Slip { sign: 1.0, branch: 0 },
-            _ => State::Stick,
+    /// Normal and tangential force in a state, as the linear functions they are within it, N/m.
+    pub fn force_in(&self, state: State, gap: f64, slip: f64, anchor: f64) -> [f64; 2] {
+        let pressure = -self.stiffness[0] * gap;
+        let normal = |zone| if zone == Zone::Pressed { pressure } else { 0.0 };
+        match state {
+            State::Open => [0.0, 0.0],
+            State::Bonded => [pressure, self.trial_shear(slip, anchor)],
+            State::Stick(zone) => [normal(zone), self.trial_shear(slip, anchor)],
+            State::Slip { sign, zone } => [normal(zone), sign * self.capacity(zone, gap)],
         }
     }
 
-    /// State of a point that closes with the trial shear `shear`: on the boundary N = 0 only slip is continuous.
-    pub fn closing_state(&self, shear: f64) -> State {
-        State::Slip { sign: if shear < 0.0 { -1.0 } else { 1.0 }, branch: self.law.branch_count().max(1) - 1 }
+    /// Change of normal and tangential force in a state per change `gap` of the gap alone, N/m.
+    pub fn force_rate(&self, state: State, gap: f64) -> [f64; 2] {
+        let [there, here] = [gap, 0.0].map(|gap| self.force_in(state, gap, 0.0, 0.0));
+        [there[0] - here[0], there[1] - here[1]]
     }
 
-    /// Calls `see(value, rate, next state)` for every way out of `state`, each a function that is positive inside the
-    /// state and vanishes at its border, with (N, trial T, gap) given by value and rate.
-    pub fn ways_out(&self, state: State, n: [f64; 2], t: [f64; 2], mut see: impl FnMut(f64, f64, State)) {
+    /// Force by the law itself, whatever the state: N = max(0, -k_n gap), T = trial T within the capacity.
+    pub fn force(&self, gap: f64, slip: f64, anchor: f64) -> ContactForce {
+        let trial = self.trial_shear(slip, anchor);
+        let [normal, tangential] = match self.law {
+            Law::Bonded => self.force_in(State::Bonded, gap, slip, anchor),
+            _ if gap >= self.reach().max(0.0) => [0.0, 0.0],
+            _ => {
+                let zone = if gap < 0.0 { Zone::Pressed } else { Zone::Adhering };
+                let capacity = self.capacity(zone, gap);
+                [(-self.stiffness[0] * gap).max(0.0), trial.clamp(-capacity, capacity)]
+            }
+        };
+        ContactForce { normal, tangential, gap }
+    }
+
+    /// State in which a pressed point starts.
+    pub fn pressed_state(&self) -> State {
+        match self.law {
+            Law::Bonded => State::Bonded,
+            _ if self.frictionless() => State::Slip { sign: 1.0, zone: Zone::Pressed },
+            _ => State::Stick(Zone::Pressed),
+        }
+    }
+
+    /// Calls `see(value, next state)` for every way out of `state`, each a function that is positive inside the state and
+    /// vanishes at its border.
+    pub fn ways_out(&self, state: State, gap: Moving, slip: Moving, anchor: f64, mut see: impl FnMut(Moving, State)) {
+        let trial = [self.trial_shear(slip[0], anchor), self.trial_shear(slip[1], 0.0)];
+        let capacity = |zone| [self.capacity(zone, gap[0]), -self.slope(zone) * gap[1]];
+        let negative = |x: Moving| [-x[0], -x[1]];
+        let excess = |sign: f64, zone: Zone| [0, 1].map(|i| sign * trial[i] - capacity(zone)[i]);
+        let adhesive = self.cohesion() > 0.0;
         match state {
             State::Bonded => {}
             State::Open => {
-                let k = self.stiffness[0];
-                see(-n[0] / k, -n[1] / k, self.closing_state(t[0]));
+                let above = [gap[0] - self.reach(), gap[1]];
+                // The way it slides is decided by the trial shear at the instant of closing; the capacity is zero there.
+                let until = if above[1] < 0.0 { (above[0] / -above[1]).max(0.0) } else { 0.0 };
+                let sign = if trial[0] + until * trial[1] < 0.0 { -1.0 } else { 1.0 };
+                see(above, State::Slip { sign, zone: if adhesive { Zone::Adhering } else { Zone::Pressed } });
             }
-            State::Stick => {
-                see(n[0], n[1], State::Open);
-                for branch in 0..self.law.branch_count() {
-                    let (slope, intercept) = self.law.branches()[branch];
-                    for sign in [1.0, -1.0] {
-                        let value = slope * n[0] + intercept - sign * t[0];
-                        see(value, slope * n[1] - sign * t[1], State::Slip { sign, branch });
+            State::Stick(zone) => {
+                match zone {
+                    Zone::Pressed if adhesive => see(negative(gap), State::Stick(Zone::Adhering)),
+                    Zone::Pressed => see(negative(gap), State::Open),
+                    Zone::Adhering => see(gap, State::Stick(Zone::Pressed)),
+                }
+                for sign in [1.0, -1.0] {
+                    see(negative(excess(sign, zone)), State::Slip { sign, zone });
+                }
+            }
+            State::Slip { sign, zone } => {
+                match zone {
+                    Zone::Pressed if adhesive => see(negative(gap), State::Slip { sign, zone: Zone::Adhering }),
+                    Zone::Pressed => see(negative(gap), State::Open),
+                    Zone::Adhering => {
+                        see(gap, State::Slip { sign, zone: Zone::Pressed });
+                        see([self.reach() - gap[0], -gap[1]], State::Open);
                     }
                 }
-            }
-            State::Slip { sign, branch } => {
-                see(n[0], n[1], State::Open);
-                if self.law.frictionless() {
-                    return;
-                }
-                let branches = self.law.branches();
-                let (slope, intercept) = branches[branch];
-                see(sign * t[0] - (slope * n[0] + intercept), sign * t[1] - slope * n[1], State::Stick);
-                if self.law.branch_count() == 2 {
-                    let (other_slope, other_intercept) = branches[1 - branch];
-                    let value = (other_slope - slope) * n[0] + other_intercept - intercept;
-                    see(value, (other_slope - slope) * n[1], State::Slip { sign, branch: 1 - branch });
+                if !self.frictionless() {
+                    see(excess(sign, zone), State::Stick(zone));
                 }
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn contact(cohesion: f64) -> Contact {
+        let rows = [V6::zeros(); 2];
+        Contact { normal: rows, tangent: rows, stiffness: [1e4, 2e4], law: Law::Coulomb { friction: 0.5, cohesion } }
+    }
+
+    #[test]
+    fn the_law_is_continuous_and_within_coulomb() {
+        for cohesion in [0.0, 3.0] {
+            let c = contact(cohesion);
+            let reach = 10.0 * cohesion / 1e4;
+            let at = |gap: f64, slip: f64| c.force(gap, slip, 0.0);
+            for i in -200..200 {
+                let (gap, slip) = (f64::from(i) * reach.max(1e-3) / 100.0, -1.0);
+                let (here, next) = (at(gap, slip), at(gap + 1e-12, slip));
+                assert!((here.tangential - next.tangential).abs() < 1e-7 && (here.normal - next.normal).abs() < 1e-7);
+                assert!(here.tangential.abs() <= 0.5 * here.normal + cohesion + 1e-12);
+            }
+            assert_eq!((at(-1e-3, 0.0).normal, at(reach + 1e-9, -1.0).tangential), (10.0, 0.0));
+        }
+    }
+
+    #[test]
+    fn both_states_carry_the_same_force_on_the_border_between_them() {
+        let c = contact(3.0);
+        let slip = [-1.3e-4, -2.0];
+        for (state, gap) in [
+            (State::Stick(Zone::Pressed), [-1e-4, 1.0]),
+            (State::Slip { sign: 1.0, zone: Zone::Pressed }, [-1e-4, 1.0]),
+            (State::Slip { sign: 1.0, zone: Zone::Adhering }, [1e-3, 0.3]),
+            (State::Stick(Zone::Adhering), [1e-3, 0.3]),
+            (State::Open, [4e-3, -1.0]),
+        ] {
+            c.ways_out(state, gap, slip, 0.0, |value, next| {
+                if value[1] == 0.0 {
+                    return;
+                }
+                let step = -value[0] / value[1];
+                let (gap, slip) = (gap[0] + step * gap[1], slip[0] + step * slip[1]);
+                let (here, there) = (c.force_in(state, gap, slip, 0.0), c.force_in(next, gap, slip, 0.0));
+                assert!((here[0] - there[0]).abs() + (here[1] - there[1]).abs() < 1e-9, "{state:?} -> {next:?}");
+            });
+        }
+    }
+
+    #[test]
+    fn a_point_sticks_inside_its_capacity_only() {
+        let c = contact(0.0);
+        let mut out = Vec::new();
+        c.ways_out(State::Stick(Zone::Pressed), [-1e-3, 0.0], [0.0, -1.0], 0.0, |value, next| out.push((value, next)));
+        // N = 10, capacity 5, T rising by 2e4 per unit: slips after 2.5e-4.
+        let slip = out.iter().find(|(_, next)| *next == State::Slip { sign: 1.0, zone: Zone::Pressed }).unwrap();
+        assert!((slip.0[0] / -slip.0[1] - 2.5e-4).abs() < 1e-15);
     }
 }

@@ -16,5 +16,5 @@ pub mod trace;
 
 pub use block::{Block, Elasticity, V6};
 pub use chain::{Chain, ChainBuilder};
-pub use contact::{Contact, ContactForce, Law, State};
+pub use contact::{Contact, ContactForce, Law, State, Zone};
 pub use trace::{Drive, End, Peak, Tracer, covering};

@@ -11,7 +11,7 @@ pub use equilibrium::covering;
 
 use super::block::{M6, V6};
 use super::chain::Chain;
-use super::contact::State;
+use super::contact::{Moving, State, zone};
 use super::factor::{Factor, Tridiagonal};
 use std::ops::ControlFlow;
 
@@ -57,11 +57,16 @@ pub struct Peak {
 
 /// A pivot ratio below this is a mechanism (measured: regular 1e-2 to 1e-8, singular below 1e-14).
 const SINGULAR: f64 = 1e-13;
+/// So is a direction in which the chain has to move by its own size to take on this share of its load (measured:
+/// stable chains take on 1e4 times their load). Elimination that pivots inside the blocks only may blur a singular
+/// pivot to 1e-10; this it does not blur.
+const SOFT: f64 = 1e-6;
 /// In a mechanism, gap rates below this are rounding (the direction's largest entry is 1).
 const STILL: f64 = 1e-7;
 /// A mechanism that meets no new contact within so many chain sizes goes on for ever.
 const FAR: f64 = 10.0;
-/// So many steps of length zero in a row mean that ties do not resolve.
+/// So many steps of length zero in a row, and four more per contact, mean that ties do not resolve. (After a commit every
+/// contact that slid stands at the border of its state.)
 const MOST_ZERO_STEPS: usize = 60;
 /// Follows the load path of a chain.
 #[derive(Debug, Clone)]
@@ -84,6 +89,8 @@ pub struct Tracer<'a> {
     matrix: Tridiagonal,
     load_rate: Vec<V6>,
     factor: Factor,
+    /// Largest entry of the drive's load rate.
+    load_rate_scale: f64,
     /// Scratch: gaps and gap rates of all contacts, tangent direction.
     gaps: Vec<[f64; 2]>,
     rates: Vec<[f64; 2]>,
@@ -115,7 +122,7 @@ impl<'a> Tracer<'a> {
             drive,
             size,
             load_scale,
-            states: chain.contacts().iter().map(|c| c.closed_state()).collect(),
+            states: chain.contacts().iter().map(|c| c.pressed_state()).collect(),
             anchors: vec![0.0; chain.contacts().len()],
             displacements: vec![V6::zeros(); n],
             parameter: 0.0,
@@ -129,6 +136,7 @@ impl<'a> Tracer<'a> {
                 lower: vec![M6::zeros(); n.saturating_sub(1)],
             },
             load_rate: vec![V6::zeros(); n],
+            load_rate_scale: 0.0,
             factor: Factor::new(n),
             gaps: Vec::new(),
             rates: Vec::new(),
@@ -138,9 +146,7 @@ impl<'a> Tracer<'a> {
             factorisations: 0,
             worst_residual: 0.0,
         };
-        for k in 0..=n {
-            tracer.reassemble(k);
-        }
+        tracer.reassemble_all();
         tracer
     }
 
@@ -154,19 +160,16 @@ impl<'a> Tracer<'a> {
             let [gap, slip] = self.gaps[p];
             match self.states[p] {
                 State::Open => self.anchors[p] = slip,
-                State::Slip { sign, branch } if !contact.law.frictionless() => {
-                    let (slope, intercept) = contact.law.branches()[branch];
-                    let shear = sign * (slope * contact.pressure(gap + offset) + intercept);
+                State::Slip { sign, zone } if !contact.frictionless() => {
+                    let shear = sign * contact.capacity(zone, gap + offset);
                     self.anchors[p] = slip + shear / contact.stiffness[1];
-                    self.states[p] = State::Stick;
+                    self.states[p] = State::Stick(zone);
                 }
                 _ => {}
             }
         }
         (self.drive, self.parameter, self.peak) = (drive, parameter, None);
-        for k in 0..self.chain.interfaces() {
-            self.reassemble(k);
-        }
+        self.reassemble_all();
     }
 
     /// Traces until the parameter reaches `target` (> the current one) or the path ends. `see` is called at the start
@@ -202,7 +205,10 @@ impl<'a> Tracer<'a> {
             barred = Some((event.contact, self.states[event.contact]));
             self.advance(event.step);
             self.cross(event);
-            if zero_steps > MOST_ZERO_STEPS || self.events > most_events || !self.keep_equilibrium() {
+            if zero_steps > MOST_ZERO_STEPS + 4 * self.states.len()
+                || self.events > most_events
+                || !self.keep_equilibrium()
+            {
                 return End::Lost;
             }
         }
@@ -223,9 +229,9 @@ impl<'a> Tracer<'a> {
         self.events += 1;
         self.solve_tangent();
         let mut crossing = 0.0;
-        self.ways_out(event.contact, before, |_, change, next| {
-            if next == event.next {
-                crossing = change;
+        self.ways_out(event.contact, before, |value, next| {
+            if next == event.next || before == State::Open {
+                crossing = value[1];
             }
         });
         if crossing > 0.0 {
@@ -249,24 +255,23 @@ impl<'a> Tracer<'a> {
         self.rate = -self.rate;
     }
 
-    /// Calls `see(value, rate, next)` for every way out of `state` at contact `p`, along the current direction.
-    fn ways_out(&self, p: usize, state: State, see: impl FnMut(f64, f64, State)) {
-        let contact = &self.chain.contacts()[p];
+    /// Calls `see(value, next)` for every way out of `state` at contact `p`, along the current direction.
+    fn ways_out(&self, p: usize, state: State, see: impl FnMut(Moving, State)) {
         let ([gap, slip], [gap_rate, slip_rate]) = (self.gaps[p], self.rates[p]);
-        let normal =
-            [contact.pressure(gap + self.offset()), contact.pressure(gap_rate + self.drive.offset[1] * self.rate)];
-        let shear = [contact.trial_shear(slip, self.anchors[p]), contact.trial_shear(slip_rate, 0.0)];
-        contact.ways_out(state, normal, shear, see);
+        let gap = [gap + self.offset(), gap_rate + self.drive.offset[1] * self.rate];
+        self.chain.contacts()[p].ways_out(state, gap, [slip, slip_rate], self.anchors[p], see);
     }
 
     fn nearest_event(&self, barred: Option<(usize, State)>) -> Option<Event> {
         let still = if self.is_mechanism() { STILL } else { 0.0 };
         let mut nearest: Option<Event> = None;
         for (p, &state) in self.states.iter().enumerate() {
-            // Rates of forces are measured against the penalty, rates of gaps against 1.
-            let threshold = if state == State::Open { still } else { still * self.chain.contacts()[p].stiffness[0] };
-            self.ways_out(p, state, |value, change, next| {
+            let stiffness = self.chain.contacts()[p].stiffness[0];
+            self.ways_out(p, state, |[value, change], next| {
                 let back = barred.is_some_and(|(contact, old)| contact == p && (next == old || state == State::Open));
+                // Rates of gaps are measured against 1, rates of forces against the penalty.
+                let is_gap = matches!((state, next), (State::Open, _) | (_, State::Open)) || zone(state) != zone(next);
+                let threshold = if is_gap { still } else { still * stiffness };
                 if change < -threshold && !back {
                     let step = (value / -change).max(0.0);
                     if nearest.is_none_or(|event| step < event.step) {
@@ -292,7 +297,8 @@ impl<'a> Tracer<'a> {
 
     /// True where the present contact state leaves the chain free to move.
     pub fn is_mechanism(&self) -> bool {
-        self.factor.pivot_ratio() < SINGULAR
+        let gained = self.rate.abs() * self.size * self.load_rate_scale;
+        self.factor.pivot_ratio() < SINGULAR || gained < SOFT * self.load_scale
     }
 
     /// Parameter reached.

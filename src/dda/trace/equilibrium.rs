@@ -38,23 +38,23 @@ impl Tracer<'_> {
             for p in self.chain.at_interface(k) {
                 let contact = &self.chain.contacts()[p];
                 let [gap, slip] = self.gaps[p];
-                let trial = contact.trial_shear(slip, self.anchors[p]);
-                let (normal, shear) = match self.states[p] {
-                    State::Open => continue,
-                    State::Bonded => (contact.pressure(gap), trial),
-                    State::Stick => (contact.pressure(gap + offset), trial),
-                    State::Slip { sign, branch } => {
-                        let normal = contact.pressure(gap + offset);
-                        let (slope, intercept) = contact.law.branches()[branch];
-                        (normal, sign * (slope * normal + intercept))
-                    }
-                };
+                let state = self.states[p];
+                let offset = if state == State::Bonded { 0.0 } else { offset };
+                let [normal, shear] = contact.force_in(state, gap + offset, slip, self.anchors[p]);
                 push(&mut self.residual, contact, k, normal, shear);
             }
         }
         // `max` passes over NaN, which must not pass for equilibrium.
         let entries = self.residual.iter().flatten().map(|r| if r.is_finite() { r.abs() } else { f64::INFINITY });
         entries.fold(0.0, f64::max) / self.load_scale
+    }
+
+    /// Renews the whole matrix and load rate.
+    pub(super) fn reassemble_all(&mut self) {
+        for k in 0..self.chain.interfaces() {
+            self.reassemble(k);
+        }
+        self.load_rate_scale = self.load_rate.iter().map(|load| load.amax()).fold(0.0, f64::max);
     }
 
     /// Renews the matrix and the load rate around interface `k`.
@@ -81,12 +81,11 @@ impl Tracer<'_> {
         for (interface, side) in [(i, 1), (i + 1, 0)] {
             for p in self.chain.at_interface(interface) {
                 let contact = &self.chain.contacts()[p];
-                let slope = match self.states[p] {
-                    State::Open | State::Bonded => continue,
-                    State::Stick => 0.0,
-                    State::Slip { sign, branch } => sign * contact.law.branches()[branch].0,
-                };
-                load += (contact.normal[side] + contact.tangent[side] * slope) * contact.pressure(self.drive.offset[1]);
+                if self.states[p] == State::Bonded {
+                    continue;
+                }
+                let [normal, shear] = contact.force_rate(self.states[p], self.drive.offset[1]);
+                load += contact.normal[side] * normal + contact.tangent[side] * shear;
             }
         }
         load
@@ -118,7 +117,7 @@ pub fn covering(chain: &Chain, loads: &[V6], preload: f64) -> Drive {
         for p in chain.at_interface(k) {
             let contact = &chain.contacts()[p];
             if contact.law != Law::Bonded {
-                push(&mut base, contact, k, -contact.pressure(-preload), 0.0);
+                push(&mut base, contact, k, -contact.stiffness[0] * preload, 0.0);
             }
         }
     }

@@ -1,0 +1,163 @@
+//! The answer on the wire. Angles in degrees, everything else in the unit its name ends with; rows of numbers stand in
+//! columns, one array per quantity. Nothing here depends on the clock: the same request gives the same bytes.
+
+mod columns;
+mod mechanism;
+mod words;
+
+pub use columns::{BlockColumns, ContactColumns, HistoryColumns, SnapshotBody, ThrustColumns, VelocityColumns};
+pub use mechanism::{Collapse, End, HingeBody, SlideBody};
+pub use words::{FaceWord, GovernedBy, MethodWord, ModeWord, OutcomeWord};
+
+use super::request::AnalysisRequest;
+use crate::collapse::{CollapseReport, LimitWindow, ThrustRange};
+use serde::Serialize;
+use utoipa::ToSchema;
+
+/// The answer to one request.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub struct AnalysisResult {
+    /// What happened.
+    pub outcome: OutcomeWord,
+    /// How the load path was read.
+    pub method: MethodWord,
+    /// Unit of every intensity.
+    pub unit: String,
+    /// The collapse; null where nothing collapses.
+    pub collapse: Option<Collapse>,
+    /// Lowest and highest intensity at which the static theorem finds equilibrium, each null where unbounded; null where
+    /// nothing stands.
+    pub limit_window: Option<[Option<f64>; 2]>,
+    /// The same as load factors.
+    pub limit_window_load_factor: Option<[Option<f64>; 2]>,
+    /// Least and greatest horizontal thrust under the fixed loads.
+    pub thrust_range: Option<ThrustRangeBody>,
+    /// Hinges from left to right.
+    pub hinges: Vec<HingeBody>,
+    /// Sliding joints from left to right.
+    pub slides: Vec<SlideBody>,
+    /// Resultant per joint at collapse; null where nothing collapses.
+    pub thrust_line: Option<ThrustColumns>,
+    /// Velocity of every voussoir in the mechanism; null where nothing collapses.
+    pub velocities: Option<VelocityColumns>,
+    /// The end of the path in the other direction, for an arch that stands in a window only.
+    pub other_end: Option<End>,
+    /// Load factor from which the path was followed.
+    pub start_load_factor: f64,
+    /// Largest absolute load factor that was tried.
+    pub cap: f64,
+    /// Share of the way to collapse at which `near_collapse` was taken.
+    pub share: f64,
+    /// The arch just before collapse.
+    pub near_collapse: Option<SnapshotBody>,
+    /// The arch at load factor 1, where the path passes it.
+    pub at_unit_load: Option<SnapshotBody>,
+    /// The arch at the start of the path.
+    pub at_start: Option<SnapshotBody>,
+    /// The path, event by event.
+    pub history: HistoryColumns,
+    /// Counts of the work done; the same on any machine.
+    pub cost: CostBody,
+    /// What to know before using the numbers.
+    pub notes: Vec<String>,
+    /// The request, defaults filled in.
+    pub request: AnalysisRequest,
+}
+
+/// Horizontal thrust under the fixed loads.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub struct ThrustRangeBody {
+    /// Least.
+    pub lowest_n_per_m: f64,
+    /// Greatest.
+    pub highest_n_per_m: f64,
+}
+
+/// Counts of the work done.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub struct CostBody {
+    /// Contact events passed.
+    pub events: usize,
+    /// Factorisations, partial ones included.
+    pub factorisations: usize,
+    /// Displacement unknowns.
+    pub unknowns: usize,
+}
+
+/// Turns load factors into intensities.
+#[derive(Debug, Clone, Copy)]
+struct Scale<'a> {
+    per_unit: f64,
+    unit: &'a str,
+}
+
+impl Scale<'_> {
+    fn intensity(&self, load_factor: f64) -> f64 {
+        load_factor * self.per_unit
+    }
+
+    /// Both ends in rising order, null where unbounded.
+    fn window(&self, window: LimitWindow) -> [Option<f64>; 2] {
+        let ends =
+            [window.lowest, window.highest].map(|end| self.intensity(end)).map(|end| end.is_finite().then_some(end));
+        if self.per_unit < 0.0 { [ends[1], ends[0]] } else { ends }
+    }
+}
+
+impl AnalysisResult {
+    /// Puts the report in the request's words.
+    pub fn new(request: &AnalysisRequest, report: &CollapseReport) -> Self {
+        let scale = Scale { per_unit: request.load_factor.intensity_per_unit, unit: &request.load_factor.unit };
+        let window = report.limit_window;
+        let snapshot = |snapshot| SnapshotBody::new(snapshot, &scale);
+        let main = report.end.as_ref().map(|end| End::new(end, window, &scale));
+        let (collapse, hinges, slides, thrust_line, velocities) = match main {
+            Some(end) => (Some(end.collapse), end.hinges, end.slides, Some(end.thrust_line), Some(end.velocities)),
+            None => (None, Vec::new(), Vec::new(), None, None),
+        };
+        AnalysisResult {
+            outcome: report.outcome.into(),
+            method: (&request.method).into(),
+            unit: scale.unit.to_owned(),
+            collapse,
+            limit_window: window.map(|window| scale.window(window)),
+            limit_window_load_factor: window.map(|window| Scale { per_unit: 1.0, unit: "" }.window(window)),
+            thrust_range: report.thrust_range.map(Into::into),
+            hinges,
+            slides,
+            thrust_line,
+            velocities,
+            other_end: report.other_end.as_ref().map(|end| End::new(end, window, &scale)),
+            start_load_factor: report.start,
+            cap: report.cap,
+            share: report.share,
+            near_collapse: report.near_collapse.as_ref().map(snapshot),
+            at_unit_load: report.at_unit_load.as_ref().map(snapshot),
+            at_start: report.at_start.as_ref().map(snapshot),
+            history: HistoryColumns::new(&report.history, &scale),
+            cost: CostBody {
+                events: report.cost.events,
+                factorisations: report.cost.factorisations,
+                unknowns: report.cost.unknowns,
+            },
+            notes: report.notes.clone(),
+            request: request.clone(),
+        }
+    }
+
+    /// The body of `/results` and the output of `solve --json`: compact JSON and a newline.
+    ///
+    /// # Errors
+    /// Never for a report of the mechanics; the serialiser wants it said.
+    pub fn to_bytes(&self) -> serde_json::Result<Vec<u8>> {
+        let mut bytes = serde_json::to_vec(self)?;
+        bytes.push(b'\n');
+        Ok(bytes)
+    }
+}
+
+impl From<ThrustRange> for ThrustRangeBody {
+    fn from(range: ThrustRange) -> Self {
+        ThrustRangeBody { lowest_n_per_m: range.lowest, highest_n_per_m: range.highest }
+    }
+}

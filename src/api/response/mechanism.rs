@@ -1,0 +1,110 @@
+//! One end of the load path: where it ends and how the arch falls there.
+
+use super::columns::{ThrustColumns, VelocityColumns};
+use super::words::{FaceWord, GovernedBy, ModeWord};
+use super::{Scale, words};
+use crate::collapse::{Hinge, LimitWindow, PathEnd, Slide};
+use serde::Serialize;
+use utoipa::ToSchema;
+
+/// The collapse in one object.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub struct Collapse {
+    /// Collapse intensity: `load_factor` times the request's intensity per unit of it.
+    pub intensity: f64,
+    /// Its unit.
+    pub unit: String,
+    /// Load factor at collapse.
+    pub load_factor: f64,
+    /// Largest equilibrium residual of any stone at any event, as a share of the arch's weight.
+    pub residual: f64,
+    /// Lowest and highest intensity of the static theorem, null where unbounded; null where nothing stands.
+    pub limit_window: Option<[Option<f64>; 2]>,
+    /// How the arch moves.
+    pub mode: ModeWord,
+    /// What ends the load path.
+    pub governed_by: GovernedBy,
+}
+
+/// A joint pressed at one face and opening at the other.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub struct HingeBody {
+    /// Joint number, from 0 at the left springing.
+    pub joint: usize,
+    /// Face at which the joint stays pressed: the axis of rotation.
+    pub face: FaceWord,
+    /// Face at which it opens.
+    pub opens: FaceWord,
+    /// Position: angle from the nearer springing, about the arch's angle centre.
+    pub angle_from_springing_deg: f64,
+    /// Position: angle from the crown, negative on the left.
+    pub angle_from_crown_deg: f64,
+    /// Relative rotation rate in the mechanism; the largest of all hinges is 1.
+    pub rotation: f64,
+}
+
+/// A joint that slides in the mechanism.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub struct SlideBody {
+    /// Joint number, from 0 at the left springing.
+    pub joint: usize,
+    /// Rate at which the stone after the joint slides towards the extrados, in the mechanism's scale: metres per radian of
+    /// the largest hinge rotation; where no hinge turns, the largest slide is 1.
+    pub rate: f64,
+}
+
+/// One end of the load path.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub struct End {
+    /// Where it is.
+    #[serde(flatten)]
+    pub collapse: Collapse,
+    /// Hinges from left to right.
+    pub hinges: Vec<HingeBody>,
+    /// Sliding joints from left to right.
+    pub slides: Vec<SlideBody>,
+    /// Resultant per joint.
+    pub thrust_line: ThrustColumns,
+    /// Velocity of every voussoir.
+    pub velocities: VelocityColumns,
+}
+
+impl End {
+    pub(super) fn new(end: &PathEnd, window: Option<LimitWindow>, scale: &Scale<'_>) -> Self {
+        End {
+            collapse: Collapse {
+                intensity: scale.intensity(end.load_factor),
+                unit: scale.unit.to_owned(),
+                load_factor: end.load_factor,
+                residual: end.residual,
+                limit_window: window.map(|window| scale.window(window)),
+                mode: end.mechanism.mode.into(),
+                governed_by: GovernedBy::Instability,
+            },
+            hinges: end.mechanism.hinges.iter().map(HingeBody::from).collect(),
+            slides: end.mechanism.slides.iter().map(SlideBody::from).collect(),
+            thrust_line: ThrustColumns::new(&end.thrust_line),
+            velocities: VelocityColumns::new(&end.mechanism.velocities),
+        }
+    }
+}
+
+impl From<&Hinge> for HingeBody {
+    fn from(hinge: &Hinge) -> Self {
+        let face = words::FaceWord::from(hinge.face);
+        HingeBody {
+            joint: hinge.joint,
+            face,
+            opens: face.other(),
+            angle_from_springing_deg: hinge.angle_from_springing.to_degrees(),
+            angle_from_crown_deg: hinge.angle_from_crown.to_degrees(),
+            rotation: hinge.rotation,
+        }
+    }
+}
+
+impl From<&Slide> for SlideBody {
+    fn from(slide: &Slide) -> Self {
+        SlideBody { joint: slide.joint, rate: slide.rate }
+    }
+}

@@ -1,0 +1,118 @@
+//! Words of the answer.
+
+use crate::api::request::MethodRequest;
+use crate::collapse::{Face, Mode, Outcome};
+use serde::Serialize;
+use utoipa::ToSchema;
+
+/// What happened.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum OutcomeWord {
+    /// Stands at load factor 0 and collapses at a finite one.
+    Collapse,
+    /// Does not stand under its fixed loads.
+    FallsAsBuilt,
+    /// Does not stand at load factor 0, but does between two others.
+    StandsInWindow,
+    /// Stands up to the cap.
+    NeverCollapses,
+    /// The stone crushes.
+    Crushes,
+    /// Path and certificate contradict each other, or the path could not be followed.
+    CannotTell,
+}
+
+/// How the load path was read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum MethodWord {
+    /// Exactly, from event to event.
+    EventPath,
+    /// In fixed steps, for comparison with the paper.
+    FixedSteps,
+}
+
+/// What ends the load path.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum GovernedBy {
+    /// A mechanism of rigid stones.
+    Instability,
+}
+
+/// How the arch moves when it falls.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ModeWord {
+    /// The crown goes up.
+    CrownRises,
+    /// The crown goes down.
+    CrownDescends,
+    /// The crown moves sideways more than up or down.
+    Sway,
+    /// Joints slide more than they open.
+    Sliding,
+}
+
+/// A face of the arch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum FaceWord {
+    /// Inner, lower face.
+    Intrados,
+    /// Outer, upper face.
+    Extrados,
+}
+
+impl FaceWord {
+    /// The face across the joint.
+    pub fn other(self) -> Self {
+        match self {
+            FaceWord::Intrados => FaceWord::Extrados,
+            FaceWord::Extrados => FaceWord::Intrados,
+        }
+    }
+}
+
+impl From<Outcome> for OutcomeWord {
+    fn from(outcome: Outcome) -> Self {
+        match outcome {
+            Outcome::Collapse => OutcomeWord::Collapse,
+            Outcome::FallsAsBuilt => OutcomeWord::FallsAsBuilt,
+            Outcome::StandsInWindow => OutcomeWord::StandsInWindow,
+            Outcome::NeverCollapses => OutcomeWord::NeverCollapses,
+            Outcome::Crushes => OutcomeWord::Crushes,
+            Outcome::CannotTell => OutcomeWord::CannotTell,
+        }
+    }
+}
+
+impl From<&MethodRequest> for MethodWord {
+    fn from(method: &MethodRequest) -> Self {
+        match method {
+            MethodRequest::EventPath => MethodWord::EventPath,
+            MethodRequest::FixedSteps(_) => MethodWord::FixedSteps,
+        }
+    }
+}
+
+impl From<Mode> for ModeWord {
+    fn from(mode: Mode) -> Self {
+        match mode {
+            Mode::CrownRises => ModeWord::CrownRises,
+            Mode::CrownDescends => ModeWord::CrownDescends,
+            Mode::Sway => ModeWord::Sway,
+            Mode::Sliding => ModeWord::Sliding,
+        }
+    }
+}
+
+impl From<Face> for FaceWord {
+    fn from(face: Face) -> Self {
+        match face {
+            Face::Intrados => FaceWord::Intrados,
+            Face::Extrados => FaceWord::Extrados,
+        }
+    }
+}

@@ -1,0 +1,59 @@
+//! `voussoir solve`: one request, one answer, no server.
+
+use super::{complain, fail, print, summary};
+use crate::config::Solve;
+use std::fs;
+use std::io::{self, Read};
+use std::path::Path;
+use std::process::ExitCode;
+use std::time::Instant;
+use voussoir::api::fault::Fault;
+use voussoir::api::read::read_analysis;
+use voussoir::api::response::AnalysisResult;
+use voussoir::collapse::{self, Unwatched};
+
+/// Exit code for a request that cannot be analysed.
+const FAULTY: u8 = 2;
+
+/// Analyses the request in a file and prints the answer.
+pub fn solve(options: &Solve) -> ExitCode {
+    let body = match load(&options.file) {
+        Ok(body) => body,
+        Err(error) => return fail(format_args!("cannot read {}: {error}", options.file.display())),
+    };
+    let (request, analysis) = match read_analysis(&body) {
+        Ok(pair) => pair,
+        Err(faults) => return refuse(&faults),
+    };
+    let clock = Instant::now();
+    let report = match collapse::run(&analysis, &mut Unwatched) {
+        Ok(report) => report,
+        Err(error) => return fail(error),
+    };
+    let wall_time = clock.elapsed();
+    let result = AnalysisResult::new(&request, &report);
+    if !options.json {
+        return print(summary::summary(&result, wall_time).as_bytes());
+    }
+    match result.to_bytes() {
+        Ok(bytes) => print(&bytes),
+        Err(error) => fail(error),
+    }
+}
+
+fn load(file: &Path) -> io::Result<Vec<u8>> {
+    if file != Path::new("-") {
+        return fs::read(file);
+    }
+    let mut body = Vec::new();
+    io::stdin().lock().read_to_end(&mut body)?;
+    Ok(body)
+}
+
+fn refuse(faults: &[Fault]) -> ExitCode {
+    for Fault { pointer, detail } in faults {
+        let place = if pointer.is_empty() { "(the whole request)" } else { pointer };
+        complain(format_args!("{place}: {detail}"));
+    }
+    ExitCode::from(FAULTY)
+}

@@ -1,0 +1,77 @@
+//! The program as it is called.
+#![cfg(feature = "server")]
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test stops at the first surprise")]
+
+mod support;
+
+use std::io::{BufRead, BufReader, Write};
+use std::process::{Child, Command, Output, Stdio};
+use support::{Server, request};
+
+fn program(arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_voussoir"));
+    command.args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+}
+
+fn fed(arguments: &[&str], input: &str) -> Output {
+    let mut child = program(arguments).spawn().unwrap();
+    child.stdin.take().unwrap().write_all(input.as_bytes()).unwrap();
+    child.wait_with_output().unwrap()
+}
+
+#[test]
+fn solve_prints_a_summary() {
+    let output = fed(&["solve", "-"], &request().to_string());
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    for part in ["The arch collapses at", "kN/m", "limit window", "residual", "mode", "Hinges", "from crown", "time"] {
+        assert!(text.contains(part), "{part} in\n{text}");
+    }
+}
+
+#[test]
+fn solve_json_prints_the_bytes_of_the_service() {
+    let server = Server::start(1, 10);
+    let path = server.submit(&request());
+    server.until(&path, &["successful"]);
+    let output = fed(&["solve", "--json", "-"], &request().to_string());
+    assert!(output.status.success() && output.stdout == server.get(&format!("{path}/results")).body);
+}
+
+#[test]
+fn solve_lists_faults() {
+    let output = fed(&["solve", "-"], r#"{"arch": {"profile": {"circular": {}}}, "loads": 3, "colour": 1}"#);
+    let errors = String::from_utf8(output.stderr).unwrap();
+    assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
+    assert!(errors.contains("/loads: ") && errors.contains("/colour: "), "{errors}");
+    let missing = fed(&["solve", "no/such/file.json"], "");
+    assert_eq!(missing.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&missing.stderr).contains("no/such/file.json"));
+}
+
+#[test]
+fn openapi_prints_the_document() {
+    let output = fed(&["openapi"], "");
+    assert!(output.status.success() && output.stdout == voussoir::api::document().into_bytes());
+}
+
+/// A served program, and the address it says it listens at.
+fn served() -> (Child, String) {
+    let mut child = program(&["serve", "--bind", "127.0.0.1:0", "--log-format", "json"]).spawn().unwrap();
+    let mut line = String::new();
+    BufReader::new(child.stderr.as_mut().unwrap()).read_line(&mut line).unwrap();
+    let log: serde_json::Value = serde_json::from_str(&line).unwrap();
+    (child, log["address"].as_str().unwrap().to_owned())
+}
+
+#[test]
+#[cfg(unix)]
+fn serve_is_healthy_until_told_to_stop() {
+    let (mut child, address) = served();
+    assert!(fed(&["health", "--bind", &address], "").status.success());
+    let told = Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap();
+    assert!(told.success());
+    assert_eq!(child.wait().unwrap().code(), Some(0));
+    assert_eq!(fed(&["health", "--bind", &address], "").status.code(), Some(1));
+}
