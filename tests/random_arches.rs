@@ -22,35 +22,3 @@ fn random_arches_fall_where_limit_analysis_says() {
     // The set must go on asking real questions.
     assert!(decided >= ARCHES / 2 && compared >= ARCHES / 2);
 }
-
-/// `SEED=97 cargo test --test random_arches one -- --ignored --nocapture`: one arch in full; with `SVG=file` its picture.
-#[test]
-#[ignore = "for a closer look at one seed"]
-fn one() {
-    let seed = std::env::var("SEED").ok().and_then(|seed| seed.parse().ok()).unwrap_or(0);
-    let request = common::random_arch::request(seed);
-    println!("{request}");
-    let report = common::door::solve(&request);
-    println!(
-        "{:?}, window {:?}, cost {:?}\n{}",
-        report.outcome,
-        report.limit_window,
-        report.cost,
-        report.notes.join("\n")
-    );
-    for end in [&report.end, &report.other_end].into_iter().flatten() {
-        println!(
-            "load factor {}, residual {:e}, {:#?}",
-            end.load_factor,
-            end.residual,
-            (&end.mechanism.hinges, &end.mechanism.slides)
-        );
-    }
-    if let (Ok(file), Some(end)) = (std::env::var("SVG"), &report.end) {
-        let analysis = common::door::analysis(&request).unwrap_or_else(|faults| panic!("{faults}"));
-        let caption = format!("{:?} at load factor {:.6}: {:?}", report.outcome, end.load_factor, end.mechanism.mode);
-        let svg = voussoir::render::figure::svg(&analysis.arch, end, &caption);
-        std::fs::write(file, svg).unwrap_or_else(|error| panic!("{error}"));
-    }
-    println!("{:#?}", check(seed, true));
-}
