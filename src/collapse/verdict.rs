@@ -100,6 +100,11 @@ impl<'a> Question<'a> {
             return Ok(Attempted { report, doubt: Some(doubt.into()) });
         }
         report.at_start = Some(snapshot(&model, self.start, tracer.displacements(), tracer.anchors()));
+        if total(&analysis.scaled) == 0.0 {
+            report.outcome = Outcome::NeverCollapses;
+            report.notes.push("No load is scaled by the load factor: the answer says only that the arch stands.".into());
+            return Ok(Attempted { report, doubt: None });
+        }
         let mut other = tracer.clone();
         let mut doubt = self.leg(&mut report, &model, &mut tracer, &loads, self.sign, &mut progress)?;
         if !self.stands_unloaded() {
