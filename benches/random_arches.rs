@@ -1,7 +1,8 @@
 //! Thousands of random arches against the limit window, and a share of them against the oracle.
 //!
-//! `cargo bench --bench random_arches -- [count] [first seed] [oracle every n-th]`, by default 10000 0 10.
-#![allow(clippy::print_stdout, missing_docs)]
+//! `cargo bench --bench random_arches -- [count] [first seed] [oracle every n-th]`, by default 10000 0 10; or
+//! `... -- look SEED [picture.svg]` for one arch in full.
+#![allow(clippy::print_stdout, clippy::disallowed_methods, missing_docs)]
 
 #[path = "../tests/common/mod.rs"]
 mod common;
@@ -11,9 +12,14 @@ use std::collections::BTreeMap;
 use std::time::Instant;
 
 fn main() {
-    // Cargo passes `--bench`; a panic is a finding here, not a page of text.
+    // Cargo passes `--bench` on.
+    let arguments: Vec<String> = std::env::args().skip(1).filter(|arg| !arg.starts_with("--")).collect();
+    if arguments.first().is_some_and(|word| word == "look") {
+        return look(arguments.get(1).and_then(|seed| seed.parse().ok()).unwrap_or(0), arguments.get(2));
+    }
+    // A panic is a finding here, not a page of text.
     std::panic::set_hook(Box::new(|_| {}));
-    let numbers: Vec<u64> = std::env::args().filter_map(|arg| arg.parse().ok()).collect();
+    let numbers: Vec<u64> = arguments.iter().filter_map(|arg| arg.parse().ok()).collect();
     let number = |i: usize, default: u64| numbers.get(i).copied().unwrap_or(default);
     let (count, first, every) = (number(0, 10_000), number(1, 0), number(2, 10).max(1));
     let start = Instant::now();
@@ -53,6 +59,7 @@ fn measures(all: &[Checked]) {
     println!("  off it where no joint slides, relative  {}", worst(all, |c| c.deviation));
     println!("  limit window against oracle, relative   {}", worst(all, |c| c.window_error));
     println!("  equilibrium residual, share of weight   {}", worst(all, |c| Some(c.residual)));
+    println!("  work in the mechanism without sliding     {}", worst(all, |c| Some(c.power)));
 }
 
 fn quantiles(mut values: Vec<f64>, unit: &str, scale: f64) -> String {
@@ -87,12 +94,49 @@ fn ratios(all: &[Checked]) {
     lowest.sort_by(|a, b| a.0.total_cmp(&b.0));
     let shown: Vec<String> = lowest.iter().take(12).map(|(ratio, seed)| format!("{ratio:.4} (seed {seed})")).collect();
     println!("  lowest: {}", shown.join(", "));
+    println!("  stones entering each other in the mechanism (share of the fastest corner), by that intensity:");
+    for (name, low, high) in [("equal", 1.0 - 1e-6, 2.0), ("within 3 %", 0.97, 1.0 - 1e-6), ("lower", -1.0, 0.97)] {
+        let some: Vec<&Checked> = all.iter().filter(|c| c.ratio.is_some_and(|r| r > low && r <= high)).collect();
+        let count = |share: f64| some.iter().filter(|c| c.entering > share).count();
+        println!("    {name:<12} {:>6} arches, over 1e-6: {}, over 1e-2: {}", some.len(), count(1e-6), count(1e-2));
+    }
 }
 
 fn complaints(all: &[Checked]) {
     let bad: Vec<&Checked> = all.iter().filter(|c| !c.complaints.is_empty()).collect();
     println!("\ncomplaints: {} of {} arches", bad.len(), all.len());
+    let mut kinds: BTreeMap<String, Vec<u64>> = BTreeMap::new();
+    for checked in &bad {
+        for words in &checked.complaints {
+            // Numbers away: what is left is the kind.
+            let kind: String = words.chars().filter(|c| !c.is_ascii_digit()).take(72).collect();
+            kinds.entry(kind).or_default().push(checked.seed);
+        }
+    }
+    for (kind, seeds) in kinds {
+        println!("  {:>5}  {kind}  (seeds {:?} ...)", seeds.len(), &seeds[..seeds.len().min(5)]);
+    }
     for checked in bad.iter().take(200) {
         println!("  seed {} ({} voussoirs): {}", checked.seed, checked.voussoirs, checked.complaints.join("; "));
+    }
+}
+
+/// One arch: request, answer, checks and picture.
+fn look(seed: u64, picture: Option<&String>) {
+    let request = common::random_arch::request(seed);
+    println!("{request}");
+    let report = common::door::solve(&request);
+    println!("{:?}, window {:?}, {:?}", report.outcome, report.limit_window, report.cost);
+    println!("{}", report.notes.join("\n"));
+    for end in [&report.end, &report.other_end].into_iter().flatten() {
+        println!("load factor {}, residual {:e}", end.load_factor, end.residual);
+        println!("{:#?}\n{:#?}", end.mechanism.hinges, end.mechanism.slides);
+    }
+    println!("{:#?}", check(seed, true));
+    if let (Some(file), Some(end)) = (picture, &report.end) {
+        let analysis = common::door::analysis(&request).unwrap_or_else(|faults| panic!("{faults}"));
+        let caption = format!("{:?} at load factor {:.6}: {:?}", report.outcome, end.load_factor, end.mechanism.mode);
+        let svg = voussoir::render::figure::svg(&analysis.arch, end, &caption);
+        std::fs::write(file, svg).unwrap_or_else(|error| panic!("{file}: {error}"));
     }
 }

@@ -1,9 +1,13 @@
 //! Shared by the integration tests and the benchmark: the oracle, a geometry of its own, random requests.
-#![allow(dead_code, clippy::unwrap_used, clippy::expect_used, missing_docs)]
+#![allow(dead_code, clippy::unwrap_used, clippy::expect_used, clippy::print_stdout, missing_docs)]
 
+pub mod dice;
 pub mod door;
 pub mod masonry;
+pub mod motion;
 pub mod oracle;
 pub mod random_arch;
+pub mod random_profile;
+pub mod table;
 pub mod verify;
 pub mod wire;

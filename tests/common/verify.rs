@@ -1,6 +1,6 @@
 //! One random arch through the front door, held against the criteria and the oracle.
 
-use super::{door, oracle::Problem, random_arch};
+use super::{door, motion, oracle::Problem, random_arch};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 use voussoir::collapse::{Analysis, CollapseReport, Direction, LimitWindow, Outcome, PathEnd, Unwatched, run};
@@ -13,6 +13,8 @@ pub const EQUAL: f64 = 1e-7;
 pub const WINDOW: f64 = 1e-7;
 /// Equilibrium residual, share of the weight.
 pub const RESIDUAL: f64 = 1e-8;
+/// A mechanism opens joints only, and without sliding its loads do no work, to this share.
+pub const MOTION: f64 = 1e-6;
 /// Closer than this to standing or falling the oracle itself cannot say which.
 const BALANCE: f64 = 1e-8;
 /// Load factors below this share of (fixed loads / scaled loads) are compared absolutely.
@@ -32,6 +34,9 @@ pub struct Checked {
     /// Difference between limit window and oracle, relative.
     pub window_error: Option<f64>,
     pub residual: f64,
+    /// See [`motion::Motion`].
+    pub entering: f64,
+    pub power: f64,
     pub voussoirs: usize,
     pub events: usize,
     pub seconds: f64,
@@ -115,6 +120,7 @@ impl Checked {
         if cannot {
             return;
         }
+        self.measure_motion(analysis, end, sign);
         let limit = if sign > 0.0 { window.highest } else { window.lowest };
         if limit.is_infinite() {
             let explained = !end.mechanism.slides.is_empty();
@@ -130,6 +136,26 @@ impl Checked {
             self.complain(excess.abs() > EQUAL, || format!("{excess:e} off the window {limit} without sliding"));
         } else if limit.abs() > floor {
             self.ratio = Some(self.ratio.unwrap_or(1.0).min(end.load_factor / limit));
+        }
+    }
+
+    fn measure_motion(&mut self, analysis: &Analysis, end: &PathEnd, sign: f64) {
+        let centroids: Vec<_> = analysis.arch.voussoirs.iter().map(|v| v.region.centroid.into()).collect();
+        if end.mechanism.velocities.len() != centroids.len() {
+            return self.complaints.push("the mechanism has no velocities".into());
+        }
+        let motion = motion::measure(&door::problem(analysis), &centroids, &end.mechanism, end.load_factor);
+        self.entering = self.entering.max(motion.entering);
+        // Where joints slide the peak of the path need not be a mechanism (no normality): measured, not judged.
+        if end.mechanism.slides.is_empty() {
+            self.complain(motion.entering > MOTION || motion.entering.is_nan(), || {
+                format!("stones enter each other in the mechanism, {:e}", motion.entering)
+            });
+            self.power = self.power.max(motion.power.abs());
+            self.complain(motion.power.abs() > MOTION, || {
+                format!("loads do work in the mechanism, {:e}", motion.power)
+            });
+            self.complain(sign * motion.driving <= 0.0, || format!("scaled loads do work {:e}", motion.driving));
         }
     }
 
