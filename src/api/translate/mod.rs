@@ -2,6 +2,7 @@
 
 mod arch;
 mod loads;
+mod profile;
 
 use super::fault::{Fault, Faults, child};
 use super::request::{
@@ -91,7 +92,7 @@ fn check_load_factor(request: &AnalysisRequest, faults: &mut Faults) {
 }
 
 fn stone(request: &StoneRequest, faults: &mut Faults) -> Stone {
-    faults.within("/stone/density_kg_m3", request.density_kg_m3, 0.0, MAX_DENSITY_KG_M3);
+    let weighs = faults.within("/stone/density_kg_m3", request.density_kg_m3, 0.0, MAX_DENSITY_KG_M3);
     faults.within("/stone/youngs_modulus_pa", request.youngs_modulus_pa, 0.0, MAX_STRESS_PA);
     let nu = request.poissons_ratio;
     let detail = format!("{nu} is out of range: Poisson's ratio must lie between -1 and 0.5, both excluded");
@@ -101,7 +102,8 @@ fn stone(request: &StoneRequest, faults: &mut Faults) -> Stone {
     faults.within("/stone/compressive_strength_pa", request.compressive_strength_pa, 0.0, MAX_STRESS_PA);
     faults.within("/stone/penalty_ratio", request.penalty_ratio, 0.0, MAX_FACTOR);
     Stone {
-        density: request.density_kg_m3,
+        // A wrong density is one fault, not one for every load that it makes vanish.
+        density: if weighs { request.density_kg_m3 } else { Stone::default().density },
         youngs_modulus: request.youngs_modulus_pa,
         poissons_ratio: nu,
         friction_angle: request.friction_angle_deg.to_radians(),
