@@ -138,7 +138,9 @@ fn ring(request: &ArchRequest, faults: &mut Faults) -> Option<Ring> {
         let circular = !matches!(request.profile, ProfileRequest::Elliptical(_));
         let constant = matches!(thickness, Some(Thickness::Linear { crown, springing }) if crown == springing);
         let exact = circular && (constant || thickness.is_none()) && joints == JointLines::Normal;
-        faults.require(exact, "/arch/curved_sides", "curved sides are for circular arcs of constant thickness with normal joints: set this to false, or change profile, thickness or joints");
+        let detail = "curved sides are for circular arcs of constant thickness with normal joints: set this to false, \
+                      or change profile, thickness or joints";
+        faults.require(exact, "/arch/curved_sides", detail);
     }
     let (profile, thickness, lengths) = (profile?, thickness?, lengths?);
     let line = match line {
