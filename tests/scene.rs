@@ -1,5 +1,6 @@
 //! Ready requests can be read, and say what they mean.
 #![cfg(feature = "server")]
+#![allow(clippy::unwrap_used, clippy::expect_used)]
 
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};

@@ -53,21 +53,22 @@ fn read_structure(body: &[u8]) -> (Option<AnalysisRequest>, Faults) {
     for pointer in repeated {
         faults.add(pointer, "this name stands more than once in its object: keep one");
     }
-    let mut mended = false;
+    let mut mended: Vec<String> = Vec::new();
     for _ in 0..MAX_STRUCTURAL_FAULTS {
         match attempt(&tree) {
             Ok((request, unknown)) => {
-                for pointer in unknown {
+                let stands_in = |pointer: &String| mended.iter().any(|place| lies_under(pointer, place));
+                for pointer in unknown.into_iter().filter(|pointer| !stands_in(pointer)) {
                     faults.add(pointer, "there is no field of this name here: remove it or correct its spelling");
                 }
-                return ((!mended).then(|| with_defaults(request)), faults);
+                return (mended.is_empty().then(|| with_defaults(request)), faults);
             }
             Err(fault) => {
-                mended = true;
-                let can_go_on = mend(&mut tree, &fault.pointer);
+                let place = mend(&mut tree, &fault.pointer);
                 faults.add(fault.pointer, fault.detail);
-                if !can_go_on {
-                    break;
+                match place {
+                    Some(place) => mended.push(place),
+                    None => break,
                 }
             }
         }
@@ -85,11 +86,11 @@ fn attempt(tree: &Value) -> Result<(AnalysisRequest, BTreeSet<String>), Fault> {
     let reader = serde_path_to_error::Deserializer::new(tree, &mut track);
     match AnalysisRequest::deserialize(serde_ignored::Deserializer::new(reader, &mut note)) {
         Ok(request) => Ok((request, unknown)),
-        Err(error) => Err(fault_at(&track.path(), &error.to_string())),
+        Err(error) => Err(fault_at(&track.path(), &error.to_string(), tree)),
     }
 }
 
-fn fault_at(path: &serde_path_to_error::Path, message: &str) -> Fault {
+fn fault_at(path: &serde_path_to_error::Path, message: &str, tree: &Value) -> Fault {
     use serde_path_to_error::Segment;
     let mut pointer = String::new();
     for segment in path {
@@ -106,12 +107,24 @@ fn fault_at(path: &serde_path_to_error::Path, message: &str) -> Fault {
             pointer: child(&pointer, field),
             detail: format!("the required field `{field}` is missing: add it"),
         },
-        None => Fault { pointer, detail: in_plain_words(message) },
+        None => Fault { pointer: existing(pointer, tree), detail: in_plain_words(message) },
     }
+}
+
+/// The pointer, shortened until it leads to something: an alternative given by its bare name has no member of it.
+fn existing(mut pointer: String, tree: &Value) -> String {
+    while tree.pointer(&pointer).is_none()
+        && let Some((parent, _)) = pointer.rsplit_once('/')
+    {
+        pointer.truncate(parent.len());
+    }
+    pointer
 }
 
 fn in_plain_words(message: &str) -> String {
     let words = [
+        ("invalid type: unit variant, expected newtype variant", "this alternative needs an object: {\"name\": {...}}"),
+        ("invalid type: newtype variant, expected unit variant", "this alternative stands alone, as text"),
         ("expected f64", "expected a number"),
         ("expected usize", "expected a whole number, not negative"),
         ("expected an array of length 2", "expected a pair [x, y]"),
@@ -142,7 +155,7 @@ fn ignored_pointer(path: &serde_ignored::Path<'_>, tree: &Value) -> String {
 }
 
 /// Values of which one fits in any place of a request.
-fn stand_ins() -> [Value; 8] {
+fn stand_ins() -> [Value; 7] {
     // Has every required field of every object.
     let any_object = json!({
         "profile": {"circular": {}}, "span_m": 1, "rise_m": 1, "arcs": [], "radius_m": 1, "angle_deg": 1,
@@ -152,16 +165,32 @@ fn stand_ins() -> [Value; 8] {
     });
     let alternatives = [json!({"circular": {}}), json!({"constant_m": 1}), json!({"self_weight": {}})];
     let [profile, thickness, load] = alternatives;
-    [Value::Null, json!(1), json!([]), json!([1, 1]), any_object, profile, thickness, load]
+    [json!(1), json!([]), json!([1, 1]), any_object, profile, thickness, load]
 }
 
-/// Puts a neutral value in the place of a fault, or of what contains it, so that the reading gets past it; false
-/// when none does.
-fn mend(tree: &mut Value, pointer: &str) -> bool {
-    let Some((parent, key)) = pointer.rsplit_once('/') else { return false };
+/// Puts a neutral value in the place of a fault, or of what contains it, so that the reading gets past it; says
+/// where it had to be put.
+fn mend(tree: &mut Value, pointer: &str) -> Option<String> {
+    let (parent, key) = pointer.rsplit_once('/')?;
     let name = key.replace("~1", "/").replace("~0", "~");
-    stand_ins().into_iter().any(|value| put(tree, parent, &name, value) && gets_past(tree, pointer))
-        || mend(tree, parent)
+    if let Some(Value::Object(object)) = tree.pointer_mut(parent) {
+        // Whatever has a default can be left out, unless that leaves a choice without its alternative.
+        object.remove(&name);
+        let emptied = attempt(tree).is_err_and(|fault| lies_under(pointer, &fault.pointer));
+        if !emptied && gets_past(tree, pointer) {
+            return Some(pointer.to_owned());
+        }
+    }
+    let mut values = stand_ins().into_iter();
+    match values.any(|value| put(tree, parent, &name, value) && gets_past(tree, pointer)) {
+        true => Some(pointer.to_owned()),
+        false => mend(tree, parent),
+    }
+}
+
+/// True for the same place and for what it contains.
+fn lies_under(pointer: &str, place: &str) -> bool {
+    pointer.strip_prefix(place).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
 }
 
 fn put(tree: &mut Value, parent: &str, name: &str, value: Value) -> bool {
@@ -184,7 +213,7 @@ fn put(tree: &mut Value, parent: &str, name: &str, value: Value) -> bool {
 fn gets_past(tree: &Value, pointer: &str) -> bool {
     match attempt(tree) {
         Ok(_) => true,
-        Err(fault) => !format!("{}/", fault.pointer).starts_with(&format!("{pointer}/")),
+        Err(fault) => !lies_under(&fault.pointer, pointer),
     }
 }
 

@@ -1,9 +1,10 @@
 //! The arch of a request, set out.
 
 use super::MAX_LENGTH_M;
+use super::profile::profile;
 use crate::api::fault::Faults;
 use crate::api::request::{
-    ArchRequest, Circular, JointsRequest, LineRequest, MultiCentre, Pointed, ProfileRequest, SpringingJoints, Surveyed,
+    ArchRequest, ExtradosCircle, JointsRequest, LineRequest, ProfileRequest, SpringingJoints, Surveyed,
     ThicknessRequest,
 };
 use crate::arch::profile::Profile;
@@ -137,7 +138,9 @@ fn ring(request: &ArchRequest, faults: &mut Faults) -> Option<Ring> {
         let circular = !matches!(request.profile, ProfileRequest::Elliptical(_));
         let constant = matches!(thickness, Some(Thickness::Linear { crown, springing }) if crown == springing);
         let exact = circular && (constant || thickness.is_none()) && joints == JointLines::Normal;
-        faults.require(exact, "/arch/curved_sides", "curved sides are for circular arcs of constant thickness with normal joints: set this to false, or change profile, thickness or joints");
+        let detail = "curved sides are for circular arcs of constant thickness with normal joints: set this to false, \
+                      or change profile, thickness or joints";
+        faults.require(exact, "/arch/curved_sides", detail);
     }
     let (profile, thickness, lengths) = (profile?, thickness?, lengths?);
     let line = match line {
@@ -155,7 +158,9 @@ fn lengths(request: &ArchRequest, faults: &mut Faults) -> Option<Vec<f64>> {
         return None;
     };
     let detail = format!("{n} voussoirs: an arch needs 2 to {MAX_VOUSSOIRS}");
-    faults.require((2..=MAX_VOUSSOIRS).contains(&n), "/arch/voussoirs", detail);
+    if !faults.require((2..=MAX_VOUSSOIRS).contains(&n), "/arch/voussoirs", detail) {
+        return None;
+    }
     let Some(lengths) = &request.relative_lengths else { return (faults.len() == before).then(|| vec![1.0; n]) };
     let here = "/arch/relative_lengths";
     let detail = format!("{} lengths for {n} voussoirs: give one each", lengths.len());
@@ -177,129 +182,41 @@ fn thickness(
     profile: Option<&Profile>,
     faults: &mut Faults,
 ) -> Option<Thickness> {
+    let here = "/arch/thickness";
     let Some(thickness) = &request.thickness else {
-        faults.add("/arch/thickness", "the thickness is missing: add it");
+        faults.add(here, "the thickness is missing: add it");
         return None;
     };
-    let mut length = |pointer: &str, value: f64| {
-        let positive = faults.within(pointer, value, 0.0, MAX_LENGTH_M);
-        let least = profile.map_or(f64::INFINITY, Profile::least_radius);
-        if positive && line == LineRequest::Axis && 0.5 * value >= least {
-            faults.add(pointer, format!("half of {value} m is not less than the least radius of the axis, {least:.6} m: make the arch thinner"));
-            return false;
-        }
-        positive
-    };
-    match thickness {
+    let (pointer, crown, springing) = match thickness {
         ThicknessRequest::ConstantM(t) => {
-            length("/arch/thickness/constant_m", *t).then_some(Thickness::Linear { crown: *t, springing: *t })
+            let pointer = format!("{here}/constant_m");
+            faults.within(&pointer, *t, 0.0, MAX_LENGTH_M).then_some((pointer, *t, *t))
         }
         ThicknessRequest::Linear(linear) => {
-            let crown = length("/arch/thickness/linear/crown_m", linear.crown_m);
-            let springing = length("/arch/thickness/linear/springing_m", linear.springing_m);
-            (crown && springing).then_some(Thickness::Linear { crown: linear.crown_m, springing: linear.springing_m })
+            let crown = faults.within(format!("{here}/linear/crown_m"), linear.crown_m, 0.0, MAX_LENGTH_M);
+            let springing = faults.within(format!("{here}/linear/springing_m"), linear.springing_m, 0.0, MAX_LENGTH_M);
+            let pointer = format!("{here}/linear");
+            (crown && springing).then_some((pointer, linear.crown_m, linear.springing_m))
         }
-        ThicknessRequest::ExtradosCircle(circle) => {
-            let here = "/arch/thickness/extrados_circle";
-            let radius = faults.within(format!("{here}/radius_m"), circle.radius_m, 0.0, MAX_LENGTH_M);
-            let near = circle.centre_y_m.abs() <= MAX_LENGTH_M;
-            faults.require(near, format!("{here}/centre_y_m"), format!("a height in m, at most {MAX_LENGTH_M}"));
-            let on_intrados = line == LineRequest::Intrados;
-            faults.require(
-                on_intrados,
-                "/arch/line",
-                "with an extrados circle the profile has to be the intrados: set line to `intrados`",
-            );
-            (radius && near && on_intrados)
-                .then_some(Thickness::ExtradosCircle { radius: circle.radius_m, centre_y: circle.centre_y_m })
-        }
-    }
+        ThicknessRequest::ExtradosCircle(circle) => return extrados_circle(circle, line, faults),
+    }?;
+    // Where only the thicker end is too thick, the stones themselves will tell.
+    let (thinnest, least) = (crown.min(springing), profile.map_or(f64::INFINITY, Profile::least_radius));
+    let fits = line != LineRequest::Axis || 0.5 * thinnest < least;
+    let detail = format!(
+        "half of {thinnest} m is not less than the least radius of the axis, {least:.6} m: make the arch thinner"
+    );
+    faults.require(fits, pointer, detail).then_some(Thickness::Linear { crown, springing })
 }
 
-fn profile(request: &ProfileRequest, faults: &mut Faults) -> Option<Profile> {
-    match request {
-        ProfileRequest::Circular(circular) => circular_profile(circular, faults),
-        ProfileRequest::Pointed(pointed) => pointed_profile(pointed, faults),
-        ProfileRequest::Elliptical(ellipse) => {
-            let here = "/arch/profile/elliptical";
-            let span = faults.within(format!("{here}/span_m"), ellipse.span_m, 0.0, MAX_LENGTH_M);
-            let rise = faults.within(format!("{here}/rise_m"), ellipse.rise_m, 0.0, MAX_LENGTH_M);
-            let ratio = 2.0 * ellipse.rise_m / ellipse.span_m;
-            let measurable = !(span && rise) || (0.01..=100.0).contains(&ratio);
-            let detail = format!("the rise is {ratio} times half the span: it must be 0.01 to 100 times");
-            faults.require(measurable, format!("{here}/rise_m"), detail);
-            (span && rise && measurable).then(|| Profile::elliptical(ellipse.span_m, ellipse.rise_m))
-        }
-        ProfileRequest::MultiCentre(oval) => multi_centre_profile(oval, faults),
-        ProfileRequest::Surveyed(_) => None,
-    }
-}
-
-/// Of two ways to give a pair of sizes, the one that is complete and alone.
-fn either<'a>(
-    here: &str,
-    pairs: [[(&'a str, Option<f64>); 2]; 2],
-    faults: &mut Faults,
-) -> Option<(usize, [(&'a str, f64); 2])> {
-    let complete = pairs.map(|[(a, x), (b, y)]| Some([(a, x?), (b, y?)]));
-    let given = pairs.as_flattened().iter().filter(|(_, value)| value.is_some()).count();
-    match complete {
-        [Some(pair), None] if given == 2 => Some((0, pair)),
-        [None, Some(pair)] if given == 2 => Some((1, pair)),
-        _ => {
-            let [[(a, _), (b, _)], [c, d]] = [pairs[0], pairs[1]];
-            faults.add(here, format!("give either {a} and {b}, or {} and {}, and not the others", c.0, d.0));
-            None
-        }
-    }
-}
-
-fn circular_profile(circular: &Circular, faults: &mut Faults) -> Option<Profile> {
-    let here = "/arch/profile/circular";
-    let by_radius = [("radius_m", circular.radius_m), ("opening_angle_deg", circular.opening_angle_deg)];
-    let by_span = [("span_m", circular.span_m), ("rise_m", circular.rise_m)];
-    let (which, [(a, x), (b, y)]) = either(here, [by_radius, by_span], faults)?;
-    let first = faults.within(format!("{here}/{a}"), x, 0.0, MAX_LENGTH_M);
-    if which == 0 {
-        let detail = format!("{y} is out of range: the full opening angle is greater than 0 and less than 360 degrees");
-        let second = faults.require(y > 0.0 && y < 360.0, format!("{here}/{b}"), detail);
-        return (first && second).then(|| Profile::circular(x, y.to_radians()));
-    }
-    let second = faults.within(format!("{here}/{b}"), y, 0.0, MAX_LENGTH_M);
-    (first && second).then(|| Profile::circular_by_span(x, y))
-}
-
-fn pointed_profile(pointed: &Pointed, faults: &mut Faults) -> Option<Profile> {
-    let here = "/arch/profile/pointed";
-    let by_radius = [("radius_m", pointed.radius_m), ("centre_offset_m", pointed.centre_offset_m)];
-    let by_span = [("span_m", pointed.span_m), ("rise_m", pointed.rise_m)];
-    let (which, [(a, x), (b, y)]) = either(here, [by_radius, by_span], faults)?;
-    if !faults.within(format!("{here}/{a}"), x, 0.0, MAX_LENGTH_M) {
-        return None;
-    }
-    let second = format!("{here}/{b}");
-    if which == 0 {
-        let detail =
-            format!("{y} is out of range: the centres lie at least 0 and less than the radius, {x} m, from mid-span");
-        return faults.require(y >= 0.0 && y < x, second, detail).then(|| Profile::pointed(x, y));
-    }
-    let detail = format!("{y} is out of range: a pointed arch rises at least half its span, {} m", 0.5 * x);
-    let rises = faults.require(y >= 0.5 * x && y <= MAX_LENGTH_M, second, detail);
-    rises.then(|| Profile::pointed_by_span(x, y))
-}
-
-fn multi_centre_profile(oval: &MultiCentre, faults: &mut Faults) -> Option<Profile> {
-    let (here, before) = ("/arch/profile/multi_centre/arcs", faults.len());
-    let arcs = &oval.arcs;
-    let count = format!("{} arcs: give 1 to {MAX_VOUSSOIRS}", arcs.len());
-    faults.require((1..=MAX_VOUSSOIRS).contains(&arcs.len()), here, count);
-    for (i, arc) in arcs.iter().enumerate() {
-        faults.within(format!("{here}/{i}/radius_m"), arc.radius_m, 0.0, MAX_LENGTH_M);
-        faults.within(format!("{here}/{i}/angle_deg"), arc.angle_deg, 0.0, 180.0);
-    }
-    let sum: f64 = arcs.iter().map(|arc| arc.angle_deg).sum();
-    let detail = format!("the angles add up to {sum} degrees: half an arch turns by less than 180");
-    faults.require(faults.len() > before || sum < 180.0, here, detail);
-    let pairs: Vec<_> = arcs.iter().map(|arc| (arc.radius_m, arc.angle_deg.to_radians())).collect();
-    (faults.len() == before).then(|| Profile::multi_centre(&pairs))
+fn extrados_circle(circle: &ExtradosCircle, line: LineRequest, faults: &mut Faults) -> Option<Thickness> {
+    let here = "/arch/thickness/extrados_circle";
+    let radius = faults.within(format!("{here}/radius_m"), circle.radius_m, 0.0, MAX_LENGTH_M);
+    let near = circle.centre_y_m.abs() <= MAX_LENGTH_M;
+    faults.require(near, format!("{here}/centre_y_m"), format!("a height in m, at most {MAX_LENGTH_M}"));
+    let on_intrados = line == LineRequest::Intrados;
+    let detail = "with an extrados circle the profile has to be the intrados: set line to `intrados`";
+    faults.require(on_intrados, "/arch/line", detail);
+    (radius && near && on_intrados)
+        .then_some(Thickness::ExtradosCircle { radius: circle.radius_m, centre_y: circle.centre_y_m })
 }

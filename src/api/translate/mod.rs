@@ -2,12 +2,13 @@
 
 mod arch;
 mod loads;
+mod profile;
 
 use super::fault::{Fault, Faults, child};
 use super::request::{
     AnalysisRequest, DirectionRequest, MAX_TEXT, MethodRequest, PlaneRequest, SpringingJoints, StoneRequest,
 };
-use crate::arch::{Arch, JointLaw, Stone, load};
+use crate::arch::{Arch, JointLaw, PointForce, Stone, load};
 use crate::collapse::{Analysis, Direction, Method, PlaneModel};
 
 /// Largest length and coordinate, m.
@@ -46,31 +47,39 @@ pub fn translate(request: &AnalysisRequest) -> Result<Analysis, Vec<Fault>> {
     let share = request.report.share_of_collapse;
     let detail = format!("{share} is out of range: it must lie between 0 and 1, both excluded, such as 0.999");
     faults.require(share > 0.0 && share < 1.0, "/report/share_of_collapse", detail);
-    match arch {
-        Some(arch) if faults.is_empty() => {
-            let keep = |forces: Vec<crate::arch::PointForce>| {
-                forces.into_iter().filter(|force| force.voussoir < arch.voussoirs.len()).collect()
-            };
-            Ok(Analysis {
-                fixed: keep(fixed),
-                scaled: keep(scaled),
-                stone,
-                plane: match request.stone.plane {
-                    PlaneRequest::Stress => PlaneModel::Stress,
-                    PlaneRequest::Strain => PlaneModel::Strain,
-                },
-                penalty_ratio: request.stone.penalty_ratio,
-                direction: match request.load_factor.direction {
-                    DirectionRequest::Increase => Direction::Increase,
-                    DirectionRequest::Decrease => Direction::Decrease,
-                },
-                cap: request.load_factor.cap,
-                method,
-                share,
-                arch,
-            })
+    let Some(arch) = arch.filter(|_| faults.is_empty()) else { return Err(faults.into_vec()) };
+    let last = arch.voussoirs.len();
+    // Half an arch carries the loads on its own stones.
+    let keep = |forces: Vec<PointForce>| forces.into_iter().filter(|force| force.voussoir < last).collect();
+    Ok(Analysis {
+        fixed: keep(fixed),
+        scaled: keep(scaled),
+        stone,
+        plane: request.stone.plane.into(),
+        penalty_ratio: request.stone.penalty_ratio,
+        direction: request.load_factor.direction.into(),
+        cap: request.load_factor.cap,
+        method,
+        share,
+        arch,
+    })
+}
+
+impl From<PlaneRequest> for PlaneModel {
+    fn from(plane: PlaneRequest) -> Self {
+        match plane {
+            PlaneRequest::Stress => PlaneModel::Stress,
+            PlaneRequest::Strain => PlaneModel::Strain,
         }
-        _ => Err(faults.into_vec()),
+    }
+}
+
+impl From<DirectionRequest> for Direction {
+    fn from(direction: DirectionRequest) -> Self {
+        match direction {
+            DirectionRequest::Increase => Direction::Increase,
+            DirectionRequest::Decrease => Direction::Decrease,
+        }
     }
 }
 
@@ -91,7 +100,7 @@ fn check_load_factor(request: &AnalysisRequest, faults: &mut Faults) {
 }
 
 fn stone(request: &StoneRequest, faults: &mut Faults) -> Stone {
-    faults.within("/stone/density_kg_m3", request.density_kg_m3, 0.0, MAX_DENSITY_KG_M3);
+    let weighs = faults.within("/stone/density_kg_m3", request.density_kg_m3, 0.0, MAX_DENSITY_KG_M3);
     faults.within("/stone/youngs_modulus_pa", request.youngs_modulus_pa, 0.0, MAX_STRESS_PA);
     let nu = request.poissons_ratio;
     let detail = format!("{nu} is out of range: Poisson's ratio must lie between -1 and 0.5, both excluded");
@@ -101,7 +110,8 @@ fn stone(request: &StoneRequest, faults: &mut Faults) -> Stone {
     faults.within("/stone/compressive_strength_pa", request.compressive_strength_pa, 0.0, MAX_STRESS_PA);
     faults.within("/stone/penalty_ratio", request.penalty_ratio, 0.0, MAX_FACTOR);
     Stone {
-        density: request.density_kg_m3,
+        // A wrong density is one fault, not one for every load that it makes vanish.
+        density: if weighs { request.density_kg_m3 } else { Stone::default().density },
         youngs_modulus: request.youngs_modulus_pa,
         poissons_ratio: nu,
         friction_angle: request.friction_angle_deg.to_radians(),

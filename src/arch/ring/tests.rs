@@ -228,3 +228,21 @@ fn relative_lengths_divide_the_line() {
     let thirds = stations(1.0, &[0.1, 0.2, 0.3]);
     assert!((thirds[1] + 0.5 - 1.0 / 6.0).abs() < 1e-15 && thirds[2] == 0.0 && thirds[3] == 0.5);
 }
+
+#[test]
+fn a_pointed_arch_can_be_divided_along_its_intrados() {
+    // As in references/pointed_min_thickness.json: equal angles from the springing to the apex of the intrados.
+    let (radius, offset, thickness) = (1.0f64, 0.6f64, 0.04f64);
+    let inner = radius - 0.5 * thickness;
+    let ring = Ring { line: Line::Intrados, ..ring(Profile::pointed(inner, offset), thickness, 40) };
+    let ends = ring.set_out().unwrap();
+    for (k, pair) in ends.iter().enumerate().take(20) {
+        let angle = PI - (offset / inner).acos() * k as f64 / 20.0;
+        let unit = Vec2::new(angle.cos(), angle.sin());
+        for (end, r) in pair.iter().zip([inner, inner + thickness]) {
+            assert!((end - Vec2::new(offset, 0.0) - r * unit).norm() < 1e-13);
+        }
+    }
+    let apex = ((inner + thickness).powi(2) - offset * offset).sqrt();
+    assert!((ends[20][1] - Vec2::new(0.0, apex)).norm() < 1e-13);
+}
