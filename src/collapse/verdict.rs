@@ -265,8 +265,12 @@ impl<'a> Question<'a> {
 /// Where the path starts: unloaded where that stands, else inside the limit window.
 fn first_start(window: Option<[f64; 2]>, any_fixed: bool, sign: f64) -> f64 {
     match window {
-        // Without fixed loads every load factor of one sign is like any other, and at 0 nothing is known of the contacts.
-        _ if !any_fixed => sign,
+        // Without fixed loads nothing is known of the contacts at 0; where the window has no end, or only 0, every
+        // load factor of one sign is like any other.
+        _ if !any_fixed => {
+            let end = window.map_or(0.0, |[low, high]| if sign > 0.0 { high } else { low });
+            if end.is_finite() && end != 0.0 { 0.5 * end } else { sign }
+        }
         None => 0.0,
         Some([low, high]) if low <= 0.0 && high >= 0.0 => 0.0,
         Some([low, high]) if low.is_finite() && high.is_finite() => 0.5 * (low + high),
