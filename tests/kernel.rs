@@ -116,7 +116,7 @@ fn on_slope(b: f64, h: f64, slope_deg: f64, friction_deg: f64) -> &'static str {
         return "stable";
     }
     assert_eq!(end, End::Mechanism);
-    let (_, rotation) = chain.blocks()[0].motion(&tracer.peak().unwrap().direction[0]);
+    let (_, rotation) = chain.blocks()[0].motion(&tracer.direction()[0]);
     if rotation.abs() * h > 1e-6 { "topple" } else { "slide" }
 }
 

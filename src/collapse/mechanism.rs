@@ -163,7 +163,7 @@ pub(super) fn from_velocities(arch: &Arch, motions: &[Motion]) -> Mechanism {
         });
     }
     // What is left of elastic strain in the direction is not a hinge.
-    let elastic = 1e-3;
+    let elastic = 1e-5;
     let fastest = openings.iter().flatten().copied().fold(0.0, f64::max);
     openings.iter_mut().flatten().filter(|o| **o < elastic * fastest).for_each(|o| *o = 0.0);
     let longest = arch.joints.iter().map(|j| j.length()).fold(0.0, f64::max);

@@ -1,5 +1,6 @@
 //! Incremental limit analysis: what grows, how far, and what happens then.
 
+mod certificate;
 mod discretise;
 mod ending;
 mod mechanism;

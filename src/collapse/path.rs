@@ -2,6 +2,7 @@
 
 use super::discretise::{Model, Scatter};
 use super::record::Recorder;
+use crate::arch::PointForce;
 use crate::dda::{Drive, End, Peak, Tracer, V6, covering};
 use std::ops::ControlFlow;
 
@@ -34,6 +35,11 @@ impl Attempt {
     pub(super) fn number(i: usize) -> Self {
         Attempt { seed: 1 + i as u64, disturbance: 1e-9 * 30f64.powi(i.saturating_sub(1).min(2) as i32) }
     }
+}
+
+/// Sum of the sizes of all forces, N/m.
+pub(super) fn total(loads: &[PointForce]) -> f64 {
+    loads.iter().map(|l| l.force.norm()).sum()
 }
 
 /// Largest entry of any block's load, N/m.
@@ -73,8 +79,8 @@ pub(super) fn stand<'a>(
 /// How a path that stood at its start ended.
 #[derive(Debug, Clone)]
 pub(super) enum Leg {
-    /// Collapse at the peak.
-    Peak(Peak),
+    /// Collapse at the peak, and the direction in which the path ends.
+    Peak(Peak, Vec<V6>),
     /// Nothing more happens however far the load goes, or the cap was reached.
     Endless,
     /// The recorder's own criterion was met at this load factor (fixed steps only).
@@ -93,14 +99,14 @@ pub(super) fn follow(
     sign: f64,
     cap: f64,
     recorder: &mut Recorder,
-    see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>,
+    see: &mut dyn FnMut(&Tracer, f64) -> ControlFlow<()>,
 ) -> Leg {
     let rate = loads.scaled.iter().map(|s| s * sign).collect();
     tracer.drive_on(Drive { base: loads.fixed.clone(), rate, offset: [0.0, 0.0] }, sign * start);
     let mut met = None;
     let end = tracer.trace(cap, &mut |tracer| {
         met = recorder.see(sign * tracer.parameter(), tracer.displacements());
-        if met.is_some() { ControlFlow::Break(()) } else { see(tracer) }
+        if met.is_some() { ControlFlow::Break(()) } else { see(tracer, sign * tracer.parameter()) }
     });
     match (met, end) {
         (Some(load_factor), _) => Leg::Criterion(load_factor),
@@ -110,7 +116,7 @@ pub(super) fn follow(
         (None, End::Mechanism) => tracer.peak().map_or(Leg::Lost, |peak| {
             let mut peak = peak.clone();
             peak.parameter *= sign;
-            Leg::Peak(peak)
+            Leg::Peak(peak, tracer.direction().to_vec())
         }),
     }
 }

@@ -1,85 +1,70 @@
 //! From the limit window and the load path to one answer, or to saying that we cannot tell.
 
+use super::certificate::{Certificate, Doubt, any_fixed};
 use super::discretise::{Model, discretise};
-use super::path::{ATTEMPTS, Attempt, Leg, Loads, disturb, follow, stand};
+use super::path::{ATTEMPTS, Attempt, Leg, Loads, disturb, follow, stand, total};
 use super::record::{Recorder, snapshot};
 use super::{
-    Analysis, AnalysisError, CollapseReport, Cost, Direction, LimitWindow, LoadStep, Method, Outcome, PathEnd,
-    ThrustRange, Watch, ending, mechanism,
+    Analysis, AnalysisError, CollapseReport, Cost, Direction, LimitWindow, LoadStep, Method, Outcome, ThrustRange,
+    Watch, ending, mechanism,
 };
-use crate::arch::PointForce;
 use crate::dda::{End, Tracer};
-use crate::limit::StaticTheorem;
 use std::ops::ControlFlow;
 
-/// Path and certificate agree when their load factors differ by less than this share.
-const AGREES: f64 = 1e-7;
-/// The path may pass the limit window by this share before it is disbelieved.
-const ABOVE: f64 = 1e-6;
 /// By default the load factor is raised until the scaled loads are so many times the fixed ones.
 const DEFAULT_CAP: f64 = 1e6;
 
-/// What all attempts share.
+/// What all attempts at one analysis share.
 struct Question<'a> {
     analysis: &'a Analysis,
-    theorem: StaticTheorem,
-    window: Option<[f64; 2]>,
+    certificate: Certificate,
+    /// +1 where the load factor increases, -1 where it decreases.
     sign: f64,
+    /// Load factor from which the path starts.
     start: f64,
     cap: f64,
     /// Sum of all loads at the start, N/m.
     weight: f64,
 }
 
-/// One attempt: a report, and why it is not believed, if so.
+/// A report, and why it is not believed as it stands, if so.
 struct Attempted {
     report: CollapseReport,
-    doubt: Option<String>,
+    doubt: Option<Doubt>,
 }
+
+/// Is told of every event: the tracer and its load factor.
+type Progress<'w> = dyn FnMut(&Tracer, f64) -> ControlFlow<()> + 'w;
 
 pub(super) fn run(analysis: &Analysis, watch: &mut dyn Watch) -> Result<CollapseReport, AnalysisError> {
     let question = Question::new(analysis);
-    let mut last = None;
-    for i in 0..ATTEMPTS {
-        let attempted = question.attempt(Attempt::number(i), watch)?;
+    let mut attempted = question.attempt(Attempt::number(0), watch)?;
+    for i in 1..ATTEMPTS {
         if attempted.doubt.is_none() {
-            return Ok(attempted.report);
+            break;
         }
-        last = Some(attempted);
+        attempted = question.attempt(Attempt::number(i), watch)?;
     }
-    let Some(Attempted { mut report, doubt }) = last else { return Err(AnalysisError::NotFinite { what: "attempts" }) };
-    report.outcome = Outcome::CannotTell;
-    report.notes.extend(doubt);
+    let Attempted { mut report, doubt } = attempted;
+    if let Some(doubt) = doubt {
+        if doubt.is_contradiction() {
+            report.outcome = Outcome::CannotTell;
+        }
+        report.notes.push(doubt.to_string());
+    }
+    report.check_finite()?;
     Ok(report)
-}
-
-/// Sum of the sizes of all forces, N/m.
-fn total(loads: &[PointForce]) -> f64 {
-    loads.iter().map(|l| l.force.norm()).sum()
 }
 
 impl<'a> Question<'a> {
     fn new(analysis: &'a Analysis) -> Self {
-        let theorem = StaticTheorem::new(&analysis.arch, &analysis.fixed, &analysis.scaled);
+        let certificate = Certificate::new(analysis);
         let (fixed, scaled) = (total(&analysis.fixed), total(&analysis.scaled));
         let balance = if fixed > 0.0 && scaled > 0.0 { fixed / scaled } else { 1.0 };
         let sign = if analysis.direction == Direction::Increase { 1.0 } else { -1.0 };
-        // A corner at 0 comes out of the linear programme as a rounding error.
-        let tidy = |end: f64| if end.abs() < 1e-12 * balance { 0.0 } else { end };
-        let window = theorem.window().map(|ends| ends.map(tidy));
-        let start = first_start(window, fixed > 0.0, sign);
+        let start = certificate.start(any_fixed(analysis), sign);
         let (cap, weight) = (analysis.cap.unwrap_or(DEFAULT_CAP * balance), fixed + scaled * start.abs());
-        Question { analysis, theorem, window, sign, start, cap, weight }
-    }
-
-    /// True where limit analysis finds equilibrium at the start of the path.
-    fn expected_to_stand(&self) -> bool {
-        self.window.is_some_and(|[low, high]| low <= self.start && self.start <= high)
-    }
-
-    /// True where the arch stands at load factor 0.
-    fn stands_unloaded(&self) -> bool {
-        self.window.is_some_and(|[low, high]| low <= 0.0 && high >= 0.0)
+        Question { analysis, certificate, sign, start, cap, weight }
     }
 
     fn attempt(&self, attempt: Attempt, watch: &mut dyn Watch) -> Result<Attempted, AnalysisError> {
@@ -87,24 +72,19 @@ impl<'a> Question<'a> {
         let model = discretise(analysis, attempt.seed);
         let exact = Loads { fixed: model.loads(&analysis.fixed), scaled: model.loads(&analysis.scaled) };
         let loads = disturb(&exact, self.start, attempt);
-        let mut report = self.blank(&model);
-        let mut progress = |load_factor: f64, tracer: &Tracer| {
-            let step = LoadStep { load_factor, events: tracer.events() };
-            watch.on_step(&step).map_break(|_| ())
+        let mut progress = |tracer: &Tracer, load_factor: f64| {
+            watch.on_step(&LoadStep { load_factor, events: tracer.events() }).map_break(|_| ())
         };
-        let (mut tracer, end) = stand(&model, &loads, self.start, self.weight, &mut |tracer| {
-            progress(self.start * tracer.parameter(), tracer)
-        });
-        report.cost.events = tracer.events();
-        report.cost.factorisations = tracer.factorisations();
+        let mut report = self.blank(&model);
+        let (mut tracer, end) =
+            stand(&model, &loads, self.start, self.weight, &mut |t| progress(t, self.start * t.parameter()));
+        report.cost.add(&tracer, [0, 0]);
         match end {
             End::Stopped => return Err(self.stopped(&tracer)),
-            End::Reached => {}
-            _ => return Ok(self.fallen(report, &model, &tracer, end)),
-        }
-        if !self.expected_to_stand() {
-            let doubt = "the load path stands where limit analysis finds no equilibrium";
-            return Ok(Attempted { report, doubt: Some(doubt.into()) });
+            End::Reached if self.certificate.stands_at(self.start) => {}
+            End::Reached => return Ok(Attempted { report, doubt: Some(Doubt::StandsOutside) }),
+            End::Mechanism => return Ok(self.fallen(report, &model, &tracer)),
+            End::Rising | End::Lost => return Ok(Attempted { report, doubt: Some(Doubt::NotLoaded) }),
         }
         report.at_start = Some(snapshot(&model, self.start, tracer.displacements()));
         if total(&analysis.scaled) == 0.0 {
@@ -114,15 +94,13 @@ impl<'a> Question<'a> {
                 .push("No load is scaled by the load factor: the answer says only that the arch stands.".into());
             return Ok(Attempted { report, doubt: None });
         }
-        let mut other = tracer.clone();
+        let mut back = tracer.clone();
         let mut doubt = self.leg(&mut report, &model, &mut tracer, &loads, self.sign, &mut progress)?;
-        if !self.stands_unloaded() {
-            let mut opposite = self.blank(&model);
-            doubt = doubt.or(self.leg(&mut opposite, &model, &mut other, &loads, -self.sign, &mut progress)?);
-            report.other_end = opposite.end;
-            report.notes.append(&mut opposite.notes);
-            report.cost.events += opposite.cost.events;
-            report.cost.factorisations += opposite.cost.factorisations;
+        if !self.certificate.stands_at(0.0) {
+            report.outcome = Outcome::StandsInWindow;
+            let mut other = self.blank(&model);
+            doubt = doubt.or(self.leg(&mut other, &model, &mut back, &loads, -self.sign, &mut progress)?);
+            report.join_other_end(other);
         }
         Ok(Attempted { report, doubt })
     }
@@ -135,105 +113,61 @@ impl<'a> Question<'a> {
         tracer: &mut Tracer,
         loads: &Loads,
         sign: f64,
-        progress: &mut dyn FnMut(f64, &Tracer) -> ControlFlow<()>,
-    ) -> Result<Option<String>, AnalysisError> {
+        progress: &mut Progress,
+    ) -> Result<Option<Doubt>, AnalysisError> {
         let analysis = self.analysis;
         let crown = mechanism::crown(&analysis.arch);
         let mut recorder = Recorder::new(model, analysis.method, analysis.share, self.start, crown);
-        let (events, factorisations) = (tracer.events(), tracer.factorisations());
-        let leg = follow(tracer, loads, self.start, sign, self.cap, &mut recorder, &mut |tracer| {
-            progress(sign * tracer.parameter(), tracer)
-        });
-        report.cost.events += tracer.events() - events;
-        report.cost.factorisations += tracer.factorisations() - factorisations;
+        let before = [tracer.events(), tracer.factorisations()];
+        let leg = follow(tracer, loads, self.start, sign, self.cap, &mut recorder, progress);
+        report.cost.add(tracer, before);
         report.at_unit_load = recorder.at_one.as_ref().map(|d| snapshot(model, 1.0, d));
+        report.outcome = Outcome::Collapse;
+        let residual = tracer.worst_residual();
         let end = match leg {
             Leg::Stopped => return Err(self.stopped(tracer)),
-            Leg::Lost => return Ok(Some("the load path could not be followed to its end".into())),
+            Leg::Lost => return Ok(Some(Doubt::Lost)),
             Leg::Endless => {
                 report.history = recorder.history;
-                report.outcome = self.outcome(false);
-                return Ok(self.endless(sign));
+                report.outcome = Outcome::NeverCollapses;
+                return Ok(self.certificate.endless(sign, self.cap));
             }
-            Leg::Criterion(load_factor) => {
-                let displacements = recorder.displacements();
-                ending::at_fall(analysis, model, displacements, load_factor, tracer.worst_residual())
+            Leg::Criterion(at) => ending::at_fall(analysis, model, recorder.displacements(), at, residual),
+            Leg::Peak(peak, fall) => {
+                let mut end = ending::at_peak(analysis, model, &self.certificate.theorem, &peak, &fall, sign, residual);
+                end.load_factor = self.read_off(end.load_factor, sign);
+                end
             }
-            Leg::Peak(peak) => ending::at_peak(analysis, model, &self.theorem, &peak, sign, tracer.worst_residual()),
         };
         let near = recorder.near(end.load_factor);
         report.near_collapse = near.map(|(factor, d)| snapshot(model, factor, &d));
         report.history = recorder.history;
-        report.outcome = self.outcome(true);
-        let doubt = self.compare(&end, sign, &mut report.notes);
+        let compared = self.certificate.compare(analysis.method, &end, sign);
         report.end = Some(end);
+        let (note, doubt) = compared.map_or_else(|doubt| (None, Some(doubt)), |note| (note, None));
+        report.notes.extend(note);
         Ok(doubt)
     }
 
-    fn outcome(&self, collapses: bool) -> Outcome {
-        match (self.stands_unloaded(), collapses) {
-            (false, _) => Outcome::StandsInWindow,
-            (true, true) => Outcome::Collapse,
-            (true, false) => Outcome::NeverCollapses,
+    /// The collapse load as the method reads it: exact, or the first whole step beyond.
+    fn read_off(&self, load_factor: f64, sign: f64) -> f64 {
+        match self.analysis.method {
+            Method::EventPath => load_factor,
+            Method::FixedSteps { step, .. } => {
+                let steps = ((load_factor - self.start).abs() / step).floor() + 1.0;
+                self.start + sign * steps * step
+            }
         }
-    }
-
-    /// Holds the collapse load against the limit window.
-    fn compare(&self, end: &PathEnd, sign: f64, notes: &mut Vec<String>) -> Option<String> {
-        let limit = self.window.map_or(0.0, |[low, high]| if sign > 0.0 { high } else { low });
-        if self.analysis.method != Method::EventPath {
-            return None;
-        }
-        let scale = limit.abs().max(end.load_factor.abs()).max(1e-6 * self.theorem.load_factor_scale());
-        let short = sign * (limit - end.load_factor) / scale;
-        if short < -ABOVE {
-            return Some(format!(
-                "the load path passes the limit window (load factor {} against {limit})",
-                end.load_factor
-            ));
-        }
-        if short <= AGREES {
-            return None;
-        }
-        if end.mechanism.slides.is_empty() {
-            return Some(format!(
-                "the load path ends at load factor {} without sliding, short of the limit window's end {limit}",
-                end.load_factor
-            ));
-        }
-        notes.push(format!(
-            "Joints slide without dilating, so the arch falls at load factor {} although limit analysis, which lets \
-             sliding joints dilate (associated friction), allows {limit}. With sliding the answer depends on the \
-             stiffness of the joints and on the order of loading by a few per cent; use the lower one.",
-            end.load_factor
-        ));
-        None
-    }
-
-    /// Nothing happened up to the cap; that is believed if the limit window says so too.
-    fn endless(&self, sign: f64) -> Option<String> {
-        let limit = self.window.map_or(0.0, |[low, high]| if sign > 0.0 { high } else { low });
-        (sign * limit < self.cap).then(|| format!("the load path passes the limit window's end {limit} and goes on"))
     }
 
     /// The arch did not stand under its loads at the start.
-    fn fallen(&self, mut report: CollapseReport, model: &Model, tracer: &Tracer, end: End) -> Attempted {
-        let Some(peak) = tracer.peak().filter(|_| end == End::Mechanism) else {
-            return Attempted { report, doubt: Some("the loads could not be brought on".into()) };
-        };
+    fn fallen(&self, mut report: CollapseReport, model: &Model, tracer: &Tracer) -> Attempted {
         // Without fixed loads the smallest load factor is one too many.
-        let load_factor = if total(&self.analysis.fixed) > 0.0 { self.start } else { 0.0 };
-        let fall = ending::at_fall(self.analysis, model, &peak.direction, load_factor, tracer.worst_residual());
-        let slides = !fall.mechanism.slides.is_empty();
-        report.end = Some(fall);
+        let load_factor = if any_fixed(self.analysis) { self.start } else { 0.0 };
+        let fall = ending::at_fall(self.analysis, model, tracer.direction(), load_factor, tracer.worst_residual());
+        let doubt = self.certificate.fallen(self.start, !fall.mechanism.slides.is_empty());
         report.outcome = Outcome::FallsAsBuilt;
-        let doubt = if !self.expected_to_stand() {
-            None
-        } else if slides {
-            Some("sliding without dilatancy lets the arch fall where limit analysis finds equilibrium".into())
-        } else {
-            Some("the arch falls under loads for which limit analysis finds equilibrium".into())
-        };
+        report.end = Some(fall);
         Attempted { report, doubt }
     }
 
@@ -242,10 +176,11 @@ impl<'a> Question<'a> {
     }
 
     fn blank(&self, model: &Model) -> CollapseReport {
-        let thrust = if total(&self.analysis.fixed) > 0.0 { self.theorem.thrust_range(0.0) } else { None };
+        let window = self.certificate.window;
+        let thrust = any_fixed(self.analysis).then(|| self.certificate.theorem.thrust_range(0.0)).flatten();
         CollapseReport {
             outcome: Outcome::CannotTell,
-            limit_window: self.window.map(|[lowest, highest]| LimitWindow { lowest, highest }),
+            limit_window: window.map(|[lowest, highest]| LimitWindow { lowest, highest }),
             thrust_range: thrust.map(|[lowest, highest]| ThrustRange { lowest, highest }),
             end: None,
             other_end: None,
@@ -262,19 +197,41 @@ impl<'a> Question<'a> {
     }
 }
 
-/// Where the path starts: unloaded where that stands, else inside the limit window.
-fn first_start(window: Option<[f64; 2]>, any_fixed: bool, sign: f64) -> f64 {
-    match window {
-        // Without fixed loads nothing is known of the contacts at 0; where the window has no end, or only 0, every
-        // load factor of one sign is like any other.
-        _ if !any_fixed => {
-            let end = window.map_or(0.0, |[low, high]| if sign > 0.0 { high } else { low });
-            if end.is_finite() && end != 0.0 { 0.5 * end } else { sign }
+impl Cost {
+    /// Adds a tracer's work since `before` ([events, factorisations]).
+    fn add(&mut self, tracer: &Tracer, before: [usize; 2]) {
+        self.events += tracer.events() - before[0];
+        self.factorisations += tracer.factorisations() - before[1];
+    }
+}
+
+impl CollapseReport {
+    /// Takes in the leg that was followed the other way.
+    fn join_other_end(&mut self, other: CollapseReport) {
+        self.other_end = other.end;
+        self.at_unit_load = self.at_unit_load.take().or(other.at_unit_load);
+        self.notes.extend(other.notes);
+        self.cost.events += other.cost.events;
+        self.cost.factorisations += other.cost.factorisations;
+    }
+
+    /// A number that is not finite must not reach anyone as a `null` or a blank.
+    fn check_finite(&self) -> Result<(), AnalysisError> {
+        let finite = |what: &'static str, mut numbers: Box<dyn Iterator<Item = f64> + '_>| {
+            if numbers.all(f64::is_finite) { Ok(()) } else { Err(AnalysisError::NotFinite { what }) }
+        };
+        for end in self.end.iter().chain(&self.other_end) {
+            finite("collapse load", Box::new([end.load_factor, end.residual].into_iter()))?;
+            finite("mechanism", Box::new(end.mechanism.velocities.iter().flatten().copied()))?;
+            let line = end.thrust_line.iter().flat_map(|t| [t.normal, t.shear, t.eccentricity, t.at.x, t.at.y]);
+            finite("thrust line", Box::new(line))?;
         }
-        None => 0.0,
-        Some([low, high]) if low <= 0.0 && high >= 0.0 => 0.0,
-        Some([low, high]) if low.is_finite() && high.is_finite() => 0.5 * (low + high),
-        Some([low, _]) if low.is_finite() => 2.0 * low,
-        Some([_, high]) => 2.0 * high,
+        for state in self.near_collapse.iter().chain(&self.at_unit_load).chain(&self.at_start) {
+            let blocks = state.blocks.iter().flat_map(|b| [b.displacement.x, b.displacement.y, b.rotation]);
+            finite("displacements", Box::new(blocks))?;
+            finite("stresses", Box::new(state.blocks.iter().flat_map(|b| b.stress)))?;
+            finite("contact forces", Box::new(state.contacts.iter().flat_map(|c| [c.normal, c.tangential, c.gap])))?;
+        }
+        finite("history", Box::new(self.history.iter().flat_map(|h| [h.load_factor, h.crown.x, h.crown.y, h.largest])))
     }
 }

@@ -42,16 +42,14 @@ pub enum End {
     Lost,
 }
 
-/// The point of the path with the largest parameter, and how the chain moves on from there.
+/// The point of the path with the largest parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Peak {
     /// Parameter.
     pub parameter: f64,
     /// Displacements.
     pub displacements: Vec<V6>,
-    /// Direction in which the path goes on, its largest entry 1 m.
-    pub direction: Vec<V6>,
-    /// Contact states along that direction.
+    /// Contact states in which the path goes on.
     pub states: Vec<State>,
 }
 
@@ -161,7 +159,7 @@ impl<'a> Tracer<'a> {
     /// and after every event.
     pub fn trace(&mut self, target: f64, see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>) -> End {
         let far = FAR * self.size;
-        let most_events = self.events + 200 + 100 * self.states.len();
+        let most_events = self.events + 200 + 20 * self.states.len();
         let (mut zero_steps, mut barred) = (0, None);
         self.solve_tangent();
         if self.rate < 0.0 {
@@ -274,7 +272,6 @@ impl<'a> Tracer<'a> {
             self.peak = Some(Peak {
                 parameter: self.parameter,
                 displacements: self.displacements.clone(),
-                direction: self.direction.clone(),
                 states: self.states.clone(),
             });
         }

@@ -1,0 +1,154 @@
+//! The exact limit window of an arch, and what to make of a load path that differs from it.
+
+use super::path::total;
+use super::{Analysis, Method, PathEnd};
+use crate::limit::StaticTheorem;
+
+/// Path and window agree when their load factors differ by less than this share.
+const AGREES: f64 = 1e-7;
+/// The path may pass the window by this share before it is disbelieved.
+const ABOVE: f64 = 1e-6;
+/// An end of the window this close to 0, measured in loads as large as the fixed ones, is 0 and rounding.
+const ZERO: f64 = 1e-12;
+
+/// Limit window and the static theorem it comes from.
+#[derive(Debug)]
+pub(super) struct Certificate {
+    pub theorem: StaticTheorem,
+    /// Lowest and highest load factor in equilibrium; None where there is none.
+    pub window: Option<[f64; 2]>,
+}
+
+/// Why a path is not taken at its word.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub(super) enum Doubt {
+    #[error("The loads at the start could not be brought on.")]
+    NotLoaded,
+    #[error("The load path could not be followed to its end.")]
+    Lost,
+    #[error("The load path stands where limit analysis finds no equilibrium.")]
+    StandsOutside,
+    #[error("The load path falls without sliding where limit analysis finds equilibrium.")]
+    FallsInside,
+    #[error(
+        "The arch falls by sliding as its loads come on. Limit analysis, which lets sliding joints dilate (associated \
+         friction), finds equilibrium; joints that do not dilate need not reach it. Whether it stands depends on how \
+         it was built."
+    )]
+    SlidesInside,
+    #[error("The load path passes the limit window (load factor {} against {}).", figure(*.path), figure(*.limit))]
+    Above { path: f64, limit: f64 },
+    #[error(
+        "The load path ends at load factor {} without sliding, short of the limit window's end {}.",
+        figure(*.path), figure(*.limit)
+    )]
+    Short { path: f64, limit: f64 },
+}
+
+impl Doubt {
+    /// True where path and certificate cannot both be right; sliding may part them without either being wrong.
+    pub(super) fn is_contradiction(&self) -> bool {
+        *self != Doubt::SlidesInside
+    }
+}
+
+impl Certificate {
+    pub(super) fn new(analysis: &Analysis) -> Self {
+        let theorem = StaticTheorem::new(&analysis.arch, &analysis.fixed, &analysis.scaled);
+        let tidy = |end: f64| if end.abs() < ZERO * theorem.load_factor_scale() { 0.0 } else { end };
+        let window = theorem.window().map(|ends| ends.map(tidy));
+        Certificate { theorem, window }
+    }
+
+    /// True where the static theorem finds equilibrium.
+    pub(super) fn stands_at(&self, load_factor: f64) -> bool {
+        self.window.is_some_and(|[low, high]| low <= load_factor && load_factor <= high)
+    }
+
+    /// The window's end in the direction of `sign`.
+    fn end(&self, sign: f64) -> Option<f64> {
+        self.window.map(|[low, high]| if sign > 0.0 { high } else { low })
+    }
+
+    /// Load factor from which to follow the path: 0 where the arch stands there, else inside the window.
+    pub(super) fn start(&self, any_fixed: bool, sign: f64) -> f64 {
+        match self.window {
+            // Without fixed loads nothing is known of the contacts at 0; where the window has no end, or only 0, every
+            // load factor of one sign is like any other.
+            _ if !any_fixed => match self.end(sign) {
+                Some(end) if end.is_finite() && end != 0.0 => 0.5 * end,
+                _ => sign,
+            },
+            None => 0.0,
+            Some([low, high]) if low <= 0.0 && high >= 0.0 => 0.0,
+            Some([low, high]) if low.is_finite() && high.is_finite() => 0.5 * (low + high),
+            Some([low, _]) if low.is_finite() => 2.0 * low,
+            Some([_, high]) => 2.0 * high,
+        }
+    }
+
+    /// Holds the end of a path against the window: a doubt, or a note where sliding explains the difference.
+    pub(super) fn compare(&self, method: Method, end: &PathEnd, sign: f64) -> Result<Option<String>, Doubt> {
+        let (path, limit) = (end.load_factor, self.end(sign).unwrap_or(0.0));
+        if let Method::FixedSteps { step, .. } = method {
+            return Ok(Some(fixed_steps_note(step, limit)));
+        }
+        let scale = limit.abs().max(path.abs()).max(1e-6 * self.theorem.load_factor_scale());
+        let short = sign * (limit - path) / scale;
+        if short < -ABOVE {
+            Err(Doubt::Above { path, limit })
+        } else if short <= AGREES {
+            Ok(None)
+        } else if end.mechanism.slides.is_empty() {
+            Err(Doubt::Short { path, limit })
+        } else {
+            Ok(Some(sliding_note(path, limit)))
+        }
+    }
+
+    /// Nothing happened up to the cap; that is believed if the window says so too.
+    pub(super) fn endless(&self, sign: f64, cap: f64) -> Option<Doubt> {
+        let limit = self.end(sign).unwrap_or(0.0);
+        (sign * limit < cap).then_some(Doubt::Above { path: sign * cap, limit })
+    }
+
+    /// The arch fell at the start of the path.
+    pub(super) fn fallen(&self, start: f64, slides: bool) -> Option<Doubt> {
+        let doubt = if slides { Doubt::SlidesInside } else { Doubt::FallsInside };
+        self.stands_at(start).then_some(doubt)
+    }
+}
+
+/// True where some load does not grow.
+pub(super) fn any_fixed(analysis: &Analysis) -> bool {
+    total(&analysis.fixed) > 0.0
+}
+
+fn sliding_note(path: f64, limit: f64) -> String {
+    format!(
+        "Joints slide without dilating: the arch falls at load factor {}, although limit analysis, which lets sliding \
+         joints dilate (associated friction), allows {}. Where joints slide the answer also depends on their stiffness \
+         and on the order of loading. The one nearer to the start of the path is the safe one.",
+        figure(path),
+        figure(limit)
+    )
+}
+
+fn fixed_steps_note(step: f64, limit: f64) -> String {
+    format!(
+        "Read off at whole steps of {} by the opening of joints (section 4.2 of the paper), for comparison only: the \
+         load given is the first step at which the criterion was met or no equilibrium was left, up to a step above \
+         the true one. Limit analysis gives {}.",
+        figure(step),
+        figure(limit)
+    )
+}
+
+/// Seven significant figures.
+fn figure(x: f64) -> String {
+    if x == 0.0 || !x.is_finite() {
+        return x.to_string();
+    }
+    let decimals = (6 - x.abs().log10().floor() as i32).clamp(0, 15) as usize;
+    format!("{x:.decimals$}")
+}
