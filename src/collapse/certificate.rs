@@ -10,6 +10,8 @@ const AGREES: f64 = 1e-7;
 const ABOVE: f64 = 1e-6;
 /// An end of the window this close to 0, measured in loads as large as the fixed ones, is 0 and rounding.
 const ZERO: f64 = 1e-12;
+/// Loads that do less work than this in a mechanism do not drive it.
+const NO_WORK: f64 = 1e-9;
 
 /// Limit window and the static theorem it comes from.
 #[derive(Debug)]
@@ -36,6 +38,11 @@ pub(super) enum Doubt {
          it was built."
     )]
     SlidesInside,
+    #[error(
+        "Stones that carry neither weight nor load are free to move, so the load path cannot be followed. Give the arch \
+         its self weight."
+    )]
+    LooseStones,
     #[error("The load path passes the limit window (load factor {} against {}).", figure(*.path), figure(*.limit))]
     Above { path: f64, limit: f64 },
     #[error(
@@ -112,9 +119,14 @@ impl Certificate {
         (sign * limit < cap).then_some(Doubt::Above { path: sign * cap, limit })
     }
 
-    /// The arch fell at the start of the path.
-    pub(super) fn fallen(&self, start: f64, slides: bool) -> Option<Doubt> {
-        let doubt = if slides { Doubt::SlidesInside } else { Doubt::FallsInside };
+    /// The arch fell at the start of the path; `power` is what its loads do in the mechanism, as a share of the most
+    /// they could.
+    pub(super) fn fallen(&self, start: f64, slides: bool, power: f64) -> Option<Doubt> {
+        let doubt = match slides {
+            _ if power < NO_WORK => Doubt::LooseStones,
+            true => Doubt::SlidesInside,
+            false => Doubt::FallsInside,
+        };
         self.stands_at(start).then_some(doubt)
     }
 }

@@ -1,7 +1,7 @@
 //! How the arch moves when it falls: hinges, slides and the mode, from the joints that are at their limits.
 
 use super::smallest_motion::{Column, smallest_motion};
-use super::{Face, Hinge, Mechanism, Mode, Slide};
+use super::{Analysis, Face, Hinge, Mechanism, Mode, Slide};
 use crate::arch::{Arch, JointLaw, PointForce};
 use crate::geometry::{Vec2, cross, perpendicular};
 use crate::limit::Resultant;
@@ -170,6 +170,21 @@ pub(super) fn from_velocities(arch: &Arch, motions: &[Motion]) -> Mechanism {
     let quickest = slid.iter().map(|s| s.abs()).fold(fastest * longest, f64::max);
     slid.iter_mut().filter(|s| s.abs() < elastic * quickest).for_each(|s| *s = 0.0);
     assemble(arch, &relative, &openings, &slid)
+}
+
+/// Power of all loads at a load factor in a mechanism, as a share of the sum of |force| |velocity|.
+pub(super) fn power(analysis: &Analysis, mechanism: &Mechanism, load_factor: f64) -> f64 {
+    let loads = analysis.fixed.iter().map(|f| (f, 1.0)).chain(analysis.scaled.iter().map(|f| (f, load_factor)));
+    let (mut done, mut possible) = (0.0, f64::MIN_POSITIVE);
+    let fastest = mechanism.velocities.iter().map(|[u, v, _]| u.hypot(*v)).fold(0.0, f64::max);
+    for (force, factor) in loads {
+        let [u, v, spin] = mechanism.velocities[force.voussoir];
+        let centroid = analysis.arch.voussoirs[force.voussoir].region.centroid;
+        let velocity = motion_at(centroid, Vec2::new(u, v), spin).at(force.at);
+        done += factor * force.force.dot(&velocity);
+        possible += (factor * force.force.norm() * fastest).abs();
+    }
+    done / possible
 }
 
 /// Velocity field of a block from the velocity and spin at its centroid.

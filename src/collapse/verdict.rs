@@ -165,7 +165,8 @@ impl<'a> Question<'a> {
         // Without fixed loads the smallest load factor is one too many.
         let load_factor = if any_fixed(self.analysis) { self.start } else { 0.0 };
         let fall = ending::at_fall(self.analysis, model, tracer.direction(), load_factor, tracer.worst_residual());
-        let doubt = self.certificate.fallen(self.start, !fall.mechanism.slides.is_empty());
+        let power = mechanism::power(self.analysis, &fall.mechanism, self.start);
+        let doubt = self.certificate.fallen(self.start, !fall.mechanism.slides.is_empty(), power);
         report.outcome = Outcome::FallsAsBuilt;
         report.end = Some(fall);
         Attempted { report, doubt }
