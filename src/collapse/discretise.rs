@@ -111,8 +111,8 @@ impl Model {
     /// Normal gap of contact `p` at the displacements `d`, m.
     pub(super) fn gap(&self, p: usize, d: &[V6]) -> f64 {
         let interface = self.chain.interface_of(p);
-        let rows = self.chain.contacts()[p].normal;
-        let of = |block: Option<&V6>, row: V6| block.map_or(0.0, |d| row.dot(d));
-        of(interface.checked_sub(1).map(|i| &d[i]), rows[0]) + of(d.get(interface), rows[1])
+        let still = V6::zeros();
+        let before = interface.checked_sub(1).map_or(&still, |i| &d[i]);
+        self.chain.contacts()[p].gaps(before, d.get(interface).unwrap_or(&still))[0]
     }
 }

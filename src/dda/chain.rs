@@ -36,7 +36,7 @@ impl ChainBuilder {
             let after = self.chain.blocks.get(interface).map(|block| block.displacement_row(at, along));
             [before.unwrap_or_else(V6::zeros), after.unwrap_or_else(V6::zeros)]
         };
-        let contact = Contact { normal: rows(normal), tangent: rows(tangent), stiffness, law };
+        let contact = Contact::new(rows(normal), rows(tangent), stiffness, law);
         self.chain.contacts.push(contact);
         self.chain.interface.push(interface);
     }
@@ -81,16 +81,12 @@ impl Chain {
 
     /// Normal and tangential gap of every contact for the displacements (or velocities) `d`, m.
     pub fn gaps(&self, d: &[V6], into: &mut Vec<[f64; 2]>) {
-        into.clear();
-        let still = V6::zeros();
+        into.resize(self.contacts.len(), [0.0; 2]);
         for k in 0..self.interfaces() {
-            let before = if k > 0 { &d[k - 1] } else { &still };
-            let after = d.get(k).unwrap_or(&still);
-            for contact in &self.contacts[self.at_interface(k)] {
-                into.push([
-                    contact.normal[0].dot(before) + contact.normal[1].dot(after),
-                    contact.tangent[0].dot(before) + contact.tangent[1].dot(after),
-                ]);
+            let (before, after) = beside(d, k);
+            let range = self.at_interface(k);
+            for (contact, gaps) in self.contacts[range.clone()].iter().zip(&mut into[range]) {
+                *gaps = contact.gaps(&before, &after);
             }
         }
     }
@@ -126,4 +122,10 @@ impl Chain {
         }
         blocks
     }
+}
+
+/// Displacements of the blocks before and after interface `k`; the ground's are zero.
+pub(super) fn beside(d: &[V6], k: usize) -> (V6, V6) {
+    let before = k.checked_sub(1).map_or_else(V6::zeros, |i| d[i]);
+    (before, d.get(k).copied().unwrap_or_else(V6::zeros))
 }

@@ -69,6 +69,12 @@ pub struct Contact {
     pub stiffness: [f64; 2],
     /// Its law.
     pub law: Law,
+    /// Shear capacity without normal force, N/m.
+    cohesion: f64,
+    /// Fall of the capacity per unit of gap while pressed and while adhering, N/m2.
+    slopes: [f64; 2],
+    /// Gap at which the point has nothing left to carry shear with, m.
+    reach: f64,
 }
 
 /// Force and opening at a contact point.
@@ -86,29 +92,29 @@ pub struct ContactForce {
 pub type Moving = [f64; 2];
 
 impl Contact {
-    fn cohesion(&self) -> f64 {
-        match self.law {
-            Law::Bonded => f64::INFINITY,
-            Law::Coulomb { cohesion, .. } => cohesion,
-        }
+    /// A contact point with the given rows, stiffness and law.
+    pub fn new(normal: [V6; 2], tangent: [V6; 2], stiffness: [f64; 2], law: Law) -> Self {
+        let (friction, cohesion) = match law {
+            Law::Bonded => (0.0, 0.0),
+            Law::Coulomb { friction, cohesion } => (friction, cohesion),
+        };
+        let slopes = [friction * stiffness[0], stiffness[0] / ADHESION_REACH];
+        Contact { normal, tangent, stiffness, law, cohesion, slopes, reach: ADHESION_REACH * cohesion / stiffness[0] }
     }
 
-    /// Gap at which the point has nothing left to carry shear with, m.
-    fn reach(&self) -> f64 {
-        ADHESION_REACH * self.cohesion() / self.stiffness[0]
+    /// Normal and tangential gap for the displacements of the blocks before and after, m.
+    pub fn gaps(&self, before: &V6, after: &V6) -> [f64; 2] {
+        [self.normal, self.tangent].map(|[on_before, on_after]| on_before.dot(before) + on_after.dot(after))
     }
 
     /// Fall of the shear capacity per unit of gap in a zone, N/m2: the capacity is cohesion - slope * gap.
     pub fn slope(&self, zone: Zone) -> f64 {
-        match (zone, self.law) {
-            (Zone::Pressed, Law::Coulomb { friction, .. }) => friction * self.stiffness[0],
-            _ => self.stiffness[0] / ADHESION_REACH,
-        }
+        self.slopes[zone as usize]
     }
 
     /// Shear capacity in a zone, N/m.
     pub fn capacity(&self, zone: Zone, gap: f64) -> f64 {
-        self.cohesion() - self.slope(zone) * gap
+        self.cohesion - self.slope(zone) * gap
     }
 
     /// True where the point can carry no shear at all.
@@ -144,7 +150,7 @@ impl Contact {
         let trial = self.trial_shear(slip);
         let [normal, tangential] = match self.law {
             Law::Bonded => self.force_in(State::Bonded, gap, slip),
-            _ if gap >= self.reach().max(0.0) => [0.0, 0.0],
+            _ if gap >= self.reach.max(0.0) => [0.0, 0.0],
             _ => {
                 let zone = if gap < 0.0 { Zone::Pressed } else { Zone::Adhering };
                 let capacity = self.capacity(zone, gap);
@@ -170,11 +176,11 @@ impl Contact {
         let capacity = |zone| [self.capacity(zone, gap[0]), -self.slope(zone) * gap[1]];
         let negative = |x: Moving| [-x[0], -x[1]];
         let excess = |sign: f64, zone: Zone| [0, 1].map(|i| sign * trial[i] - capacity(zone)[i]);
-        let adhesive = self.cohesion() > 0.0;
+        let adhesive = self.cohesion > 0.0;
         match state {
             State::Bonded => {}
             State::Open => {
-                let above = [gap[0] - self.reach(), gap[1]];
+                let above = [gap[0] - self.reach, gap[1]];
                 // The way it slides is decided by the trial shear at the instant of closing; the capacity is zero there.
                 let until = if above[1] < 0.0 { (above[0] / -above[1]).max(0.0) } else { 0.0 };
                 let sign = if trial[0] + until * trial[1] < 0.0 { -1.0 } else { 1.0 };
@@ -196,7 +202,7 @@ impl Contact {
                     Zone::Pressed => see(negative(gap), State::Open),
                     Zone::Adhering => {
                         see(gap, State::Slip { sign, zone: Zone::Pressed });
-                        see([self.reach() - gap[0], -gap[1]], State::Open);
+                        see([self.reach - gap[0], -gap[1]], State::Open);
                     }
                 }
                 if !self.frictionless() {
@@ -213,7 +219,7 @@ mod tests {
 
     fn contact(cohesion: f64) -> Contact {
         let rows = [V6::zeros(); 2];
-        Contact { normal: rows, tangent: rows, stiffness: [1e4, 2e4], law: Law::Coulomb { friction: 0.5, cohesion } }
+        Contact::new(rows, rows, [1e4, 2e4], Law::Coulomb { friction: 0.5, cohesion })
     }
 
     #[test]

@@ -133,7 +133,7 @@ impl<'a> Tracer<'a> {
             load_rate: vec![V6::zeros(); n],
             load_rate_scale: 0.0,
             factor: Factor::new(n),
-            gaps: Vec::new(),
+            gaps: vec![[0.0; 2]; chain.contacts().len()],
             rates: Vec::new(),
             direction: vec![V6::zeros(); n],
             residual: vec![V6::zeros(); n],

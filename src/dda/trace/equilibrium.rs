@@ -2,7 +2,7 @@
 
 use super::{Drive, Tracer};
 use crate::dda::block::V6;
-use crate::dda::chain::Chain;
+use crate::dda::chain::{Chain, beside};
 use crate::dda::contact::{Contact, Law, State};
 
 /// Equilibrium residual, as a share of the load scale, above which the displacements are corrected; and above which
@@ -29,16 +29,16 @@ impl Tracer<'_> {
 
     /// Fills `residual` with load minus resistance of every block; returns the largest entry over the load scale.
     fn find_residual(&mut self) -> f64 {
-        self.chain.gaps(&self.displacements, &mut self.gaps);
         for (i, r) in self.residual.iter_mut().enumerate() {
             *r = self.drive.base[i] + self.drive.rate[i] * self.parameter - self.elastic[i] * self.displacements[i];
         }
         let offset = self.offset();
         for k in 0..self.chain.interfaces() {
+            let (before, after) = beside(&self.displacements, k);
             for p in self.chain.at_interface(k) {
-                let contact = &self.chain.contacts()[p];
-                let [gap, slip] = self.gaps[p];
-                let state = self.states[p];
+                let (contact, state) = (&self.chain.contacts()[p], self.states[p]);
+                let [gap, slip] = contact.gaps(&before, &after);
+                self.gaps[p] = [gap, slip];
                 let offset = if state == State::Bonded { 0.0 } else { offset };
                 let [normal, shear] = contact.force_in(state, gap + offset, slip);
                 push(&mut self.residual, contact, k, normal, shear);
