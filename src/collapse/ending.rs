@@ -1,7 +1,8 @@
 //! One end of a load path: its load polished on the unperturbed statics, its mechanism and its thrust line.
 
 use super::discretise::Model;
-use super::mechanism::{self, motion_at};
+use super::mechanism;
+use super::motion::motion_at;
 use super::{Analysis, PathEnd, Thrust};
 use crate::arch::{Arch, PointForce};
 use crate::dda::{Peak, State, V6, Zone};

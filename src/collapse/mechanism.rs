@@ -1,9 +1,10 @@
 //! How the arch moves when it falls: hinges, slides and the mode, from the joints that are at their limits.
 
+use super::motion::Motion;
 use super::smallest_motion::{Column, smallest_motion};
-use super::{Analysis, Face, Hinge, Mechanism, Mode, Slide};
+use super::{Face, Hinge, Mechanism, Mode, Slide};
 use crate::arch::{Arch, JointLaw, PointForce};
-use crate::geometry::{Vec2, cross, perpendicular};
+use crate::geometry::cross;
 use crate::limit::Resultant;
 
 /// A normal force below this share of the joint's is none; shear within this share of capacity is at its limit. Polished
@@ -19,31 +20,6 @@ enum Release {
     Rotation(Face),
     /// Sliding of the stone after the joint, +1 towards the extrados, -1 towards the intrados.
     Sliding(f64),
-}
-
-/// A plane rigid velocity field: v(x) = velocity + spin * perpendicular(x).
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Motion {
-    velocity: Vec2,
-    spin: f64,
-}
-
-impl Motion {
-    const STILL: Motion = Motion { velocity: Vec2::new(0.0, 0.0), spin: 0.0 };
-
-    /// Rotation with the given spin about `centre`.
-    fn about(centre: Vec2, spin: f64) -> Self {
-        Motion { velocity: -perpendicular(centre) * spin, spin }
-    }
-
-    fn plus(self, other: Motion, rate: f64) -> Self {
-        Motion { velocity: self.velocity + other.velocity * rate, spin: self.spin + other.spin * rate }
-    }
-
-    /// Velocity of the point `x`.
-    pub(super) fn at(&self, x: Vec2) -> Vec2 {
-        self.velocity + perpendicular(x) * self.spin
-    }
 }
 
 /// Finds the mechanism of an arch whose joints carry `resultants` at collapse: of all motions that open and slide only
@@ -172,26 +148,6 @@ pub(super) fn from_velocities(arch: &Arch, motions: &[Motion]) -> Mechanism {
     assemble(arch, &relative, &openings, &slid)
 }
 
-/// Power of all loads at a load factor in a mechanism, as a share of the sum of |force| |velocity|.
-pub(super) fn power(analysis: &Analysis, mechanism: &Mechanism, load_factor: f64) -> f64 {
-    let loads = analysis.fixed.iter().map(|f| (f, 1.0)).chain(analysis.scaled.iter().map(|f| (f, load_factor)));
-    let (mut done, mut possible) = (0.0, f64::MIN_POSITIVE);
-    let fastest = mechanism.velocities.iter().map(|[u, v, _]| u.hypot(*v)).fold(0.0, f64::max);
-    for (force, factor) in loads {
-        let [u, v, spin] = mechanism.velocities[force.voussoir];
-        let centroid = analysis.arch.voussoirs[force.voussoir].region.centroid;
-        let velocity = motion_at(centroid, Vec2::new(u, v), spin).at(force.at);
-        done += factor * force.force.dot(&velocity);
-        possible += (factor * force.force.norm() * fastest).abs();
-    }
-    done / possible
-}
-
-/// Velocity field of a block from the velocity and spin at its centroid.
-pub(super) fn motion_at(centroid: Vec2, velocity: Vec2, spin: f64) -> Motion {
-    Motion { velocity: velocity - perpendicular(centroid) * spin, spin }
-}
-
 fn assemble(arch: &Arch, relative: &[Motion], openings: &[[f64; 2]], slid: &[f64]) -> Mechanism {
     let hinge_rate = openings.iter().flatten().copied().fold(0.0, f64::max);
     let slide_rate = slid.iter().map(|s| s.abs()).fold(0.0, f64::max);
@@ -258,9 +214,10 @@ fn angles(arch: &Arch, joint: usize) -> (f64, f64) {
 
 #[cfg(test)]
 mod tests {
+    use super::super::motion::motion_at;
     use super::*;
     use crate::arch::{Joint, Voussoir};
-    use crate::geometry::Region;
+    use crate::geometry::{Region, Vec2};
 
     fn semicircle(n: usize) -> Arch {
         let law = JointLaw::Dry { friction: 0.7, cohesion: 0.0 };

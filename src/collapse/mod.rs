@@ -4,6 +4,7 @@ mod certificate;
 mod discretise;
 mod ending;
 mod mechanism;
+mod motion;
 mod path;
 mod record;
 pub mod report;

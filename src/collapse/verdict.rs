@@ -6,7 +6,7 @@ use super::path::{ATTEMPTS, Attempt, Leg, Loads, disturb, follow, stand, total};
 use super::record::{Recorder, snapshot};
 use super::{
     Analysis, AnalysisError, CollapseReport, Cost, Direction, LimitWindow, LoadStep, Method, Outcome, ThrustRange,
-    Watch, ending, mechanism,
+    Watch, ending, mechanism, motion,
 };
 use crate::dda::{End, Tracer};
 use std::ops::ControlFlow;
@@ -165,7 +165,7 @@ impl<'a> Question<'a> {
         // Without fixed loads the smallest load factor is one too many.
         let load_factor = if any_fixed(self.analysis) { self.start } else { 0.0 };
         let fall = ending::at_fall(self.analysis, model, tracer.direction(), load_factor, tracer.worst_residual());
-        let power = mechanism::power(self.analysis, &fall.mechanism, self.start);
+        let power = motion::power(self.analysis, &fall.mechanism, self.start);
         let doubt = self.certificate.fallen(self.start, !fall.mechanism.slides.is_empty(), power);
         report.outcome = Outcome::FallsAsBuilt;
         report.end = Some(fall);

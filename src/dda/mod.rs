@@ -12,6 +12,7 @@ pub mod block;
 pub mod chain;
 pub mod contact;
 pub mod factor;
+mod pivot;
 pub mod trace;
 
 pub use block::{Block, Elasticity, V6};
