@@ -179,7 +179,7 @@ fn assemble(arch: &Arch, relative: &[Motion], openings: &[[f64; 2]], slid: &[f64
     Mechanism { mode, hinges: hinges.collect(), slides, velocities: velocities.collect() }
 }
 
-/// Joint with the highest middle: the crown, or the joint next to a keystone's top.
+/// Which way the crown goes.
 fn crown_mode(arch: &Arch, motions: &[Motion]) -> Mode {
     let [a, b] = crown(arch);
     let top = 0.5 * (arch.voussoirs[a].region.centroid + arch.voussoirs[b].region.centroid);
@@ -193,10 +193,12 @@ fn crown_mode(arch: &Arch, motions: &[Motion]) -> Mode {
     }
 }
 
-/// The voussoirs whose mean is the crown: the keystone twice, or the two stones beside the crown joint.
+/// The voussoirs whose mean is the crown: the highest stone twice, or the two that are equally high.
 pub(super) fn crown(arch: &Arch) -> [usize; 2] {
-    let n = arch.voussoirs.len();
-    if arch.half { [n - 1, n - 1] } else { [(n - 1) / 2, n / 2] }
+    let heights: Vec<f64> = arch.voussoirs.iter().map(|v| v.region.centroid.y).collect();
+    let (low, high) = heights.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &y| (l.min(y), h.max(y)));
+    let top = |y: &f64| *y >= high - 1e-9 * (high - low);
+    [heights.iter().position(top), heights.iter().rposition(top)].map(|place| place.unwrap_or(0))
 }
 
 /// Angles of a joint's middle about the angle centre: from the nearer springing, and from the crown (left negative), rad.
