@@ -1,8 +1,12 @@
 //! The static theorem of one arch in four unknowns.
 
-use super::linear_program::{Inequality, Optimum, Row, maximise};
+use super::linear_program::{Inequality, Optimum, Row, UNKNOWNS, maximise};
 use crate::arch::{Arch, Joint, JointLaw, PointForce};
 use crate::geometry::{Vec2, cross};
+use nalgebra::{DMatrix, DVector};
+
+/// Iterations after which a singular value decomposition of four columns has failed (it needs about ten).
+const MOST_SWEEPS: usize = 1000;
 
 /// Forces that one joint carries.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -135,10 +139,13 @@ impl StaticTheorem {
                 (row / row.norm(), constant / row.norm())
             })
             .collect();
-        let a = nalgebra::DMatrix::from_fn(rows.len(), Row::zeros().len(), |i, j| rows[i].0[j]);
-        let b = nalgebra::DVector::from_fn(rows.len(), |i, _| -rows[i].1);
-        let svd = a.svd(true, true);
-        if svd.rank(1e-9) < Row::zeros().len() {
+        if rows.len() < UNKNOWNS || rows.iter().any(|(row, _)| !row.iter().all(|x| x.is_finite())) {
+            return None;
+        }
+        let a = DMatrix::from_fn(rows.len(), UNKNOWNS, |i, j| rows[i].0[j]);
+        let b = DVector::from_fn(rows.len(), |i, _| -rows[i].1);
+        let svd = a.try_svd(true, true, f64::EPSILON, MOST_SWEEPS)?;
+        if svd.rank(1e-9) < UNKNOWNS {
             return None;
         }
         let x = svd.solve(&b, 0.0).ok()?;
