@@ -1,5 +1,6 @@
 //! Incremental limit analysis: what grows, how far, and what happens then.
 
+mod digits;
 mod discretise;
 mod ending;
 mod mechanism;
@@ -9,6 +10,7 @@ pub mod report;
 mod smallest_motion;
 mod verdict;
 
+pub use digits::Digits;
 pub use report::*;
 
 use crate::arch::{Arch, PointForce, Stone};

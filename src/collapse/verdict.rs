@@ -4,7 +4,7 @@ use super::discretise::{Model, discretise};
 use super::path::{ATTEMPTS, Attempt, Leg, Loads, disturb, follow, stand};
 use super::record::{Recorder, snapshot};
 use super::{
-    Analysis, AnalysisError, CollapseReport, Cost, Direction, LimitWindow, LoadStep, Method, Outcome, PathEnd,
+    Analysis, AnalysisError, CollapseReport, Cost, Digits, Direction, LimitWindow, LoadStep, Method, Outcome, PathEnd,
     ThrustRange, Watch, ending, mechanism,
 };
 use crate::arch::PointForce;
@@ -186,26 +186,23 @@ impl<'a> Question<'a> {
         }
         let scale = limit.abs().max(end.load_factor.abs()).max(1e-6 * self.theorem.load_factor_scale());
         let short = sign * (limit - end.load_factor) / scale;
+        let (path, edge) = (Digits(end.load_factor), Digits(limit));
         if short < -ABOVE {
-            return Some(format!(
-                "the load path passes the limit window (load factor {} against {limit})",
-                end.load_factor
-            ));
+            return Some(format!("the load path passes the limit window (load factor {path} against {edge})"));
         }
         if short <= AGREES {
             return None;
         }
         if end.mechanism.slides.is_empty() {
             return Some(format!(
-                "the load path ends at load factor {} without sliding, short of the limit window's end {limit}",
-                end.load_factor
+                "the load path ends at load factor {path} without sliding, short of the limit window's end {edge}"
             ));
         }
         notes.push(format!(
-            "Joints slide without dilating, so the arch falls at load factor {} although limit analysis, which lets \
-             sliding joints dilate (associated friction), allows {limit}. With sliding the answer depends on the \
-             stiffness of the joints and on the order of loading by a few per cent; use the lower one.",
-            end.load_factor
+            "Joints slide without dilating, so the arch falls at load factor {path} although limit analysis, which lets \
+             sliding joints dilate (associated friction), allows {edge}. With sliding the answer depends on the \
+             stiffness of the joints and on the order of loading by a few per cent. Of the two use {path}, which \
+             leaves the arch less room."
         ));
         None
     }
@@ -213,7 +210,8 @@ impl<'a> Question<'a> {
     /// Nothing happened up to the cap; that is believed if the limit window says so too.
     fn endless(&self, sign: f64) -> Option<String> {
         let limit = self.window.map_or(0.0, |[low, high]| if sign > 0.0 { high } else { low });
-        (sign * limit < self.cap).then(|| format!("the load path passes the limit window's end {limit} and goes on"))
+        let edge = Digits(limit);
+        (sign * limit < self.cap).then(|| format!("the load path passes the limit window's end {edge} and goes on"))
     }
 
     /// The arch did not stand under its loads at the start.
