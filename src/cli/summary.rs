@@ -75,7 +75,7 @@ fn explanation(result: &AnalysisResult) -> &'static str {
     match result.thrust_range {
         Some(_) => {
             "Limit window: what rigid-block limit analysis allows. Thrust range: horizontal force with which the left \
-             springing pushes the arch to the right under the fixed loads alone; negative where it pulls to the left."
+             springing pushes the arch to the right under the fixed loads alone; negative means to the left."
         }
         None => "Limit window: what rigid-block limit analysis allows.",
     }
