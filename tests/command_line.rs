@@ -130,6 +130,8 @@ fn every_outcome_is_told_in_words_that_fit_it() {
             "only above 5.236255 kN (tried up to 9)",
         ),
         (summary("half-arch", |_| {}), "The arch stands under its fixed loads."),
+        // The whole arch falls at the same load: its jacks are a pair.
+        (summary("paper-case-1-61", |r| r["arch"]["half"] = json!(true)), "The arch collapses at 202.4586 kN/m."),
     ];
     for (text, words) in table {
         assert!(text.contains(words), "{words} in\n{text}");

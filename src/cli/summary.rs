@@ -7,6 +7,9 @@ use std::time::Duration;
 use voussoir::api::response::{AnalysisResult, HingeBody, OutcomeWord, SlideBody};
 use voussoir::collapse::Digits;
 
+/// Forces below this share of the largest are round-off.
+const ROUND_OFF: f64 = 1e-12;
+
 /// Everything but the rows of numbers per stone and joint.
 pub fn summary(result: &AnalysisResult, wall_time: Duration) -> String {
     let name = result.request.name.as_ref().map(|name| format!("{name}\n\n")).unwrap_or_default();
@@ -120,10 +123,13 @@ fn springings(result: &AnalysisResult) -> Option<Table> {
     let last = thrust.joint.len().checked_sub(1)?;
     let mut table = bare();
     table.set_header(["joint", "normal, kN", "shear, kN", "off the joint's middle, m"]);
+    let most = thrust.normal_n_per_m.iter().fold(0.0, |most: f64, normal| most.max(normal.abs()));
+    // Round-off of a balance of large forces is no force.
+    let force = |value: f64| Digits(if value.abs() > ROUND_OFF * most { value / 1e3 } else { 0.0 }).to_string();
     table.add_rows([0, last].map(|k| {
-        let forces = [thrust.normal_n_per_m[k] / 1e3, thrust.shear_n_per_m[k] / 1e3, thrust.eccentricity_m[k]];
-        let [normal, shear, off] = forces.map(|value| Digits(value).to_string());
-        [thrust.joint[k].to_string(), normal, shear, off]
+        let crown = if result.request.arch.half && k == last { " (crown)" } else { "" };
+        let [normal, shear] = [thrust.normal_n_per_m[k], thrust.shear_n_per_m[k]].map(force);
+        [format!("{}{crown}", thrust.joint[k]), normal, shear, Digits(thrust.eccentricity_m[k]).to_string()]
     }));
     Some(table)
 }
