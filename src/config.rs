@@ -34,6 +34,9 @@ pub struct Solve {
     /// Print the whole answer as JSON, byte for byte what /v1/jobs/{id}/results gives
     #[arg(long)]
     pub json: bool,
+    /// Also draw the arch where its load path ends, as SVG, into this file
+    #[arg(long, value_name = "OUT.svg")]
+    pub figure: Option<PathBuf>,
 }
 
 /// Options of `serve`.

@@ -1,6 +1,7 @@
 //! The log: one line per request, one span per job, on standard error. Bodies never go in.
 
 use crate::config::LogFormat;
+use std::io::{self, IsTerminal};
 use std::panic;
 use tracing_subscriber::EnvFilter;
 use tracing_subscriber::filter::ParseError;
@@ -11,7 +12,8 @@ use tracing_subscriber::filter::ParseError;
 /// When `filter` is no list of levels.
 pub fn start(format: LogFormat, filter: &str) -> Result<(), ParseError> {
     let filter = EnvFilter::builder().parse(filter)?;
-    let builder = tracing_subscriber::fmt().with_env_filter(filter).with_writer(std::io::stderr);
+    let colours = io::stderr().is_terminal();
+    let builder = tracing_subscriber::fmt().with_env_filter(filter).with_ansi(colours).with_writer(io::stderr);
     match format {
         LogFormat::Text => builder.init(),
         LogFormat::Json => builder.json().flatten_event(true).init(),

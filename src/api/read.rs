@@ -65,7 +65,10 @@ fn read_structure(body: &[u8]) -> (Option<AnalysisRequest>, Faults) {
             }
             Err(fault) => {
                 let place = mend(&mut tree, &fault.pointer);
-                faults.add(fault.pointer, fault.detail);
+                // What was taken away for its own fault is not missing.
+                if !mended.contains(&fault.pointer) {
+                    faults.add(fault.pointer, fault.detail);
+                }
                 match place {
                     Some(place) => mended.push(place),
                     None => break,

@@ -1,9 +1,11 @@
 //! The verbs.
 
+mod figure;
 pub mod health;
 pub mod serve;
 pub mod solve;
 mod summary;
+mod wording;
 
 use std::fmt::Display;
 use std::io::{self, Write};

@@ -1,6 +1,6 @@
 //! `voussoir solve`: one request, one answer, no server.
 
-use super::{complain, fail, print, summary};
+use super::{complain, fail, figure, print, summary};
 use crate::config::Solve;
 use std::fs;
 use std::io::{self, Read};
@@ -32,13 +32,19 @@ pub fn solve(options: &Solve) -> ExitCode {
     };
     let wall_time = clock.elapsed();
     let result = AnalysisResult::new(&request, &report);
-    if !options.json {
-        return print(summary::summary(&result, wall_time).as_bytes());
-    }
-    match result.to_bytes() {
+    let bytes = match options.json {
+        true => result.to_bytes(),
+        false => Ok(summary::summary(&result, wall_time).into_bytes()),
+    };
+    let drawn = match &options.figure {
+        Some(file) => figure::write(file, &analysis.arch, &report, &result),
+        None => Ok(()),
+    };
+    let printed = match bytes {
         Ok(bytes) => print(&bytes),
         Err(error) => fail(error),
-    }
+    };
+    drawn.map_or_else(fail, |()| printed)
 }
 
 fn load(file: &Path) -> io::Result<Vec<u8>> {

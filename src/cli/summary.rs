@@ -1,44 +1,39 @@
 //! The answer as a person reads it.
 
+use super::wording::{self, Limit, word};
 use comfy_table::{Table, presets};
-use serde::Serialize;
-use std::fmt::{self, Display, Write};
+use std::fmt::Write;
 use std::time::Duration;
-use voussoir::api::response::{AnalysisResult, Collapse, HingeBody, OutcomeWord, SlideBody};
+use voussoir::api::response::{AnalysisResult, HingeBody, OutcomeWord, SlideBody};
+use voussoir::collapse::Digits;
+
+/// Forces below this share of the largest are round-off.
+const ROUND_OFF: f64 = 1e-12;
 
 /// Everything but the rows of numbers per stone and joint.
 pub fn summary(result: &AnalysisResult, wall_time: Duration) -> String {
-    let mut text = format!("{}\n\n{}\n", headline(result), facts(result, wall_time).trim_fmt());
-    append(&mut text, "Hinges", hinges(&result.hinges));
-    append(&mut text, "Slides", slides(&result.slides));
-    if let Some(other) = &result.other_end {
-        let collapse = &other.collapse;
-        let end = format!("Other end: {} ({})", intensity(collapse), word(&collapse.mode));
-        append(&mut text, &end, hinges(&other.hinges));
-        append(&mut text, "Slides at the other end", slides(&other.slides));
+    let name = result.request.name.as_ref().map(|name| format!("{name}\n\n")).unwrap_or_default();
+    let headline = wording::wrapped(&wording::headline(result));
+    let mut text = format!("{name}{headline}\n\n{}\n", facts(result, wall_time).trim_fmt());
+    if result.outcome == OutcomeWord::StandsInWindow {
+        for (name, limit) in ["Lower", "Upper"].into_iter().zip(wording::limits(result)) {
+            window_end(&mut text, name, limit, result);
+        }
+    } else {
+        append(&mut text, "Hinges", hinges(&result.hinges));
+        append(&mut text, "Sliding joints", slides(&result.slides));
     }
+    let at = if result.outcome == OutcomeWord::StandsInWindow {
+        format!("the {}", wording::shown(result))
+    } else {
+        "the end of the path".to_owned()
+    };
+    append(&mut text, &format!("Outer joints at {at}, forces per metre of depth"), springings(result));
     for note in &result.notes {
-        // Writing to a string cannot fail.
-        let _ = write!(text, "\nNote: {note}\n");
+        paragraph(&mut text, &format!("Note: {note}"));
     }
+    paragraph(&mut text, explanation(result));
     text
-}
-
-/// One sentence.
-fn headline(result: &AnalysisResult) -> String {
-    let at = result.collapse.as_ref().map(intensity);
-    match (result.outcome, at) {
-        (OutcomeWord::Collapse, Some(at)) => format!("The arch collapses at {at}."),
-        (OutcomeWord::Crushes, Some(at)) => format!("The stone crushes at {at}."),
-        (OutcomeWord::StandsInWindow, Some(at)) => {
-            format!("The arch does not stand without its load; with it, it stands up to {at}.")
-        }
-        (OutcomeWord::FallsAsBuilt, _) => "The arch falls as built.".to_owned(),
-        (OutcomeWord::NeverCollapses, _) => {
-            format!("The arch does not collapse, up to load factor {}.", Digits(result.cap))
-        }
-        (outcome, _) => format!("Outcome: {}.", word(&outcome)),
-    }
 }
 
 fn facts(result: &AnalysisResult, wall_time: Duration) -> Table {
@@ -46,21 +41,31 @@ fn facts(result: &AnalysisResult, wall_time: Duration) -> Table {
     let mut fact = |name: &str, value: String| {
         table.add_row([name, &value]);
     };
+    fact("arch", wording::arch(&result.request.arch));
+    fact("fixed loads", wording::loads(result, false));
+    fact("scaled loads", wording::loads(result, true));
+    if result.request.loads.iter().any(|load| load.scaled) {
+        let one = Digits(result.request.load_factor.intensity_per_unit);
+        fact("", format!("(at load factor 1, which is intensity {one} {})", wording::unit(result)));
+    }
     fact("outcome", word(&result.outcome));
     fact("method", word(&result.method));
     if let Some(collapse) = &result.collapse {
-        fact("intensity", intensity(collapse));
-        fact("load factor", Digits(collapse.load_factor).to_string());
-        fact("mode", word(&collapse.mode));
+        // An arch that falls as built has no load to fall at; a window has two.
+        if matches!(result.outcome, OutcomeWord::Collapse | OutcomeWord::Crushes | OutcomeWord::CannotTell) {
+            fact("intensity", wording::intensity(result, collapse));
+            fact("load factor", Digits(collapse.load_factor).to_string());
+        }
+        if result.outcome != OutcomeWord::StandsInWindow {
+            fact("mode", word(&collapse.mode));
+        }
         fact("governed by", word(&collapse.governed_by));
         fact("residual", format!("{:.1e} of the arch's weight", collapse.residual));
     }
-    if let Some([lowest, highest]) = result.limit_window {
-        fact("limit window", format!("{} to {} {}", end(lowest), end(highest), result.unit));
-    }
+    fact("limit window", wording::window(result));
     if let Some(range) = &result.thrust_range {
-        let (lowest, highest) = (Digits(range.lowest_n_per_m), Digits(range.highest_n_per_m));
-        fact("thrust range", format!("{lowest} to {highest} N/m"));
+        let [lowest, highest] = [range.lowest_n_per_m, range.highest_n_per_m].map(|thrust| Digits(thrust / 1e3));
+        fact("thrust range", format!("{lowest} to {highest} kN per metre of depth"));
     }
     let cost = &result.cost;
     let counts = (cost.events, cost.factorisations, cost.unknowns);
@@ -69,9 +74,29 @@ fn facts(result: &AnalysisResult, wall_time: Duration) -> Table {
     table
 }
 
+fn explanation(result: &AnalysisResult) -> &'static str {
+    match result.thrust_range {
+        Some(_) => {
+            "Limit window: what rigid-block limit analysis allows. Thrust range: horizontal force with which the left \
+             springing pushes the arch to the right under the fixed loads alone; negative means to the left."
+        }
+        None => "Limit window: what rigid-block limit analysis allows.",
+    }
+}
+
+fn window_end(text: &mut String, name: &str, limit: Option<Limit<'_>>, result: &AnalysisResult) {
+    let Some(limit) = limit else {
+        return paragraph(text, &format!("{name} end: none was found."));
+    };
+    let collapse = limit.collapse;
+    let at = wording::intensity(result, collapse);
+    append(text, &format!("{name} end: {at}, {}", word(&collapse.mode)), hinges(limit.hinges));
+    append(text, &format!("Sliding joints at the {} end", name.to_lowercase()), slides(limit.slides));
+}
+
 fn hinges(hinges: &[HingeBody]) -> Option<Table> {
     let mut table = bare();
-    table.set_header(["joint", "face", "from springing, deg", "from crown, deg", "rotation"]);
+    table.set_header(["joint", "pressed at", "deg from springing", "deg from crown", "rotation"]);
     table.add_rows(hinges.iter().map(|hinge| {
         [
             hinge.joint.to_string(),
@@ -91,6 +116,24 @@ fn slides(slides: &[SlideBody]) -> Option<Table> {
     (!slides.is_empty()).then_some(table)
 }
 
+/// What the first and the last joint carry where the path ends.
+fn springings(result: &AnalysisResult) -> Option<Table> {
+    let other = || result.other_end.as_ref().map(|end| &end.thrust_line);
+    let thrust = result.thrust_line.as_ref().or_else(other)?;
+    let last = thrust.joint.len().checked_sub(1)?;
+    let mut table = bare();
+    table.set_header(["joint", "normal, kN", "shear, kN", "off the joint's middle, m"]);
+    let most = thrust.normal_n_per_m.iter().fold(0.0, |most: f64, normal| most.max(normal.abs()));
+    // Round-off of a balance of large forces is no force.
+    let force = |value: f64| Digits(if value.abs() > ROUND_OFF * most { value / 1e3 } else { 0.0 }).to_string();
+    table.add_rows([0, last].map(|k| {
+        let crown = if result.request.arch.half && k == last { " (crown)" } else { "" };
+        let [normal, shear] = [thrust.normal_n_per_m[k], thrust.shear_n_per_m[k]].map(force);
+        [format!("{}{crown}", thrust.joint[k]), normal, shear, Digits(thrust.eccentricity_m[k]).to_string()]
+    }));
+    Some(table)
+}
+
 fn bare() -> Table {
     let mut table = Table::new();
     table.load_style(presets::NOTHING);
@@ -104,53 +147,6 @@ fn append(text: &mut String, title: &str, table: Option<Table>) {
     }
 }
 
-fn intensity(collapse: &Collapse) -> String {
-    format!("{} {}", Digits(collapse.intensity), collapse.unit)
-}
-
-fn end(end: Option<f64>) -> String {
-    end.map_or_else(|| "unbounded".to_owned(), |end| Digits(end).to_string())
-}
-
-/// A word of the wire, with spaces.
-fn word(word: &impl Serialize) -> String {
-    let value = serde_json::to_value(word).unwrap_or_default();
-    value.as_str().unwrap_or_default().replace('_', " ")
-}
-
-/// A number with eight digits that count.
-struct Digits(f64);
-
-impl Display for Digits {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let size = self.0.abs();
-        if size != 0.0 && !(1e-4..1e8).contains(&size) {
-            return write!(out, "{:.7e}", self.0);
-        }
-        let mut decimals = 7;
-        let mut bound = 10.0;
-        while size >= bound && decimals > 0 {
-            (decimals, bound) = (decimals - 1, bound * 10.0);
-        }
-        write!(out, "{:.*}", decimals, self.0)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn eight_digits() {
-        for (value, expected) in [
-            (247.1234567891, "247.12346"),
-            (0.0, "0.0000000"),
-            (-12.0, "-12.000000"),
-            (99999999.0, "99999999"),
-            (1e9, "1.0000000e9"),
-            (3.5e-7, "3.5000000e-7"),
-        ] {
-            assert_eq!(Digits(value).to_string(), expected);
-        }
-    }
+fn paragraph(text: &mut String, words: &str) {
+    let _ = write!(text, "\n{}\n", wording::wrapped(words));
 }

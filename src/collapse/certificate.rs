@@ -1,7 +1,7 @@
 //! The exact limit window of an arch, and what to make of a load path that differs from it.
 
 use super::path::total;
-use super::{Analysis, Method, PathEnd};
+use super::{Analysis, Digits, Method, PathEnd};
 use crate::limit::StaticTheorem;
 
 /// Path and window agree when their load factors differ by less than this share.
@@ -43,11 +43,11 @@ pub(super) enum Doubt {
          its self weight."
     )]
     LooseStones,
-    #[error("The load path passes the limit window (load factor {} against {}).", figure(*.path), figure(*.limit))]
+    #[error("The load path passes the limit window (load factor {} against {}).", Digits(*.path), Digits(*.limit))]
     Above { path: f64, limit: f64 },
     #[error(
         "The load path ends at load factor {} without sliding, short of the limit window's end {}.",
-        figure(*.path), figure(*.limit)
+        Digits(*.path), Digits(*.limit)
     )]
     Short { path: f64, limit: f64 },
 }
@@ -141,8 +141,8 @@ fn sliding_note(path: f64, limit: f64) -> String {
         "Joints slide without dilating: the arch falls at load factor {}, although limit analysis, which lets sliding \
          joints dilate (associated friction), allows {}. Where joints slide the answer also depends on their stiffness \
          and on the order of loading. The one nearer to the start of the path is the safe one.",
-        figure(path),
-        figure(limit)
+        Digits(path),
+        Digits(limit)
     )
 }
 
@@ -151,16 +151,7 @@ fn fixed_steps_note(step: f64, limit: f64) -> String {
         "Read off at whole steps of {} by the opening of joints (section 4.2 of the paper), for comparison only: the \
          load given is the first step at which the criterion was met or no equilibrium was left, up to a step above \
          the true one. Limit analysis gives {}.",
-        figure(step),
-        figure(limit)
+        Digits(step),
+        Digits(limit)
     )
-}
-
-/// Seven significant figures.
-fn figure(x: f64) -> String {
-    if x == 0.0 || !x.is_finite() {
-        return x.to_string();
-    }
-    let decimals = (6 - x.abs().log10().floor() as i32).clamp(0, 15) as usize;
-    format!("{x:.decimals$}")
 }

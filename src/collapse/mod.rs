@@ -1,6 +1,7 @@
 //! Incremental limit analysis: what grows, how far, and what happens then.
 
 mod certificate;
+mod digits;
 mod discretise;
 mod ending;
 mod mechanism;
@@ -11,6 +12,7 @@ pub mod report;
 mod smallest_motion;
 mod verdict;
 
+pub use digits::Digits;
 pub use report::*;
 
 use crate::arch::{Arch, PointForce, Stone};

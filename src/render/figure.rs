@@ -34,7 +34,7 @@ pub fn svg(arch: &Arch, end: &PathEnd, caption: &str) -> String {
     let pieces = moved_pieces(arch, end);
     let (low, high) = extent(arch, &pieces);
     let lines: Vec<&str> = caption.lines().collect();
-    let head = if lines.is_empty() { 48.0 } else { 50.0 + 22.0 * lines.len() as f64 };
+    let head = if lines.is_empty() { 48.0 } else { 58.0 + 22.0 * lines.len() as f64 };
     let mut canvas = Canvas::new(low, high, head);
     draw_supports(&mut canvas, arch);
     for k in 0..arch.voussoirs.len() {
@@ -193,8 +193,10 @@ fn draw_foot(canvas: &mut Canvas, end: &PathEnd) {
     let half = Vec2::new(13.0, 0.0);
     let at = entry(canvas, "movement, enlarged", 160.0);
     canvas.rectangle("ghost", at - Vec2::new(13.0, 7.0), Vec2::new(26.0, 14.0));
-    let at = entry(canvas, "thrust line", 120.0);
-    canvas.line("thrust", at - half, at + half);
+    if !end.thrust_line.is_empty() {
+        let at = entry(canvas, "thrust line", 120.0);
+        canvas.line("thrust", at - half, at + half);
+    }
     if !end.mechanism.slides.is_empty() {
         let at = entry(canvas, "sliding joint", 132.0);
         canvas.arrow("slide", at - half, at + half);

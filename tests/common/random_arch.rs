@@ -124,7 +124,7 @@ fn live(dice: &mut Dice, shape: &Shape) -> Vec<Value> {
     let middle = |k: usize, force: f64| json!({"point_load": {"force_n_per_m": force, "voussoir": k}});
     let (half, last) = (shape.half_span, shape.count - 1);
     if shape.symmetric {
-        // Half an arch wants every load symmetric by itself, so no pairs there.
+        // Half an arch gets loads that are symmetric by themselves; pairs are for whole arches here.
         return match dice.below(if shape.half { 3 } else { 5 }) {
             0 => vec![point(0.0, force)],
             1 => vec![json!({"patch_load": patch(dice, shape, 0.0)})],

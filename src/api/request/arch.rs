@@ -37,7 +37,7 @@ pub struct ArchRequest {
     #[serde(default)]
     pub springing_joints: SpringingJoints,
     /// Only the left half, its crown joint against a frictionless wall; for symmetric arches of an even number of
-    /// voussoirs under symmetric loads.
+    /// voussoirs. The fixed loads together, and the scaled loads together, have to be symmetric.
     #[serde(default)]
     pub half: bool,
 }

@@ -184,14 +184,34 @@ fn halved(request: &AnalysisRequest, arch: &Arch, faults: &mut Faults) -> Option
         );
         faults.add("/arch/half", detail);
     }
-    for (i, entry) in request.loads.iter().enumerate() {
-        let forces = loads::load(&entry.load, request.stone.density_kg_m3).on(arch, entry.coefficient);
-        if forces.is_ok_and(|forces| !load::is_symmetric(&forces, n, arch.axis())) {
-            let detail = "half an arch needs symmetric loads, and this one is not: set half to false";
-            faults.add(format!("/loads/{i}"), detail);
-        }
+    let mut lopsided = [false, true].map(|scaled| without_mirror_image(request, arch, scaled)).concat();
+    lopsided.sort_unstable();
+    for i in lopsided {
+        let which = if request.loads[i].scaled { "scaled" } else { "fixed" };
+        let detail = format!(
+            "half an arch needs {which} loads that are symmetric together, and this one has no mirror image among \
+             them: add it, or set half to false"
+        );
+        faults.add(format!("/loads/{i}"), detail);
     }
     even.then(|| arch.left_half())
+}
+
+/// Of the fixed, or of the scaled, loads those that lean to one side; none where together they do not.
+fn without_mirror_image(request: &AnalysisRequest, arch: &Arch, scaled: bool) -> Vec<usize> {
+    let symmetric = |forces: &[PointForce]| load::is_symmetric(forces, arch.voussoirs.len(), arch.axis());
+    let (mut all, mut lopsided) = (Vec::new(), Vec::new());
+    for (i, entry) in request.loads.iter().enumerate().filter(|(_, entry)| entry.scaled == scaled) {
+        // A load that does not fit the arch has a fault of its own.
+        let Ok(forces) = loads::load(&entry.load, request.stone.density_kg_m3).on(arch, entry.coefficient) else {
+            return Vec::new();
+        };
+        if !symmetric(&forces) {
+            lopsided.push(i);
+        }
+        all.extend(forces);
+    }
+    if symmetric(&all) { Vec::new() } else { lopsided }
 }
 
 fn method(request: &MethodRequest, joints: usize, faults: &mut Faults) -> Method {

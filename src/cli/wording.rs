@@ -1,0 +1,238 @@
+//! An answer in sentences.
+
+use serde::Serialize;
+use voussoir::api::request::{ArchRequest, DirectionRequest, LoadRequest, PointLoad, ProfileRequest};
+use voussoir::api::response::{AnalysisResult, Collapse, HingeBody, MethodWord, OutcomeWord, SlideBody};
+use voussoir::collapse::Digits;
+
+/// Longest line of prose, characters.
+const WIDTH: usize = 100;
+
+/// One end of the range of intensities in which an arch stands.
+#[derive(Clone, Copy)]
+pub struct Limit<'a> {
+    pub collapse: &'a Collapse,
+    pub hinges: &'a [HingeBody],
+    pub slides: &'a [SlideBody],
+}
+
+/// Lower and upper end of the path, each where there is one. The path runs both ways only in a window.
+pub fn limits(result: &AnalysisResult) -> [Option<Limit<'_>>; 2] {
+    let main =
+        result.collapse.as_ref().map(|collapse| Limit { collapse, hinges: &result.hinges, slides: &result.slides });
+    let other = result.other_end.as_ref().map(|end| Limit {
+        collapse: &end.collapse,
+        hinges: &end.hinges,
+        slides: &end.slides,
+    });
+    if reversed(result) { [main, other] } else { [other, main] }
+}
+
+/// One sentence.
+pub fn headline(result: &AnalysisResult) -> String {
+    let sentence = match (result.outcome, &result.collapse) {
+        (OutcomeWord::Collapse, Some(collapse)) => format!("The arch collapses {}.", reached(result, collapse)),
+        (OutcomeWord::Crushes, Some(collapse)) => format!("The stone crushes {}.", reached(result, collapse)),
+        (OutcomeWord::StandsInWindow, _) => in_window(result),
+        (OutcomeWord::FallsAsBuilt, _) => falls(result).to_owned(),
+        (OutcomeWord::NeverCollapses, _) => stands(result),
+        (OutcomeWord::CannotTell, _) => {
+            "No answer: the load path and limit analysis do not agree. The notes say where.".to_owned()
+        }
+        (outcome, _) => format!("Outcome: {}.", word(&outcome)),
+    };
+    match result.method {
+        MethodWord::EventPath => sentence,
+        MethodWord::FixedSteps => {
+            format!("{sentence} (By fixed steps and an opening criterion, for comparison only.)")
+        }
+    }
+}
+
+fn reached(result: &AnalysisResult, collapse: &Collapse) -> String {
+    let at = intensity(result, collapse);
+    let times = Digits(collapse.load_factor.abs());
+    match collapse.load_factor < 0.0 {
+        false => format!("at {at}"),
+        true => format!("at {at}, that is with its scaled loads reversed and {times} times as large"),
+    }
+}
+
+/// With its unit.
+pub fn intensity(result: &AnalysisResult, collapse: &Collapse) -> String {
+    format!("{} {}", Digits(collapse.intensity), unit(result))
+}
+
+fn in_window(result: &AnalysisResult) -> String {
+    let [low, high] = limits(result).map(|end| end.map(|end| Digits(end.collapse.intensity)));
+    let unit = unit(result);
+    let tried = Digits(result.cap * result.request.load_factor.intensity_per_unit);
+    let range = match (low, high) {
+        (Some(low), Some(high)) => format!("between {low} and {high} {unit}"),
+        (Some(low), None) => format!("above {low} {unit} (tried up to {tried})"),
+        (None, Some(high)) => format!("below {high} {unit} (tried down to -{tried})"),
+        (None, None) => format!("under its scaled loads (tried from -{tried} to {tried} {unit})"),
+    };
+    format!("The arch stands only {range}; without its scaled loads it falls.")
+}
+
+fn falls(result: &AnalysisResult) -> &'static str {
+    let has = |scaled: bool| result.request.loads.iter().any(|entry| entry.scaled == scaled);
+    match (has(false), has(true)) {
+        (true, false) => "The arch falls as built: it cannot carry its fixed loads.",
+        (true, true) => {
+            "The arch falls as built: it cannot carry its fixed loads, whatever the size of the scaled ones."
+        }
+        (false, _) => "The arch falls at once: nothing is fixed, and it cannot carry the scaled loads at any size.",
+    }
+}
+
+fn stands(result: &AnalysisResult) -> String {
+    if !result.request.loads.iter().any(|entry| entry.scaled) {
+        return "The arch stands under its fixed loads.".to_owned();
+    }
+    let factor = &result.request.load_factor;
+    let (tried, unit) = (Digits(result.cap * factor.intensity_per_unit), unit(result));
+    match factor.direction {
+        DirectionRequest::Increase => {
+            format!("The arch does not collapse: it stands up to {tried} {unit}, the most that was tried.")
+        }
+        DirectionRequest::Decrease => format!(
+            "The arch does not collapse under its scaled loads reversed: it stands down to -{tried} {unit}, the most that was tried."
+        ),
+    }
+}
+
+/// The end that is drawn and whose forces are shown: that of the asked direction where there is one.
+pub fn shown(result: &AnalysisResult) -> &'static str {
+    let main_is_low = reversed(result) == result.collapse.is_some();
+    if main_is_low { "lower end" } else { "upper end" }
+}
+
+fn reversed(result: &AnalysisResult) -> bool {
+    result.request.load_factor.direction == DirectionRequest::Decrease
+}
+
+/// What limit analysis allows.
+pub fn window(result: &AnalysisResult) -> String {
+    let unit = unit(result);
+    match result.limit_window.map(|ends| ends.map(|end| end.map(Digits))) {
+        None => "finds no equilibrium at any intensity".to_owned(),
+        Some([Some(low), Some(high)]) => format!("stands from {low} to {high} {unit}"),
+        Some([Some(low), None]) => format!("stands from {low} {unit} upwards without end"),
+        Some([None, Some(high)]) => format!("stands up to {high} {unit}, and downwards without end"),
+        Some([None, None]) => "stands at any intensity".to_owned(),
+    }
+}
+
+/// The unit of intensities; the bare sign for none means the load factor itself, unless that is scaled.
+pub fn unit(result: &AnalysisResult) -> &str {
+    match (result.unit.as_str(), result.request.load_factor.intensity_per_unit == 1.0) {
+        ("-", true) => "(load factor)",
+        ("-", false) => "(no unit)",
+        (unit, _) => unit,
+    }
+}
+
+/// The arch in a few words.
+pub fn arch(arch: &ArchRequest) -> String {
+    let (shape, joints) = match &arch.profile {
+        ProfileRequest::Circular(_) => ("circular", 0),
+        ProfileRequest::Pointed(_) => ("pointed", 0),
+        ProfileRequest::Elliptical(_) => ("elliptical", 0),
+        ProfileRequest::MultiCentre(_) => ("multi-centre", 0),
+        ProfileRequest::Surveyed(surveyed) => ("surveyed", surveyed.intrados_m.len()),
+    };
+    let count = arch.voussoirs.unwrap_or(joints.saturating_sub(1));
+    let half = if arch.half { ", the left half of it against a frictionless wall" } else { "" };
+    format!("{shape}, {count} voussoirs, {} joints{half}", count + 1)
+}
+
+/// Most loads listed.
+const LISTED: usize = 6;
+
+/// The fixed or the scaled loads, a line each.
+pub fn loads(result: &AnalysisResult, scaled: bool) -> String {
+    let entries = result.request.loads.iter().filter(|entry| entry.scaled == scaled);
+    let mut lines: Vec<String> = entries
+        .map(|entry| match entry.coefficient == 1.0 {
+            true => load(&entry.load),
+            false => format!("{} times: {}", Digits(entry.coefficient), load(&entry.load)),
+        })
+        .collect();
+    let more = lines.len().saturating_sub(LISTED);
+    lines.truncate(LISTED);
+    if more > 0 {
+        lines.push(format!("and {more} more"));
+    }
+    if lines.is_empty() { "none".to_owned() } else { lines.join("\n") }
+}
+
+fn load(load: &LoadRequest) -> String {
+    match load {
+        LoadRequest::SelfWeight(_) => "self weight".to_owned(),
+        LoadRequest::FillPressure(fill) => {
+            let level = fill.fill_height_m.map(|height| format!("fill up to y = {} m", Digits(height)));
+            let above = format!("embankment of {} m", Digits(fill.embankment_thickness_m));
+            let above = (fill.embankment_thickness_m > 0.0).then_some(above);
+            level.into_iter().chain(above).collect::<Vec<_>>().join(" and ")
+        }
+        LoadRequest::LateralPressure(lateral) => format!("lateral pressure, bands of height: {}", lateral.bands.len()),
+        LoadRequest::PointLoad(point) => {
+            format!("{} N per metre of depth {}", Digits(point.force_n_per_m), place(point))
+        }
+        LoadRequest::PatchLoad(patch) => {
+            let [force, width, centre] = [patch.force_n_per_m, patch.width_m, patch.centre_x_m].map(Digits);
+            format!("{force} N per metre of depth, spread over a width of {width} m about x = {centre} m")
+        }
+        LoadRequest::BodyAcceleration(body) => {
+            format!("acceleration of {} g to the right, {} g upwards", Digits(body.x_g), Digits(body.y_g))
+        }
+    }
+}
+
+fn place(point: &PointLoad) -> String {
+    match (point.x_m, point.voussoir) {
+        (None, Some(voussoir)) => format!("on voussoir {voussoir}"),
+        (x, _) => format!("at x = {} m", Digits(x.unwrap_or(0.0))),
+    }
+}
+
+/// A word of the wire, with spaces.
+pub fn word(word: &impl Serialize) -> String {
+    let value = serde_json::to_value(word).unwrap_or_default();
+    value.as_str().unwrap_or_default().replace('_', " ")
+}
+
+/// Prose in lines of readable length.
+pub fn wrapped(text: &str) -> String {
+    let mut lines = String::new();
+    let mut length = 0;
+    for word in text.split_whitespace() {
+        let more = word.chars().count();
+        if length > 0 && length + 1 + more > WIDTH {
+            lines.push('\n');
+            length = 0;
+        } else if length > 0 {
+            lines.push(' ');
+            length += 1;
+        }
+        lines.push_str(word);
+        length += more;
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_are_broken_between_words() {
+        let text = "word ".repeat(60);
+        let lines = wrapped(&text);
+        assert!(lines.lines().all(|line| line.len() <= WIDTH && line.ends_with("word")));
+        assert_eq!(lines.split_whitespace().count(), 60);
+        assert_eq!(wrapped("short"), "short");
+    }
+}
