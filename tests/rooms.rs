@@ -15,7 +15,7 @@ const TABLE: [(&str, &[&str], &[&str]); 8] = [
     ("limit", &["geometry", "arch"], &["nalgebra", "thiserror"]),
     ("collapse", &["geometry", "arch", "dda", "limit"], &["nalgebra", "thiserror"]),
     ("jobs", &["collapse"], &["thiserror", "tracing", "uuid"]),
-    ("render", &["collapse"], &["thiserror"]),
+    ("render", &["collapse", "arch", "geometry"], &["thiserror"]),
     (
         "api",
         &["jobs", "render", "arch", "collapse", "geometry"],

@@ -43,6 +43,12 @@ pub(super) enum Doubt {
          its self weight."
     )]
     LooseStones,
+    #[error(
+        "After its highest load factor, {}, the load path runs back past its start: joints slide and jam there, and no \
+         mechanism was found in which the arch falls. Take the load for a bound of this model.",
+        Digits(*.0)
+    )]
+    TurnedBack(f64),
     #[error("The load path passes the limit window (load factor {} against {}).", Digits(*.path), Digits(*.limit))]
     Above { path: f64, limit: f64 },
     #[error(
@@ -55,7 +61,7 @@ pub(super) enum Doubt {
 impl Doubt {
     /// True where path and certificate cannot both be right; sliding may part them without either being wrong.
     pub(super) fn is_contradiction(&self) -> bool {
-        *self != Doubt::SlidesInside
+        !matches!(self, Doubt::SlidesInside | Doubt::TurnedBack(_))
     }
 }
 

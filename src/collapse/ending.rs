@@ -3,6 +3,7 @@
 use super::discretise::Model;
 use super::mechanism;
 use super::motion::motion_at;
+use super::path::Fall;
 use super::{Analysis, PathEnd, Thrust};
 use crate::arch::{Arch, PointForce};
 use crate::dda::{Peak, State, V6, Zone};
@@ -11,15 +12,16 @@ use crate::limit::{Condition, Resultant, StaticTheorem};
 /// Polishing undoes a disturbance of about 1e-9; a larger change means that other conditions were solved.
 const POLISH: f64 = 1e-5;
 
-/// Reads the collapse off the peak of the path. `sign` is the direction of the load factor; `fall` the direction in which
-/// the path ends. That is the mechanism where joints at their limits at the peak make none, as sliding joints may not:
-/// the load then falls before the arch can move freely.
+/// Reads the collapse off the peak of the path. `sign` is the direction of the load factor.
+///
+/// Joints at their limits need not make a mechanism where they slide: the load then falls before the arch can move
+/// freely, and the mechanism is the direction in which the path ends.
 pub(super) fn at_peak(
     analysis: &Analysis,
     model: &Model,
     theorem: &StaticTheorem,
     peak: &Peak,
-    fall: &[V6],
+    fall: &Fall,
     sign: f64,
     residual: f64,
 ) -> PathEnd {
@@ -35,8 +37,9 @@ pub(super) fn at_peak(
     };
     let driving: Vec<PointForce> = analysis.scaled.iter().map(|f| PointForce { force: f.force * sign, ..*f }).collect();
     let slipping: Vec<Option<f64>> = (0..arch.joints.len()).map(|k| sliding_shear(model, k, peak)).collect();
-    let mechanism = mechanism::from_statics(arch, &resultants, &slipping, &driving)
-        .unwrap_or_else(|| from_direction(model, arch, fall));
+    let mechanism = mechanism::from_statics(arch, &resultants, &slipping, &driving).unwrap_or_else(|| {
+        from_direction(model, arch, if fall.turned_back { &peak.direction } else { &fall.direction })
+    });
     PathEnd {
         load_factor: polished.map_or(peak.parameter, |e| e.load_factor),
         residual,

@@ -76,11 +76,20 @@ pub(super) fn stand<'a>(
     (tracer, end)
 }
 
+/// Where a path went after its peak.
+#[derive(Debug, Clone)]
+pub(super) struct Fall {
+    /// Direction of its end, in which the chain moves on without resistance.
+    pub direction: Vec<V6>,
+    /// True where it has run back past its start, and so ends in a mechanism of the other direction of loading.
+    pub turned_back: bool,
+}
+
 /// How a path that stood at its start ended.
 #[derive(Debug, Clone)]
 pub(super) enum Leg {
-    /// Collapse at the peak, and the direction in which the path ends.
-    Peak(Peak, Vec<V6>),
+    /// Collapse at the peak.
+    Peak(Peak, Fall),
     /// Nothing more happens however far the load goes, or the cap was reached.
     Endless,
     /// The recorder's own criterion was met at this load factor (fixed steps only).
@@ -116,7 +125,8 @@ pub(super) fn follow(
         (None, End::Mechanism) => tracer.peak().map_or(Leg::Lost, |peak| {
             let mut peak = peak.clone();
             peak.parameter *= sign;
-            Leg::Peak(peak, tracer.direction().to_vec())
+            let turned_back = tracer.parameter() < sign * start;
+            Leg::Peak(peak, Fall { direction: tracer.direction().to_vec(), turned_back })
         }),
     }
 }

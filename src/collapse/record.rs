@@ -51,18 +51,19 @@ impl<'a> Recorder<'a> {
     /// Takes in the next point; returns a load factor when the fixed-steps criterion says collapse.
     pub(super) fn see(&mut self, load_factor: f64, displacements: &[V6]) -> Option<f64> {
         let now = Rc::new((load_factor, displacements.to_vec()));
-        if let Some(before) = self.last.take() {
+        let before = self.last.take();
+        if let Some(before) = &before {
             if self.at_one.is_none() && (before.0 - 1.0) * (load_factor - 1.0) <= 0.0 && before.0 != load_factor {
-                self.at_one = Some(interpolate(&before, &now, 1.0));
+                self.at_one = Some(interpolate(before, &now, 1.0));
             }
-            if let Some(met) = self.fixed_steps(&before, &now) {
+            if let Some(met) = self.fixed_steps(before, &now) {
                 let load_factor = met.0;
                 self.last = Some(Rc::new(met));
                 return Some(load_factor);
             }
         }
         self.history.push(self.history_point(load_factor, displacements));
-        self.keep(&now);
+        self.keep(before, &now);
         self.last = Some(now);
         None
     }
@@ -72,9 +73,13 @@ impl<'a> Recorder<'a> {
         self.last.as_ref().map_or(&[], |point| &point.1)
     }
 
-    fn keep(&mut self, now: &Rc<Point>) {
+    fn keep(&mut self, before: Option<Rc<Point>>, now: &Rc<Point>) {
         if (now.0 - self.start).abs() < (self.farthest - self.start).abs() {
             return;
+        }
+        // Where the load factor had fallen and now recovers, the last leg of the way up starts below the farthest point.
+        if let Some(before) = before.filter(|b| self.recent.back().is_some_and(|kept| !Rc::ptr_eq(kept, b))) {
+            self.recent.push_back(before);
         }
         self.farthest = now.0;
         self.recent.push_back(Rc::clone(now));

@@ -5,8 +5,8 @@ use super::discretise::{Model, discretise};
 use super::path::{ATTEMPTS, Attempt, Leg, Loads, disturb, follow, stand, total};
 use super::record::{Recorder, snapshot};
 use super::{
-    Analysis, AnalysisError, CollapseReport, Cost, Direction, LimitWindow, LoadStep, Method, Outcome, ThrustRange,
-    Watch, ending, mechanism, motion,
+    Analysis, AnalysisError, CollapseReport, Cost, Direction, LimitWindow, LoadStep, Method, Outcome, PathEnd,
+    ThrustRange, Watch, ending, mechanism, motion,
 };
 use crate::dda::{End, Tracer};
 use std::ops::ControlFlow;
@@ -43,7 +43,10 @@ pub(super) fn run(analysis: &Analysis, watch: &mut dyn Watch) -> Result<Collapse
         if attempted.doubt.is_none() {
             break;
         }
+        let spent = attempted.report.cost;
         attempted = question.attempt(Attempt::number(i), watch)?;
+        attempted.report.cost.events += spent.events;
+        attempted.report.cost.factorisations += spent.factorisations;
     }
     let Attempted { mut report, doubt } = attempted;
     if let Some(doubt) = doubt {
@@ -105,7 +108,7 @@ impl<'a> Question<'a> {
         Ok(Attempted { report, doubt })
     }
 
-    /// Follows the path one way and writes down its end; returns a doubt where path and certificate disagree.
+    /// Follows the path one way and writes down what was seen; returns a doubt where path and certificate disagree.
     fn leg(
         &self,
         report: &mut CollapseReport,
@@ -122,9 +125,8 @@ impl<'a> Question<'a> {
         let leg = follow(tracer, loads, self.start, sign, self.cap, &mut recorder, progress);
         report.cost.add(tracer, before);
         report.at_unit_load = recorder.at_one.as_ref().map(|d| snapshot(model, 1.0, d));
-        report.outcome = Outcome::Collapse;
         let residual = tracer.worst_residual();
-        let end = match leg {
+        let (end, turned_back) = match leg {
             Leg::Stopped => return Err(self.stopped(tracer)),
             Leg::Lost => return Ok(Some(Doubt::Lost)),
             Leg::Endless => {
@@ -132,21 +134,32 @@ impl<'a> Question<'a> {
                 report.outcome = Outcome::NeverCollapses;
                 return Ok(self.certificate.endless(sign, self.cap));
             }
-            Leg::Criterion(at) => ending::at_fall(analysis, model, recorder.displacements(), at, residual),
+            Leg::Criterion(at) => (ending::at_fall(analysis, model, recorder.displacements(), at, residual), false),
             Leg::Peak(peak, fall) => {
                 let mut end = ending::at_peak(analysis, model, &self.certificate.theorem, &peak, &fall, sign, residual);
                 end.load_factor = self.read_off(end.load_factor, sign);
-                end
+                (end, fall.turned_back)
             }
         };
         let near = recorder.near(end.load_factor);
         report.near_collapse = near.map(|(factor, d)| snapshot(model, factor, &d));
         report.history = recorder.history;
-        let compared = self.certificate.compare(analysis.method, &end, sign);
+        Ok(self.conclude(report, end, sign, turned_back))
+    }
+
+    /// Writes down a collapse, held against the limit window.
+    fn conclude(&self, report: &mut CollapseReport, end: PathEnd, sign: f64, turned_back: bool) -> Option<Doubt> {
+        let (compared, reached) = (self.certificate.compare(self.analysis.method, &end, sign), end.load_factor);
+        report.outcome = Outcome::Collapse;
         report.end = Some(end);
-        let (note, doubt) = compared.map_or_else(|doubt| (None, Some(doubt)), |note| (note, None));
-        report.notes.extend(note);
-        Ok(doubt)
+        match compared {
+            Err(doubt) => Some(doubt),
+            Ok(note) => {
+                let doubt = (turned_back && note.is_some()).then_some(Doubt::TurnedBack(reached));
+                report.notes.extend(note);
+                doubt
+            }
+        }
     }
 
     /// The collapse load as the method reads it: exact, or the first whole step beyond.

@@ -49,6 +49,8 @@ pub struct Peak {
     pub parameter: f64,
     /// Displacements.
     pub displacements: Vec<V6>,
+    /// Direction in which the path goes on, its largest entry 1 m.
+    pub direction: Vec<V6>,
     /// Contact states in which the path goes on.
     pub states: Vec<State>,
 }
@@ -272,6 +274,7 @@ impl<'a> Tracer<'a> {
             self.peak = Some(Peak {
                 parameter: self.parameter,
                 displacements: self.displacements.clone(),
+                direction: self.direction.clone(),
                 states: self.states.clone(),
             });
         }
