@@ -144,11 +144,11 @@ pub(super) fn any_fixed(analysis: &Analysis) -> bool {
 
 fn sliding_note(path: f64, limit: f64) -> String {
     format!(
-        "Joints slide without dilating: the arch falls at load factor {}, although limit analysis, which lets sliding \
-         joints dilate (associated friction), allows {}. Where joints slide the answer also depends on their stiffness \
-         and on the order of loading. The one nearer to the start of the path is the safe one.",
-        Digits(path),
-        Digits(limit)
+        "Joints slide without dilating: the arch falls at load factor {path}, although limit analysis, which lets \
+         sliding joints dilate (associated friction), allows {limit}. Where joints slide the answer also depends on \
+         their stiffness and on the order of loading. Of the two use {path}, which leaves the arch less room.",
+        path = Digits(path),
+        limit = Digits(limit)
     )
 }
 

@@ -7,9 +7,6 @@ use crate::arch::{Arch, JointLaw, PointForce};
 use crate::geometry::cross;
 use crate::limit::Resultant;
 
-/// A normal force below this share of the joint's is none; shear within this share of capacity is at its limit. Polished
-/// forces are good to about 1e-12, and next to a hinge of a 2001-voussoir arch the share is 1e-5.
-const AT_LIMIT: f64 = 1e-8;
 /// Releases slower than this share of the fastest do not move.
 const MOVES: f64 = 1e-6;
 
@@ -27,15 +24,17 @@ enum Release {
 /// symmetric loads falls symmetrically). None when the joints at their limits do not make a mechanism.
 ///
 /// `slipping` holds the sign of the shear where a joint is known to slide (a hinge that slides has only half of the
-/// joint's cohesion left, which the resultant alone does not tell).
+/// joint's cohesion left, which the resultant alone does not tell). `at_limit` is the share of a joint's force below which
+/// a corner's is none, and within which its shear is at capacity.
 pub(super) fn from_statics(
     arch: &Arch,
     resultants: &[Resultant],
     slipping: &[Option<f64>],
     driving: &[PointForce],
+    at_limit: f64,
 ) -> Option<Mechanism> {
     let releases: Vec<(usize, Release)> =
-        resultants.iter().enumerate().flat_map(|(k, r)| joint_releases(arch, k, r, slipping[k])).collect();
+        resultants.iter().enumerate().flat_map(|(k, r)| joint_releases(arch, k, r, slipping[k], at_limit)).collect();
     let motions: Vec<Motion> = releases.iter().map(|&(k, release)| relative_motion(arch, k, release)).collect();
     let tails = tail_loads(arch, driving);
     let total = driving.iter().map(|f| f.force.norm()).sum::<f64>();
@@ -54,10 +53,10 @@ pub(super) fn from_statics(
 }
 
 /// What a joint at its limits lets happen.
-fn joint_releases(arch: &Arch, k: usize, r: &Resultant, slipping: Option<f64>) -> Vec<(usize, Release)> {
+fn joint_releases(arch: &Arch, k: usize, r: &Resultant, slipping: Option<f64>, at_limit: f64) -> Vec<(usize, Release)> {
     let JointLaw::Dry { friction, cohesion } = arch.joints[k].law else { return Vec::new() };
     let normal = r.normal();
-    let scale = AT_LIMIT * normal.abs().max(r.shear.abs());
+    let scale = at_limit * normal.abs().max(r.shear.abs());
     let mut releases = Vec::new();
     if r.extrados <= scale {
         releases.push((k, Release::Rotation(Face::Intrados)));
@@ -257,7 +256,7 @@ mod tests {
         let arch = semicircle(12);
         let set = [(0, Extrados), (3, Intrados), (6, Extrados), (9, Intrados), (12, Extrados)];
         let none = vec![None; 13];
-        let mechanism = from_statics(&arch, &resultants(12, &set), &none, &crown_load(&arch)).unwrap();
+        let mechanism = from_statics(&arch, &resultants(12, &set), &none, &crown_load(&arch), 1e-8).unwrap();
         let found: Vec<_> = mechanism.hinges.iter().map(|h| (h.joint, h.face)).collect();
         assert_eq!(found, set);
         assert_eq!(mechanism.mode, Mode::CrownDescends);
@@ -275,7 +274,7 @@ mod tests {
     fn three_hinges_are_no_mechanism() {
         let arch = semicircle(12);
         let set = [(0, Face::Extrados), (6, Face::Extrados), (12, Face::Extrados)];
-        assert_eq!(from_statics(&arch, &resultants(12, &set), &[None; 13], &crown_load(&arch)), None);
+        assert_eq!(from_statics(&arch, &resultants(12, &set), &[None; 13], &crown_load(&arch), 1e-8), None);
     }
 
     #[test]
@@ -285,7 +284,7 @@ mod tests {
         // Shear up to the limit at the two haunch joints, the middle stones being pushed down between them.
         (all[1].shear, all[3].shear) = (1.4, -1.4);
         (all[0].shear, all[4].shear) = (0.0, 0.0);
-        let slides = |r: &[Resultant], k: usize| joint_releases(&arch, k, &r[k], None);
+        let slides = |r: &[Resultant], k: usize| joint_releases(&arch, k, &r[k], None, 1e-8);
         assert_eq!(slides(&all, 1), vec![(1, Release::Sliding(-1.0))]);
         assert_eq!(slides(&all, 3), vec![(3, Release::Sliding(1.0))]);
         assert_eq!(slides(&all, 0), vec![]);

@@ -134,7 +134,9 @@ impl<'a> Question<'a> {
                 report.outcome = Outcome::NeverCollapses;
                 return Ok(self.certificate.endless(sign, self.cap));
             }
-            Leg::Criterion(at) => (ending::at_fall(analysis, model, recorder.displacements(), at, residual), false),
+            Leg::Criterion(at) => {
+                (ending::at_criterion(analysis, model, recorder.displacements(), at, residual), false)
+            }
             Leg::Peak(peak, fall) => {
                 let mut end = ending::at_peak(analysis, model, &self.certificate.theorem, &peak, &fall, sign, residual);
                 end.load_factor = self.read_off(end.load_factor, sign);
@@ -177,7 +179,7 @@ impl<'a> Question<'a> {
     fn fallen(&self, mut report: CollapseReport, model: &Model, tracer: &Tracer) -> Attempted {
         // Without fixed loads the smallest load factor is one too many.
         let load_factor = if any_fixed(self.analysis) { self.start } else { 0.0 };
-        let fall = ending::at_fall(self.analysis, model, tracer.direction(), load_factor, tracer.worst_residual());
+        let fall = ending::at_fall(self.analysis, model, tracer, self.start, load_factor);
         let power = motion::power(self.analysis, &fall.mechanism, self.start);
         let doubt = self.certificate.fallen(self.start, !fall.mechanism.slides.is_empty(), power);
         report.outcome = Outcome::FallsAsBuilt;

@@ -296,6 +296,11 @@ impl<'a> Tracer<'a> {
         &self.displacements
     }
 
+    /// Normal and tangential force of every contact, the drive's offset included, N/m.
+    pub fn contact_forces(&self) -> Vec<[f64; 2]> {
+        (0..self.states.len()).map(|p| self.force_of(p)).collect()
+    }
+
     /// Direction in which the path goes on.
     pub fn direction(&self) -> &[V6] {
         &self.direction

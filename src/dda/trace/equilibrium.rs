@@ -32,21 +32,25 @@ impl Tracer<'_> {
         for (i, r) in self.residual.iter_mut().enumerate() {
             *r = self.drive.base[i] + self.drive.rate[i] * self.parameter - self.elastic[i] * self.displacements[i];
         }
-        let offset = self.offset();
         for k in 0..self.chain.interfaces() {
             let (before, after) = beside(&self.displacements, k);
             for p in self.chain.at_interface(k) {
-                let (contact, state) = (&self.chain.contacts()[p], self.states[p]);
-                let [gap, slip] = contact.gaps(&before, &after);
-                self.gaps[p] = [gap, slip];
-                let offset = if state == State::Bonded { 0.0 } else { offset };
-                let [normal, shear] = contact.force_in(state, gap + offset, slip);
+                let contact = &self.chain.contacts()[p];
+                self.gaps[p] = contact.gaps(&before, &after);
+                let [normal, shear] = self.force_of(p);
                 push(&mut self.residual, contact, k, normal, shear);
             }
         }
         // `max` passes over NaN, which must not pass for equilibrium.
         let entries = self.residual.iter().flatten().map(|r| if r.is_finite() { r.abs() } else { f64::INFINITY });
         entries.fold(0.0, f64::max) / self.load_scale
+    }
+
+    /// Normal and tangential force of contact `p` at the present gaps, N/m.
+    pub(super) fn force_of(&self, p: usize) -> [f64; 2] {
+        let ([gap, slip], state) = (self.gaps[p], self.states[p]);
+        let offset = if state == State::Bonded { 0.0 } else { self.offset() };
+        self.chain.contacts()[p].force_in(state, gap + offset, slip)
     }
 
     /// Renews the whole matrix and load rate.
