@@ -127,7 +127,7 @@ fn every_outcome_is_told_in_words_that_fit_it() {
         (summary("paper-oval-crown-load", |_| {}), "The arch stands only between 5.236255 and 201.1986 kN;"),
         (
             summary("paper-oval-crown-load", |r| r["load_factor"]["cap"] = json!(9)),
-            "only above 5.236255 kN (tried up to 9)",
+            "The arch stands only above 5.236255 kN (tried up to 9)",
         ),
         (summary("half-arch", |_| {}), "The arch stands under its fixed loads."),
         // The whole arch falls at the same load: its jacks are a pair.

@@ -80,6 +80,8 @@ pub struct CostBody {
     pub events: usize,
     /// Factorisations, partial ones included.
     pub factorisations: usize,
+    /// Block rows eliminated in all factorisations together.
+    pub block_rows: usize,
     /// Displacement unknowns.
     pub unknowns: usize,
 }
@@ -138,6 +140,7 @@ impl AnalysisResult {
             cost: CostBody {
                 events: report.cost.events,
                 factorisations: report.cost.factorisations,
+                block_rows: report.cost.block_rows,
                 unknowns: report.cost.unknowns,
             },
             notes: report.notes.clone(),

@@ -10,6 +10,10 @@ const AGREES: f64 = 1e-7;
 const ABOVE: f64 = 1e-6;
 /// An end of the window this close to 0, measured in loads as large as the fixed ones, is 0 and rounding.
 const ZERO: f64 = 1e-12;
+/// Load factors below this share of the one at which scaled loads equal the fixed ones are compared absolutely.
+const SMALL: f64 = 1e-6;
+/// A path whose equilibrium residual, as a share of the loads, exceeds this is not trusted.
+const UNBALANCED: f64 = 1e-8;
 /// Loads that do less work than this in a mechanism do not drive it.
 const NO_WORK: f64 = 1e-9;
 
@@ -19,6 +23,8 @@ pub(super) struct Certificate {
     pub theorem: StaticTheorem,
     /// Lowest and highest load factor in equilibrium; None where there is none.
     pub window: Option<[f64; 2]>,
+    /// False where the linear programme gave no answer, and so no certificate.
+    pub solved: bool,
 }
 
 /// Why a path is not taken at its word.
@@ -26,6 +32,10 @@ pub(super) struct Certificate {
 pub(super) enum Doubt {
     #[error("The loads at the start could not be brought on.")]
     NotLoaded,
+    #[error("The limit window could not be computed, so nothing certifies the load path.")]
+    NoCertificate,
+    #[error("Equilibrium was kept to {} of the loads only, too coarse to be trusted.", Digits(*.0))]
+    Unbalanced(f64),
     #[error("The load path could not be followed to its end.")]
     Lost,
     #[error("The load path stands where limit analysis finds no equilibrium.")]
@@ -69,8 +79,10 @@ impl Certificate {
     pub(super) fn new(analysis: &Analysis) -> Self {
         let theorem = StaticTheorem::new(&analysis.arch, &analysis.fixed, &analysis.scaled);
         let tidy = |end: f64| if end.abs() < ZERO * theorem.load_factor_scale() { 0.0 } else { end };
-        let window = theorem.window().map(|ends| ends.map(tidy));
-        Certificate { theorem, window }
+        let window = theorem.window();
+        let solved = window.is_ok();
+        let window = window.ok().flatten().map(|ends| ends.map(tidy));
+        Certificate { theorem, window, solved }
     }
 
     /// True where the static theorem finds equilibrium.
@@ -83,8 +95,17 @@ impl Certificate {
         self.window.map(|[low, high]| if sign > 0.0 { high } else { low })
     }
 
-    /// Load factor from which to follow the path: 0 where the arch stands there, else inside the window.
-    pub(super) fn start(&self, any_fixed: bool, sign: f64) -> f64 {
+    /// Load factor from which to follow the path: 0 where the arch stands there, else inside the window and the cap.
+    pub(super) fn start(&self, any_fixed: bool, sign: f64, cap: f64) -> f64 {
+        let start = self.natural_start(any_fixed, sign);
+        match self.window {
+            _ if start.abs() < cap => start,
+            Some([low, high]) if low.max(-cap) < high.min(cap) => 0.5 * (low.max(-cap) + high.min(cap)),
+            _ => 0.0,
+        }
+    }
+
+    fn natural_start(&self, any_fixed: bool, sign: f64) -> f64 {
         match self.window {
             // Without fixed loads nothing is known of the contacts at 0; where the window has no end, or only 0, every
             // load factor of one sign is like any other.
@@ -106,8 +127,8 @@ impl Certificate {
         if let Method::FixedSteps { step, .. } = method {
             return Ok(Some(fixed_steps_note(step, limit)));
         }
-        let scale = limit.abs().max(path.abs()).max(1e-6 * self.theorem.load_factor_scale());
-        let short = sign * (limit - path) / scale;
+        let scale = limit.abs().max(path.abs()).max(SMALL * self.theorem.load_factor_scale());
+        let short = if limit.is_finite() { sign * (limit - path) / scale } else { f64::INFINITY };
         if short < -ABOVE {
             Err(Doubt::Above { path, limit })
         } else if short <= AGREES {
@@ -117,6 +138,21 @@ impl Certificate {
         } else {
             Ok(Some(sliding_note(path, limit)))
         }
+    }
+
+    /// A window that the path could not start in, because the cap lies before it.
+    pub(super) fn out_of_reach(&self, start: f64, any_fixed: bool) -> Option<String> {
+        let [low, high] = self.window.filter(|_| any_fixed && !self.stands_at(start))?;
+        let (low, high) = (Digits(low), Digits(high));
+        Some(format!("It stands only at load factors from {low} to {high}, beyond the cap on what is tried."))
+    }
+
+    /// Doubts that do not depend on how the path ended.
+    pub(super) fn standing_doubt(&self, residual: f64) -> Option<Doubt> {
+        if !self.solved {
+            return Some(Doubt::NoCertificate);
+        }
+        (residual > UNBALANCED).then_some(Doubt::Unbalanced(residual))
     }
 
     /// Nothing happened up to the cap; that is believed if the window says so too.

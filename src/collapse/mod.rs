@@ -117,6 +117,14 @@ pub enum AnalysisError {
         /// Events so far.
         events: usize,
     },
+    /// The fixed step is so small that the path cannot be walked in it.
+    #[error("more than {most} steps of load factor {step}; take a larger step")]
+    TooManySteps {
+        /// The step asked for.
+        step: f64,
+        /// Most steps of one path.
+        most: usize,
+    },
     /// A number in the report is not finite.
     #[error("the analysis produced a number that is not finite ({what}); check the units of the request")]
     NotFinite {

@@ -19,6 +19,16 @@ impl Loads {
     }
 }
 
+/// Scaled loads whose resultants on every stone are below this share of their sizes cancel.
+const CANCELS: f64 = 1e-12;
+
+impl Loads {
+    /// True where nothing on any stone grows with the load factor; `size` is the sum of the scaled forces' sizes.
+    pub(super) fn nothing_grows(&self, size: f64) -> bool {
+        largest(&self.scaled) <= CANCELS * size
+    }
+}
+
 /// Tie-breaking disturbance of one attempt.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Attempt {

@@ -7,6 +7,9 @@ use crate::geometry::Vec2;
 use std::collections::VecDeque;
 use std::rc::Rc;
 
+/// Most fixed steps of one path. The paper takes about fifty; more than this is a mistake in the step.
+pub(super) const MOST_STEPS: usize = 10_000;
+
 /// A point of the path.
 type Point = (f64, Vec<V6>);
 
@@ -17,6 +20,8 @@ pub(super) struct Recorder<'a> {
     method: Method,
     share: f64,
     start: f64,
+    /// +1 where the load factor increases along the path, -1 where it decreases.
+    sign: f64,
     crown: [usize; 2],
     /// Points from which the one at `share` of the way to the highest load factor so far can be interpolated.
     recent: VecDeque<Rc<Point>>,
@@ -31,13 +36,20 @@ pub(super) struct Recorder<'a> {
 }
 
 impl<'a> Recorder<'a> {
-    /// A recorder for a path that starts at load factor `start`. `crown`: the voussoirs whose mean is the crown.
-    pub(super) fn new(model: &'a Model, method: Method, share: f64, start: f64, crown: [usize; 2]) -> Self {
+    /// A recorder for a path that starts at load factor `start` and goes the way of `sign`. `crown`: the voussoirs whose mean is the crown.
+    pub(super) fn new(
+        model: &'a Model,
+        method: Method,
+        share: f64,
+        [start, sign]: [f64; 2],
+        crown: [usize; 2],
+    ) -> Self {
         Recorder {
             model,
             method,
             share,
             start,
+            sign,
             crown,
             recent: VecDeque::new(),
             farthest: start,
@@ -57,8 +69,9 @@ impl<'a> Recorder<'a> {
                 self.at_one = Some(interpolate(before, &now, 1.0));
             }
             if let Some(met) = self.fixed_steps(before, &now) {
-                let load_factor = met.0;
-                self.last = Some(Rc::new(met));
+                let (load_factor, met) = (met.0, Rc::new(met));
+                self.keep(Some(Rc::clone(before)), &met);
+                self.last = Some(met);
                 return Some(load_factor);
             }
         }
@@ -66,6 +79,11 @@ impl<'a> Recorder<'a> {
         self.keep(before, &now);
         self.last = Some(now);
         None
+    }
+
+    /// True where the step was too small to walk the path in it.
+    pub(super) fn too_many_steps(&self) -> bool {
+        self.steps_done >= MOST_STEPS
     }
 
     /// The displacements seen last: those at which the fixed-steps criterion was met, where it was.
@@ -115,15 +133,14 @@ impl<'a> Recorder<'a> {
     /// Looks at every whole step between two points of the path with the criterion of section 4.2 of the paper.
     fn fixed_steps(&mut self, before: &Point, now: &Point) -> Option<Point> {
         let Method::FixedSteps { step, opening, hinges } = self.method else { return None };
-        let sign = (now.0 - before.0).signum();
+        let mut gaps = Vec::new();
         loop {
-            let at = self.start + sign * step * (self.steps_done + 1) as f64;
-            if (at - before.0) * (at - now.0) > 0.0 || now.0 == before.0 {
+            let at = self.start + self.sign * step * (self.steps_done + 1) as f64;
+            if self.sign * (at - now.0) > 0.0 || self.too_many_steps() {
                 return None;
             }
             self.steps_done += 1;
             let displacements = interpolate(before, now, at);
-            let mut gaps = Vec::new();
             self.model.chain.gaps(&displacements, &mut gaps);
             let open =
                 (0..=self.model.voussoirs).filter(|&k| self.model.corners(k).iter().any(|&p| gaps[p][0] > opening));

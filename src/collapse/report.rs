@@ -163,6 +163,8 @@ pub struct Cost {
     pub events: usize,
     /// Factorisations, partial ones included.
     pub factorisations: usize,
+    /// Block rows eliminated in all factorisations together.
+    pub block_rows: usize,
     /// Displacement unknowns.
     pub unknowns: usize,
 }

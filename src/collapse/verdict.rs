@@ -3,12 +3,13 @@
 use super::certificate::{Certificate, Doubt, any_fixed};
 use super::discretise::{Model, discretise};
 use super::path::{ATTEMPTS, Attempt, Leg, Loads, disturb, follow, stand, total};
-use super::record::{Recorder, snapshot};
+use super::record::{MOST_STEPS, Recorder, snapshot};
 use super::{
     Analysis, AnalysisError, CollapseReport, Cost, Direction, LimitWindow, LoadStep, Method, Outcome, PathEnd,
     ThrustRange, Watch, ending, mechanism, motion,
 };
 use crate::dda::{End, Tracer};
+use std::cell::Cell;
 use std::ops::ControlFlow;
 
 /// By default the load factor is raised until the scaled loads are so many times the fixed ones.
@@ -25,6 +26,9 @@ struct Question<'a> {
     cap: f64,
     /// Sum of all loads at the start, N/m.
     weight: f64,
+    thrust_range: Option<ThrustRange>,
+    /// Load factor of the last event.
+    reached: Cell<f64>,
 }
 
 /// A report, and why it is not believed as it stands, if so.
@@ -43,10 +47,8 @@ pub(super) fn run(analysis: &Analysis, watch: &mut dyn Watch) -> Result<Collapse
         if attempted.doubt.is_none() {
             break;
         }
-        let spent = attempted.report.cost;
-        attempted = question.attempt(Attempt::number(i), watch)?;
-        attempted.report.cost.events += spent.events;
-        attempted.report.cost.factorisations += spent.factorisations;
+        let next = question.attempt(Attempt::number(i), watch)?;
+        attempted = attempted.or_better(next);
     }
     let Attempted { mut report, doubt } = attempted;
     if let Some(doubt) = doubt {
@@ -59,15 +61,29 @@ pub(super) fn run(analysis: &Analysis, watch: &mut dyn Watch) -> Result<Collapse
     Ok(report)
 }
 
+impl Attempted {
+    /// The less doubtful of two attempts, with the work of both.
+    fn or_better(self, next: Attempted) -> Attempted {
+        let contradiction = |a: &Attempted| a.doubt.as_ref().is_some_and(Doubt::is_contradiction);
+        let better = next.doubt.is_none() || (contradiction(&self) && !contradiction(&next));
+        let (mut kept, other) = if better { (next, self) } else { (self, next) };
+        kept.report.cost.join(other.report.cost);
+        kept
+    }
+}
+
 impl<'a> Question<'a> {
     fn new(analysis: &'a Analysis) -> Self {
         let certificate = Certificate::new(analysis);
         let (fixed, scaled) = (total(&analysis.fixed), total(&analysis.scaled));
         let balance = if fixed > 0.0 && scaled > 0.0 { fixed / scaled } else { 1.0 };
         let sign = if analysis.direction == Direction::Increase { 1.0 } else { -1.0 };
-        let start = certificate.start(any_fixed(analysis), sign);
-        let (cap, weight) = (analysis.cap.unwrap_or(DEFAULT_CAP * balance), fixed + scaled * start.abs());
-        Question { analysis, certificate, sign, start, cap, weight }
+        let cap = analysis.cap.unwrap_or(DEFAULT_CAP * balance);
+        let start = certificate.start(any_fixed(analysis), sign, cap);
+        let thrust = any_fixed(analysis).then(|| certificate.theorem.thrust_range(0.0)).flatten();
+        let thrust_range = thrust.map(|[lowest, highest]| ThrustRange { lowest, highest });
+        let weight = fixed + scaled * start.abs();
+        Question { analysis, certificate, thrust_range, sign, start, cap, weight, reached: Cell::new(start) }
     }
 
     fn attempt(&self, attempt: Attempt, watch: &mut dyn Watch) -> Result<Attempted, AnalysisError> {
@@ -76,12 +92,13 @@ impl<'a> Question<'a> {
         let exact = Loads { fixed: model.loads(&analysis.fixed), scaled: model.loads(&analysis.scaled) };
         let loads = disturb(&exact, self.start, attempt);
         let mut progress = |tracer: &Tracer, load_factor: f64| {
+            self.reached.set(load_factor);
             watch.on_step(&LoadStep { load_factor, events: tracer.events() }).map_break(|_| ())
         };
         let mut report = self.blank(&model);
         let (mut tracer, end) =
             stand(&model, &loads, self.start, self.weight, &mut |t| progress(t, self.start * t.parameter()));
-        report.cost.add(&tracer, [0, 0]);
+        report.cost.add(&tracer, Cost::default());
         match end {
             End::Stopped => return Err(self.stopped(&tracer)),
             End::Reached if self.certificate.stands_at(self.start) => {}
@@ -90,11 +107,9 @@ impl<'a> Question<'a> {
             End::Rising | End::Lost => return Ok(Attempted { report, doubt: Some(Doubt::NotLoaded) }),
         }
         report.at_start = Some(snapshot(&model, self.start, tracer.displacements()));
-        if total(&analysis.scaled) == 0.0 {
+        if exact.nothing_grows(total(&analysis.scaled)) {
             report.outcome = Outcome::NeverCollapses;
-            report
-                .notes
-                .push("No load is scaled by the load factor: the answer says only that the arch stands.".into());
+            report.notes.push("Nothing grows with the load factor: the answer says only that the arch stands.".into());
             return Ok(Attempted { report, doubt: None });
         }
         let mut back = tracer.clone();
@@ -120,12 +135,16 @@ impl<'a> Question<'a> {
     ) -> Result<Option<Doubt>, AnalysisError> {
         let analysis = self.analysis;
         let crown = mechanism::crown(&analysis.arch);
-        let mut recorder = Recorder::new(model, analysis.method, analysis.share, self.start, crown);
-        let before = [tracer.events(), tracer.factorisations()];
+        let mut recorder = Recorder::new(model, analysis.method, analysis.share, [self.start, sign], crown);
+        let before = Cost::of(tracer);
         let leg = follow(tracer, loads, self.start, sign, self.cap, &mut recorder, progress);
         report.cost.add(tracer, before);
         report.at_unit_load = recorder.at_one.as_ref().map(|d| snapshot(model, 1.0, d));
+        if let (true, Method::FixedSteps { step, .. }) = (recorder.too_many_steps(), analysis.method) {
+            return Err(AnalysisError::TooManySteps { step, most: MOST_STEPS });
+        }
         let residual = tracer.worst_residual();
+        let mut peak_load = None;
         let (end, turned_back) = match leg {
             Leg::Stopped => return Err(self.stopped(tracer)),
             Leg::Lost => return Ok(Some(Doubt::Lost)),
@@ -139,14 +158,16 @@ impl<'a> Question<'a> {
             }
             Leg::Peak(peak, fall) => {
                 let mut end = ending::at_peak(analysis, model, &self.certificate.theorem, &peak, &fall, sign, residual);
+                peak_load = Some(end.load_factor);
                 end.load_factor = self.read_off(end.load_factor, sign);
                 (end, fall.turned_back)
             }
         };
-        let near = recorder.near(end.load_factor);
+        let near = recorder.near(peak_load.unwrap_or(end.load_factor));
         report.near_collapse = near.map(|(factor, d)| snapshot(model, factor, &d));
         report.history = recorder.history;
-        Ok(self.conclude(report, end, sign, turned_back))
+        let doubt = self.conclude(report, end, sign, turned_back);
+        Ok(doubt.or(self.certificate.standing_doubt(residual)))
     }
 
     /// Writes down a collapse, held against the limit window.
@@ -182,22 +203,23 @@ impl<'a> Question<'a> {
         let fall = ending::at_fall(self.analysis, model, tracer, self.start, load_factor);
         let power = motion::power(self.analysis, &fall.mechanism, self.start);
         let doubt = self.certificate.fallen(self.start, !fall.mechanism.slides.is_empty(), power);
+        let doubt = doubt.or(self.certificate.standing_doubt(fall.residual));
+        report.notes.extend(self.certificate.out_of_reach(self.start, any_fixed(self.analysis)));
         report.outcome = Outcome::FallsAsBuilt;
         report.end = Some(fall);
         Attempted { report, doubt }
     }
 
     fn stopped(&self, tracer: &Tracer) -> AnalysisError {
-        AnalysisError::Stopped { load_factor: tracer.parameter(), events: tracer.events() }
+        AnalysisError::Stopped { load_factor: self.reached.get(), events: tracer.events() }
     }
 
     fn blank(&self, model: &Model) -> CollapseReport {
         let window = self.certificate.window;
-        let thrust = any_fixed(self.analysis).then(|| self.certificate.theorem.thrust_range(0.0)).flatten();
         CollapseReport {
             outcome: Outcome::CannotTell,
             limit_window: window.map(|[lowest, highest]| LimitWindow { lowest, highest }),
-            thrust_range: thrust.map(|[lowest, highest]| ThrustRange { lowest, highest }),
+            thrust_range: self.thrust_range,
             end: None,
             other_end: None,
             start: self.start,
@@ -214,10 +236,25 @@ impl<'a> Question<'a> {
 }
 
 impl Cost {
-    /// Adds a tracer's work since `before` ([events, factorisations]).
-    fn add(&mut self, tracer: &Tracer, before: [usize; 2]) {
-        self.events += tracer.events() - before[0];
-        self.factorisations += tracer.factorisations() - before[1];
+    /// A tracer's work so far.
+    fn of(tracer: &Tracer) -> Self {
+        let (events, factorisations) = (tracer.events(), tracer.factorisations());
+        Cost { events, factorisations, block_rows: tracer.block_rows(), unknowns: 0 }
+    }
+
+    /// Adds a tracer's work since `before`.
+    fn add(&mut self, tracer: &Tracer, before: Cost) {
+        let now = Cost::of(tracer);
+        self.events += now.events - before.events;
+        self.factorisations += now.factorisations - before.factorisations;
+        self.block_rows += now.block_rows - before.block_rows;
+    }
+
+    /// Adds the work of another attempt or leg at the same model.
+    fn join(&mut self, other: Cost) {
+        self.events += other.events;
+        self.factorisations += other.factorisations;
+        self.block_rows += other.block_rows;
     }
 }
 
@@ -227,8 +264,7 @@ impl CollapseReport {
         self.other_end = other.end;
         self.at_unit_load = self.at_unit_load.take().or(other.at_unit_load);
         self.notes.extend(other.notes);
-        self.cost.events += other.cost.events;
-        self.cost.factorisations += other.cost.factorisations;
+        self.cost.join(other.cost);
     }
 
     /// A number that is not finite must not reach anyone as a `null` or a blank.

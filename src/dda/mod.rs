@@ -8,12 +8,12 @@
 //! Block `i` lies between interfaces `i` and `i + 1`; interface `k` joins block `k - 1` (before) to block `k` (after), and
 //! the rigid ground takes the place of a block that is not there.
 
-pub mod block;
-pub mod chain;
-pub mod contact;
-pub mod factor;
+mod block;
+mod chain;
+mod contact;
+mod factor;
 mod pivot;
-pub mod trace;
+mod trace;
 
 pub use block::{Block, Elasticity, V6};
 pub use chain::{Chain, ChainBuilder};

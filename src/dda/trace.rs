@@ -15,8 +15,7 @@ use super::contact::{Moving, State, zone};
 use super::factor::{Factor, Tridiagonal};
 use std::ops::ControlFlow;
 
-/// What is driven along the path: loads `base + parameter * rate`, and a pre-load that keeps every contact pressed,
-/// fading as `preload * (1 - parameter)`.
+/// What is driven along the path: loads `base + parameter * rate`, and an offset of the gaps that changes with it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Drive {
     /// Generalised loads at parameter 0, one per block.
@@ -65,8 +64,11 @@ const SOFT: f64 = 1e-6;
 const STILL: f64 = 1e-7;
 /// A mechanism that meets no new contact within so many chain sizes goes on for ever.
 const FAR: f64 = 10.0;
-/// So many steps of length zero in a row mean that ties do not resolve.
-const MOST_ZERO_STEPS: usize = 60;
+/// So many steps of length zero in a row, and as many more per contact, mean that ties do not resolve.
+const MOST_ZERO_STEPS: [usize; 2] = [60, 4];
+/// A path has at most so many events, and so many more per contact; real ones have about one per contact.
+const MOST_EVENTS: [usize; 2] = [200, 20];
+
 /// Follows the load path of a chain.
 #[derive(Debug, Clone)]
 pub struct Tracer<'a> {
@@ -149,25 +151,24 @@ impl<'a> Tracer<'a> {
 
     /// Goes on with another drive from `parameter` on, which must leave the loads and offsets of this instant unchanged.
     ///
-    /// Friction stays anchored where it was: slip is measured from the unstressed start, all loading being one load
-    /// step. Anchoring it anew here would leave every sliding contact exactly on the border of its state, a point from
-    /// which the path may go backwards (measured: arches that then "fall" at load factor 0).
+    /// Slip goes on being measured from the unstressed start, so that no contact starts on the border of its state.
     pub fn drive_on(&mut self, drive: Drive, parameter: f64) {
         (self.drive, self.parameter, self.peak) = (drive, parameter, None);
         self.reassemble_all();
     }
 
-    /// Traces until the parameter reaches `target` (> the current one) or the path ends. `see` is called at the start
-    /// and after every event.
+    /// Traces until the parameter reaches `target` or the path ends. `see` is called at the start and after every event.
+    /// A target that is not ahead of the current parameter is [`End::Lost`].
     pub fn trace(&mut self, target: f64, see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>) -> End {
         let far = FAR * self.size;
-        let most_events = self.events + 200 + 20 * self.states.len();
+        let most = |[base, each]: [usize; 2]| base + each * self.states.len();
+        let (most_zero_steps, most_events) = (most(MOST_ZERO_STEPS), self.events + most(MOST_EVENTS));
         let (mut zero_steps, mut barred) = (0, None);
         self.solve_tangent();
         if self.rate < 0.0 {
             self.turn_round();
         }
-        if !self.keep_equilibrium() {
+        if !self.keep_equilibrium() || target <= self.parameter {
             return End::Lost;
         }
         loop {
@@ -190,10 +191,7 @@ impl<'a> Tracer<'a> {
             barred = Some((event.contact, self.states[event.contact]));
             self.advance(event.step);
             self.cross(event);
-            if zero_steps > MOST_ZERO_STEPS + 4 * self.states.len()
-                || self.events > most_events
-                || !self.keep_equilibrium()
-            {
+            if zero_steps > most_zero_steps || self.events > most_events || !self.keep_equilibrium() {
                 return End::Lost;
             }
         }
@@ -319,6 +317,11 @@ impl<'a> Tracer<'a> {
     /// Factorisations so far, partial ones included.
     pub fn factorisations(&self) -> usize {
         self.factorisations
+    }
+
+    /// Block rows eliminated in all factorisations together.
+    pub fn block_rows(&self) -> usize {
+        self.factor.eliminated()
     }
 
     /// Largest equilibrium residual of any block at any event, as a share of the load scale.

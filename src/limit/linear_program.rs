@@ -26,6 +26,8 @@ pub enum Optimum {
     Unbounded,
     /// No point satisfies all inequalities.
     Infeasible,
+    /// Rounding kept the method from an answer.
+    Lost,
 }
 
 /// Unknowns are looked for within this box; the rows are expected to be scaled so that answers are of order one.
@@ -49,7 +51,7 @@ pub fn maximise(objective: Row, inequalities: &[Inequality]) -> Optimum {
     let walls: Vec<Inequality> = (0..UNKNOWNS).flat_map(|i| [bound(i, 1.0), bound(i, -1.0)]).collect();
     for _ in 0..MOST_PIVOTS {
         let rows = Basis::from_fn(|i, j| basis[i].row[j]);
-        let Some(inverse) = rows.try_inverse() else { return Optimum::Infeasible };
+        let Some(inverse) = rows.try_inverse() else { return Optimum::Lost };
         let point = -inverse * Row::from_fn(|i, _| basis[i].constant);
         let Some((entering, is_wall)) = most_violated(&point, inequalities, &walls) else {
             return if from_box.iter().zip(multipliers(&inverse, objective)).any(|(&wall, y)| wall && y[0] > TOLERANCE) {
@@ -65,7 +67,7 @@ pub fn maximise(objective: Row, inequalities: &[Inequality]) -> Optimum {
         basis[leaving] = entering;
         from_box[leaving] = is_wall;
     }
-    Optimum::Infeasible
+    Optimum::Lost
 }
 
 fn most_violated(point: &Row, inequalities: &[Inequality], walls: &[Inequality]) -> Option<(Inequality, bool)> {
@@ -74,6 +76,10 @@ fn most_violated(point: &Row, inequalities: &[Inequality], walls: &[Inequality])
     for (list, is_wall) in [(inequalities, false), (walls, true)] {
         for inequality in list {
             let value = inequality.row.dot(point) + inequality.constant;
+            // A value that is no number is taken for a violation, which ends in `Lost`.
+            if value.is_nan() {
+                return Some((*inequality, is_wall));
+            }
             if value < worst.0 && value < -TOLERANCE * (1.0 + inequality.row.abs().dot(&size)) {
                 worst = (value, Some((*inequality, is_wall)));
             }

@@ -7,4 +7,4 @@
 mod linear_program;
 mod static_theorem;
 
-pub use static_theorem::{Condition, Equilibrium, Resultant, StaticTheorem};
+pub use static_theorem::{Condition, Equilibrium, Resultant, StaticTheorem, Unsolved};

@@ -51,6 +51,10 @@ pub struct StaticTheorem {
     factor: f64,
 }
 
+/// The linear programme could not be solved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Unsolved;
+
 /// A point of the static theorem.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Equilibrium {
@@ -105,13 +109,17 @@ impl StaticTheorem {
     }
 
     /// Lowest and highest load factor in equilibrium, infinite where unbounded; None when there is none at all.
-    pub fn window(&self) -> Option<[f64; 2]> {
+    ///
+    /// # Errors
+    /// When rounding kept the linear programme from an answer.
+    pub fn window(&self) -> Result<Option<[f64; 2]>, Unsolved> {
         let end = |sign: f64| match maximise(Row::new(0.0, 0.0, 0.0, sign), &self.inequalities) {
-            Optimum::At(value, _) => Some(sign * value * self.factor),
-            Optimum::Unbounded => Some(sign * f64::INFINITY),
-            Optimum::Infeasible => None,
+            Optimum::At(value, _) => Ok(Some(sign * value * self.factor)),
+            Optimum::Unbounded => Ok(Some(sign * f64::INFINITY)),
+            Optimum::Infeasible => Ok(None),
+            Optimum::Lost => Err(Unsolved),
         };
-        Some([end(-1.0)?, end(1.0)?])
+        Ok(end(-1.0)?.zip(end(1.0)?).map(|(low, high)| [low, high]))
     }
 
     /// Least and greatest horizontal thrust of the left springing at load factor `at`, N/m; None when nothing stands.
@@ -123,7 +131,7 @@ impl StaticTheorem {
         let end = |sign: f64| match maximise(Row::new(sign, 0.0, 0.0, 0.0), &inequalities) {
             Optimum::At(value, _) => Some(sign * value * self.force),
             Optimum::Unbounded => Some(sign * f64::INFINITY),
-            Optimum::Infeasible => None,
+            Optimum::Infeasible | Optimum::Lost => None,
         };
         Some([end(-1.0)?, end(1.0)?])
     }
@@ -285,11 +293,11 @@ mod tests {
     fn the_window_does_not_depend_on_units() {
         let arch = arch();
         let [fixed, scaled] = loads(&arch);
-        let [low, high] = StaticTheorem::new(&arch, &fixed, &scaled).window().unwrap();
+        let [low, high] = StaticTheorem::new(&arch, &fixed, &scaled).window().unwrap().unwrap();
         let larger = |loads: &[PointForce], by: f64| {
             loads.iter().map(|l| PointForce { force: l.force * by, ..*l }).collect::<Vec<_>>()
         };
-        let again = StaticTheorem::new(&arch, &larger(&fixed, 1e7), &larger(&scaled, 1e3)).window().unwrap();
+        let again = StaticTheorem::new(&arch, &larger(&fixed, 1e7), &larger(&scaled, 1e3)).window().unwrap().unwrap();
         assert!((again[0] / (low * 1e4) - 1.0).abs() < 1e-10 && (again[1] / (high * 1e4) - 1.0).abs() < 1e-10);
         assert!(low < 0.0 && high > 0.0 && high.is_finite());
     }
@@ -299,9 +307,9 @@ mod tests {
         let mut arch = arch();
         let [fixed, scaled] = loads(&arch);
         let upwards: Vec<_> = fixed.iter().map(|f| PointForce { force: -f.force * 10.0, ..*f }).collect();
-        assert_eq!(StaticTheorem::new(&arch, &upwards, &[]).window(), None);
+        assert_eq!(StaticTheorem::new(&arch, &upwards, &[]).window(), Ok(None));
         arch.joints.iter_mut().for_each(|j| j.law = JointLaw::Bonded);
-        let window = StaticTheorem::new(&arch, &fixed, &scaled).window().unwrap();
+        let window = StaticTheorem::new(&arch, &fixed, &scaled).window().unwrap().unwrap();
         assert_eq!(window, [f64::NEG_INFINITY, f64::INFINITY]);
     }
 }
