@@ -118,10 +118,8 @@ pub enum AnalysisError {
         events: usize,
     },
     /// The fixed step is so small that the path cannot be walked in it.
-    #[error("more than {most} steps of load factor {step}; take a larger step")]
+    #[error("the load path has more than {most} of the fixed steps asked for; take a larger step")]
     TooManySteps {
-        /// The step asked for.
-        step: f64,
         /// Most steps of one path.
         most: usize,
     },

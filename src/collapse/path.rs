@@ -104,6 +104,8 @@ pub(super) enum Leg {
     Endless,
     /// The recorder's own criterion was met at this load factor (fixed steps only).
     Criterion(f64),
+    /// The fixed step is too small to walk the path in.
+    TooManySteps,
     /// Asked to stop.
     Stopped,
     /// Could not be followed.
@@ -127,6 +129,9 @@ pub(super) fn follow(
         met = recorder.see(sign * tracer.parameter(), tracer.displacements());
         if met.is_some() { ControlFlow::Break(()) } else { see(tracer, sign * tracer.parameter()) }
     });
+    if recorder.too_many_steps() {
+        return Leg::TooManySteps;
+    }
     match (met, end) {
         (Some(load_factor), _) => Leg::Criterion(load_factor),
         (None, End::Stopped) => Leg::Stopped,

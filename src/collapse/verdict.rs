@@ -140,13 +140,11 @@ impl<'a> Question<'a> {
         let leg = follow(tracer, loads, self.start, sign, self.cap, &mut recorder, progress);
         report.cost.add(tracer, before);
         report.at_unit_load = recorder.at_one.as_ref().map(|d| snapshot(model, 1.0, d));
-        if let (true, Method::FixedSteps { step, .. }) = (recorder.too_many_steps(), analysis.method) {
-            return Err(AnalysisError::TooManySteps { step, most: MOST_STEPS });
-        }
         let residual = tracer.worst_residual();
         let mut peak_load = None;
         let (end, turned_back) = match leg {
             Leg::Stopped => return Err(self.stopped(tracer)),
+            Leg::TooManySteps => return Err(AnalysisError::TooManySteps { most: MOST_STEPS }),
             Leg::Lost => return Ok(Some(Doubt::Lost)),
             Leg::Endless => {
                 report.history = recorder.history;

@@ -6,6 +6,7 @@
 //! one that goes on crossing, so rises and falls of the load factor, and momentary mechanisms, pass by themselves.
 
 mod equilibrium;
+mod seen;
 
 pub use equilibrium::covering;
 
@@ -282,50 +283,5 @@ impl<'a> Tracer<'a> {
     pub fn is_mechanism(&self) -> bool {
         let gained = self.rate.abs() * self.size * self.load_rate_scale;
         self.factor.pivot_ratio() < SINGULAR || gained < SOFT * self.load_scale
-    }
-
-    /// Parameter reached.
-    pub fn parameter(&self) -> f64 {
-        self.parameter
-    }
-
-    /// Displacements reached, one per block.
-    pub fn displacements(&self) -> &[V6] {
-        &self.displacements
-    }
-
-    /// Normal and tangential force of every contact, the drive's offset included, N/m.
-    pub fn contact_forces(&self) -> Vec<[f64; 2]> {
-        (0..self.states.len()).map(|p| self.force_of(p)).collect()
-    }
-
-    /// Direction in which the path goes on.
-    pub fn direction(&self) -> &[V6] {
-        &self.direction
-    }
-
-    /// The highest point after which the parameter did not rise at once; none if it always rose.
-    pub fn peak(&self) -> Option<&Peak> {
-        self.peak.as_ref()
-    }
-
-    /// Changes of contact state so far.
-    pub fn events(&self) -> usize {
-        self.events
-    }
-
-    /// Factorisations so far, partial ones included.
-    pub fn factorisations(&self) -> usize {
-        self.factorisations
-    }
-
-    /// Block rows eliminated in all factorisations together.
-    pub fn block_rows(&self) -> usize {
-        self.factor.eliminated()
-    }
-
-    /// Largest equilibrium residual of any block at any event, as a share of the load scale.
-    pub fn worst_residual(&self) -> f64 {
-        self.worst_residual
     }
 }
