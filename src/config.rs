@@ -54,7 +54,7 @@ pub struct Serve {
     #[arg(long, env = "VOUSSOIR_JOBS_KEPT", default_value_t = 1000, value_parser = count(1, 1_000_000))]
     pub jobs_kept: u64,
     /// Longest request body in bytes; beyond it a submission is answered with 413
-    #[arg(long, env = "VOUSSOIR_BODY_LIMIT", default_value_t = 4 << 20, value_parser = count(1024, 1 << 30))]
+    #[arg(long, env = "VOUSSOIR_BODY_LIMIT", default_value_t = 1 << 20, value_parser = count(1024, 1 << 30))]
     pub body_limit: u64,
     /// Seconds accepted jobs may take to end once told to stop; then they are cancelled
     #[arg(long, env = "VOUSSOIR_GRACE", default_value_t = 10, value_parser = count(0, 3600))]

@@ -234,6 +234,21 @@ fn shutdown_cancels_what_takes_too_long() {
 }
 
 #[test]
+fn a_second_shutdown_waits_for_nothing() {
+    let analyse = |_: &Analysis, _: &mut dyn Watch| {
+        sleep(Duration::from_secs(4));
+        Ok(report())
+    };
+    let store = JobStore::start(Limits { workers: 1, queue: 1, kept: 1 }, analyse).unwrap();
+    store.submit(order(QUICK), ()).unwrap();
+    sleep(Duration::from_millis(50));
+    assert!(!store.shutdown(Duration::ZERO), "this one does not listen");
+    let start = Instant::now();
+    drop(store);
+    assert!(start.elapsed() < Duration::from_secs(1));
+}
+
+#[test]
 fn jobs_dismissed_at_any_moment_leave_the_workers_whole() {
     let (begun, over) = (Arc::new(AtomicUsize::new(0)), Arc::new(AtomicUsize::new(0)));
     let counters = (begun.clone(), over.clone());

@@ -21,6 +21,7 @@ const TABLE: [(&str, &[&str], &[&str]); 8] = [
         &["jobs", "render", "arch", "collapse", "geometry"],
         &[
             "axum",
+            "tokio",
             "serde",
             "serde_ignored",
             "serde_json",

@@ -17,6 +17,19 @@ pub fn child(parent: &str, key: &str) -> String {
     format!("{parent}/{}", key.replace('~', "~0").replace('/', "~1"))
 }
 
+/// Most faults that are listed.
+const MOST_LISTED: usize = 100;
+
+/// The faults as they are listed: the first hundred, and how many more there are.
+pub fn listed(mut faults: Vec<Fault>) -> Vec<Fault> {
+    let more = faults.len().saturating_sub(MOST_LISTED);
+    faults.truncate(MOST_LISTED);
+    if more > 0 {
+        faults.push(Fault { pointer: String::new(), detail: format!("and {more} more: mend these first") });
+    }
+    faults
+}
+
 /// Collects faults.
 #[derive(Debug, Default)]
 pub struct Faults(Vec<Fault>);

@@ -6,6 +6,7 @@ use super::read;
 use super::request::AnalysisRequest;
 use super::response::AnalysisResult;
 use super::status::{self, JobList, JobStatus};
+use crate::collapse::Analysis;
 use crate::jobs::{Dismissal, Job, JobId, State};
 use axum::Json;
 use axum::body::Bytes;
@@ -52,11 +53,20 @@ pub(super) async fn submit(
         return Err(Problem::unsupported_media_type());
     }
     let body = body.map_err(|rejection| Problem::body(&rejection, state.body_limit))?;
-    check_syntax(&body)?;
-    let (request, analysis) = read::read_analysis(&body).map_err(Problem::faults)?;
+    let (request, analysis) = read_aside(body).await?;
     let job = state.jobs.submit(analysis, request)?;
     let location = [(header::LOCATION, status::path(job.id))];
     Ok((StatusCode::CREATED, location, Json(JobStatus::from(&job))).into_response())
+}
+
+/// Reads a body on a thread of its own kind: a large one takes a while, which others should not have to wait for.
+#[allow(clippy::disallowed_methods, reason = "reading is no analysis: it is short and needs no cancelling")]
+async fn read_aside(body: Bytes) -> Result<(AnalysisRequest, Analysis), Problem> {
+    let reading = tokio::task::spawn_blocking(move || {
+        check_syntax(&body)?;
+        read::read_analysis(&body).map_err(Problem::faults)
+    });
+    reading.await.unwrap_or_else(|_| Err(Problem::internal()))
 }
 
 /// How much of the list is asked for.

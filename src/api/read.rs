@@ -1,6 +1,6 @@
 //! JSON to a request, with everything that is wrong in its structure.
 
-use super::fault::{Fault, Faults, child};
+use super::fault::{Fault, Faults, child, listed};
 use super::request::{AnalysisRequest, JointsRequest, LineRequest, ProfileRequest};
 use super::{translate, tree};
 use crate::collapse::Analysis;
@@ -18,7 +18,7 @@ const MAX_STRUCTURAL_FAULTS: usize = 20;
 pub fn read(body: &[u8]) -> Result<AnalysisRequest, Vec<Fault>> {
     match read_structure(body) {
         (Some(request), faults) if faults.is_empty() => Ok(request),
-        (_, faults) => Err(faults.into_vec()),
+        (_, faults) => Err(listed(faults.into_vec())),
     }
 }
 
@@ -36,7 +36,7 @@ pub fn read_analysis(body: &[u8]) -> Result<(AnalysisRequest, Analysis), Vec<Fau
             Err(more) => faults.extend(more),
         }
     }
-    Err(faults)
+    Err(listed(faults))
 }
 
 /// The request, unless a stand-in had to be put for one of its values, and what is wrong.

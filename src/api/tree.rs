@@ -5,10 +5,18 @@ use serde::de::{DeserializeSeed, Deserializer, Error, MapAccess, SeqAccess, Visi
 use serde_json::{Map, Value};
 use std::cell::RefCell;
 
-/// Reads JSON text; beside the tree, pointers to all names that stand twice (the later value is kept).
+/// Longest list: more than any list of a request may hold.
+const LONGEST_LIST: usize = 10_000;
+/// Longest member name, bytes.
+const LONGEST_NAME: usize = 200;
+/// Most names that stand twice and are told of.
+const MOST_REPEATED: usize = 100;
+
+/// Reads JSON text; beside the tree, pointers to the names that stand twice (the later value is kept), the first
+/// hundred of them.
 ///
 /// # Errors
-/// When the text is not one JSON value.
+/// When the text is not one JSON value, or has longer lists or names than any request.
 pub fn parse(text: &[u8]) -> Result<(Value, Vec<String>), serde_json::Error> {
     let repeated = RefCell::new(Vec::new());
     let mut reader = serde_json::Deserializer::from_slice(text);
@@ -71,6 +79,11 @@ impl<'de> Visitor<'de> for Node<'_> {
         let mut list = Vec::new();
         while let Some(item) = items.next_element_seed(self.child(&list.len().to_string()))? {
             list.push(item);
+            if list.len() > LONGEST_LIST {
+                return Err(A::Error::custom(format!(
+                    "a list of more than {LONGEST_LIST} items, longer than any here"
+                )));
+            }
         }
         Ok(Value::Array(list))
     }
@@ -78,11 +91,17 @@ impl<'de> Visitor<'de> for Node<'_> {
     fn visit_map<A: MapAccess<'de>>(self, mut members: A) -> Result<Value, A::Error> {
         let mut object = Map::new();
         while let Some(name) = members.next_key::<String>()? {
+            if name.len() > LONGEST_NAME {
+                return Err(A::Error::custom(format!(
+                    "a name of more than {LONGEST_NAME} bytes, longer than any here"
+                )));
+            }
             let node = self.child(&name);
             let pointer = node.pointer.clone();
             let value = members.next_value_seed(node)?;
-            if object.insert(name, value).is_some() {
-                self.repeated.borrow_mut().push(pointer);
+            let mut repeated = self.repeated.borrow_mut();
+            if object.insert(name, value).is_some() && repeated.len() < MOST_REPEATED {
+                repeated.push(pointer);
             }
         }
         Ok(Value::Object(object))
@@ -105,6 +124,16 @@ mod tests {
     fn repeated_names_are_found_at_any_depth() {
         let (_, repeated) = parse(br#"{"a": [{"x": 1, "x": 2}], "a/": {"y": 1}, "a/": 3}"#).unwrap();
         assert_eq!(repeated, ["/a/0/x", "/a~1"]);
+    }
+
+    #[test]
+    fn what_is_longer_than_any_request_is_refused_early() {
+        let list = format!("{{\"loads\": [{}1]}}", "1,".repeat(LONGEST_LIST));
+        assert!(parse(list.as_bytes()).is_err());
+        let name = format!("{{\"{}\": 1}}", "a".repeat(LONGEST_NAME + 1));
+        assert!(parse(name.as_bytes()).is_err());
+        let twice = format!("{{{}\"a\": 1}}", "\"a\": 1,".repeat(5000));
+        assert_eq!(parse(twice.as_bytes()).unwrap().1.len(), MOST_REPEATED);
     }
 
     #[test]

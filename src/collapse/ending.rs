@@ -22,7 +22,7 @@ const AS_BUILT: f64 = 1e-6;
 /// Reads the collapse off the peak of the path. `sign` is the direction of the load factor.
 ///
 /// Joints at their limits need not make a mechanism where they slide: the load then falls before the arch can move
-/// freely, and the mechanism is the direction in which the path ends.
+/// freely, the mechanism is the direction in which the path ends, and the second value is true.
 pub(super) fn at_peak(
     analysis: &Analysis,
     model: &Model,
@@ -31,7 +31,7 @@ pub(super) fn at_peak(
     fall: &Fall,
     sign: f64,
     residual: f64,
-) -> PathEnd {
+) -> (PathEnd, bool) {
     let arch = &analysis.arch;
     let conditions = conditions(model, arch, peak);
     let polished = theorem.solve(&conditions).filter(|e| {
@@ -44,15 +44,13 @@ pub(super) fn at_peak(
     };
     let driving: Vec<PointForce> = analysis.scaled.iter().map(|f| PointForce { force: f.force * sign, ..*f }).collect();
     let slipping: Vec<Option<f64>> = (0..arch.joints.len()).map(|k| sliding_shear(model, k, peak)).collect();
-    let mechanism = mechanism::from_statics(arch, &forces, &slipping, &driving, POLISHED).unwrap_or_else(|| {
+    let at_limits = mechanism::from_statics(arch, &forces, &slipping, &driving, POLISHED);
+    let later = at_limits.is_none();
+    let mechanism = at_limits.unwrap_or_else(|| {
         from_direction(model, arch, if fall.turned_back { &peak.direction } else { &fall.direction })
     });
-    PathEnd {
-        load_factor: polished.map_or(peak.parameter, |e| e.load_factor),
-        residual,
-        mechanism,
-        thrust_line: thrust_line(arch, &forces),
-    }
+    let load_factor = polished.map_or(peak.parameter, |e| e.load_factor);
+    (PathEnd { load_factor, residual, mechanism, thrust_line: thrust_line(arch, &forces) }, later)
 }
 
 /// The mechanism in which an arch falls that never stood, its loads being those at load factor `start`.

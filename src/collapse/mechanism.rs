@@ -9,6 +9,8 @@ use crate::limit::Resultant;
 
 /// Releases slower than this share of the fastest do not move.
 const MOVES: f64 = 1e-6;
+/// In a direction of the load path, joint motions below this share of the fastest corner are elastic strain or rounding.
+const ELASTIC: f64 = 1e-5;
 
 /// A relative motion that a joint at its limit allows, of unit rate.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -137,13 +139,18 @@ pub(super) fn from_velocities(arch: &Arch, motions: &[Motion]) -> Mechanism {
             motion.at(joint.middle()).dot(&joint.tangent())
         });
     }
-    // What is left of elastic strain in the direction is not a hinge.
-    let elastic = 1e-5;
-    let fastest = openings.iter().flatten().copied().fold(0.0, f64::max);
-    openings.iter_mut().flatten().filter(|o| **o < elastic * fastest).for_each(|o| *o = 0.0);
-    let longest = arch.joints.iter().map(|j| j.length()).fold(0.0, f64::max);
-    let quickest = slid.iter().map(|s| s.abs()).fold(fastest * longest, f64::max);
-    slid.iter_mut().filter(|s| s.abs() < elastic * quickest).for_each(|s| *s = 0.0);
+    // Elastic strain and rounding are no joint motion; how fast the stones are says how small that is.
+    let corners = arch
+        .joints
+        .iter()
+        .skip(1)
+        .zip(motions)
+        .map(|(joint, m)| m.at(joint.intrados).norm().max(m.at(joint.extrados).norm()));
+    let still = ELASTIC * corners.fold(0.0, f64::max);
+    for (opening, joint) in openings.iter_mut().zip(&arch.joints) {
+        opening.iter_mut().filter(|o| **o * joint.length() < still).for_each(|o| *o = 0.0);
+    }
+    slid.iter_mut().filter(|s| s.abs() < still).for_each(|s| *s = 0.0);
     assemble(arch, &relative, &openings, &slid)
 }
 

@@ -1,6 +1,6 @@
 //! From the limit window and the load path to one answer, or to saying that we cannot tell.
 
-use super::certificate::{Certificate, Doubt, any_fixed};
+use super::certificate::{Certificate, Doubt, LATER_MECHANISM, any_fixed, loaded};
 use super::discretise::{Model, discretise};
 use super::path::{ATTEMPTS, Attempt, Leg, Loads, disturb, follow, stand, total};
 use super::record::{MOST_STEPS, Recorder, snapshot};
@@ -79,7 +79,7 @@ impl<'a> Question<'a> {
         let balance = if fixed > 0.0 && scaled > 0.0 { fixed / scaled } else { 1.0 };
         let sign = if analysis.direction == Direction::Increase { 1.0 } else { -1.0 };
         let cap = analysis.cap.unwrap_or(DEFAULT_CAP * balance);
-        let start = certificate.start(any_fixed(analysis), sign, cap);
+        let start = certificate.start(loaded(analysis)[0], sign, cap);
         let thrust = any_fixed(analysis).then(|| certificate.theorem.thrust_range(0.0)).flatten();
         let thrust_range = thrust.map(|[lowest, highest]| ThrustRange { lowest, highest });
         let weight = fixed + scaled * start.abs();
@@ -155,7 +155,9 @@ impl<'a> Question<'a> {
                 (ending::at_criterion(analysis, model, recorder.displacements(), at, residual), false)
             }
             Leg::Peak(peak, fall) => {
-                let mut end = ending::at_peak(analysis, model, &self.certificate.theorem, &peak, &fall, sign, residual);
+                let theorem = &self.certificate.theorem;
+                let (mut end, later) = ending::at_peak(analysis, model, theorem, &peak, &fall, sign, residual);
+                report.notes.extend(later.then(|| LATER_MECHANISM.into()));
                 peak_load = Some(end.load_factor);
                 end.load_factor = self.read_off(end.load_factor, sign);
                 (end, fall.turned_back)
@@ -200,7 +202,8 @@ impl<'a> Question<'a> {
         let load_factor = if any_fixed(self.analysis) { self.start } else { 0.0 };
         let fall = ending::at_fall(self.analysis, model, tracer, self.start, load_factor);
         let power = motion::power(self.analysis, &fall.mechanism, self.start);
-        let doubt = self.certificate.fallen(self.start, !fall.mechanism.slides.is_empty(), power);
+        let doubt =
+            self.certificate.fallen(self.start, !loaded(self.analysis)[1], !fall.mechanism.slides.is_empty(), power);
         let doubt = doubt.or(self.certificate.standing_doubt(fall.residual));
         report.notes.extend(self.certificate.out_of_reach(self.start, any_fixed(self.analysis)));
         report.outcome = Outcome::FallsAsBuilt;

@@ -49,6 +49,8 @@ pub(super) struct Shared<T> {
 pub struct JobStore<T> {
     shared: Arc<Shared<T>>,
     workers: Mutex<Vec<JoinHandle<()>>>,
+    /// How the shutdown ended, once it has.
+    ended: Mutex<Option<bool>>,
 }
 
 impl<T: Clone + Send + Sync + 'static> JobStore<T> {
@@ -68,7 +70,7 @@ impl<T: Clone + Send + Sync + 'static> JobStore<T> {
             work: Condvar::new(),
             back: Condvar::new(),
         });
-        let store = JobStore { shared, workers: Mutex::default() };
+        let store = JobStore { shared, workers: Mutex::default(), ended: Mutex::default() };
         for number in 0..limits.workers {
             let shared = store.shared.clone();
             let name = format!("voussoir-worker-{number}");
@@ -128,8 +130,13 @@ impl<T> JobStore<T> {
     }
 
     /// Accepts nothing more, lets accepted jobs end within `grace`, cancels the rest and ends the workers.
+    /// A second call waits for nothing more and says the same.
     /// False when an analysis would not stop and its thread had to be left behind.
     pub fn shutdown(&self, grace: Duration) -> bool {
+        let mut ended = lock(&self.ended);
+        if let Some(idle) = *ended {
+            return idle;
+        }
         self.close();
         if !self.wait_until_idle(grace) {
             let mut table = lock(&self.shared.table);
@@ -147,6 +154,7 @@ impl<T> JobStore<T> {
                 let _ = worker.join();
             }
         }
+        *ended = Some(idle);
         idle
     }
 

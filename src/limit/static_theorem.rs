@@ -122,12 +122,25 @@ impl StaticTheorem {
         Ok(end(-1.0)?.zip(end(1.0)?).map(|(low, high)| [low, high]))
     }
 
-    /// Least and greatest horizontal thrust of the left springing at load factor `at`, N/m; None when nothing stands.
-    pub fn thrust_range(&self, at: f64) -> Option<[f64; 2]> {
+    /// True where an equilibrium at load factor `at` violates no condition by more than `slack`, a share of the loads.
+    pub fn nearly_stands(&self, at: f64, slack: f64) -> bool {
+        let mut relaxed = self.pinned(at);
+        relaxed.iter_mut().for_each(|inequality| inequality.constant += slack);
+        matches!(maximise(Row::new(1.0, 0.0, 0.0, 0.0), &relaxed), Optimum::At(..) | Optimum::Unbounded)
+    }
+
+    /// The inequalities with the load factor held at `at`.
+    fn pinned(&self, at: f64) -> Vec<Inequality> {
         let mut inequalities = self.inequalities.clone();
         let row = Row::new(0.0, 0.0, 0.0, 1.0);
         inequalities.push(Inequality { row, constant: -at / self.factor });
         inequalities.push(Inequality { row: -row, constant: at / self.factor });
+        inequalities
+    }
+
+    /// Least and greatest horizontal thrust of the left springing at load factor `at`, N/m; None when nothing stands.
+    pub fn thrust_range(&self, at: f64) -> Option<[f64; 2]> {
+        let inequalities = self.pinned(at);
         let end = |sign: f64| match maximise(Row::new(sign, 0.0, 0.0, 0.0), &inequalities) {
             Optimum::At(value, _) => Some(sign * value * self.force),
             Optimum::Unbounded => Some(sign * f64::INFINITY),

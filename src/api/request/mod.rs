@@ -50,7 +50,7 @@ pub struct StoneRequest {
     #[schema(exclusive_minimum = 0.0, maximum = 100_000.0)]
     pub density_kg_m3: f64,
     /// Young's modulus, Pa.
-    #[schema(exclusive_minimum = 0.0)]
+    #[schema(minimum = 1e5, exclusive_maximum = 1e13)]
     pub youngs_modulus_pa: f64,
     /// Poisson's ratio, between -1 and 0.5.
     #[schema(exclusive_minimum = -1.0, exclusive_maximum = 0.5)]
@@ -67,7 +67,7 @@ pub struct StoneRequest {
     /// Plane stress or plane strain inside the stones.
     pub plane: PlaneRequest,
     /// Contact penalty as a multiple of Young's modulus.
-    #[schema(exclusive_minimum = 0.0)]
+    #[schema(minimum = 0.01, exclusive_maximum = 100.0)]
     pub penalty_ratio: f64,
 }
 

@@ -10,6 +10,18 @@ use crate::geometry::Vec2;
 /// Most loads of one request.
 pub const MAX_LOADS: usize = 1000;
 
+/// Most forces that the loads of one request may put on its voussoirs: loads (a pressure counts once per band) times
+/// voussoirs. Each is kept until the job has run.
+const MAX_FORCES: usize = 200_000;
+
+/// How many forces a load may put on each voussoir.
+fn forces_per_voussoir(entry: &LoadEntry) -> usize {
+    match &entry.load {
+        LoadRequest::LateralPressure(pressure) => pressure.bands.len(),
+        _ => 1,
+    }
+}
+
 /// Fixed and scaled forces, on the whole arch where there is one.
 pub fn loads(
     entries: &[LoadEntry],
@@ -25,6 +37,12 @@ pub fn loads(
     );
     if entries.len() > MAX_LOADS {
         faults.add("/loads", format!("{} loads: list at most {MAX_LOADS}", entries.len()));
+        return (fixed, scaled);
+    }
+    let forces = entries.iter().map(forces_per_voussoir).sum::<usize>() * arch.map_or(0, |a| a.voussoirs.len());
+    if forces > MAX_FORCES {
+        let detail = format!("loads and bands times voussoirs come to {forces}: keep to {MAX_FORCES} by joining loads");
+        faults.add("/loads", detail);
         return (fixed, scaled);
     }
     for (i, entry) in entries.iter().enumerate() {

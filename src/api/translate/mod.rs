@@ -101,14 +101,14 @@ fn check_load_factor(request: &AnalysisRequest, faults: &mut Faults) {
 
 fn stone(request: &StoneRequest, faults: &mut Faults) -> Stone {
     let weighs = faults.within("/stone/density_kg_m3", request.density_kg_m3, 0.0, MAX_DENSITY_KG_M3);
-    faults.within("/stone/youngs_modulus_pa", request.youngs_modulus_pa, 0.0, MAX_STRESS_PA);
+    faults.from_to("/stone/youngs_modulus_pa", request.youngs_modulus_pa, YOUNGS_MODULUS_PA[0], YOUNGS_MODULUS_PA[1]);
     let nu = request.poissons_ratio;
     let detail = format!("{nu} is out of range: Poisson's ratio must lie between -1 and 0.5, both excluded");
     faults.require(nu > -1.0 && nu < 0.5, "/stone/poissons_ratio", detail);
     friction_angle("/stone/friction_angle_deg", request.friction_angle_deg, faults);
     faults.from_to("/stone/cohesion_pa", request.cohesion_pa, 0.0, MAX_STRESS_PA);
     faults.within("/stone/compressive_strength_pa", request.compressive_strength_pa, 0.0, MAX_STRESS_PA);
-    faults.within("/stone/penalty_ratio", request.penalty_ratio, 0.0, MAX_FACTOR);
+    faults.from_to("/stone/penalty_ratio", request.penalty_ratio, PENALTY_RATIO[0], PENALTY_RATIO[1]);
     Stone {
         // A wrong density is one fault, not one for every load that it makes vanish.
         density: if weighs { request.density_kg_m3 } else { Stone::default().density },
@@ -119,6 +119,12 @@ fn stone(request: &StoneRequest, faults: &mut Faults) -> Stone {
         compressive_strength: request.compressive_strength_pa,
     }
 }
+
+/// From softer than cork to ten times stiffer than diamond, Pa. Far below, a stone gives way by its own size.
+const YOUNGS_MODULUS_PA: [f64; 2] = [1e5, 1e13];
+
+/// Contacts much softer or stiffer than the stones cost the path its digits (measured: safe from 0.1 to 10, lost at 1e3).
+const PENALTY_RATIO: [f64; 2] = [0.01, 100.0];
 
 /// 0 <= phi < 90 degrees.
 fn friction_angle(pointer: &str, angle: f64, faults: &mut Faults) {
