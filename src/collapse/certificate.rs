@@ -83,11 +83,12 @@ impl Certificate {
         let tidy = |end: f64| if end.abs() < ZERO * theorem.load_factor_scale() { 0.0 } else { end };
         let window = theorem.window();
         let solved = window.is_ok();
-        let window = window.ok().flatten().map(|ends| ends.map(tidy));
-        // No load at all is always in equilibrium, also where rounding lets an empty interior pass for no point.
-        let at_zero = (!any_fixed(analysis) && solved).then_some([0.0, 0.0]);
-        let window =
-            window.map(|[low, high]| at_zero.map_or([low, high], |_| [low.min(0.0), high.max(0.0)])).or(at_zero);
+        let mut window = window.ok().flatten().map(|ends| ends.map(tidy));
+        if solved && !any_fixed(analysis) {
+            // No load at all is in equilibrium, also where rounding lets a set without interior pass for empty.
+            let [low, high] = window.unwrap_or([0.0, 0.0]);
+            window = Some([low.min(0.0), high.max(0.0)]);
+        }
         Certificate { theorem, window, solved }
     }
 

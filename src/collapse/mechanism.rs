@@ -102,22 +102,18 @@ fn tail_loads(arch: &Arch, loads: &[PointForce]) -> Vec<[f64; 3]> {
 
 fn describe(arch: &Arch, releases: &[(usize, Release)], rates: &[f64]) -> Mechanism {
     let fastest = rates.iter().copied().fold(0.0, f64::max);
-    let mut relative = vec![Motion::STILL; arch.joints.len()];
-    let mut openings = vec![[0.0; 2]; arch.joints.len()];
+    let joints = arch.joints.len();
+    let (mut relative, mut openings, mut slid) =
+        (vec![Motion::STILL; joints], vec![[0.0; 2]; joints], vec![0.0; joints]);
     for (&(k, release), &rate) in releases.iter().zip(rates) {
         relative[k] = relative[k].plus(relative_motion(arch, k, release), rate);
         match release {
             _ if rate <= MOVES * fastest => {}
             Release::Rotation(Face::Intrados) => openings[k][1] += rate,
             Release::Rotation(Face::Extrados) => openings[k][0] += rate,
-            Release::Sliding(_) => {}
+            Release::Sliding(sign) => slid[k] += sign * rate,
         }
     }
-    let slides = |k: usize| {
-        let at_joint = releases.iter().zip(rates).filter(|&(&(joint, _), &rate)| joint == k && rate > MOVES * fastest);
-        at_joint.map(|((_, r), rate)| if let Release::Sliding(sign) = r { sign * rate } else { 0.0 }).sum::<f64>()
-    };
-    let slid: Vec<f64> = (0..arch.joints.len()).map(slides).collect();
     assemble(arch, &relative, &openings, &slid)
 }
 
