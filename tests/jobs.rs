@@ -9,7 +9,8 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 use voussoir::arch::{Arch, Stone};
 use voussoir::collapse::{
-    Analysis, AnalysisError, CollapseReport, Cost, Direction, LoadStep, Method, Outcome, PlaneModel, Watch,
+    Aim, Analysis, AnalysisError, CollapseReport, Cost, Direction, LoadStep, Mesh, Method, Outcome, PlaneModel, Seams,
+    Watch,
 };
 use voussoir::geometry::Vec2;
 use voussoir::jobs::{Dismissal, Failure, Job, JobId, JobStore, Limits, Refusal, State, Status};
@@ -29,6 +30,9 @@ fn order(what: f64) -> Analysis {
         cap: None,
         method: Method::EventPath,
         share: 0.999,
+        mesh: Mesh { subblocks: vec![], seams: Seams::Split },
+        fields: vec![],
+        aim: Aim::Collapse,
     }
 }
 
@@ -71,6 +75,9 @@ fn report() -> CollapseReport {
         near_collapse: None,
         at_unit_load: None,
         at_start: None,
+        stress_fields: vec![],
+        crushing: None,
+        safety: None,
         history: vec![],
         cost: Cost::default(),
         notes: vec![],

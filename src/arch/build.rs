@@ -1,6 +1,6 @@
 //! From joints to an arch: checks that the stones can exist, adds springings and abutments, halves.
 
-use super::{Abutment, Arch, Face, Joint, JointLaw, Voussoir};
+use super::{Abutment, Arch, Face, Joint, JointLaw, Sides, Voussoir};
 use crate::geometry::{Region, Vec2, mirrored, segments_meet};
 
 /// Most voussoirs an arch may have.
@@ -66,7 +66,7 @@ impl Arch {
     /// Puts the arch together; every joint gets the same law.
     pub fn assemble(ends: &[[Vec2; 2]], regions: Vec<Region>, law: JointLaw, angle_centre: Vec2) -> Arch {
         Arch {
-            voussoirs: regions.into_iter().map(|region| Voussoir { region }).collect(),
+            voussoirs: regions.into_iter().map(|region| Voussoir { region, sides: Sides::Straight }).collect(),
             joints: ends.iter().map(|&[intrados, extrados]| Joint { intrados, extrados, law }).collect(),
             abutments: [None, None],
             half: false,

@@ -122,6 +122,7 @@ fn body_force(arch: &Arch, density: f64, acceleration: Vec2) -> Vec<PointForce> 
         voussoir,
         at: stone.region.centroid,
         force: density * stone.region.area * acceleration,
+        spread: true,
     };
     arch.voussoirs.iter().enumerate().map(force).collect()
 }
@@ -153,7 +154,7 @@ impl Fill {
             let at = a + share * (b - a);
             let vertical = 0.5 * pressure(at.y);
             let force = Vec2::new(self.lateral_ratio * vertical * (b.y - a.y), -vertical * (b.x - a.x));
-            PointForce { voussoir, at, force }
+            PointForce { voussoir, at, force, spread: false }
         })
     }
 }
@@ -180,7 +181,7 @@ fn lateral(arch: &Arch, bands: &[Band]) -> Vec<PointForce> {
         for band in bands {
             if let Some((a, b)) = clip(a, b, band.from, band.to) {
                 let force = Vec2::new(band.pressure * (b.y - a.y), 0.0);
-                forces.push(PointForce { voussoir, at: 0.5 * (a + b), force });
+                forces.push(PointForce { voussoir, at: 0.5 * (a + b), force, spread: false });
             }
         }
     }
@@ -196,7 +197,7 @@ fn middle_load(arch: &Arch, force: f64, voussoir: usize) -> Result<PointForce, L
         return Err(LoadFault::NoSuchVoussoir { last: arch.voussoirs.len() - 1 });
     }
     let (a, b) = arch.extrados_side(voussoir);
-    Ok(PointForce { voussoir, at: 0.5 * (a + b), force: down(force) })
+    Ok(PointForce { voussoir, at: 0.5 * (a + b), force: down(force), spread: false })
 }
 
 /// How far the extrados reaches in plan, m.
@@ -227,7 +228,10 @@ fn point_load(arch: &Arch, force: f64, x: f64) -> Result<Vec<PointForce>, LoadFa
     bearers.extend(under.iter().filter(stands_too).map(|&(k, _)| k));
     bearers.sort_unstable();
     let share = force / bearers.len() as f64;
-    Ok(bearers.into_iter().map(|voussoir| PointForce { voussoir, at: Vec2::new(x, y), force: down(share) }).collect())
+    Ok(bearers
+        .into_iter()
+        .map(|voussoir| PointForce { voussoir, at: Vec2::new(x, y), force: down(share), spread: false })
+        .collect())
 }
 
 /// A vertical load spread over a plan width; every voussoir takes what lies over it, in the middle of its share.
@@ -241,7 +245,7 @@ fn patch_load(arch: &Arch, force: f64, centre: f64, width: f64) -> Result<Vec<Po
             covered += to - from;
             let x = 0.5 * (from + to);
             let at = Vec2::new(x, a.y + (b.y - a.y) * ((x - a.x) / (b.x - a.x)));
-            forces.push(PointForce { voussoir, at, force: down(force * (to - from) / width) });
+            forces.push(PointForce { voussoir, at, force: down(force * (to - from) / width), spread: false });
         }
     }
     if (covered - width).abs() > 1e-9 * width.max(right.abs()) {

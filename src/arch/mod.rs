@@ -116,6 +116,22 @@ impl Joint {
 pub struct Voussoir {
     /// Area (positive) and centroid.
     pub region: Region,
+    /// Shape of the sides along intrados and extrados.
+    pub sides: Sides,
+}
+
+/// Shape of a voussoir's sides along intrados and extrados.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Sides {
+    /// Straight.
+    Straight,
+    /// Arcs of circles about one centre.
+    Arcs {
+        /// The centre, m.
+        centre: Vec2,
+    },
+    /// More than one arc on a side.
+    Compound,
 }
 
 /// A rectangular block between a springing joint and the rigid foundation it is bonded to.
@@ -142,13 +158,15 @@ pub struct Arch {
     pub angle_centre: Vec2,
 }
 
-/// A force on one voussoir at one point.
+/// A force on one voussoir: at one point, or spread evenly over the stone.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PointForce {
     /// Which voussoir.
     pub voussoir: usize,
-    /// Where it acts, m.
+    /// Where it acts, m; the stone's centroid if it is spread.
     pub at: Vec2,
     /// Force per metre of depth, N/m.
     pub force: Vec2,
+    /// True for a body force, spread evenly over the stone's area.
+    pub spread: bool,
 }

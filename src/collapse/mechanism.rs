@@ -220,7 +220,7 @@ fn angles(arch: &Arch, joint: usize) -> (f64, f64) {
 mod tests {
     use super::super::motion::motion_at;
     use super::*;
-    use crate::arch::{Joint, Voussoir};
+    use crate::arch::{Joint, Sides, Voussoir};
     use crate::geometry::{Region, Vec2};
 
     fn semicircle(n: usize) -> Arch {
@@ -233,7 +233,7 @@ mod tests {
             })
             .collect();
         let region = |w: &[Joint]| Region::polygon(&[w[0].extrados, w[0].intrados, w[1].intrados, w[1].extrados]);
-        let voussoirs = joints.windows(2).map(|w| Voussoir { region: region(w) }).collect();
+        let voussoirs = joints.windows(2).map(|w| Voussoir { region: region(w), sides: Sides::Straight }).collect();
         Arch { voussoirs, joints, abutments: [None, None], half: false, angle_centre: Vec2::zeros() }
     }
 
@@ -249,7 +249,8 @@ mod tests {
 
     fn crown_load(arch: &Arch) -> Vec<PointForce> {
         let n = arch.voussoirs.len();
-        let down = |voussoir| PointForce { voussoir, at: Vec2::new(0.0, 1.1), force: Vec2::new(0.0, -1.0) };
+        let down =
+            |voussoir| PointForce { voussoir, at: Vec2::new(0.0, 1.1), force: Vec2::new(0.0, -1.0), spread: false };
         vec![down((n - 1) / 2), down(n / 2)]
     }
 

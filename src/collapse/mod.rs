@@ -1,5 +1,6 @@
 //! Incremental limit analysis: what grows, how far, and what happens then.
 
+mod beam;
 mod certificate;
 mod digits;
 mod discretise;
@@ -9,6 +10,7 @@ mod motion;
 mod path;
 mod record;
 pub mod report;
+mod safety;
 mod smallest_motion;
 mod verdict;
 
@@ -53,9 +55,91 @@ pub enum Method {
     },
 }
 
+/// What an analysis is after.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Aim {
+    /// The load factor at which the arch falls.
+    Collapse,
+    /// How far the scaled loads, which act in full at load factor 1, can grow until the arch falls or crushes.
+    Safety {
+        /// Which of the two answers about crushing counts.
+        crushing: CrushingKind,
+    },
+}
+
+/// The two answers about crushing of the stone.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CrushingKind {
+    /// The equivalent stress of Tresca, eq. (4) of the paper, reaches the strength in some subblock. Depends on the mesh.
+    Elastic,
+    /// Some joint carries a normal force N with an eccentricity that leaves less than N / strength of its length, and no
+    /// other equilibrium avoids it.
+    PlasticSection,
+}
+
+/// How subblocks of one voussoir hold together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Seams {
+    /// A stiff pair of springs in the middle of every seam, and weak ones on what is linear along it.
+    Split,
+    /// Stiff pairs of springs at both ends, as section 3.2 of the paper reads. Locks in bending; for comparison only.
+    Corners,
+}
+
+/// How the voussoirs are cut into subblocks.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mesh {
+    /// Subblocks of every voussoir from intrados to extrados, and along the arch.
+    pub subblocks: Vec<[usize; 2]>,
+    /// What holds them together.
+    pub seams: Seams,
+}
+
+/// Where on the path a stress field is reported.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum FieldAt {
+    /// At this load factor.
+    LoadFactor(f64),
+    /// At `share` of the way to collapse.
+    NearCollapse,
+}
+
+/// One point of a safety curve.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CurvePoint {
+    /// What it is drawn over, such as the thickness of an embankment; in the request's own unit.
+    pub abscissa: f64,
+    /// The safety analysis there.
+    pub analysis: Analysis,
+}
+
+/// What is asked of the mechanics.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Question {
+    /// One analysis.
+    One(Box<Analysis>),
+    /// Safety factors over a list of abscissae.
+    Curve(Vec<CurvePoint>),
+    /// The curved beam of section 3.3 of the paper.
+    CurvedBeam(CurvedBeam),
+}
+
+/// What the mechanics say.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Answer {
+    /// Of one analysis.
+    One(Box<CollapseReport>),
+    /// Safety factors, one per abscissa.
+    Curve(Vec<SafetyPoint>),
+    /// Of the curved beam.
+    CurvedBeam(BeamReport),
+}
+
 /// One question to the mechanics, in SI units and radians.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Analysis {
+    /// What is wanted.
+    pub aim: Aim,
     /// The arch.
     pub arch: Arch,
     /// Its stone.
@@ -76,6 +160,31 @@ pub struct Analysis {
     pub method: Method,
     /// At which share of the way to collapse displacements and contact forces are reported, in (0, 1).
     pub share: f64,
+    /// How the voussoirs are cut into subblocks.
+    pub mesh: Mesh,
+    /// Where stress fields are reported.
+    pub fields: Vec<FieldAt>,
+}
+
+/// The curved beam of section 3.3 of the paper: a quarter ring in bending by end shear, cut into subblocks.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CurvedBeam {
+    /// Inner radius a, m.
+    pub inner_radius: f64,
+    /// Outer radius b, m.
+    pub outer_radius: f64,
+    /// Resultant P of the end tractions, N/m.
+    pub shear: f64,
+    /// Its stone: Young's modulus and Poisson's ratio count.
+    pub stone: Stone,
+    /// Plane stress or plane strain.
+    pub plane: PlaneModel,
+    /// Subblocks in radial and circumferential direction.
+    pub subblocks: [usize; 2],
+    /// What holds them together.
+    pub seams: Seams,
+    /// True sectors, or subblocks with straight sides.
+    pub curved_sides: bool,
 }
 
 /// Where an analysis stands.
@@ -129,6 +238,18 @@ pub enum AnalysisError {
         /// Which quantity.
         what: &'static str,
     },
+}
+
+/// Answers a question.
+///
+/// # Errors
+/// When stopped by `watch`, or when a result is not finite.
+pub fn answer(question: &Question, watch: &mut dyn Watch) -> Result<Answer, AnalysisError> {
+    match question {
+        Question::One(analysis) => run(analysis, watch).map(|report| Answer::One(Box::new(report))),
+        Question::Curve(points) => safety::curve(points, watch).map(Answer::Curve),
+        Question::CurvedBeam(beam) => beam::solve(beam).map(Answer::CurvedBeam),
+    }
 }
 
 /// Runs the analysis: limit window, then the load path from where it says the arch stands, then the comparison.

@@ -1,5 +1,5 @@
 use super::*;
-use crate::arch::{Joint, JointLaw, Voussoir};
+use crate::arch::{Joint, JointLaw, Sides, Voussoir};
 use crate::collapse::{Hinge, Mechanism, Mode, Slide, Thrust};
 use crate::geometry::Region;
 use std::f64::consts::PI;
@@ -20,6 +20,7 @@ fn example(n: usize, hinges: [usize; 4], mirror: bool) -> (Arch, PathEnd) {
             joints[k + 1].intrados,
             joints[k + 1].extrados,
         ]),
+        sides: Sides::Straight,
     };
     let voussoirs: Vec<Voussoir> = (0..n).map(stone).collect();
     let arch = Arch { voussoirs, joints, abutments: [None, None], half: false, angle_centre: Vec2::zeros() };

@@ -9,7 +9,7 @@ use super::request::{
     AnalysisRequest, DirectionRequest, MAX_TEXT, MethodRequest, PlaneRequest, SpringingJoints, StoneRequest,
 };
 use crate::arch::{Arch, JointLaw, PointForce, Stone, load};
-use crate::collapse::{Analysis, Direction, Method, PlaneModel};
+use crate::collapse::{Aim, Analysis, Direction, Mesh, Method, PlaneModel, Seams};
 
 /// Largest length and coordinate, m.
 pub const MAX_LENGTH_M: f64 = 1e5;
@@ -61,6 +61,9 @@ pub fn translate(request: &AnalysisRequest) -> Result<Analysis, Vec<Fault>> {
         cap: request.load_factor.cap,
         method,
         share,
+        mesh: Mesh { subblocks: vec![[1, 1]; arch.voussoirs.len()], seams: Seams::Split },
+        fields: Vec::new(),
+        aim: Aim::Collapse,
         arch,
     })
 }

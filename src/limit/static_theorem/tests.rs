@@ -1,5 +1,5 @@
 use super::*;
-use crate::arch::Voussoir;
+use crate::arch::{Sides, Voussoir};
 use crate::geometry::Region;
 
 /// A skewed arch of four quadrilaterals, so that nothing is symmetric by accident.
@@ -19,7 +19,7 @@ fn arch() -> Arch {
     };
     let joints = ends.map(joint).to_vec();
     let region = |w: &[Joint]| Region::polygon(&[w[0].intrados, w[1].intrados, w[1].extrados, w[0].extrados]);
-    let voussoirs = joints.windows(2).map(|w| Voussoir { region: region(w) }).collect();
+    let voussoirs = joints.windows(2).map(|w| Voussoir { region: region(w), sides: Sides::Straight }).collect();
     Arch { voussoirs, joints, abutments: [None, None], half: false, angle_centre: Vec2::zeros() }
 }
 
@@ -28,6 +28,7 @@ fn loads(arch: &Arch) -> [Vec<PointForce>; 2] {
         voussoir: i,
         at: arch.voussoirs[i].region.centroid,
         force: Vec2::new(x, y),
+        spread: false,
     };
     [
         (0..4).map(|i| force(i, 0.1, -5.0)).collect(),
