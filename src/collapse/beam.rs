@@ -1,7 +1,149 @@
-//! The curved beam of section 3.3 of the paper.
+//! The curved beam of section 3.3 of the paper: a quarter ring bent by end shear, against the theory of elasticity.
 
-use super::{AnalysisError, BeamReport, CurvedBeam};
+use super::discretise::{bond, elasticity};
+use super::grid::{Grid, Lines};
+use super::{AnalysisError, BeamReport, CurvedBeam, PlaneModel, StressField, SubblockStress};
+use crate::arch::{Joint, JointLaw};
+use crate::dda::{Macroblock, free_response};
+use crate::geometry::{Region, Vec2};
+use nalgebra::DVector;
+use std::f64::consts::FRAC_PI_2;
 
-pub(super) fn solve(_: &CurvedBeam) -> Result<BeamReport, AnalysisError> {
-    Err(AnalysisError::NotFinite { what: "curved beam" })
+/// Contact penalty over Young's modulus in Table 1 of the paper, for seams with corner springs.
+const PENALTY_RATIO: f64 = 10.0;
+
+/// The exact solution, eq. (3) of the paper (Timoshenko and Goodier, Theory of Elasticity, bending of a curved bar by a
+/// force at its end). Angles are measured from the end that carries shear alone.
+#[derive(Debug, Clone, Copy)]
+struct Exact {
+    /// a^2 b^2 and a^2 + b^2.
+    product: f64,
+    sum: f64,
+    /// P / Delta.
+    scale: f64,
+    radii: [f64; 2],
+}
+
+impl Exact {
+    fn new(beam: &CurvedBeam) -> Self {
+        let (a, b) = (beam.inner_radius, beam.outer_radius);
+        let (product, sum) = (a * a * b * b, a * a + b * b);
+        let delta = a * a - b * b + sum * (b / a).ln();
+        Exact { product, sum, scale: beam.shear / delta, radii: [a, b] }
+    }
+
+    /// sigma_r, sigma_theta and tau_r_theta at a point, Pa.
+    fn stress(&self, r: f64, theta: f64) -> [f64; 3] {
+        let (q, s) = (self.product / r.powi(3), self.sum / r);
+        let (sin, cos) = theta.sin_cos();
+        [(r + q - s) * sin, (3.0 * r - q - s) * sin, -(r + q - s) * cos].map(|x| x * self.scale)
+    }
+
+    /// Strain energy of the quarter ring, J/m: Gauss quadrature over the radius; over the angle sin^2 and cos^2
+    /// integrate to pi / 4.
+    fn energy(&self, beam: &CurvedBeam) -> f64 {
+        let nu = beam.stone.poissons_ratio;
+        let (e, nu) = match beam.plane {
+            PlaneModel::Stress => (beam.stone.youngs_modulus, nu),
+            PlaneModel::Strain => (beam.stone.youngs_modulus / (1.0 - nu * nu), nu / (1.0 - nu)),
+        };
+        let density = |r: f64| {
+            let ([sr, st, _], [.., tau]) = (self.stress(r, FRAC_PI_2), self.stress(r, 0.0));
+            r * ((sr * sr + st * st - 2.0 * nu * sr * st) + 2.0 * (1.0 + nu) * tau * tau) / (2.0 * e)
+        };
+        0.5 * FRAC_PI_2 * simpson(density, self.radii)
+    }
+
+    /// Integrals of sigma_theta and of r sigma_theta over r at theta = 90 degrees, from the inner radius.
+    fn bending(&self, r: f64) -> [f64; 2] {
+        let (q, s) = (self.product, self.sum);
+        [1.5 * r * r + 0.5 * q / (r * r) - s * r.ln(), r.powi(3) + q / r - s * r].map(|x| x * self.scale)
+    }
+
+    /// Integrals of tau_r_theta and of r tau_r_theta over r at theta = 0.
+    fn shearing(&self, r: f64) -> [f64; 2] {
+        let (q, s) = (self.product, self.sum);
+        [-0.5 * r * r + 0.5 * q / (r * r) + s * r.ln(), -r.powi(3) / 3.0 + q / r + s * r].map(|x| x * self.scale)
+    }
+}
+
+/// Composite Simpson rule, fine enough for smooth integrands to be exact to rounding.
+fn simpson(f: impl Fn(f64) -> f64, [a, b]: [f64; 2]) -> f64 {
+    let (n, h) = (400, (b - a) / 400.0);
+    let weight = |i: i32| if i == 0 || i == n { 1.0 } else { 2.0 + 2.0 * f64::from(i % 2) };
+    (0..=n).map(|i| weight(i) * f(a + f64::from(i) * h)).sum::<f64>() * h / 3.0
+}
+
+/// Solves the beam and holds it against the exact solution.
+pub(super) fn solve(beam: &CurvedBeam) -> Result<BeamReport, AnalysisError> {
+    let exact = Exact::new(beam);
+    let (grid, body) = macroblock(beam);
+    let load = end_loads(beam, &exact, &grid, &body);
+    let unknowns = 6 * body.blocks().len();
+    let displacements =
+        free_response(&body, &load).ok_or(AnalysisError::NotFinite { what: "displacements of the curved beam" })?;
+    let stresses: Vec<[f64; 3]> = body
+        .blocks()
+        .iter()
+        .enumerate()
+        .map(|(i, block)| block.stress(&displacements.fixed_rows::<6>(6 * i).into_owned()))
+        .collect();
+    let field = StressField { load_factor: 1.0, subblocks: grid.field(0, &stresses) };
+    let exact_tresca: Vec<f64> = field.subblocks.iter().map(|s| tresca_at(&exact, s)).collect();
+    let squares = |of: &dyn Fn(usize) -> f64| (0..exact_tresca.len()).map(|i| of(i).powi(2)).sum::<f64>().sqrt();
+    let error = squares(&|i| exact_tresca[i] - field.subblocks[i].tresca()) / squares(&|i| exact_tresca[i]);
+    let energy = [0.5 * displacements.dot(&load), exact.energy(beam)];
+    if !(error.is_finite() && energy.iter().all(|e| e.is_finite())) {
+        return Err(AnalysisError::NotFinite { what: "curved beam" });
+    }
+    Ok(BeamReport { field, exact: exact_tresca, error, energy, unknowns })
+}
+
+/// The ring from theta = 90 degrees (left) to 0, as a stone between two joints.
+fn macroblock(beam: &CurvedBeam) -> (Grid, Macroblock) {
+    let joint = |direction: Vec2| Joint {
+        intrados: direction * beam.inner_radius,
+        extrados: direction * beam.outer_radius,
+        law: JointLaw::Bonded,
+    };
+    let lines = if beam.curved_sides { Lines::Arcs(Vec2::zeros()) } else { Lines::Chords(Vec2::zeros()) };
+    let (a, b) = (beam.inner_radius, beam.outer_radius);
+    let area = 0.5 * FRAC_PI_2 * (b * b - a * a);
+    // First moment of a quarter ring about either axis: (b^3 - a^3) / 3.
+    let whole = Region { area, centroid: Vec2::repeat((b.powi(3) - a.powi(3)) / (3.0 * area)) };
+    let grid = Grid::new([&joint(Vec2::y()), &joint(Vec2::x())], whole, lines, beam.subblocks);
+    let bond = bond(beam.seams, PENALTY_RATIO * beam.stone.youngs_modulus);
+    (grid, grid.macroblock(elasticity(&beam.stone, beam.plane), bond))
+}
+
+/// Generalised loads of the exact end tractions: on each subblock's side, the two forces at its ends that have the
+/// resultant and the moment of the distribution.
+fn end_loads(beam: &CurvedBeam, exact: &Exact, grid: &Grid, body: &Macroblock) -> DVector<f64> {
+    let mut load = DVector::zeros(6 * body.blocks().len());
+    let n = grid.radial;
+    let radius = |i: usize| beam.inner_radius + (beam.outer_radius - beam.inner_radius) * i as f64 / n as f64;
+    // At 90 degrees the outer normal is e_theta = -x, at 0 it is -e_theta and the traction -tau e_r = -tau x.
+    let ends: [(usize, Vec2, &dyn Fn(f64) -> [f64; 2]); 2] = [
+        (0, Vec2::y(), &|r| exact.bending(r)),
+        ((grid.along - 1) * n, Vec2::x(), &|r| exact.shearing(r)),
+    ];
+    for (first, along, integral) in ends {
+        for i in 0..n {
+            let (from, to) = (radius(i), radius(i + 1));
+            let [force, moment] = [0, 1].map(|k| integral(to)[k] - integral(from)[k]);
+            let outer = (moment - force * from) / (to - from);
+            for (r, share) in [(from, force - outer), (to, outer)] {
+                let mut place = load.fixed_rows_mut::<6>(6 * (first + i));
+                place += body.blocks()[first + i].load(along * r, Vec2::new(-share, 0.0));
+            }
+        }
+    }
+    load
+}
+
+/// Exact equivalent stress at a subblock's centre, Pa.
+fn tresca_at(exact: &Exact, subblock: &SubblockStress) -> f64 {
+    let centre = subblock.centre;
+    let stress = exact.stress(centre.norm(), centre.y.atan2(centre.x));
+    SubblockStress { stress, ..*subblock }.tresca()
 }

@@ -1,25 +1,35 @@
 //! From an arch to a chain of blocks: the only door between masonry and mechanics.
 
-use super::{Analysis, PlaneModel};
-use crate::arch::{Abutment, Joint, JointLaw, PointForce};
-use crate::dda::{Block, Chain, ChainBuilder, Elasticity, Law, V6};
+use super::grid::{Grid, Lines};
+use super::{Analysis, PlaneModel, Seams};
+use crate::arch::{Abutment, Joint, JointLaw, PointForce, Stone};
+use crate::dda::{Bond, Chain, ChainBuilder, Elasticity, Law, Loads, Loose, MeanMotion, Push, Touch};
 use crate::geometry::{Region, Vec2};
 
 /// Relative scatter of the contact stiffnesses. Ties between contacts of a symmetric arch need something to break
 /// them; stiffness does not move a rigid limit load, and 1e-4 is far below what anyone knows of a joint.
 const STIFFNESS_SCATTER: f64 = 1e-4;
 
-/// A chain of blocks with the voussoirs' and joints' places in it.
+/// Stiffness of the link between a contact point and a stone, over that of the joint there. In series, contact and
+/// links (one towards the ground, two between stones) make up the joint's own.
+const LINK: f64 = 4.0;
+
+/// A chain of macroblocks with the voussoirs' and joints' places in it, and the loads on it.
 #[derive(Debug)]
 pub(super) struct Model {
     pub chain: Chain,
-    /// Block of voussoir 0 (1 where there is a left abutment).
+    /// Body of voussoir 0 (1 where there is a left abutment).
     pub first_voussoir: usize,
     pub voussoirs: usize,
+    /// The subblocks of every voussoir.
+    pub grids: Vec<Grid>,
     /// Extent, m.
     pub size: f64,
-    /// Contact stiffness, N/m2.
-    pub penalty: f64,
+    /// Least stiffness of a contact, N/m2.
+    pub softest: f64,
+    /// Loads that stay, and those that the load factor multiplies.
+    pub fixed: Loads,
+    pub scaled: Loads,
 }
 
 /// Numbers in (-1, 1) that look random and are always the same (SplitMix64).
@@ -40,48 +50,128 @@ impl Scatter {
     }
 }
 
-/// Cuts the arch into one block per voussoir and abutment, two contact points (the corners) per joint.
-pub(super) fn discretise(analysis: &Analysis, seed: u64) -> Model {
+/// Cuts the arch into one macroblock per voussoir, and one block per abutment.
+pub(super) fn discretise(analysis: &Analysis, seed: u64) -> Result<Model, Loose> {
     let arch = &analysis.arch;
-    let [left, right] = &arch.abutments;
-    let voussoirs = arch.voussoirs.iter().map(|v| v.region);
-    let regions: Vec<Region> =
-        left.iter().map(|a| a.region).chain(voussoirs).chain(right.iter().map(|a| a.region)).collect();
-    let base = |abutment: &Option<Abutment>| abutment.map(|a| Joint { law: JointLaw::Bonded, ..a.base });
-    let joints: Vec<Joint> = base(left).into_iter().chain(arch.joints.iter().copied()).chain(base(right)).collect();
-
-    let stone = &analysis.stone;
-    let elasticity = Elasticity {
-        youngs_modulus: stone.youngs_modulus,
-        poissons_ratio: stone.poissons_ratio,
-        plane_strain: analysis.plane == PlaneModel::Strain,
+    let elasticity = elasticity(&analysis.stone, analysis.plane);
+    let penalty = analysis.penalty_ratio * analysis.stone.youngs_modulus;
+    let grids = grids(analysis);
+    let [left, right] = arch.abutments;
+    let base = |abutment: Option<Abutment>| abutment.map(|a| Joint { law: JointLaw::Bonded, ..a.base });
+    let joints: Vec<Joint> =
+        base(left).into_iter().chain(arch.joints.iter().copied()).chain(base(right)).collect();
+    let stand = |abutment: Option<Abutment>, k: usize| {
+        abutment.map(|a| Grid::new([&joints[k], &joints[k + 1]], a.region, Lines::Straight, [1, 1]))
     };
-    let penalty = analysis.penalty_ratio * stone.youngs_modulus;
+    let last = joints.len() - 2;
+    let bodies: Vec<Grid> = stand(left, 0).into_iter().chain(grids.iter().copied()).chain(stand(right, last)).collect();
+    let bond = bond(analysis.mesh.seams, penalty);
     let mut scatter = Scatter::new(seed);
-    let mut builder = ChainBuilder::new(regions.iter().map(|&r| Block::new(r, elasticity)).collect());
-    for joint in &joints {
-        for corner in [joint.intrados, joint.extrados] {
-            let stiffness = [0, 1].map(|_| penalty * (1.0 + STIFFNESS_SCATTER * scatter.next()));
-            builder.contact(corner, joint.normal(), joint.tangent(), stiffness, law(joint));
+    let mut builder = ChainBuilder::new(bodies.iter().map(|g| g.macroblock(elasticity, bond)).collect());
+    let mut softest = f64::INFINITY;
+    for (k, joint) in joints.iter().enumerate() {
+        for touch in touches(joint, k.checked_sub(1).map(|k| &bodies[k]), bodies.get(k), penalty, &mut scatter) {
+            softest = softest.min(touch.stiffness[0]);
+            builder.contact(touch);
         }
         builder.next_interface();
     }
-    let size = extent(arch.joints.iter().flat_map(|j| [j.intrados, j.extrados]));
-    Model {
-        chain: builder.finish(),
-        first_voussoir: usize::from(left.is_some()),
+    let chain = builder.finish()?;
+    let first_voussoir = usize::from(left.is_some());
+    let loads = |forces: &[PointForce]| chain.loads(forces.iter().flat_map(|f| pushes(f, first_voussoir, &grids)));
+    Ok(Model {
+        fixed: loads(&analysis.fixed),
+        scaled: loads(&analysis.scaled),
+        first_voussoir,
         voussoirs: arch.voussoirs.len(),
-        size,
-        penalty,
+        size: extent(arch.joints.iter().flat_map(|j| [j.intrados, j.extrados])),
+        softest,
+        chain,
+        grids,
+    })
+}
+
+/// Material of the stones.
+pub(super) fn elasticity(stone: &Stone, plane: PlaneModel) -> Elasticity {
+    Elasticity {
+        youngs_modulus: stone.youngs_modulus,
+        poissons_ratio: stone.poissons_ratio,
+        plane_strain: plane == PlaneModel::Strain,
     }
 }
 
-fn law(joint: &Joint) -> Law {
+/// What holds subblocks together, for a contact penalty in N/m2.
+pub(super) fn bond(seams: Seams, penalty: f64) -> Bond {
+    match seams {
+        Seams::Split => Bond::Split,
+        Seams::Corners => Bond::Corners(penalty),
+    }
+}
+
+fn grids(analysis: &Analysis) -> Vec<Grid> {
+    let arch = &analysis.arch;
+    let grid = |(k, &subblocks): (usize, &[usize; 2])| {
+        let stone = &arch.voussoirs[k];
+        Grid::new([&arch.joints[k], &arch.joints[k + 1]], stone.region, stone.sides.into(), subblocks)
+    };
+    analysis.mesh.subblocks.iter().enumerate().map(grid).collect()
+}
+
+/// Contact points of a joint between two bodies (none: the ground): its ends, and where subblocks of the finer of the
+/// two meet, each with the share of the joint that is nearest to it.
+fn touches<'a>(
+    joint: &'a Joint,
+    before: Option<&'a Grid>,
+    after: Option<&'a Grid>,
+    penalty: f64,
+    scatter: &'a mut Scatter,
+) -> impl Iterator<Item = Touch> + 'a {
+    let links = before.into_iter().chain(after).count() as f64;
+    let contact = 1.0 / (1.0 - links / LINK);
+    let parts = before.into_iter().chain(after).map(|g| g.radial).max().unwrap_or(1);
+    (0..=parts).map(move |j| {
+        let eta = j as f64 / parts as f64;
+        let share = if j == 0 || j == parts { 0.5 } else { 1.0 } / parts as f64;
+        // Two corners alone have the penalty each.
+        let stiffness = 2.0 * penalty * share;
+        let nobody = [(0, 0.0); 2];
+        Touch {
+            at: joint.intrados + (joint.extrados - joint.intrados) * eta,
+            normal: joint.normal(),
+            tangent: joint.tangent(),
+            stiffness: [0, 1].map(|_| contact * stiffness * (1.0 + STIFFNESS_SCATTER * scatter.next())),
+            link: [LINK * stiffness; 2],
+            law: law(joint, share),
+            before: before.map_or(nobody, |g| g.on_joint(true, eta)),
+            after: after.map_or(nobody, |g| g.on_joint(false, eta)),
+        }
+    })
+}
+
+/// Law of a contact point that has this share of the joint.
+fn law(joint: &Joint, share: f64) -> Law {
     match joint.law {
         JointLaw::Bonded => Law::Bonded,
-        // Each of the two corners carries half of the joint's cohesion.
-        JointLaw::Dry { friction, cohesion } => Law::Coulomb { friction, cohesion: 0.5 * cohesion * joint.length() },
+        JointLaw::Dry { friction, cohesion } => Law::Coulomb { friction, cohesion: share * cohesion * joint.length() },
     }
+}
+
+/// A force on a voussoir as forces on its subblocks.
+fn pushes(force: &PointForce, first_voussoir: usize, grids: &[Grid]) -> Vec<Push> {
+    let (grid, body) = (&grids[force.voussoir], first_voussoir + force.voussoir);
+    if force.spread {
+        let regions: Vec<_> = grid.cells().map(|(i, j)| grid.region(i, j)).collect();
+        let area: f64 = regions.iter().map(|r| r.area).sum();
+        let push = |(subblock, region): (usize, &Region)| Push {
+            body,
+            subblock,
+            at: region.centroid,
+            force: force.force * (region.area / area),
+        };
+        return regions.iter().enumerate().map(push).collect();
+    }
+    let push = |(subblock, share)| Push { body, subblock, at: force.at, force: force.force * share };
+    grid.at(force.at).map(push).collect()
 }
 
 fn extent(points: impl Iterator<Item = Vec2>) -> f64 {
@@ -92,27 +182,34 @@ fn extent(points: impl Iterator<Item = Vec2>) -> f64 {
 }
 
 impl Model {
-    /// Generalised loads of forces on voussoirs.
-    pub(super) fn loads(&self, forces: &[PointForce]) -> Vec<V6> {
-        let mut loads = vec![V6::zeros(); self.chain.blocks().len()];
-        for f in forces {
-            let block = self.first_voussoir + f.voussoir;
-            loads[block] += self.chain.blocks()[block].load(f.at, f.force);
-        }
-        loads
+    /// All loads at a load factor.
+    pub(super) fn loads_at(&self, load_factor: f64) -> Loads {
+        self.fixed.plus(&self.scaled, load_factor)
     }
 
-    /// Contacts (intrados, extrados) of joint `k`.
-    pub(super) fn corners(&self, joint: usize) -> [usize; 2] {
-        let range = self.chain.at_interface(self.first_voussoir + joint);
-        [range.start, range.start + 1]
+    /// Mean motion of a voussoir.
+    pub(super) fn motion(&self, voussoir: usize, load_factor: f64, displacements: &[f64]) -> MeanMotion {
+        let loads = [(&self.fixed, 1.0), (&self.scaled, load_factor)];
+        self.chain.mean_motion(self.first_voussoir + voussoir, displacements, &loads)
     }
 
-    /// Normal gap of contact `p` at the displacements `d`, m.
-    pub(super) fn gap(&self, p: usize, d: &[V6]) -> f64 {
-        let interface = self.chain.interface_of(p);
-        let still = V6::zeros();
-        let before = interface.checked_sub(1).map_or(&still, |i| &d[i]);
-        self.chain.contacts()[p].gaps(before, d.get(interface).unwrap_or(&still))[0]
+    /// Mean stress in a voussoir, Pa.
+    pub(super) fn mean_stress(&self, voussoir: usize, displacements: &[f64], loads: &Loads) -> [f64; 3] {
+        let stresses = self.chain.stresses(self.first_voussoir + voussoir, displacements, loads);
+        let grid = &self.grids[voussoir];
+        let areas: Vec<f64> = grid.cells().map(|(i, j)| grid.region(i, j).area).collect();
+        let total: f64 = areas.iter().sum();
+        [0, 1, 2].map(|c| stresses.iter().zip(&areas).map(|(s, a)| s[c] * a / total).sum())
+    }
+
+    /// Contacts of joint `k`, from intrados to extrados.
+    pub(super) fn contacts(&self, joint: usize) -> std::ops::Range<usize> {
+        self.chain.at_interface(self.first_voussoir + joint)
+    }
+
+    /// Place of contact `p` on joint `k`: 0 at the intrados, 1 at the extrados.
+    pub(super) fn position(&self, joint: usize, p: usize) -> f64 {
+        let contacts = self.contacts(joint);
+        (p - contacts.start) as f64 / (contacts.len() - 1) as f64
     }
 }

@@ -6,7 +6,7 @@ use super::motion::motion_at;
 use super::path::Fall;
 use super::{Analysis, PathEnd, Thrust};
 use crate::arch::{Arch, PointForce};
-use crate::dda::{Peak, State, Tracer, V6, Zone};
+use crate::dda::{Peak, State, Tracer, Zone};
 use crate::limit::{Condition, Resultant, StaticTheorem};
 
 /// Polishing undoes a disturbance of about 1e-9 of the loads; a larger change means that other conditions were solved.
@@ -73,7 +73,7 @@ pub(super) fn at_fall(analysis: &Analysis, model: &Model, tracer: &Tracer, start
 pub(super) fn at_criterion(
     analysis: &Analysis,
     model: &Model,
-    displacements: &[V6],
+    displacements: &[f64],
     load_factor: f64,
     residual: f64,
 ) -> PathEnd {
@@ -82,12 +82,11 @@ pub(super) fn at_criterion(
     PathEnd { load_factor, residual, mechanism, thrust_line }
 }
 
-fn from_direction(model: &Model, arch: &Arch, direction: &[V6]) -> super::Mechanism {
+fn from_direction(model: &Model, arch: &Arch, direction: &[f64]) -> super::Mechanism {
     let motions: Vec<_> = (0..model.voussoirs)
         .map(|v| {
-            let (velocity, spin) =
-                model.chain.blocks()[model.first_voussoir + v].motion(&direction[model.first_voussoir + v]);
-            motion_at(arch.voussoirs[v].region.centroid, velocity, spin)
+            let motion = model.chain.mean_motion(model.first_voussoir + v, direction, &[]);
+            motion_at(arch.voussoirs[v].region.centroid, motion.displacement, motion.rotation)
         })
         .collect();
     mechanism::from_velocities(arch, &motions)
@@ -97,9 +96,10 @@ fn from_direction(model: &Model, arch: &Arch, direction: &[V6]) -> super::Mechan
 fn conditions(model: &Model, arch: &Arch, peak: &Peak) -> Vec<Condition> {
     let mut conditions = Vec::new();
     for joint in 0..arch.joints.len() {
-        let corners = model.corners(joint).map(|p| peak.states[p]);
-        for (face, state) in corners.iter().enumerate() {
-            if matches!(state, State::Open | State::Stick(Zone::Adhering) | State::Slip { zone: Zone::Adhering, .. }) {
+        let contacts = model.contacts(joint);
+        // With force at one end alone there is none at the other.
+        for (face, but) in [(0, contacts.end - 1), (1, contacts.start)] {
+            if contacts.clone().all(|p| p == but || !is_pressed(peak.states[p])) {
                 let mut weights = [0.0; 3];
                 weights[face] = 1.0;
                 conditions.push(Condition { joint, weights, constant: 0.0 });
@@ -112,20 +112,28 @@ fn conditions(model: &Model, arch: &Arch, peak: &Peak) -> Vec<Condition> {
     conditions
 }
 
-/// T - sum of the capacities of the corners, where all that can carry shear slide the same way. Corners that only
+/// True where a contact point may carry a normal force.
+fn is_pressed(state: State) -> bool {
+    !matches!(state, State::Open | State::Stick(Zone::Adhering) | State::Slip { zone: Zone::Adhering, .. })
+}
+
+/// T - sum of the capacities of the contact points, where all that can carry shear slide the same way. Points that only
 /// adhere carry what their gap leaves them.
 fn shear_condition(model: &Model, joint: usize, peak: &Peak) -> Option<([f64; 3], f64)> {
     let (mut weights, mut constant, mut way) = ([0.0, 0.0, 1.0], 0.0, 0.0);
-    for (face, p) in model.corners(joint).into_iter().enumerate() {
+    for p in model.contacts(joint) {
         let contact = &model.chain.contacts()[p];
         match peak.states[p] {
             State::Open => {}
             State::Slip { sign, zone } if way == 0.0 || way == sign => {
                 way = sign;
                 match zone {
-                    Zone::Adhering => constant -= sign * contact.capacity(zone, model.gap(p, &peak.displacements)),
+                    Zone::Adhering => {
+                        constant -= sign * contact.capacity(zone, model.chain.gap(p, &peak.displacements)[0]);
+                    }
                     Zone::Pressed => {
-                        weights[face] = -sign * contact.slope(zone) / contact.stiffness[0];
+                        let friction = contact.slope(zone) / contact.stiffness[0];
+                        weights = [-sign * friction, -sign * friction, 1.0];
                         constant -= sign * contact.capacity(zone, 0.0);
                     }
                 }
@@ -136,17 +144,17 @@ fn shear_condition(model: &Model, joint: usize, peak: &Peak) -> Option<([f64; 3]
     Some((weights, constant))
 }
 
-/// Sign of the shear of a joint all of whose pressed corners slide one way; None for any other joint.
+/// Sign of the shear of a joint all of whose pressed points slide one way; None for any other joint.
 fn sliding_shear(model: &Model, joint: usize, peak: &Peak) -> Option<f64> {
     shear_condition(model, joint, peak)?;
-    model.corners(joint).into_iter().find_map(|p| match peak.states[p] {
+    model.contacts(joint).find_map(|p| match peak.states[p] {
         State::Slip { sign, .. } if !model.chain.contacts()[p].frictionless() => Some(sign),
         _ => None,
     })
 }
 
 /// Joint forces that the contact points carry.
-fn carried(model: &Model, displacements: &[V6]) -> Vec<Resultant> {
+fn carried(model: &Model, displacements: &[f64]) -> Vec<Resultant> {
     let forces = model.chain.contact_forces(displacements);
     resultants(model, |p| [forces[p].normal, forces[p].tangential])
 }
@@ -154,8 +162,14 @@ fn carried(model: &Model, displacements: &[V6]) -> Vec<Resultant> {
 /// Joint forces from the normal and tangential force of every contact.
 fn resultants(model: &Model, force: impl Fn(usize) -> [f64; 2]) -> Vec<Resultant> {
     let joint = |joint: usize| {
-        let [i, e] = model.corners(joint).map(&force);
-        Resultant { intrados: i[0], extrados: e[0], shear: i[1] + e[1] }
+        let mut sum = Resultant { intrados: 0.0, extrados: 0.0, shear: 0.0 };
+        for p in model.contacts(joint) {
+            let ([normal, shear], share) = (force(p), model.position(joint, p));
+            sum.intrados += normal * (1.0 - share);
+            sum.extrados += normal * share;
+            sum.shear += shear;
+        }
+        sum
     };
     (0..=model.voussoirs).map(joint).collect()
 }

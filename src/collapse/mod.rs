@@ -5,6 +5,7 @@ mod certificate;
 mod digits;
 mod discretise;
 mod ending;
+mod grid;
 mod mechanism;
 mod motion;
 mod path;
@@ -232,6 +233,9 @@ pub enum AnalysisError {
         /// Most steps of one path.
         most: usize,
     },
+    /// Some stone is held by nothing.
+    #[error("{0}; the stones cannot be told apart from loose ones")]
+    Loose(#[from] crate::dda::Loose),
     /// A number in the report is not finite.
     #[error("the analysis produced a number that is not finite ({what}); check the units of the request")]
     NotFinite {

@@ -3,30 +3,15 @@
 use super::discretise::{Model, Scatter};
 use super::record::Recorder;
 use crate::arch::PointForce;
-use crate::dda::{Drive, End, Peak, Tracer, V6, covering};
+use crate::dda::{Drive, End, Peak, Tracer, covering};
 use std::ops::ControlFlow;
-
-/// Loads of a path: `base + parameter * rate`, per block.
-#[derive(Debug, Clone)]
-pub(super) struct Loads {
-    pub fixed: Vec<V6>,
-    pub scaled: Vec<V6>,
-}
-
-impl Loads {
-    fn at(&self, load_factor: f64) -> Vec<V6> {
-        self.fixed.iter().zip(&self.scaled).map(|(f, s)| f + s * load_factor).collect()
-    }
-}
 
 /// Scaled loads whose resultants on every stone are below this share of their sizes cancel.
 const CANCELS: f64 = 1e-12;
 
-impl Loads {
-    /// True where nothing on any stone grows with the load factor; `size` is the sum of the scaled forces' sizes.
-    pub(super) fn nothing_grows(&self, size: f64) -> bool {
-        largest(&self.scaled) <= CANCELS * size
-    }
+/// True where nothing on any stone grows with the load factor; `size` is the sum of the scaled forces' sizes, N/m.
+pub(super) fn nothing_grows(model: &Model, size: f64) -> bool {
+    largest(&model.scaled.on_nodes) <= CANCELS * size
 }
 
 /// Tie-breaking disturbance of one attempt.
@@ -34,7 +19,7 @@ impl Loads {
 pub(super) struct Attempt {
     /// Seed of stiffness scatter and load disturbance.
     pub seed: u64,
-    /// Load disturbance as a share of the largest block load.
+    /// Load disturbance as a share of the largest load on a node.
     pub disturbance: f64,
 }
 
@@ -52,35 +37,34 @@ pub(super) fn total(loads: &[PointForce]) -> f64 {
     loads.iter().map(|l| l.force.norm()).sum()
 }
 
-/// Largest entry of any block's load, N/m.
-fn largest(loads: &[V6]) -> f64 {
-    loads.iter().map(|l| l.amax()).fold(0.0, f64::max)
+/// Largest load on any node, N/m.
+fn largest(loads: &[f64]) -> f64 {
+    loads.iter().map(|l| l.abs()).fold(0.0, f64::max)
 }
 
-/// Adds the disturbance to the fixed loads: forces and moments of every block.
-pub(super) fn disturb(loads: &Loads, start: f64, attempt: Attempt) -> Loads {
+/// Fixed loads on the nodes, disturbed.
+pub(super) fn disturbed(model: &Model, start: f64, attempt: Attempt) -> Vec<f64> {
     let mut scatter = Scatter::new(attempt.seed ^ 0xA5A5);
-    let scale = attempt.disturbance * largest(&loads.at(start));
-    let mut disturbed = loads.clone();
-    for load in &mut disturbed.fixed {
-        for entry in load.iter_mut().take(3) {
-            *entry += scale * scatter.next();
-        }
-    }
-    disturbed
+    let scale = attempt.disturbance * largest(&at(model, &model.fixed.on_nodes, start));
+    model.fixed.on_nodes.iter().map(|load| load + scale * scatter.next()).collect()
+}
+
+/// Loads on the nodes at a load factor.
+fn at(model: &Model, fixed: &[f64], load_factor: f64) -> Vec<f64> {
+    fixed.iter().zip(&model.scaled.on_nodes).map(|(f, s)| f + s * load_factor).collect()
 }
 
 /// Brings the chain from its unstressed start to the loads at load factor `start`.
 pub(super) fn stand<'a>(
     model: &'a Model,
-    loads: &Loads,
+    fixed: &[f64],
     start: f64,
     load_scale: f64,
     see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>,
 ) -> (Tracer<'a>, End) {
-    let target = loads.at(start);
+    let target = at(model, fixed, start);
     // Deep enough that nothing has opened yet when the true loads begin to act.
-    let preload = target.len() as f64 * largest(&target) / model.penalty;
+    let preload = target.len() as f64 * largest(&target) / model.softest;
     let mut tracer = Tracer::new(&model.chain, covering(&model.chain, &target, preload), model.size, load_scale);
     let end = tracer.trace(1.0, see);
     (tracer, end)
@@ -90,7 +74,7 @@ pub(super) fn stand<'a>(
 #[derive(Debug, Clone)]
 pub(super) struct Fall {
     /// Direction of its end, in which the chain moves on without resistance.
-    pub direction: Vec<V6>,
+    pub direction: Vec<f64>,
     /// True where it has run back past its start, and so ends in a mechanism of the other direction of loading.
     pub turned_back: bool,
 }
@@ -115,15 +99,16 @@ pub(super) enum Leg {
 /// Follows the load factor from `start` up (`sign` = 1) or down (-1) to collapse or to the cap.
 pub(super) fn follow(
     tracer: &mut Tracer,
-    loads: &Loads,
+    model: &Model,
+    fixed: &[f64],
     start: f64,
     sign: f64,
     cap: f64,
     recorder: &mut Recorder,
     see: &mut dyn FnMut(&Tracer, f64) -> ControlFlow<()>,
 ) -> Leg {
-    let rate = loads.scaled.iter().map(|s| s * sign).collect();
-    tracer.drive_on(Drive { base: loads.fixed.clone(), rate, offset: [0.0, 0.0] }, sign * start);
+    let rate = model.scaled.on_nodes.iter().map(|s| s * sign).collect();
+    tracer.drive_on(Drive { base: fixed.to_vec(), rate, offset: [0.0, 0.0] }, sign * start);
     let mut met = None;
     let end = tracer.trace(cap, &mut |tracer| {
         met = recorder.see(sign * tracer.parameter(), tracer.displacements());

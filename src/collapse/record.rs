@@ -1,9 +1,9 @@
 //! What is kept of a path: its history, the arch at load factor 1 and just before collapse.
 
 use super::discretise::Model;
-use super::{BlockState, ContactForce, Face, HistoryPoint, Method, Snapshot};
-use crate::dda::V6;
-use crate::geometry::Vec2;
+use super::grid::Grid;
+use super::{BlockState, ContactForce, HistoryPoint, Method, Snapshot, StressField};
+use crate::dda::MeanMotion;
 use std::collections::VecDeque;
 use std::rc::Rc;
 
@@ -11,7 +11,7 @@ use std::rc::Rc;
 pub(super) const MOST_STEPS: usize = 10_000;
 
 /// A point of the path.
-type Point = (f64, Vec<V6>);
+type Point = (f64, Vec<f64>);
 
 /// Keeps what will be asked of a path while it is traced.
 #[derive(Debug)]
@@ -32,7 +32,7 @@ pub(super) struct Recorder<'a> {
     /// Load-displacement history.
     pub history: Vec<HistoryPoint>,
     /// Displacements at load factor 1, once passed.
-    pub at_one: Option<Vec<V6>>,
+    pub at_one: Option<Vec<f64>>,
 }
 
 impl<'a> Recorder<'a> {
@@ -61,7 +61,7 @@ impl<'a> Recorder<'a> {
     }
 
     /// Takes in the next point; returns a load factor when the fixed-steps criterion says collapse.
-    pub(super) fn see(&mut self, load_factor: f64, displacements: &[V6]) -> Option<f64> {
+    pub(super) fn see(&mut self, load_factor: f64, displacements: &[f64]) -> Option<f64> {
         let now = Rc::new((load_factor, displacements.to_vec()));
         let before = self.last.take();
         if let Some(before) = &before {
@@ -87,7 +87,7 @@ impl<'a> Recorder<'a> {
     }
 
     /// The displacements seen last: those at which the fixed-steps criterion was met, where it was.
-    pub(super) fn displacements(&self) -> &[V6] {
+    pub(super) fn displacements(&self) -> &[f64] {
         self.last.as_ref().map_or(&[], |point| &point.1)
     }
 
@@ -119,12 +119,8 @@ impl<'a> Recorder<'a> {
         Some((wanted, displacements))
     }
 
-    fn history_point(&self, load_factor: f64, displacements: &[V6]) -> HistoryPoint {
-        let first = self.model.first_voussoir;
-        let of = |voussoir: usize| {
-            let block = first + voussoir;
-            self.model.chain.blocks()[block].motion(&displacements[block]).0
-        };
+    fn history_point(&self, load_factor: f64, displacements: &[f64]) -> HistoryPoint {
+        let of = |voussoir: usize| self.model.motion(voussoir, load_factor, displacements).displacement;
         let crown = 0.5 * (of(self.crown[0]) + of(self.crown[1]));
         let largest = (0..self.model.voussoirs).map(|v| of(v).norm_squared()).fold(0.0, f64::max).sqrt();
         HistoryPoint { load_factor, crown, largest }
@@ -143,7 +139,7 @@ impl<'a> Recorder<'a> {
             let displacements = interpolate(before, now, at);
             self.model.chain.gaps(&displacements, &mut gaps);
             let open =
-                (0..=self.model.voussoirs).filter(|&k| self.model.corners(k).iter().any(|&p| gaps[p][0] > opening));
+                (0..=self.model.voussoirs).filter(|&k| self.model.contacts(k).any(|p| gaps[p][0] > opening));
             if open.count() >= hinges {
                 return Some((at, displacements));
             }
@@ -151,35 +147,40 @@ impl<'a> Recorder<'a> {
     }
 }
 
-fn interpolate(a: &Point, b: &Point, load_factor: f64) -> Vec<V6> {
+fn interpolate(a: &Point, b: &Point, load_factor: f64) -> Vec<f64> {
     let t = (load_factor - a.0) / (b.0 - a.0);
     let t = if t.is_finite() { t.clamp(0.0, 1.0) } else { 1.0 };
     a.1.iter().zip(&b.1).map(|(x, y)| x + (y - x) * t).collect()
 }
 
 /// The arch at one point of the path.
-pub(super) fn snapshot(model: &Model, load_factor: f64, displacements: &[V6]) -> Snapshot {
+pub(super) fn snapshot(model: &Model, load_factor: f64, displacements: &[f64]) -> Snapshot {
+    let loads = model.loads_at(load_factor);
     let blocks = (0..model.voussoirs)
         .map(|v| {
-            let (block, d) =
-                (&model.chain.blocks()[model.first_voussoir + v], &displacements[model.first_voussoir + v]);
-            let (displacement, rotation) = block.motion(d);
-            BlockState { displacement: Vec2::new(displacement.x, displacement.y), rotation, stress: block.stress(d) }
+            let MeanMotion { displacement, rotation } = model.motion(v, load_factor, displacements);
+            BlockState { displacement, rotation, stress: model.mean_stress(v, displacements, &loads) }
         })
         .collect();
     let forces = model.chain.contact_forces(displacements);
-    let contacts = (0..=model.voussoirs)
-        .flat_map(|joint| {
-            let faces = [Face::Intrados, Face::Extrados];
-            model.corners(joint).into_iter().zip(faces).map(move |(p, face)| (joint, face, p))
-        })
-        .map(|(joint, face, p)| ContactForce {
-            joint,
-            face,
-            normal: forces[p].normal,
-            tangential: forces[p].tangential,
-            gap: forces[p].gap,
-        })
-        .collect();
-    Snapshot { load_factor, blocks, contacts }
+    let contact = |joint: usize, p: usize| ContactForce {
+        joint,
+        position: model.position(joint, p),
+        normal: forces[p].normal,
+        tangential: forces[p].tangential,
+        gap: forces[p].gap,
+    };
+    let contacts =
+        (0..=model.voussoirs).flat_map(|joint| model.contacts(joint).map(move |p| (joint, p))).map(|(j, p)| contact(j, p));
+    Snapshot { load_factor, blocks, contacts: contacts.collect() }
+}
+
+/// Stress in every subblock at one point of the path.
+pub(super) fn stress_field(model: &Model, load_factor: f64, displacements: &[f64]) -> StressField {
+    let loads = model.loads_at(load_factor);
+    let stone = |(voussoir, grid): (usize, &Grid)| {
+        let stresses = model.chain.stresses(model.first_voussoir + voussoir, displacements, &loads);
+        grid.field(voussoir, &stresses)
+    };
+    StressField { load_factor, subblocks: model.grids.iter().enumerate().flat_map(stone).collect() }
 }

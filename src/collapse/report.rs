@@ -78,8 +78,8 @@ pub struct Thrust {
 pub struct ContactForce {
     /// Joint number.
     pub joint: usize,
-    /// Which end of the joint.
-    pub face: Face,
+    /// Place on the joint: 0 at the intrados, 1 at the extrados.
+    pub position: f64,
     /// Normal force, compression positive, N/m.
     pub normal: f64,
     /// Tangential force on the stone after the joint, towards the extrados positive, N/m.

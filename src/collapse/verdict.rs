@@ -2,7 +2,7 @@
 
 use super::certificate::{Certificate, Doubt, LATER_MECHANISM, any_fixed, loaded};
 use super::discretise::{Model, discretise};
-use super::path::{ATTEMPTS, Attempt, Leg, Loads, disturb, follow, stand, total};
+use super::path::{ATTEMPTS, Attempt, Leg, disturbed, follow, nothing_grows, stand, total};
 use super::record::{MOST_STEPS, Recorder, snapshot};
 use super::{
     Analysis, AnalysisError, CollapseReport, Cost, Direction, LimitWindow, LoadStep, Method, Outcome, PathEnd,
@@ -88,16 +88,15 @@ impl<'a> Question<'a> {
 
     fn attempt(&self, attempt: Attempt, watch: &mut dyn Watch) -> Result<Attempted, AnalysisError> {
         let analysis = self.analysis;
-        let model = discretise(analysis, attempt.seed);
-        let exact = Loads { fixed: model.loads(&analysis.fixed), scaled: model.loads(&analysis.scaled) };
-        let loads = disturb(&exact, self.start, attempt);
+        let model = discretise(analysis, attempt.seed)?;
+        let fixed = disturbed(&model, self.start, attempt);
         let mut progress = |tracer: &Tracer, load_factor: f64| {
             self.reached.set(load_factor);
             watch.on_step(&LoadStep { load_factor, events: tracer.events() }).map_break(|_| ())
         };
         let mut report = self.blank(&model);
         let (mut tracer, end) =
-            stand(&model, &loads, self.start, self.weight, &mut |t| progress(t, self.start * t.parameter()));
+            stand(&model, &fixed, self.start, self.weight, &mut |t| progress(t, self.start * t.parameter()));
         report.cost.add(&tracer, Cost::default());
         match end {
             End::Stopped => return Err(self.stopped(&tracer)),
@@ -107,17 +106,17 @@ impl<'a> Question<'a> {
             End::Rising | End::Lost => return Ok(Attempted { report, doubt: Some(Doubt::NotLoaded) }),
         }
         report.at_start = Some(snapshot(&model, self.start, tracer.displacements()));
-        if exact.nothing_grows(total(&analysis.scaled)) {
+        if nothing_grows(&model, total(&analysis.scaled)) {
             report.outcome = Outcome::NeverCollapses;
             report.notes.push("Nothing grows with the load factor: the answer says only that the arch stands.".into());
             return Ok(Attempted { report, doubt: None });
         }
         let mut back = tracer.clone();
-        let mut doubt = self.leg(&mut report, &model, &mut tracer, &loads, self.sign, &mut progress)?;
+        let mut doubt = self.leg(&mut report, &model, &mut tracer, &fixed, self.sign, &mut progress)?;
         if !self.certificate.stands_at(0.0) {
             report.outcome = Outcome::StandsInWindow;
             let mut other = self.blank(&model);
-            doubt = doubt.or(self.leg(&mut other, &model, &mut back, &loads, -self.sign, &mut progress)?);
+            doubt = doubt.or(self.leg(&mut other, &model, &mut back, &fixed, -self.sign, &mut progress)?);
             report.join_other_end(other);
         }
         Ok(Attempted { report, doubt })
@@ -129,7 +128,7 @@ impl<'a> Question<'a> {
         report: &mut CollapseReport,
         model: &Model,
         tracer: &mut Tracer,
-        loads: &Loads,
+        fixed: &[f64],
         sign: f64,
         progress: &mut Progress,
     ) -> Result<Option<Doubt>, AnalysisError> {
@@ -137,7 +136,7 @@ impl<'a> Question<'a> {
         let crown = mechanism::crown(&analysis.arch);
         let mut recorder = Recorder::new(model, analysis.method, analysis.share, [self.start, sign], crown);
         let before = Cost::of(tracer);
-        let leg = follow(tracer, loads, self.start, sign, self.cap, &mut recorder, progress);
+        let leg = follow(tracer, model, fixed, self.start, sign, self.cap, &mut recorder, progress);
         report.cost.add(tracer, before);
         report.at_unit_load = recorder.at_one.as_ref().map(|d| snapshot(model, 1.0, d));
         let residual = tracer.worst_residual();
@@ -233,7 +232,7 @@ impl<'a> Question<'a> {
             crushing: None,
             safety: None,
             history: Vec::new(),
-            cost: Cost { unknowns: 6 * model.chain.blocks().len(), ..Cost::default() },
+            cost: Cost { unknowns: model.chain.unknowns(), ..Cost::default() },
             notes: Vec::new(),
         }
     }

@@ -52,9 +52,36 @@ impl Block {
         Block { centroid: region.centroid, area: region.area, size: region.area.sqrt(), elasticity }
     }
 
+    /// Centre of area, m.
+    pub fn centroid(&self) -> Vec2 {
+        self.centroid
+    }
+
+    /// Area, m2.
+    pub fn area(&self) -> f64 {
+        self.area
+    }
+
+    /// Young's modulus, Pa.
+    pub fn youngs_modulus(&self) -> f64 {
+        self.elasticity.youngs_modulus
+    }
+
+    /// The same block with its centroid elsewhere.
+    pub(super) fn moved_to(self, centroid: Vec2) -> Self {
+        Block { centroid, ..self }
+    }
+
     /// Length h by which rotation and strains are multiplied, m.
     pub fn size(&self) -> f64 {
         self.size
+    }
+
+    /// True where another block is this one, up to `rounding` in lengths, m.
+    pub(super) fn same_as(&self, other: &Block, rounding: f64) -> bool {
+        (self.centroid - other.centroid).amax() <= rounding
+            && (self.area - other.area).abs() <= rounding * self.size
+            && self.elasticity == other.elasticity
     }
 
     /// Row r such that r . D is the displacement at `at` along the unit vector `along` (first order: U = T D).

@@ -1,62 +1,258 @@
-//! The chain: blocks in a row, joined at interfaces by contact points.
+//! The chain: bodies in a row, joined at interfaces by contact points.
 
-use super::block::{Block, M6, V6};
-use super::contact::{Contact, ContactForce, Law, State, Zone};
-use crate::geometry::Vec2;
+use super::block::V6;
+use super::condense::{Condensed, Loose, Node};
+use super::contact::{Contact, ContactForce, Law, State};
+use super::factor::Tridiagonal;
+use super::macroblock::Macroblock;
+use crate::geometry::{Vec2, cross, perpendicular};
+use nalgebra::{DMatrix, DVector};
 
-/// Blocks in a row. Interface `k` joins block `k - 1` to block `k`; beyond either end lies the rigid ground.
+/// A contact point as it is built.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Touch {
+    /// Its place, m.
+    pub at: Vec2,
+    /// Unit vector from the body before into the body after.
+    pub normal: Vec2,
+    /// Unit vector along which shear counts, perpendicular to the normal.
+    pub tangent: Vec2,
+    /// Stiffness [k_n, k_t] of the contact itself, N/m2.
+    pub stiffness: [f64; 2],
+    /// Stiffness of the links that tie it to the subblocks on either side, N/m2. The three are in series.
+    pub link: [f64; 2],
+    /// Its law.
+    pub law: Law,
+    /// The one or two subblocks it touches in the body before, with the share each takes.
+    pub before: [(usize, f64); 2],
+    /// The same in the body after.
+    pub after: [(usize, f64); 2],
+}
+
+/// A body of the chain: where its frame is, and which condensed macroblock it is a copy of.
 #[derive(Debug, Clone, PartialEq)]
+struct Body {
+    origin: Vec2,
+    x_axis: Vec2,
+    kind: usize,
+}
+
+/// A macroblock that one or more bodies are copies of, up to a rigid motion.
+#[derive(Debug, Clone)]
+struct Kind {
+    macroblock: Macroblock,
+    nodes: Vec<Node>,
+    condensed: Condensed,
+    /// Area-weighted mean displacement and rotation of the subblocks per unit of their unknowns, 3 x 6 n_subblocks.
+    mean: DMatrix<f64>,
+    /// The same per displacement of the nodes.
+    mean_of_nodes: DMatrix<f64>,
+}
+
+/// Loads on a chain.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Loads {
+    /// What they are worth on the nodes, N/m.
+    pub on_nodes: Vec<f64>,
+    /// Displacements of every body's subblocks with its nodes held, in the body's frame.
+    inner: Vec<DVector<f64>>,
+    /// Their mean over the body: displacement and rotation.
+    mean: Vec<[f64; 3]>,
+}
+
+/// A force on one subblock.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Push {
+    /// Which body.
+    pub body: usize,
+    /// Which of its subblocks.
+    pub subblock: usize,
+    /// Where, m.
+    pub at: Vec2,
+    /// Force, N/m.
+    pub force: Vec2,
+}
+
+/// Mean motion of a body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeanMotion {
+    /// Mean displacement, m: that of the centroid of a body of one subblock.
+    pub displacement: Vec2,
+    /// Mean rotation, counter-clockwise positive, rad.
+    pub rotation: f64,
+}
+
+/// Bodies in a row. Interface `k` joins body `k - 1` to body `k`; beyond either end lies the rigid ground.
+///
+/// Unknowns are the displacements of the contact points on every body, along each contact's normal and tangent: face
+/// `2 i` is that of body `i` to interface `i`, face `2 i + 1` that to interface `i + 1`.
+#[derive(Debug, Clone)]
 pub struct Chain {
-    blocks: Vec<Block>,
+    bodies: Vec<Body>,
+    kinds: Vec<Kind>,
     contacts: Vec<Contact>,
+    /// Stiffness of every contact's links.
+    links: Vec<[f64; 2]>,
     /// Contacts of interface k: `contacts[first[k]..first[k + 1]]`.
     first: Vec<usize>,
     /// Interface of every contact.
     interface: Vec<usize>,
+    /// Elastic stiffness between the faces.
+    elastic: Tridiagonal,
 }
 
 /// Builds a [`Chain`] interface by interface.
 #[derive(Debug)]
 pub struct ChainBuilder {
-    chain: Chain,
+    macroblocks: Vec<Macroblock>,
+    touches: Vec<Vec<Touch>>,
 }
 
 impl ChainBuilder {
-    /// A chain of these blocks with no contacts yet, the first interface (ground to block 0) open for contacts.
-    pub fn new(blocks: Vec<Block>) -> Self {
-        ChainBuilder { chain: Chain { blocks, contacts: Vec::new(), first: vec![0], interface: Vec::new() } }
+    /// A chain of these bodies with no contacts yet, the first interface (ground to body 0) open for contacts.
+    pub fn new(macroblocks: Vec<Macroblock>) -> Self {
+        ChainBuilder { macroblocks, touches: vec![Vec::new()] }
     }
 
-    /// Adds a contact point to the current interface. `normal` is the unit vector from the block before into the
-    /// block after; `tangent` is perpendicular to it; `stiffness` is [k_n, k_t] in N/m2.
-    pub fn contact(&mut self, at: Vec2, normal: Vec2, tangent: Vec2, stiffness: [f64; 2], law: Law) {
-        let interface = self.chain.first.len() - 1;
-        let rows = |along: Vec2| {
-            let before = interface.checked_sub(1).map(|i| -self.chain.blocks[i].displacement_row(at, along));
-            let after = self.chain.blocks.get(interface).map(|block| block.displacement_row(at, along));
-            [before.unwrap_or_else(V6::zeros), after.unwrap_or_else(V6::zeros)]
-        };
-        let contact = Contact::new(rows(normal), rows(tangent), stiffness, law);
-        self.chain.contacts.push(contact);
-        self.chain.interface.push(interface);
+    /// Adds a contact point to the current interface.
+    pub fn contact(&mut self, touch: Touch) {
+        if let Some(interface) = self.touches.last_mut() {
+            interface.push(touch);
+        }
     }
 
     /// Closes the current interface and goes on to the next.
     pub fn next_interface(&mut self) {
-        self.chain.first.push(self.chain.contacts.len());
+        self.touches.push(Vec::new());
     }
 
     /// The chain; interfaces not reached stay free.
-    pub fn finish(mut self) -> Chain {
-        self.chain.first.resize(self.chain.blocks.len() + 2, self.chain.contacts.len());
-        self.chain
+    ///
+    /// # Errors
+    /// When a body is not held by two contact points at least.
+    pub fn finish(mut self) -> Result<Chain, Loose> {
+        let n = self.macroblocks.len();
+        self.touches.resize(n + 1, Vec::new());
+        let mut kinds: Vec<Kind> = Vec::new();
+        let mut bodies = Vec::new();
+        for (i, macroblock) in self.macroblocks.iter().enumerate() {
+            let nodes = nodes(&self.touches[i], &self.touches[i + 1]);
+            let (origin, x_axis) = nodes.first().map(|n| (n.at, n.axes[0])).ok_or(Loose)?;
+            let (seen, nodes) = (macroblock.seen_from(origin, x_axis), seen_nodes(&nodes, origin, x_axis));
+            let rounding = 256.0 * f64::EPSILON * (origin.amax() + extent(&nodes));
+            let same = |kind: &Kind| alike(kind, &seen, &nodes, rounding);
+            let kind = match kinds.iter().rposition(same) {
+                Some(kind) => kind,
+                None => {
+                    kinds.push(Kind::new(seen, nodes)?);
+                    kinds.len() - 1
+                }
+            };
+            bodies.push(Body { origin, x_axis, kind });
+        }
+        let sizes: Vec<usize> = (0..2 * n).map(|face| 2 * self.touches[face.div_ceil(2)].len()).collect();
+        let elastic = elastic(&sizes, bodies.iter().map(|b| &kinds[b.kind].condensed));
+        let mut first = vec![0];
+        self.touches.iter().for_each(|t| first.push(first[first.len() - 1] + t.len()));
+        let interface = self.touches.iter().enumerate().flat_map(|(k, t)| vec![k; t.len()]).collect();
+        let touches = || self.touches.iter().flatten();
+        let contacts = touches().map(|t| Contact::new(t.stiffness, t.law)).collect();
+        Ok(Chain { bodies, kinds, contacts, links: touches().map(|t| t.link).collect(), first, interface, elastic })
+    }
+}
+
+impl Kind {
+    fn new(macroblock: Macroblock, nodes: Vec<Node>) -> Result<Self, Loose> {
+        let condensed = Condensed::new(&macroblock, &nodes)?;
+        let area: f64 = macroblock.blocks().iter().map(|b| b.area()).sum();
+        let mean = DMatrix::from_fn(3, 6 * macroblock.blocks().len(), |i, j| {
+            let block = &macroblock.blocks()[j / 6];
+            let weight = block.area() / area / if i == 2 { block.size() } else { 1.0 };
+            if j % 6 == i { weight } else { 0.0 }
+        });
+        let mean_of_nodes = &mean * condensed.response();
+        Ok(Kind { macroblock, nodes, condensed, mean, mean_of_nodes })
+    }
+}
+
+/// Nodes of a body between two interfaces, first those on the first.
+fn nodes(before: &[Touch], after: &[Touch]) -> Vec<Node> {
+    let node = |t: &Touch, holds| Node { at: t.at, axes: [t.normal, t.tangent], link: t.link, holds };
+    before.iter().map(|t| node(t, t.after)).chain(after.iter().map(|t| node(t, t.before))).collect()
+}
+
+fn seen_nodes(nodes: &[Node], origin: Vec2, x_axis: Vec2) -> Vec<Node> {
+    let turned = |v: Vec2| Vec2::new(v.dot(&x_axis), cross(x_axis, v));
+    nodes.iter().map(|n| Node { at: turned(n.at - origin), axes: n.axes.map(turned), ..*n }).collect()
+}
+
+fn extent(nodes: &[Node]) -> f64 {
+    nodes.iter().map(|n| n.at.amax()).fold(0.0, f64::max)
+}
+
+/// True where a body seen from its own frame is the same as `kind`, up to the rounding of its coordinates.
+fn alike(kind: &Kind, body: &Macroblock, nodes: &[Node], rounding: f64) -> bool {
+    let near = |a: Vec2, b: Vec2| (a - b).amax() <= rounding;
+    let parallel = |a: Vec2, b: Vec2, size: f64| (a - b).amax() * size <= rounding;
+    let size = extent(nodes);
+    let same_node = |(a, b): (&Node, &Node)| {
+        near(a.at, b.at)
+            && a.axes.iter().zip(b.axes).all(|(&a, b)| parallel(a, b, size))
+            && (a.link, a.holds) == (b.link, b.holds)
+    };
+    kind.nodes.len() == nodes.len()
+        && kind.nodes.iter().zip(nodes).all(same_node)
+        && kind.macroblock.same_as(body, rounding)
+}
+
+/// Elastic stiffness between the faces of all bodies.
+fn elastic<'c>(sizes: &[usize], bodies: impl Iterator<Item = &'c Condensed>) -> Tridiagonal {
+    let mut k = Tridiagonal::zeros(sizes);
+    for (i, condensed) in bodies.enumerate() {
+        let (s, left) = (condensed.stiffness(), sizes[2 * i]);
+        let all = left + sizes[2 * i + 1];
+        let copy = |panel: &mut [f64], rows: std::ops::Range<usize>, columns: std::ops::Range<usize>| {
+            let entries = rows.flat_map(|i| columns.clone().map(move |j| s[(i, j)]));
+            panel.iter_mut().zip(entries).for_each(|(entry, x)| *entry = x);
+        };
+        copy(k.diagonal.get_mut(2 * i), 0..left, 0..left);
+        copy(k.diagonal.get_mut(2 * i + 1), left..all, left..all);
+        copy(k.upper.get_mut(2 * i), 0..left, left..all);
+        copy(k.lower.get_mut(2 * i), left..all, 0..left);
+    }
+    k
+}
+
+impl Loads {
+    /// These loads and `factor` times the others.
+    pub fn plus(&self, other: &Loads, factor: f64) -> Loads {
+        Loads {
+            on_nodes: self.on_nodes.iter().zip(&other.on_nodes).map(|(a, b)| a + b * factor).collect(),
+            inner: self.inner.iter().zip(&other.inner).map(|(a, b)| a + b * factor).collect(),
+            mean: self.mean.iter().zip(&other.mean).map(|(a, b)| [0, 1, 2].map(|i| a[i] + b[i] * factor)).collect(),
+        }
     }
 }
 
 impl Chain {
-    /// The blocks.
-    pub fn blocks(&self) -> &[Block] {
-        &self.blocks
+    /// Number of bodies.
+    pub fn bodies(&self) -> usize {
+        self.bodies.len()
+    }
+
+    /// Number of distinct macroblocks that were condensed.
+    pub fn kinds(&self) -> usize {
+        self.kinds.len()
+    }
+
+    /// Number of displacement unknowns: six for every subblock.
+    pub fn unknowns(&self) -> usize {
+        self.bodies.iter().map(|b| 6 * self.kinds[b.kind].macroblock.blocks().len()).sum()
+    }
+
+    /// Elastic stiffness between the faces, N/m2.
+    pub fn elastic(&self) -> &Tridiagonal {
+        &self.elastic
     }
 
     /// All contact points, interface by interface.
@@ -76,56 +272,130 @@ impl Chain {
 
     /// Number of interfaces, the two ends included.
     pub fn interfaces(&self) -> usize {
-        self.blocks.len() + 1
+        self.bodies.len() + 1
     }
 
-    /// Normal and tangential gap of every contact for the displacements (or velocities) `d`, m.
-    pub fn gaps(&self, d: &[V6], into: &mut Vec<[f64; 2]>) {
-        into.resize(self.contacts.len(), [0.0; 2]);
-        for k in 0..self.interfaces() {
-            let (before, after) = beside(d, k);
-            let range = self.at_interface(k);
-            for (contact, gaps) in self.contacts[range.clone()].iter().zip(&mut into[range]) {
-                *gaps = contact.gaps(&before, &after);
+    /// Faces before and after interface `k`; none where the ground is.
+    pub fn faces(&self, k: usize) -> [Option<usize>; 2] {
+        [(2 * k).checked_sub(1), Some(2 * k).filter(|_| k < self.bodies.len())]
+    }
+
+    /// Places of contact `p`'s normal unknown on the body before and on the body after; the tangential one follows.
+    fn places(&self, p: usize) -> [Option<usize>; 2] {
+        let k = self.interface[p];
+        self.faces(k).map(|face| face.map(|face| self.elastic.start[face] + 2 * (p - self.first[k])))
+    }
+
+    /// Normal and tangential gap of contact `p` at the displacements (or velocities) `d`, its links' strain left out, m.
+    pub fn gap(&self, p: usize, d: &[f64]) -> [f64; 2] {
+        let of = |place: Option<usize>| place.map_or([0.0; 2], |i| [d[i], d[i + 1]]);
+        let [before, after] = self.places(p).map(of);
+        [after[0] - before[0], after[1] - before[1]]
+    }
+
+    /// The gaps of all contacts.
+    pub fn gaps(&self, d: &[f64], into: &mut Vec<[f64; 2]>) {
+        into.clear();
+        into.extend((0..self.contacts.len()).map(|p| self.gap(p, d)));
+    }
+
+    /// Adds the forces that contact `p` puts on the bodies beside it.
+    pub(super) fn push(&self, p: usize, [normal, shear]: [f64; 2], forces: &mut [f64]) {
+        let [before, after] = self.places(p);
+        for (place, sign) in [(before, -1.0), (after, 1.0)] {
+            if let Some(i) = place {
+                forces[i] += sign * normal;
+                forces[i + 1] += sign * shear;
             }
         }
     }
 
-    /// Contact forces at displacements `d`.
-    pub fn contact_forces(&self, d: &[V6]) -> Vec<ContactForce> {
-        let mut gaps = Vec::new();
-        self.gaps(d, &mut gaps);
-        self.contacts.iter().zip(&gaps).map(|(c, [gap, slip])| c.force(*gap, *slip)).collect()
+    /// Contact forces at displacements `d`; the gap is that between the bodies, links and contact together.
+    pub fn contact_forces(&self, d: &[f64]) -> Vec<ContactForce> {
+        let force = |p: usize| {
+            let [gap, slip] = self.gap(p, d);
+            let force = self.contacts[p].force(gap, slip);
+            let ties = self.places(p).iter().flatten().count() as f64;
+            ContactForce { gap: gap - ties * force.normal / self.links[p][0], ..force }
+        };
+        (0..self.contacts.len()).map(force).collect()
     }
 
-    /// Tangent stiffness of the contacts of interface `k` between [before, after] x [before, after].
-    pub fn interface_stiffness(&self, k: usize, states: &[State]) -> [[M6; 2]; 2] {
-        let mut blocks = [[M6::zeros(); 2]; 2];
-        for p in self.at_interface(k) {
-            let c = &self.contacts[p];
-            let [k_n, k_t] = c.stiffness;
-            let pressed = |zone| if zone == Zone::Pressed { k_n } else { 0.0 };
-            // Stiffness against the normal and against the tangential gap, and shear per unit of normal gap.
-            let (against_gap, against_slip, coupling) = match states[p] {
-                State::Open => continue,
-                State::Bonded => (k_n, k_t, 0.0),
-                State::Stick(zone) => (pressed(zone), k_t, 0.0),
-                State::Slip { sign, zone } => (pressed(zone), 0.0, sign * c.slope(zone)),
-            };
-            let on_normal = [0, 1].map(|i| c.normal[i] * against_gap + c.tangent[i] * coupling);
-            let on_tangent = c.tangent.map(|g| g * against_slip);
-            for (i, row) in blocks.iter_mut().enumerate() {
-                for (j, block) in row.iter_mut().enumerate() {
-                    *block += on_normal[i] * c.normal[j].transpose() + on_tangent[i] * c.tangent[j].transpose();
-                }
-            }
+    /// Tangent stiffness of interface `k` in the given states, as one 2 x 2 block per contact.
+    pub(super) fn interface_stiffness<'s>(
+        &'s self,
+        k: usize,
+        states: &'s [State],
+    ) -> impl Iterator<Item = [f64; 4]> + 's {
+        self.at_interface(k).map(|p| self.contacts[p].tangent_stiffness(states[p]))
+    }
+
+    /// Condenses forces on subblocks onto the nodes.
+    pub fn loads(&self, pushes: impl IntoIterator<Item = Push>) -> Loads {
+        let zeros = |b: &Body| DVector::zeros(6 * self.kinds[b.kind].macroblock.blocks().len());
+        let mut on_blocks: Vec<DVector<f64>> = self.bodies.iter().map(zeros).collect();
+        for push in pushes {
+            let body = &self.bodies[push.body];
+            let block = &self.kinds[body.kind].macroblock.blocks()[push.subblock];
+            let load: V6 = block.load(body.turned(push.at - body.origin), body.turned(push.force));
+            let mut place = on_blocks[push.body].fixed_rows_mut::<6>(6 * push.subblock);
+            place += load;
         }
-        blocks
+        let mut loads = Loads { on_nodes: Vec::new(), inner: Vec::new(), mean: Vec::new() };
+        for (body, load) in self.bodies.iter().zip(&on_blocks) {
+            let kind = &self.kinds[body.kind];
+            let [inner, on_nodes] = kind.condensed.load(load);
+            loads.on_nodes.extend(on_nodes.iter());
+            let mean = &kind.mean * &inner;
+            loads.mean.push([mean[0], mean[1], mean[2]]);
+            loads.inner.push(inner);
+        }
+        loads
+    }
+
+    /// Displacements of the nodes of body `i`.
+    fn of_body<'d>(&self, i: usize, d: &'d [f64]) -> &'d [f64] {
+        &d[self.elastic.start[2 * i]..self.elastic.start[2 * i + 2]]
+    }
+
+    /// Mean motion of body `i` for node displacements (or velocities) `d` and what loads, each times its factor, add
+    /// between the nodes.
+    pub fn mean_motion(&self, i: usize, d: &[f64], loads: &[(&Loads, f64)]) -> MeanMotion {
+        let body = &self.bodies[i];
+        let of_nodes = &self.kinds[body.kind].mean_of_nodes;
+        let mut mean = [0.0; 3];
+        let mut add = |column: &[f64], x: f64| mean.iter_mut().zip(column).for_each(|(sum, share)| *sum += share * x);
+        of_nodes.column_iter().zip(self.of_body(i, d)).for_each(|(column, &x)| add(column.as_slice(), x));
+        loads.iter().for_each(|(loads, factor)| add(&loads.mean[i], *factor));
+        MeanMotion { displacement: body.turned_back(Vec2::new(mean[0], mean[1])), rotation: mean[2] }
+    }
+
+    /// Stress (sigma_x, sigma_y, tau_xy) in every subblock of body `i`, Pa.
+    pub fn stresses(&self, i: usize, d: &[f64], loads: &Loads) -> Vec<[f64; 3]> {
+        let body = &self.bodies[i];
+        let kind = &self.kinds[body.kind];
+        let response = kind.condensed.response() * DVector::from_column_slice(self.of_body(i, d));
+        let displacements = response + &loads.inner[i];
+        let stress = |(s, block): (usize, &super::Block)| {
+            body.stress_turned_back(block.stress(&displacements.fixed_rows::<6>(6 * s).into_owned()))
+        };
+        kind.macroblock.blocks().iter().enumerate().map(stress).collect()
     }
 }
 
-/// Displacements of the blocks before and after interface `k`; the ground's are zero.
-pub(super) fn beside(d: &[V6], k: usize) -> (V6, V6) {
-    let before = k.checked_sub(1).map_or_else(V6::zeros, |i| d[i]);
-    (before, d.get(k).copied().unwrap_or_else(V6::zeros))
+impl Body {
+    fn turned(&self, v: Vec2) -> Vec2 {
+        Vec2::new(v.dot(&self.x_axis), cross(self.x_axis, v))
+    }
+
+    fn turned_back(&self, v: Vec2) -> Vec2 {
+        self.x_axis * v.x + perpendicular(self.x_axis) * v.y
+    }
+
+    /// A state of stress in the frame of the chain.
+    fn stress_turned_back(&self, [x, y, tau]: [f64; 3]) -> [f64; 3] {
+        let (c, s) = (self.x_axis.x, self.x_axis.y);
+        let (cc, ss, cs) = (c * c, s * s, c * s);
+        [cc * x + ss * y - 2.0 * cs * tau, ss * x + cc * y + 2.0 * cs * tau, cs * (x - y) + (cc - ss) * tau]
+    }
 }

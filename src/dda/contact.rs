@@ -1,7 +1,5 @@
 //! The contact point: gap, Coulomb law with cohesion, and the functions whose zeros are its changes of state.
 
-use super::block::V6;
-
 /// What holds two faces together at a contact point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Law {
@@ -61,10 +59,6 @@ pub(super) fn zone(state: State) -> Option<Zone> {
 /// A contact point between the block before and the block after an interface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contact {
-    /// Rows of the normal gap over the unknowns of the block before and the block after.
-    pub normal: [V6; 2],
-    /// Rows of the tangential gap over the same.
-    pub tangent: [V6; 2],
     /// Normal and tangential penalty stiffness, N/m2 (per metre of depth).
     pub stiffness: [f64; 2],
     /// Its law.
@@ -92,19 +86,14 @@ pub struct ContactForce {
 pub type Moving = [f64; 2];
 
 impl Contact {
-    /// A contact point with the given rows, stiffness and law.
-    pub fn new(normal: [V6; 2], tangent: [V6; 2], stiffness: [f64; 2], law: Law) -> Self {
+    /// A contact point with the given stiffness and law.
+    pub fn new(stiffness: [f64; 2], law: Law) -> Self {
         let (friction, cohesion) = match law {
             Law::Bonded => (0.0, 0.0),
             Law::Coulomb { friction, cohesion } => (friction, cohesion),
         };
         let slopes = [friction * stiffness[0], stiffness[0] / ADHESION_REACH];
-        Contact { normal, tangent, stiffness, law, cohesion, slopes, reach: ADHESION_REACH * cohesion / stiffness[0] }
-    }
-
-    /// Normal and tangential gap for the displacements of the blocks before and after, m.
-    pub fn gaps(&self, before: &V6, after: &V6) -> [f64; 2] {
-        [self.normal, self.tangent].map(|[on_before, on_after]| on_before.dot(before) + on_after.dot(after))
+        Contact { stiffness, law, cohesion, slopes, reach: ADHESION_REACH * cohesion / stiffness[0] }
     }
 
     /// Fall of the shear capacity per unit of gap in a zone, N/m2: the capacity is cohesion - slope * gap.
@@ -143,6 +132,18 @@ impl Contact {
     pub fn force_rate(&self, state: State, gap: f64) -> [f64; 2] {
         let [there, here] = [gap, 0.0].map(|gap| self.force_in(state, gap, 0.0));
         [there[0] - here[0], there[1] - here[1]]
+    }
+
+    /// Tangent stiffness in a state, N/m2: change of (-N, -T) per change of (gap, slip), row by row.
+    pub fn tangent_stiffness(&self, state: State) -> [f64; 4] {
+        let [k_n, k_t] = self.stiffness;
+        let pressed = |zone| if zone == Zone::Pressed { k_n } else { 0.0 };
+        match state {
+            State::Open => [0.0; 4],
+            State::Bonded => [k_n, 0.0, 0.0, k_t],
+            State::Stick(zone) => [pressed(zone), 0.0, 0.0, k_t],
+            State::Slip { sign, zone } => [pressed(zone), 0.0, sign * self.slope(zone), 0.0],
+        }
     }
 
     /// Force by the law itself, whatever the state: N = max(0, -k_n gap), T = trial T within the capacity.
@@ -217,9 +218,24 @@ impl Contact {
 mod tests {
     use super::*;
 
+    #[test]
+    fn the_tangent_stiffness_is_the_derivative_of_the_force() {
+        let c = contact(3.0);
+        for zone in [Zone::Pressed, Zone::Adhering] {
+            for state in [State::Stick(zone), State::Slip { sign: -1.0, zone }, State::Bonded, State::Open] {
+                let at = |gap: f64, slip: f64| c.force_in(state, gap, slip);
+                let (here, [a, b, d, e]) = (at(1e-4, 2e-4), c.tangent_stiffness(state));
+                let (opened, slid) = (at(1.1e-4, 2e-4), at(1e-4, 2.1e-4));
+                let rates = [opened[0] - here[0], slid[0] - here[0], opened[1] - here[1], slid[1] - here[1]];
+                for (rate, stiffness) in rates.iter().zip([a, b, d, e]) {
+                    assert!((rate / 1e-5 + stiffness).abs() < 1e-6, "{state:?}");
+                }
+            }
+        }
+    }
+
     fn contact(cohesion: f64) -> Contact {
-        let rows = [V6::zeros(); 2];
-        Contact::new(rows, rows, [1e4, 2e4], Law::Coulomb { friction: 0.5, cohesion })
+        Contact::new([1e4, 2e4], Law::Coulomb { friction: 0.5, cohesion })
     }
 
     #[test]

@@ -1,88 +1,108 @@
-//! LU of one 6 x 6 block.
+//! LU of one small dense block.
 
 #![allow(clippy::needless_range_loop, reason = "indices are the mathematics here")]
 
-use super::block::{M6, V6};
-
-/// LU of one 6 x 6 pivot block, rows exchanged by partial pivoting.
-#[derive(Debug, Clone, Copy, Default)]
+/// LU of one pivot block, rows exchanged by partial pivoting.
+#[derive(Debug, Clone, Default)]
 pub(super) struct Pivot {
-    /// L below the (unit) diagonal, U above it, reciprocal pivots on it.
-    rows: [[f64; 6]; 6],
-    order: [usize; 6],
+    n: usize,
+    /// L below the (unit) diagonal, U above it, reciprocal pivots on it, row by row.
+    rows: Vec<f64>,
+    order: Vec<usize>,
     /// Smallest over largest pivot.
     pub(super) ratio: f64,
 }
 
 impl Pivot {
-    /// Factors `a` and solves a X = b for six right-hand sides in the same sweep.
-    ///
-    /// Rows of [a | b] are kept together: an elimination step is one operation on twelve neighbours, which compilers
-    /// turn into vector instructions.
-    pub(super) fn factor(&mut self, a: &M6, b: &M6, x: &mut M6) {
-        let mut rows = [[0.0; 12]; 6];
-        for j in 0..6 {
-            for i in 0..6 {
-                (rows[i][j], rows[i][6 + j]) = (a[(i, j)], b[(i, j)]);
-            }
+    /// For a block of `n` rows.
+    pub(super) fn new(n: usize) -> Self {
+        Pivot { n, rows: vec![0.0; n * n], order: (0..n).collect(), ratio: f64::INFINITY }
+    }
+
+    /// Factors `a` and solves a X = b for all columns of `b` in the same sweep; `b` becomes X. `work` is scratch.
+    pub(super) fn factor(&mut self, a: &[f64], b: &mut [f64], work: &mut Vec<f64>) {
+        let columns = b.len().checked_div(self.n).unwrap_or(0);
+        match (self.n, columns) {
+            (0, _) => self.ratio = f64::INFINITY,
+            // Two contact points a joint: shapes known to the compiler run several times faster.
+            (4, 4) => self.factor_of(4, 4, a, b, work),
+            (4, 0) => self.factor_of(4, 0, a, b, work),
+            (n, columns) => self.factor_of(n, columns, a, b, work),
         }
-        self.order = [0, 1, 2, 3, 4, 5];
-        let (mut smallest, mut largest, scale) = (f64::INFINITY, 0f64, a.amax().max(f64::MIN_POSITIVE / f64::EPSILON));
-        for k in 0..6 {
-            let best = (k + 1..6).fold(k, |best, i| if rows[i][k].abs() > rows[best][k].abs() { i } else { best });
+    }
+
+    /// Rows of [a | b] are kept together: an elimination step is one operation on neighbours, which compilers turn into
+    /// vector instructions.
+    #[inline(always)]
+    fn factor_of(&mut self, n: usize, columns: usize, a: &[f64], b: &mut [f64], work: &mut Vec<f64>) {
+        let width = n + columns;
+        work.clear();
+        for i in 0..n {
+            work.extend_from_slice(&a[i * n..(i + 1) * n]);
+            work.extend_from_slice(&b[i * columns..(i + 1) * columns]);
+        }
+        let rows = &mut work[..n * width];
+        self.order.iter_mut().enumerate().for_each(|(i, place)| *place = i);
+        let scale = a.iter().fold(f64::MIN_POSITIVE / f64::EPSILON, |scale, x| scale.max(x.abs()));
+        let (mut smallest, mut largest) = (f64::INFINITY, 0f64);
+        for k in 0..n {
+            let size = |i: usize| rows[i * width + k].abs();
+            let best = (k + 1..n).fold(k, |best, i| if size(i) > size(best) { i } else { best });
             if best != k {
-                rows.swap(k, best);
-                self.rows.swap(k, best);
+                let (above, below) = rows.split_at_mut(best * width);
+                above[k * width..(k + 1) * width].swap_with_slice(&mut below[..width]);
                 self.order.swap(k, best);
             }
             // An exactly singular block is left singular to working precision: its inverse then points along the
             // mechanism, which is what the caller looks for.
-            let pivot = if rows[k][k] == 0.0 { scale * f64::EPSILON } else { rows[k][k] };
+            let pivot = if rows[k * width + k] == 0.0 { scale * f64::EPSILON } else { rows[k * width + k] };
             (smallest, largest) = (smallest.min(pivot.abs()), largest.max(pivot.abs()));
-            let (reciprocal, pivot_row) = (1.0 / pivot, rows[k]);
-            for i in k + 1..6 {
-                let l = rows[i][k] * reciprocal;
-                for (entry, above) in rows[i].iter_mut().zip(&pivot_row) {
+            let reciprocal = 1.0 / pivot;
+            let (above, below) = rows.split_at_mut((k + 1) * width);
+            let pivot_row = &mut above[k * width..];
+            pivot_row[k] = reciprocal;
+            for row in below.chunks_exact_mut(width) {
+                let l = row[k] * reciprocal;
+                row[k] = l;
+                for (entry, above) in row[k + 1..].iter_mut().zip(&pivot_row[k + 1..]) {
                     *entry -= l * above;
                 }
-                self.rows[i][k] = l;
             }
-            self.rows[k][k + 1..].copy_from_slice(&pivot_row[k + 1..6]);
-            self.rows[k][k] = reciprocal;
         }
         self.ratio = smallest / largest;
-        self.substitute_back(&mut rows, x);
-    }
-
-    /// Turns the right half of `rows` (forward-substituted) into the solution.
-    fn substitute_back(&self, rows: &mut [[f64; 12]; 6], x: &mut M6) {
-        for i in (0..6).rev() {
-            let mut row: [f64; 6] = std::array::from_fn(|j| rows[i][6 + j]);
-            for j in i + 1..6 {
-                for (c, entry) in row.iter_mut().enumerate() {
-                    *entry -= self.rows[i][j] * rows[j][6 + c];
+        for i in (0..n).rev() {
+            let (above, below) = rows.split_at_mut((i + 1) * width);
+            let row = &mut above[i * width..];
+            let (left, right) = row.split_at_mut(n);
+            for (j, other) in (i + 1..n).zip(below.chunks_exact(width)) {
+                for (entry, x) in right.iter_mut().zip(&other[n..]) {
+                    *entry -= left[j] * x;
                 }
             }
-            for (c, entry) in row.iter().enumerate() {
-                rows[i][6 + c] = entry * self.rows[i][i];
-                x[(i, c)] = rows[i][6 + c];
-            }
+            right.iter_mut().for_each(|entry| *entry *= left[i]);
+            self.rows[i * n..(i + 1) * n].copy_from_slice(left);
+            b[i * columns..(i + 1) * columns].copy_from_slice(right);
         }
     }
 
-    pub(super) fn solve(&self, b: &V6) -> V6 {
-        let mut x: [f64; 6] = std::array::from_fn(|i| b[self.order[i]]);
-        for i in 1..6 {
-            for j in 0..i {
-                x[i] -= self.rows[i][j] * x[j];
-            }
+    /// Solves a x = b in place.
+    pub(super) fn solve(&self, x: &mut [f64], work: &mut Vec<f64>) {
+        let n = self.n;
+        work.clear();
+        work.extend(self.order.iter().map(|&i| x[i]));
+        x.copy_from_slice(&work[..n]);
+        for i in 1..n {
+            let (before, here) = x.split_at_mut(i);
+            here[0] -= dot(&self.rows[i * n..i * n + i], before);
         }
-        for i in (0..6).rev() {
-            for j in i + 1..6 {
-                x[i] -= self.rows[i][j] * x[j];
-            }
-            x[i] *= self.rows[i][i];
+        for i in (0..n).rev() {
+            let (before, after) = x.split_at_mut(i + 1);
+            let row = &self.rows[i * n..(i + 1) * n];
+            before[i] = (before[i] - dot(&row[i + 1..], after)) * row[i];
         }
-        V6::from(x)
     }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
 }

@@ -10,7 +10,6 @@ mod seen;
 
 pub use equilibrium::covering;
 
-use super::block::{M6, V6};
 use super::chain::Chain;
 use super::contact::{Moving, State, zone};
 use super::factor::{Factor, Tridiagonal};
@@ -19,10 +18,10 @@ use std::ops::ControlFlow;
 /// What is driven along the path: loads `base + parameter * rate`, and an offset of the gaps that changes with it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Drive {
-    /// Generalised loads at parameter 0, one per block.
-    pub base: Vec<V6>,
+    /// Loads on the nodes at parameter 0, N/m.
+    pub base: Vec<f64>,
     /// Change of the loads per unit of the parameter.
-    pub rate: Vec<V6>,
+    pub rate: Vec<f64>,
     /// Gap offset at parameter 0 and its change per unit of the parameter, m (the same for all unbonded contacts).
     pub offset: [f64; 2],
 }
@@ -47,10 +46,10 @@ pub enum End {
 pub struct Peak {
     /// Parameter.
     pub parameter: f64,
-    /// Displacements.
-    pub displacements: Vec<V6>,
+    /// Displacements of the nodes.
+    pub displacements: Vec<f64>,
     /// Direction in which the path goes on, its largest entry 1 m.
-    pub direction: Vec<V6>,
+    pub direction: Vec<f64>,
     /// Contact states in which the path goes on.
     pub states: Vec<State>,
 }
@@ -79,24 +78,22 @@ pub struct Tracer<'a> {
     size: f64,
     load_scale: f64,
     states: Vec<State>,
-    displacements: Vec<V6>,
+    displacements: Vec<f64>,
     parameter: f64,
     /// Change of the parameter along the current direction.
     rate: f64,
     peak: Option<Peak>,
 
-    elastic: Vec<M6>,
-    interface: Vec<[[M6; 2]; 2]>,
     matrix: Tridiagonal,
-    load_rate: Vec<V6>,
+    load_rate: Vec<f64>,
     factor: Factor,
     /// Largest entry of the drive's load rate.
     load_rate_scale: f64,
     /// Scratch: gaps and gap rates of all contacts, tangent direction.
     gaps: Vec<[f64; 2]>,
     rates: Vec<[f64; 2]>,
-    direction: Vec<V6>,
-    residual: Vec<V6>,
+    direction: Vec<f64>,
+    residual: Vec<f64>,
 
     events: usize,
     factorisations: usize,
@@ -117,31 +114,25 @@ impl<'a> Tracer<'a> {
     /// `size` is the chain's extent in m, `load_scale` a load in N/m (its weight) that residuals are measured against.
     /// The drive must be in equilibrium there: `base` balances the offset's contact forces (see [`covering`]).
     pub fn new(chain: &'a Chain, drive: Drive, size: f64, load_scale: f64) -> Self {
-        let n = chain.blocks().len();
+        let n = chain.elastic().start[chain.elastic().rows()];
         let mut tracer = Tracer {
             chain,
             drive,
             size,
             load_scale,
             states: chain.contacts().iter().map(|c| c.pressed_state()).collect(),
-            displacements: vec![V6::zeros(); n],
+            displacements: vec![0.0; n],
             parameter: 0.0,
             rate: 0.0,
             peak: None,
-            elastic: chain.blocks().iter().map(|b| b.stiffness()).collect(),
-            interface: vec![[[M6::zeros(); 2]; 2]; n + 1],
-            matrix: Tridiagonal {
-                diagonal: vec![M6::zeros(); n],
-                upper: vec![M6::zeros(); n.saturating_sub(1)],
-                lower: vec![M6::zeros(); n.saturating_sub(1)],
-            },
-            load_rate: vec![V6::zeros(); n],
+            matrix: chain.elastic().clone(),
+            load_rate: vec![0.0; n],
             load_rate_scale: 0.0,
-            factor: Factor::new(n),
+            factor: Factor::new(chain.elastic()),
             gaps: vec![[0.0; 2]; chain.contacts().len()],
             rates: Vec::new(),
-            direction: vec![V6::zeros(); n],
-            residual: vec![V6::zeros(); n],
+            direction: vec![0.0; n],
+            residual: vec![0.0; n],
             events: 0,
             factorisations: 0,
             worst_residual: 0.0,
@@ -227,7 +218,7 @@ impl<'a> Tracer<'a> {
     fn solve_tangent(&mut self) {
         self.factor.update(&self.matrix, &self.load_rate, &mut self.direction);
         self.factorisations += 1;
-        let largest = self.direction.iter().map(|d| d.amax()).fold(0.0, f64::max);
+        let largest = self.direction.iter().map(|d| d.abs()).fold(0.0, f64::max);
         self.rate = if largest > 0.0 { 1.0 / largest } else { 1.0 };
         self.direction.iter_mut().for_each(|d| *d *= self.rate);
         self.chain.gaps(&self.direction, &mut self.rates);

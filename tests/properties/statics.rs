@@ -53,7 +53,7 @@ pub fn of_snapshot(solved: &Solved, snapshot: &Snapshot) -> f64 {
         let mut sum = [0.0; 3];
         for contact in snapshot.contacts.iter().filter(|contact| contact.joint == k) {
             let joint = &joints[k];
-            let at = if contact.face == Face::Intrados { joint.intrados } else { joint.extrados };
+            let at = joint.intrados + (joint.extrados - joint.intrados) * contact.position;
             let force = joint.normal() * contact.normal + joint.tangent() * contact.tangential;
             add(&mut sum, wrench(force, at, about, length), 1.0);
         }

@@ -2,7 +2,7 @@
 
 use super::Scale;
 use super::words::FaceWord;
-use crate::collapse::{BlockState, ContactForce, HistoryPoint, Snapshot, Thrust};
+use crate::collapse::{Face, BlockState, ContactForce, HistoryPoint, Snapshot, Thrust};
 use serde::Serialize;
 use utoipa::ToSchema;
 
@@ -130,7 +130,7 @@ impl ContactColumns {
     fn new(rows: &[ContactForce]) -> Self {
         ContactColumns {
             joint: column(rows, |row| row.joint),
-            face: column(rows, |row| row.face.into()),
+            face: column(rows, |row| if row.position < 0.5 { Face::Intrados } else { Face::Extrados }.into()),
             normal_n_per_m: column(rows, |row| row.normal),
             tangential_n_per_m: column(rows, |row| row.tangential),
             gap_m: column(rows, |row| row.gap),

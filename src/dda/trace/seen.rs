@@ -1,7 +1,6 @@
 //! What can be seen of a tracer from outside.
 
 use super::{Peak, Tracer};
-use crate::dda::block::V6;
 
 impl Tracer<'_> {
     /// Parameter reached.
@@ -9,8 +8,8 @@ impl Tracer<'_> {
         self.parameter
     }
 
-    /// Displacements reached, one per block.
-    pub fn displacements(&self) -> &[V6] {
+    /// Displacements of the nodes reached.
+    pub fn displacements(&self) -> &[f64] {
         &self.displacements
     }
 
@@ -20,7 +19,7 @@ impl Tracer<'_> {
     }
 
     /// Direction in which the path goes on.
-    pub fn direction(&self) -> &[V6] {
+    pub fn direction(&self) -> &[f64] {
         &self.direction
     }
 

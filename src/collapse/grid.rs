@@ -1,0 +1,189 @@
+//! The grid of subblocks in one stone.
+
+use super::SubblockStress;
+use crate::arch::{Joint, Sides};
+use crate::dda::{Block, Bond, Elasticity, Macroblock, Seam};
+use crate::geometry::{Region, Vec2, cross, perpendicular};
+
+/// A point this close to a line of the grid, as a share of a subblock, lies on it.
+const ON_LINE: f64 = 1e-9;
+/// Newton steps that find a point's place in a stone; its map is bilinear, so a few are enough.
+const PLACE_STEPS: usize = 20;
+
+/// One or two subblocks, each with its share.
+pub(super) type Shares = [(usize, f64); 2];
+
+/// Shape of the lines of a grid that run along the arch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Lines {
+    /// Straight from joint to joint.
+    Straight,
+    /// Arcs about one centre, m.
+    Arcs(Vec2),
+    /// Chords of such arcs, subblock by subblock; for comparison only.
+    Chords(Vec2),
+}
+
+impl From<Sides> for Lines {
+    fn from(sides: Sides) -> Self {
+        match sides {
+            Sides::Straight | Sides::Compound => Lines::Straight,
+            Sides::Arcs { centre } => Lines::Arcs(centre),
+        }
+    }
+}
+
+/// A stone cut into subblocks: `radial` from intrados to extrados, `along` from the joint before to the joint after.
+///
+/// Places in it are (xi, eta): xi from 0 at the joint before to 1 at the joint after, eta from 0 at the intrados to 1 at
+/// the extrados. Subblock (i, j), i-th from the intrados and j-th along, is number `j * radial + i`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Grid {
+    /// Intrados and extrados end of the joint before and of the joint after, m.
+    pub ends: [[Vec2; 2]; 2],
+    /// Shape of the lines along the arch.
+    pub lines: Lines,
+    /// Subblocks from intrados to extrados.
+    pub radial: usize,
+    /// Subblocks along.
+    pub along: usize,
+    /// Shape of the whole stone.
+    whole: Region,
+}
+
+impl Grid {
+    /// The grid of a stone of the given shape between two joints, with this many subblocks (radial, along).
+    pub(super) fn new(joints: [&Joint; 2], whole: Region, lines: Lines, [radial, along]: [usize; 2]) -> Self {
+        Grid { ends: joints.map(|j| [j.intrados, j.extrados]), lines, radial, along, whole }
+    }
+
+    /// The point at (xi, eta), m.
+    pub(super) fn point(&self, xi: f64, eta: f64) -> Vec2 {
+        let [before, after] = self.ends.map(|[i, e]| i + (e - i) * eta);
+        match self.lines {
+            Lines::Straight => before + (after - before) * xi,
+            Lines::Arcs(centre) | Lines::Chords(centre) => {
+                let (a, b) = (before - centre, after - centre);
+                let turn = xi * cross(a, b).atan2(a.dot(&b));
+                let radius = a.norm() + (b.norm() - a.norm()) * xi;
+                let (sin, cos) = turn.sin_cos();
+                centre + (a * cos + perpendicular(a) * sin).normalize() * radius
+            }
+        }
+    }
+
+    fn corner(&self, i: usize, j: usize) -> Vec2 {
+        self.point(j as f64 / self.along as f64, i as f64 / self.radial as f64)
+    }
+
+    /// Corners of subblock (i, j), counter-clockwise from the intrados end on the side of the joint before, m.
+    pub(super) fn corners(&self, i: usize, j: usize) -> [Vec2; 4] {
+        [self.corner(i, j), self.corner(i, j + 1), self.corner(i + 1, j + 1), self.corner(i + 1, j)]
+    }
+
+    /// Shape of subblock (i, j).
+    pub(super) fn region(&self, i: usize, j: usize) -> Region {
+        if self.radial * self.along == 1 {
+            return self.whole;
+        }
+        let [a, b, c, d] = self.corners(i, j);
+        let polygon = Region::polygon(&[a, b, c, d]);
+        let Lines::Arcs(centre) = self.lines else { return polygon };
+        let segments = [Region::segment(centre, a, b), Region::segment(centre, c, d)];
+        segments.into_iter().filter(|s| s.area != 0.0).fold(polygon, Region::join)
+    }
+
+    /// All subblocks as (i, j), in their order.
+    pub(super) fn cells(&self) -> impl Iterator<Item = (usize, usize)> {
+        let radial = self.radial;
+        (0..self.along * radial).map(move |s| (s % radial, s / radial))
+    }
+
+    /// The stone as a macroblock.
+    pub(super) fn macroblock(&self, elasticity: Elasticity, bond: Bond) -> Macroblock {
+        let blocks = self.cells().map(|(i, j)| Block::new(self.region(i, j), elasticity)).collect();
+        let number = |i: usize, j: usize| j * self.radial + i;
+        let mut seams = Vec::new();
+        for (i, j) in self.cells() {
+            if i + 1 < self.radial {
+                let ends = [self.corner(i + 1, j), self.corner(i + 1, j + 1)];
+                let normal = perpendicular(ends[1] - ends[0]).normalize();
+                seams.push(Seam { blocks: [number(i, j), number(i + 1, j)], at: self.mean(ends), ends, normal });
+            }
+            if j + 1 < self.along {
+                let ends = [self.corner(i, j + 1), self.corner(i + 1, j + 1)];
+                let normal = -perpendicular(ends[1] - ends[0]).normalize();
+                let at = 0.5 * (ends[0] + ends[1]);
+                seams.push(Seam { blocks: [number(i, j), number(i, j + 1)], at, ends, normal });
+            }
+        }
+        Macroblock::new(blocks, seams, bond)
+    }
+
+    /// The field of these stresses, one per subblock, in voussoir number `voussoir`.
+    pub(super) fn field(&self, voussoir: usize, stresses: &[[f64; 3]]) -> Vec<SubblockStress> {
+        let subblock = |((i, j), &stress): ((usize, usize), &[f64; 3])| SubblockStress {
+            voussoir,
+            place: [i, j],
+            centre: self.region(i, j).centroid,
+            corners: self.corners(i, j),
+            stress,
+        };
+        self.cells().zip(stresses).map(subblock).collect()
+    }
+
+    /// Mean point of the side between `ends`: the middle of a chord, the centroid of an arc.
+    fn mean(&self, ends: [Vec2; 2]) -> Vec2 {
+        let Lines::Arcs(centre) = self.lines else { return 0.5 * (ends[0] + ends[1]) };
+        let [a, b] = ends.map(|end| end - centre);
+        let half = 0.5 * cross(a, b).atan2(a.dot(&b));
+        // The chord's middle lies at r cos(alpha), the arc's centroid at r sin(alpha) / alpha.
+        centre + 0.5 * (a + b) * if half == 0.0 { 1.0 } else { half.tan() / half }
+    }
+
+    /// Subblocks that the point `eta` of the joint before (`after` false) or after touches.
+    pub(super) fn on_joint(&self, after: bool, eta: f64) -> Shares {
+        let column = if after { self.along - 1 } else { 0 };
+        shares(eta, self.radial).map(|(i, share)| (column * self.radial + i, share))
+    }
+
+    /// Subblocks on which a force at `at` acts.
+    pub(super) fn at(&self, at: Vec2) -> impl Iterator<Item = (usize, f64)> {
+        let (xi, eta) = self.place(at);
+        let rows = shares(eta, self.radial);
+        let radial = self.radial;
+        let cells = shares(xi, self.along)
+            .into_iter()
+            .flat_map(move |(j, along)| rows.map(|(i, share)| (j * radial + i, along * share)));
+        cells.filter(|(_, share)| *share > 0.0)
+    }
+
+    /// The place (xi, eta) of a point, by Newton's method.
+    fn place(&self, at: Vec2) -> (f64, f64) {
+        let (mut xi, mut eta) = (0.5, 0.5);
+        let step = 1e-6;
+        for _ in 0..PLACE_STEPS {
+            let here = self.point(xi, eta);
+            let by_xi = (self.point(xi + step, eta) - self.point(xi - step, eta)) / (2.0 * step);
+            let by_eta = (self.point(xi, eta + step) - self.point(xi, eta - step)) / (2.0 * step);
+            let (miss, area) = (at - here, cross(by_xi, by_eta));
+            if area == 0.0 {
+                break;
+            }
+            xi += cross(miss, by_eta) / area;
+            eta += cross(by_xi, miss) / area;
+        }
+        (xi, eta)
+    }
+}
+
+/// The cells of `count` equal ones that `share` of the way touches: one, or the two beside a line.
+fn shares(share: f64, count: usize) -> Shares {
+    let place = share * count as f64;
+    let line = place.round();
+    if (place - line).abs() < ON_LINE && line > 0.0 && line < count as f64 {
+        return [(line as usize - 1, 0.5), (line as usize, 0.5)];
+    }
+    // Casting saturates: what lies outside belongs to the cell at the rim.
+    [((place.floor() as usize).min(count - 1), 1.0), (0, 0.0)]
+}

@@ -1,0 +1,188 @@
+//! Static condensation of a macroblock onto the nodes on its faces; the only file that knows faer.
+//!
+//! A node is a point of a face, tied to the subblocks there by two springs (its link, along the contact's normal and
+//! tangent). With the nodes' displacements p given, the subblocks' displacements D follow from
+//! `K D = F + X0 p`, where K holds elasticity, seams and links and X0 the links' forces; so `D = X p + K^-1 F` with
+//! `X = K^-1 X0`, and on the nodes act `S p - X' F`, with `S = links - X0' X` (Guyan 1965). Nothing is lost: the condensed
+//! macroblock answers to forces at its nodes exactly as the whole one does.
+
+use super::block::V6;
+use super::macroblock::Macroblock;
+use crate::geometry::Vec2;
+use faer::linalg::solvers::{Llt, Solve};
+use faer::sparse::linalg::solvers::Llt as SparseLlt;
+use faer::sparse::{SparseColMat, Triplet};
+use faer::{Mat, Side};
+use nalgebra::{DMatrix, DVector};
+
+/// A node on a face, tied to the subblocks there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Node {
+    /// Its place, m.
+    pub at: Vec2,
+    /// Unit vectors along which its two displacements count.
+    pub axes: [Vec2; 2],
+    /// Stiffness of its link along them, N/m2.
+    pub link: [f64; 2],
+    /// The one or two subblocks it is tied to, and with which share each.
+    pub holds: [(usize, f64); 2],
+}
+
+/// Cholesky factors of a macroblock's stiffness: dense where it has one subblock, sparse otherwise.
+#[derive(Debug, Clone)]
+enum Factors {
+    Dense(Llt<f64>),
+    Sparse(SparseLlt<usize, f64>),
+}
+
+/// A macroblock condensed onto its nodes, in its own frame.
+#[derive(Debug, Clone)]
+pub struct Condensed {
+    /// X: displacements of the subblocks per displacement of the nodes, 6 n_subblocks x 2 n_nodes.
+    response: DMatrix<f64>,
+    /// S: forces on the nodes per displacement of the nodes, 2 n_nodes x 2 n_nodes, N/m2.
+    stiffness: DMatrix<f64>,
+    /// Rigid motions of the nodes, orthonormal columns, and the same motions of the subblocks.
+    rigid: [DMatrix<f64>; 2],
+    factors: Factors,
+}
+
+/// Why a macroblock cannot be condensed: its nodes do not hold it, so it is free to move.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("a block is held by fewer than two contact points")]
+pub struct Loose;
+
+impl Condensed {
+    /// Condenses `body` onto `nodes`, both seen from one frame.
+    ///
+    /// # Errors
+    /// When the nodes leave the body a rigid motion.
+    pub fn new(body: &Macroblock, nodes: &[Node]) -> Result<Self, Loose> {
+        let (unknowns, columns) = (6 * body.blocks().len(), 2 * nodes.len());
+        let mut ties = DMatrix::zeros(unknowns, columns);
+        for (i, node) in nodes.iter().enumerate() {
+            for (c, (axis, link)) in node.axes.into_iter().zip(node.link).enumerate() {
+                for (block, share) in node.holds {
+                    let row = body.blocks()[block].displacement_row(node.at, axis) * (link * share);
+                    let mut place = ties.fixed_view_mut::<6, 1>(6 * block, 2 * i + c);
+                    place += row;
+                }
+            }
+        }
+        let links: Vec<f64> = nodes.iter().flat_map(|node| node.link).collect();
+        let factors = factor(body, &held(body, &ties, &links)).ok_or(Loose)?;
+        let response = solve(&factors, &ties);
+        let raw = DMatrix::from_diagonal(&DVector::from_vec(links)) - ties.transpose() * &response;
+        let rigid = rigid_motions(body, nodes);
+        let q = &rigid[0];
+        // Rounding in the elimination must not take away equilibrium: a rigid motion costs no force at all.
+        let still = DMatrix::identity(columns, columns) - q * q.transpose();
+        let stiffness = &still * (0.5 * (&raw + raw.transpose())) * &still;
+        Ok(Condensed { response, stiffness, rigid, factors })
+    }
+
+    /// Stiffness S on the nodes, N/m2.
+    pub fn stiffness(&self) -> &DMatrix<f64> {
+        &self.stiffness
+    }
+
+    /// Displacements X of the subblocks per displacement of the nodes.
+    pub fn response(&self) -> &DMatrix<f64> {
+        &self.response
+    }
+
+    /// Displacements of the subblocks under `load` with the nodes held, and the forces on the nodes that stand for it.
+    pub fn load(&self, load: &DVector<f64>) -> [DVector<f64>; 2] {
+        let inner = solve(&self.factors, &DMatrix::from_column_slice(load.len(), 1, load.as_slice()));
+        let mut on_nodes = self.response.tr_mul(load);
+        let [of_nodes, of_blocks] = &self.rigid;
+        let missing = of_blocks.tr_mul(load) - of_nodes.tr_mul(&on_nodes);
+        on_nodes += of_nodes * missing;
+        [inner.column(0).into_owned(), on_nodes]
+    }
+}
+
+/// Displacements of the subblocks of a free body under a load in equilibrium, with no motion of the first subblock.
+///
+/// `load`: generalised loads of all subblocks, 6 n_subblocks.
+pub fn free_response(body: &Macroblock, load: &DVector<f64>) -> Option<DVector<f64>> {
+    let modulus = body.blocks()[0].youngs_modulus();
+    // Three springs on three rigid motions: statically determinate, so that a load in equilibrium does not feel them.
+    let springs: Vec<Triplet<usize, usize, f64>> = (0..3).map(|i| Triplet::new(i, i, modulus)).collect();
+    let factors = factor(body, &springs)?;
+    Some(solve(&factors, &DMatrix::from_column_slice(load.len(), 1, load.as_slice())).column(0).into_owned())
+}
+
+/// Stiffness of the links on the subblocks: T' k T with T k = `ties`.
+fn held(body: &Macroblock, ties: &DMatrix<f64>, links: &[f64]) -> Vec<Triplet<usize, usize, f64>> {
+    let mut triplets = Vec::new();
+    for (c, &link) in links.iter().enumerate() {
+        let column = ties.column(c);
+        let rows: Vec<usize> = (0..6 * body.blocks().len()).filter(|&i| column[i] != 0.0).collect();
+        for &i in rows.iter().filter(|_| link > 0.0) {
+            triplets.extend(rows.iter().map(|&j| Triplet::new(i, j, column[i] * column[j] / link)));
+        }
+    }
+    triplets
+}
+
+fn factor(body: &Macroblock, more: &[Triplet<usize, usize, f64>]) -> Option<Factors> {
+    let n = 6 * body.blocks().len();
+    let mut triplets = more.to_vec();
+    body.stiffness(|i, j, block| {
+        for a in 0..6 {
+            triplets.extend((0..6).map(|b| Triplet::new(6 * i + a, 6 * j + b, block[(a, b)])));
+        }
+    });
+    if n == 6 {
+        let mut dense = Mat::<f64>::zeros(n, n);
+        triplets.iter().for_each(|t| dense[(t.row, t.col)] += t.val);
+        return dense.llt(Side::Lower).ok().map(Factors::Dense);
+    }
+    let sparse = SparseColMat::try_new_from_triplets(n, n, &triplets).ok()?;
+    sparse.sp_cholesky(Side::Lower).ok().map(Factors::Sparse)
+}
+
+fn solve(factors: &Factors, right: &DMatrix<f64>) -> DMatrix<f64> {
+    let right = Mat::from_fn(right.nrows(), right.ncols(), |i, j| right[(i, j)]);
+    let x = match factors {
+        Factors::Dense(factors) => factors.solve(&right),
+        Factors::Sparse(factors) => factors.solve(&right),
+    };
+    DMatrix::from_fn(x.nrows(), x.ncols(), |i, j| x[(i, j)])
+}
+
+/// The three rigid motions as displacements of the nodes (orthonormal) and of the subblocks.
+fn rigid_motions(body: &Macroblock, nodes: &[Node]) -> [DMatrix<f64>; 2] {
+    let centre = nodes.iter().map(|n| n.at).sum::<Vec2>() / nodes.len().max(1) as f64;
+    let field = |motion: usize, at: Vec2| match motion {
+        0 => Vec2::x(),
+        1 => Vec2::y(),
+        _ => Vec2::new(centre.y - at.y, at.x - centre.x),
+    };
+    let of_nodes =
+        DMatrix::from_fn(2 * nodes.len(), 3, |i, m| field(m, nodes[i / 2].at).dot(&nodes[i / 2].axes[i % 2]));
+    let of_blocks = DMatrix::from_fn(6 * body.blocks().len(), 3, |i, m| {
+        let block = &body.blocks()[i / 6];
+        let velocity = field(m, block.centroid());
+        let spin = if m == 2 { block.size() } else { 0.0 };
+        V6::from([velocity.x, velocity.y, spin, 0.0, 0.0, 0.0])[i % 6]
+    });
+    orthonormal(of_nodes, of_blocks)
+}
+
+/// Orthonormal columns of `a`, and the same combinations of the columns of `b` (modified Gram and Schmidt, twice).
+fn orthonormal(mut a: DMatrix<f64>, mut b: DMatrix<f64>) -> [DMatrix<f64>; 2] {
+    for k in 0..a.ncols() {
+        for j in (0..k).chain(0..k) {
+            let share = a.column(j).dot(&a.column(k));
+            let (aj, bj) = (a.column(j) * share, b.column(j) * share);
+            a.column_mut(k).zip_apply(&aj, |x, y| *x -= y);
+            b.column_mut(k).zip_apply(&bj, |x, y| *x -= y);
+        }
+        let norm = a.column(k).norm();
+        a.column_mut(k).unscale_mut(norm);
+        b.column_mut(k).unscale_mut(norm);
+    }
+    [a, b]
+}

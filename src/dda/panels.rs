@@ -1,0 +1,64 @@
+//! Small dense matrices of differing shapes, one after the other in memory, and what is done with them.
+
+/// Matrices stored row by row, one after the other.
+#[derive(Debug, Clone, Default)]
+pub struct Panels {
+    /// Where each begins, and where the last ends.
+    start: Vec<usize>,
+    entries: Vec<f64>,
+}
+
+impl Panels {
+    /// Zero matrices of these shapes (rows, columns).
+    pub fn zeros(shapes: impl IntoIterator<Item = (usize, usize)>) -> Self {
+        let mut start = vec![0];
+        let mut end = 0;
+        for (rows, columns) in shapes {
+            end += rows * columns;
+            start.push(end);
+        }
+        Panels { start, entries: vec![0.0; end] }
+    }
+
+    /// Matrix `i`, row by row.
+    pub fn get(&self, i: usize) -> &[f64] {
+        &self.entries[self.start[i]..self.start[i + 1]]
+    }
+
+    /// Matrix `i`, row by row.
+    pub fn get_mut(&mut self, i: usize) -> &mut [f64] {
+        &mut self.entries[self.start[i]..self.start[i + 1]]
+    }
+}
+
+/// out -= a b, for `a` of `inner` columns and `b` of `inner` rows.
+#[inline(always)]
+fn subtract_product_of(a: &[f64], b: &[f64], out: &mut [f64], inner: usize, columns: usize) {
+    for (row, into) in a.chunks_exact(inner).zip(out.chunks_exact_mut(columns)) {
+        for (&l, other) in row.iter().zip(b.chunks_exact(columns)) {
+            for (entry, x) in into.iter_mut().zip(other) {
+                *entry -= l * x;
+            }
+        }
+    }
+}
+
+/// out -= a b, for `a` of `inner` columns and `b` of `columns` columns.
+pub fn subtract_product(a: &[f64], b: &[f64], out: &mut [f64], inner: usize, columns: usize) {
+    match (inner, columns) {
+        // Two contact points a joint: shapes known to the compiler run several times faster.
+        (4, 4) => subtract_product_of(a, b, out, 4, 4),
+        (0, _) | (_, 0) => {}
+        _ => subtract_product_of(a, b, out, inner, columns),
+    }
+}
+
+/// y -= a x.
+pub fn subtract_applied(a: &[f64], x: &[f64], y: &mut [f64]) {
+    if x.is_empty() {
+        return;
+    }
+    for (row, entry) in a.chunks_exact(x.len()).zip(y) {
+        *entry -= row.iter().zip(x).map(|(l, x)| l * x).sum::<f64>();
+    }
+}
