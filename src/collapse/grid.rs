@@ -106,15 +106,14 @@ impl Grid {
         let mut seams = Vec::new();
         for (i, j) in self.cells() {
             if i + 1 < self.radial {
-                let ends = [self.corner(i + 1, j), self.corner(i + 1, j + 1)];
-                let normal = perpendicular(ends[1] - ends[0]).normalize();
-                seams.push(Seam { blocks: [number(i, j), number(i + 1, j)], at: self.mean(ends), ends, normal });
+                let [a, b] = [self.corner(i + 1, j), self.corner(i + 1, j + 1)];
+                let (points, normals) = self.side(a, b);
+                seams.push(Seam { blocks: [number(i, j), number(i + 1, j)], points, normals });
             }
             if j + 1 < self.along {
-                let ends = [self.corner(i, j + 1), self.corner(i + 1, j + 1)];
-                let normal = -perpendicular(ends[1] - ends[0]).normalize();
-                let at = 0.5 * (ends[0] + ends[1]);
-                seams.push(Seam { blocks: [number(i, j), number(i, j + 1)], at, ends, normal });
+                let [a, b] = [self.corner(i, j + 1), self.corner(i + 1, j + 1)];
+                let normals = [-perpendicular(b - a).normalize(); 3];
+                seams.push(Seam { blocks: [number(i, j), number(i, j + 1)], points: [a, 0.5 * (a + b), b], normals });
             }
         }
         Macroblock::new(blocks, seams, bond)
@@ -132,13 +131,16 @@ impl Grid {
         self.cells().zip(stresses).map(subblock).collect()
     }
 
-    /// Mean point of the side between `ends`: the middle of a chord, the centroid of an arc.
-    fn mean(&self, ends: [Vec2; 2]) -> Vec2 {
-        let Lines::Arcs(centre) = self.lines else { return 0.5 * (ends[0] + ends[1]) };
-        let [a, b] = ends.map(|end| end - centre);
-        let half = 0.5 * cross(a, b).atan2(a.dot(&b));
-        // The chord's middle lies at r cos(alpha), the arc's centroid at r sin(alpha) / alpha.
-        centre + 0.5 * (a + b) * if half == 0.0 { 1.0 } else { half.tan() / half }
+    /// Ends and middle of a side along the arch, with its normals there, away from the intrados.
+    fn side(&self, a: Vec2, b: Vec2) -> ([Vec2; 3], [Vec2; 3]) {
+        let middle = 0.5 * (a + b);
+        let normal = perpendicular(b - a).normalize();
+        let Lines::Arcs(centre) = self.lines else { return ([a, middle, b], [normal; 3]) };
+        let radius = 0.5 * ((a - centre).norm() + (b - centre).norm());
+        // Away from the intrados is towards the centre where the arch curves the other way.
+        let sense = normal.dot(&(middle - centre)).signum();
+        let points = [a, centre + (middle - centre).normalize() * radius, b];
+        (points, points.map(|p| (p - centre).normalize() * sense))
     }
 
     /// Subblocks that the point `eta` of the joint before (`after` false) or after touches.

@@ -3,37 +3,47 @@
 use super::block::{Block, M6, V6};
 use crate::geometry::{Vec2, perpendicular};
 
-/// Stiffness of the pair of springs in the middle of a seam, over E L / h.
+/// Stiffness of the springs on a seam's mean jump, over E L / h.
 ///
-/// Stiff enough that a seam adds a thousandth of a subblock's own compliance; larger values gain nothing and cost
-/// digits in the condensation.
-const MIDDLE: f64 = 1000.0;
+/// A seam then adds a ten-thousandth of a subblock's own compliance. From 100 to 1e5 the stress does not change; below
+/// 1e3 the strain energy grows visibly.
+const MEAN: f64 = 1e4;
 /// Stiffness of the springs on the linear part of a seam's jump, over that of an elastic layer, E L / (12 h).
 ///
-/// Without them subblocks turn on their seams' middles like beads (a fourth mode without energy); from 0.1 on they lock
-/// in bending as corner springs do.
-const LINEAR: f64 = 0.01;
+/// Without them subblocks turn on their seams' middles like beads (a fourth mode without energy); from 0.03 on they
+/// begin to lock in bending as corner springs do.
+const LINEAR: f64 = 0.003;
 
 /// How subblocks are bonded at their seams.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Bond {
-    /// A stiff pair of springs (normal and tangential) in the middle, a weak one on the jump's linear part.
+    /// A stiff pair of springs (normal and tangential) on the mean jump, a weak one on what is linear in it.
     Split,
     /// A pair of springs of this stiffness, N/m2, at both ends, as the paper's text reads. Locks in bending.
     Corners(f64),
 }
 
-/// The common side of two subblocks.
+/// The common side of two subblocks, straight or an arc.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Seam {
     /// The two subblocks.
     pub blocks: [usize; 2],
-    /// Mean point of the side, m: the middle of a straight one.
-    pub at: Vec2,
-    /// Its ends, m.
-    pub ends: [Vec2; 2],
-    /// Unit normal in the mean, from the first subblock into the second.
-    pub normal: Vec2,
+    /// One end, the middle and the other end of the side, m.
+    pub points: [Vec2; 3],
+    /// Unit normals there, from the first subblock into the second.
+    pub normals: [Vec2; 3],
+}
+
+/// Weights of Simpson's rule for the mean along a side.
+const SIMPSON: [f64; 3] = [1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0];
+
+impl Seam {
+    /// Length of the side, m: exact for a straight one, to the fourth order of its angle for an arc.
+    fn length(&self) -> f64 {
+        let [a, m, b] = self.points;
+        let (chord, halves) = ((b - a).norm(), (m - a).norm() + (b - m).norm());
+        (4.0 * halves - chord) / 3.0
+    }
 }
 
 /// Subblocks bonded at seams.
@@ -73,9 +83,8 @@ impl Macroblock {
         let place = |p: Vec2| turned(p - origin);
         let seam = |s: &Seam| Seam {
             blocks: s.blocks,
-            at: place(s.at),
-            ends: s.ends.map(place),
-            normal: turned(s.normal),
+            points: s.points.map(place),
+            normals: s.normals.map(turned),
         };
         Macroblock {
             blocks: self.blocks.iter().map(|b| b.moved_to(place(b.centroid()))).collect(),
@@ -89,11 +98,10 @@ impl Macroblock {
         let near = |a: Vec2, b: Vec2| (a - b).amax() <= rounding;
         let same_block = |(a, b): (&Block, &Block)| a.same_as(b, rounding);
         let same_seam = |(a, b): (&Seam, &Seam)| {
-            let length = (a.ends[1] - a.ends[0]).norm();
+            let length = a.length();
             a.blocks == b.blocks
-                && near(a.at, b.at)
-                && a.ends.iter().zip(b.ends).all(|(&a, b)| near(a, b))
-                && near(a.normal * length, b.normal * length)
+                && a.points.iter().zip(b.points).all(|(&a, b)| near(a, b))
+                && a.normals.iter().zip(b.normals).all(|(&a, b)| near(a * length, b * length))
         };
         self.bond == other.bond
             && self.blocks.len() == other.blocks.len()
@@ -120,30 +128,29 @@ impl Macroblock {
     }
 
     /// Springs of a seam: stiffness, N/m2, and the jump it resists as rows over the two subblocks.
-    fn springs(&self, seam: &Seam) -> Vec<(f64, [V6; 2])> {
-        let jump = |at: Vec2, along: Vec2| {
-            let [first, second] = seam.blocks.map(|i| self.blocks[i].displacement_row(at, along));
+    ///
+    /// Jumps are counted along the side's own normal and tangent. On an arc these turn, and the mean jump along them,
+    /// not that at one point, is what an even pressure on the arc does work in.
+    fn springs(&self, seam: &Seam) -> [(f64, [V6; 2]); 4] {
+        let jump = |point: usize, along: usize| {
+            let normal = seam.normals[point];
+            let direction = if along == 0 { normal } else { perpendicular(normal) };
+            let [first, second] = seam.blocks.map(|i| self.blocks[i].displacement_row(seam.points[point], direction));
             [-first, second]
         };
-        let directions = [seam.normal, perpendicular(seam.normal)];
+        let sum = |weights: [f64; 3], along: usize| {
+            let rows = [0, 1, 2].map(|point| jump(point, along));
+            [0, 1].map(|side| (0..3).map(|i| rows[i][side] * weights[i]).sum::<V6>())
+        };
         match self.bond {
-            Bond::Corners(stiffness) => {
-                let pair = |at: Vec2| directions.map(|along| (stiffness, jump(at, along)));
-                seam.ends.iter().flat_map(|&end| pair(end)).collect()
-            }
+            Bond::Corners(stiffness) => [(0, 0), (0, 1), (2, 0), (2, 1)].map(|(end, along)| (stiffness, jump(end, along))),
             Bond::Split => {
                 let [first, second] = seam.blocks.map(|i| &self.blocks[i]);
-                let distance = (second.centroid() - first.centroid()).dot(&seam.normal);
-                let length = (seam.ends[1] - seam.ends[0]).norm();
-                // Of two stones of one macroblock that differ, the stiffer may not lose by its softer neighbour.
-                let layer = first.youngs_modulus().max(second.youngs_modulus()) * length / distance;
-                let linear = |along: Vec2| {
-                    let [a, b] = seam.ends.map(|end| jump(end, along));
-                    [b[0] - a[0], b[1] - a[1]]
-                };
-                let middle = directions.map(|along| (MIDDLE * layer, jump(seam.at, along)));
-                let linear = directions.map(|along| (LINEAR / 12.0 * layer, linear(along)));
-                middle.into_iter().chain(linear).collect()
+                let distance = (second.centroid() - first.centroid()).dot(&seam.normals[1]);
+                let layer = first.youngs_modulus() * seam.length() / distance;
+                let (mean, linear) = (SIMPSON, [-1.0, 0.0, 1.0]);
+                [(mean, 0, MEAN), (mean, 1, MEAN), (linear, 0, LINEAR / 12.0), (linear, 1, LINEAR / 12.0)]
+                    .map(|(weights, along, share)| (share * layer, sum(weights, along)))
             }
         }
     }
