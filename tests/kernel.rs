@@ -214,7 +214,7 @@ fn a_pile_carries_its_weight_as_mean_stress_and_penetrates_by_n_over_2k() {
     for i in 0..4 {
         let above = (3 - i) as f64 * 0.5;
         let expected = -WEIGHT_DENSITY * (above + 0.25);
-        let stress = chain.stresses(i, tracer.displacements(), &loads)[0];
+        let stress = chain.stresses(i, tracer.displacements(), &[(&loads, 1.0)])[0];
         assert!((stress[1] / expected - 1.0).abs() < 1e-9, "block {i}: {stress:?} not {expected}");
     }
     let forces = chain.contact_forces(tracer.displacements());

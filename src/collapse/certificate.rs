@@ -1,7 +1,7 @@
 //! The exact limit window of an arch, and what to make of a load path that differs from it.
 
 use super::path::total;
-use super::{Analysis, Digits, Method, PathEnd};
+use super::{Analysis, Crushing, Digits, Method, PathEnd};
 use crate::limit::StaticTheorem;
 
 /// Path and window agree when their load factors differ by less than this share.
@@ -110,6 +110,20 @@ impl Certificate {
             Some([low, high]) if low.max(-cap) < high.min(cap) => 0.5 * (low.max(-cap) + high.min(cap)),
             _ => 0.0,
         }
+    }
+
+    /// Load factor from which to follow the path of a safety analysis: 1, the full loads, if the arch stands there or
+    /// needs more; below, where only a share of them can be borne.
+    pub(super) fn full_load(&self, settled: bool, cap: f64) -> f64 {
+        match self.window {
+            Some([_, high]) if high < 1.0 => self.start(settled, 1.0, cap),
+            _ => 1.0,
+        }
+    }
+
+    /// What limit analysis says of stone of this strength, Pa.
+    pub(super) fn crushing(&self, strength: f64) -> Crushing {
+        Crushing { strength, elastic: None, plastic_section: None }
     }
 
     /// `settled`: every stone carries a fixed load.

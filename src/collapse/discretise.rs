@@ -58,8 +58,7 @@ pub(super) fn discretise(analysis: &Analysis, seed: u64) -> Result<Model, Loose>
     let grids = grids(analysis);
     let [left, right] = arch.abutments;
     let base = |abutment: Option<Abutment>| abutment.map(|a| Joint { law: JointLaw::Bonded, ..a.base });
-    let joints: Vec<Joint> =
-        base(left).into_iter().chain(arch.joints.iter().copied()).chain(base(right)).collect();
+    let joints: Vec<Joint> = base(left).into_iter().chain(arch.joints.iter().copied()).chain(base(right)).collect();
     let stand = |abutment: Option<Abutment>, k: usize| {
         abutment.map(|a| Grid::new([&joints[k], &joints[k + 1]], a.region, Lines::Straight, [1, 1]))
     };
@@ -182,20 +181,24 @@ fn extent(points: impl Iterator<Item = Vec2>) -> f64 {
 }
 
 impl Model {
-    /// All loads at a load factor.
-    pub(super) fn loads_at(&self, load_factor: f64) -> Loads {
-        self.fixed.plus(&self.scaled, load_factor)
+    /// All loads at a load factor, each with its own.
+    pub(super) fn loads_at(&self, load_factor: f64) -> [(&Loads, f64); 2] {
+        [(&self.fixed, 1.0), (&self.scaled, load_factor)]
     }
 
     /// Mean motion of a voussoir.
     pub(super) fn motion(&self, voussoir: usize, load_factor: f64, displacements: &[f64]) -> MeanMotion {
-        let loads = [(&self.fixed, 1.0), (&self.scaled, load_factor)];
-        self.chain.mean_motion(self.first_voussoir + voussoir, displacements, &loads)
+        self.chain.mean_motion(self.first_voussoir + voussoir, displacements, &self.loads_at(load_factor))
+    }
+
+    /// Stress in every subblock of a voussoir, Pa.
+    pub(super) fn stresses(&self, voussoir: usize, load_factor: f64, displacements: &[f64]) -> Vec<[f64; 3]> {
+        self.chain.stresses(self.first_voussoir + voussoir, displacements, &self.loads_at(load_factor))
     }
 
     /// Mean stress in a voussoir, Pa.
-    pub(super) fn mean_stress(&self, voussoir: usize, displacements: &[f64], loads: &Loads) -> [f64; 3] {
-        let stresses = self.chain.stresses(self.first_voussoir + voussoir, displacements, loads);
+    pub(super) fn mean_stress(&self, voussoir: usize, load_factor: f64, displacements: &[f64]) -> [f64; 3] {
+        let stresses = self.stresses(voussoir, load_factor, displacements);
         let grid = &self.grids[voussoir];
         let areas: Vec<f64> = grid.cells().map(|(i, j)| grid.region(i, j).area).collect();
         let total: f64 = areas.iter().sum();

@@ -13,7 +13,9 @@ mod record;
 pub mod report;
 mod safety;
 mod smallest_motion;
+mod tally;
 mod verdict;
+mod yielding;
 
 pub use digits::Digits;
 pub use report::*;

@@ -2,7 +2,11 @@
 
 use super::discretise::Model;
 use super::grid::Grid;
-use super::{BlockState, ContactForce, HistoryPoint, Method, Snapshot, StressField};
+use super::yielding::Yielding;
+use super::{
+    Analysis, BlockState, ContactForce, ElasticCrushing, FieldAt, HistoryPoint, Method, Snapshot, StressField,
+    mechanism,
+};
 use crate::dda::MeanMotion;
 use std::collections::VecDeque;
 use std::rc::Rc;
@@ -10,8 +14,8 @@ use std::rc::Rc;
 /// Most fixed steps of one path. The paper takes about fifty; more than this is a mistake in the step.
 pub(super) const MOST_STEPS: usize = 10_000;
 
-/// A point of the path.
-type Point = (f64, Vec<f64>);
+/// A point of the path: load factor and displacements of the nodes.
+pub(super) type Point = (f64, Vec<f64>);
 
 /// Keeps what will be asked of a path while it is traced.
 #[derive(Debug)]
@@ -31,32 +35,32 @@ pub(super) struct Recorder<'a> {
     steps_done: usize,
     /// Load-displacement history.
     pub history: Vec<HistoryPoint>,
-    /// Displacements at load factor 1, once passed.
-    pub at_one: Option<Vec<f64>>,
+    /// Load factors that are asked for, with the displacements there, once passed.
+    asked: Vec<(f64, Option<Vec<f64>>)>,
+    yielding: Yielding<'a>,
 }
 
 impl<'a> Recorder<'a> {
-    /// A recorder for a path that starts at load factor `start` and goes the way of `sign`. `crown`: the voussoirs whose mean is the crown.
-    pub(super) fn new(
-        model: &'a Model,
-        method: Method,
-        share: f64,
-        [start, sign]: [f64; 2],
-        crown: [usize; 2],
-    ) -> Self {
+    /// A recorder for a path that starts at load factor `start` and goes the way of `sign`.
+    pub(super) fn new(model: &'a Model, analysis: &Analysis, [start, sign]: [f64; 2]) -> Self {
+        let fields = analysis.fields.iter().filter_map(|field| match field {
+            FieldAt::LoadFactor(load_factor) => Some(*load_factor),
+            FieldAt::NearCollapse => None,
+        });
         Recorder {
             model,
-            method,
-            share,
+            method: analysis.method,
+            share: analysis.share,
             start,
             sign,
-            crown,
+            crown: mechanism::crown(&analysis.arch),
             recent: VecDeque::new(),
             farthest: start,
             last: None,
             steps_done: 0,
             history: Vec::new(),
-            at_one: None,
+            asked: std::iter::once(1.0).chain(fields).map(|load_factor| (load_factor, None)).collect(),
+            yielding: Yielding::new(model, analysis.stone.compressive_strength),
         }
     }
 
@@ -65,8 +69,10 @@ impl<'a> Recorder<'a> {
         let now = Rc::new((load_factor, displacements.to_vec()));
         let before = self.last.take();
         if let Some(before) = &before {
-            if self.at_one.is_none() && (before.0 - 1.0) * (load_factor - 1.0) <= 0.0 && before.0 != load_factor {
-                self.at_one = Some(interpolate(before, &now, 1.0));
+            for (asked, found) in self.asked.iter_mut().filter(|(_, found)| found.is_none()) {
+                if (before.0 - *asked) * (load_factor - *asked) <= 0.0 && before.0 != load_factor {
+                    *found = Some(interpolate(before, &now, *asked));
+                }
             }
             if let Some(met) = self.fixed_steps(before, &now) {
                 let (load_factor, met) = (met.0, Rc::new(met));
@@ -91,8 +97,21 @@ impl<'a> Recorder<'a> {
         self.last.as_ref().map_or(&[], |point| &point.1)
     }
 
+    /// Displacements where the path first passes a load factor that was asked for.
+    pub(super) fn at(&self, load_factor: f64) -> Option<&[f64]> {
+        let asked = self.asked.iter().find(|(asked, _)| *asked == load_factor);
+        asked.and_then(|(_, found)| found.as_deref())
+    }
+
+    /// When the stone first yields on the way to the highest load.
+    pub(super) fn first_yield(&self) -> ElasticCrushing {
+        self.yielding.answer()
+    }
+
     fn keep(&mut self, before: Option<Rc<Point>>, now: &Rc<Point>) {
-        if (now.0 - self.start).abs() < (self.farthest - self.start).abs() {
+        let highest = (now.0 - self.start).abs() >= (self.farthest - self.start).abs();
+        self.yielding.see(before.as_ref(), now, highest);
+        if !highest {
             return;
         }
         // Where the load factor had fallen and now recovers, the last leg of the way up starts below the farthest point.
@@ -138,8 +157,7 @@ impl<'a> Recorder<'a> {
             self.steps_done += 1;
             let displacements = interpolate(before, now, at);
             self.model.chain.gaps(&displacements, &mut gaps);
-            let open =
-                (0..=self.model.voussoirs).filter(|&k| self.model.contacts(k).any(|p| gaps[p][0] > opening));
+            let open = (0..=self.model.voussoirs).filter(|&k| self.model.contacts(k).any(|p| gaps[p][0] > opening));
             if open.count() >= hinges {
                 return Some((at, displacements));
             }
@@ -155,11 +173,10 @@ fn interpolate(a: &Point, b: &Point, load_factor: f64) -> Vec<f64> {
 
 /// The arch at one point of the path.
 pub(super) fn snapshot(model: &Model, load_factor: f64, displacements: &[f64]) -> Snapshot {
-    let loads = model.loads_at(load_factor);
     let blocks = (0..model.voussoirs)
         .map(|v| {
             let MeanMotion { displacement, rotation } = model.motion(v, load_factor, displacements);
-            BlockState { displacement, rotation, stress: model.mean_stress(v, displacements, &loads) }
+            BlockState { displacement, rotation, stress: model.mean_stress(v, load_factor, displacements) }
         })
         .collect();
     let forces = model.chain.contact_forces(displacements);
@@ -170,17 +187,15 @@ pub(super) fn snapshot(model: &Model, load_factor: f64, displacements: &[f64]) -
         tangential: forces[p].tangential,
         gap: forces[p].gap,
     };
-    let contacts =
-        (0..=model.voussoirs).flat_map(|joint| model.contacts(joint).map(move |p| (joint, p))).map(|(j, p)| contact(j, p));
+    let contacts = (0..=model.voussoirs)
+        .flat_map(|joint| model.contacts(joint).map(move |p| (joint, p)))
+        .map(|(j, p)| contact(j, p));
     Snapshot { load_factor, blocks, contacts: contacts.collect() }
 }
 
 /// Stress in every subblock at one point of the path.
 pub(super) fn stress_field(model: &Model, load_factor: f64, displacements: &[f64]) -> StressField {
-    let loads = model.loads_at(load_factor);
-    let stone = |(voussoir, grid): (usize, &Grid)| {
-        let stresses = model.chain.stresses(model.first_voussoir + voussoir, displacements, &loads);
-        grid.field(voussoir, &stresses)
-    };
+    let stone =
+        |(voussoir, grid): (usize, &Grid)| grid.field(voussoir, &model.stresses(voussoir, load_factor, displacements));
     StressField { load_factor, subblocks: model.grids.iter().enumerate().flat_map(stone).collect() }
 }

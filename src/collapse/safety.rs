@@ -1,8 +1,110 @@
 //! Safety factors: the first of instability and crushing as the scaled loads grow from their full size.
 
-use super::{AnalysisError, CurvePoint, SafetyPoint, Watch};
+use super::{
+    AnalysisError, CollapseReport, Crushing, CrushingKind, CurvePoint, Governs, Mode, Outcome, Reach, SafetyPoint,
+    Watch, Zone,
+};
 
 /// Safety factors over a list of abscissae.
-pub(super) fn curve(_: &[CurvePoint], _: &mut dyn Watch) -> Result<Vec<SafetyPoint>, AnalysisError> {
-    Ok(Vec::new())
+pub(super) fn curve(points: &[CurvePoint], watch: &mut dyn Watch) -> Result<Vec<SafetyPoint>, AnalysisError> {
+    let solve = |point: &CurvePoint| {
+        let report = super::run(&point.analysis, watch)?;
+        let safety =
+            report.safety.map(|safety| SafetyPoint { abscissa: Some(point.abscissa), notes: report.notes, ..safety });
+        Ok(safety.unwrap_or_else(|| SafetyPoint::unknown(point.abscissa)))
+    };
+    points.iter().map(solve).collect()
+}
+
+/// Reads the safety factors off a finished report, whose path started at the full loads if the arch stands under them.
+pub(super) fn judge(report: &mut CollapseReport, counted: CrushingKind) {
+    let crushing = report.crushing.as_ref();
+    let (instability, elastic) = (instability(report), crushing.map_or(Reach::Unknown, elastic));
+    let plastic_section = crushing.map_or(Reach::Unknown, plastic);
+    let against_crushing = if counted == CrushingKind::Elastic { elastic } else { plastic_section };
+    let (governing, governed_by) = first(instability, against_crushing);
+    let mode = report.end.as_ref().map(|end| end.mechanism.mode);
+    let zone = zone(governed_by, mode);
+    if governed_by == Governs::Crushing {
+        report.outcome = Outcome::Crushes;
+    }
+    report.safety = Some(SafetyPoint {
+        abscissa: None,
+        instability,
+        elastic,
+        plastic_section,
+        governing,
+        governed_by,
+        mode,
+        zone,
+        notes: Vec::new(),
+    });
+}
+
+impl SafetyPoint {
+    /// Nothing is known.
+    fn unknown(abscissa: f64) -> Self {
+        SafetyPoint {
+            abscissa: Some(abscissa),
+            instability: Reach::Unknown,
+            elastic: Reach::Unknown,
+            plastic_section: Reach::Unknown,
+            governing: Reach::Unknown,
+            governed_by: Governs::Unknown,
+            mode: None,
+            zone: None,
+            notes: Vec::new(),
+        }
+    }
+}
+
+fn instability(report: &CollapseReport) -> Reach {
+    let factor = report.end.as_ref().map(|end| end.load_factor);
+    match (report.outcome, factor) {
+        (Outcome::NeverCollapses, _) => Reach::Never,
+        (Outcome::Collapse, Some(factor)) => Reach::At(factor),
+        (Outcome::FallsAsBuilt, _) => Reach::DoesNotStand,
+        _ => Reach::Unknown,
+    }
+}
+
+fn elastic(crushing: &Crushing) -> Reach {
+    match &crushing.elastic {
+        None => Reach::Unknown,
+        Some(elastic) if elastic.at_start => Reach::DoesNotStand,
+        Some(elastic) => elastic.load_factor.map_or(Reach::Never, Reach::At),
+    }
+}
+
+fn plastic(crushing: &Crushing) -> Reach {
+    match crushing.plastic_section.as_ref().map(|plastic| plastic.window) {
+        None => Reach::Unknown,
+        Some(None) => Reach::DoesNotStand,
+        Some(Some(window)) if window.lowest > 1.0 => Reach::DoesNotStand,
+        Some(Some(window)) if window.highest.is_finite() => Reach::At(window.highest),
+        Some(Some(_)) => Reach::Never,
+    }
+}
+
+/// The first of instability and crushing. Where the arch does not stand as a mechanism, crushing does not count.
+fn first(instability: Reach, crushing: Reach) -> (Reach, Governs) {
+    match (instability, crushing) {
+        (Reach::Unknown, _) | (_, Reach::Unknown) => (Reach::Unknown, Governs::Unknown),
+        (Reach::DoesNotStand, _) => (instability, Governs::Instability),
+        (_, Reach::DoesNotStand) => (crushing, Governs::Crushing),
+        (Reach::At(falls), Reach::At(crushes)) if crushes < falls => (crushing, Governs::Crushing),
+        (Reach::Never, Reach::At(_)) => (crushing, Governs::Crushing),
+        (Reach::At(_), _) => (instability, Governs::Instability),
+        (Reach::Never, Reach::Never) => (Reach::Never, Governs::Nothing),
+    }
+}
+
+/// Zone of Figs. 10 and 13 of the paper.
+fn zone(governed_by: Governs, mode: Option<Mode>) -> Option<Zone> {
+    match (governed_by, mode) {
+        (Governs::Crushing, _) => Some(Zone::Crushing),
+        (Governs::Instability, Some(Mode::CrownRises)) => Some(Zone::CrownRises),
+        (Governs::Instability, Some(Mode::CrownDescends)) => Some(Zone::CrownDescends),
+        _ => None,
+    }
 }

@@ -5,8 +5,8 @@ use super::discretise::{Model, discretise};
 use super::path::{ATTEMPTS, Attempt, Leg, disturbed, follow, nothing_grows, stand, total};
 use super::record::{MOST_STEPS, Recorder, snapshot};
 use super::{
-    Analysis, AnalysisError, CollapseReport, Cost, Direction, LimitWindow, LoadStep, Method, Outcome, PathEnd,
-    ThrustRange, Watch, ending, mechanism, motion,
+    Aim, Analysis, AnalysisError, CollapseReport, Cost, Crushing, Direction, LimitWindow, LoadStep, Method, Outcome,
+    PathEnd, ThrustRange, Watch, ending, motion, safety,
 };
 use crate::dda::{End, Tracer};
 use std::cell::Cell;
@@ -27,6 +27,8 @@ struct Question<'a> {
     /// Sum of all loads at the start, N/m.
     weight: f64,
     thrust_range: Option<ThrustRange>,
+    /// What limit analysis says of crushing.
+    crushing: Crushing,
     /// Load factor of the last event.
     reached: Cell<f64>,
 }
@@ -57,6 +59,9 @@ pub(super) fn run(analysis: &Analysis, watch: &mut dyn Watch) -> Result<Collapse
         }
         report.notes.push(doubt.to_string());
     }
+    if let Aim::Safety { crushing } = analysis.aim {
+        safety::judge(&mut report, crushing);
+    }
     report.check_finite()?;
     Ok(report)
 }
@@ -78,12 +83,21 @@ impl<'a> Question<'a> {
         let (fixed, scaled) = (total(&analysis.fixed), total(&analysis.scaled));
         let balance = if fixed > 0.0 && scaled > 0.0 { fixed / scaled } else { 1.0 };
         let sign = if analysis.direction == Direction::Increase { 1.0 } else { -1.0 };
-        let cap = analysis.cap.unwrap_or(DEFAULT_CAP * balance);
-        let start = certificate.start(loaded(analysis)[0], sign, cap);
+        let cap = analysis.cap.unwrap_or(match analysis.aim {
+            Aim::Collapse => DEFAULT_CAP * balance,
+            Aim::Safety { .. } => DEFAULT_CAP * balance.max(1.0),
+        });
+        let settled = loaded(analysis)[0];
+        let start = match analysis.aim {
+            Aim::Collapse => certificate.start(settled, sign, cap),
+            Aim::Safety { .. } => certificate.full_load(settled, cap),
+        };
         let thrust = any_fixed(analysis).then(|| certificate.theorem.thrust_range(0.0)).flatten();
         let thrust_range = thrust.map(|[lowest, highest]| ThrustRange { lowest, highest });
         let weight = fixed + scaled * start.abs();
-        Question { analysis, certificate, thrust_range, sign, start, cap, weight, reached: Cell::new(start) }
+        let crushing = certificate.crushing(analysis.stone.compressive_strength);
+        let reached = Cell::new(start);
+        Question { analysis, certificate, thrust_range, crushing, sign, start, cap, weight, reached }
     }
 
     fn attempt(&self, attempt: Attempt, watch: &mut dyn Watch) -> Result<Attempted, AnalysisError> {
@@ -108,12 +122,13 @@ impl<'a> Question<'a> {
         report.at_start = Some(snapshot(&model, self.start, tracer.displacements()));
         if nothing_grows(&model, total(&analysis.scaled)) {
             report.outcome = Outcome::NeverCollapses;
+            report.fields_at_rest(analysis, &model, tracer.displacements());
             report.notes.push("Nothing grows with the load factor: the answer says only that the arch stands.".into());
             return Ok(Attempted { report, doubt: None });
         }
         let mut back = tracer.clone();
         let mut doubt = self.leg(&mut report, &model, &mut tracer, &fixed, self.sign, &mut progress)?;
-        if !self.certificate.stands_at(0.0) {
+        if analysis.aim == Aim::Collapse && !self.certificate.stands_at(0.0) {
             report.outcome = Outcome::StandsInWindow;
             let mut other = self.blank(&model);
             doubt = doubt.or(self.leg(&mut other, &model, &mut back, &fixed, -self.sign, &mut progress)?);
@@ -133,12 +148,14 @@ impl<'a> Question<'a> {
         progress: &mut Progress,
     ) -> Result<Option<Doubt>, AnalysisError> {
         let analysis = self.analysis;
-        let crown = mechanism::crown(&analysis.arch);
-        let mut recorder = Recorder::new(model, analysis.method, analysis.share, [self.start, sign], crown);
+        let mut recorder = Recorder::new(model, analysis, [self.start, sign]);
         let before = Cost::of(tracer);
         let leg = follow(tracer, model, fixed, self.start, sign, self.cap, &mut recorder, progress);
         report.cost.add(tracer, before);
-        report.at_unit_load = recorder.at_one.as_ref().map(|d| snapshot(model, 1.0, d));
+        report.at_unit_load = recorder.at(1.0).map(|d| snapshot(model, 1.0, d));
+        if let Some(crushing) = &mut report.crushing {
+            crushing.elastic = Some(recorder.first_yield());
+        }
         let residual = tracer.worst_residual();
         let mut peak_load = None;
         let (end, turned_back) = match leg {
@@ -146,6 +163,7 @@ impl<'a> Question<'a> {
             Leg::TooManySteps => return Err(AnalysisError::TooManySteps { most: MOST_STEPS }),
             Leg::Lost => return Ok(Some(Doubt::Lost)),
             Leg::Endless => {
+                report.add_fields(analysis, model, &recorder, None);
                 report.history = recorder.history;
                 report.outcome = Outcome::NeverCollapses;
                 return Ok(self.certificate.endless(sign, self.cap));
@@ -163,7 +181,8 @@ impl<'a> Question<'a> {
             }
         };
         let near = recorder.near(peak_load.unwrap_or(end.load_factor));
-        report.near_collapse = near.map(|(factor, d)| snapshot(model, factor, &d));
+        report.near_collapse = near.as_ref().map(|(factor, d)| snapshot(model, *factor, d));
+        report.add_fields(analysis, model, &recorder, near.as_ref());
         report.history = recorder.history;
         let doubt = self.conclude(report, end, sign, turned_back);
         Ok(doubt.or(self.certificate.standing_doubt(residual)))
@@ -229,64 +248,11 @@ impl<'a> Question<'a> {
             at_unit_load: None,
             at_start: None,
             stress_fields: Vec::new(),
-            crushing: None,
+            crushing: Some(self.crushing.clone()),
             safety: None,
             history: Vec::new(),
             cost: Cost { unknowns: model.chain.unknowns(), ..Cost::default() },
             notes: Vec::new(),
         }
-    }
-}
-
-impl Cost {
-    /// A tracer's work so far.
-    fn of(tracer: &Tracer) -> Self {
-        let (events, factorisations) = (tracer.events(), tracer.factorisations());
-        Cost { events, factorisations, block_rows: tracer.block_rows(), unknowns: 0 }
-    }
-
-    /// Adds a tracer's work since `before`.
-    fn add(&mut self, tracer: &Tracer, before: Cost) {
-        let now = Cost::of(tracer);
-        self.events += now.events - before.events;
-        self.factorisations += now.factorisations - before.factorisations;
-        self.block_rows += now.block_rows - before.block_rows;
-    }
-
-    /// Adds the work of another attempt or leg at the same model.
-    fn join(&mut self, other: Cost) {
-        self.events += other.events;
-        self.factorisations += other.factorisations;
-        self.block_rows += other.block_rows;
-    }
-}
-
-impl CollapseReport {
-    /// Takes in the leg that was followed the other way.
-    fn join_other_end(&mut self, other: CollapseReport) {
-        self.other_end = other.end;
-        self.at_unit_load = self.at_unit_load.take().or(other.at_unit_load);
-        self.notes.extend(other.notes);
-        self.cost.join(other.cost);
-    }
-
-    /// A number that is not finite must not reach anyone as a `null` or a blank.
-    fn check_finite(&self) -> Result<(), AnalysisError> {
-        let finite = |what: &'static str, mut numbers: Box<dyn Iterator<Item = f64> + '_>| {
-            if numbers.all(f64::is_finite) { Ok(()) } else { Err(AnalysisError::NotFinite { what }) }
-        };
-        for end in self.end.iter().chain(&self.other_end) {
-            finite("collapse load", Box::new([end.load_factor, end.residual].into_iter()))?;
-            finite("mechanism", Box::new(end.mechanism.velocities.iter().flatten().copied()))?;
-            let line = end.thrust_line.iter().flat_map(|t| [t.normal, t.shear, t.eccentricity, t.at.x, t.at.y]);
-            finite("thrust line", Box::new(line))?;
-        }
-        for state in self.near_collapse.iter().chain(&self.at_unit_load).chain(&self.at_start) {
-            let blocks = state.blocks.iter().flat_map(|b| [b.displacement.x, b.displacement.y, b.rotation]);
-            finite("displacements", Box::new(blocks))?;
-            finite("stresses", Box::new(state.blocks.iter().flat_map(|b| b.stress)))?;
-            finite("contact forces", Box::new(state.contacts.iter().flat_map(|c| [c.normal, c.tangential, c.gap])))?;
-        }
-        finite("history", Box::new(self.history.iter().flat_map(|h| [h.load_factor, h.crown.x, h.crown.y, h.largest])))
     }
 }

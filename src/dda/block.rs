@@ -112,6 +112,11 @@ impl Block {
         self.elasticity.stress([d[3], d[4], d[5]].map(|e| e / self.size))
     }
 
+    /// Stress (sigma_x, sigma_y, tau_xy), Pa, per unit of the unknowns.
+    pub fn stress_matrix(&self) -> SMatrix<f64, 3, 6> {
+        SMatrix::from_fn(|i, j| self.stress(&V6::from_fn(|k, _| if k == j { 1.0 } else { 0.0 }))[i])
+    }
+
     /// Stiffness of the elastic energy 1/2 A eps:C:eps, N/m2 (per metre of depth).
     pub fn stiffness(&self) -> M6 {
         let mut k = M6::zeros();

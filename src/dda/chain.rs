@@ -6,7 +6,7 @@ use super::contact::{Contact, ContactForce, Law, State};
 use super::factor::Tridiagonal;
 use super::macroblock::Macroblock;
 use crate::geometry::{Vec2, cross, perpendicular};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, SMatrix};
 
 /// A contact point as it is built.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,6 +47,10 @@ struct Kind {
     mean: DMatrix<f64>,
     /// The same per displacement of the nodes.
     mean_of_nodes: DMatrix<f64>,
+    /// Stress of every subblock per unit of its unknowns, 3 x 6 each, and per displacement of the nodes, 3 n_subblocks x
+    /// 2 n_nodes.
+    stress: Vec<SMatrix<f64, 3, 6>>,
+    stress_of_nodes: DMatrix<f64>,
 }
 
 /// Loads on a chain.
@@ -54,10 +58,10 @@ struct Kind {
 pub struct Loads {
     /// What they are worth on the nodes, N/m.
     pub on_nodes: Vec<f64>,
-    /// Displacements of every body's subblocks with its nodes held, in the body's frame.
-    inner: Vec<DVector<f64>>,
-    /// Their mean over the body: displacement and rotation.
+    /// Mean displacement and rotation of every body with its nodes held, in the body's frame.
     mean: Vec<[f64; 3]>,
+    /// Stress of its subblocks with its nodes held, in the body's frame, three numbers each.
+    stress: Vec<Vec<f64>>,
 }
 
 /// A force on one subblock.
@@ -97,6 +101,9 @@ pub struct Chain {
     first: Vec<usize>,
     /// Interface of every contact.
     interface: Vec<usize>,
+    /// Places of every contact's normal unknown on the body before and on the body after (none: the ground); the
+    /// tangential one follows.
+    places: Vec<[Option<usize>; 2]>,
     /// Elastic stiffness between the faces.
     elastic: Tridiagonal,
 }
@@ -157,7 +164,10 @@ impl ChainBuilder {
         let interface = self.touches.iter().enumerate().flat_map(|(k, t)| vec![k; t.len()]).collect();
         let touches = || self.touches.iter().flatten();
         let contacts = touches().map(|t| Contact::new(t.stiffness, t.law)).collect();
-        Ok(Chain { bodies, kinds, contacts, links: touches().map(|t| t.link).collect(), first, interface, elastic })
+        let links = touches().map(|t| t.link).collect();
+        let mut chain = Chain { bodies, kinds, contacts, links, first, interface, places: Vec::new(), elastic };
+        chain.places = (0..chain.contacts.len()).map(|p| chain.find_places(p)).collect();
+        Ok(chain)
     }
 }
 
@@ -171,8 +181,18 @@ impl Kind {
             if j % 6 == i { weight } else { 0.0 }
         });
         let mean_of_nodes = &mean * condensed.response();
-        Ok(Kind { macroblock, nodes, condensed, mean, mean_of_nodes })
+        let stress: Vec<_> = macroblock.blocks().iter().map(|b| b.stress_matrix()).collect();
+        let stress_of_nodes = DMatrix::from_columns(
+            &condensed.response().column_iter().map(|d| stresses(&stress, d.as_slice())).collect::<Vec<_>>(),
+        );
+        Ok(Kind { macroblock, nodes, condensed, mean, mean_of_nodes, stress, stress_of_nodes })
     }
+}
+
+/// Stress of subblocks displaced by `d`, three numbers each.
+fn stresses(stress: &[SMatrix<f64, 3, 6>], d: &[f64]) -> DVector<f64> {
+    let each = stress.iter().zip(d.chunks_exact(6)).map(|(of, d)| of * V6::from_column_slice(d));
+    DVector::from_iterator(3 * stress.len(), each.flat_map(|s| [s[0], s[1], s[2]]))
 }
 
 /// Nodes of a body between two interfaces, first those on the first.
@@ -223,17 +243,6 @@ fn elastic<'c>(sizes: &[usize], bodies: impl Iterator<Item = &'c Condensed>) -> 
     k
 }
 
-impl Loads {
-    /// These loads and `factor` times the others.
-    pub fn plus(&self, other: &Loads, factor: f64) -> Loads {
-        Loads {
-            on_nodes: self.on_nodes.iter().zip(&other.on_nodes).map(|(a, b)| a + b * factor).collect(),
-            inner: self.inner.iter().zip(&other.inner).map(|(a, b)| a + b * factor).collect(),
-            mean: self.mean.iter().zip(&other.mean).map(|(a, b)| [0, 1, 2].map(|i| a[i] + b[i] * factor)).collect(),
-        }
-    }
-}
-
 impl Chain {
     /// Number of bodies.
     pub fn bodies(&self) -> usize {
@@ -280,8 +289,7 @@ impl Chain {
         [(2 * k).checked_sub(1), Some(2 * k).filter(|_| k < self.bodies.len())]
     }
 
-    /// Places of contact `p`'s normal unknown on the body before and on the body after; the tangential one follows.
-    fn places(&self, p: usize) -> [Option<usize>; 2] {
+    fn find_places(&self, p: usize) -> [Option<usize>; 2] {
         let k = self.interface[p];
         self.faces(k).map(|face| face.map(|face| self.elastic.start[face] + 2 * (p - self.first[k])))
     }
@@ -289,7 +297,7 @@ impl Chain {
     /// Normal and tangential gap of contact `p` at the displacements (or velocities) `d`, its links' strain left out, m.
     pub fn gap(&self, p: usize, d: &[f64]) -> [f64; 2] {
         let of = |place: Option<usize>| place.map_or([0.0; 2], |i| [d[i], d[i + 1]]);
-        let [before, after] = self.places(p).map(of);
+        let [before, after] = [of(self.places[p][0]), of(self.places[p][1])];
         [after[0] - before[0], after[1] - before[1]]
     }
 
@@ -301,7 +309,7 @@ impl Chain {
 
     /// Adds the forces that contact `p` puts on the bodies beside it.
     pub(super) fn push(&self, p: usize, [normal, shear]: [f64; 2], forces: &mut [f64]) {
-        let [before, after] = self.places(p);
+        let [before, after] = self.places[p];
         for (place, sign) in [(before, -1.0), (after, 1.0)] {
             if let Some(i) = place {
                 forces[i] += sign * normal;
@@ -315,7 +323,7 @@ impl Chain {
         let force = |p: usize| {
             let [gap, slip] = self.gap(p, d);
             let force = self.contacts[p].force(gap, slip);
-            let ties = self.places(p).iter().flatten().count() as f64;
+            let ties = self.places[p].iter().flatten().count() as f64;
             ContactForce { gap: gap - ties * force.normal / self.links[p][0], ..force }
         };
         (0..self.contacts.len()).map(force).collect()
@@ -341,14 +349,14 @@ impl Chain {
             let mut place = on_blocks[push.body].fixed_rows_mut::<6>(6 * push.subblock);
             place += load;
         }
-        let mut loads = Loads { on_nodes: Vec::new(), inner: Vec::new(), mean: Vec::new() };
+        let mut loads = Loads { on_nodes: Vec::new(), mean: Vec::new(), stress: Vec::new() };
         for (body, load) in self.bodies.iter().zip(&on_blocks) {
             let kind = &self.kinds[body.kind];
             let [inner, on_nodes] = kind.condensed.load(load);
             loads.on_nodes.extend(on_nodes.iter());
             let mean = &kind.mean * &inner;
             loads.mean.push([mean[0], mean[1], mean[2]]);
-            loads.inner.push(inner);
+            loads.stress.push(stresses(&kind.stress, inner.as_slice()).as_slice().to_vec());
         }
         loads
     }
@@ -370,16 +378,22 @@ impl Chain {
         MeanMotion { displacement: body.turned_back(Vec2::new(mean[0], mean[1])), rotation: mean[2] }
     }
 
-    /// Stress (sigma_x, sigma_y, tau_xy) in every subblock of body `i`, Pa.
-    pub fn stresses(&self, i: usize, d: &[f64], loads: &Loads) -> Vec<[f64; 3]> {
-        let body = &self.bodies[i];
-        let kind = &self.kinds[body.kind];
-        let response = kind.condensed.response() * DVector::from_column_slice(self.of_body(i, d));
-        let displacements = response + &loads.inner[i];
-        let stress = |(s, block): (usize, &super::Block)| {
-            body.stress_turned_back(block.stress(&displacements.fixed_rows::<6>(6 * s).into_owned()))
-        };
-        kind.macroblock.blocks().iter().enumerate().map(stress).collect()
+    /// Stress (sigma_x, sigma_y, tau_xy) in every subblock of body `i`, three numbers each in the body's own frame, Pa.
+    pub fn stresses_in_frame(&self, i: usize, d: &[f64], loads: &[(&Loads, f64)], into: &mut Vec<f64>) {
+        let of_nodes = &self.kinds[self.bodies[i].kind].stress_of_nodes;
+        into.clear();
+        into.resize(of_nodes.nrows(), 0.0);
+        let mut add = |column: &[f64], x: f64| into.iter_mut().zip(column).for_each(|(sum, share)| *sum += share * x);
+        of_nodes.column_iter().zip(self.of_body(i, d)).for_each(|(column, &x)| add(column.as_slice(), x));
+        loads.iter().for_each(|(loads, factor)| add(&loads.stress[i], *factor));
+    }
+
+    /// Stress (sigma_x, sigma_y, tau_xy) in every subblock of body `i`, Pa, for node displacements `d` under loads, each
+    /// times its factor.
+    pub fn stresses(&self, i: usize, d: &[f64], loads: &[(&Loads, f64)]) -> Vec<[f64; 3]> {
+        let mut in_frame = Vec::new();
+        self.stresses_in_frame(i, d, loads, &mut in_frame);
+        in_frame.chunks_exact(3).map(|s| self.bodies[i].stress_turned_back([s[0], s[1], s[2]])).collect()
     }
 }
 

@@ -5,6 +5,7 @@
 
 use super::panels::{Panels, subtract_applied, subtract_product};
 use super::pivot::Pivot;
+use std::ops::Range;
 
 /// A block tridiagonal matrix.
 #[derive(Debug, Clone, Default)]
@@ -39,7 +40,7 @@ impl Tridiagonal {
     }
 
     /// Unknowns of block row `i`.
-    pub fn range(&self, i: usize) -> std::ops::Range<usize> {
+    pub fn range(&self, i: usize) -> Range<usize> {
         self.start[i]..self.start[i + 1]
     }
 }
@@ -131,29 +132,33 @@ impl Sweep {
 
     /// Forward substitution of row `i` of the right-hand side `b`.
     fn forward_row(&self, k: &Tridiagonal, b: &[f64], i: usize, forward: &mut [f64], work: &mut Vec<f64>) {
-        let range = k.range(self.place(i));
-        work.clear();
-        work.extend_from_slice(&b[range.clone()]);
-        let mut load = std::mem::take(work);
-        self.reduce_load(k, i, forward, &mut load);
-        self.pivots[self.place(i)].solve(&mut load, work);
-        forward[range].copy_from_slice(&load);
+        let here = k.range(self.place(i));
+        forward[here.clone()].copy_from_slice(&b[here.clone()]);
+        if i > 0 {
+            let (load, before) = apart(forward, here.clone(), k.range(self.place(i - 1)));
+            subtract_applied(self.previous(k, i), before, load);
+        }
+        self.pivots[self.place(i)].solve(&mut forward[here], work);
     }
 
     /// Substitutes back from row `count` (solved) to row 0.
     fn substitute_back(&self, k: &Tridiagonal, count: usize, x: &mut [f64], forward: &[f64]) {
         for i in (0..count).rev() {
-            let (here, after) = (k.range(self.place(i)), k.range(self.place(i + 1)));
-            let split = here.start.max(after.start);
-            let (low, high) = x.split_at_mut(split);
-            let (into, known) = if self.reversed {
-                (&mut high[..here.len()], &low[after])
-            } else {
-                (&mut low[here.clone()], &high[..after.len()])
-            };
-            into.copy_from_slice(&forward[here.clone()]);
+            let here = k.range(self.place(i));
+            let (into, known) = apart(x, here.clone(), k.range(self.place(i + 1)));
+            into.copy_from_slice(&forward[here]);
             subtract_applied(self.ahead.get(self.place(i)), known, into);
         }
+    }
+}
+
+/// Two neighbouring stretches of `x`: the first to change, the second to read.
+fn apart(x: &mut [f64], change: Range<usize>, read: Range<usize>) -> (&mut [f64], &[f64]) {
+    let (low, high) = x.split_at_mut(change.start.max(read.start));
+    if change.start < read.start {
+        (&mut low[change], &high[..read.len()])
+    } else {
+        (&mut high[..change.len()], &low[read])
     }
 }
 
@@ -289,7 +294,7 @@ mod tests {
     /// Worst difference from faer's dense LU with partial pivoting over the whole matrix.
     fn error(k: &Tridiagonal, b: &[f64], x: &[f64]) -> f64 {
         let mut dense = faer::Mat::zeros(b.len(), b.len());
-        let mut put = |panel: &[f64], rows: std::ops::Range<usize>, columns: std::ops::Range<usize>| {
+        let mut put = |panel: &[f64], rows: Range<usize>, columns: Range<usize>| {
             for (at, value) in panel.iter().enumerate() {
                 dense[(rows.start + at / columns.len(), columns.start + at % columns.len())] = *value;
             }

@@ -81,11 +81,7 @@ impl Macroblock {
     pub(super) fn seen_from(&self, origin: Vec2, x_axis: Vec2) -> Self {
         let turned = |v: Vec2| Vec2::new(v.dot(&x_axis), v.dot(&perpendicular(x_axis)));
         let place = |p: Vec2| turned(p - origin);
-        let seam = |s: &Seam| Seam {
-            blocks: s.blocks,
-            points: s.points.map(place),
-            normals: s.normals.map(turned),
-        };
+        let seam = |s: &Seam| Seam { blocks: s.blocks, points: s.points.map(place), normals: s.normals.map(turned) };
         Macroblock {
             blocks: self.blocks.iter().map(|b| b.moved_to(place(b.centroid()))).collect(),
             seams: self.seams.iter().map(seam).collect(),
@@ -143,7 +139,9 @@ impl Macroblock {
             [0, 1].map(|side| (0..3).map(|i| rows[i][side] * weights[i]).sum::<V6>())
         };
         match self.bond {
-            Bond::Corners(stiffness) => [(0, 0), (0, 1), (2, 0), (2, 1)].map(|(end, along)| (stiffness, jump(end, along))),
+            Bond::Corners(stiffness) => {
+                [(0, 0), (0, 1), (2, 0), (2, 1)].map(|(end, along)| (stiffness, jump(end, along)))
+            }
             Bond::Split => {
                 let [first, second] = seam.blocks.map(|i| &self.blocks[i]);
                 let distance = (second.centroid() - first.centroid()).dot(&seam.normals[1]);

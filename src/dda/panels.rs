@@ -55,10 +55,22 @@ pub fn subtract_product(a: &[f64], b: &[f64], out: &mut [f64], inner: usize, col
 
 /// y -= a x.
 pub fn subtract_applied(a: &[f64], x: &[f64], y: &mut [f64]) {
-    if x.is_empty() {
-        return;
+    match x.len() {
+        0 => {}
+        4 => subtract_applied_of(a, x, y, 4),
+        n => subtract_applied_of(a, x, y, n),
     }
-    for (row, entry) in a.chunks_exact(x.len()).zip(y) {
-        *entry -= row.iter().zip(x).map(|(l, x)| l * x).sum::<f64>();
+}
+
+#[inline(always)]
+fn subtract_applied_of(a: &[f64], x: &[f64], y: &mut [f64], n: usize) {
+    for (row, entry) in a.chunks_exact(n).zip(y) {
+        *entry -= dot(&row[..n], &x[..n]);
     }
+}
+
+/// a . x.
+#[inline(always)]
+pub fn dot(a: &[f64], x: &[f64]) -> f64 {
+    a.iter().zip(x).map(|(a, x)| a * x).sum()
 }

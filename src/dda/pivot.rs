@@ -2,6 +2,8 @@
 
 #![allow(clippy::needless_range_loop, reason = "indices are the mathematics here")]
 
+use super::panels::dot;
+
 /// LU of one pivot block, rows exchanged by partial pivoting.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Pivot {
@@ -85,12 +87,19 @@ impl Pivot {
         }
     }
 
-    /// Solves a x = b in place.
+    /// Solves a x = b in place. `work` is scratch.
     pub(super) fn solve(&self, x: &mut [f64], work: &mut Vec<f64>) {
-        let n = self.n;
+        match self.n {
+            4 => self.solve_of(4, x, work),
+            n => self.solve_of(n, x, work),
+        }
+    }
+
+    #[inline(always)]
+    fn solve_of(&self, n: usize, x: &mut [f64], work: &mut Vec<f64>) {
         work.clear();
-        work.extend(self.order.iter().map(|&i| x[i]));
-        x.copy_from_slice(&work[..n]);
+        work.extend(self.order[..n].iter().map(|&i| x[i]));
+        x[..n].copy_from_slice(&work[..n]);
         for i in 1..n {
             let (before, here) = x.split_at_mut(i);
             here[0] -= dot(&self.rows[i * n..i * n + i], before);
@@ -101,8 +110,4 @@ impl Pivot {
             before[i] = (before[i] - dot(&row[i + 1..], after)) * row[i];
         }
     }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
 }

@@ -2,7 +2,7 @@
 
 use super::Scale;
 use super::words::FaceWord;
-use crate::collapse::{Face, BlockState, ContactForce, HistoryPoint, Snapshot, Thrust};
+use crate::collapse::{BlockState, ContactForce, Face, HistoryPoint, Snapshot, Thrust};
 use serde::Serialize;
 use utoipa::ToSchema;
 

@@ -1,0 +1,97 @@
+//! Filling in a report: work done, stress fields, the other end, and whether every number is one.
+
+use super::discretise::Model;
+use super::record::{Point, Recorder, stress_field};
+use super::{Analysis, AnalysisError, CollapseReport, Cost, Digits, FieldAt};
+use crate::dda::Tracer;
+
+impl Cost {
+    /// A tracer's work so far.
+    pub(super) fn of(tracer: &Tracer) -> Self {
+        let (events, factorisations) = (tracer.events(), tracer.factorisations());
+        Cost { events, factorisations, block_rows: tracer.block_rows(), unknowns: 0 }
+    }
+
+    /// Adds a tracer's work since `before`.
+    pub(super) fn add(&mut self, tracer: &Tracer, before: Cost) {
+        let now = Cost::of(tracer);
+        self.events += now.events - before.events;
+        self.factorisations += now.factorisations - before.factorisations;
+        self.block_rows += now.block_rows - before.block_rows;
+    }
+
+    /// Adds the work of another attempt or leg at the same model.
+    pub(super) fn join(&mut self, other: Cost) {
+        self.events += other.events;
+        self.factorisations += other.factorisations;
+        self.block_rows += other.block_rows;
+    }
+}
+
+impl CollapseReport {
+    /// Stress fields along a path; `near`: the point just before collapse.
+    pub(super) fn add_fields(&mut self, analysis: &Analysis, model: &Model, path: &Recorder, near: Option<&Point>) {
+        for field in &analysis.fields {
+            let found = match field {
+                FieldAt::LoadFactor(load_factor) => path.at(*load_factor).map(|d| (*load_factor, d)),
+                FieldAt::NearCollapse => near.map(|(load_factor, d)| (*load_factor, d.as_slice())),
+            };
+            match found {
+                Some((load_factor, d)) => self.stress_fields.push(stress_field(model, load_factor, d)),
+                None => self.notes.push(missing_field(*field)),
+            }
+        }
+    }
+
+    /// Stress fields of an arch on which nothing grows: the same at any load factor.
+    pub(super) fn fields_at_rest(&mut self, analysis: &Analysis, model: &Model, displacements: &[f64]) {
+        for field in &analysis.fields {
+            match field {
+                FieldAt::LoadFactor(factor) => self.stress_fields.push(stress_field(model, *factor, displacements)),
+                FieldAt::NearCollapse => self.notes.push(missing_field(*field)),
+            }
+        }
+    }
+
+    /// Takes in the leg that was followed the other way.
+    pub(super) fn join_other_end(&mut self, other: CollapseReport) {
+        self.other_end = other.end;
+        self.at_unit_load = self.at_unit_load.take().or(other.at_unit_load);
+        self.notes.extend(other.notes);
+        self.cost.join(other.cost);
+    }
+
+    /// A number that is not finite must not reach anyone as a `null` or a blank.
+    pub(super) fn check_finite(&self) -> Result<(), AnalysisError> {
+        let finite = |what: &'static str, mut numbers: Box<dyn Iterator<Item = f64> + '_>| {
+            if numbers.all(f64::is_finite) { Ok(()) } else { Err(AnalysisError::NotFinite { what }) }
+        };
+        for end in self.end.iter().chain(&self.other_end) {
+            finite("collapse load", Box::new([end.load_factor, end.residual].into_iter()))?;
+            finite("mechanism", Box::new(end.mechanism.velocities.iter().flatten().copied()))?;
+            let line = end.thrust_line.iter().flat_map(|t| [t.normal, t.shear, t.eccentricity, t.at.x, t.at.y]);
+            finite("thrust line", Box::new(line))?;
+        }
+        for state in self.near_collapse.iter().chain(&self.at_unit_load).chain(&self.at_start) {
+            let blocks = state.blocks.iter().flat_map(|b| [b.displacement.x, b.displacement.y, b.rotation]);
+            finite("displacements", Box::new(blocks))?;
+            finite("stresses", Box::new(state.blocks.iter().flat_map(|b| b.stress)))?;
+            finite("contact forces", Box::new(state.contacts.iter().flat_map(|c| [c.normal, c.tangential, c.gap])))?;
+        }
+        for field in &self.stress_fields {
+            finite("stress field", Box::new(field.subblocks.iter().flat_map(|s| s.stress)))?;
+        }
+        let elastic = self.crushing.iter().filter_map(|c| c.elastic.as_ref());
+        finite("first yield", Box::new(elastic.filter_map(|e| e.load_factor)))?;
+        finite("history", Box::new(self.history.iter().flat_map(|h| [h.load_factor, h.crown.x, h.crown.y, h.largest])))
+    }
+}
+
+fn missing_field(field: FieldAt) -> String {
+    match field {
+        FieldAt::LoadFactor(load_factor) => {
+            format!("No stress field at load factor {}: the load path does not pass it.", Digits(load_factor))
+        }
+        FieldAt::NearCollapse => "No stress field near collapse: the arch does not collapse.".into(),
+    }
+}
