@@ -1,5 +1,6 @@
 //! The answer as a person reads it.
 
+use super::safety;
 use super::wording::{self, Limit, word};
 use comfy_table::{Table, presets};
 use std::fmt::Write;
@@ -29,7 +30,8 @@ pub fn summary(result: &AnalysisResult, wall_time: Duration) -> String {
         "the end of the path".to_owned()
     };
     append(&mut text, &format!("Outer joints at {at}, forces per metre of depth"), springings(result));
-    for note in &result.notes {
+    let of_safety = result.safety.iter().flat_map(|safety| &safety.notes);
+    for note in result.notes.iter().chain(of_safety.filter(|note| !result.notes.contains(note))) {
         paragraph(&mut text, &format!("Note: {note}"));
     }
     paragraph(&mut text, explanation(result));
@@ -42,8 +44,11 @@ fn facts(result: &AnalysisResult, wall_time: Duration) -> Table {
         table.add_row([name, &value]);
     };
     fact("arch", wording::arch(&result.request.arch));
-    fact("fixed loads", wording::loads(result, false));
-    fact("scaled loads", wording::loads(result, true));
+    if let Some(mesh) = safety::mesh(&result.request.mesh) {
+        fact("mesh", mesh);
+    }
+    fact("fixed loads", wording::loads(&result.request.loads, false));
+    fact("scaled loads", wording::loads(&result.request.loads, true));
     if result.request.loads.iter().any(|load| load.scaled) {
         let one = Digits(result.request.load_factor.intensity_per_unit);
         fact("", format!("(at load factor 1, which is intensity {one} {})", wording::unit(result)));
@@ -52,7 +57,7 @@ fn facts(result: &AnalysisResult, wall_time: Duration) -> Table {
     fact("method", word(&result.method));
     if let Some(collapse) = &result.collapse {
         // An arch that falls as built has no load to fall at; a window has two.
-        if matches!(result.outcome, OutcomeWord::Collapse | OutcomeWord::Crushes | OutcomeWord::CannotTell) {
+        if matches!(result.outcome, OutcomeWord::Collapse | OutcomeWord::CannotTell) {
             fact("intensity", wording::intensity(result, collapse));
             fact("load factor", Digits(collapse.load_factor).to_string());
         }
@@ -66,6 +71,9 @@ fn facts(result: &AnalysisResult, wall_time: Duration) -> Table {
     if let Some(range) = &result.thrust_range {
         let [lowest, highest] = [range.lowest_n_per_m, range.highest_n_per_m].map(|thrust| Digits(thrust / 1e3));
         fact("thrust range", format!("{lowest} to {highest} kN per metre of depth"));
+    }
+    for (name, value) in safety::facts(result) {
+        fact(name, value);
     }
     let cost = &result.cost;
     let counts = (cost.events, cost.factorisations, cost.unknowns);
@@ -134,19 +142,22 @@ fn springings(result: &AnalysisResult) -> Option<Table> {
     Some(table)
 }
 
-fn bare() -> Table {
+/// A table without lines.
+pub fn bare() -> Table {
     let mut table = Table::new();
     table.load_style(presets::NOTHING);
     table
 }
 
-fn append(text: &mut String, title: &str, table: Option<Table>) {
+/// Adds a table, where there is one, under its title.
+pub fn append(text: &mut String, title: &str, table: Option<Table>) {
     if let Some(table) = table {
         // Writing to a string cannot fail.
         let _ = write!(text, "\n{title}\n{}\n", table.trim_fmt());
     }
 }
 
-fn paragraph(text: &mut String, words: &str) {
+/// Adds prose.
+pub fn paragraph(text: &mut String, words: &str) {
     let _ = write!(text, "\n{}\n", wording::wrapped(words));
 }

@@ -132,10 +132,10 @@ impl ElasticCrushingBody {
     }
 }
 
-/// A mesh as `4 x 8 subblocks (radial x along) in every voussoir`.
+/// A mesh as `4 x 8 subblocks (radial x along)`.
 pub fn mesh_in_words(mesh: &MeshRequest) -> String {
-    let (count, where_) = match &mesh.subblocks {
-        SubblocksRequest::Uniform(each) => (format!("{} x {}", each.radial, each.along), "in every voussoir"),
+    let (count, by) = match &mesh.subblocks {
+        SubblocksRequest::Uniform(each) => (format!("{} x {}", each.radial, each.along), ""),
         SubblocksRequest::PerVoussoir(list) => {
             let range = |counts: Vec<usize>| match (counts.iter().min(), counts.iter().max()) {
                 (Some(least), Some(most)) if least != most => format!("{least} to {most}"),
@@ -144,10 +144,10 @@ pub fn mesh_in_words(mesh: &MeshRequest) -> String {
             };
             let radial = range(list.iter().map(|each| each.radial).collect());
             let along = range(list.iter().map(|each| each.along).collect());
-            (format!("{radial} x {along}"), "by voussoir")
+            (format!("{radial} x {along}"), ", by voussoir")
         }
     };
-    format!("{count} subblocks (radial x along) {where_}")
+    format!("{count} subblocks (radial x along){by}")
 }
 
 /// One subblock under stress.

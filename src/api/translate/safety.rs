@@ -68,7 +68,8 @@ pub fn points(site: &Site<'_>, curve: &CurveRequest, faults: &mut Faults) -> Opt
         let analysis = site.analysis(&at(entries, abscissa), &mut here);
         for Fault { pointer, detail } in here.into_vec() {
             if seen.insert(pointer.clone()) {
-                let detail = if depends(entries, &pointer) { format!("at abscissa {abscissa}: {detail}") } else { detail };
+                let detail =
+                    if depends(entries, &pointer) { format!("at abscissa {abscissa}: {detail}") } else { detail };
                 faults.add(pointer, detail);
             }
         }
@@ -103,7 +104,8 @@ fn check_abscissae(curve: &CurveRequest, faults: &mut Faults) -> bool {
         let pointer = format!("{ABSCISSAE}/{i}");
         let earlier = i.checked_sub(1).map_or(0.0, |i| abscissae[i]);
         if faults.within(&pointer, abscissa, 0.0, MAX_FACTOR) {
-            let detail = format!("{abscissa} follows on {earlier}: list the abscissae from lowest to highest, each once");
+            let detail =
+                format!("{abscissa} follows on {earlier}: list the abscissae from lowest to highest, each once");
             faults.require(abscissa > earlier, pointer, detail);
         }
     }
