@@ -66,7 +66,20 @@ pub fn request() -> Value {
     })
 }
 
-/// The same, asking for trouble.
+/// The same arch: its safety as the load grows.
+pub fn curve() -> Value {
+    let mut request = request();
+    request["loads"][1]["per_abscissa"] = json!(true);
+    request["analysis"] = json!({"safety": {"curve": {"abscissae": [1, 10, 100], "unit": "kN/m"}}});
+    request
+}
+
+/// The curved beam of the paper.
+pub fn beam() -> Value {
+    json!({"curved_beam": {"inner_radius_m": 0.5, "outer_radius_m": 0.7, "end_shear_n_per_m": 2500.0}})
+}
+
+/// The same arch as [`request`], asking for trouble.
 pub fn trouble(share: f64) -> Value {
     let mut request = request();
     request["report"] = json!({"share_of_collapse": share});
