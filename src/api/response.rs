@@ -21,7 +21,7 @@ pub use stress::{
 pub use words::{CrushingWord, FaceWord, GovernedBy, GovernsWord, MethodWord, ModeWord, OutcomeWord, ZoneWord};
 
 use super::request::AnalysisRequest;
-use crate::collapse::{CollapseReport, LimitWindow, ThrustRange};
+use crate::collapse::{CollapseReport, Cost, LimitWindow, ThrustRange};
 use serde::Serialize;
 use utoipa::ToSchema;
 
@@ -65,8 +65,8 @@ pub struct AnalysisResult {
     pub at_unit_load: Option<SnapshotBody>,
     /// The arch at the start of the path.
     pub at_start: Option<SnapshotBody>,
-    /// Stress in every subblock, where `report` asks for it, in that order; a place that the path does not reach is left
-    /// out, and a note says so.
+    /// Stress in every subblock, where `report` asks for it, in that order; a place that the path does not reach is
+    /// left out.
     pub stress_fields: Vec<StressFieldBody>,
     /// When the stone crushes.
     pub crushing: Option<CrushingBody>,
@@ -161,12 +161,7 @@ impl AnalysisResult {
             crushing: report.crushing.as_ref().map(|crushing| CrushingBody::new(crushing, &request.mesh, &scale)),
             safety: report.safety.as_ref().map(Into::into),
             history: HistoryColumns::new(&report.history, &scale),
-            cost: CostBody {
-                events: report.cost.events,
-                factorisations: report.cost.factorisations,
-                block_rows: report.cost.block_rows,
-                unknowns: report.cost.unknowns,
-            },
+            cost: report.cost.into(),
             notes: report.notes.clone(),
             request: request.clone(),
         }
@@ -186,6 +181,13 @@ fn line(value: &impl Serialize) -> serde_json::Result<Vec<u8>> {
     let mut bytes = serde_json::to_vec(value)?;
     bytes.push(b'\n');
     Ok(bytes)
+}
+
+impl From<Cost> for CostBody {
+    fn from(cost: Cost) -> Self {
+        let Cost { events, factorisations, block_rows, unknowns } = cost;
+        CostBody { events, factorisations, block_rows, unknowns }
+    }
 }
 
 impl From<ThrustRange> for ThrustRangeBody {

@@ -42,7 +42,8 @@ pub fn headline(result: &AnalysisResult, safety: &SafetyBody) -> String {
         ReachBody::Never => {
             let times = Digits(result.cap);
             format!(
-                "The arch neither falls nor crushes: it carries its scaled loads {times} times, the most that was tried."
+                "The arch neither falls nor crushes: it carries its scaled loads {times} times, the most that was \
+                 tried."
             )
         }
         ReachBody::DoesNotStand => {
@@ -79,16 +80,20 @@ pub fn facts(result: &AnalysisResult) -> Vec<(&'static str, String)> {
         crushing_facts(&mut lines, result, crushing);
     }
     if let Some(safety) = &result.safety {
-        lines.push(("safety factor", reach(safety.governing)));
-        lines.push(("governed by", word(&safety.governed_by)));
-        if safety.zone.is_some() {
-            lines.push(("zone", zone(safety.zone).to_owned()));
-        }
-        lines.push(("factor: instability", reach(safety.instability)));
-        lines.push(("factor: first yield", reach(safety.elastic)));
-        lines.push(("factor: plastic section", reach(safety.plastic_section)));
+        lines.push(("safety factor", factors(safety)));
     }
     lines
+}
+
+fn factors(safety: &SafetyBody) -> String {
+    let zone = safety.zone.map(|_| format!(", zone {}", zone(safety.zone))).unwrap_or_default();
+    let [governing, instability, elastic, plastic] =
+        [safety.governing, safety.instability, safety.elastic, safety.plastic_section].map(reach);
+    let governs = word(&safety.governed_by);
+    format!(
+        "{governing}, governed by: {governs}{zone}\n\
+         (instability: {instability}; first yield: {elastic}; plastic section: {plastic})"
+    )
 }
 
 fn crushing_facts(lines: &mut Vec<(&'static str, String)>, result: &AnalysisResult, crushing: &CrushingBody) {
@@ -100,6 +105,10 @@ fn crushing_facts(lines: &mut Vec<(&'static str, String)>, result: &AnalysisResu
         lines.push(("plastic section", plastic_section(result, plastic)));
     }
 }
+
+/// What the two answers about crushing mean.
+pub const EXPLANATION: &str = "First yield: the equivalent stress of Tresca reaches the strength in some subblock; it \
+    depends on the mesh. Plastic section: what limit analysis allows where no joint carries more than the strength.";
 
 fn first_yield(result: &AnalysisResult, elastic: &ElasticCrushingBody) -> String {
     let at = elastic.subblock.as_ref().map(|subblock| format!(", in {}", place(subblock))).unwrap_or_default();

@@ -35,6 +35,9 @@ pub fn summary(result: &AnalysisResult, wall_time: Duration) -> String {
         paragraph(&mut text, &format!("Note: {note}"));
     }
     paragraph(&mut text, explanation(result));
+    if result.crushing.is_some() {
+        paragraph(&mut text, safety::EXPLANATION);
+    }
     text
 }
 
@@ -55,17 +58,8 @@ fn facts(result: &AnalysisResult, wall_time: Duration) -> Table {
     }
     fact("outcome", word(&result.outcome));
     fact("method", word(&result.method));
-    if let Some(collapse) = &result.collapse {
-        // An arch that falls as built has no load to fall at; a window has two.
-        if matches!(result.outcome, OutcomeWord::Collapse | OutcomeWord::CannotTell) {
-            fact("intensity", wording::intensity(result, collapse));
-            fact("load factor", Digits(collapse.load_factor).to_string());
-        }
-        if result.outcome != OutcomeWord::StandsInWindow {
-            fact("mode", word(&collapse.mode));
-        }
-        fact("governed by", word(&collapse.governed_by));
-        fact("residual", format!("{:.1e} of the arch's weight", collapse.residual));
+    for (name, value) in collapse_facts(result) {
+        fact(name, value);
     }
     fact("limit window", wording::window(result));
     if let Some(range) = &result.thrust_range {
@@ -80,6 +74,25 @@ fn facts(result: &AnalysisResult, wall_time: Duration) -> Table {
     fact("cost", format!("{} events, {} factorisations, {} unknowns", counts.0, counts.1, counts.2));
     fact("time", format!("{:.3} ms", wall_time.as_secs_f64() * 1e3));
     table
+}
+
+fn collapse_facts(result: &AnalysisResult) -> Vec<(&'static str, String)> {
+    let mut lines = Vec::new();
+    if let Some(collapse) = &result.collapse {
+        // An arch that falls as built has no load to fall at; a window has two.
+        if matches!(result.outcome, OutcomeWord::Collapse | OutcomeWord::CannotTell) {
+            lines.push(("intensity", wording::intensity(result, collapse)));
+            lines.push(("load factor", Digits(collapse.load_factor).to_string()));
+        }
+        if result.outcome != OutcomeWord::StandsInWindow {
+            lines.push(("mode", word(&collapse.mode)));
+        }
+        if result.safety.is_none() {
+            lines.push(("governed by", word(&collapse.governed_by)));
+        }
+        lines.push(("residual", format!("{:.1e} of the arch's weight", collapse.residual)));
+    }
+    lines
 }
 
 fn explanation(result: &AnalysisResult) -> &'static str {

@@ -1,5 +1,5 @@
-//! The body of a request: one arch, its stone, its loads, and what is asked; or a curved beam. Lengths in m, other units
-//! in the names.
+//! The body of a request: one arch, its stone, its loads, and what is asked; or a curved beam. Lengths in m, other
+//! units in the names.
 
 mod arch;
 mod beam;

@@ -34,8 +34,8 @@ pub struct SafetyRequest {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum CrushingRequest {
-    /// A joint would have to carry its normal force N so far off its middle that less than N / strength of its length is
-    /// left, and no other equilibrium avoids it. Does not depend on the mesh.
+    /// A joint would have to carry its normal force N so far off its middle that less than N / strength of its length
+    /// is left, and no other equilibrium avoids it. Does not depend on the mesh.
     #[default]
     PlasticSection,
     /// The equivalent stress of Tresca reaches the strength in some subblock, as in the paper. Depends on the mesh.

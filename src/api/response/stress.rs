@@ -118,8 +118,8 @@ pub struct ElasticCrushingBody {
 impl ElasticCrushingBody {
     fn new(elastic: &ElasticCrushing, mesh: &MeshRequest, scale: &Scale<'_>) -> Self {
         let note = format!(
-            "First yield depends on the mesh, here {}: stress is constant in a subblock, so a finer mesh comes closer to \
-             the peaks at pressed corners and yields at a lower load.",
+            "First yield depends on the mesh, here {}: stress is constant in a subblock, so a finer mesh comes closer \
+             to the peaks at pressed corners and yields at a lower load.",
             mesh_in_words(mesh)
         );
         ElasticCrushingBody {

@@ -116,7 +116,8 @@ fn check_abscissae(curve: &CurveRequest, faults: &mut Faults) -> bool {
 fn check_size(site: &Site<'_>, abscissae: usize, faults: &mut Faults) -> bool {
     let subblocks = abscissae * mesh::total(site.subblocks().iter());
     let detail = format!(
-        "abscissae times subblocks come to {subblocks}: keep to {MAX_CURVE_SUBBLOCKS} by fewer abscissae or a coarser mesh"
+        "abscissae times subblocks come to {subblocks}: keep to {MAX_CURVE_SUBBLOCKS} by fewer abscissae or a \
+         coarser mesh"
     );
     let forces = abscissae * loads::forces_per_voussoir_of(&site.request.loads) * site.voussoirs();
     faults.require(subblocks <= MAX_CURVE_SUBBLOCKS, ABSCISSAE, detail) && {
