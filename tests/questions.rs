@@ -2,6 +2,7 @@
 #![cfg(feature = "server")]
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
+use proptest::prelude::*;
 use serde_json::{Value, json};
 use voussoir::api::fault::Fault;
 use voussoir::api::read::{read, read_analysis, read_question};
@@ -384,5 +385,60 @@ fn beams_that_cannot_be() {
     let found = faults(&bare);
     for pointer in [inner, outer, shear, uniform] {
         assert!(pointers(&found).contains(&pointer), "{pointer}: {found:?}");
+    }
+}
+
+/// The bodies that README.md shows for a curve and for the beam can be read.
+#[test]
+fn the_bodies_in_the_readme_are_good() {
+    let readme = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md")).unwrap();
+    let blocks: Vec<&str> = readme.split("```json\n").skip(1).map(|rest| rest.split("```").next().unwrap()).collect();
+    assert_eq!(blocks.len(), 2);
+    for block in blocks {
+        let mut body: Value = serde_json::from_str(block).unwrap();
+        if body.get("curved_beam").is_none() {
+            body["arch"] = curve()["arch"].take();
+        }
+        question(&body);
+    }
+}
+
+/// Pointers to all values of a tree.
+fn places(tree: &Value, here: &str, all: &mut Vec<String>) {
+    all.push(here.to_owned());
+    match tree {
+        Value::Object(object) => object.iter().for_each(|(key, value)| places(value, &format!("{here}/{key}"), all)),
+        Value::Array(list) => list.iter().enumerate().for_each(|(i, value)| places(value, &format!("{here}/{i}"), all)),
+        _ => {}
+    }
+}
+
+proptest! {
+    #[test]
+    fn reading_a_spoilt_question_never_panics(
+        which in 0..3usize,
+        changes in prop::collection::vec((any::<prop::sample::Index>(), prop_oneof![
+            any::<f64>().prop_map(Value::from),
+            any::<u64>().prop_map(Value::from),
+            (0..60u64).prop_map(Value::from),
+            (-3.0..3.0).prop_map(Value::from),
+            prop::sample::select(vec![json!([]), json!({}), json!("unit_load"), json!(true), Value::Null]),
+        ]), 1..4),
+    ) {
+        let mut request = [curve(), safety(), beam()][which].clone();
+        for (index, value) in changes {
+            let mut all = Vec::new();
+            places(&request, "", &mut all);
+            if let Some(target) = request.pointer_mut(&index.get(&all).clone()) {
+                *target = value;
+            }
+        }
+        match read_question(request.to_string().as_bytes()) {
+            Ok((first, _)) => {
+                let echo = serde_json::to_vec(&first).unwrap();
+                prop_assert_eq!(read(&echo).unwrap(), first);
+            }
+            Err(faults) => prop_assert!(!faults.is_empty()),
+        }
     }
 }
