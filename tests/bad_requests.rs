@@ -18,6 +18,7 @@ fn good() -> Value {
             "abutments": {"height_m": 1.0}, "springing_joints": "dry"
         },
         "stone": {"density_kg_m3": 2000, "plane": "strain"},
+        "mesh": {"subblocks": {"uniform": {"radial": 2, "along": 3}}, "seams": "split"},
         "joint_overrides": [{"joint": 6, "friction_angle_deg": 20}],
         "loads": [
             {"load": {"self_weight": {}}},
@@ -29,7 +30,8 @@ fn good() -> Value {
         ],
         "load_factor": {"direction": "increase", "cap": 1000, "unit": "kN", "intensity_per_unit": 1},
         "method": {"fixed_steps": {"step": 1}},
-        "report": {"share_of_collapse": 0.99}
+        "analysis": "collapse",
+        "report": {"share_of_collapse": 0.99, "stress_fields": ["unit_load", {"load_factor": 2}]}
     })
 }
 

@@ -6,9 +6,9 @@
 
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
-use voussoir::api::read::read_analysis;
-use voussoir::api::response::AnalysisResult;
-use voussoir::collapse::{Unwatched, run};
+use voussoir::api::read::read_question;
+use voussoir::api::response::JobResult;
+use voussoir::collapse::{self, Unwatched};
 
 /// An answer that does not slide equals the end of its limit window to this share (issue: within 1e-6).
 const WINDOW: f64 = 1e-6;
@@ -34,9 +34,9 @@ fn folders() -> Vec<PathBuf> {
 }
 
 fn answer(request: &Value) -> Value {
-    let (request, analysis) = read_analysis(request.to_string().as_bytes()).unwrap();
-    let report = run(&analysis, &mut Unwatched).unwrap();
-    serde_json::from_slice(&AnalysisResult::new(&request, &report).to_bytes().unwrap()).unwrap()
+    let (request, question) = read_question(request.to_string().as_bytes()).unwrap();
+    let answer = collapse::answer(&question, &mut Unwatched).unwrap();
+    serde_json::from_slice(&JobResult::new(&request, &answer).unwrap().to_bytes().unwrap()).unwrap()
 }
 
 #[test]

@@ -6,7 +6,7 @@ mod support;
 
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Child, Command, Output, Stdio};
-use support::{Server, request};
+use support::{Server, beam, curve, request};
 
 fn program(arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_voussoir"));
@@ -37,6 +37,23 @@ fn solve_json_prints_the_bytes_of_the_service() {
     server.until(&path, &["successful"]);
     let output = fed(&["solve", "--json", "-"], &request().to_string());
     assert!(output.status.success() && output.stdout == server.get(&format!("{path}/results")).body);
+}
+
+#[test]
+fn solve_prints_a_curve_and_draws_none() {
+    let output = fed(&["solve", "-"], &curve().to_string());
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    for part in ["scaled loads", "abscissa times: 1000 N", "strength", "10 MPa", "plastic section", "time"] {
+        assert!(text.contains(part), "{part} in\n{text}");
+    }
+    let output = fed(&["solve", "-", "--figure", "no/such/figure.svg"], &curve().to_string());
+    assert_eq!(output.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("no figure: only one arch"));
+    let mut request = beam();
+    request["mesh"] = serde_json::json!({"subblocks": {"uniform": {"radial": 0, "along": 1}}});
+    let output = fed(&["solve", "-"], &request.to_string());
+    assert!(output.status.code() == Some(2) && String::from_utf8_lossy(&output.stderr).contains("/mesh/subblocks"));
 }
 
 #[test]

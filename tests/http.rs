@@ -5,7 +5,7 @@
 mod support;
 
 use serde_json::Value;
-use support::{BODY_LIMIT, ENDLESS, ERROR, PANIC, Server, broken, request, trouble};
+use support::{BODY_LIMIT, ENDLESS, ERROR, PANIC, Server, beam, broken, curve, request, trouble};
 
 const NOT_READY: &str = "http://www.opengis.net/def/exceptions/ogcapi-processes-1/1.0/result-not-ready";
 const NO_SUCH_JOB: &str = "http://www.opengis.net/def/exceptions/ogcapi-processes-1/1.0/no-such-job";
@@ -45,6 +45,32 @@ fn the_echoed_request_gives_the_same_bytes() {
     let first = finished(&server, &request());
     let echoed = serde_json::from_slice::<Value>(&first).unwrap()["request"].take();
     assert!(first == finished(&server, &echoed));
+}
+
+#[test]
+fn a_curve_goes_in_and_its_points_come_out() {
+    let server = Server::start(1, 10);
+    let result: Value = serde_json::from_slice(&finished(&server, &curve())).unwrap();
+    assert_eq!((&result["unit"], &result["crushing"]), (&"kN/m".into(), &"plastic_section".into()));
+    for (point, abscissa) in result["points"].as_array().unwrap().iter().zip([1.0, 10.0, 100.0]) {
+        assert_eq!(point["abscissa"], abscissa);
+        for key in ["instability", "elastic", "plastic_section", "governing"] {
+            assert!(point[key]["state"].is_string(), "{key}: {point}");
+        }
+        assert!(point["governed_by"].is_string() && point["notes"].is_array(), "{point}");
+    }
+    assert_eq!(result["request"]["loads"][1]["per_abscissa"], true);
+}
+
+#[test]
+fn a_beam_goes_in() {
+    let server = Server::start(1, 10);
+    let path = server.submit(&beam());
+    server.until(&path, &["successful", "failed"]);
+    let mut both = request();
+    both["curved_beam"] = beam()["curved_beam"].take();
+    let problem = server.post(both.to_string().as_bytes()).problem(422);
+    assert!(problem["errors"].as_array().unwrap().iter().any(|error| error["pointer"] == "/arch"), "{problem}");
 }
 
 #[test]

@@ -9,17 +9,17 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 use voussoir::arch::{Arch, Stone};
 use voussoir::collapse::{
-    Aim, Analysis, AnalysisError, CollapseReport, Cost, Direction, LoadStep, Mesh, Method, Outcome, PlaneModel, Seams,
-    Watch,
+    Aim, Analysis, AnalysisError, Answer, CollapseReport, Cost, Direction, LoadStep, Mesh, Method, Outcome, PlaneModel,
+    Question, Seams, Watch,
 };
 use voussoir::geometry::Vec2;
 use voussoir::jobs::{Dismissal, Failure, Job, JobId, JobStore, Limits, Refusal, State, Status};
 
-/// An analysis that says what the stand-in is to do.
-fn order(what: f64) -> Analysis {
+/// A question that says what the stand-in is to do.
+fn order(what: f64) -> Question {
     let arch =
         Arch { voussoirs: vec![], joints: vec![], abutments: [None; 2], half: false, angle_centre: Vec2::zeros() };
-    Analysis {
+    Question::One(Box::new(Analysis {
         arch,
         stone: Stone::default(),
         plane: PlaneModel::Stress,
@@ -33,7 +33,7 @@ fn order(what: f64) -> Analysis {
         mesh: Mesh { subblocks: vec![], seams: Seams::Split },
         fields: vec![],
         aim: Aim::Collapse,
-    }
+    }))
 }
 
 const QUICK: f64 = 0.0;
@@ -41,19 +41,28 @@ const ENDLESS: f64 = 1.0;
 const PANIC: f64 = 2.0;
 const ERROR: f64 = 3.0;
 
-fn stand_in(analysis: &Analysis, watch: &mut dyn Watch) -> Result<CollapseReport, AnalysisError> {
-    if analysis.penalty_ratio == ENDLESS {
+/// What an order says.
+fn what(question: &Question) -> f64 {
+    match question {
+        Question::One(analysis) => analysis.penalty_ratio,
+        _ => panic!("no order of ours"),
+    }
+}
+
+fn stand_in(question: &Question, watch: &mut dyn Watch) -> Result<Answer, AnalysisError> {
+    let what = what(question);
+    if what == ENDLESS {
         return endless(watch);
     }
-    assert!(analysis.penalty_ratio != PANIC, "asked to panic");
-    if analysis.penalty_ratio == ERROR {
+    assert!(what != PANIC, "asked to panic");
+    if what == ERROR {
         return Err(AnalysisError::NotFinite { what: "asked to fail" });
     }
     Ok(report())
 }
 
 /// Steps on until told to stop.
-fn endless(watch: &mut dyn Watch) -> Result<CollapseReport, AnalysisError> {
+fn endless(watch: &mut dyn Watch) -> Result<Answer, AnalysisError> {
     let mut step = LoadStep { load_factor: 0.0, events: 0 };
     while watch.on_step(&step).is_continue() {
         step = LoadStep { load_factor: step.load_factor + 0.5, events: step.events + 1 };
@@ -62,8 +71,8 @@ fn endless(watch: &mut dyn Watch) -> Result<CollapseReport, AnalysisError> {
     Err(AnalysisError::Stopped { load_factor: step.load_factor, events: step.events })
 }
 
-fn report() -> CollapseReport {
-    CollapseReport {
+fn report() -> Answer {
+    Answer::One(Box::new(CollapseReport {
         outcome: Outcome::NeverCollapses,
         limit_window: None,
         thrust_range: None,
@@ -81,7 +90,7 @@ fn report() -> CollapseReport {
         history: vec![],
         cost: Cost::default(),
         notes: vec![],
-    }
+    }))
 }
 
 fn store(workers: usize, queue: usize, kept: usize) -> JobStore<&'static str> {
@@ -205,8 +214,8 @@ fn jobs_that_have_not_ended_are_never_forgotten() {
 fn the_queue_is_first_in_first_out() {
     let seen = Arc::new(Mutex::new(Vec::new()));
     let log = seen.clone();
-    let store = JobStore::start(Limits { workers: 1, queue: 100, kept: 100 }, move |analysis, _| {
-        log.lock().unwrap().push(analysis.penalty_ratio);
+    let store = JobStore::start(Limits { workers: 1, queue: 100, kept: 100 }, move |question, _| {
+        log.lock().unwrap().push(what(question));
         Ok(report())
     })
     .unwrap();
@@ -242,7 +251,7 @@ fn shutdown_cancels_what_takes_too_long() {
 
 #[test]
 fn a_second_shutdown_waits_for_nothing() {
-    let analyse = |_: &Analysis, _: &mut dyn Watch| {
+    let analyse = |_: &Question, _: &mut dyn Watch| {
         sleep(Duration::from_secs(4));
         Ok(report())
     };
@@ -259,9 +268,9 @@ fn a_second_shutdown_waits_for_nothing() {
 fn jobs_dismissed_at_any_moment_leave_the_workers_whole() {
     let (begun, over) = (Arc::new(AtomicUsize::new(0)), Arc::new(AtomicUsize::new(0)));
     let counters = (begun.clone(), over.clone());
-    let store = JobStore::start(Limits { workers: 3, queue: 1000, kept: 1000 }, move |analysis, watch| {
+    let store = JobStore::start(Limits { workers: 3, queue: 1000, kept: 1000 }, move |question, watch| {
         counters.0.fetch_add(1, Ordering::SeqCst);
-        let result = stand_in(analysis, watch);
+        let result = stand_in(question, watch);
         counters.1.fetch_add(1, Ordering::SeqCst);
         result
     })

@@ -17,6 +17,11 @@ pub fn child(parent: &str, key: &str) -> String {
     format!("{parent}/{}", key.replace('~', "~0").replace('/', "~1"))
 }
 
+/// True for the same place and for what it contains.
+pub fn lies_under(pointer: &str, place: &str) -> bool {
+    pointer.strip_prefix(place).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
+}
+
 /// Most faults that are listed.
 const MOST_LISTED: usize = 100;
 

@@ -3,10 +3,10 @@
 use super::Service;
 use super::problem::Problem;
 use super::read;
-use super::request::AnalysisRequest;
-use super::response::AnalysisResult;
+use super::request::Request;
+use super::response::JobResult;
 use super::status::{self, JobList, JobStatus};
-use crate::collapse::Analysis;
+use crate::collapse::Question;
 use crate::jobs::{Dismissal, Job, JobId, State};
 use axum::Json;
 use axum::body::Bytes;
@@ -30,7 +30,7 @@ type AppState = axum::extract::State<Service>;
 /// Submit an analysis.
 #[utoipa::path(
     post, path = "/v1/jobs", tag = "jobs", operation_id = "submit_job",
-    request_body(content = AnalysisRequest, content_type = "application/json"),
+    request_body(content = Request, content_type = "application/json"),
     responses(
         (status = 201, description = "Accepted; poll the status", body = JobStatus,
             headers(("location" = String, description = "Path of the job's status"))),
@@ -53,18 +53,18 @@ pub(super) async fn submit(
         return Err(Problem::unsupported_media_type());
     }
     let body = body.map_err(|rejection| Problem::body(&rejection, state.body_limit))?;
-    let (request, analysis) = read_aside(body).await?;
-    let job = state.jobs.submit(analysis, request)?;
+    let (request, question) = read_aside(body).await?;
+    let job = state.jobs.submit(question, request)?;
     let location = [(header::LOCATION, status::path(job.id))];
     Ok((StatusCode::CREATED, location, Json(JobStatus::from(&job))).into_response())
 }
 
 /// Reads a body on a thread of its own kind: a large one takes a while, which others should not have to wait for.
 #[allow(clippy::disallowed_methods, reason = "reading is no analysis: it is short and needs no cancelling")]
-async fn read_aside(body: Bytes) -> Result<(AnalysisRequest, Analysis), Problem> {
+async fn read_aside(body: Bytes) -> Result<(Request, Question), Problem> {
     let reading = tokio::task::spawn_blocking(move || {
         check_syntax(&body)?;
-        read::read_analysis(&body).map_err(Problem::faults)
+        read::read_question(&body).map_err(Problem::faults)
     });
     reading.await.unwrap_or_else(|_| Err(Problem::internal()))
 }
@@ -118,7 +118,8 @@ pub(super) async fn show(state: AppState, path: JobPath) -> Result<Json<JobStatu
     get, path = "/v1/jobs/{id}/results", tag = "jobs", operation_id = "get_results",
     params(("id" = String, Path, format = "uuid", description = "Job id")),
     responses(
-        (status = 200, description = "The answer; the same bytes for the same request", body = AnalysisResult),
+        (status = 200, description = "The answer to what was asked; the same bytes for the same request",
+            body = JobResult),
         (status = 404, description = "No such job, or not ready", body = Problem,
             content_type = "application/problem+json"),
         (status = 410, description = "Dismissed", body = Problem, content_type = "application/problem+json"),
@@ -135,8 +136,9 @@ pub(super) async fn results(state: AppState, path: JobPath) -> Result<Response, 
         State::Accepted | State::Running => Err(Problem::result_not_ready(job.id)),
         State::Dismissed => Err(Problem::dismissed(job.id)),
         State::Failed(failure) => Err(failure.into()),
-        State::Successful(report) => {
-            let body = AnalysisResult::new(&job.attachment, report).to_bytes().map_err(|_| Problem::internal())?;
+        State::Successful(answer) => {
+            let result = JobResult::new(&job.attachment, answer).ok_or_else(Problem::internal)?;
+            let body = result.to_bytes().map_err(|_| Problem::internal())?;
             Ok(([(header::CONTENT_TYPE, "application/json")], body).into_response())
         }
     }
@@ -174,7 +176,7 @@ impl<S: Send + Sync> FromRequestParts<S> for JobPath {
     }
 }
 
-fn find(state: &Service, id: JobId) -> Result<Job<AnalysisRequest>, Problem> {
+fn find(state: &Service, id: JobId) -> Result<Job<Request>, Problem> {
     state.jobs.get(id).ok_or_else(|| Problem::no_such_job(&id.to_string()))
 }
 

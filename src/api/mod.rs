@@ -1,4 +1,4 @@
-//! The HTTP interface: a request becomes an [`Analysis`](crate::collapse::Analysis), a report becomes JSON. Nothing is
+//! The HTTP interface: a request becomes a [`Question`](crate::collapse::Question), its answer becomes JSON. Nothing is
 //! computed here.
 
 pub mod fault;
@@ -16,7 +16,7 @@ mod tree;
 
 use crate::jobs::JobStore;
 use axum::Router;
-use request::AnalysisRequest;
+use request::Request;
 use std::sync::Arc;
 use utoipa::OpenApi;
 use utoipa_axum::router::OpenApiRouter;
@@ -26,7 +26,7 @@ use utoipa_axum::routes;
 #[derive(Clone)]
 pub struct Service {
     /// All jobs, each with the request it came from.
-    pub jobs: Arc<JobStore<AnalysisRequest>>,
+    pub jobs: Arc<JobStore<Request>>,
     /// Longest body taken, bytes.
     pub body_limit: usize,
 }

@@ -1,10 +1,10 @@
 //! JSON to a request, with everything that is wrong in its structure.
 
-use super::fault::{Fault, Faults, child, listed};
-use super::request::{AnalysisRequest, JointsRequest, LineRequest, ProfileRequest};
+use super::fault::{Fault, Faults, child, lies_under, listed};
+use super::request::{AnalysisRequest, BeamRequest, JointsRequest, LineRequest, ProfileRequest, Request};
 use super::{translate, tree};
-use crate::collapse::Analysis;
-use serde::Deserialize;
+use crate::collapse::{Analysis, Question};
+use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 
@@ -15,7 +15,7 @@ const MAX_STRUCTURAL_FAULTS: usize = 20;
 ///
 /// # Errors
 /// All structural faults: syntax, types, missing, unknown and repeated fields.
-pub fn read(body: &[u8]) -> Result<AnalysisRequest, Vec<Fault>> {
+pub fn read(body: &[u8]) -> Result<Request, Vec<Fault>> {
     match read_structure(body) {
         (Some(request), faults) if faults.is_empty() => Ok(request),
         (_, faults) => Err(listed(faults.into_vec())),
@@ -26,12 +26,12 @@ pub fn read(body: &[u8]) -> Result<AnalysisRequest, Vec<Fault>> {
 ///
 /// # Errors
 /// All structural faults; where the structure can be read, all others too.
-pub fn read_analysis(body: &[u8]) -> Result<(AnalysisRequest, Analysis), Vec<Fault>> {
+pub fn read_question(body: &[u8]) -> Result<(Request, Question), Vec<Fault>> {
     let (request, faults) = read_structure(body);
     let mut faults = faults.into_vec();
     if let Some(request) = request {
         match translate::translate(&request) {
-            Ok(analysis) if faults.is_empty() => return Ok((request, analysis)),
+            Ok(question) if faults.is_empty() => return Ok((request, question)),
             Ok(_) => {}
             Err(more) => faults.extend(more),
         }
@@ -39,10 +39,24 @@ pub fn read_analysis(body: &[u8]) -> Result<(AnalysisRequest, Analysis), Vec<Fau
     Err(listed(faults))
 }
 
+/// Reads a request for one analysis of an arch, for those who want nothing else.
+///
+/// # Errors
+/// As [`read_question`]; one fault where a curve or a curved beam is asked for.
+pub fn read_analysis(body: &[u8]) -> Result<(AnalysisRequest, Analysis), Vec<Fault>> {
+    match read_question(body)? {
+        (Request::Arch(request), Question::One(analysis)) => Ok((*request, *analysis)),
+        _ => {
+            let detail = "this asks for more or other than one analysis of an arch: leave out curve and curved_beam";
+            Err(vec![Fault { pointer: String::new(), detail: detail.to_owned() }])
+        }
+    }
+}
+
 /// The request, unless a stand-in had to be put for one of its values, and what is wrong.
-fn read_structure(body: &[u8]) -> (Option<AnalysisRequest>, Faults) {
+fn read_structure(body: &[u8]) -> (Option<Request>, Faults) {
     let mut faults = Faults::default();
-    let (mut tree, repeated) = match tree::parse(body) {
+    let (tree, repeated) = match tree::parse(body) {
         Ok(parsed) => parsed,
         Err(error) => {
             // serde_json's message ends with line and column.
@@ -53,6 +67,15 @@ fn read_structure(body: &[u8]) -> (Option<AnalysisRequest>, Faults) {
     for pointer in repeated {
         faults.add(pointer, "this name stands more than once in its object: keep one");
     }
+    let request = match tree.get("curved_beam") {
+        Some(_) => read_tree::<BeamRequest>(tree, &mut faults).map(|request| Request::CurvedBeam(Box::new(request))),
+        None => read_tree(tree, &mut faults).map(|request| Request::Arch(Box::new(with_defaults(request)))),
+    };
+    (request, faults)
+}
+
+/// Reads a tree as one kind of body.
+fn read_tree<R: DeserializeOwned>(mut tree: Value, faults: &mut Faults) -> Option<R> {
     let mut mended: Vec<String> = Vec::new();
     for _ in 0..MAX_STRUCTURAL_FAULTS {
         match attempt(&tree) {
@@ -61,33 +84,30 @@ fn read_structure(body: &[u8]) -> (Option<AnalysisRequest>, Faults) {
                 for pointer in unknown.into_iter().filter(|pointer| !stands_in(pointer)) {
                     faults.add(pointer, "there is no field of this name here: remove it or correct its spelling");
                 }
-                return (mended.is_empty().then(|| with_defaults(request)), faults);
+                return mended.is_empty().then_some(request);
             }
             Err(fault) => {
-                let place = mend(&mut tree, &fault.pointer);
+                let place = mend::<R>(&mut tree, &fault.pointer);
                 // What was taken away for its own fault is not missing.
                 if !mended.contains(&fault.pointer) {
                     faults.add(fault.pointer, fault.detail);
                 }
-                match place {
-                    Some(place) => mended.push(place),
-                    None => break,
-                }
+                mended.push(place?);
             }
         }
     }
-    (None, faults)
+    None
 }
 
 /// One reading of the tree: the request and pointers to its unknown fields, or the first fault.
-fn attempt(tree: &Value) -> Result<(AnalysisRequest, BTreeSet<String>), Fault> {
+fn attempt<R: DeserializeOwned>(tree: &Value) -> Result<(R, BTreeSet<String>), Fault> {
     let mut unknown = BTreeSet::new();
     let mut track = serde_path_to_error::Track::new();
     let mut note = |path: serde_ignored::Path<'_>| {
         unknown.insert(ignored_pointer(&path, tree));
     };
     let reader = serde_path_to_error::Deserializer::new(tree, &mut track);
-    match AnalysisRequest::deserialize(serde_ignored::Deserializer::new(reader, &mut note)) {
+    match R::deserialize(serde_ignored::Deserializer::new(reader, &mut note)) {
         Ok(request) => Ok((request, unknown)),
         Err(error) => Err(fault_at(&track.path(), &error.to_string(), tree)),
     }
@@ -158,42 +178,39 @@ fn ignored_pointer(path: &serde_ignored::Path<'_>, tree: &Value) -> String {
 }
 
 /// Values of which one fits in any place of a request.
-fn stand_ins() -> [Value; 7] {
+fn stand_ins() -> [Value; 8] {
     // Has every required field of every object.
     let any_object = json!({
         "profile": {"circular": {}}, "span_m": 1, "rise_m": 1, "arcs": [], "radius_m": 1, "angle_deg": 1,
         "intrados_m": [], "extrados_m": [], "crown_m": 1, "springing_m": 1, "centre_y_m": 1, "centre_m": [1, 1],
         "height_m": 1, "joint": 1, "load": {"self_weight": {}}, "step": 1, "bands": [], "from_m": 1, "to_m": 1,
-        "pressure_pa": 1, "force_n_per_m": 1, "centre_x_m": 1, "width_m": 1,
+        "pressure_pa": 1, "force_n_per_m": 1, "centre_x_m": 1, "width_m": 1, "radial": 1, "along": 1, "abscissae": [],
+        "inner_radius_m": 1, "outer_radius_m": 1, "end_shear_n_per_m": 1,
     });
-    let alternatives = [json!({"circular": {}}), json!({"constant_m": 1}), json!({"self_weight": {}})];
-    let [profile, thickness, load] = alternatives;
-    [json!(1), json!([]), json!([1, 1]), any_object, profile, thickness, load]
+    let alternatives =
+        [json!({"circular": {}}), json!({"constant_m": 1}), json!({"self_weight": {}}), json!({"load_factor": 1})];
+    let [profile, thickness, load, field] = alternatives;
+    [json!(1), json!([]), json!([1, 1]), any_object, profile, thickness, load, field]
 }
 
 /// Puts a neutral value in the place of a fault, or of what contains it, so that the reading gets past it; says
 /// where it had to be put.
-fn mend(tree: &mut Value, pointer: &str) -> Option<String> {
+fn mend<R: DeserializeOwned>(tree: &mut Value, pointer: &str) -> Option<String> {
     let (parent, key) = pointer.rsplit_once('/')?;
     let name = key.replace("~1", "/").replace("~0", "~");
     if let Some(Value::Object(object)) = tree.pointer_mut(parent) {
         // Whatever has a default can be left out, unless that leaves a choice without its alternative.
         object.remove(&name);
-        let emptied = attempt(tree).is_err_and(|fault| lies_under(pointer, &fault.pointer));
-        if !emptied && gets_past(tree, pointer) {
+        let emptied = attempt::<R>(tree).is_err_and(|fault| lies_under(pointer, &fault.pointer));
+        if !emptied && gets_past::<R>(tree, pointer) {
             return Some(pointer.to_owned());
         }
     }
     let mut values = stand_ins().into_iter();
-    match values.any(|value| put(tree, parent, &name, value) && gets_past(tree, pointer)) {
+    match values.any(|value| put(tree, parent, &name, value) && gets_past::<R>(tree, pointer)) {
         true => Some(pointer.to_owned()),
-        false => mend(tree, parent),
+        false => mend::<R>(tree, parent),
     }
-}
-
-/// True for the same place and for what it contains.
-fn lies_under(pointer: &str, place: &str) -> bool {
-    pointer.strip_prefix(place).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
 }
 
 fn put(tree: &mut Value, parent: &str, name: &str, value: Value) -> bool {
@@ -213,8 +230,8 @@ fn put(tree: &mut Value, parent: &str, name: &str, value: Value) -> bool {
     }
 }
 
-fn gets_past(tree: &Value, pointer: &str) -> bool {
-    match attempt(tree) {
+fn gets_past<R: DeserializeOwned>(tree: &Value, pointer: &str) -> bool {
+    match attempt::<R>(tree) {
         Ok(_) => true,
         Err(fault) => !lies_under(&fault.pointer, pointer),
     }

@@ -1,20 +1,31 @@
 //! The answer on the wire. Angles in degrees, everything else in the unit its name ends with; rows of numbers stand in
 //! columns, one array per quantity. Nothing here depends on the clock: the same request gives the same bytes.
 
+mod beam;
 mod columns;
 mod mechanism;
+mod result;
+mod safety;
+mod stress;
 mod words;
 
+pub use beam::BeamResult;
 pub use columns::{BlockColumns, ContactColumns, HistoryColumns, SnapshotBody, ThrustColumns, VelocityColumns};
 pub use mechanism::{Collapse, End, HingeBody, SlideBody};
-pub use words::{FaceWord, GovernedBy, MethodWord, ModeWord, OutcomeWord};
+pub use result::JobResult;
+pub use safety::{CurvePointBody, ReachBody, SafetyBody, SafetyCurveResult};
+pub use stress::{
+    CrushedSubblock, CrushingBody, ElasticCrushingBody, PlasticCrushingBody, StressFieldBody, SubblockColumns,
+    mesh_in_words,
+};
+pub use words::{CrushingWord, FaceWord, GovernedBy, GovernsWord, MethodWord, ModeWord, OutcomeWord, ZoneWord};
 
 use super::request::AnalysisRequest;
-use crate::collapse::{CollapseReport, LimitWindow, ThrustRange};
+use crate::collapse::{CollapseReport, Cost, LimitWindow, ThrustRange};
 use serde::Serialize;
 use utoipa::ToSchema;
 
-/// The answer to one request.
+/// The answer to a request for one analysis of an arch.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct AnalysisResult {
     /// What happened.
@@ -54,6 +65,13 @@ pub struct AnalysisResult {
     pub at_unit_load: Option<SnapshotBody>,
     /// The arch at the start of the path.
     pub at_start: Option<SnapshotBody>,
+    /// Stress in every subblock, where `report` asks for it, in that order; a place that the path does not reach is
+    /// left out.
+    pub stress_fields: Vec<StressFieldBody>,
+    /// When the stone crushes.
+    pub crushing: Option<CrushingBody>,
+    /// Safety factors, where `analysis` asks for them.
+    pub safety: Option<SafetyBody>,
     /// The path, event by event.
     pub history: HistoryColumns,
     /// Counts of the work done; the same on any machine.
@@ -94,6 +112,9 @@ struct Scale<'a> {
 }
 
 impl Scale<'_> {
+    /// Leaves load factors as they are.
+    const LOAD_FACTOR: Scale<'static> = Scale { per_unit: 1.0, unit: "" };
+
     fn intensity(&self, load_factor: f64) -> f64 {
         load_factor * self.per_unit
     }
@@ -123,7 +144,7 @@ impl AnalysisResult {
             unit: scale.unit.to_owned(),
             collapse,
             limit_window: window.map(|window| scale.window(window)),
-            limit_window_load_factor: window.map(|window| Scale { per_unit: 1.0, unit: "" }.window(window)),
+            limit_window_load_factor: window.map(|window| Scale::LOAD_FACTOR.window(window)),
             thrust_range: report.thrust_range.map(Into::into),
             hinges,
             slides,
@@ -136,13 +157,11 @@ impl AnalysisResult {
             near_collapse: report.near_collapse.as_ref().map(snapshot),
             at_unit_load: report.at_unit_load.as_ref().map(snapshot),
             at_start: report.at_start.as_ref().map(snapshot),
+            stress_fields: report.stress_fields.iter().map(|field| StressFieldBody::new(field, &scale)).collect(),
+            crushing: report.crushing.as_ref().map(|crushing| CrushingBody::new(crushing, &request.mesh, &scale)),
+            safety: report.safety.as_ref().map(Into::into),
             history: HistoryColumns::new(&report.history, &scale),
-            cost: CostBody {
-                events: report.cost.events,
-                factorisations: report.cost.factorisations,
-                block_rows: report.cost.block_rows,
-                unknowns: report.cost.unknowns,
-            },
+            cost: report.cost.into(),
             notes: report.notes.clone(),
             request: request.clone(),
         }
@@ -153,9 +172,21 @@ impl AnalysisResult {
     /// # Errors
     /// Never for a report of the mechanics; the serialiser wants it said.
     pub fn to_bytes(&self) -> serde_json::Result<Vec<u8>> {
-        let mut bytes = serde_json::to_vec(self)?;
-        bytes.push(b'\n');
-        Ok(bytes)
+        line(self)
+    }
+}
+
+/// Compact JSON and a newline.
+fn line(value: &impl Serialize) -> serde_json::Result<Vec<u8>> {
+    let mut bytes = serde_json::to_vec(value)?;
+    bytes.push(b'\n');
+    Ok(bytes)
+}
+
+impl From<Cost> for CostBody {
+    fn from(cost: Cost) -> Self {
+        let Cost { events, factorisations, block_rows, unknowns } = cost;
+        CostBody { events, factorisations, block_rows, unknowns }
     }
 }
 

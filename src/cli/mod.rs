@@ -1,7 +1,10 @@
 //! The verbs.
 
+mod beam;
+mod curve;
 mod figure;
 pub mod health;
+mod safety;
 pub mod serve;
 pub mod solve;
 mod summary;

@@ -26,7 +26,7 @@ pub fn serve(options: &Serve) -> ExitCode {
 
 fn run(options: &Serve) -> io::Result<()> {
     let limits = Limits { workers: options.workers(), queue: size(options.queue), kept: size(options.jobs_kept) };
-    let jobs = Arc::new(JobStore::start(limits, collapse::run)?);
+    let jobs = Arc::new(JobStore::start(limits, collapse::answer)?);
     let service = Service { jobs: jobs.clone(), body_limit: size(options.body_limit) };
     let grace = Duration::from_secs(options.grace);
     let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build()?;

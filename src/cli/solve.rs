@@ -1,16 +1,16 @@
 //! `voussoir solve`: one request, one answer, no server.
 
-use super::{complain, fail, figure, print, summary};
+use super::{beam, complain, curve, fail, figure, print, summary};
 use crate::config::Solve;
 use std::fs;
 use std::io::{self, Read};
 use std::path::Path;
 use std::process::ExitCode;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 use voussoir::api::fault::Fault;
-use voussoir::api::read::read_analysis;
-use voussoir::api::response::AnalysisResult;
-use voussoir::collapse::{self, Unwatched};
+use voussoir::api::read::read_question;
+use voussoir::api::response::JobResult;
+use voussoir::collapse::{self, Answer, Question, Unwatched};
 
 /// Exit code for a request that cannot be analysed.
 const FAULTY: u8 = 2;
@@ -21,23 +21,25 @@ pub fn solve(options: &Solve) -> ExitCode {
         Ok(body) => body,
         Err(error) => return fail(format_args!("cannot read {}: {error}", options.file.display())),
     };
-    let (request, analysis) = match read_analysis(&body) {
+    let (request, question) = match read_question(&body) {
         Ok(pair) => pair,
         Err(faults) => return refuse(&faults),
     };
     let clock = Instant::now();
-    let report = match collapse::run(&analysis, &mut Unwatched) {
-        Ok(report) => report,
+    let answer = match collapse::answer(&question, &mut Unwatched) {
+        Ok(answer) => answer,
         Err(error) => return fail(error),
     };
     let wall_time = clock.elapsed();
-    let result = AnalysisResult::new(&request, &report);
+    let Some(result) = JobResult::new(&request, &answer) else {
+        return fail("the analysis produced a number that is not finite; check the units of the request");
+    };
     let bytes = match options.json {
         true => result.to_bytes(),
-        false => Ok(summary::summary(&result, wall_time).into_bytes()),
+        false => Ok(summarise(&result, wall_time).into_bytes()),
     };
     let drawn = match &options.figure {
-        Some(file) => figure::write(file, &analysis.arch, &report, &result),
+        Some(file) => draw(file, &question, &answer, &result),
         None => Ok(()),
     };
     let printed = match bytes {
@@ -45,6 +47,23 @@ pub fn solve(options: &Solve) -> ExitCode {
         Err(error) => fail(error),
     };
     drawn.map_or_else(fail, |()| printed)
+}
+
+fn summarise(result: &JobResult, wall_time: Duration) -> String {
+    match result {
+        JobResult::Analysis(result) => summary::summary(result, wall_time),
+        JobResult::SafetyCurve(result) => curve::summary(result, wall_time),
+        JobResult::CurvedBeam(result) => beam::summary(result, wall_time),
+    }
+}
+
+fn draw(file: &Path, question: &Question, answer: &Answer, result: &JobResult) -> Result<(), String> {
+    match (question, answer, result) {
+        (Question::One(analysis), Answer::One(report), JobResult::Analysis(result)) => {
+            figure::write(file, &analysis.arch, report, result)
+        }
+        _ => Err("no figure: only one arch that falls is drawn, no curve and no curved beam".to_owned()),
+    }
 }
 
 fn load(file: &Path) -> io::Result<Vec<u8>> {

@@ -1,5 +1,6 @@
 //! The answer as a person reads it.
 
+use super::safety;
 use super::wording::{self, Limit, word};
 use comfy_table::{Table, presets};
 use std::fmt::Write;
@@ -29,10 +30,14 @@ pub fn summary(result: &AnalysisResult, wall_time: Duration) -> String {
         "the end of the path".to_owned()
     };
     append(&mut text, &format!("Outer joints at {at}, forces per metre of depth"), springings(result));
-    for note in &result.notes {
+    let of_safety = result.safety.iter().flat_map(|safety| &safety.notes);
+    for note in result.notes.iter().chain(of_safety.filter(|note| !result.notes.contains(note))) {
         paragraph(&mut text, &format!("Note: {note}"));
     }
     paragraph(&mut text, explanation(result));
+    if result.crushing.is_some() {
+        paragraph(&mut text, safety::EXPLANATION);
+    }
     text
 }
 
@@ -42,36 +47,52 @@ fn facts(result: &AnalysisResult, wall_time: Duration) -> Table {
         table.add_row([name, &value]);
     };
     fact("arch", wording::arch(&result.request.arch));
-    fact("fixed loads", wording::loads(result, false));
-    fact("scaled loads", wording::loads(result, true));
+    if let Some(mesh) = safety::mesh(&result.request.mesh) {
+        fact("mesh", mesh);
+    }
+    fact("fixed loads", wording::loads(&result.request.loads, false));
+    fact("scaled loads", wording::loads(&result.request.loads, true));
     if result.request.loads.iter().any(|load| load.scaled) {
         let one = Digits(result.request.load_factor.intensity_per_unit);
         fact("", format!("(at load factor 1, which is intensity {one} {})", wording::unit(result)));
     }
     fact("outcome", word(&result.outcome));
     fact("method", word(&result.method));
-    if let Some(collapse) = &result.collapse {
-        // An arch that falls as built has no load to fall at; a window has two.
-        if matches!(result.outcome, OutcomeWord::Collapse | OutcomeWord::Crushes | OutcomeWord::CannotTell) {
-            fact("intensity", wording::intensity(result, collapse));
-            fact("load factor", Digits(collapse.load_factor).to_string());
-        }
-        if result.outcome != OutcomeWord::StandsInWindow {
-            fact("mode", word(&collapse.mode));
-        }
-        fact("governed by", word(&collapse.governed_by));
-        fact("residual", format!("{:.1e} of the arch's weight", collapse.residual));
+    for (name, value) in collapse_facts(result) {
+        fact(name, value);
     }
     fact("limit window", wording::window(result));
     if let Some(range) = &result.thrust_range {
         let [lowest, highest] = [range.lowest_n_per_m, range.highest_n_per_m].map(|thrust| Digits(thrust / 1e3));
         fact("thrust range", format!("{lowest} to {highest} kN per metre of depth"));
     }
+    for (name, value) in safety::facts(result) {
+        fact(name, value);
+    }
     let cost = &result.cost;
     let counts = (cost.events, cost.factorisations, cost.unknowns);
     fact("cost", format!("{} events, {} factorisations, {} unknowns", counts.0, counts.1, counts.2));
     fact("time", format!("{:.3} ms", wall_time.as_secs_f64() * 1e3));
     table
+}
+
+fn collapse_facts(result: &AnalysisResult) -> Vec<(&'static str, String)> {
+    let mut lines = Vec::new();
+    if let Some(collapse) = &result.collapse {
+        // An arch that falls as built has no load to fall at; a window has two.
+        if matches!(result.outcome, OutcomeWord::Collapse | OutcomeWord::CannotTell) {
+            lines.push(("intensity", wording::intensity(result, collapse)));
+            lines.push(("load factor", Digits(collapse.load_factor).to_string()));
+        }
+        if result.outcome != OutcomeWord::StandsInWindow {
+            lines.push(("mode", word(&collapse.mode)));
+        }
+        if result.safety.is_none() {
+            lines.push(("governed by", word(&collapse.governed_by)));
+        }
+        lines.push(("residual", format!("{:.1e} of the arch's weight", collapse.residual)));
+    }
+    lines
 }
 
 fn explanation(result: &AnalysisResult) -> &'static str {
@@ -134,19 +155,22 @@ fn springings(result: &AnalysisResult) -> Option<Table> {
     Some(table)
 }
 
-fn bare() -> Table {
+/// A table without lines.
+pub fn bare() -> Table {
     let mut table = Table::new();
     table.load_style(presets::NOTHING);
     table
 }
 
-fn append(text: &mut String, title: &str, table: Option<Table>) {
+/// Adds a table, where there is one, under its title.
+pub fn append(text: &mut String, title: &str, table: Option<Table>) {
     if let Some(table) = table {
         // Writing to a string cannot fail.
         let _ = write!(text, "\n{title}\n{}\n", table.trim_fmt());
     }
 }
 
-fn paragraph(text: &mut String, words: &str) {
+/// Adds prose.
+pub fn paragraph(text: &mut String, words: &str) {
     let _ = write!(text, "\n{}\n", wording::wrapped(words));
 }

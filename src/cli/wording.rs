@@ -1,7 +1,8 @@
 //! An answer in sentences.
 
+use super::safety;
 use serde::Serialize;
-use voussoir::api::request::{ArchRequest, DirectionRequest, LoadRequest, PointLoad, ProfileRequest};
+use voussoir::api::request::{ArchRequest, DirectionRequest, LoadEntry, LoadRequest, PointLoad, ProfileRequest};
 use voussoir::api::response::{AnalysisResult, Collapse, HingeBody, MethodWord, OutcomeWord, SlideBody};
 use voussoir::collapse::Digits;
 
@@ -30,9 +31,11 @@ pub fn limits(result: &AnalysisResult) -> [Option<Limit<'_>>; 2] {
 
 /// One sentence.
 pub fn headline(result: &AnalysisResult) -> String {
+    if let Some(safety) = &result.safety {
+        return safety::headline(result, safety);
+    }
     let sentence = match (result.outcome, &result.collapse) {
         (OutcomeWord::Collapse, Some(collapse)) => format!("The arch collapses {}.", reached(result, collapse)),
-        (OutcomeWord::Crushes, Some(collapse)) => format!("The stone crushes {}.", reached(result, collapse)),
         (OutcomeWord::StandsInWindow, _) => in_window(result),
         (OutcomeWord::FallsAsBuilt, _) => falls(result).to_owned(),
         (OutcomeWord::NeverCollapses, _) => stands(result),
@@ -115,8 +118,12 @@ fn reversed(result: &AnalysisResult) -> bool {
 
 /// What limit analysis allows.
 pub fn window(result: &AnalysisResult) -> String {
-    let unit = unit(result);
-    match result.limit_window.map(|ends| ends.map(|end| end.map(Digits))) {
+    range(result.limit_window, unit(result))
+}
+
+/// From where to where an arch stands.
+pub fn range(ends: Option<[Option<f64>; 2]>, unit: &str) -> String {
+    match ends.map(|ends| ends.map(|end| end.map(Digits))) {
         None => "finds no equilibrium at any intensity".to_owned(),
         Some([Some(low), Some(high)]) => format!("stands from {low} to {high} {unit}"),
         Some([Some(low), None]) => format!("stands from {low} {unit} upwards without end"),
@@ -152,12 +159,14 @@ pub fn arch(arch: &ArchRequest) -> String {
 const LISTED: usize = 6;
 
 /// The fixed or the scaled loads, a line each.
-pub fn loads(result: &AnalysisResult, scaled: bool) -> String {
-    let entries = result.request.loads.iter().filter(|entry| entry.scaled == scaled);
+pub fn loads(entries: &[LoadEntry], scaled: bool) -> String {
+    let entries = entries.iter().filter(|entry| entry.scaled == scaled);
     let mut lines: Vec<String> = entries
-        .map(|entry| match entry.coefficient == 1.0 {
-            true => load(&entry.load),
-            false => format!("{} times: {}", Digits(entry.coefficient), load(&entry.load)),
+        .map(|entry| match (entry.coefficient == 1.0, entry.per_abscissa) {
+            (true, false) => load(&entry.load),
+            (false, false) => format!("{} times: {}", Digits(entry.coefficient), load(&entry.load)),
+            (true, true) => format!("abscissa times: {}", load(&entry.load)),
+            (false, true) => format!("{} times abscissa times: {}", Digits(entry.coefficient), load(&entry.load)),
         })
         .collect();
     let more = lines.len().saturating_sub(LISTED);

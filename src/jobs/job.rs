@@ -1,6 +1,6 @@
 //! One job and where it stands.
 
-use crate::collapse::{AnalysisError, CollapseReport, LoadStep, Stop, Watch};
+use crate::collapse::{AnalysisError, Answer, LoadStep, Stop, Watch};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
@@ -16,7 +16,7 @@ pub enum Status {
     Accepted,
     /// A worker is at it.
     Running,
-    /// There is a report.
+    /// There is an answer.
     Successful,
     /// There is none, and a reason.
     Failed,
@@ -32,14 +32,14 @@ pub enum State {
     /// A worker is at it.
     Running,
     /// Done.
-    Successful(Arc<CollapseReport>),
-    /// Ended without a report.
+    Successful(Arc<Answer>),
+    /// Ended without an answer.
     Failed(Failure),
     /// Cancelled.
     Dismissed,
 }
 
-/// Why a job has no report.
+/// Why a job has no answer.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Failure {
     /// The mechanics said why.

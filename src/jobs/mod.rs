@@ -1,8 +1,8 @@
 //! Who runs when: an in-memory store of jobs, a bounded queue, and the threads that work it off.
 //!
-//! A job is one [`Analysis`](crate::collapse::Analysis) on its way to a report. Whatever the caller wants to find
-//! again beside the report (the request as it was posted, say) travels with the job as its *attachment*.
-//! Nothing here knows of HTTP or JSON. Clocks live here and not below, so the same analysis gives the same report.
+//! A job is one [`Question`](crate::collapse::Question) on its way to an answer. Whatever the caller wants to find
+//! again beside the answer (the request as it was posted, say) travels with the job as its *attachment*.
+//! Nothing here knows of HTTP or JSON. Clocks live here and not below, so the same question gives the same answer.
 
 mod job;
 mod store;

@@ -3,13 +3,13 @@
 use super::job::{Job, JobId};
 use super::table::{Refusal, Table};
 use super::{lock, worker};
-use crate::collapse::{Analysis, AnalysisError, CollapseReport, Watch};
+use crate::collapse::{AnalysisError, Answer, Question, Watch};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
-/// What the workers do with an analysis; [`collapse::run`](crate::collapse::run) outside tests.
-pub type Analyse = dyn Fn(&Analysis, &mut dyn Watch) -> Result<CollapseReport, AnalysisError> + Send + Sync;
+/// What the workers do with a question; [`collapse::answer`](crate::collapse::answer) outside tests.
+pub type Analyse = dyn Fn(&Question, &mut dyn Watch) -> Result<Answer, AnalysisError> + Send + Sync;
 
 /// How long a cancelled analysis may take to notice before its thread is given up.
 const LAST_STEP: Duration = Duration::from_secs(2);
@@ -60,7 +60,7 @@ impl<T: Clone + Send + Sync + 'static> JobStore<T> {
     /// When the system gives no thread.
     pub fn start<A>(limits: Limits, analyse: A) -> std::io::Result<Self>
     where
-        A: Fn(&Analysis, &mut dyn Watch) -> Result<CollapseReport, AnalysisError> + Send + Sync + 'static,
+        A: Fn(&Question, &mut dyn Watch) -> Result<Answer, AnalysisError> + Send + Sync + 'static,
     {
         let limits = Limits { workers: limits.workers.max(1), queue: limits.queue.max(1), ..limits };
         let shared = Arc::new(Shared {
@@ -80,15 +80,15 @@ impl<T: Clone + Send + Sync + 'static> JobStore<T> {
         Ok(store)
     }
 
-    /// Puts an analysis at the end of the queue.
+    /// Puts a question at the end of the queue.
     ///
     /// # Errors
     /// When the queue is full or the store is shutting down; nothing is accepted then.
-    pub fn submit(&self, analysis: Analysis, attachment: T) -> Result<Job<T>, Refusal> {
+    pub fn submit(&self, question: Question, attachment: T) -> Result<Job<T>, Refusal> {
         let mut table = lock(&self.shared.table);
         // Named under the lock, so that the order of ids is the order of the queue.
         let job = Job::accepted(JobId::now_v7(), attachment);
-        table.accept(job.clone(), analysis, &self.shared.limits)?;
+        table.accept(job.clone(), question, &self.shared.limits)?;
         drop(table);
         self.shared.work.notify_one();
         Ok(job)

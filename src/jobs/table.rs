@@ -2,7 +2,7 @@
 
 use super::job::{Job, JobId, Moment, Progress, State};
 use super::store::Limits;
-use crate::collapse::Analysis;
+use crate::collapse::Question;
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
@@ -20,7 +20,7 @@ pub enum Refusal {
 /// A job taken from the queue.
 pub(super) struct Task {
     pub(super) id: JobId,
-    pub(super) analysis: Analysis,
+    pub(super) question: Question,
     pub(super) progress: Arc<Progress>,
 }
 
@@ -46,14 +46,14 @@ impl<T> Table<T> {
         }
     }
 
-    pub(super) fn accept(&mut self, job: Job<T>, analysis: Analysis, limits: &Limits) -> Result<(), Refusal> {
+    pub(super) fn accept(&mut self, job: Job<T>, question: Question, limits: &Limits) -> Result<(), Refusal> {
         if !self.open {
             return Err(Refusal::Closed);
         }
         if self.waiting.len() >= limits.queue {
             return Err(Refusal::QueueFull(self.waiting.len()));
         }
-        self.waiting.push_back(Task { id: job.id, analysis, progress: job.progress.clone() });
+        self.waiting.push_back(Task { id: job.id, question, progress: job.progress.clone() });
         self.jobs.insert(job.id, job);
         Ok(())
     }

@@ -4,7 +4,7 @@ use super::job::{Failure, Observer, Progress, State};
 use super::lock;
 use super::store::{Analyse, Shared};
 use super::table::Task;
-use crate::collapse::{Analysis, AnalysisError};
+use crate::collapse::{AnalysisError, Question};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, PoisonError};
 
@@ -14,7 +14,7 @@ pub(super) fn work<T>(shared: &Shared<T>) {
         let span = tracing::info_span!("job", job.id = %task.id);
         let _entered = span.enter();
         tracing::info!("started");
-        let state = attempt(&*shared.analyse, &task.analysis, &task.progress);
+        let state = attempt(&*shared.analyse, &task.question, &task.progress);
         match &state {
             State::Failed(Failure::Analysis(error @ AnalysisError::Stopped { .. })) => tracing::info!("{error}"),
             State::Failed(failure) => tracing::warn!(%failure, "failed"),
@@ -36,11 +36,11 @@ fn next<T>(shared: &Shared<T>) -> Option<Task> {
     table.take()
 }
 
-/// Runs one analysis; whatever happens in it, there is a final state.
-fn attempt(analyse: &Analyse, analysis: &Analysis, progress: &Arc<Progress>) -> State {
-    // The report is built from `analysis` alone and is lost with a panic, so nothing half-built is seen.
-    match catch_unwind(AssertUnwindSafe(|| analyse(analysis, &mut Observer(progress)))) {
-        Ok(Ok(report)) => State::Successful(Arc::new(report)),
+/// Answers one question; whatever happens in it, there is a final state.
+fn attempt(analyse: &Analyse, question: &Question, progress: &Arc<Progress>) -> State {
+    // The answer is built from `question` alone and is lost with a panic, so nothing half-built is seen.
+    match catch_unwind(AssertUnwindSafe(|| analyse(question, &mut Observer(progress)))) {
+        Ok(Ok(answer)) => State::Successful(Arc::new(answer)),
         Ok(Err(error)) => State::Failed(Failure::Analysis(error)),
         Err(_) => State::Failed(Failure::Panicked),
     }

@@ -68,6 +68,18 @@ fn rows() -> Vec<Row> {
         ("/method", json!("by_eye"), "/method"),
         ("/method", json!({"fixed_steps": {"step": 0.0}}), "/method/fixed_steps/step"),
         ("/report", json!({"share_of_collapse": 1.0}), "/report/share_of_collapse"),
+        ("/report", json!({"stress_fields": ["everywhere"]}), "/report/stress_fields"),
+        ("/report", json!({"stress_fields": [{"load_factor": 1e13}]}), "/report/stress_fields/0/load_factor"),
+        ("/stone/compressive_strength_pa", json!(10.0), "/stone/compressive_strength_pa"),
+        ("/mesh", json!({"subblocks": {"uniform": {"radial": 0, "along": 1}}}), "/mesh/subblocks/uniform/radial"),
+        ("/mesh", json!({"subblocks": {"uniform": {"radial": 1, "along": 49}}}), "/mesh/subblocks/uniform/along"),
+        ("/mesh", json!({"subblocks": {"per_voussoir": []}}), "/mesh/subblocks/per_voussoir"),
+        ("/mesh", json!({"seams": "glue"}), "/mesh/seams"),
+        ("/analysis", json!("safety"), "/analysis"),
+        ("/analysis", json!({"safety": {"curve": {"abscissae": [2, 1]}}}), "/analysis/safety/curve/abscissae/1"),
+        ("/analysis", json!({"safety": {"curve": {"abscissae": [1, 2]}}}), "/analysis/safety/curve"),
+        ("/loads/1/per_abscissa", json!(true), "/loads/1/per_abscissa"),
+        ("/curved_beam", json!({}), "/curved_beam/inner_radius_m"),
         (arch, json!({"profile": {"surveyed": {"intrados_m": [[0, 0]], "extrados_m": [[0, 1]]}}}), "/arch/profile"),
     ]
 }

@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 use tokio::net::TcpListener;
 use tokio::runtime::Runtime;
 use voussoir::api::{self, Service};
-use voussoir::collapse::{self, Analysis, AnalysisError, CollapseReport, LoadStep, Watch};
+use voussoir::collapse::{self, AnalysisError, LoadStep, Question, Watch};
 use voussoir::jobs::{JobStore, Limits};
 
 pub const BODY_LIMIT: usize = 64 << 10;
@@ -27,7 +27,8 @@ pub const PANIC: f64 = 0.25;
 pub const ERROR: f64 = 0.125;
 
 /// The mechanics, except for requests that ask for trouble by their `share_of_collapse`.
-fn analyse(analysis: &Analysis, watch: &mut dyn Watch) -> Result<CollapseReport, AnalysisError> {
+fn analyse(question: &Question, watch: &mut dyn Watch) -> Result<collapse::Answer, AnalysisError> {
+    let Question::One(analysis) = question else { return collapse::answer(question, watch) };
     if analysis.share == ENDLESS {
         return endless(watch);
     }
@@ -35,11 +36,11 @@ fn analyse(analysis: &Analysis, watch: &mut dyn Watch) -> Result<CollapseReport,
     if analysis.share == ERROR {
         return Err(AnalysisError::NotFinite { what: "asked to fail" });
     }
-    collapse::run(analysis, watch)
+    collapse::answer(question, watch)
 }
 
 /// Steps on until told to stop.
-fn endless(watch: &mut dyn Watch) -> Result<CollapseReport, AnalysisError> {
+fn endless(watch: &mut dyn Watch) -> Result<collapse::Answer, AnalysisError> {
     let mut step = LoadStep { load_factor: 0.0, events: 0 };
     while watch.on_step(&step).is_continue() {
         step = LoadStep { load_factor: step.load_factor + 0.25, events: step.events + 1 };
@@ -65,7 +66,20 @@ pub fn request() -> Value {
     })
 }
 
-/// The same, asking for trouble.
+/// The same arch: its safety as the load grows.
+pub fn curve() -> Value {
+    let mut request = request();
+    request["loads"][1]["per_abscissa"] = json!(true);
+    request["analysis"] = json!({"safety": {"curve": {"abscissae": [1, 10, 100], "unit": "kN/m"}}});
+    request
+}
+
+/// The curved beam of the paper.
+pub fn beam() -> Value {
+    json!({"curved_beam": {"inner_radius_m": 0.5, "outer_radius_m": 0.7, "end_shear_n_per_m": 2500.0}})
+}
+
+/// The same arch as [`request`], asking for trouble.
 pub fn trouble(share: f64) -> Value {
     let mut request = request();
     request["report"] = json!({"share_of_collapse": share});

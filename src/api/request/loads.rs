@@ -14,6 +14,9 @@ pub struct LoadEntry {
     /// A factor of its own.
     #[serde(default = "one")]
     pub coefficient: f64,
+    /// True: the coefficient is multiplied by the abscissa of the safety curve that `analysis` asks for.
+    #[serde(default)]
+    pub per_abscissa: bool,
 }
 
 fn one() -> f64 {

@@ -1,10 +1,17 @@
-//! The body of a request: one arch, its stone, its loads, and what is asked. Lengths in m, other units in the names.
+//! The body of a request: one arch, its stone, its loads, and what is asked; or a curved beam. Lengths in m, other
+//! units in the names.
 
 mod arch;
+mod beam;
 mod loads;
+mod mesh;
+mod question;
 
 pub use arch::*;
+pub use beam::*;
 pub use loads::*;
+pub use mesh::*;
+pub use question::*;
 
 use crate::arch::Stone;
 use serde::{Deserialize, Serialize};
@@ -13,7 +20,17 @@ use utoipa::ToSchema;
 /// Longest `name` and `unit`, characters.
 pub const MAX_TEXT: usize = 200;
 
-/// One question: when does this arch fall?
+/// A body: an arch, or a curved beam where it has `curved_beam`.
+#[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
+#[serde(untagged)]
+pub enum Request {
+    /// An arch.
+    Arch(Box<AnalysisRequest>),
+    /// The curved beam of section 3.3 of the paper.
+    CurvedBeam(Box<BeamRequest>),
+}
+
+/// One question: when does this arch fall, or how safe is it?
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct AnalysisRequest {
     /// A name to find it again, up to 200 characters.
@@ -28,9 +45,15 @@ pub struct AnalysisRequest {
     /// Joints that differ from the rest.
     #[serde(default)]
     pub joint_overrides: Vec<JointOverride>,
+    /// How the voussoirs are cut into subblocks.
+    #[serde(default)]
+    pub mesh: MeshRequest,
     /// Loads, fixed and scaled by the load factor. Without a scaled one, only whether the arch stands is asked.
     #[schema(min_items = 1)]
     pub loads: Vec<LoadEntry>,
+    /// What is asked.
+    #[serde(default)]
+    pub analysis: AimRequest,
     /// How the load factor grows and how the intensity is called.
     #[serde(default)]
     pub load_factor: LoadFactorRequest,
@@ -61,8 +84,8 @@ pub struct StoneRequest {
     /// Cohesion of the joints, Pa.
     #[schema(minimum = 0.0)]
     pub cohesion_pa: f64,
-    /// Compressive strength, Pa.
-    #[schema(exclusive_minimum = 0.0)]
+    /// Compressive strength, Pa (10 MPa is 1e7), from 1e3 to 1e30.
+    #[schema(minimum = 1e3, maximum = 1e30)]
     pub compressive_strength_pa: f64,
     /// Plane stress or plane strain inside the stones.
     pub plane: PlaneRequest,
@@ -189,20 +212,5 @@ impl FixedSteps {
 
     fn default_hinges() -> usize {
         3
-    }
-}
-
-/// What the answer shows.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
-#[serde(default)]
-pub struct ReportRequest {
-    /// At which share of the way to collapse displacements and contact forces are shown, between 0 and 1.
-    #[schema(exclusive_minimum = 0.0, exclusive_maximum = 1.0)]
-    pub share_of_collapse: f64,
-}
-
-impl Default for ReportRequest {
-    fn default() -> Self {
-        ReportRequest { share_of_collapse: 0.999 }
     }
 }

@@ -165,6 +165,6 @@ impl HistoryColumns {
     }
 }
 
-fn column<R, V>(rows: &[R], value: impl Fn(&R) -> V) -> Vec<V> {
+pub(super) fn column<R, V>(rows: &[R], value: impl Fn(&R) -> V) -> Vec<V> {
     rows.iter().map(value).collect()
 }

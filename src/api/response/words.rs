@@ -1,7 +1,7 @@
 //! Words of the answer.
 
-use crate::api::request::MethodRequest;
-use crate::collapse::{Face, Mode, Outcome};
+use crate::api::request::{CrushingRequest, MethodRequest};
+use crate::collapse::{Face, Governs, Mode, Outcome, Zone};
 use serde::Serialize;
 use utoipa::ToSchema;
 
@@ -17,7 +17,7 @@ pub enum OutcomeWord {
     StandsInWindow,
     /// Stands up to the cap.
     NeverCollapses,
-    /// The stone crushes.
+    /// The stone crushes before the arch falls: given by a safety analysis that crushing governs.
     Crushes,
     /// Path and certificate contradict each other, or the path could not be followed.
     CannotTell,
@@ -53,6 +53,42 @@ pub enum ModeWord {
     Sway,
     /// Joints slide more than they open.
     Sliding,
+}
+
+/// What limits the safety factor.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum GovernsWord {
+    /// The arch becomes a mechanism.
+    Instability,
+    /// The stone crushes.
+    Crushing,
+    /// Nothing does, up to the cap.
+    Nothing,
+    /// It cannot be told.
+    Unknown,
+}
+
+/// Zone of Figs. 10 and 13 of the paper.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ZoneWord {
+    /// Zone I: instability, the crown rises.
+    CrownRises,
+    /// Zone II: crushing.
+    Crushing,
+    /// Zone III: instability, the crown descends.
+    CrownDescends,
+}
+
+/// When stone is taken to crush.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum CrushingWord {
+    /// Joints of finite strength can no longer be in equilibrium.
+    PlasticSection,
+    /// The equivalent stress reaches the strength in some subblock.
+    Elastic,
 }
 
 /// A face of the arch.
@@ -104,6 +140,36 @@ impl From<Mode> for ModeWord {
             Mode::CrownDescends => ModeWord::CrownDescends,
             Mode::Sway => ModeWord::Sway,
             Mode::Sliding => ModeWord::Sliding,
+        }
+    }
+}
+
+impl From<Governs> for GovernsWord {
+    fn from(governs: Governs) -> Self {
+        match governs {
+            Governs::Instability => GovernsWord::Instability,
+            Governs::Crushing => GovernsWord::Crushing,
+            Governs::Nothing => GovernsWord::Nothing,
+            Governs::Unknown => GovernsWord::Unknown,
+        }
+    }
+}
+
+impl From<Zone> for ZoneWord {
+    fn from(zone: Zone) -> Self {
+        match zone {
+            Zone::CrownRises => ZoneWord::CrownRises,
+            Zone::Crushing => ZoneWord::Crushing,
+            Zone::CrownDescends => ZoneWord::CrownDescends,
+        }
+    }
+}
+
+impl From<CrushingRequest> for CrushingWord {
+    fn from(crushing: CrushingRequest) -> Self {
+        match crushing {
+            CrushingRequest::PlasticSection => CrushingWord::PlasticSection,
+            CrushingRequest::Elastic => CrushingWord::Elastic,
         }
     }
 }

@@ -22,6 +22,11 @@ fn forces_per_voussoir(entry: &LoadEntry) -> usize {
     }
 }
 
+/// How many forces these loads may put on each voussoir together.
+pub fn forces_per_voussoir_of(entries: &[LoadEntry]) -> usize {
+    entries.iter().map(forces_per_voussoir).sum()
+}
+
 /// Fixed and scaled forces, on the whole arch where there is one.
 pub fn loads(
     entries: &[LoadEntry],

@@ -1,0 +1,51 @@
+//! The curved beam in a request: a test of the stress inside stones against the theory of elasticity.
+
+use super::{MeshRequest, StoneRequest, Subblocks, SubblocksRequest};
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+/// A quarter ring in bending by end shear, cut into subblocks (section 3.3 of the paper).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct BeamRequest {
+    /// A name to find it again, up to 200 characters.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(max_length = 200)]
+    pub name: Option<String>,
+    /// The beam.
+    pub curved_beam: CurvedBeamRequest,
+    /// Its stone: Young's modulus, Poisson's ratio and `plane` count.
+    #[serde(default)]
+    pub stone: StoneRequest,
+    /// Its subblocks, `uniform` only; 7 x 7 by default.
+    #[serde(default = "BeamRequest::default_mesh")]
+    pub mesh: MeshRequest,
+}
+
+impl BeamRequest {
+    fn default_mesh() -> MeshRequest {
+        let subblocks = SubblocksRequest::Uniform(Subblocks { radial: 7, along: 7 });
+        MeshRequest { subblocks, ..MeshRequest::default() }
+    }
+}
+
+/// Shape and load of the curved beam.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct CurvedBeamRequest {
+    /// Inner radius, m.
+    #[schema(exclusive_minimum = 0.0)]
+    pub inner_radius_m: f64,
+    /// Outer radius, m; 1.001 to 1000 times the inner one.
+    #[schema(exclusive_minimum = 0.0)]
+    pub outer_radius_m: f64,
+    /// Resultant of the tractions at its ends, N per metre of depth.
+    pub end_shear_n_per_m: f64,
+    /// Subblocks are true sectors; false: they have straight sides.
+    #[serde(default = "CurvedBeamRequest::default_sides")]
+    pub curved_sides: bool,
+}
+
+impl CurvedBeamRequest {
+    fn default_sides() -> bool {
+        true
+    }
+}

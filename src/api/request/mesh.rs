@@ -1,0 +1,58 @@
+//! How voussoirs are cut into subblocks.
+
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+/// Most subblocks of a voussoir in either direction.
+pub const MAX_SUBBLOCKS_EACH_WAY: usize = 48;
+/// Most subblocks of an analysis.
+pub const MAX_SUBBLOCKS: usize = 100_000;
+
+/// Bonded subblocks inside every voussoir: at most 100,000 in all.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(default)]
+pub struct MeshRequest {
+    /// How many.
+    pub subblocks: SubblocksRequest,
+    /// What holds them together.
+    pub seams: SeamsRequest,
+}
+
+/// Subblocks, the same in every voussoir or each its own.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SubblocksRequest {
+    /// The same in every voussoir; 1 x 1 by default: every voussoir is one block.
+    Uniform(Subblocks),
+    /// One entry per voussoir of the whole arch, left to right; half an arch uses those of its own voussoirs. Not with
+    /// `curved_beam`.
+    PerVoussoir(Vec<Subblocks>),
+}
+
+impl Default for SubblocksRequest {
+    fn default() -> Self {
+        SubblocksRequest::Uniform(Subblocks { radial: 1, along: 1 })
+    }
+}
+
+/// Subblocks of one voussoir.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+pub struct Subblocks {
+    /// From intrados to extrados, 1 to 48.
+    #[schema(minimum = 1, maximum = 48)]
+    pub radial: usize,
+    /// Along the arch, 1 to 48.
+    #[schema(minimum = 1, maximum = 48)]
+    pub along: usize,
+}
+
+/// What holds subblocks of one voussoir together.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SeamsRequest {
+    /// A stiff pair of springs in the middle of every seam, and weak ones on what is linear along it.
+    #[default]
+    Split,
+    /// Stiff pairs of springs at both ends, as the paper's text reads; for comparison only, it locks in bending.
+    Corners,
+}

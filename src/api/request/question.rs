@@ -1,0 +1,92 @@
+//! What is asked of an arch, and what the answer shows.
+
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+/// Most abscissae of a curve.
+pub const MAX_ABSCISSAE: usize = 500;
+/// Most stress fields of an answer.
+pub const MAX_FIELDS: usize = 16;
+
+/// What is asked.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum AimRequest {
+    /// The load factor at which the arch falls.
+    #[default]
+    Collapse,
+    /// How far the scaled loads, in full at load factor 1, can grow until the arch falls or its stone crushes.
+    Safety(SafetyRequest),
+}
+
+/// Safety against falling and crushing; needs scaled loads, direction `increase` and method `event_path`.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(default)]
+pub struct SafetyRequest {
+    /// Which of the two answers about crushing counts; both are given.
+    pub crushing: CrushingRequest,
+    /// Asks for a curve: the safety factor at every abscissa of a list.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub curve: Option<CurveRequest>,
+}
+
+/// When stone is taken to crush.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum CrushingRequest {
+    /// A joint would have to carry its normal force N so far off its middle that less than N / strength of its length
+    /// is left, and no other equilibrium avoids it. Does not depend on the mesh.
+    #[default]
+    PlasticSection,
+    /// The equivalent stress of Tresca reaches the strength in some subblock, as in the paper. Depends on the mesh.
+    Elastic,
+}
+
+/// What the safety factor is drawn over. Loads with `per_abscissa` are multiplied by the abscissa, at least one is.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct CurveRequest {
+    /// 1 to 500 positive numbers, rising strictly; abscissae times subblocks come to at most 1,000,000.
+    #[schema(min_items = 1, max_items = 500)]
+    pub abscissae: Vec<f64>,
+    /// Their unit: a label only.
+    #[serde(default = "CurveRequest::no_unit")]
+    #[schema(max_length = 200)]
+    pub unit: String,
+}
+
+impl CurveRequest {
+    fn no_unit() -> String {
+        "-".to_owned()
+    }
+}
+
+/// What the answer shows.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(default)]
+pub struct ReportRequest {
+    /// At which share of the way to collapse displacements and contact forces are shown, between 0 and 1.
+    #[schema(exclusive_minimum = 0.0, exclusive_maximum = 1.0)]
+    pub share_of_collapse: f64,
+    /// Where on the path the stress in every subblock is shown: up to 16 places, and fields times subblocks at most
+    /// 400,000. Not with a curve.
+    #[schema(max_items = 16)]
+    pub stress_fields: Vec<StressFieldRequest>,
+}
+
+impl Default for ReportRequest {
+    fn default() -> Self {
+        ReportRequest { share_of_collapse: 0.999, stress_fields: Vec::new() }
+    }
+}
+
+/// Where on the path a stress field is shown.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum StressFieldRequest {
+    /// At load factor 1.
+    UnitLoad,
+    /// At `share_of_collapse` of the way to collapse.
+    NearCollapse,
+    /// At this load factor, where the path passes it.
+    LoadFactor(f64),
+}

@@ -1,0 +1,108 @@
+//! Safety factors, at one point and along a curve.
+
+use super::words::{CrushingWord, GovernsWord, ModeWord, ZoneWord};
+use crate::api::request::{AimRequest, AnalysisRequest, SafetyRequest};
+use crate::collapse::{Reach, SafetyPoint};
+use serde::Serialize;
+use utoipa::ToSchema;
+
+/// How far the scaled loads can grow from their full size before one thing happens.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, ToSchema)]
+#[serde(tag = "state", rename_all = "snake_case")]
+pub enum ReachBody {
+    /// It happens.
+    At {
+        /// Load factor at which it does: the safety factor. Below 1 the full loads are too much.
+        load_factor: f64,
+    },
+    /// It does not happen up to the cap.
+    Never,
+    /// The arch does not stand under the full loads, and no smaller share of them holds it up.
+    DoesNotStand,
+    /// It cannot be told; the notes say why.
+    Unknown,
+}
+
+impl From<Reach> for ReachBody {
+    fn from(reach: Reach) -> Self {
+        match reach {
+            Reach::At(load_factor) => ReachBody::At { load_factor },
+            Reach::Never => ReachBody::Never,
+            Reach::DoesNotStand => ReachBody::DoesNotStand,
+            Reach::Unknown => ReachBody::Unknown,
+        }
+    }
+}
+
+/// Safety factors under the scaled loads in full.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub struct SafetyBody {
+    /// Until the arch becomes a mechanism.
+    pub instability: ReachBody,
+    /// Until the equivalent stress reaches the strength in some subblock; depends on the mesh.
+    pub elastic: ReachBody,
+    /// Until joints of finite strength can no longer be in equilibrium; does not depend on the mesh.
+    pub plastic_section: ReachBody,
+    /// The first of instability and the kind of crushing that counts.
+    pub governing: ReachBody,
+    /// Which of the two that is.
+    pub governed_by: GovernsWord,
+    /// How the arch moves when it becomes a mechanism; null where it does not.
+    pub mode: Option<ModeWord>,
+    /// Zone of Figs. 10 and 13 of the paper; null where nothing limits, or where the arch sways or slides.
+    pub zone: Option<ZoneWord>,
+    /// What to know before using the numbers.
+    pub notes: Vec<String>,
+}
+
+impl From<&SafetyPoint> for SafetyBody {
+    fn from(point: &SafetyPoint) -> Self {
+        SafetyBody {
+            instability: point.instability.into(),
+            elastic: point.elastic.into(),
+            plastic_section: point.plastic_section.into(),
+            governing: point.governing.into(),
+            governed_by: point.governed_by.into(),
+            mode: point.mode.map(Into::into),
+            zone: point.zone.map(Into::into),
+            notes: point.notes.clone(),
+        }
+    }
+}
+
+/// Safety factors over a list of abscissae.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub struct SafetyCurveResult {
+    /// Unit of the abscissae.
+    pub unit: String,
+    /// Which kind of crushing counts.
+    pub crushing: CrushingWord,
+    /// One point per abscissa, in their order.
+    pub points: Vec<CurvePointBody>,
+    /// The request, defaults filled in.
+    pub request: AnalysisRequest,
+}
+
+/// One point of a safety curve.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub struct CurvePointBody {
+    /// Where.
+    pub abscissa: f64,
+    /// The safety factors there.
+    #[serde(flatten)]
+    pub safety: SafetyBody,
+}
+
+impl SafetyCurveResult {
+    /// Puts the points in the request's words; none for a request that asks for no curve.
+    pub fn new(request: &AnalysisRequest, points: &[SafetyPoint]) -> Option<Self> {
+        let AimRequest::Safety(SafetyRequest { crushing, curve: Some(curve) }) = &request.analysis else { return None };
+        let body = |(point, &abscissa): (&SafetyPoint, &f64)| CurvePointBody { abscissa, safety: point.into() };
+        Some(SafetyCurveResult {
+            unit: curve.unit.clone(),
+            crushing: (*crushing).into(),
+            points: points.iter().zip(&curve.abscissae).map(body).collect(),
+            request: request.clone(),
+        })
+    }
+}

@@ -1,0 +1,121 @@
+//! Subblocks and stress fields of a request.
+
+use super::MAX_FACTOR;
+use crate::api::fault::Faults;
+use crate::api::request::{
+    MAX_FIELDS, MAX_SUBBLOCKS, MAX_SUBBLOCKS_EACH_WAY, MeshRequest, ReportRequest, SeamsRequest, StressFieldRequest,
+    Subblocks, SubblocksRequest,
+};
+use crate::arch::{Arch, Sides};
+use crate::collapse::{FieldAt, Seams};
+
+/// Most subblocks in all stress fields of one answer together.
+const MAX_FIELD_SUBBLOCKS: usize = 400_000;
+
+/// Most faults of single voussoirs that are listed.
+const MAX_VOUSSOIR_FAULTS: usize = 20;
+
+const UNIFORM: &str = "/mesh/subblocks/uniform";
+const PER_VOUSSOIR: &str = "/mesh/subblocks/per_voussoir";
+
+/// Subblocks of every voussoir of the whole arch, of which the first `analysed` count; one each where there are faults.
+pub fn subblocks(
+    request: &MeshRequest,
+    whole: Option<&Arch>,
+    analysed: Option<usize>,
+    faults: &mut Faults,
+) -> Vec<[usize; 2]> {
+    let before = faults.len();
+    let voussoirs = whole.map(|arch| arch.voussoirs.len());
+    let given = match &request.subblocks {
+        SubblocksRequest::Uniform(each) => {
+            check(UNIFORM, *each, faults);
+            vec![[each.radial, each.along]; voussoirs.unwrap_or(0)]
+        }
+        SubblocksRequest::PerVoussoir(list) => {
+            let detail = format!("{} entries for {} voussoirs: give one each", list.len(), voussoirs.unwrap_or(0));
+            faults.require(voussoirs.is_none_or(|count| count == list.len()), PER_VOUSSOIR, detail);
+            for (k, each) in list.iter().enumerate() {
+                if faults.len() < before + MAX_VOUSSOIR_FAULTS {
+                    check(&format!("{PER_VOUSSOIR}/{k}"), *each, faults);
+                }
+            }
+            list.iter().map(|each| [each.radial, each.along]).collect()
+        }
+    };
+    if let Some(arch) = whole.filter(|_| faults.len() == before) {
+        check_sides(request, arch, &given, faults);
+        let total = total(given.iter().take(analysed.unwrap_or(usize::MAX)));
+        let detail = format!("{total} subblocks in all: keep to {MAX_SUBBLOCKS} by a coarser mesh or fewer voussoirs");
+        faults.require(total <= MAX_SUBBLOCKS, "/mesh/subblocks", detail);
+    }
+    if faults.len() == before { given } else { vec![[1, 1]; voussoirs.unwrap_or(0)] }
+}
+
+/// How many they are together.
+pub fn total<'a>(subblocks: impl Iterator<Item = &'a [usize; 2]>) -> usize {
+    subblocks.map(|[radial, along]| radial * along).sum()
+}
+
+/// Whether a voussoir, or the curved beam, can be cut like this.
+pub fn check(here: &str, subblocks: Subblocks, faults: &mut Faults) {
+    for (name, count) in [("radial", subblocks.radial), ("along", subblocks.along)] {
+        let detail = format!("{count} subblocks: give 1 to {MAX_SUBBLOCKS_EACH_WAY} in this direction");
+        faults.require((1..=MAX_SUBBLOCKS_EACH_WAY).contains(&count), format!("{here}/{name}"), detail);
+    }
+}
+
+/// A voussoir with several arcs on a side has no sectors to be cut into.
+fn check_sides(request: &MeshRequest, arch: &Arch, subblocks: &[[usize; 2]], faults: &mut Faults) {
+    let compound = |k: &usize| arch.voussoirs[*k].sides == Sides::Compound && subblocks[*k] != [1, 1];
+    let uniform = matches!(request.subblocks, SubblocksRequest::Uniform(_));
+    let most = if uniform { 1 } else { MAX_VOUSSOIR_FAULTS };
+    for k in (0..arch.voussoirs.len()).filter(compound).take(most) {
+        let pointer = if uniform { UNIFORM.to_owned() } else { format!("{PER_VOUSSOIR}/{k}") };
+        let detail = format!(
+            "a curved side of voussoir {k} is of more than one arc, which cannot be cut into subblocks: place joints \
+             where the arcs meet, set curved_sides to false, or leave this voussoir at 1 x 1"
+        );
+        faults.add(pointer, detail);
+    }
+}
+
+/// Where stress fields of so many subblocks are wanted.
+pub fn fields(request: &ReportRequest, subblocks: usize, faults: &mut Faults) -> Vec<FieldAt> {
+    let (here, count) = ("/report/stress_fields", request.stress_fields.len());
+    let detail = format!("{count} stress fields: ask for at most {MAX_FIELDS}");
+    if !faults.require(count <= MAX_FIELDS, here, detail) {
+        return Vec::new();
+    }
+    let total = count * subblocks;
+    let detail = format!(
+        "stress fields times subblocks come to {total}: keep to {MAX_FIELD_SUBBLOCKS} by fewer fields or a coarser mesh"
+    );
+    faults.require(total <= MAX_FIELD_SUBBLOCKS, here, detail);
+    for (i, field) in request.stress_fields.iter().enumerate() {
+        if let StressFieldRequest::LoadFactor(factor) = field {
+            let detail = format!("{factor} is out of range: a load factor lies between -{MAX_FACTOR} and {MAX_FACTOR}");
+            faults.require(factor.abs() <= MAX_FACTOR, format!("{here}/{i}/load_factor"), detail);
+        }
+    }
+    request.stress_fields.iter().map(|&field| field.into()).collect()
+}
+
+impl From<StressFieldRequest> for FieldAt {
+    fn from(field: StressFieldRequest) -> Self {
+        match field {
+            StressFieldRequest::UnitLoad => FieldAt::LoadFactor(1.0),
+            StressFieldRequest::NearCollapse => FieldAt::NearCollapse,
+            StressFieldRequest::LoadFactor(factor) => FieldAt::LoadFactor(factor),
+        }
+    }
+}
+
+impl From<SeamsRequest> for Seams {
+    fn from(seams: SeamsRequest) -> Self {
+        match seams {
+            SeamsRequest::Split => Seams::Split,
+            SeamsRequest::Corners => Seams::Corners,
+        }
+    }
+}

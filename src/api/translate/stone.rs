@@ -1,0 +1,101 @@
+//! Stone and joints of a request.
+
+use super::{MAX_DENSITY_KG_M3, MAX_STRESS_PA};
+use crate::api::fault::{Faults, child};
+use crate::api::request::{AnalysisRequest, PlaneRequest, SpringingJoints, StoneRequest};
+use crate::arch::{Arch, JointLaw, Stone};
+use crate::collapse::PlaneModel;
+
+/// The stone in SI.
+pub fn stone(request: &StoneRequest, faults: &mut Faults) -> Stone {
+    let weighs = faults.within("/stone/density_kg_m3", request.density_kg_m3, 0.0, MAX_DENSITY_KG_M3);
+    faults.from_to("/stone/youngs_modulus_pa", request.youngs_modulus_pa, YOUNGS_MODULUS_PA[0], YOUNGS_MODULUS_PA[1]);
+    let nu = request.poissons_ratio;
+    let detail = format!("{nu} is out of range: Poisson's ratio must lie between -1 and 0.5, both excluded");
+    faults.require(nu > -1.0 && nu < 0.5, "/stone/poissons_ratio", detail);
+    friction_angle("/stone/friction_angle_deg", request.friction_angle_deg, faults);
+    faults.from_to("/stone/cohesion_pa", request.cohesion_pa, 0.0, MAX_STRESS_PA);
+    let strength = request.compressive_strength_pa;
+    let detail = format!("{strength} is out of range: the strength is in Pa, from 1e3 to 1e30, and 10 MPa is 1e7");
+    let range = STRENGTH_PA[0]..=STRENGTH_PA[1];
+    faults.require(range.contains(&strength), "/stone/compressive_strength_pa", detail);
+    faults.from_to("/stone/penalty_ratio", request.penalty_ratio, PENALTY_RATIO[0], PENALTY_RATIO[1]);
+    Stone {
+        // A wrong density is one fault, not one for every load that it makes vanish.
+        density: if weighs { request.density_kg_m3 } else { Stone::default().density },
+        youngs_modulus: request.youngs_modulus_pa,
+        poissons_ratio: nu,
+        friction_angle: request.friction_angle_deg.to_radians(),
+        cohesion: request.cohesion_pa,
+        compressive_strength: request.compressive_strength_pa,
+    }
+}
+
+/// From softer than cork to ten times stiffer than diamond, Pa. Far below, a stone gives way by its own size.
+const YOUNGS_MODULUS_PA: [f64; 2] = [1e5, 1e13];
+
+/// Contacts much softer or stiffer than the stones cost the path its digits (measured: safe from 0.1 to 10, lost at 1e3).
+const PENALTY_RATIO: [f64; 2] = [0.01, 100.0];
+
+/// From softer than any stone, so that MPa given as Pa are noticed, to unlimited, Pa.
+const STRENGTH_PA: [f64; 2] = [1e3, 1e30];
+
+/// 0 <= phi < 90 degrees.
+pub fn friction_angle(pointer: &str, angle: f64, faults: &mut Faults) {
+    faults.from_to(pointer, angle, 0.0, 90.0);
+}
+
+/// The law of the joints that are not overridden.
+pub fn joint_law(stone: &Stone) -> JointLaw {
+    JointLaw::Dry { friction: stone.friction_angle.tan(), cohesion: stone.cohesion }
+}
+
+/// Whether the overrides fit the arch.
+pub fn check_overrides(request: &AnalysisRequest, arch: Option<&Arch>, faults: &mut Faults) {
+    let mut seen = std::collections::BTreeSet::new();
+    for (i, item) in request.joint_overrides.iter().enumerate() {
+        let here = child("/joint_overrides", &i.to_string());
+        let joint = format!("{here}/joint");
+        if !seen.insert(item.joint) {
+            faults.add(&joint, format!("joint {} is overridden twice: keep one", item.joint));
+        }
+        if let Some(last) = arch.map(|arch| arch.joints.len() - 1) {
+            let detail = format!("there is no joint {}; joints run from 0 to {last}", item.joint);
+            faults.require(item.joint <= last, &joint, detail);
+            let glued = request.arch.springing_joints == SpringingJoints::Bonded && [0, last].contains(&item.joint);
+            faults.require(
+                !glued,
+                &joint,
+                "the springing joints are bonded and have no friction: set springing_joints to `dry` or leave this out",
+            );
+        }
+        if let Some(angle) = item.friction_angle_deg {
+            friction_angle(&format!("{here}/friction_angle_deg"), angle, faults);
+        }
+        if let Some(cohesion) = item.cohesion_pa {
+            faults.from_to(format!("{here}/cohesion_pa"), cohesion, 0.0, MAX_STRESS_PA);
+        }
+        let changes = item.friction_angle_deg.is_some() || item.cohesion_pa.is_some();
+        faults.require(changes, here, "this override changes nothing: give friction_angle_deg, cohesion_pa or both");
+    }
+}
+
+/// Gives joints their own law.
+pub fn override_joints(request: &AnalysisRequest, arch: &mut Arch) {
+    for item in &request.joint_overrides {
+        let Some(joint) = arch.joints.get_mut(item.joint) else { continue };
+        if let JointLaw::Dry { friction, cohesion } = &mut joint.law {
+            *friction = item.friction_angle_deg.map_or(*friction, |angle| angle.to_radians().tan());
+            *cohesion = item.cohesion_pa.unwrap_or(*cohesion);
+        }
+    }
+}
+
+impl From<PlaneRequest> for PlaneModel {
+    fn from(plane: PlaneRequest) -> Self {
+        match plane {
+            PlaneRequest::Stress => PlaneModel::Stress,
+            PlaneRequest::Strain => PlaneModel::Strain,
+        }
+    }
+}

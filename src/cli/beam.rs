@@ -1,0 +1,33 @@
+//! The curved beam as a person reads it.
+
+use super::summary::bare;
+use super::wording;
+use std::time::Duration;
+use voussoir::api::request::{CurvedBeamRequest, SeamsRequest};
+use voussoir::api::response::{BeamResult, mesh_in_words};
+use voussoir::collapse::Digits;
+
+/// Error and energy.
+pub fn summary(result: &BeamResult, wall_time: Duration) -> String {
+    let request = &result.request;
+    let name = request.name.as_ref().map(|name| format!("{name}\n\n")).unwrap_or_default();
+    let error = Digits(result.error_percent);
+    let headline = format!("The stress in the curved beam is off by {error} % of the theory of elasticity.");
+    let CurvedBeamRequest { inner_radius_m: inner, outer_radius_m: outer, end_shear_n_per_m: shear, .. } =
+        request.curved_beam;
+    let sides = if request.curved_beam.curved_sides { "true sectors" } else { "straight sides" };
+    let seams = if request.mesh.seams == SeamsRequest::Split { "split springs" } else { "corner springs" };
+    let off = 100.0 * (result.energy_j_per_m / result.exact_energy_j_per_m - 1.0);
+    let energy = [result.energy_j_per_m, result.exact_energy_j_per_m].map(Digits);
+    let mut table = bare();
+    table.add_rows([
+        ["beam", &format!("a quarter ring from {} to {} m, {sides}", Digits(inner), Digits(outer))],
+        ["end shear", &format!("{} N per metre of depth", Digits(shear))],
+        ["mesh", &format!("{}, {seams}", mesh_in_words(&request.mesh))],
+        ["error", &format!("{error} % (e_N of eq. (5) of the paper)")],
+        ["energy", &format!("{} J/m; exact: {} J/m, so it is off by {off:.3} %", energy[0], energy[1])],
+        ["cost", &format!("{} unknowns", result.unknowns)],
+        ["time", &format!("{:.3} ms", wall_time.as_secs_f64() * 1e3)],
+    ]);
+    format!("{name}{}\n\n{}\n", wording::wrapped(&headline), table.trim_fmt())
+}

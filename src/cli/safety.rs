@@ -1,0 +1,144 @@
+//! Crushing and safety in words.
+
+use super::wording::{self, word};
+use voussoir::api::request::{AimRequest, CrushingRequest, MeshRequest, SeamsRequest, Subblocks, SubblocksRequest};
+use voussoir::api::response::{
+    AnalysisResult, CrushedSubblock, CrushingBody, ElasticCrushingBody, GovernsWord, PlasticCrushingBody, ReachBody,
+    SafetyBody, ZoneWord, mesh_in_words,
+};
+use voussoir::collapse::Digits;
+
+/// The mesh; none where every voussoir is one block.
+pub fn mesh(mesh: &MeshRequest) -> Option<String> {
+    let one = Subblocks { radial: 1, along: 1 };
+    let whole = match &mesh.subblocks {
+        SubblocksRequest::Uniform(each) => *each == one,
+        SubblocksRequest::PerVoussoir(list) => list.iter().all(|each| *each == one),
+    };
+    let seams = match mesh.seams {
+        SeamsRequest::Split => "",
+        SeamsRequest::Corners => ", held at the corners of their seams",
+    };
+    (!whole).then(|| format!("{}{seams}", mesh_in_words(mesh)))
+}
+
+/// One sentence.
+pub fn headline(result: &AnalysisResult, safety: &SafetyBody) -> String {
+    let kind = match &result.request.analysis {
+        AimRequest::Safety(request) if request.crushing == CrushingRequest::Elastic => "first yield",
+        _ => "plastic section",
+    };
+    let what = match safety.governed_by {
+        GovernsWord::Crushing => format!("its stone crushes ({kind})"),
+        _ => "it falls".to_owned(),
+    };
+    match safety.governing {
+        ReachBody::At { load_factor } if load_factor >= 1.0 => {
+            format!("The arch carries its scaled loads {} times; then {what}.", Digits(load_factor))
+        }
+        ReachBody::At { load_factor } => {
+            format!("The arch carries only {} times its scaled loads; then {what}.", Digits(load_factor))
+        }
+        ReachBody::Never => {
+            let times = Digits(result.cap);
+            format!(
+                "The arch neither falls nor crushes: it carries its scaled loads {times} times, the most that was \
+                 tried."
+            )
+        }
+        ReachBody::DoesNotStand => {
+            "The arch does not stand under its scaled loads in full, nor under any smaller share of them.".to_owned()
+        }
+        ReachBody::Unknown => "No safety factor: it cannot be told. The notes say why.".to_owned(),
+    }
+}
+
+/// A safety factor, briefly.
+pub fn reach(reach: ReachBody) -> String {
+    match reach {
+        ReachBody::At { load_factor } => Digits(load_factor).to_string(),
+        ReachBody::Never => "never".to_owned(),
+        ReachBody::DoesNotStand => "does not stand".to_owned(),
+        ReachBody::Unknown => "unknown".to_owned(),
+    }
+}
+
+/// The number of a zone of the paper.
+pub fn zone(zone: Option<ZoneWord>) -> &'static str {
+    match zone {
+        Some(ZoneWord::CrownRises) => "I",
+        Some(ZoneWord::Crushing) => "II",
+        Some(ZoneWord::CrownDescends) => "III",
+        None => "-",
+    }
+}
+
+/// Name and value of every line about crushing and safety.
+pub fn facts(result: &AnalysisResult) -> Vec<(&'static str, String)> {
+    let mut lines = Vec::new();
+    if let Some(crushing) = &result.crushing {
+        crushing_facts(&mut lines, result, crushing);
+    }
+    if let Some(safety) = &result.safety {
+        lines.push(("safety factor", factors(safety)));
+    }
+    lines
+}
+
+fn factors(safety: &SafetyBody) -> String {
+    let zone = safety.zone.map(|_| format!(", zone {}", zone(safety.zone))).unwrap_or_default();
+    let [governing, instability, elastic, plastic] =
+        [safety.governing, safety.instability, safety.elastic, safety.plastic_section].map(reach);
+    let governs = word(&safety.governed_by);
+    format!(
+        "{governing}, governed by: {governs}{zone}\n\
+         (instability: {instability}; first yield: {elastic}; plastic section: {plastic})"
+    )
+}
+
+fn crushing_facts(lines: &mut Vec<(&'static str, String)>, result: &AnalysisResult, crushing: &CrushingBody) {
+    lines.push(("strength", format!("{} MPa", Digits(crushing.strength_pa / 1e6))));
+    if let Some(elastic) = &crushing.elastic {
+        lines.push(("first yield", first_yield(result, elastic)));
+    }
+    if let Some(plastic) = &crushing.plastic_section {
+        lines.push(("plastic section", plastic_section(result, plastic)));
+    }
+}
+
+/// What the two answers about crushing mean.
+pub const EXPLANATION: &str = "First yield: the equivalent stress of Tresca reaches the strength in some subblock; it \
+    depends on the mesh. Plastic section: what limit analysis allows where no joint carries more than the strength.";
+
+fn first_yield(result: &AnalysisResult, elastic: &ElasticCrushingBody) -> String {
+    let at = elastic.subblock.as_ref().map(|subblock| format!(", in {}", place(subblock))).unwrap_or_default();
+    match (elastic.at_start, elastic.intensity) {
+        (true, _) => format!("at the start of the path already{at}"),
+        (false, Some(intensity)) => format!("at {} {}{at}", Digits(intensity), wording::unit(result)),
+        (false, None) => match &elastic.subblock {
+            Some(largest) => {
+                let stress = Digits(largest.tresca_pa / 1e6);
+                format!("not reached; largest equivalent stress {stress} MPa, in {}", place(largest))
+            }
+            None => "not reached".to_owned(),
+        },
+    }
+}
+
+fn place(subblock: &CrushedSubblock) -> String {
+    format!("voussoir {}, subblock {}, {} (radial, along)", subblock.voussoir, subblock.radial, subblock.along)
+}
+
+fn plastic_section(result: &AnalysisResult, plastic: &PlasticCrushingBody) -> String {
+    let range = wording::range(plastic.window, wording::unit(result));
+    let ends = [("lowest", &plastic.joints_at_lowest), ("highest", &plastic.joints_at_highest)];
+    let crushed: Vec<String> = ends
+        .iter()
+        .filter(|(_, joints)| !joints.is_empty())
+        .map(|(end, joints)| {
+            let list: Vec<_> = joints.iter().map(usize::to_string).collect();
+            format!("joints crushed at the {end}: {}", list.join(", "))
+        })
+        .collect();
+    [vec![range], crushed].concat().join("\n")
+}
