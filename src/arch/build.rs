@@ -39,12 +39,12 @@ fn corners(left: &[Vec2; 2], right: &[Vec2; 2]) -> [Vec2; 4] {
     [left[0], right[0], right[1], left[1]]
 }
 
-/// Shapes of the voussoirs between the given joint ends, with straight sides.
+/// The voussoirs between the given joint ends, with straight sides.
 ///
 /// # Errors
 /// Every stone that cannot exist.
-pub fn straight_regions(ends: &[[Vec2; 2]]) -> Result<Vec<Region>, Vec<ArchFault>> {
-    let (mut regions, mut faults) = (Vec::new(), Vec::new());
+pub fn straight_voussoirs(ends: &[[Vec2; 2]]) -> Result<Vec<Voussoir>, Vec<ArchFault>> {
+    let (mut voussoirs, mut faults) = (Vec::new(), Vec::new());
     for (voussoir, pair) in ends.windows(2).enumerate() {
         let [a, b, c, d] = corners(&pair[0], &pair[1]);
         let region = Region::polygon(&[a, b, c, d]);
@@ -53,20 +53,20 @@ pub fn straight_regions(ends: &[[Vec2; 2]]) -> Result<Vec<Region>, Vec<ArchFault
         } else if segments_meet(a, b, c, d) || region.area.is_nan() || region.area <= 0.0 {
             faults.push(ArchFault::InsideOut { voussoir });
         }
-        regions.push(region);
+        voussoirs.push(Voussoir { region, sides: Sides::Straight });
     }
     let ([a, b], [c, d]) = (ends[0], ends[ends.len() - 1]);
     if segments_meet(a, b, c, d) {
         faults.push(ArchFault::SpringingsCross);
     }
-    if faults.is_empty() { Ok(regions) } else { Err(faults) }
+    if faults.is_empty() { Ok(voussoirs) } else { Err(faults) }
 }
 
 impl Arch {
     /// Puts the arch together; every joint gets the same law.
-    pub fn assemble(ends: &[[Vec2; 2]], regions: Vec<Region>, law: JointLaw, angle_centre: Vec2) -> Arch {
+    pub fn assemble(ends: &[[Vec2; 2]], voussoirs: Vec<Voussoir>, law: JointLaw, angle_centre: Vec2) -> Arch {
         Arch {
-            voussoirs: regions.into_iter().map(|region| Voussoir { region, sides: Sides::Straight }).collect(),
+            voussoirs,
             joints: ends.iter().map(|&[intrados, extrados]| Joint { intrados, extrados, law }).collect(),
             abutments: [None, None],
             half: false,

@@ -100,14 +100,24 @@ impl Load {
     /// # Errors
     /// When the load does not fit the arch.
     pub fn on(&self, arch: &Arch, coefficient: f64) -> Result<Vec<PointForce>, LoadFault> {
+        self.on_pieces(arch, &vec![1; arch.voussoirs.len()], coefficient)
+    }
+
+    /// The same with the extrados side of every voussoir cut into so many equal pieces: each gets its own share of a
+    /// pressure, with its moment.
+    ///
+    /// # Errors
+    /// When the load does not fit the arch.
+    pub fn on_pieces(&self, arch: &Arch, pieces: &[usize], coefficient: f64) -> Result<Vec<PointForce>, LoadFault> {
+        let sides = cut_sides(arch, pieces);
         let mut forces = match self {
             Load::SelfWeight(density) => body_force(arch, *density, Vec2::new(0.0, -GRAVITY)),
             Load::BodyAcceleration(density, acceleration) => body_force(arch, *density, *acceleration),
-            Load::Fill(fill) => fill.on(arch)?,
-            Load::Lateral(bands) => lateral(arch, bands),
+            Load::Fill(fill) => fill.on(arch, &sides)?,
+            Load::Lateral(bands) => lateral(&sides, bands),
             Load::Point(force, Place::Abscissa(x)) => point_load(arch, *force, *x)?,
             Load::Point(force, Place::Voussoir(k)) => vec![middle_load(arch, *force, *k)?],
-            Load::Patch { force, centre, width } => patch_load(arch, *force, *centre, *width)?,
+            Load::Patch { force, centre, width } => patch_load(arch, &sides, *force, *centre, *width)?,
         };
         for force in &mut forces {
             force.force *= coefficient;
@@ -115,6 +125,21 @@ impl Load {
         forces.retain(|force| force.force != Vec2::zeros());
         Ok(forces)
     }
+}
+
+/// A piece of the extrados side of a voussoir, from left to right.
+type Side = (usize, Vec2, Vec2);
+
+/// The extrados sides, each cut into equal pieces.
+fn cut_sides(arch: &Arch, pieces: &[usize]) -> Vec<Side> {
+    let mut sides = Vec::new();
+    for (k, &count) in pieces.iter().enumerate() {
+        let (a, b) = arch.extrados_side(k);
+        // The ends themselves, not what rounding makes of them.
+        let end = |i: usize| if i == count { b } else { a + (b - a) * (i as f64 / count as f64) };
+        sides.extend((0..count).map(|i| (k, end(i), end(i + 1))));
+    }
+    sides
 }
 
 fn body_force(arch: &Arch, density: f64, acceleration: Vec2) -> Vec<PointForce> {
@@ -128,7 +153,7 @@ fn body_force(arch: &Arch, density: f64, acceleration: Vec2) -> Vec<PointForce> 
 }
 
 impl Fill {
-    fn on(&self, arch: &Arch) -> Result<Vec<PointForce>, LoadFault> {
+    fn on(&self, arch: &Arch, sides: &[Side]) -> Result<Vec<PointForce>, LoadFault> {
         let top = arch.joints.iter().map(|joint| joint.extrados.y).fold(f64::NEG_INFINITY, f64::max);
         let level = self.height.unwrap_or(f64::NEG_INFINITY);
         if self.height.is_some() && self.embankment > 0.0 && top > level {
@@ -136,8 +161,7 @@ impl Fill {
         }
         let above = self.embankment * self.embankment_density * GRAVITY;
         let mut forces = Vec::new();
-        for k in 0..arch.voussoirs.len() {
-            let (a, b) = arch.extrados_side(k);
+        for &(k, a, b) in sides {
             if above != 0.0 && self.height.is_none() {
                 forces.extend(self.push(k, a, b, |_| above));
             }
@@ -174,10 +198,9 @@ fn clip(a: Vec2, b: Vec2, low: f64, high: f64) -> Option<(Vec2, Vec2)> {
     Some((inside(a), inside(b)))
 }
 
-fn lateral(arch: &Arch, bands: &[Band]) -> Vec<PointForce> {
+fn lateral(sides: &[Side], bands: &[Band]) -> Vec<PointForce> {
     let mut forces = Vec::new();
-    for voussoir in 0..arch.voussoirs.len() {
-        let (a, b) = arch.extrados_side(voussoir);
+    for &(voussoir, a, b) in sides {
         for band in bands {
             if let Some((a, b)) = clip(a, b, band.from, band.to) {
                 let force = Vec2::new(band.pressure * (b.y - a.y), 0.0);
@@ -207,9 +230,8 @@ fn plan(arch: &Arch) -> (f64, f64) {
 }
 
 /// The sides one can stand on: those that run to the right.
-fn upper_sides(arch: &Arch) -> impl Iterator<Item = (usize, Vec2, Vec2)> + '_ {
-    let side = |k| (k, arch.extrados_side(k).0, arch.extrados_side(k).1);
-    (0..arch.voussoirs.len()).map(side).filter(|(_, a, b)| b.x > a.x)
+fn upper_sides(arch: &Arch) -> impl Iterator<Item = Side> {
+    cut_sides(arch, &vec![1; arch.voussoirs.len()]).into_iter().filter(|(_, a, b)| b.x > a.x)
 }
 
 /// A vertical load at abscissa `x`, on the topmost side; over a joint, each neighbour takes half.
@@ -234,12 +256,12 @@ fn point_load(arch: &Arch, force: f64, x: f64) -> Result<Vec<PointForce>, LoadFa
         .collect())
 }
 
-/// A vertical load spread over a plan width; every voussoir takes what lies over it, in the middle of its share.
-fn patch_load(arch: &Arch, force: f64, centre: f64, width: f64) -> Result<Vec<PointForce>, LoadFault> {
+/// A vertical load spread over a plan width; every side takes what lies over it, in the middle of its share.
+fn patch_load(arch: &Arch, sides: &[Side], force: f64, centre: f64, width: f64) -> Result<Vec<PointForce>, LoadFault> {
     let (left, right) = (centre - 0.5 * width, centre + 0.5 * width);
     let mut forces = Vec::new();
     let mut covered = 0.0;
-    for (voussoir, a, b) in upper_sides(arch) {
+    for &(voussoir, a, b) in sides.iter().filter(|(_, a, b)| b.x > a.x) {
         let (from, to) = (left.max(a.x), right.min(b.x));
         if to > from {
             covered += to - from;

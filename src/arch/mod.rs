@@ -10,7 +10,7 @@ pub mod load;
 pub mod profile;
 pub mod ring;
 
-pub use build::{ArchFault, MAX_VOUSSOIRS, straight_regions};
+pub use build::{ArchFault, MAX_VOUSSOIRS, straight_voussoirs};
 
 use crate::geometry::{Region, Vec2};
 

@@ -1,7 +1,7 @@
 //! Setting out: from a profile line to the ends of every joint and the shape of every voussoir.
 
 use super::profile::{Profile, Station};
-use super::{ArchFault, Face};
+use super::{ArchFault, Face, Sides, Voussoir};
 use crate::geometry::{Region, Vec2, cross, exit_from_circle, mirrored};
 
 /// Which curve of the arch the profile line is.
@@ -167,7 +167,7 @@ impl Ring {
 
     /// Shapes of the voussoirs with sides that follow the circles of the profile, exact by circular segments.
     /// `None` where the sides are not circular arcs about the profile's own centres.
-    pub fn curved_regions(&self, ends: &[JointEnds]) -> Option<Vec<Region>> {
+    pub fn curved_voussoirs(&self, ends: &[JointEnds]) -> Option<Vec<Voussoir>> {
         let constant = matches!(self.thickness, Thickness::Linear { crown, springing } if crown == springing);
         if !constant || self.joints != JointLines::Normal {
             return None;
@@ -180,9 +180,14 @@ impl Ring {
                 places.push((sigma, self.joint_at(sigma).ok()?));
             }
             places.push((to, ends[k + 1]));
-            self.curved_region(&places)
+            let sides = if places.len() > 2 { Sides::Compound } else { self.arc(from, to)? };
+            Some(Voussoir { region: self.curved_region(&places)?, sides })
         };
         (0..ends.len() - 1).map(voussoir).collect()
+    }
+
+    fn arc(&self, from: f64, to: f64) -> Option<Sides> {
+        self.profile.centre_at(0.5 * (from + to)).map(|centre| Sides::Arcs { centre })
     }
 
     fn curved_region(&self, places: &[(f64, JointEnds)]) -> Option<Region> {

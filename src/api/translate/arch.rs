@@ -9,7 +9,7 @@ use crate::api::request::{
 };
 use crate::arch::profile::Profile;
 use crate::arch::ring::{JointEnds, JointLines, Line, Ring, Thickness, stations};
-use crate::arch::{Arch, ArchFault, JointLaw, MAX_VOUSSOIRS, straight_regions};
+use crate::arch::{Arch, ArchFault, JointLaw, MAX_VOUSSOIRS, straight_voussoirs};
 use crate::geometry::Vec2;
 
 /// Most faults of single stones that are listed.
@@ -31,14 +31,14 @@ pub fn arch(request: &ArchRequest, law: JointLaw, faults: &mut Faults) -> Option
         let centre = ring.profile.angle_centre();
         (ends, Some(ring), centre)
     };
-    let mut regions = straight_regions(&ends).map_err(|found| list(&found, request, faults)).ok()?;
+    let mut voussoirs = straight_voussoirs(&ends).map_err(|found| list(&found, request, faults)).ok()?;
     if let Some(ring) = ring.filter(|_| request.curved_sides) {
-        regions = ring.curved_regions(&ends)?;
+        voussoirs = ring.curved_voussoirs(&ends)?;
     }
     if faults.len() > before {
         return None;
     }
-    let mut arch = Arch::assemble(&ends, regions, law, centre);
+    let mut arch = Arch::assemble(&ends, voussoirs, law, centre);
     if request.springing_joints == SpringingJoints::Bonded {
         let last = arch.joints.len() - 1;
         arch.joints[0].law = JointLaw::Bonded;

@@ -11,7 +11,7 @@ use crate::geometry::Vec2;
 pub const MAX_LOADS: usize = 1000;
 
 /// Most forces that the loads of one request may put on its voussoirs: loads (a pressure counts once per band) times
-/// voussoirs. Each is kept until the job has run.
+/// voussoirs times subblocks along each. Each is kept until the job has run.
 const MAX_FORCES: usize = 200_000;
 
 /// How many forces a load may put on each voussoir.
@@ -27,10 +27,11 @@ pub fn forces_per_voussoir_of(entries: &[LoadEntry]) -> usize {
     entries.iter().map(forces_per_voussoir).sum()
 }
 
-/// Fixed and scaled forces, on the whole arch where there is one.
+/// Fixed and scaled forces, on the whole arch where there is one, with its extrados sides cut into `pieces` each.
 pub fn loads(
     entries: &[LoadEntry],
     arch: Option<&Arch>,
+    pieces: &[usize],
     density: f64,
     faults: &mut Faults,
 ) -> (Vec<PointForce>, Vec<PointForce>) {
@@ -44,9 +45,12 @@ pub fn loads(
         faults.add("/loads", format!("{} loads: list at most {MAX_LOADS}", entries.len()));
         return (fixed, scaled);
     }
-    let forces = entries.iter().map(forces_per_voussoir).sum::<usize>() * arch.map_or(0, |a| a.voussoirs.len());
+    let forces = forces_per_voussoir_of(entries) * pieces.iter().sum::<usize>();
     if forces > MAX_FORCES {
-        let detail = format!("loads and bands times voussoirs come to {forces}: keep to {MAX_FORCES} by joining loads");
+        let detail = format!(
+            "loads and bands times voussoirs (times subblocks along each) come to {forces}: keep to {MAX_FORCES} by joining \
+             loads or a coarser mesh"
+        );
         faults.add("/loads", detail);
         return (fixed, scaled);
     }
@@ -54,7 +58,7 @@ pub fn loads(
         let before = faults.len();
         check(&format!("/loads/{i}"), entry, faults);
         let Some(arch) = arch.filter(|_| faults.len() == before) else { continue };
-        match load(&entry.load, density).on(arch, entry.coefficient) {
+        match load(&entry.load, density).on_pieces(arch, pieces, entry.coefficient) {
             Ok(forces) if forces.is_empty() => {
                 faults.add(format!("/loads/{i}"), "this load puts no force on the arch: correct it or leave it out");
             }

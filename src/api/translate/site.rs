@@ -64,7 +64,8 @@ impl<'a> Site<'a> {
     /// The analysis under these loads; none where the arch cannot be built.
     pub fn analysis(&self, entries: &[LoadEntry], faults: &mut Faults) -> Option<Analysis> {
         let request = self.request;
-        let (fixed, scaled) = loads::loads(entries, self.whole.as_ref(), self.stone.density, faults);
+        let pieces: Vec<usize> = self.subblocks.iter().map(|[_, along]| *along).collect();
+        let (fixed, scaled) = loads::loads(entries, self.whole.as_ref(), &pieces, self.stone.density, faults);
         if let Some(whole) = self.whole.as_ref().filter(|_| request.arch.half) {
             half::check_loads(request, entries, whole, faults);
         }

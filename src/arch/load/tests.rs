@@ -1,7 +1,7 @@
 use super::*;
 use crate::arch::profile::Profile;
 use crate::arch::ring::{JointLines, Line, Ring, Thickness, stations};
-use crate::arch::{JointLaw, straight_regions};
+use crate::arch::{JointLaw, straight_voussoirs};
 use crate::geometry::cross;
 use std::f64::consts::PI;
 
@@ -9,7 +9,7 @@ const LAW: JointLaw = JointLaw::Dry { friction: 0.5, cohesion: 0.0 };
 
 fn arch_of(ring: &Ring) -> Arch {
     let ends = ring.set_out().unwrap();
-    Arch::assemble(&ends, straight_regions(&ends).unwrap(), LAW, Vec2::zeros())
+    Arch::assemble(&ends, straight_voussoirs(&ends).unwrap(), LAW, Vec2::zeros())
 }
 
 fn ring(profile: Profile, thickness: f64, n: usize) -> Ring {
@@ -198,4 +198,43 @@ fn abutments_lie_outside_the_springings_and_the_half_is_the_left_one() {
     assert!(half.abutments[0].is_some() && half.abutments[1].is_none());
     arch.joints[1].extrados.x -= 0.01;
     assert_eq!(arch.asymmetry(), Some(1));
+}
+
+/// Force and moment about the origin on voussoir `k`.
+fn wrench(forces: &[PointForce], k: usize) -> [f64; 3] {
+    forces
+        .iter()
+        .filter(|f| f.voussoir == k)
+        .fold([0.0; 3], |w, f| [w[0] + f.force.x, w[1] + f.force.y, w[2] + crate::geometry::cross(f.at, f.force)])
+}
+
+#[test]
+fn pieces_of_a_side_carry_together_what_the_side_carries() {
+    let arch = arch_of(&ring(Profile::circular(2.0, PI), 0.5, 12));
+    let pieces: Vec<usize> = (0..12).map(|k| 1 + k % 5).collect();
+    let bands = vec![Band { from: 0.1, to: 0.9, pressure: 3e3 }, Band { from: 0.9, to: 1.7, pressure: 1e3 }];
+    for load in [
+        Load::Fill(fill(Some(4.65))),
+        Load::Fill(fill(Some(1.5))),
+        Load::Lateral(bands),
+        Load::Patch { force: 5e3, centre: 0.3, width: 1.1 },
+    ] {
+        let (whole, cut) = (load.on(&arch, 1.0).unwrap(), load.on_pieces(&arch, &pieces, 1.0).unwrap());
+        for k in 0..12 {
+            let (a, b) = (wrench(&whole, k), wrench(&cut, k));
+            let size = a.iter().fold(1.0, |size: f64, x| size.max(x.abs()));
+            (0..3).for_each(|i| close(b[i], a[i], 1e-12 * size));
+        }
+    }
+}
+
+#[test]
+fn a_triangular_pressure_on_a_piece_has_its_own_resultant() {
+    // Fill up to y = 1 on a vertical side from y = 0 to 1, in four pieces: the lowest carries 7/32 of q_h at its foot.
+    let ends = [[Vec2::new(0.0, 0.0), Vec2::new(-1.0, 0.0)], [Vec2::new(0.0, 1.0), Vec2::new(-1.0, 1.0)]];
+    let arch = Arch::assemble(&ends, straight_voussoirs(&ends).unwrap(), LAW, Vec2::zeros());
+    let forces = Load::Fill(fill(Some(1.0))).on_pieces(&arch, &[4], 1.0).unwrap();
+    let lowest: f64 = forces.iter().filter(|f| f.at.y < 0.25).map(|f| f.force.x).sum();
+    let all: f64 = forces.iter().map(|f| f.force.x).sum();
+    close(lowest / all, 7.0 / 16.0, 1e-12);
 }
