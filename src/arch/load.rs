@@ -185,7 +185,9 @@ impl Fill {
 
 /// The part of `a`-`b` between two heights, in the same sense; `None` when there is none.
 fn clip(a: Vec2, b: Vec2, low: f64, high: f64) -> Option<(Vec2, Vec2)> {
-    if a.y.max(b.y) <= low || a.y.min(b.y) >= high {
+    // A level side counts as long as it lies between them: an embankment presses on one at the top of the fill.
+    let level = a.y == b.y && (low..=high).contains(&a.y);
+    if !level && (a.y.max(b.y) <= low || a.y.min(b.y) >= high) {
         return None;
     }
     let inside = |p: Vec2| {

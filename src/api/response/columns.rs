@@ -1,8 +1,8 @@
 //! Rows of numbers, written column by column.
 
 use super::Scale;
-use super::words::FaceWord;
-use crate::collapse::{BlockState, ContactForce, Face, HistoryPoint, Snapshot, Thrust};
+use super::words::PlaceWord;
+use crate::collapse::{BlockState, ContactForce, HistoryPoint, Snapshot, Thrust};
 use serde::Serialize;
 use utoipa::ToSchema;
 
@@ -116,8 +116,10 @@ impl BlockColumns {
 pub struct ContactColumns {
     /// Joint number.
     pub joint: Vec<usize>,
-    /// Which end of the joint.
-    pub face: Vec<FaceWord>,
+    /// Where on the joint.
+    pub face: Vec<PlaceWord>,
+    /// Distance from the intrados, as a share of the joint's length.
+    pub share_from_intrados: Vec<f64>,
     /// Normal force, compression positive.
     pub normal_n_per_m: Vec<f64>,
     /// Tangential force on the stone after the joint, towards the extrados positive.
@@ -130,7 +132,8 @@ impl ContactColumns {
     fn new(rows: &[ContactForce]) -> Self {
         ContactColumns {
             joint: column(rows, |row| row.joint),
-            face: column(rows, |row| if row.position < 0.5 { Face::Intrados } else { Face::Extrados }.into()),
+            face: column(rows, |row| PlaceWord::at(row.position)),
+            share_from_intrados: column(rows, |row| row.position),
             normal_n_per_m: column(rows, |row| row.normal),
             tangential_n_per_m: column(rows, |row| row.tangential),
             gap_m: column(rows, |row| row.gap),

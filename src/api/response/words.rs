@@ -101,6 +101,29 @@ pub enum FaceWord {
     Extrados,
 }
 
+/// Where a contact point lies on its joint.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum PlaceWord {
+    /// At the end on the intrados.
+    Intrados,
+    /// Between the ends.
+    Inside,
+    /// At the end on the extrados.
+    Extrados,
+}
+
+impl PlaceWord {
+    /// The place at this share of the joint from the intrados.
+    pub fn at(share: f64) -> Self {
+        match share {
+            0.0 => PlaceWord::Intrados,
+            1.0 => PlaceWord::Extrados,
+            _ => PlaceWord::Inside,
+        }
+    }
+}
+
 impl FaceWord {
     /// The face across the joint.
     pub fn other(self) -> Self {

@@ -238,3 +238,12 @@ fn a_triangular_pressure_on_a_piece_has_its_own_resultant() {
     let all: f64 = forces.iter().map(|f| f.force.x).sum();
     close(lowest / all, 7.0 / 16.0, 1e-12);
 }
+
+#[test]
+fn an_embankment_presses_on_a_level_side_at_the_top_of_the_fill() {
+    let ends = [[Vec2::new(0.0, 0.0), Vec2::new(0.0, 1.0)], [Vec2::new(2.0, 0.0), Vec2::new(2.0, 1.0)]];
+    let arch = Arch::assemble(&ends, straight_voussoirs(&ends).unwrap(), LAW, Vec2::zeros());
+    let load = Fill { embankment: 0.5, embankment_density: 1000.0, ..fill(Some(1.0)) };
+    let forces = Load::Fill(load).on(&arch, 1.0).unwrap();
+    close(sum(&forces).y, -0.5 * 1000.0 * GRAVITY * 2.0, 1e-9);
+}
