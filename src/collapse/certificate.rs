@@ -161,11 +161,14 @@ impl Certificate {
         }
     }
 
-    /// A window that the path could not start in, because the cap lies before it.
-    pub(super) fn out_of_reach(&self, start: f64, any_fixed: bool) -> Option<String> {
+    /// A window that the path could not start in: the cap, or the full loads of a safety analysis, lie before it.
+    pub(super) fn out_of_reach(&self, start: f64, safety: bool, any_fixed: bool) -> Option<String> {
         let [low, high] = self.window.filter(|_| any_fixed && !self.stands_at(start))?;
-        let (low, high) = (Digits(low), Digits(high));
-        Some(format!("It stands only at load factors from {low} to {high}, beyond the cap on what is tried."))
+        let from = Digits(low);
+        let reach =
+            if high.is_finite() { format!("from {from} to {}", Digits(high)) } else { format!("from {from} upwards") };
+        let why = if safety { "the scaled loads in full are too little" } else { "beyond the cap on what is tried" };
+        Some(format!("It stands only at load factors {reach}: {why}."))
     }
 
     /// Doubts that do not depend on how the path ended.

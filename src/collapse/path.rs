@@ -114,6 +114,12 @@ pub(super) fn follow(
         met = recorder.see(sign * tracer.parameter(), tracer.displacements());
         if met.is_some() { ControlFlow::Break(()) } else { see(tracer, sign * tracer.parameter()) }
     });
+    match end {
+        End::Reached => recorder.ends(sign * tracer.parameter(), tracer.displacements()),
+        // Nothing more happens, so the last stretch is as straight as it is long.
+        End::Rising => recorder.ends(sign * cap, &tracer.ahead(cap)),
+        _ => {}
+    }
     if recorder.too_many_steps() {
         return Leg::TooManySteps;
     }

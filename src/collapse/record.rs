@@ -69,11 +69,7 @@ impl<'a> Recorder<'a> {
         let now = Rc::new((load_factor, displacements.to_vec()));
         let before = self.last.take();
         if let Some(before) = &before {
-            for (asked, found) in self.asked.iter_mut().filter(|(_, found)| found.is_none()) {
-                if (before.0 - *asked) * (load_factor - *asked) <= 0.0 && before.0 != load_factor {
-                    *found = Some(interpolate(before, &now, *asked));
-                }
-            }
+            self.pass(before, &now);
             if let Some(met) = self.fixed_steps(before, &now) {
                 let (load_factor, met) = (met.0, Rc::new(met));
                 self.keep(Some(Rc::clone(before)), &met);
@@ -85,6 +81,24 @@ impl<'a> Recorder<'a> {
         self.keep(before, &now);
         self.last = Some(now);
         None
+    }
+
+    /// Takes in the end of a path that nothing stops: it is no event, and not part of the history.
+    pub(super) fn ends(&mut self, load_factor: f64, displacements: &[f64]) {
+        let now = Rc::new((load_factor, displacements.to_vec()));
+        if let Some(before) = self.last.take() {
+            self.pass(&before, &now);
+            self.yielding.see(Some(&before), &now, true);
+        }
+    }
+
+    /// Keeps what was asked for between two points of the path.
+    fn pass(&mut self, before: &Point, now: &Point) {
+        for (asked, found) in self.asked.iter_mut().filter(|(_, found)| found.is_none()) {
+            if (before.0 - *asked) * (now.0 - *asked) <= 0.0 && before.0 != now.0 {
+                *found = Some(interpolate(before, now, *asked));
+            }
+        }
     }
 
     /// True where the step was too small to walk the path in it.

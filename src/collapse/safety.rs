@@ -5,6 +5,10 @@ use super::{
     Watch, Zone,
 };
 
+/// Note on a first yield that the mesh does not see in time.
+const TOO_COARSE: &str = "First yield comes after collapse with plastic sections, which cannot be: the mesh is too coarse \
+     to see the highest stress. The lower of the two is taken.";
+
 /// Safety factors over a list of abscissae.
 pub(super) fn curve(points: &[CurvePoint], watch: &mut dyn Watch) -> Result<Vec<SafetyPoint>, AnalysisError> {
     let solve = |point: &CurvePoint| {
@@ -21,8 +25,15 @@ pub(super) fn judge(report: &mut CollapseReport, counted: CrushingKind) {
     let crushing = report.crushing.as_ref();
     let (instability, elastic) = (instability(report), crushing.map_or(Reach::Unknown, elastic));
     let plastic_section = crushing.map_or(Reach::Unknown, plastic);
-    let against_crushing = if counted == CrushingKind::Elastic { elastic } else { plastic_section };
-    let (governing, governed_by) = first(instability, against_crushing);
+    let crushes = match counted {
+        CrushingKind::PlasticSection => plastic_section,
+        CrushingKind::Elastic => {
+            // Stresses below the strength everywhere are in equilibrium, so no plastic collapse can come before.
+            report.notes.extend(is_before(plastic_section, elastic).then(|| TOO_COARSE.into()));
+            if is_before(plastic_section, elastic) { plastic_section } else { elastic }
+        }
+    };
+    let (governing, governed_by) = first(instability, crushes);
     let mode = report.end.as_ref().map(|end| end.mechanism.mode);
     let zone = zone(governed_by, mode);
     if governed_by == Governs::Crushing {
@@ -83,6 +94,15 @@ fn plastic(crushing: &Crushing) -> Reach {
         Some(Some(window)) if window.lowest > 1.0 => Reach::DoesNotStand,
         Some(Some(window)) if window.highest.is_finite() => Reach::At(window.highest),
         Some(Some(_)) => Reach::Never,
+    }
+}
+
+/// True where `a` comes before `b`, both known.
+fn is_before(a: Reach, b: Reach) -> bool {
+    match (a, b) {
+        (Reach::Unknown | Reach::Never, _) | (_, Reach::Unknown | Reach::DoesNotStand) => false,
+        (Reach::DoesNotStand, _) | (Reach::At(_), Reach::Never) => true,
+        (Reach::At(a), Reach::At(b)) => a < b,
     }
 }
 

@@ -223,7 +223,8 @@ impl<'a> Question<'a> {
         let doubt =
             self.certificate.fallen(self.start, !loaded(self.analysis)[1], !fall.mechanism.slides.is_empty(), power);
         let doubt = doubt.or(self.certificate.standing_doubt(fall.residual));
-        report.notes.extend(self.certificate.out_of_reach(self.start, any_fixed(self.analysis)));
+        let safety = self.analysis.aim != Aim::Collapse;
+        report.notes.extend(self.certificate.out_of_reach(self.start, safety, any_fixed(self.analysis)));
         report.outcome = Outcome::FallsAsBuilt;
         report.end = Some(fall);
         Attempted { report, doubt }

@@ -18,6 +18,12 @@ impl Tracer<'_> {
         (0..self.states.len()).map(|p| self.force_of(p)).collect()
     }
 
+    /// Displacements of the nodes at `parameter`, were the path to go on as it does now.
+    pub fn ahead(&self, parameter: f64) -> Vec<f64> {
+        let step = (parameter - self.parameter) / self.rate;
+        self.displacements.iter().zip(&self.direction).map(|(d, along)| d + along * step).collect()
+    }
+
     /// Direction in which the path goes on.
     pub fn direction(&self) -> &[f64] {
         &self.direction
