@@ -11,7 +11,7 @@ const HARD: f64 = 1e30;
 fn column(off: f64, strength: f64) -> CrushingWindow {
     let law = JointLaw::Dry { friction: 0.5, cohesion: 0.0 };
     let level = |y: f64, half: f64| Joint { intrados: Vec2::new(half, y), extrados: Vec2::new(-half, y), law };
-    let joints = vec![level(0.0, 0.5), level(1.0, 1e-10)];
+    let joints = vec![level(0.0, 0.5), level(1.0, 1e-6)];
     let corners = [(0.5, 0.0), (0.5, 1.0), (-0.5, 1.0), (-0.5, 0.0)].map(|(x, y)| Vec2::new(x, y));
     let voussoirs = vec![Voussoir { region: Region::polygon(&corners), sides: Sides::Straight }];
     let arch = Arch { voussoirs, joints, abutments: [None, None], half: false, angle_centre: Vec2::zeros() };
@@ -24,8 +24,8 @@ fn a_column_carries_its_strength_times_what_is_left_of_its_joint() {
     for off in [0.0, 0.05, -0.2, 0.3, -0.45] {
         let window = column(off, 1000.0);
         let expected = 1000.0 * (1.0 - 2.0 * f64::abs(off));
-        assert!((window.ends[1] / expected - 1.0).abs() < 1e-8, "{off}: {window:?}");
-        assert!(window.joints[1].contains(&0) && window.ends[0].abs() < 1e-6, "{window:?}");
+        assert!((window.ends[1] / expected - 1.0).abs() < 1e-4, "{off}: {window:?}");
+        assert!(window.joints[1].contains(&0) && window.ends[0].abs() < 0.01, "{window:?}");
     }
     assert_eq!(column(0.1, HARD).ends[1], f64::INFINITY);
 }
