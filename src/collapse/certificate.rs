@@ -1,8 +1,8 @@
 //! The exact limit window of an arch, and what to make of a load path that differs from it.
 
 use super::path::total;
-use super::{Analysis, Crushing, Digits, Method, PathEnd};
-use crate::limit::StaticTheorem;
+use super::{Analysis, Crushing, Digits, LimitWindow, Method, PathEnd, PlasticCrushing};
+use crate::limit::{CrushingWindow, StaticTheorem};
 
 /// Path and window agree when their load factors differ by less than this share.
 const AGREES: f64 = 1e-7;
@@ -27,6 +27,8 @@ pub(super) struct Certificate {
     pub window: Option<[f64; 2]>,
     /// False where the linear programme gave no answer, and so no certificate.
     pub solved: bool,
+    /// True where some load does not grow.
+    any_fixed: bool,
 }
 
 /// Why a path is not taken at its word.
@@ -80,16 +82,23 @@ impl Doubt {
 impl Certificate {
     pub(super) fn new(analysis: &Analysis) -> Self {
         let theorem = StaticTheorem::new(&analysis.arch, &analysis.fixed, &analysis.scaled);
-        let tidy = |end: f64| if end.abs() < ZERO * theorem.load_factor_scale() { 0.0 } else { end };
         let window = theorem.window();
         let solved = window.is_ok();
-        let mut window = window.ok().flatten().map(|ends| ends.map(tidy));
-        if solved && !any_fixed(analysis) {
-            // No load at all is in equilibrium, also where rounding lets a set without interior pass for empty.
-            let [low, high] = window.unwrap_or([0.0, 0.0]);
-            window = Some([low.min(0.0), high.max(0.0)]);
+        let mut certificate = Certificate { theorem, window: None, solved, any_fixed: any_fixed(analysis) };
+        certificate.window = window.ok().and_then(|window| certificate.tidy(window));
+        certificate
+    }
+
+    /// A window without rounding.
+    fn tidy(&self, window: Option<[f64; 2]>) -> Option<[f64; 2]> {
+        let round = |end: f64| if end.abs() < ZERO * self.theorem.load_factor_scale() { 0.0 } else { end };
+        let window = window.map(|ends| ends.map(round));
+        if self.any_fixed {
+            return window;
         }
-        Certificate { theorem, window, solved }
+        // No load at all is in equilibrium, also where rounding lets a set without interior pass for empty.
+        let [low, high] = window.unwrap_or([0.0, 0.0]);
+        Some([low.min(0.0), high.max(0.0)])
     }
 
     /// True where the static theorem finds equilibrium.
@@ -123,7 +132,12 @@ impl Certificate {
 
     /// What limit analysis says of stone of this strength, Pa.
     pub(super) fn crushing(&self, strength: f64) -> Crushing {
-        Crushing { strength, elastic: None, plastic_section: None }
+        let plastic_section = self.theorem.crushing_window(strength).ok().map(|window| {
+            let (ends, joints) = window.map(|CrushingWindow { ends, joints }| (ends, joints)).unzip();
+            let window = self.tidy(ends).map(|[lowest, highest]| LimitWindow { lowest, highest });
+            PlasticCrushing { window, joints: joints.unwrap_or_default() }
+        });
+        Crushing { strength, elastic: None, plastic_section }
     }
 
     /// `settled`: every stone carries a fixed load.

@@ -22,8 +22,8 @@ pub struct Inequality {
 pub enum Optimum {
     /// The largest value and where it is reached.
     At(f64, Row),
-    /// Larger than any bound.
-    Unbounded,
+    /// Larger than any bound; the best point of the box.
+    Unbounded(Row),
     /// No point satisfies all inequalities.
     Infeasible,
     /// Rounding kept the method from an answer.
@@ -55,7 +55,7 @@ pub fn maximise(objective: Row, inequalities: &[Inequality]) -> Optimum {
         let point = -inverse * Row::from_fn(|i, _| basis[i].constant);
         let Some((entering, is_wall)) = most_violated(&point, inequalities, &walls) else {
             return if from_box.iter().zip(multipliers(&inverse, objective)).any(|(&wall, y)| wall && y[0] > TOLERANCE) {
-                Optimum::Unbounded
+                Optimum::Unbounded(point)
             } else {
                 Optimum::At(objective.dot(&point), point)
             };
@@ -136,7 +136,7 @@ mod tests {
         let x_between =
             |low: f64, high: f64| [half_space([1.0, 0.0, 0.0, 0.0], -low), half_space([-1.0, 0.0, 0.0, 0.0], high)];
         assert_eq!(maximise(Row::ith(3, 1.0), &x_between(2.0, 1.0)), Optimum::Infeasible);
-        assert_eq!(maximise(Row::ith(3, 1.0), &x_between(1.0, 2.0)), Optimum::Unbounded);
+        assert!(matches!(maximise(Row::ith(3, 1.0), &x_between(1.0, 2.0)), Optimum::Unbounded(_)));
         assert!(
             matches!(maximise(Row::ith(0, -1.0), &x_between(1.0, 2.0)), Optimum::At(v, _) if (v + 1.0).abs() < 1e-12)
         );

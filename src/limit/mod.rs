@@ -2,9 +2,11 @@
 //!
 //! An arch between two supports has three redundants. With the force and moment at one springing and the load factor
 //! as unknowns, the resultant at every joint is known, and "no tension, no sliding" at every joint is the whole static
-//! theorem (associated friction): a linear program in four unknowns, solved exactly.
+//! theorem (associated friction): a linear program in four unknowns, solved exactly. Joints of finite strength add parabolas, cut off by planes.
 
+mod crushing;
 mod linear_program;
 mod static_theorem;
 
+pub use crushing::CrushingWindow;
 pub use static_theorem::{Condition, Equilibrium, Resultant, StaticTheorem, Unsolved};

@@ -43,12 +43,12 @@ pub struct Condition {
 /// `force * length` about `origin`, and the load factor in units of `factor`.
 #[derive(Debug, Clone)]
 pub struct StaticTheorem {
-    joints: Vec<Joint>,
+    pub(super) joints: Vec<Joint>,
     /// Intrados force, extrados force and shear of each joint as rows over (unknowns; 1), N/m.
-    forces: Vec<[(Row, f64); 3]>,
-    inequalities: Vec<Inequality>,
-    force: f64,
-    factor: f64,
+    pub(super) forces: Vec<[(Row, f64); 3]>,
+    pub(super) inequalities: Vec<Inequality>,
+    pub(super) force: f64,
+    pub(super) factor: f64,
 }
 
 /// The linear programme could not be solved.
@@ -115,7 +115,7 @@ impl StaticTheorem {
     pub fn window(&self) -> Result<Option<[f64; 2]>, Unsolved> {
         let end = |sign: f64| match maximise(Row::new(0.0, 0.0, 0.0, sign), &self.inequalities) {
             Optimum::At(value, _) => Ok(Some(sign * value * self.factor)),
-            Optimum::Unbounded => Ok(Some(sign * f64::INFINITY)),
+            Optimum::Unbounded(_) => Ok(Some(sign * f64::INFINITY)),
             Optimum::Infeasible => Ok(None),
             Optimum::Lost => Err(Unsolved),
         };
@@ -126,7 +126,7 @@ impl StaticTheorem {
     pub fn nearly_stands(&self, at: f64, slack: f64) -> bool {
         let mut relaxed = self.pinned(at);
         relaxed.iter_mut().for_each(|inequality| inequality.constant += slack);
-        matches!(maximise(Row::new(1.0, 0.0, 0.0, 0.0), &relaxed), Optimum::At(..) | Optimum::Unbounded)
+        matches!(maximise(Row::new(1.0, 0.0, 0.0, 0.0), &relaxed), Optimum::At(..) | Optimum::Unbounded(_))
     }
 
     /// The inequalities with the load factor held at `at`.
@@ -143,7 +143,7 @@ impl StaticTheorem {
         let inequalities = self.pinned(at);
         let end = |sign: f64| match maximise(Row::new(sign, 0.0, 0.0, 0.0), &inequalities) {
             Optimum::At(value, _) => Some(sign * value * self.force),
-            Optimum::Unbounded => Some(sign * f64::INFINITY),
+            Optimum::Unbounded(_) => Some(sign * f64::INFINITY),
             Optimum::Infeasible | Optimum::Lost => None,
         };
         Some([end(-1.0)?, end(1.0)?])
@@ -229,4 +229,4 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

@@ -21,7 +21,7 @@ impl Scale {
     }
 }
 
-/// Rows as triplets: equations first, then inequalities, in clarabel's form A x + s = b.
+/// Rows as triplets: equations first, then inequalities, then second-order cones of three rows, in clarabel's form A x + s = b.
 #[derive(Default)]
 pub struct Programme {
     pub cost: Vec<f64>,
@@ -30,6 +30,7 @@ pub struct Programme {
     pub values: Vec<f64>,
     pub right: Vec<f64>,
     pub equations: usize,
+    pub cones: usize,
 }
 
 impl Programme {
@@ -40,6 +41,7 @@ impl Programme {
         programme.equilibrium(problem, scale);
         programme.equations = programme.right.len();
         programme.conditions(problem, scale);
+        programme.strengths(problem, scale);
         let thrust = problem.seams.first().map(unit_vectors);
         match (aim, thrust) {
             (Aim::Lowest, _) if scale.with_factor => programme.cost[3 * joints] = 1.0,
@@ -116,6 +118,27 @@ impl Programme {
             // Prestress can put any amount in hand; one is plenty.
             self.give(scale);
             self.right.push(1.0);
+        }
+    }
+
+    /// A joint of length t and strength f leaves N / f of its length about the normal force: 2 f t F >= N^2 for the
+    /// force F at either corner. With c = f t this is |(F - 1/2, N / sqrt c)| <= F + 1/2.
+    fn strengths(&mut self, problem: &Problem, scale: &Scale) {
+        let Some(strength) = problem.strength else { return };
+        for (joint, seam) in problem.seams.iter().enumerate().filter(|(_, seam)| seam.bond != Bond::Bonded) {
+            let capacity = strength * distance(seam.intrados, seam.extrados) / scale.force;
+            for corner in 0..2 {
+                for half in [0.5, -0.5] {
+                    self.entry(3 * joint + corner, -1.0);
+                    self.give(scale);
+                    self.right.push(half);
+                }
+                for part in 0..2 {
+                    self.entry(3 * joint + part, -1.0 / capacity.sqrt());
+                }
+                self.right.push(0.0);
+                self.cones += 1;
+            }
         }
     }
 

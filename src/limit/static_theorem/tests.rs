@@ -3,7 +3,7 @@ use crate::arch::{Sides, Voussoir};
 use crate::geometry::Region;
 
 /// A skewed arch of four quadrilaterals, so that nothing is symmetric by accident.
-fn arch() -> Arch {
+pub(in crate::limit) fn arch() -> Arch {
     let ends = [
         (-2.0, 0.0, -2.6, 0.1),
         (-1.5, 1.2, -1.9, 1.7),
@@ -23,7 +23,7 @@ fn arch() -> Arch {
     Arch { voussoirs, joints, abutments: [None, None], half: false, angle_centre: Vec2::zeros() }
 }
 
-fn loads(arch: &Arch) -> [Vec<PointForce>; 2] {
+pub(in crate::limit) fn loads(arch: &Arch) -> [Vec<PointForce>; 2] {
     let force = |i: usize, x: f64, y: f64| PointForce {
         voussoir: i,
         at: arch.voussoirs[i].region.centroid,

@@ -1,0 +1,86 @@
+use super::super::static_theorem::tests::{arch, loads};
+use super::*;
+use crate::arch::{Arch, Joint, PointForce, Sides, Voussoir};
+use crate::geometry::{Region, Vec2};
+
+/// Strength at which nothing crushes, Pa.
+const HARD: f64 = 1e30;
+
+/// One stone on a joint of length 1 m, under a point load of `factor` 1 N/m at `off` from its middle. The joint above
+/// it is too short to take a part.
+fn column(off: f64, strength: f64) -> CrushingWindow {
+    let law = JointLaw::Dry { friction: 0.5, cohesion: 0.0 };
+    let level = |y: f64, half: f64| Joint { intrados: Vec2::new(half, y), extrados: Vec2::new(-half, y), law };
+    let joints = vec![level(0.0, 0.5), level(1.0, 1e-6)];
+    let corners = [(0.5, 0.0), (0.5, 1.0), (-0.5, 1.0), (-0.5, 0.0)].map(|(x, y)| Vec2::new(x, y));
+    let voussoirs = vec![Voussoir { region: Region::polygon(&corners), sides: Sides::Straight }];
+    let arch = Arch { voussoirs, joints, abutments: [None, None], half: false, angle_centre: Vec2::zeros() };
+    let load = PointForce { voussoir: 0, at: Vec2::new(off, 0.5), force: Vec2::new(0.0, -1.0), spread: false };
+    StaticTheorem::new(&arch, &[], &[load]).crushing_window(strength).unwrap().unwrap()
+}
+
+#[test]
+fn a_column_carries_its_strength_times_what_is_left_of_its_joint() {
+    for off in [0.0, 0.05, -0.2, 0.3, -0.45] {
+        let window = column(off, 1000.0);
+        let expected = 1000.0 * (1.0 - 2.0 * f64::abs(off));
+        assert!((window.ends[1] / expected - 1.0).abs() < 1e-4, "{off}: {window:?}");
+        assert!(window.joints[1].contains(&0) && window.ends[0].abs() < 0.01, "{window:?}");
+    }
+    assert_eq!(column(0.1, HARD).ends[1], f64::INFINITY);
+}
+
+#[test]
+fn a_hard_stone_leaves_the_plain_window() {
+    let mut arch = arch();
+    let [fixed, scaled] = loads(&arch);
+    let hard = |theorem: &StaticTheorem| theorem.crushing_window(HARD).unwrap().map(|window| window.ends);
+    let upwards: Vec<_> = fixed.iter().map(|f| PointForce { force: -f.force * 10.0, ..*f }).collect();
+    for (fixed, scaled) in [(&fixed, &scaled), (&fixed, &fixed), (&scaled, &fixed), (&upwards, &vec![])] {
+        let theorem = StaticTheorem::new(&arch, fixed, scaled);
+        assert_eq!(hard(&theorem), theorem.window().unwrap());
+    }
+    arch.joints.iter_mut().for_each(|joint| joint.law = JointLaw::Bonded);
+    let bonded = StaticTheorem::new(&arch, &fixed, &scaled).crushing_window(1.0).unwrap().unwrap();
+    assert_eq!(bonded.ends, [f64::NEG_INFINITY, f64::INFINITY]);
+    assert!(bonded.joints.iter().all(Vec::is_empty));
+}
+
+#[test]
+fn a_stronger_stone_bears_more() {
+    let arch = arch();
+    let [fixed, scaled] = loads(&arch);
+    let theorem = StaticTheorem::new(&arch, &fixed, &scaled);
+    let [low, high] = theorem.window().unwrap().unwrap();
+    let windows: Vec<_> = (0..60).map(|k| theorem.crushing_window(1.2f64.powi(k)).unwrap()).collect();
+    assert!(windows[0].is_none());
+    let found: Vec<_> = windows.iter().skip_while(|window| window.is_none()).collect();
+    assert!(found.len() > 40 && found.iter().all(|window| window.is_some()));
+    for pair in found.windows(2) {
+        let [[l, h], [l2, h2]] = [pair[0], pair[1]].map(|window| window.as_ref().unwrap().ends);
+        assert!(l2 < l && l < h && h < h2, "{pair:?}");
+    }
+    let last = found[found.len() - 1].as_ref().unwrap().ends;
+    assert!(last[0] > low && last[1] < high && (last[1] / high - 1.0).abs() < 0.05);
+}
+
+#[test]
+fn crushed_joints_leave_just_the_length_they_need() {
+    let arch = arch();
+    let [fixed, _] = loads(&arch);
+    let theorem = StaticTheorem::new(&arch, &fixed, &fixed);
+    let window = theorem.crushing_window(500.0).unwrap().unwrap();
+    assert_eq!(theorem.window().unwrap().unwrap()[1], f64::INFINITY);
+    assert!(window.ends[1].is_finite() && window.joints[1].len() >= 2, "{window:?}");
+}
+
+#[test]
+fn a_strength_that_is_none_is_refused() {
+    let arch = arch();
+    let [fixed, scaled] = loads(&arch);
+    let theorem = StaticTheorem::new(&arch, &fixed, &scaled);
+    for strength in [0.0, -1.0, f64::NAN] {
+        assert_eq!(theorem.crushing_window(strength), Err(Unsolved));
+    }
+    assert_eq!(theorem.crushing_window(f64::INFINITY).unwrap().unwrap().ends, theorem.window().unwrap().unwrap());
+}
