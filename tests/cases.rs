@@ -90,7 +90,8 @@ impl Case {
         self.expect(sections.len() == SECTIONS.len(), || format!("unknown sections among {sections:?}"));
         self.expect(KINDS.iter().any(|kind| expected["kind"] == *kind), || "unknown kind".into());
         let quantities = expected["quantities"].as_object().unwrap();
-        self.expect(quantities.contains_key("outcome"), || "no outcome".into());
+        let several = quantities.contains_key("points") || quantities.contains_key("error_percent");
+        self.expect(several || quantities.contains_key("outcome"), || "no outcome".into());
         for (key, value) in quantities {
             self.quantity(key, value);
         }
@@ -117,10 +118,52 @@ impl Case {
             "slides" | "sliding_joints" => {
                 self.answer["slides"].as_array().unwrap().iter().map(|s| s["joint"].clone()).collect()
             }
+            "error_percent" | "energy_j_per_m" | "exact_energy_j_per_m" => {
+                return self.number(key, value, &format!("/{key}"));
+            }
+            "safety" => return self.safety_point(key, value, &self.answer["safety"].clone()),
+            "points" => return self.points(key, value.as_array().unwrap()),
+            "largest_tresca_pa" => return self.largest_stress(key, value),
             "minimum_thickness_m" => return self.least_thickness(key, value.as_f64().unwrap()),
             _ => return self.faults.push(format!("unknown quantity {key}")),
         };
         self.expect(found == *value, || format!("{key}: expected {value}, got {found}"));
+    }
+
+    /// Some points of a safety curve, found by their abscissa.
+    fn points(&mut self, key: &str, expected: &[Value]) {
+        for point in expected {
+            let found = self.answer["points"].as_array().unwrap().iter().find(|p| p["abscissa"] == point["abscissa"]);
+            match found.cloned() {
+                Some(found) => self.safety_point(key, point, &found),
+                None => self.faults.push(format!("no point at abscissa {}", point["abscissa"])),
+            }
+        }
+    }
+
+    /// Factors are numbers, or the word for their state.
+    fn safety_point(&mut self, key: &str, expected: &Value, found: &Value) {
+        for (name, value) in expected.as_object().unwrap() {
+            let here = format!("{} at {}: {name}", key, expected["abscissa"]);
+            let fits = match value.as_f64().filter(|_| name != "abscissa") {
+                Some(factor) => {
+                    let allowed = self.tolerance(key, factor);
+                    found[name]["load_factor"].as_f64().is_some_and(|found| (found - factor).abs() <= allowed)
+                }
+                None => found[name] == *value || found[name]["state"] == *value,
+            };
+            self.expect(fits, || format!("{here}: expected {value}, got {}", found[name]));
+        }
+    }
+
+    /// The largest equivalent stress of every stress field, in their order.
+    fn largest_stress(&mut self, key: &str, expected: &Value) {
+        for (i, value) in expected.as_array().unwrap().iter().enumerate() {
+            let tresca = self.answer["stress_fields"][i]["subblocks"]["tresca_pa"].as_array().cloned();
+            let most = tresca.into_iter().flatten().filter_map(|t| t.as_f64()).fold(f64::NAN, f64::max);
+            let (value, allowed) = (value.as_f64().unwrap(), self.tolerance(key, value.as_f64().unwrap()));
+            self.expect((most - value).abs() <= allowed, || format!("{key} {i}: expected {value}, got {most}"));
+        }
     }
 
     /// The largest difference from `expected` that the case allows.

@@ -46,9 +46,10 @@ pub fn headline(result: &AnalysisResult, safety: &SafetyBody) -> String {
                  tried."
             )
         }
-        ReachBody::DoesNotStand => {
-            "The arch does not stand under its scaled loads in full, nor under any smaller share of them.".to_owned()
-        }
+        ReachBody::DoesNotStand => match safety.governed_by {
+            GovernsWord::Crushing => "The stone crushes under the scaled loads in full.".to_owned(),
+            _ => "The arch does not stand under its scaled loads in full.".to_owned(),
+        },
         ReachBody::Unknown => "No safety factor: it cannot be told. The notes say why.".to_owned(),
     }
 }

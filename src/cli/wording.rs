@@ -42,6 +42,9 @@ pub fn headline(result: &AnalysisResult) -> String {
         (OutcomeWord::CannotTell, _) => {
             "No answer: the load path and limit analysis do not agree. The notes say where.".to_owned()
         }
+        (OutcomeWord::Crushes, _) => {
+            "The stone crushes before the scaled loads begin to act. The notes say how.".to_owned()
+        }
         (outcome, _) => format!("Outcome: {}.", word(&outcome)),
     };
     match result.method {

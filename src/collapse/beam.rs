@@ -123,9 +123,7 @@ fn end_loads(beam: &CurvedBeam, exact: &Exact, grid: &Grid, body: &Macroblock) -
     let n = grid.radial;
     let radius = |i: usize| beam.inner_radius + (beam.outer_radius - beam.inner_radius) * i as f64 / n as f64;
     // At 90 degrees the outer normal is e_theta = -x, at 0 it is -e_theta and the traction -tau e_r = -tau x.
-    let ends: [(usize, Vec2, &dyn Fn(f64) -> [f64; 2]); 2] =
-        [(0, Vec2::y(), &|r| exact.bending(r)), ((grid.along - 1) * n, Vec2::x(), &|r| exact.shearing(r))];
-    for (first, along, integral) in ends {
+    let mut pull = |first: usize, along: Vec2, integral: &dyn Fn(f64) -> [f64; 2]| {
         for i in 0..n {
             let (from, to) = (radius(i), radius(i + 1));
             let [force, moment] = [0, 1].map(|k| integral(to)[k] - integral(from)[k]);
@@ -135,7 +133,9 @@ fn end_loads(beam: &CurvedBeam, exact: &Exact, grid: &Grid, body: &Macroblock) -
                 place += body.blocks()[first + i].load(along * r, Vec2::new(-share, 0.0));
             }
         }
-    }
+    };
+    pull(0, Vec2::y(), &|r| exact.bending(r));
+    pull((grid.along - 1) * n, Vec2::x(), &|r| exact.shearing(r));
     load
 }
 

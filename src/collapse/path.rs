@@ -96,18 +96,16 @@ pub(super) enum Leg {
     Lost,
 }
 
-/// Follows the load factor from `start` up (`sign` = 1) or down (-1) to collapse or to the cap.
+/// Follows the load factor from the recorder's start, the way it looks, to collapse or to the cap.
 pub(super) fn follow(
     tracer: &mut Tracer,
-    model: &Model,
     fixed: &[f64],
-    start: f64,
-    sign: f64,
     cap: f64,
     recorder: &mut Recorder,
     see: &mut dyn FnMut(&Tracer, f64) -> ControlFlow<()>,
 ) -> Leg {
-    let rate = model.scaled.on_nodes.iter().map(|s| s * sign).collect();
+    let (start, sign) = (recorder.start, recorder.sign);
+    let rate = recorder.model.scaled.on_nodes.iter().map(|s| s * sign).collect();
     tracer.drive_on(Drive { base: fixed.to_vec(), rate, offset: [0.0, 0.0] }, sign * start);
     let mut met = None;
     let end = tracer.trace(cap, &mut |tracer| {

@@ -20,12 +20,13 @@ pub(super) type Point = (f64, Vec<f64>);
 /// Keeps what will be asked of a path while it is traced.
 #[derive(Debug)]
 pub(super) struct Recorder<'a> {
-    model: &'a Model,
+    pub model: &'a Model,
     method: Method,
     share: f64,
-    start: f64,
+    /// Load factor at which the path starts.
+    pub start: f64,
     /// +1 where the load factor increases along the path, -1 where it decreases.
-    sign: f64,
+    pub sign: f64,
     crown: [usize; 2],
     /// Points from which the one at `share` of the way to the highest load factor so far can be interpolated.
     recent: VecDeque<Rc<Point>>,

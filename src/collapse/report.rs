@@ -14,7 +14,7 @@ pub enum Outcome {
     StandsInWindow,
     /// Stands however far the load factor goes (up to the cap).
     NeverCollapses,
-    /// Collapses by crushing of the stone.
+    /// The stone crushes: first, in a safety analysis; under the loads at the start of the path, in any other.
     Crushes,
     /// The path and the certificate contradict each other, or the path could not be followed.
     CannotTell,
@@ -255,7 +255,7 @@ pub enum Reach {
     At(f64),
     /// Does not fail, however far the loads grow (up to the cap).
     Never,
-    /// Does not stand under the full loads, and no smaller share of them holds it up.
+    /// Fails under the full loads already (or needs more of them); how far below is not known.
     DoesNotStand,
     /// Cannot be told; the notes say why.
     Unknown,

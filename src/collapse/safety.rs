@@ -1,8 +1,8 @@
 //! Safety factors: the first of instability and crushing as the scaled loads grow from their full size.
 
 use super::{
-    AnalysisError, CollapseReport, Crushing, CrushingKind, CurvePoint, Governs, Mode, Outcome, Reach, SafetyPoint,
-    Watch, Zone,
+    AnalysisError, CollapseReport, Crushing, CrushingKind, CurvePoint, Digits, Governs, LimitWindow, Mode, Outcome,
+    Reach, SafetyPoint, Watch, Zone,
 };
 
 /// Note on a first yield that the mesh does not see in time.
@@ -50,6 +50,32 @@ pub(super) fn judge(report: &mut CollapseReport, counted: CrushingKind) {
         zone,
         notes: Vec::new(),
     });
+}
+
+/// An arch that stands at the start of its path, but not on joints of the stone's strength: a note; and where its stones
+/// yield there already, it crushes.
+pub(super) fn crushed_at_start(report: &mut CollapseReport) {
+    let stands = |window: Option<LimitWindow>| {
+        window.is_some_and(|window| (window.lowest..=window.highest).contains(&report.start))
+    };
+    let Some(crushing) = &report.crushing else { return };
+    let Some(plastic) = &crushing.plastic_section else { return };
+    if !stands(report.limit_window) || stands(plastic.window) {
+        return;
+    }
+    let (strength, start) = (Digits(crushing.strength), Digits(report.start));
+    let left = plastic.window.map_or_else(
+        || "at no load factor".into(),
+        |window| format!("only from {} to {}", Digits(window.lowest), Digits(window.highest)),
+    );
+    report.notes.push(format!(
+        "With joints of plastic sections and a strength of {strength} Pa the arch does not stand at load factor {start}, \
+         from which the load path starts, but {left}. Collapse, hinges and stresses are those of stone that does not \
+         crush."
+    ));
+    if crushing.elastic.as_ref().is_some_and(|elastic| elastic.at_start) {
+        report.outcome = Outcome::Crushes;
+    }
 }
 
 impl SafetyPoint {

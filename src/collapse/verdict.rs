@@ -59,8 +59,9 @@ pub(super) fn run(analysis: &Analysis, watch: &mut dyn Watch) -> Result<Collapse
         }
         report.notes.push(doubt.to_string());
     }
-    if let Aim::Safety { crushing } = analysis.aim {
-        safety::judge(&mut report, crushing);
+    match analysis.aim {
+        Aim::Collapse => safety::crushed_at_start(&mut report),
+        Aim::Safety { crushing } => safety::judge(&mut report, crushing),
     }
     report.check_finite()?;
     Ok(report)
@@ -150,7 +151,7 @@ impl<'a> Question<'a> {
         let analysis = self.analysis;
         let mut recorder = Recorder::new(model, analysis, [self.start, sign]);
         let before = Cost::of(tracer);
-        let leg = follow(tracer, model, fixed, self.start, sign, self.cap, &mut recorder, progress);
+        let leg = follow(tracer, fixed, self.cap, &mut recorder, progress);
         report.cost.add(tracer, before);
         report.at_unit_load = recorder.at(1.0).map(|d| snapshot(model, 1.0, d));
         if let Some(crushing) = &mut report.crushing {

@@ -17,7 +17,7 @@ pub enum ReachBody {
     },
     /// It does not happen up to the cap.
     Never,
-    /// The arch does not stand under the full loads, and no smaller share of them holds it up.
+    /// Fails under the full loads already (or needs more of them); how far below is not known.
     DoesNotStand,
     /// It cannot be told; the notes say why.
     Unknown,
