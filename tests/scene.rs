@@ -4,7 +4,7 @@
 
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
-use voussoir::api::read::{read, read_analysis};
+use voussoir::api::read::{read, read_analysis, read_question};
 use voussoir::arch::JointLaw;
 use voussoir::collapse::{Analysis, Direction, Method};
 
@@ -30,13 +30,13 @@ fn every_case_can_be_read_and_says_what_to_expect() {
     assert!(cases().len() >= 13);
     for case in cases() {
         let text = std::fs::read(case.join("request.json")).unwrap();
-        let faults = read_analysis(&text).err();
+        let faults = read_question(&text).err();
         assert!(faults.is_none(), "{}: {faults:?}", case.display());
         let expected: Value = serde_json::from_slice(&std::fs::read(case.join("expected.json")).unwrap()).unwrap();
         let kind = expected["kind"].as_str().unwrap();
         assert!(["limit_analysis", "published", "closed_form"].contains(&kind), "{}", case.display());
         assert!(expected["source"].is_string() && expected["tolerance"].is_object() && expected["note"].is_string());
-        assert!(expected["quantities"]["outcome"].is_string(), "{}", case.display());
+        assert!(expected["quantities"].is_object(), "{}", case.display());
     }
 }
 

@@ -29,13 +29,18 @@ pub fn limits(result: &AnalysisResult) -> [Option<Limit<'_>>; 2] {
     if reversed(result) { [main, other] } else { [other, main] }
 }
 
+/// Crushing that takes less than this share off a collapse load is not worth a word in the first line.
+const VISIBLE: f64 = 1e-3;
+
 /// One sentence.
 pub fn headline(result: &AnalysisResult) -> String {
     if let Some(safety) = &result.safety {
         return safety::headline(result, safety);
     }
     let sentence = match (result.outcome, &result.collapse) {
-        (OutcomeWord::Collapse, Some(collapse)) => format!("The arch collapses {}.", reached(result, collapse)),
+        (OutcomeWord::Collapse, Some(collapse)) => {
+            format!("The arch collapses {}.{}", reached(result, collapse), crushed_before(result, collapse))
+        }
         (OutcomeWord::StandsInWindow, _) => in_window(result),
         (OutcomeWord::FallsAsBuilt, _) => falls(result).to_owned(),
         (OutcomeWord::NeverCollapses, _) => stands(result),
@@ -62,6 +67,16 @@ fn reached(result: &AnalysisResult, collapse: &Collapse) -> String {
         false => format!("at {at}"),
         true => format!("at {at}, that is with its scaled loads reversed and {times} times as large"),
     }
+}
+
+/// That joints of the stone's strength give way before the arch becomes a mechanism, where they do so visibly.
+fn crushed_before(result: &AnalysisResult, collapse: &Collapse) -> String {
+    let plastic = result.crushing.as_ref().and_then(|crushing| crushing.plastic_section.as_ref());
+    let Some([low, high]) = plastic.and_then(|plastic| plastic.window) else { return String::new() };
+    let end = if collapse.load_factor < 0.0 { low } else { high };
+    let before = end.filter(|end| end.abs() < (1.0 - VISIBLE) * collapse.intensity.abs());
+    let words = |end| format!(" Its joints crush before, at {} {} (plastic section).", Digits(end), unit(result));
+    before.map(words).unwrap_or_default()
 }
 
 /// With its unit.

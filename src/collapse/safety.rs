@@ -5,6 +5,9 @@ use super::{
     Reach, SafetyPoint, Watch, Zone,
 };
 
+/// Note on a missing answer.
+const NO_SECTIONS: &str = "Rounding kept the limit window with plastic sections from being computed.";
+
 /// Note on a first yield that the mesh does not see in time.
 const TOO_COARSE: &str = "First yield comes after collapse with plastic sections, which cannot be: the mesh is too coarse \
      to see the highest stress. The lower of the two is taken.";
@@ -22,6 +25,8 @@ pub(super) fn curve(points: &[CurvePoint], watch: &mut dyn Watch) -> Result<Vec<
 
 /// Reads the safety factors off a finished report, whose path started at the full loads if the arch stands under them.
 pub(super) fn judge(report: &mut CollapseReport, counted: CrushingKind) {
+    let missing = report.crushing.as_ref().is_none_or(|crushing| crushing.plastic_section.is_none());
+    report.notes.extend(missing.then(|| NO_SECTIONS.into()));
     let crushing = report.crushing.as_ref();
     let (instability, elastic) = (instability(report), crushing.map_or(Reach::Unknown, elastic));
     let plastic_section = crushing.map_or(Reach::Unknown, plastic);
@@ -59,7 +64,7 @@ pub(super) fn crushed_at_start(report: &mut CollapseReport) {
         window.is_some_and(|window| (window.lowest..=window.highest).contains(&report.start))
     };
     let Some(crushing) = &report.crushing else { return };
-    let Some(plastic) = &crushing.plastic_section else { return };
+    let Some(plastic) = &crushing.plastic_section else { return report.notes.push(NO_SECTIONS.into()) };
     if !stands(report.limit_window) || stands(plastic.window) {
         return;
     }
