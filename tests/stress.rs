@@ -7,6 +7,9 @@ mod beam;
 mod column;
 #[path = "stress/exact.rs"]
 mod exact;
+#[cfg(feature = "server")]
+#[path = "stress/field.rs"]
+mod field;
 #[path = "stress/mesh.rs"]
 mod mesh;
 #[path = "stress/patch.rs"]

@@ -55,7 +55,9 @@ fn true_sectors_converge_in_second_order() {
             println!("{:>8} {error:>9.4} {order:>9} {:>9.5}", format!("{n}x{n}"), report.energy[0] / energy);
             assert!((report.energy[1] / energy - 1.0).abs() <= 1e-9, "exact energy {}", report.energy[1]);
             assert!(n != 10 || (report.energy[0] / energy - 1.0).abs() <= 0.005, "strain energy {:?}", report.energy);
-            println!("DBG {}", component_error(ring, &report));
+            // With a = 0.4 the error lies in the outermost subblocks, which converge by less than second order.
+            let least = if inner == PAPER.radii[0] { 1.8 } else { 1.7 };
+            assert!(n <= 8 || half.is_none_or(|order| order >= least), "order {half:?} at {n}");
             errors.push((n, error));
         }
         if inner == PAPER.radii[0] {
@@ -84,32 +86,4 @@ fn straight_sides_and_corner_springs_err_as_in_the_study() {
         assert!((a / of_split - 1.0).abs() <= 0.03, "split seams at {n}x{n}: {a} %, study {of_split} %");
         assert!((b / of_corners - 1.0).abs() <= 0.02, "corner springs at {n}x{n}: {b} %, study {of_corners} %");
     }
-}
-
-fn component_error(ring: Ring, report: &BeamReport) -> String {
-    let (mut miss, mut whole, mut rim) = ([0.0; 3], 0.0, 0.0);
-    let mut tm = 0.0;
-    for s in &report.field.subblocks {
-        let (r, th) = (s.centre.norm(), s.centre.y.atan2(s.centre.x));
-        let [sr, st, t] = ring.stress(r, th);
-        let (c, d) = (th.cos(), th.sin());
-        let [x, y, q] = s.stress;
-        let got = [
-            c * c * x + d * d * y + 2.0 * c * d * q,
-            d * d * x + c * c * y - 2.0 * c * d * q,
-            c * d * (y - x) + (c * c - d * d) * q,
-        ];
-        let e = [got[0] - sr, got[1] - st, got[2] - t];
-        for i in 0..3 {
-            miss[i] += e[i] * e[i];
-        }
-        let dt = (ring.tresca(r, th) - tresca(s.stress)).powi(2);
-        tm += dt;
-        let n = (report.field.subblocks.len() as f64).sqrt() as usize;
-        if s.place[1] == 0 || s.place[1] == n - 1 || s.place[0] == 0 || s.place[0] == n - 1 {
-            rim += dt;
-        }
-        whole += sr * sr + st * st + t * t;
-    }
-    format!("{:?} rim share {}", miss.map(|m: f64| 100.0 * (m / whole).sqrt()), rim / tm)
 }

@@ -9,6 +9,10 @@ use voussoir::geometry::Vec2;
 /// sigma_x, sigma_y, tau_xy, Pa.
 const STATES: [[f64; 3]; 4] = [[1e5, 0.0, 0.0], [0.0, -2e5, 0.0], [0.0, 0.0, 1e5], [-1e5, -3e5, 0.7e5]];
 const EXACT: f64 = 1e-9;
+/// What is reached where mean jumps cannot all be those of a uniform stress: seams are not quite rigid.
+const SLANTED: f64 = 2e-6;
+/// What is reached on four true sectors of a quarter radian: an arc carries an even pressure exactly, not an even shear.
+const ARCS: f64 = 0.05;
 
 /// Largest miss of any subblock's stress as a share of the largest entry of the uniform one.
 fn miss(stresses: impl IntoIterator<Item = [f64; 3]>, expected: [f64; 3]) -> f64 {
@@ -63,11 +67,11 @@ fn subblocks_with_slanted_sides_and_sectors_nearly_take_a_uniform_stress() {
         println!("{:>8} {:>12.3e} {:>12.3e} {:>12.3e}", format!("{n}x{n}"), row[0], row[1], row[2]);
         rows.push(row);
     }
-    assert!(rows.iter().flatten().all(|miss| *miss <= BOUND), "{rows:?}");
+    let worst = |k: usize| rows.iter().map(|row| row[k]).fold(0.0, f64::max);
+    assert!(worst(0) <= SLANTED && worst(1) <= SLANTED, "{rows:?}");
+    // Sectors: first order, halved from mesh to mesh.
+    assert!(worst(2) <= ARCS && rows.windows(2).all(|pair| pair[1][2] <= 0.65 * pair[0][2]), "{rows:?}");
 }
-/// What is reached on cells that are no parallelograms: their mean jumps are met, not their whole sides.
-const BOUND: f64 = 0.05;
-
 /// Nodes on the two joints of a stone, each on axes of its own.
 fn nodes(mesh: &Mesh, ends: [[Vec2; 2]; 2]) -> Vec<Node> {
     let mut nodes = Vec::new();
