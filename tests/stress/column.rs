@@ -156,11 +156,11 @@ impl<'g> Whole<'g> {
             let parts = [(1e4, [1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0]), (0.003 / 12.0, [-1.0, 0.0, 1.0])];
             for ((share, weights), turned) in parts.into_iter().flat_map(|part| [(part, false), (part, true)]) {
                 let mut row = Row::new();
-                for i in 0..3 {
+                for (i, weight) in weights.into_iter().enumerate() {
                     let n = seam.normals[i];
                     let along = if turned { Vec2::new(-n.y, n.x) } else { n };
                     for (block, sign) in seam.blocks.into_iter().zip([-1.0, 1.0]) {
-                        row.extend(self.displacement(body, block, seam.points[i], along, sign * weights[i]));
+                        row.extend(self.displacement(body, block, seam.points[i], along, sign * weight));
                     }
                 }
                 self.spring(share * layer, &row);

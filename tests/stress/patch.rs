@@ -45,6 +45,17 @@ fn rectangular_subblocks_take_a_uniform_stress_exactly() {
 }
 
 #[test]
+fn slender_subblocks_lose_digits_only() {
+    println!("patch test, a rectangle of 5x2 subblocks: length over height of a subblock, largest miss");
+    for aspect in [1.0, 5.0, 25.0, 100.0] {
+        let mesh = Mesh::rectangle([5, 2], 0.08 * aspect, 0.2);
+        let worst = STATES.map(|state| free_miss(&mesh, Bond::Split, state)).into_iter().fold(0.0, f64::max);
+        println!("{aspect:>5} {worst:.1e}");
+        assert!(worst <= if aspect <= 5.0 { EXACT } else { 1e-6 }, "{aspect}: {worst:e}");
+    }
+}
+
+#[test]
 fn a_rectangle_of_unequal_subblocks_takes_a_uniform_stress() {
     let mesh = Mesh::new([3, 4], false, |xi, eta| Vec2::new(xi * (0.4 + xi), 0.7 * eta * (1.5 - 0.5 * eta)));
     let worst = STATES.map(|state| free_miss(&mesh, Bond::Split, state)).into_iter().fold(0.0, f64::max);
