@@ -153,3 +153,63 @@ impl Macroblock {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dda::Elasticity;
+    use crate::geometry::Region;
+    use nalgebra::DMatrix;
+
+    /// A voussoir with straight-sided subblocks.
+    fn voussoir([radial, along]: [usize; 2], bond: Bond) -> Macroblock {
+        let point = |i: usize, j: usize| {
+            let (radius, angle) = (1.0 + 0.4 * i as f64 / radial as f64, 2.0 - 0.5 * j as f64 / along as f64);
+            Vec2::new(angle.cos(), angle.sin()) * radius
+        };
+        let elasticity = Elasticity { youngs_modulus: 1e9, poissons_ratio: 0.25, plane_strain: false };
+        let (mut blocks, mut seams) = (Vec::new(), Vec::new());
+        let seam = |blocks: [usize; 2], a: Vec2, b: Vec2, sense: f64| {
+            let normals = [perpendicular(b - a).normalize() * sense; 3];
+            Seam { blocks, points: [a, 0.5 * (a + b), b], normals }
+        };
+        for (j, i) in (0..along).flat_map(|j| (0..radial).map(move |i| (j, i))) {
+            let corners = [point(i, j), point(i, j + 1), point(i + 1, j + 1), point(i + 1, j)];
+            blocks.push(Block::new(Region::polygon(&corners), elasticity));
+            let here = j * radial + i;
+            if i + 1 < radial {
+                seams.push(seam([here, here + 1], corners[3], corners[2], 1.0));
+            }
+            if j + 1 < along {
+                seams.push(seam([here, here + radial], corners[1], corners[2], -1.0));
+            }
+        }
+        Macroblock::new(blocks, seams, bond)
+    }
+
+    #[test]
+    fn only_the_three_rigid_motions_cost_no_energy() {
+        for cells in [[1, 1], [2, 2], [3, 4]] {
+            for bond in [Bond::Split, Bond::Corners(1e10)] {
+                let body = voussoir(cells, bond);
+                let n = 6 * body.blocks().len();
+                let mut stiffness = DMatrix::<f64>::zeros(n, n);
+                body.stiffness(|i, j, block| {
+                    let mut place = stiffness.fixed_view_mut::<6, 6>(6 * i, 6 * j);
+                    place += block;
+                });
+                let mut energies: Vec<f64> = stiffness.symmetric_eigenvalues().iter().copied().collect();
+                energies.sort_by(f64::total_cmp);
+                let largest = energies[n - 1];
+                // Rounding is about n times 1e-16 of the largest; the weak springs stand far above it.
+                assert!(
+                    energies[2].abs() <= 1e-13 * largest,
+                    "{cells:?} {bond:?}: a rigid motion costs {}",
+                    energies[2]
+                );
+                assert!(energies[3] >= 1e-11 * largest, "{cells:?} {bond:?}: a fourth motion costs {}", energies[3]);
+                assert!(energies[3] >= 1e3 * energies[2].abs());
+            }
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! Stress fields of whole arches: symmetry, and the forces that a cut through them carries.
+
+use std::f64::consts::FRAC_PI_2;
+use voussoir::api::read::read_analysis;
+use voussoir::collapse::{Analysis, CollapseReport, FieldAt, Unwatched, run};
+use voussoir::geometry::Vec2;
+
+/// Stones of the arch, its radii, half its opening angle in degrees.
+const COUNT: usize = 15;
+const RADII: [f64; 2] = [4.7, 5.3];
+const HALF: f64 = 60.0;
+
+/// The stiffness of every contact is off by up to this share, so that ties break; it is not mirrored.
+const SCATTER: f64 = 1e-4;
+/// What is mirrored where contacts are so stiff that their scatter does not count.
+const MIRRORED: f64 = 1e-6;
+
+/// A segmental arch of true sectors under its weight and 2 kN/m on a stone, cut into `mesh`, at load factor 1.
+fn solved(loaded: usize, mesh: [usize; 2], penalty_ratio: f64) -> (Analysis, CollapseReport) {
+    let request = format!(
+        r#"{{"arch": {{"profile": {{"circular": {{"radius_m": 5.0, "opening_angle_deg": {}}}}}, "voussoirs": {COUNT},
+            "thickness": {{"constant_m": 0.6}}, "curved_sides": true}},
+            "stone": {{"friction_angle_deg": 50}},
+            "loads": [{{"load": {{"self_weight": {{}}}}}},
+                {{"load": {{"point_load": {{"force_n_per_m": 2000, "voussoir": {loaded}}}}}, "scaled": true}}]}}"#,
+        2.0 * HALF
+    );
+    let (_, mut analysis) = read_analysis(request.as_bytes()).unwrap();
+    analysis.penalty_ratio = penalty_ratio;
+    analysis.mesh.subblocks = vec![mesh; COUNT];
+    analysis.fields = vec![FieldAt::LoadFactor(1.0)];
+    let report = run(&analysis, &mut Unwatched).unwrap();
+    assert_eq!(report.stress_fields.len(), 1, "{:?}", report.notes);
+    (analysis, report)
+}
+
+/// Largest entry of a field, Pa, and largest difference from the mirror image of another.
+fn asymmetry(here: &CollapseReport, there: &CollapseReport, along: usize) -> [f64; 2] {
+    let [here, there] = [here, there].map(|report| &report.stress_fields[0].subblocks);
+    let (mut largest, mut apart) = (0.0f64, 0.0f64);
+    for a in here {
+        let (voussoir, place) = (COUNT - 1 - a.voussoir, [a.place[0], along - 1 - a.place[1]]);
+        let b = there.iter().find(|b| b.voussoir == voussoir && b.place == place).unwrap();
+        assert!((a.centre.x + b.centre.x).abs() < 1e-9 && (a.centre.y - b.centre.y).abs() < 1e-9);
+        let [x, y, tau] = b.stress;
+        for (s, t) in a.stress.into_iter().zip([x, y, -tau]) {
+            (largest, apart) = (largest.max(s.abs()), apart.max((s - t).abs()));
+        }
+    }
+    [largest, apart]
+}
+
+#[test]
+fn a_mirrored_arch_has_the_mirrored_stress() {
+    println!("difference from the mirror image, as a share of the largest stress");
+    for (penalty, most) in [(10.0, SCATTER), (1e4, MIRRORED)] {
+        for mesh in [[2, 3], [4, 4], [8, 8]] {
+            let symmetric = solved(COUNT / 2, mesh, penalty).1;
+            let [left, right] = [4, COUNT - 5].map(|loaded| solved(loaded, mesh, penalty).1);
+            for (what, here, there) in [("symmetric", &symmetric, &symmetric), ("mirrored", &left, &right)] {
+                let [largest, apart] = asymmetry(here, there, mesh[1]);
+                println!("{what:>10}, {mesh:?}, penalty {penalty:>5} E: {:.1e} of {largest:.3e} Pa", apart / largest);
+                assert!(apart <= most * largest, "{what}, {mesh:?}: {apart:e} of {largest:e}");
+            }
+        }
+    }
+}
+
+/// Largest difference between what a cut through the middle of a column of subblocks carries and the force at the joint
+/// before it plus the weight between, as a share of that force; stones without a point load.
+fn worst_cut(analysis: &Analysis, report: &CollapseReport, loaded: usize, [radial, along]: [usize; 2]) -> f64 {
+    let contacts = &report.at_unit_load.as_ref().unwrap().contacts;
+    let step = 2.0 * HALF.to_radians() / COUNT as f64;
+    let mut worst = 0f64;
+    for k in (0..COUNT).filter(|&k| k != loaded) {
+        let joint = &analysis.arch.joints[k];
+        let at_joint: Vec2 = contacts
+            .iter()
+            .filter(|contact| contact.joint == k)
+            .map(|contact| joint.normal() * contact.normal + joint.tangent() * contact.tangential)
+            .sum();
+        let area = 0.5 * step * (RADII[1].powi(2) - RADII[0].powi(2));
+        for j in 0..along {
+            let share = (j as f64 + 0.5) / along as f64;
+            let expected = at_joint - Vec2::new(0.0, 2300.0 * 9.81 * area * share);
+            let angle = FRAC_PI_2 + HALF.to_radians() - step * (k as f64 + share);
+            let forward = Vec2::new(angle.sin(), -angle.cos());
+            let length = (RADII[1] - RADII[0]) / radial as f64;
+            let of_column = report.stress_fields[0].subblocks.iter().filter(|s| s.voussoir == k && s.place[1] == j);
+            let carried: Vec2 = of_column
+                .map(|s| {
+                    let [x, y, tau] = s.stress;
+                    Vec2::new(x * forward.x + tau * forward.y, tau * forward.x + y * forward.y) * -length
+                })
+                .sum();
+            worst = worst.max((carried - expected).norm() / expected.norm());
+        }
+    }
+    worst
+}
+
+#[test]
+fn a_cut_through_a_column_of_subblocks_carries_the_thrust() {
+    println!("force through a column of subblocks against the thrust, largest difference");
+    for loaded in [COUNT / 2, 4] {
+        for mesh in [[1, 1], [2, 2], [4, 4], [8, 8]] {
+            let (analysis, report) = solved(loaded, mesh, 10.0);
+            let worst = worst_cut(&analysis, &report, loaded, mesh);
+            println!("load on stone {loaded:>2}, {mesh:?}: {:.3} %", 100.0 * worst);
+            assert!(mesh != [8, 8] || worst <= 0.02, "{worst}");
+        }
+    }
+}
