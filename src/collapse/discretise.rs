@@ -1,6 +1,6 @@
 //! From an arch to a chain of blocks: the only door between masonry and mechanics.
 
-use super::grid::{Grid, Lines};
+use super::grid::{Grid, Lines, ON_LINE};
 use super::{Analysis, PlaneModel, Seams};
 use crate::arch::{Abutment, Joint, JointLaw, PointForce, Stone};
 use crate::dda::{Bond, Chain, ChainBuilder, Elasticity, Law, Loads, Loose, MeanMotion, Push, Touch};
@@ -23,6 +23,8 @@ pub(super) struct Model {
     pub voussoirs: usize,
     /// The subblocks of every voussoir.
     pub grids: Vec<Grid>,
+    /// Places of every joint's contact points: 0 at the intrados, 1 at the extrados.
+    positions: Vec<Vec<f64>>,
     /// Extent, m.
     pub size: f64,
     /// Least stiffness of a contact, N/m2.
@@ -77,6 +79,7 @@ pub(super) fn discretise(analysis: &Analysis, seed: u64) -> Result<Model, Loose>
     }
     let chain = builder.finish()?;
     let first_voussoir = usize::from(left.is_some());
+    let around = |k: usize| places(k.checked_sub(1).map(|k| &bodies[k]), bodies.get(k));
     let loads = |forces: &[PointForce]| chain.loads(forces.iter().flat_map(|f| pushes(f, first_voussoir, &grids)));
     Ok(Model {
         fixed: loads(&analysis.fixed),
@@ -85,6 +88,7 @@ pub(super) fn discretise(analysis: &Analysis, seed: u64) -> Result<Model, Loose>
         voussoirs: arch.voussoirs.len(),
         size: extent(arch.joints.iter().flat_map(|j| [j.intrados, j.extrados])),
         softest,
+        positions: (0..arch.joints.len()).map(|joint| around(first_voussoir + joint)).collect(),
         chain,
         grids,
     })
@@ -116,8 +120,8 @@ fn grids(analysis: &Analysis) -> Vec<Grid> {
     analysis.mesh.subblocks.iter().enumerate().map(grid).collect()
 }
 
-/// Contact points of a joint between two bodies (none: the ground): its ends, and where subblocks of the finer of the
-/// two meet, each with the share of the joint that is nearest to it.
+/// Contact points of a joint between two bodies (none: the ground): its ends, and where subblocks on either side meet,
+/// each with the share of the joint that is nearest to it.
 fn touches<'a>(
     joint: &'a Joint,
     before: Option<&'a Grid>,
@@ -127,10 +131,10 @@ fn touches<'a>(
 ) -> impl Iterator<Item = Touch> + 'a {
     let links = before.into_iter().chain(after).count() as f64;
     let contact = 1.0 / (1.0 - links / LINK);
-    let parts = before.into_iter().chain(after).map(|g| g.radial).max().unwrap_or(1);
-    (0..=parts).map(move |j| {
-        let eta = j as f64 / parts as f64;
-        let share = if j == 0 || j == parts { 0.5 } else { 1.0 } / parts as f64;
+    let places = places(before, after);
+    (0..places.len()).map(move |j| {
+        let eta = places[j];
+        let share = 0.5 * (places[(j + 1).min(places.len() - 1)] - places[j.saturating_sub(1)]);
         // Two corners alone have the penalty each.
         let stiffness = 2.0 * penalty * share;
         let nobody = [(0, 0.0); 2];
@@ -145,6 +149,18 @@ fn touches<'a>(
             after: after.map_or(nobody, |g| g.on_joint(false, eta)),
         }
     })
+}
+
+/// Places of the contact points of a joint between two bodies, from 0 at the intrados to 1 at the extrados.
+///
+/// Those of both sides: points of the finer side alone would put their forces off the middle of the coarser side's
+/// subblocks.
+fn places(before: Option<&Grid>, after: Option<&Grid>) -> Vec<f64> {
+    let ends = |grid: &Grid| (0..=grid.radial).map(|j| j as f64 / grid.radial as f64).collect::<Vec<_>>();
+    let mut places: Vec<f64> = before.into_iter().chain(after).flat_map(ends).collect();
+    places.sort_by(f64::total_cmp);
+    places.dedup_by(|a, b| *a - *b < ON_LINE);
+    places
 }
 
 /// Law of a contact point that has this share of the joint.
@@ -212,7 +228,6 @@ impl Model {
 
     /// Place of contact `p` on joint `k`: 0 at the intrados, 1 at the extrados.
     pub(super) fn position(&self, joint: usize, p: usize) -> f64 {
-        let contacts = self.contacts(joint);
-        (p - contacts.start) as f64 / (contacts.len() - 1) as f64
+        self.positions[joint][p - self.contacts(joint).start]
     }
 }

@@ -6,7 +6,7 @@ use crate::dda::{Block, Bond, Elasticity, Macroblock, Seam};
 use crate::geometry::{Region, Vec2, cross, perpendicular};
 
 /// A point this close to a line of the grid, as a share of a subblock, lies on it.
-const ON_LINE: f64 = 1e-9;
+pub(super) const ON_LINE: f64 = 1e-9;
 /// Newton steps that find a point's place in a stone; its map is bilinear, so a few are enough.
 const PLACE_STEPS: usize = 20;
 
@@ -108,12 +108,14 @@ impl Grid {
             if i + 1 < self.radial {
                 let [a, b] = [self.corner(i + 1, j), self.corner(i + 1, j + 1)];
                 let (points, normals) = self.side(a, b);
-                seams.push(Seam { blocks: [number(i, j), number(i + 1, j)], points, normals });
+                let through = self.along == 1;
+                seams.push(Seam { blocks: [number(i, j), number(i + 1, j)], points, normals, through });
             }
             if j + 1 < self.along {
                 let [a, b] = [self.corner(i, j + 1), self.corner(i + 1, j + 1)];
                 let normals = [-perpendicular(b - a).normalize(); 3];
-                seams.push(Seam { blocks: [number(i, j), number(i, j + 1)], points: [a, 0.5 * (a + b), b], normals });
+                let (points, through) = ([a, 0.5 * (a + b), b], self.radial == 1);
+                seams.push(Seam { blocks: [number(i, j), number(i, j + 1)], points, normals, through });
             }
         }
         Macroblock::new(blocks, seams, bond)

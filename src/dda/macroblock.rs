@@ -11,7 +11,8 @@ const MEAN: f64 = 1e4;
 /// Stiffness of the springs on the linear part of a seam's jump, over that of an elastic layer, E L / (12 h).
 ///
 /// Without them subblocks turn on their seams' middles like beads (a fourth mode without energy); from 0.03 on they
-/// begin to lock in bending as corner springs do.
+/// begin to lock in bending as corner springs do. A seam through the whole stone has the layer's own: there is no other
+/// beside it to make up a couple with.
 const LINEAR: f64 = 0.003;
 
 /// How subblocks are bonded at their seams.
@@ -32,6 +33,8 @@ pub struct Seam {
     pub points: [Vec2; 3],
     /// Unit normals there, from the first subblock into the second.
     pub normals: [Vec2; 3],
+    /// True where the side runs through the whole stone, so that nothing but its linear part can carry bending.
+    pub through: bool,
 }
 
 /// Weights of Simpson's rule for the mean along a side.
@@ -81,7 +84,8 @@ impl Macroblock {
     pub(super) fn seen_from(&self, origin: Vec2, x_axis: Vec2) -> Self {
         let turned = |v: Vec2| Vec2::new(v.dot(&x_axis), v.dot(&perpendicular(x_axis)));
         let place = |p: Vec2| turned(p - origin);
-        let seam = |s: &Seam| Seam { blocks: s.blocks, points: s.points.map(place), normals: s.normals.map(turned) };
+        let seam =
+            |s: &Seam| Seam { blocks: s.blocks, points: s.points.map(place), normals: s.normals.map(turned), ..*s };
         Macroblock {
             blocks: self.blocks.iter().map(|b| b.moved_to(place(b.centroid()))).collect(),
             seams: self.seams.iter().map(seam).collect(),
@@ -95,7 +99,7 @@ impl Macroblock {
         let same_block = |(a, b): (&Block, &Block)| a.same_as(b, rounding);
         let same_seam = |(a, b): (&Seam, &Seam)| {
             let length = a.length();
-            a.blocks == b.blocks
+            (a.blocks, a.through) == (b.blocks, b.through)
                 && a.points.iter().zip(b.points).all(|(&a, b)| near(a, b))
                 && a.normals.iter().zip(b.normals).all(|(&a, b)| near(a * length, b * length))
         };
@@ -147,7 +151,8 @@ impl Macroblock {
                 let distance = (second.centroid() - first.centroid()).dot(&seam.normals[1]);
                 let layer = first.youngs_modulus() * seam.length() / distance;
                 let (mean, linear) = (SIMPSON, [-1.0, 0.0, 1.0]);
-                [(mean, 0, MEAN), (mean, 1, MEAN), (linear, 0, LINEAR / 12.0), (linear, 1, LINEAR / 12.0)]
+                let of_linear = if seam.through { 1.0 } else { LINEAR } / 12.0;
+                [(mean, 0, MEAN), (mean, 1, MEAN), (linear, 0, of_linear), (linear, 1, of_linear)]
                     .map(|(weights, along, share)| (share * layer, sum(weights, along)))
             }
         }

@@ -33,7 +33,8 @@ pub enum End {
     Reached,
     /// The chain moves on without any further change: a mechanism.
     Mechanism,
-    /// The parameter rises without any further change: nothing will ever happen under this load.
+    /// The parameter rises to the value asked for without any further change, and the chain moves so far with it that its
+    /// displacements mean nothing.
     Rising,
     /// The caller asked to stop.
     Stopped,
@@ -63,7 +64,7 @@ const SOFT: f64 = 1e-6;
 /// In a mechanism, gap rates below this are rounding (the direction's largest entry is 1).
 const STILL: f64 = 1e-7;
 /// A mechanism that meets no new contact within so many chain sizes goes on for ever.
-const FAR: f64 = 10.0;
+const FAR: f64 = 100.0;
 /// So many steps of length zero in a row, and as many more per contact, mean that ties do not resolve.
 const MOST_ZERO_STEPS: [usize; 2] = [60, 4];
 /// A path has at most so many events, and so many more per contact; real ones have about one per contact.
@@ -168,17 +169,19 @@ impl<'a> Tracer<'a> {
             if see(self).is_break() {
                 return End::Stopped;
             }
-            let event = self.nearest_event(barred).filter(|event| event.step <= far);
-            let reach = event.map_or(far, |event| event.step);
+            let rises = self.rate > 0.0 && !self.is_mechanism();
+            // A load that rises may bend a soft chain far; only a chain that moves freely goes on for ever.
+            let event = self.nearest_event(barred).filter(|event| rises || event.step <= far);
             let to_target = (target - self.parameter) / self.rate;
-            if self.rate > 0.0 && to_target <= reach && !self.is_mechanism() {
+            if rises && event.is_none_or(|event| to_target <= event.step) {
+                if to_target > far {
+                    return End::Rising;
+                }
                 self.advance(to_target);
                 self.parameter = target;
                 return if self.keep_equilibrium() { End::Reached } else { End::Lost };
             }
-            let Some(event) = event else {
-                return if self.rate > 0.0 && !self.is_mechanism() { End::Rising } else { End::Mechanism };
-            };
+            let Some(event) = event else { return End::Mechanism };
             zero_steps = if event.step > 0.0 { 0 } else { zero_steps + 1 };
             barred = Some((event.contact, self.states[event.contact]));
             self.advance(event.step);

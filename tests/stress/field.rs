@@ -53,7 +53,7 @@ fn asymmetry(here: &CollapseReport, there: &CollapseReport, along: usize) -> [f6
 #[test]
 fn a_mirrored_arch_has_the_mirrored_stress() {
     println!("difference from the mirror image, as a share of the largest stress");
-    for (penalty, most) in [(10.0, SCATTER), (1e4, MIRRORED)] {
+    for (penalty, most) in [(10.0, SCATTER), (100.0, MIRRORED)] {
         for mesh in [[2, 3], [4, 4], [8, 8]] {
             let symmetric = solved(COUNT / 2, mesh, penalty).1;
             let [left, right] = [4, COUNT - 5].map(|loaded| solved(loaded, mesh, penalty).1);

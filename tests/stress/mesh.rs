@@ -81,7 +81,10 @@ impl Mesh {
         let points = [a, if arc { middle.normalize() * a.norm() } else { middle }, b];
         let normals = if arc { points.map(|p| p.normalize()) } else { [straight; 3] };
         match blocks {
-            [Some(first), Some(second)] => self.seams.push(Seam { blocks: [first, second], points, normals }),
+            [Some(first), Some(second)] => {
+                let through = if turn > 0.0 { self.along } else { self.radial } == 1;
+                self.seams.push(Seam { blocks: [first, second], points, normals, through });
+            }
             [Some(block), None] => self.outer.push(Side { block, points, normals }),
             [None, Some(block)] => self.outer.push(Side { block, points, normals: normals.map(|n| -n) }),
             [None, None] => {}
