@@ -10,7 +10,7 @@
 use divan::{Bencher, black_box};
 use serde_json::{Value, json};
 use voussoir::api::read::read_analysis;
-use voussoir::collapse::{Analysis, Unwatched, run};
+use voussoir::collapse::{Analysis, FieldAt, Unwatched, run};
 use voussoir::limit::StaticTheorem;
 
 /// Numbers of voussoirs.
@@ -81,6 +81,15 @@ fn rough_crown_load(bencher: Bencher, voussoirs: usize) {
 #[divan::bench(args = PAPER)]
 fn paper_case_1(bencher: Bencher, joints: usize) {
     collapse(bencher, &paper(joints));
+}
+
+/// With stress in every subblock near collapse: voussoirs, and subblocks each way in each of them.
+#[divan::bench(args = [(27, 1), (27, 4), (61, 1), (61, 4), (61, 8), (201, 4), (1001, 4)])]
+fn refined_quarter_point_load(bencher: Bencher, (voussoirs, each_way): (usize, usize)) {
+    let mut analysis = semicircle(voussoirs, -0.5, 30.0);
+    analysis.mesh.subblocks = vec![[each_way; 2]; voussoirs];
+    analysis.fields = vec![FieldAt::NearCollapse];
+    collapse(bencher, &analysis);
 }
 
 #[divan::bench(args = SIZES)]

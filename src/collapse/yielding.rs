@@ -113,7 +113,8 @@ fn between(a: &Point, b: &Point, share: f64) -> Point {
 
 /// Equivalent stress of Tresca, eq. (4) of the paper.
 fn tresca(stress: &[f64]) -> f64 {
-    let (mean, radius) = (0.5 * (stress[0] + stress[1]), (0.5 * (stress[0] - stress[1])).hypot(stress[2]));
+    let (mean, half) = (0.5 * (stress[0] + stress[1]), 0.5 * (stress[0] - stress[1]));
+    let radius = (half * half + stress[2] * stress[2]).sqrt();
     (2.0 * radius).max(mean.abs() + radius)
 }
 

@@ -102,11 +102,6 @@ impl Block {
         self.displacement_row(at, Vec2::x()) * force.x + self.displacement_row(at, Vec2::y()) * force.y
     }
 
-    /// Displacement (u, v) of the centroid, m, and rotation, rad.
-    pub fn motion(&self, d: &V6) -> (Vec2, f64) {
-        (Vec2::new(d[0], d[1]), d[2] / self.size)
-    }
-
     /// Stress (sigma_x, sigma_y, tau_xy), Pa.
     pub fn stress(&self, d: &V6) -> [f64; 3] {
         self.elasticity.stress([d[3], d[4], d[5]].map(|e| e / self.size))

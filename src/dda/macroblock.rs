@@ -176,7 +176,8 @@ mod tests {
         let (mut blocks, mut seams) = (Vec::new(), Vec::new());
         let seam = |blocks: [usize; 2], a: Vec2, b: Vec2, sense: f64| {
             let normals = [perpendicular(b - a).normalize() * sense; 3];
-            Seam { blocks, points: [a, 0.5 * (a + b), b], normals }
+            let through = if sense > 0.0 { along } else { radial } == 1;
+            Seam { blocks, points: [a, 0.5 * (a + b), b], normals, through }
         };
         for (j, i) in (0..along).flat_map(|j| (0..radial).map(move |i| (j, i))) {
             let corners = [point(i, j), point(i, j + 1), point(i + 1, j + 1), point(i + 1, j)];
@@ -194,7 +195,7 @@ mod tests {
 
     #[test]
     fn only_the_three_rigid_motions_cost_no_energy() {
-        for cells in [[1, 1], [2, 2], [3, 4]] {
+        for cells in [[1, 1], [2, 2], [3, 4], [1, 5], [4, 1]] {
             for bond in [Bond::Split, Bond::Corners(1e10)] {
                 let body = voussoir(cells, bond);
                 let n = 6 * body.blocks().len();

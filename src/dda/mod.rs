@@ -1,12 +1,16 @@
-//! Discontinuous deformation analysis of a chain of blocks: constant-strain blocks, unilateral penalty contacts with
-//! Coulomb friction, and the load path traced exactly from one change of contact state to the next.
+//! Discontinuous deformation analysis of a chain of blocks: macroblocks of constant-strain subblocks, unilateral penalty
+//! contacts with Coulomb friction, and the load path traced exactly from one change of contact state to the next.
+//!
+//! Every macroblock is condensed onto its contact points: the unknowns of a chain are the displacements of the contact
+//! points on either side of every interface, along the contact's normal and tangent (its nodes). What happens inside
+//! follows from them.
 //!
 //! Nothing here knows that the chain is an arch: a block on a slope, a stack and a portal are chains too.
 //!
 //! Signs, said once: compression is negative in stress; a contact's normal force `N` is positive in compression; a gap
 //! is positive when open; a tangential force `T` acts on the block after the contact, along the contact's tangent.
-//! Block `i` lies between interfaces `i` and `i + 1`; interface `k` joins block `k - 1` (before) to block `k` (after), and
-//! the rigid ground takes the place of a block that is not there.
+//! Body `i` lies between interfaces `i` and `i + 1`; interface `k` joins body `k - 1` (before) to body `k` (after), and the
+//! rigid ground takes the place of a body that is not there.
 
 mod block;
 mod chain;
@@ -20,7 +24,7 @@ mod trace;
 
 pub use block::{Block, Elasticity, V6};
 pub use chain::{Chain, ChainBuilder, Loads, MeanMotion, Push, Touch};
-pub use condense::{Condensed, Loose, Node, free_response};
+pub use condense::{Loose, free_response};
 pub use contact::{Contact, ContactForce, Law, State, Zone};
 pub use macroblock::{Bond, Macroblock, Seam};
 pub use trace::{Drive, End, Peak, Tracer, covering};
