@@ -24,7 +24,7 @@ mod trace;
 
 pub use block::{Block, Elasticity, V6};
 pub use chain::{Chain, ChainBuilder, Loads, MeanMotion, Push, Touch};
-pub use condense::{Loose, free_response};
+pub use condense::{Condensed, Loose, Node, free_response};
 pub use contact::{Contact, ContactForce, Law, State, Zone};
 pub use macroblock::{Bond, Macroblock, Seam};
 pub use trace::{Drive, End, Peak, Tracer, covering};

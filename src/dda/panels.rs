@@ -69,8 +69,14 @@ fn subtract_applied_of(a: &[f64], x: &[f64], y: &mut [f64], n: usize) {
     }
 }
 
-/// a . x.
+/// a . x, in four sums side by side, which compilers turn into vector instructions.
 #[inline(always)]
 pub fn dot(a: &[f64], x: &[f64]) -> f64 {
-    a.iter().zip(x).map(|(a, x)| a * x).sum()
+    let (by_four, rest) = (a.chunks_exact(4).zip(x.chunks_exact(4)), a.len().min(x.len()) / 4 * 4);
+    let mut sums = [0.0; 4];
+    for (a, x) in by_four {
+        (0..4).for_each(|lane| sums[lane] += a[lane] * x[lane]);
+    }
+    let tail: f64 = a[rest..].iter().zip(&x[rest..]).map(|(a, x)| a * x).sum();
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + tail
 }
