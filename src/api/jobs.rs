@@ -6,7 +6,7 @@ use super::read;
 use super::request::Request;
 use super::response::JobResult;
 use super::status::{self, JobList, JobStatus};
-use crate::collapse::Question;
+use crate::collapse::{Answer, Question};
 use crate::jobs::{Dismissal, Job, JobId, State};
 use axum::Json;
 use axum::body::Bytes;
@@ -17,6 +17,7 @@ use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
+use std::sync::Arc;
 use utoipa::IntoParams;
 
 /// Jobs listed when nothing is asked.
@@ -137,11 +138,20 @@ pub(super) async fn results(state: AppState, path: JobPath) -> Result<Response, 
         State::Dismissed => Err(Problem::dismissed(job.id)),
         State::Failed(failure) => Err(failure.into()),
         State::Successful(answer) => {
-            let result = JobResult::new(&job.attachment, answer).ok_or_else(Problem::internal)?;
-            let body = result.to_bytes().map_err(|_| Problem::internal())?;
+            let body = written_aside(Arc::clone(&job.attachment), Arc::clone(answer)).await?;
             Ok(([(header::CONTENT_TYPE, "application/json")], body).into_response())
         }
     }
+}
+
+/// Writes an answer on a thread of its own kind: a large one takes a while, which others should not have to wait for.
+#[allow(clippy::disallowed_methods, reason = "writing is no analysis: it is short and needs no cancelling")]
+async fn written_aside(request: Arc<Request>, answer: Arc<Answer>) -> Result<Vec<u8>, Problem> {
+    let writing = tokio::task::spawn_blocking(move || {
+        let result = JobResult::new(&request, &answer).ok_or_else(Problem::internal)?;
+        result.to_bytes().map_err(|_| Problem::internal())
+    });
+    writing.await.unwrap_or_else(|_| Err(Problem::internal()))
 }
 
 /// Cancel a job that has not ended, forget one that has.

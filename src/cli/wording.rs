@@ -39,11 +39,11 @@ pub fn headline(result: &AnalysisResult) -> String {
     }
     let sentence = match (result.outcome, &result.collapse) {
         (OutcomeWord::Collapse, Some(collapse)) => {
-            format!("The arch collapses {}.{}", reached(result, collapse), crushed_before(result, collapse))
+            format!("The arch collapses {}.{}", reached(result, collapse), with_strength(result))
         }
-        (OutcomeWord::StandsInWindow, _) => in_window(result),
+        (OutcomeWord::StandsInWindow, _) => in_window(result) + &with_strength(result),
         (OutcomeWord::FallsAsBuilt, _) => falls(result).to_owned(),
-        (OutcomeWord::NeverCollapses, _) => stands(result),
+        (OutcomeWord::NeverCollapses, _) => stands(result) + &with_strength(result),
         (OutcomeWord::CannotTell, _) => {
             "No answer: the load path and limit analysis do not agree. The notes say where.".to_owned()
         }
@@ -69,14 +69,28 @@ fn reached(result: &AnalysisResult, collapse: &Collapse) -> String {
     }
 }
 
-/// That joints of the stone's strength give way before the arch becomes a mechanism, where they do so visibly.
-fn crushed_before(result: &AnalysisResult, collapse: &Collapse) -> String {
+/// What joints of the stone's strength make of an answer, where they change it visibly.
+fn with_strength(result: &AnalysisResult) -> String {
     let plastic = result.crushing.as_ref().and_then(|crushing| crushing.plastic_section.as_ref());
-    let Some([low, high]) = plastic.and_then(|plastic| plastic.window) else { return String::new() };
-    let end = if collapse.load_factor < 0.0 { low } else { high };
-    let before = end.filter(|end| end.abs() < (1.0 - VISIBLE) * collapse.intensity.abs());
-    let words = |end| format!(" Its joints crush before, at {} {} (plastic section).", Digits(end), unit(result));
-    before.map(words).unwrap_or_default()
+    let Some(plastic) = plastic else { return String::new() };
+    let start = result.start_load_factor * result.request.load_factor.intensity_per_unit;
+    let [low, high] = plastic.window.unwrap_or([Some(f64::INFINITY), None]);
+    let stands = low.is_none_or(|low| low <= start) && high.is_none_or(|high| high >= start);
+    if let (true, OutcomeWord::Collapse, Some(collapse)) = (stands, result.outcome, &result.collapse) {
+        let end = if collapse.load_factor < 0.0 { low } else { high };
+        let before = end.filter(|end| end.abs() < (1.0 - VISIBLE) * collapse.intensity.abs());
+        let words = |end| format!(" Its joints crush before, at {} {} (plastic section).", Digits(end), unit(result));
+        return before.map(words).unwrap_or_default();
+    }
+    let same = |a: Option<f64>, b: Option<f64>| match (a, b) {
+        (Some(a), Some(b)) => (a - b).abs() <= VISIBLE * b.abs(),
+        (a, b) => a == b,
+    };
+    let rigid = result.limit_window.unwrap_or([None, None]);
+    if stands && same(low, rigid[0]) && same(high, rigid[1]) {
+        return String::new();
+    }
+    format!(" With joints of its strength it {} (plastic section).", range(plastic.window, unit(result)))
 }
 
 /// With its unit.

@@ -125,7 +125,7 @@ impl Certificate {
     /// needs more; below, where only a share of them can be borne.
     pub(super) fn full_load(&self, settled: bool, cap: f64) -> f64 {
         match self.window {
-            Some([_, high]) if high < 1.0 => self.start(settled, 1.0, cap),
+            Some([_, high]) if high > 0.0 && high < 1.0 => self.start(settled, 1.0, cap),
             _ => 1.0,
         }
     }
@@ -230,6 +230,32 @@ pub(super) fn loaded(analysis: &Analysis) -> [bool; 2] {
 /// True where some load does not grow.
 pub(super) fn any_fixed(analysis: &Analysis) -> bool {
     total(&analysis.fixed) > 0.0
+}
+
+/// Subblocks more slender than this show stresses across them that are not there (measured: from about 4 on).
+const SLENDER: f64 = 4.0;
+
+/// Notes on what the mesh does to an answer: `slenderness` of the subblocks, whether there are several in a stone, and
+/// whether joints have cohesion.
+pub(super) fn mesh_notes(slenderness: f64, several: bool, cohesive: bool) -> Vec<String> {
+    let mut notes = Vec::new();
+    if several && slenderness > SLENDER {
+        notes.push(format!(
+            "Some subblocks are {} times as long as they are wide: stress across them is not to be trusted beyond {}. \
+             Choose a mesh whose subblocks are about square.",
+            Digits(slenderness),
+            Digits(SLENDER)
+        ));
+    }
+    if cohesive {
+        notes.push(
+            "Cohesion is shared out to a joint's contact points, and those that open lose theirs: where joints slide, the \
+             load depends on the mesh, and a finer one gives less. Limit analysis keeps all cohesion of a joint however \
+             far it opens."
+                .into(),
+        );
+    }
+    notes
 }
 
 fn sliding_note(path: f64, limit: f64) -> String {

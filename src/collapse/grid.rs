@@ -108,17 +108,26 @@ impl Grid {
             if i + 1 < self.radial {
                 let [a, b] = [self.corner(i + 1, j), self.corner(i + 1, j + 1)];
                 let (points, normals) = self.side(a, b);
-                let through = self.along == 1;
-                seams.push(Seam { blocks: [number(i, j), number(i + 1, j)], points, normals, through });
+                // Tangential stiffness there would hinder the stone's own bending.
+                let stiff = [self.along == 1, false];
+                seams.push(Seam { blocks: [number(i, j), number(i + 1, j)], points, normals, stiff });
             }
             if j + 1 < self.along {
                 let [a, b] = [self.corner(i, j + 1), self.corner(i + 1, j + 1)];
                 let normals = [-perpendicular(b - a).normalize(); 3];
-                let (points, through) = ([a, 0.5 * (a + b), b], self.radial == 1);
-                seams.push(Seam { blocks: [number(i, j), number(i, j + 1)], points, normals, through });
+                let (points, stiff) = ([a, 0.5 * (a + b), b], [self.radial == 1; 2]);
+                seams.push(Seam { blocks: [number(i, j), number(i, j + 1)], points, normals, stiff });
             }
         }
         Macroblock::new(blocks, seams, bond)
+    }
+
+    /// Largest ratio of a subblock's longer to its shorter extent.
+    pub(super) fn slenderness(&self) -> f64 {
+        let [before, after] = self.ends.map(|[i, e]| (e - i).norm() / self.radial as f64);
+        let [inner, outer] = [0, 1].map(|face| (self.ends[1][face] - self.ends[0][face]).norm() / self.along as f64);
+        let ratio = |a: f64, b: f64| (a / b).max(b / a);
+        ratio(before.max(after), inner.min(outer)).max(ratio(before.min(after), inner.max(outer)))
     }
 
     /// The field of these stresses, one per subblock, in voussoir number `voussoir`.

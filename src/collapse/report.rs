@@ -253,7 +253,7 @@ pub struct Crushing {
 pub enum Reach {
     /// Fails at this load factor (below 1: the full loads are too much).
     At(f64),
-    /// Does not fail, however far the loads grow (up to the cap).
+    /// Does not fail before the path ends, be it in a mechanism or at the cap.
     Never,
     /// Fails under the full loads already (or needs more of them); how far below is not known.
     DoesNotStand,

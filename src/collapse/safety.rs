@@ -10,7 +10,14 @@ const NO_SECTIONS: &str = "Rounding kept the limit window with plastic sections 
 
 /// Note on a first yield that the mesh does not see in time.
 const TOO_COARSE: &str = "First yield comes after collapse with plastic sections, which cannot be: the mesh is too coarse \
-     to see the highest stress. The lower of the two is taken.";
+     to see the highest stress, so its first yield means nothing.";
+
+/// Note on an arch whose plastic sections never fail.
+const UNCRUSHED: &str =
+    "Plastic sections never fail, since bonded joints are taken not to crush; first yield counts instead.";
+
+/// Crushing and falling this close, as a share, come at the same load: rounding must not decide between them.
+const SAME: f64 = 1e-6;
 
 /// Safety factors over a list of abscissae.
 pub(super) fn curve(points: &[CurvePoint], watch: &mut dyn Watch) -> Result<Vec<SafetyPoint>, AnalysisError> {
@@ -29,15 +36,18 @@ pub(super) fn judge(report: &mut CollapseReport, counted: CrushingKind) {
     report.notes.extend(missing.then(|| NO_SECTIONS.into()));
     let crushing = report.crushing.as_ref();
     let (instability, elastic) = (instability(report), crushing.map_or(Reach::Unknown, elastic));
-    let plastic_section = crushing.map_or(Reach::Unknown, plastic);
-    let crushes = match counted {
-        CrushingKind::PlasticSection => plastic_section,
-        CrushingKind::Elastic => {
-            // Stresses below the strength everywhere are in equilibrium, so no plastic collapse can come before.
-            report.notes.extend(is_before(plastic_section, elastic).then(|| TOO_COARSE.into()));
-            if is_before(plastic_section, elastic) { plastic_section } else { elastic }
-        }
+    let plastic_section = crushing.map_or(Reach::Unknown, |crushing| plastic(crushing, report.cap));
+    // Stresses below the strength everywhere are in equilibrium, so no plastic collapse can come before.
+    let end = if let Reach::At(falls) = instability { falls } else { report.cap };
+    let too_coarse = match (plastic_section, elastic) {
+        (Reach::At(crushes), Reach::Never) => is_below(crushes, end),
+        (plastic, elastic) => is_before(plastic, elastic),
     };
+    let uncrushed = plastic_section == Reach::Never && matches!(elastic, Reach::At(_) | Reach::DoesNotStand);
+    report.notes.extend(too_coarse.then(|| TOO_COARSE.into()));
+    report.notes.extend(uncrushed.then(|| UNCRUSHED.into()));
+    let takes_elastic = uncrushed || (counted == CrushingKind::Elastic && !too_coarse);
+    let crushes = if takes_elastic { elastic } else { plastic_section };
     let (governing, governed_by) = first(instability, crushes);
     let mode = report.end.as_ref().map(|end| end.mechanism.mode);
     let zone = zone(governed_by, mode);
@@ -63,6 +73,9 @@ pub(super) fn crushed_at_start(report: &mut CollapseReport) {
     let stands = |window: Option<LimitWindow>| {
         window.is_some_and(|window| (window.lowest..=window.highest).contains(&report.start))
     };
+    if report.outcome == Outcome::CannotTell {
+        return;
+    }
     let Some(crushing) = &report.crushing else { return };
     let Some(plastic) = &crushing.plastic_section else { return report.notes.push(NO_SECTIONS.into()) };
     if !stands(report.limit_window) || stands(plastic.window) {
@@ -104,7 +117,14 @@ fn instability(report: &CollapseReport) -> Reach {
     let factor = report.end.as_ref().map(|end| end.load_factor);
     match (report.outcome, factor) {
         (Outcome::NeverCollapses, _) => Reach::Never,
-        (Outcome::Collapse, Some(factor)) => Reach::At(factor),
+        // An arch that can bear the loads reversed only does not stand under them.
+        (Outcome::Collapse, Some(factor)) => {
+            if factor > 0.0 {
+                Reach::At(factor)
+            } else {
+                Reach::DoesNotStand
+            }
+        }
         (Outcome::FallsAsBuilt, _) => Reach::DoesNotStand,
         _ => Reach::Unknown,
     }
@@ -118,14 +138,20 @@ fn elastic(crushing: &Crushing) -> Reach {
     }
 }
 
-fn plastic(crushing: &Crushing) -> Reach {
+/// Not looked for beyond the `cap`, as instability is not.
+fn plastic(crushing: &Crushing, cap: f64) -> Reach {
     match crushing.plastic_section.as_ref().map(|plastic| plastic.window) {
         None => Reach::Unknown,
         Some(None) => Reach::DoesNotStand,
-        Some(Some(window)) if window.lowest > 1.0 => Reach::DoesNotStand,
-        Some(Some(window)) if window.highest.is_finite() => Reach::At(window.highest),
+        Some(Some(window)) if window.lowest > 1.0 || window.highest <= 0.0 => Reach::DoesNotStand,
+        Some(Some(window)) if window.highest <= cap => Reach::At(window.highest),
         Some(Some(_)) => Reach::Never,
     }
+}
+
+/// True where load factor `a` lies visibly below `b`.
+fn is_below(a: f64, b: f64) -> bool {
+    a < (1.0 - SAME) * b
 }
 
 /// True where `a` comes before `b`, both known.
@@ -133,17 +159,17 @@ fn is_before(a: Reach, b: Reach) -> bool {
     match (a, b) {
         (Reach::Unknown | Reach::Never, _) | (_, Reach::Unknown | Reach::DoesNotStand) => false,
         (Reach::DoesNotStand, _) | (Reach::At(_), Reach::Never) => true,
-        (Reach::At(a), Reach::At(b)) => a < b,
+        (Reach::At(a), Reach::At(b)) => is_below(a, b),
     }
 }
 
 /// The first of instability and crushing. Where the arch does not stand as a mechanism, crushing does not count.
 fn first(instability: Reach, crushing: Reach) -> (Reach, Governs) {
     match (instability, crushing) {
-        (Reach::Unknown, _) | (_, Reach::Unknown) => (Reach::Unknown, Governs::Unknown),
         (Reach::DoesNotStand, _) => (instability, Governs::Instability),
+        (Reach::Unknown, _) | (_, Reach::Unknown) => (Reach::Unknown, Governs::Unknown),
         (_, Reach::DoesNotStand) => (crushing, Governs::Crushing),
-        (Reach::At(falls), Reach::At(crushes)) if crushes < falls => (crushing, Governs::Crushing),
+        (Reach::At(falls), Reach::At(crushes)) if is_below(crushes, falls) => (crushing, Governs::Crushing),
         (Reach::Never, Reach::At(_)) => (crushing, Governs::Crushing),
         (Reach::At(_), _) => (instability, Governs::Instability),
         (Reach::Never, Reach::Never) => (Reach::Never, Governs::Nothing),

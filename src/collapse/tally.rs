@@ -2,7 +2,7 @@
 
 use super::discretise::Model;
 use super::record::{Point, Recorder, stress_field};
-use super::{Analysis, AnalysisError, CollapseReport, Cost, Digits, FieldAt};
+use super::{Analysis, AnalysisError, CollapseReport, Cost, Digits, FieldAt, StressField};
 use crate::dda::Tracer;
 
 impl Cost {
@@ -29,36 +29,53 @@ impl Cost {
 }
 
 impl CollapseReport {
-    /// Stress fields along a path; `near`: the point just before collapse.
+    /// Stress fields that are asked for and lie on a path; `near`: the point just before collapse.
     pub(super) fn add_fields(&mut self, analysis: &Analysis, model: &Model, path: &Recorder, near: Option<&Point>) {
-        for field in &analysis.fields {
-            let found = match field {
-                FieldAt::LoadFactor(load_factor) => path.at(*load_factor).map(|d| (*load_factor, d)),
-                FieldAt::NearCollapse => near.map(|(load_factor, d)| (*load_factor, d.as_slice())),
-            };
-            match found {
-                Some((load_factor, d)) => self.stress_fields.push(stress_field(model, load_factor, d)),
-                None => self.notes.push(missing_field(*field)),
-            }
-        }
+        let found = analysis.fields.iter().filter_map(|field| match field {
+            FieldAt::LoadFactor(load_factor) => path.at(*load_factor).map(|d| (*load_factor, d)),
+            FieldAt::NearCollapse => near.map(|(load_factor, d)| (*load_factor, d.as_slice())),
+        });
+        self.stress_fields.extend(found.map(|(load_factor, d)| stress_field(model, load_factor, d)));
     }
 
     /// Stress fields of an arch on which nothing grows: the same at any load factor.
     pub(super) fn fields_at_rest(&mut self, analysis: &Analysis, model: &Model, displacements: &[f64]) {
-        for field in &analysis.fields {
-            match field {
-                FieldAt::LoadFactor(factor) => self.stress_fields.push(stress_field(model, *factor, displacements)),
-                FieldAt::NearCollapse => self.notes.push(missing_field(*field)),
-            }
-        }
+        let factors = analysis.fields.iter().filter_map(|field| match field {
+            FieldAt::LoadFactor(factor) => Some(*factor),
+            FieldAt::NearCollapse => None,
+        });
+        self.stress_fields.extend(factors.map(|factor| stress_field(model, factor, displacements)));
     }
 
-    /// Takes in the leg that was followed the other way.
+    /// Takes in the leg that was followed the other way; its point near collapse is not the one that was asked for.
     pub(super) fn join_other_end(&mut self, other: CollapseReport) {
         self.other_end = other.end;
         self.at_unit_load = self.at_unit_load.take().or(other.at_unit_load);
+        let near = other.near_collapse.map(|near| near.load_factor);
+        let new = |field: &StressField| {
+            Some(field.load_factor) != near && self.stress_fields.iter().all(|f| f.load_factor != field.load_factor)
+        };
+        let fields: Vec<StressField> = other.stress_fields.into_iter().filter(new).collect();
+        self.stress_fields.extend(fields);
         self.notes.extend(other.notes);
         self.cost.join(other.cost);
+    }
+
+    /// Puts the stress fields in the order in which they were asked for, and notes those that were not found.
+    pub(super) fn settle_fields(&mut self, analysis: &Analysis) {
+        let near = self.near_collapse.as_ref().map(|near| near.load_factor);
+        let mut settled = Vec::new();
+        for field in &analysis.fields {
+            let wanted = match field {
+                FieldAt::LoadFactor(load_factor) => Some(*load_factor),
+                FieldAt::NearCollapse => near,
+            };
+            match self.stress_fields.iter().find(|found| Some(found.load_factor) == wanted) {
+                Some(found) => settled.push(found.clone()),
+                None => self.notes.push(missing_field(*field)),
+            }
+        }
+        self.stress_fields = settled;
     }
 
     /// A number that is not finite must not reach anyone as a `null` or a blank.

@@ -1,6 +1,6 @@
 //! From the limit window and the load path to one answer, or to saying that we cannot tell.
 
-use super::certificate::{Certificate, Doubt, LATER_MECHANISM, any_fixed, loaded};
+use super::certificate::{Certificate, Doubt, LATER_MECHANISM, any_fixed, loaded, mesh_notes};
 use super::discretise::{Model, discretise};
 use super::path::{ATTEMPTS, Attempt, Leg, disturbed, follow, nothing_grows, stand, total};
 use super::record::{MOST_STEPS, Recorder, snapshot};
@@ -8,6 +8,7 @@ use super::{
     Aim, Analysis, AnalysisError, CollapseReport, Cost, Crushing, Direction, LimitWindow, LoadStep, Method, Outcome,
     PathEnd, ThrustRange, Watch, ending, motion, safety,
 };
+use crate::arch::{Joint, JointLaw};
 use crate::dda::{End, Tracer};
 use std::cell::Cell;
 use std::ops::ControlFlow;
@@ -59,6 +60,7 @@ pub(super) fn run(analysis: &Analysis, watch: &mut dyn Watch) -> Result<Collapse
         }
         report.notes.push(doubt.to_string());
     }
+    report.settle_fields(analysis);
     match analysis.aim {
         Aim::Collapse => safety::crushed_at_start(&mut report),
         Aim::Safety { crushing } => safety::judge(&mut report, crushing),
@@ -110,6 +112,7 @@ impl<'a> Question<'a> {
             watch.on_step(&LoadStep { load_factor, events: tracer.events() }).map_break(|_| ())
         };
         let mut report = self.blank(&model);
+        report.notes = self.mesh_notes(&model);
         let (mut tracer, end) =
             stand(&model, &fixed, self.start, self.weight, &mut |t| progress(t, self.start * t.parameter()));
         report.cost.add(&tracer, Cost::default());
@@ -229,6 +232,13 @@ impl<'a> Question<'a> {
         report.outcome = Outcome::FallsAsBuilt;
         report.end = Some(fall);
         Attempted { report, doubt }
+    }
+
+    fn mesh_notes(&self, model: &Model) -> Vec<String> {
+        let slenderness = model.grids.iter().map(|grid| grid.slenderness()).fold(1.0, f64::max);
+        let several = self.analysis.mesh.subblocks.iter().any(|&subblocks| subblocks != [1, 1]);
+        let cohesive = |joint: &Joint| matches!(joint.law, JointLaw::Dry { cohesion, .. } if cohesion > 0.0);
+        mesh_notes(slenderness, several, self.analysis.arch.joints.iter().any(cohesive))
     }
 
     fn stopped(&self, tracer: &Tracer) -> AnalysisError {

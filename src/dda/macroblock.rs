@@ -33,8 +33,9 @@ pub struct Seam {
     pub points: [Vec2; 3],
     /// Unit normals there, from the first subblock into the second.
     pub normals: [Vec2; 3],
-    /// True where the side runs through the whole stone, so that nothing but its linear part can carry bending.
-    pub through: bool,
+    /// Whether the linear part of the jump along the normal, and along the side, is as stiff as an elastic layer: where the
+    /// side runs through the whole stone, nothing but it can carry bending.
+    pub stiff: [bool; 2],
 }
 
 /// Weights of Simpson's rule for the mean along a side.
@@ -99,7 +100,7 @@ impl Macroblock {
         let same_block = |(a, b): (&Block, &Block)| a.same_as(b, rounding);
         let same_seam = |(a, b): (&Seam, &Seam)| {
             let length = a.length();
-            (a.blocks, a.through) == (b.blocks, b.through)
+            (a.blocks, a.stiff) == (b.blocks, b.stiff)
                 && a.points.iter().zip(b.points).all(|(&a, b)| near(a, b))
                 && a.normals.iter().zip(b.normals).all(|(&a, b)| near(a * length, b * length))
         };
@@ -151,8 +152,8 @@ impl Macroblock {
                 let distance = (second.centroid() - first.centroid()).dot(&seam.normals[1]);
                 let layer = first.youngs_modulus() * seam.length() / distance;
                 let (mean, linear) = (SIMPSON, [-1.0, 0.0, 1.0]);
-                let of_linear = if seam.through { 1.0 } else { LINEAR } / 12.0;
-                [(mean, 0, MEAN), (mean, 1, MEAN), (linear, 0, of_linear), (linear, 1, of_linear)]
+                let [normal, tangential] = seam.stiff.map(|stiff| if stiff { 1.0 } else { LINEAR } / 12.0);
+                [(mean, 0, MEAN), (mean, 1, MEAN), (linear, 0, normal), (linear, 1, tangential)]
                     .map(|(weights, along, share)| (share * layer, sum(weights, along)))
             }
         }
@@ -176,8 +177,8 @@ mod tests {
         let (mut blocks, mut seams) = (Vec::new(), Vec::new());
         let seam = |blocks: [usize; 2], a: Vec2, b: Vec2, sense: f64| {
             let normals = [perpendicular(b - a).normalize() * sense; 3];
-            let through = if sense > 0.0 { along } else { radial } == 1;
-            Seam { blocks, points: [a, 0.5 * (a + b), b], normals, through }
+            let stiff = if sense > 0.0 { [along == 1, false] } else { [radial == 1; 2] };
+            Seam { blocks, points: [a, 0.5 * (a + b), b], normals, stiff }
         };
         for (j, i) in (0..along).flat_map(|j| (0..radial).map(move |i| (j, i))) {
             let corners = [point(i, j), point(i, j + 1), point(i + 1, j + 1), point(i + 1, j)];

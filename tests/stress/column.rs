@@ -153,9 +153,12 @@ impl<'g> Whole<'g> {
             // As a seam counts it, on an arc too: to the fourth order of its angle.
             let length = (4.0 * ((m - p).norm() + (q - m).norm()) - (q - p).norm()) / 3.0;
             let layer = e * length / (b - a).dot(&seam.normals[1]);
-            let linear = if seam.through { 1.0 } else { 0.003 };
-            let parts = [(1e4, [1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0]), (linear / 12.0, [-1.0, 0.0, 1.0])];
-            for ((share, weights), turned) in parts.into_iter().flat_map(|part| [(part, false), (part, true)]) {
+            let linear = seam.stiff.map(|stiff| if stiff { 1.0 } else { 0.003 } / 12.0);
+            let simpson = [1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0];
+            let parts = [(1e4, simpson, false), (1e4, simpson, true)];
+            let ends = [-1.0, 0.0, 1.0];
+            for (share, weights, turned) in parts.into_iter().chain([(linear[0], ends, false), (linear[1], ends, true)])
+            {
                 let mut row = Row::new();
                 for (i, weight) in weights.into_iter().enumerate() {
                     let n = seam.normals[i];

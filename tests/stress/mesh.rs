@@ -82,8 +82,8 @@ impl Mesh {
         let normals = if arc { points.map(|p| p.normalize()) } else { [straight; 3] };
         match blocks {
             [Some(first), Some(second)] => {
-                let through = if turn > 0.0 { self.along } else { self.radial } == 1;
-                self.seams.push(Seam { blocks: [first, second], points, normals, through });
+                let stiff = if turn > 0.0 { [self.along == 1, false] } else { [self.radial == 1; 2] };
+                self.seams.push(Seam { blocks: [first, second], points, normals, stiff });
             }
             [Some(block), None] => self.outer.push(Side { block, points, normals }),
             [None, Some(block)] => self.outer.push(Side { block, points, normals: normals.map(|n| -n) }),

@@ -15,7 +15,7 @@ pub enum ReachBody {
         /// Load factor at which it does: the safety factor. Below 1 the full loads are too much.
         load_factor: f64,
     },
-    /// It does not happen up to the cap.
+    /// It does not happen before the arch falls or the cap is reached.
     Never,
     /// Fails under the full loads already (or needs more of them); how far below is not known.
     DoesNotStand,

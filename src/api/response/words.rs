@@ -17,7 +17,8 @@ pub enum OutcomeWord {
     StandsInWindow,
     /// Stands up to the cap.
     NeverCollapses,
-    /// The stone crushes before the arch falls: given by a safety analysis that crushing governs.
+    /// The stone crushes before the arch falls: in a safety analysis that crushing governs; in any other, where its joints
+    /// are crushed and its stones yield under the loads at the start of the path already.
     Crushes,
     /// Path and certificate contradict each other, or the path could not be followed.
     CannotTell,

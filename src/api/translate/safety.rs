@@ -119,11 +119,12 @@ fn check_size(site: &Site<'_>, abscissae: usize, faults: &mut Faults) -> bool {
         "abscissae times subblocks come to {subblocks}: keep to {MAX_CURVE_SUBBLOCKS} by fewer abscissae or a \
          coarser mesh"
     );
-    let forces = abscissae * loads::forces_per_voussoir_of(&site.request.loads) * site.voussoirs().max(1);
+    let forces =
+        abscissae * loads::forces_per_voussoir_of(&site.request.loads) * site.pieces().iter().sum::<usize>().max(1);
     faults.require(subblocks <= MAX_CURVE_SUBBLOCKS, ABSCISSAE, detail) && {
         let detail = format!(
-            "abscissae times loads and bands times voussoirs come to {forces}: keep to {MAX_CURVE_FORCES} by fewer \
-             abscissae or by joining loads"
+            "abscissae times loads and bands times subblocks along the arch come to {forces}: keep to \
+             {MAX_CURVE_FORCES} by fewer abscissae, by joining loads or by a coarser mesh"
         );
         faults.require(forces <= MAX_CURVE_FORCES, ABSCISSAE, detail)
     }

@@ -50,9 +50,9 @@ impl<'a> Site<'a> {
         Site { request, stone, whole, arch, subblocks, method, fields }
     }
 
-    /// How many voussoirs the whole arch has.
-    pub fn voussoirs(&self) -> usize {
-        self.whole.as_ref().map_or(0, |arch| arch.voussoirs.len())
+    /// Into how many pieces the extrados side of every voussoir of the whole arch is cut.
+    pub fn pieces(&self) -> Vec<usize> {
+        self.subblocks.iter().map(|[_, along]| *along).collect()
     }
 
     /// Subblocks of every voussoir that is analysed.
@@ -64,8 +64,7 @@ impl<'a> Site<'a> {
     /// The analysis under these loads; none where the arch cannot be built.
     pub fn analysis(&self, entries: &[LoadEntry], faults: &mut Faults) -> Option<Analysis> {
         let request = self.request;
-        let pieces: Vec<usize> = self.subblocks.iter().map(|[_, along]| *along).collect();
-        let (fixed, scaled) = loads::loads(entries, self.whole.as_ref(), &pieces, self.stone.density, faults);
+        let (fixed, scaled) = loads::loads(entries, self.whole.as_ref(), &self.pieces(), self.stone.density, faults);
         if let Some(whole) = self.whole.as_ref().filter(|_| request.arch.half) {
             half::check_loads(request, entries, whole, faults);
         }
