@@ -111,3 +111,33 @@ fn a_cut_through_a_column_of_subblocks_carries_the_thrust() {
         }
     }
 }
+
+/// Stress couple in the middle column of subblocks of stone `k`, N m per metre of depth.
+fn couple(analysis: &Analysis, report: &CollapseReport, k: usize, [radial, along]: [usize; 2]) -> f64 {
+    let middle = analysis.arch.joints[k].middle() + analysis.arch.joints[k + 1].middle();
+    let forward = Vec2::new(middle.y, -middle.x).normalize();
+    let (thickness, cells) = (RADII[1] - RADII[0], radial as f64);
+    let of_column = report.stress_fields[0].subblocks.iter().filter(|s| s.voussoir == k && s.place[1] == along / 2);
+    of_column
+        .map(|s| {
+            let [x, y, tau] = s.stress;
+            let stress = x * forward.x * forward.x + y * forward.y * forward.y + 2.0 * tau * forward.x * forward.y;
+            -stress * (thickness / cells) * ((s.place[0] as f64 + 0.5) / cells - 0.5) * thickness
+        })
+        .sum()
+}
+
+#[test]
+fn stones_of_one_subblock_along_bend_as_finer_ones_do() {
+    let [coarse, fine] = [[16, 1], [16, 5]];
+    let (analysis, report) = solved(4, coarse, 10.0);
+    let (_, finer) = solved(4, fine, 10.0);
+    let couples: Vec<[f64; 2]> = (0..COUNT)
+        .filter(|&k| k != 4)
+        .map(|k| [couple(&analysis, &report, k, coarse), couple(&analysis, &finer, k, fine)])
+        .collect();
+    let largest = couples.iter().map(|[_, fine]| fine.abs()).fold(0.0, f64::max);
+    for [coarse, fine] in couples {
+        assert!((coarse - fine).abs() < 0.08 * largest, "{coarse} N m/m, not {fine}");
+    }
+}
