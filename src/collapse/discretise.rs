@@ -134,7 +134,8 @@ fn touches<'a>(
     let places = places(before, after);
     (0..places.len()).map(move |j| {
         let eta = places[j];
-        let share = 0.5 * (places[(j + 1).min(places.len() - 1)] - places[j.saturating_sub(1)]);
+        let sides = [eta - places[j.saturating_sub(1)], places[(j + 1).min(places.len() - 1)] - eta];
+        let share = 0.5 * (sides[0] + sides[1]);
         // Two corners alone have the penalty each.
         let stiffness = 2.0 * penalty * share;
         let nobody = [(0, 0.0); 2];
@@ -145,8 +146,8 @@ fn touches<'a>(
             stiffness: [0, 1].map(|_| contact * stiffness * (1.0 + STIFFNESS_SCATTER * scatter.next())),
             link: [LINK * stiffness; 2],
             law: law(joint, share),
-            before: before.map_or(nobody, |g| g.on_joint(true, eta)),
-            after: after.map_or(nobody, |g| g.on_joint(false, eta)),
+            before: before.map_or(nobody, |g| g.on_joint(true, eta, sides)),
+            after: after.map_or(nobody, |g| g.on_joint(false, eta, sides)),
         }
     })
 }

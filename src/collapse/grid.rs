@@ -154,10 +154,16 @@ impl Grid {
         (points, points.map(|p| (p - centre).normalize() * sense))
     }
 
-    /// Subblocks that the point `eta` of the joint before (`after` false) or after touches.
-    pub(super) fn on_joint(&self, after: bool, eta: f64) -> Shares {
+    /// Subblocks that the point `eta` of the joint before (`after` false) or after touches. Between two, each takes as much
+    /// as lies on its side of what the point stands for: `below` towards the intrados, `above` towards the extrados.
+    pub(super) fn on_joint(&self, after: bool, eta: f64, [below, above]: [f64; 2]) -> Shares {
         let column = if after { self.along - 1 } else { 0 };
-        shares(eta, self.radial).map(|(i, share)| (column * self.radial + i, share))
+        let [mut lower, mut upper] = shares(eta, self.radial);
+        if upper.1 > 0.0 {
+            lower.1 = below / (below + above);
+            upper.1 = above / (below + above);
+        }
+        [lower, upper].map(|(i, share)| (column * self.radial + i, share))
     }
 
     /// Subblocks on which a force at `at` acts.

@@ -29,9 +29,13 @@ pub fn bonded(stones: &[Mesh], faces: &[[Vec2; 2]], smooth: Option<usize>) -> Gl
     let mut touches = Vec::new();
     for (k, &[a, b]) in faces.iter().enumerate() {
         let (before, after) = (k.checked_sub(1).map(|k| &stones[k]), stones.get(k));
-        let parts = before.into_iter().chain(after).map(|m| m.radial).max().unwrap();
-        for j in 0..=parts {
-            let (eta, share) = (j as f64 / parts as f64, if j == 0 || j == parts { 0.5 } else { 1.0 } / parts as f64);
+        let lines = |m: &Mesh| (0..=m.radial).map(|j| j as f64 / m.radial as f64).collect::<Vec<_>>();
+        let mut places: Vec<f64> = before.into_iter().chain(after).flat_map(lines).collect();
+        places.sort_by(f64::total_cmp);
+        places.dedup_by(|a, b| *a - *b < 1e-9);
+        for (j, &eta) in places.iter().enumerate() {
+            let sides = [eta - places[j.saturating_sub(1)], places[(j + 1).min(places.len() - 1)] - eta];
+            let share = 0.5 * (sides[0] + sides[1]);
             let tangent = (b - a).normalize();
             let shear = if smooth == Some(k) && j > 0 { 0.0 } else { 0.8 };
             let nobody = [(0, 0.0); 2];
@@ -42,8 +46,8 @@ pub fn bonded(stones: &[Mesh], faces: &[[Vec2; 2]], smooth: Option<usize>) -> Gl
                 stiffness: [3.0 * PENALTY * share, shear * PENALTY * share],
                 link: [8.0 * PENALTY * share, 8.0 * PENALTY * share],
                 law: Law::Bonded,
-                before: before.map_or(nobody, |m| m.on_joint(true, eta)),
-                after: after.map_or(nobody, |m| m.on_joint(false, eta)),
+                before: before.map_or(nobody, |m| m.on_joint(true, eta, sides)),
+                after: after.map_or(nobody, |m| m.on_joint(false, eta, sides)),
             };
             touches.push((k, touch));
         }

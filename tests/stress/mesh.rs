@@ -95,13 +95,14 @@ impl Mesh {
         Macroblock::new(self.blocks.clone(), self.seams.clone(), bond)
     }
 
-    /// Subblocks of the joint before or after at `eta` from the intrados, each with its share.
-    pub fn on_joint(&self, after: bool, eta: f64) -> [(usize, f64); 2] {
+    /// Subblocks of the joint before or after at `eta` from the intrados, each with its share of what the point stands for.
+    pub fn on_joint(&self, after: bool, eta: f64, [below, above]: [f64; 2]) -> [(usize, f64); 2] {
         let column = if after { (self.along - 1) * self.radial } else { 0 };
         let place = eta * self.radial as f64;
         let line = place.round();
         if (place - line).abs() < 1e-9 && line > 0.5 && line < self.radial as f64 - 0.5 {
-            return [(column + line as usize - 1, 0.5), (column + line as usize, 0.5)];
+            let lower = below / (below + above);
+            return [(column + line as usize - 1, lower), (column + line as usize, 1.0 - lower)];
         }
         [(column + (place as usize).min(self.radial - 1), 1.0), (0, 0.0)]
     }
