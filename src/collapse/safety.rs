@@ -43,7 +43,10 @@ pub(super) fn judge(report: &mut CollapseReport, counted: CrushingKind) {
         (Reach::At(crushes), Reach::Never) => is_below(crushes, end),
         (plastic, elastic) => is_before(plastic, elastic),
     };
-    let uncrushed = plastic_section == Reach::Never && matches!(elastic, Reach::At(_) | Reach::DoesNotStand);
+    // Not merely beyond the cap: with dry joints alone every growing load crushes some joint in the end.
+    let window = crushing.and_then(|crushing| crushing.plastic_section.as_ref()).and_then(|plastic| plastic.window);
+    let endless = window.is_some_and(|window| window.highest.is_infinite());
+    let uncrushed = endless && matches!(elastic, Reach::At(_) | Reach::DoesNotStand);
     report.notes.extend(too_coarse.then(|| TOO_COARSE.into()));
     report.notes.extend(uncrushed.then(|| UNCRUSHED.into()));
     let takes_elastic = uncrushed || (counted == CrushingKind::Elastic && !too_coarse);
