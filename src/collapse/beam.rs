@@ -2,15 +2,12 @@
 
 use super::discretise::{bond, elasticity};
 use super::grid::{Grid, Lines};
-use super::{AnalysisError, BeamReport, CurvedBeam, PlaneModel, StressField, SubblockStress};
+use super::{AnalysisError, BeamReport, CurvedBeam, DEFAULT_PENALTY_RATIO, PlaneModel, StressField, SubblockStress};
 use crate::arch::{Joint, JointLaw};
 use crate::dda::{Macroblock, free_response};
 use crate::geometry::{Region, Vec2};
 use nalgebra::DVector;
 use std::f64::consts::FRAC_PI_2;
-
-/// Contact penalty over Young's modulus in Table 1 of the paper, for seams with corner springs.
-const PENALTY_RATIO: f64 = 10.0;
 
 /// Steps over the logarithm of the radius; an even number. Exact to 1e-9 for radii up to 1 to 1000.
 const SIMPSON_STEPS: i32 = 2000;
@@ -116,7 +113,7 @@ fn macroblock(beam: &CurvedBeam) -> (Grid, Macroblock) {
     // First moment of a quarter ring about either axis: (b^3 - a^3) / 3.
     let whole = Region { area, centroid: Vec2::repeat((b.powi(3) - a.powi(3)) / (3.0 * area)) };
     let grid = Grid::new([&joint(Vec2::y()), &joint(Vec2::x())], whole, lines, beam.subblocks);
-    let bond = bond(beam.seams, PENALTY_RATIO * beam.stone.youngs_modulus);
+    let bond = bond(beam.seams, DEFAULT_PENALTY_RATIO * beam.stone.youngs_modulus);
     (grid, grid.macroblock(elasticity(&beam.stone, beam.plane), bond))
 }
 

@@ -199,8 +199,8 @@ impl Certificate {
         (sign * limit < cap).then_some(Doubt::Above { path: sign * cap, limit })
     }
 
-    /// The arch fell at the start of the path; `loose`: some stone carries no load; `power` is what its loads do in the mechanism, as a share of the most
-    /// they could.
+    /// The arch fell at the start of the path; `loose`: some stone carries no load; `power` is what its loads do in the
+    /// mechanism, as a share of the most they could.
     pub(super) fn fallen(&self, start: f64, loose: bool, slides: bool, power: f64) -> Option<Doubt> {
         // The joints of unloaded stones carry nothing, which leaves the static theorem no room to be solved in.
         if loose && !self.stands_at(start) && self.theorem.nearly_stands(start, MARGIN) {

@@ -7,8 +7,10 @@ use crate::geometry::{Region, Vec2, cross, perpendicular};
 
 /// A point this close to a line of the grid, as a share of a subblock, lies on it.
 pub(super) const ON_LINE: f64 = 1e-9;
-/// Newton steps that find a point's place in a stone; its map is bilinear, so a few are enough.
+/// Newton steps that find a point's place in a stone, whose map is bilinear or nearly so: a few are enough.
 const PLACE_STEPS: usize = 20;
+/// Step of the central differences that stand for the map's derivatives there.
+const PLACE_DIFFERENCE: f64 = 1e-6;
 
 /// One or two subblocks, each with its share.
 pub(super) type Shares = [(usize, f64); 2];
@@ -180,7 +182,7 @@ impl Grid {
     /// The place (xi, eta) of a point, by Newton's method.
     fn place(&self, at: Vec2) -> (f64, f64) {
         let (mut xi, mut eta) = (0.5, 0.5);
-        let step = 1e-6;
+        let step = PLACE_DIFFERENCE;
         for _ in 0..PLACE_STEPS {
             let here = self.point(xi, eta);
             let by_xi = (self.point(xi + step, eta) - self.point(xi - step, eta)) / (2.0 * step);

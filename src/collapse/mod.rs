@@ -23,6 +23,9 @@ pub use report::*;
 use crate::arch::{Arch, PointForce, Stone};
 use std::ops::ControlFlow;
 
+/// Contact penalty as a multiple of Young's modulus in Table 1 of the paper (1e10 N/m over 1e9 Pa).
+pub const DEFAULT_PENALTY_RATIO: f64 = 10.0;
+
 /// Which way the load factor goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Direction {

@@ -1,6 +1,10 @@
 //! What an analysis says: plain data, SI units, radians.
 
+mod strength;
+
 pub use crate::arch::Face;
+pub use strength::*;
+
 use crate::geometry::Vec2;
 
 /// How the question was answered.
@@ -176,151 +180,6 @@ pub struct ThrustRange {
     pub lowest: f64,
     /// Greatest.
     pub highest: f64,
-}
-
-/// State of stress in one subblock, constant in it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SubblockStress {
-    /// Which voussoir.
-    pub voussoir: usize,
-    /// Place in it: from the intrados, and from the joint before it, both from 0.
-    pub place: [usize; 2],
-    /// Centroid, m.
-    pub centre: Vec2,
-    /// Corners, counter-clockwise from the intrados end at the joint before, m.
-    pub corners: [Vec2; 4],
-    /// sigma_x, sigma_y, tau_xy, Pa, compression negative.
-    pub stress: [f64; 3],
-}
-
-impl SubblockStress {
-    /// Principal stresses, the larger (more tensile) first, Pa.
-    pub fn principal(&self) -> [f64; 2] {
-        let [x, y, tau] = self.stress;
-        let (middle, radius) = (0.5 * (x + y), (0.5 * (x - y)).hypot(tau));
-        [middle + radius, middle - radius]
-    }
-
-    /// Equivalent stress of Tresca, eq. (4) of the paper: the largest of |s_1 - s_2|, |s_1| and |s_2|, Pa.
-    pub fn tresca(&self) -> f64 {
-        let [first, second] = self.principal();
-        (first - second).abs().max(first.abs()).max(second.abs())
-    }
-}
-
-/// Stress in every subblock at one load factor.
-#[derive(Debug, Clone, PartialEq)]
-pub struct StressField {
-    /// Load factor.
-    pub load_factor: f64,
-    /// Every subblock: voussoir by voussoir, in it from joint to joint, in that from intrados to extrados.
-    pub subblocks: Vec<SubblockStress>,
-}
-
-/// When the equivalent stress first reaches the strength.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ElasticCrushing {
-    /// Load factor at which it does, exact within its linear stretch of the path; None where it does not.
-    pub load_factor: Option<f64>,
-    /// True where it has already at the start of the path.
-    pub at_start: bool,
-    /// The subblock where it does, or that with the largest equivalent stress on the path, at the load factor it has it.
-    pub where_largest: Option<SubblockStress>,
-}
-
-/// Limit analysis with joints of finite strength.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PlasticCrushing {
-    /// Load factors in equilibrium; None where there are none.
-    pub window: Option<LimitWindow>,
-    /// Joints that are crushed at the window's lowest and at its highest end.
-    pub joints: [Vec<usize>; 2],
-}
-
-/// Both answers about crushing.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Crushing {
-    /// Compressive strength, Pa.
-    pub strength: f64,
-    /// First yield of a subblock, as in the paper; None where no path was followed.
-    pub elastic: Option<ElasticCrushing>,
-    /// Collapse with plastic sections; None where it could not be computed.
-    pub plastic_section: Option<PlasticCrushing>,
-}
-
-/// A safety factor for one way to fail.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Reach {
-    /// Fails at this load factor (below 1: the full loads are too much).
-    At(f64),
-    /// Does not fail before the path ends, be it in a mechanism or at the cap.
-    Never,
-    /// Fails under the full loads already (or needs more of them); how far below is not known.
-    DoesNotStand,
-    /// Cannot be told; the notes say why.
-    Unknown,
-}
-
-/// What limits the safety factor.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Governs {
-    /// The arch becomes a mechanism.
-    Instability,
-    /// The stone crushes.
-    Crushing,
-    /// Nothing, up to the cap.
-    Nothing,
-    /// Cannot be told.
-    Unknown,
-}
-
-/// Zone of Figs. 10 and 13 of the paper.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Zone {
-    /// I: instability, the crown rises.
-    CrownRises,
-    /// II: crushing.
-    Crushing,
-    /// III: instability, the crown descends.
-    CrownDescends,
-}
-
-/// Safety of an arch under its scaled loads in full.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SafetyPoint {
-    /// What it is drawn over, on a curve.
-    pub abscissa: Option<f64>,
-    /// Against becoming a mechanism.
-    pub instability: Reach,
-    /// Against first yield of a subblock.
-    pub elastic: Reach,
-    /// Against collapse with plastic sections.
-    pub plastic_section: Reach,
-    /// The first of instability and that kind of crushing which the request counts.
-    pub governing: Reach,
-    /// Which of them that is.
-    pub governed_by: Governs,
-    /// How the arch moves when it becomes a mechanism, where it does.
-    pub mode: Option<Mode>,
-    /// Zone of Figs. 10 and 13; None where nothing limits, or where the arch sways or slides.
-    pub zone: Option<Zone>,
-    /// What an engineer should know.
-    pub notes: Vec<String>,
-}
-
-/// The curved beam, solved and held against the theory of elasticity.
-#[derive(Debug, Clone, PartialEq)]
-pub struct BeamReport {
-    /// Stress in every subblock.
-    pub field: StressField,
-    /// Equivalent stress at the subblocks' centres in the theory of elasticity, Pa, in the field's order.
-    pub exact: Vec<f64>,
-    /// Error e_N of eq. (5), as a share (not per cent).
-    pub error: f64,
-    /// Strain energy, J/m, and its exact value.
-    pub energy: [f64; 2],
-    /// Displacement unknowns.
-    pub unknowns: usize,
 }
 
 /// The whole answer.

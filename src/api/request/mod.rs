@@ -14,6 +14,7 @@ pub use mesh::*;
 pub use question::*;
 
 use crate::arch::Stone;
+use crate::collapse::DEFAULT_PENALTY_RATIO;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -93,9 +94,6 @@ pub struct StoneRequest {
     #[schema(minimum = 0.01, exclusive_maximum = 100.0)]
     pub penalty_ratio: f64,
 }
-
-/// Contact penalty as a multiple of Young's modulus in Table 1 of the paper (1e10 N/m over 1e9 Pa).
-pub const DEFAULT_PENALTY_RATIO: f64 = 10.0;
 
 impl Default for StoneRequest {
     fn default() -> Self {

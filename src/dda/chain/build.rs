@@ -1,0 +1,163 @@
+//! Building a chain: contact points, and stones of one shape condensed once.
+
+use super::{Body, Chain, Kind, stresses};
+use crate::dda::condense::{Condensed, Loose, Node};
+use crate::dda::contact::{Contact, Law};
+use crate::dda::factor::Tridiagonal;
+use crate::dda::macroblock::Macroblock;
+use crate::geometry::{Vec2, cross};
+use nalgebra::DMatrix;
+use std::ops::Range;
+
+/// Coordinates that differ by this share of the farthest from the origin differ by rounding: some operations' worth.
+const ROUNDING: f64 = 256.0 * f64::EPSILON;
+
+/// A contact point as it is built.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Touch {
+    /// Its place, m.
+    pub at: Vec2,
+    /// Unit vector from the body before into the body after.
+    pub normal: Vec2,
+    /// Unit vector along which shear counts, perpendicular to the normal.
+    pub tangent: Vec2,
+    /// Stiffness [k_n, k_t] of the contact itself, N/m2.
+    pub stiffness: [f64; 2],
+    /// Stiffness of the links that tie it to the subblocks on either side, N/m2. The three are in series.
+    pub link: [f64; 2],
+    /// Its law.
+    pub law: Law,
+    /// The one or two subblocks it touches in the body before, with the share each takes.
+    pub before: [(usize, f64); 2],
+    /// The same in the body after.
+    pub after: [(usize, f64); 2],
+}
+
+/// Builds a [`Chain`] interface by interface.
+#[derive(Debug)]
+pub struct ChainBuilder {
+    macroblocks: Vec<Macroblock>,
+    touches: Vec<Vec<Touch>>,
+}
+
+impl ChainBuilder {
+    /// A chain of these bodies with no contacts yet, the first interface (ground to body 0) open for contacts.
+    pub fn new(macroblocks: Vec<Macroblock>) -> Self {
+        ChainBuilder { macroblocks, touches: vec![Vec::new()] }
+    }
+
+    /// Adds a contact point to the current interface.
+    pub fn contact(&mut self, touch: Touch) {
+        if let Some(interface) = self.touches.last_mut() {
+            interface.push(touch);
+        }
+    }
+
+    /// Closes the current interface and goes on to the next.
+    pub fn next_interface(&mut self) {
+        self.touches.push(Vec::new());
+    }
+
+    /// The chain; interfaces not reached stay free.
+    ///
+    /// # Errors
+    /// When a body is not held by two contact points at least.
+    pub fn finish(mut self) -> Result<Chain, Loose> {
+        let n = self.macroblocks.len();
+        self.touches.resize(n + 1, Vec::new());
+        let mut kinds: Vec<Kind> = Vec::new();
+        let mut bodies = Vec::new();
+        for (i, macroblock) in self.macroblocks.iter().enumerate() {
+            let nodes = nodes(&self.touches[i], &self.touches[i + 1]);
+            let (origin, x_axis) = nodes.first().map(|n| (n.at, n.axes[0])).ok_or(Loose)?;
+            let (seen, nodes) = (macroblock.seen_from(origin, x_axis), seen_nodes(&nodes, origin, x_axis));
+            let rounding = ROUNDING * (origin.amax() + extent(&nodes));
+            let same = |kind: &Kind| alike(kind, &seen, &nodes, rounding);
+            let kind = match kinds.iter().rposition(same) {
+                Some(kind) => kind,
+                None => {
+                    kinds.push(Kind::new(seen, nodes)?);
+                    kinds.len() - 1
+                }
+            };
+            bodies.push(Body { origin, x_axis, kind });
+        }
+        let sizes: Vec<usize> = (0..2 * n).map(|face| 2 * self.touches[face.div_ceil(2)].len()).collect();
+        let elastic = elastic(&sizes, bodies.iter().map(|b| &kinds[b.kind].condensed));
+        let mut first = vec![0];
+        self.touches.iter().for_each(|t| first.push(first[first.len() - 1] + t.len()));
+        let interface = self.touches.iter().enumerate().flat_map(|(k, t)| vec![k; t.len()]).collect();
+        let touches = || self.touches.iter().flatten();
+        let contacts = touches().map(|t| Contact::new(t.stiffness, t.law)).collect();
+        let links = touches().map(|t| t.link).collect();
+        let mut chain = Chain { bodies, kinds, contacts, links, first, interface, places: Vec::new(), elastic };
+        chain.places = (0..chain.contacts.len()).map(|p| chain.find_places(p)).collect();
+        Ok(chain)
+    }
+}
+
+impl Kind {
+    fn new(macroblock: Macroblock, nodes: Vec<Node>) -> Result<Self, Loose> {
+        let condensed = Condensed::new(&macroblock, &nodes)?;
+        let area: f64 = macroblock.blocks().iter().map(|b| b.area()).sum();
+        let mean = DMatrix::from_fn(3, 6 * macroblock.blocks().len(), |i, j| {
+            let block = &macroblock.blocks()[j / 6];
+            let weight = block.area() / area / if i == 2 { block.size() } else { 1.0 };
+            if j % 6 == i { weight } else { 0.0 }
+        });
+        let mean_of_nodes = &mean * condensed.response();
+        let stress: Vec<_> = macroblock.blocks().iter().map(|b| b.stress_matrix()).collect();
+        let stress_of_nodes = DMatrix::from_columns(
+            &condensed.response().column_iter().map(|d| stresses(&stress, d.as_slice())).collect::<Vec<_>>(),
+        );
+        Ok(Kind { macroblock, nodes, condensed, mean, mean_of_nodes, stress, stress_of_nodes })
+    }
+}
+
+/// Nodes of a body between two interfaces, first those on the first.
+fn nodes(before: &[Touch], after: &[Touch]) -> Vec<Node> {
+    let node = |t: &Touch, holds| Node { at: t.at, axes: [t.normal, t.tangent], link: t.link, holds };
+    before.iter().map(|t| node(t, t.after)).chain(after.iter().map(|t| node(t, t.before))).collect()
+}
+
+fn seen_nodes(nodes: &[Node], origin: Vec2, x_axis: Vec2) -> Vec<Node> {
+    let turned = |v: Vec2| Vec2::new(v.dot(&x_axis), cross(x_axis, v));
+    nodes.iter().map(|n| Node { at: turned(n.at - origin), axes: n.axes.map(turned), ..*n }).collect()
+}
+
+fn extent(nodes: &[Node]) -> f64 {
+    nodes.iter().map(|n| n.at.amax()).fold(0.0, f64::max)
+}
+
+/// True where a body seen from its own frame is the same as `kind`, up to the rounding of its coordinates.
+fn alike(kind: &Kind, body: &Macroblock, nodes: &[Node], rounding: f64) -> bool {
+    let near = |a: Vec2, b: Vec2| (a - b).amax() <= rounding;
+    let parallel = |a: Vec2, b: Vec2, size: f64| (a - b).amax() * size <= rounding;
+    let size = extent(nodes);
+    let same_node = |(a, b): (&Node, &Node)| {
+        near(a.at, b.at)
+            && a.axes.iter().zip(b.axes).all(|(&a, b)| parallel(a, b, size))
+            && (a.link, a.holds) == (b.link, b.holds)
+    };
+    kind.nodes.len() == nodes.len()
+        && kind.nodes.iter().zip(nodes).all(same_node)
+        && kind.macroblock.same_as(body, rounding)
+}
+
+/// Elastic stiffness between the faces of all bodies.
+fn elastic<'c>(sizes: &[usize], bodies: impl Iterator<Item = &'c Condensed>) -> Tridiagonal {
+    let mut k = Tridiagonal::zeros(sizes);
+    for (i, condensed) in bodies.enumerate() {
+        let (s, left) = (condensed.stiffness(), sizes[2 * i]);
+        let all = left + sizes[2 * i + 1];
+        let copy = |panel: &mut [f64], rows: Range<usize>, columns: Range<usize>| {
+            let entries = rows.flat_map(|i| columns.clone().map(move |j| s[(i, j)]));
+            panel.iter_mut().zip(entries).for_each(|(entry, x)| *entry = x);
+        };
+        copy(k.diagonal.get_mut(2 * i), 0..left, 0..left);
+        copy(k.diagonal.get_mut(2 * i + 1), left..all, left..all);
+        copy(k.upper.get_mut(2 * i), 0..left, left..all);
+        copy(k.lower.get_mut(2 * i), left..all, 0..left);
+    }
+    k
+}
