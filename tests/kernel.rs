@@ -53,7 +53,6 @@ fn chain(rectangles: &[Rectangle], faces: &[Face], friction: f64) -> Chain {
             builder.contact(Touch {
                 at: Vec2::new(x, face.y),
                 normal: Vec2::y() * face.up,
-                tangent: Vec2::x(),
                 // A little scatter in stiffness, as analyses have it, so that ties resolve.
                 stiffness: [contact * (1.0 + 1e-5 * (2 * i + j) as f64); 2],
                 link: [4.0 * PENALTY; 2],
@@ -115,7 +114,7 @@ fn lateral_capacity(blocks: &[Rectangle], chain: &Chain) -> f64 {
     let (mut tracer, end) = stand(blocks, chain, &gravity);
     assert_eq!(end, End::Reached);
     let rate = body_loads(blocks, chain, Vec2::new(1.0, 0.0));
-    tracer.drive_on(Drive { base: gravity.on_nodes, rate: rate.on_nodes, offset: [0.0, 0.0] }, 0.0);
+    tracer.drive_on(Drive { base: gravity.on_nodes, rate: rate.on_nodes, ..Drive::default() }, 0.0);
     assert_eq!(tracer.trace(1e3, &mut watch), End::Mechanism);
     assert!(tracer.worst_residual() < 1e-9);
     tracer.peak().unwrap().parameter

@@ -142,7 +142,6 @@ fn touches<'a>(
         Touch {
             at: joint.intrados + (joint.extrados - joint.intrados) * eta,
             normal: joint.normal(),
-            tangent: joint.tangent(),
             stiffness: [0, 1].map(|_| contact * stiffness * (1.0 + STIFFNESS_SCATTER * scatter.next())),
             link: [LINK * stiffness; 2],
             law: law(joint, share),

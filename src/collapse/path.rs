@@ -106,7 +106,7 @@ pub(super) fn follow(
 ) -> Leg {
     let (start, sign) = (recorder.start, recorder.sign);
     let rate = recorder.model.scaled.on_nodes.iter().map(|s| s * sign).collect();
-    tracer.drive_on(Drive { base: fixed.to_vec(), rate, offset: [0.0, 0.0] }, sign * start);
+    tracer.drive_on(Drive { base: fixed.to_vec(), rate, ..Drive::default() }, sign * start);
     let mut met = None;
     let end = tracer.trace(cap, &mut |tracer| {
         met = recorder.see(sign * tracer.parameter(), tracer.displacements());

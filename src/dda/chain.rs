@@ -1,6 +1,7 @@
 //! The chain: bodies in a row, joined at interfaces by contact points.
 
 mod build;
+mod places;
 
 pub use build::{ChainBuilder, Touch};
 
@@ -36,11 +37,20 @@ struct Kind {
     stress_of_nodes: DMatrix<f64>,
 }
 
+/// Where a contact point is, and its normal.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Site {
+    at: Vec2,
+    normal: Vec2,
+}
+
 /// Loads on a chain.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Loads {
     /// What they are worth on the nodes, N/m.
     pub on_nodes: Vec<f64>,
+    /// The same with every force turned by -90 degrees: what a body that turns sees of them.
+    pub turned: Vec<f64>,
     /// Mean displacement and rotation of every body with its nodes held, in the body's frame.
     mean: Vec<[f64; 3]>,
     /// Stress of its subblocks with its nodes held, in the body's frame, three numbers each.
@@ -78,6 +88,7 @@ pub struct Chain {
     bodies: Vec<Body>,
     kinds: Vec<Kind>,
     contacts: Vec<Contact>,
+    sites: Vec<Site>,
     /// Stiffness of every contact's links.
     links: Vec<[f64; 2]>,
     /// Contacts of interface k: `contacts[first[k]..first[k + 1]]`.
@@ -195,29 +206,29 @@ impl Chain {
     /// Condenses forces on subblocks onto the nodes.
     pub fn loads(&self, pushes: impl IntoIterator<Item = Push>) -> Loads {
         let zeros = |b: &Body| DVector::zeros(6 * self.kinds[b.kind].macroblock.blocks().len());
-        let mut on_blocks: Vec<DVector<f64>> = self.bodies.iter().map(zeros).collect();
+        let mut on_blocks: [Vec<DVector<f64>>; 2] = std::array::from_fn(|_| self.bodies.iter().map(zeros).collect());
         for push in pushes {
             let body = &self.bodies[push.body];
             let block = &self.kinds[body.kind].macroblock.blocks()[push.subblock];
-            let load: V6 = block.load(body.turned(push.at - body.origin), body.turned(push.force));
-            let mut place = on_blocks[push.body].fixed_rows_mut::<6>(6 * push.subblock);
-            place += load;
+            let (at, force) = (body.turned(push.at - body.origin), body.turned(push.force));
+            for (on_blocks, force) in on_blocks.iter_mut().zip([force, -perpendicular(force)]) {
+                let load: V6 = block.load(at, force);
+                let mut place = on_blocks[push.body].fixed_rows_mut::<6>(6 * push.subblock);
+                place += load;
+            }
         }
-        let mut loads = Loads { on_nodes: Vec::new(), mean: Vec::new(), stress: Vec::new() };
-        for (body, load) in self.bodies.iter().zip(&on_blocks) {
+        let [straight, turned] = &on_blocks;
+        let mut loads = Loads { on_nodes: Vec::new(), turned: Vec::new(), mean: Vec::new(), stress: Vec::new() };
+        for (body, (load, turned)) in self.bodies.iter().zip(straight.iter().zip(turned)) {
             let kind = &self.kinds[body.kind];
-            let [inner, on_nodes] = kind.condensed.load(load);
-            loads.on_nodes.extend(on_nodes.iter());
+            loads.on_nodes.extend(kind.condensed.on_nodes(load).iter());
+            loads.turned.extend(kind.condensed.on_nodes(turned).iter());
+            let inner = kind.condensed.inner(load);
             let mean = &kind.mean * &inner;
             loads.mean.push([mean[0], mean[1], mean[2]]);
             loads.stress.push(stresses(&kind.stress, inner.as_slice()).as_slice().to_vec());
         }
         loads
-    }
-
-    /// Displacements of the nodes of body `i`.
-    fn of_body<'d>(&self, i: usize, d: &'d [f64]) -> &'d [f64] {
-        &d[self.elastic.start[2 * i]..self.elastic.start[2 * i + 2]]
     }
 
     /// Mean motion of body `i` for node displacements (or velocities) `d` and what loads, each times its factor, add
@@ -227,7 +238,7 @@ impl Chain {
         let of_nodes = &self.kinds[body.kind].mean_of_nodes;
         let mut mean = [0.0; 3];
         let mut add = |column: &[f64], x: f64| mean.iter_mut().zip(column).for_each(|(sum, share)| *sum += share * x);
-        of_nodes.column_iter().zip(self.of_body(i, d)).for_each(|(column, &x)| add(column.as_slice(), x));
+        of_nodes.column_iter().zip(&d[self.nodes_of(i)]).for_each(|(column, &x)| add(column.as_slice(), x));
         loads.iter().for_each(|(loads, factor)| add(&loads.mean[i], *factor));
         MeanMotion { displacement: body.turned_back(Vec2::new(mean[0], mean[1])), rotation: mean[2] }
     }
@@ -238,7 +249,7 @@ impl Chain {
         into.clear();
         into.resize(of_nodes.nrows(), 0.0);
         let mut add = |column: &[f64], x: f64| into.iter_mut().zip(column).for_each(|(sum, share)| *sum += share * x);
-        of_nodes.column_iter().zip(self.of_body(i, d)).for_each(|(column, &x)| add(column.as_slice(), x));
+        of_nodes.column_iter().zip(&d[self.nodes_of(i)]).for_each(|(column, &x)| add(column.as_slice(), x));
         loads.iter().for_each(|(loads, factor)| add(&loads.stress[i], *factor));
     }
 

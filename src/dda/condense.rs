@@ -91,14 +91,18 @@ impl Condensed {
         &self.response
     }
 
-    /// Displacements of the subblocks under `load` with the nodes held, and the forces on the nodes that stand for it.
-    pub fn load(&self, load: &DVector<f64>) -> [DVector<f64>; 2] {
-        let inner = solve(&self.factors, &DMatrix::from_column_slice(load.len(), 1, load.as_slice()));
+    /// Displacements of the subblocks under `load` with the nodes held.
+    pub fn inner(&self, load: &DVector<f64>) -> DVector<f64> {
+        solve(&self.factors, &DMatrix::from_column_slice(load.len(), 1, load.as_slice())).column(0).into_owned()
+    }
+
+    /// The forces on the nodes that stand for `load`.
+    pub fn on_nodes(&self, load: &DVector<f64>) -> DVector<f64> {
         let mut on_nodes = self.response.tr_mul(load);
         let [of_nodes, of_blocks] = &self.rigid;
         let missing = of_blocks.tr_mul(load) - of_nodes.tr_mul(&on_nodes);
         on_nodes += of_nodes * missing;
-        [inner.column(0).into_owned(), on_nodes]
+        on_nodes
     }
 }
 

@@ -128,10 +128,10 @@ impl Contact {
         }
     }
 
-    /// Change of normal and tangential force in a state per change `gap` of the gap alone, N/m.
-    pub fn force_rate(&self, state: State, gap: f64) -> [f64; 2] {
-        let [there, here] = [gap, 0.0].map(|gap| self.force_in(state, gap, 0.0));
-        [there[0] - here[0], there[1] - here[1]]
+    /// Change of normal and tangential force in a state per change of gap and slip, N/m.
+    pub fn force_rate(&self, state: State, [gap, slip]: [f64; 2]) -> [f64; 2] {
+        let [nn, nt, tn, tt] = self.tangent_stiffness(state);
+        [-(nn * gap + nt * slip), -(tn * gap + tt * slip)]
     }
 
     /// Tangent stiffness in a state, N/m2: change of (-N, -T) per change of (gap, slip), row by row.

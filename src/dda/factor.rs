@@ -34,6 +34,19 @@ impl Tridiagonal {
         }
     }
 
+    /// Sets the four panels between block rows `i` and `i + 1`, given as one matrix over both.
+    pub fn set_pair(&mut self, i: usize, entry: impl Fn(usize, usize) -> f64) {
+        let (left, all) = (self.range(i).len(), self.range(i).len() + self.range(i + 1).len());
+        let copy = |panel: &mut [f64], rows: Range<usize>, columns: Range<usize>| {
+            let entries = rows.flat_map(|i| columns.clone().map(move |j| (i, j)));
+            panel.iter_mut().zip(entries).for_each(|(x, (i, j))| *x = entry(i, j));
+        };
+        copy(self.diagonal.get_mut(i), 0..left, 0..left);
+        copy(self.diagonal.get_mut(i + 1), left..all, left..all);
+        copy(self.upper.get_mut(i), 0..left, left..all);
+        copy(self.lower.get_mut(i), left..all, 0..left);
+    }
+
     /// Number of block rows.
     pub fn rows(&self) -> usize {
         self.start.len() - 1

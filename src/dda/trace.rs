@@ -5,26 +5,18 @@
 //! that path exactly. It never asks for a direction of loading: after each crossing the sign of the new tangent is the
 //! one that goes on crossing, so rises and falls of the load factor, and momentary mechanisms, pass by themselves.
 
+mod drive;
 mod equilibrium;
+mod moving;
 mod seen;
 
-pub use equilibrium::covering;
+pub use drive::{Drive, Movement, covering};
 
 use super::chain::Chain;
 use super::contact::{Moving, State, zone};
 use super::factor::{Factor, Tridiagonal};
+use super::moving::{Placed, Velocity};
 use std::ops::ControlFlow;
-
-/// What is driven along the path: loads `base + parameter * rate`, and an offset of the gaps that changes with it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Drive {
-    /// Loads on the nodes at parameter 0, N/m.
-    pub base: Vec<f64>,
-    /// Change of the loads per unit of the parameter.
-    pub rate: Vec<f64>,
-    /// Gap offset at parameter 0 and its change per unit of the parameter, m (the same for all unbonded contacts).
-    pub offset: [f64; 2],
-}
 
 /// How a trace ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -85,6 +77,12 @@ pub struct Tracer<'a> {
     rate: f64,
     peak: Option<Peak>,
 
+    /// The moving geometry; none on the reference geometry (first order).
+    moving: Option<Placed>,
+    linearised_at: Vec<f64>,
+    /// Gap and slip that the moving ground gives every contact per unit of the parameter, first order.
+    settling: Vec<[f64; 2]>,
+
     matrix: Tridiagonal,
     load_rate: Vec<f64>,
     factor: Factor,
@@ -93,6 +91,7 @@ pub struct Tracer<'a> {
     /// Scratch: gaps and gap rates of all contacts, tangent direction.
     gaps: Vec<[f64; 2]>,
     rates: Vec<[f64; 2]>,
+    forces: Vec<[f64; 2]>,
     direction: Vec<f64>,
     residual: Vec<f64>,
 
@@ -126,18 +125,23 @@ impl<'a> Tracer<'a> {
             parameter: 0.0,
             rate: 0.0,
             peak: None,
+            moving: None,
+            linearised_at: Vec::new(),
+            settling: vec![[0.0; 2]; chain.contacts().len()],
             matrix: chain.elastic().clone(),
             load_rate: vec![0.0; n],
             load_rate_scale: 0.0,
             factor: Factor::new(chain.elastic()),
             gaps: vec![[0.0; 2]; chain.contacts().len()],
-            rates: Vec::new(),
+            rates: vec![[0.0; 2]; chain.contacts().len()],
+            forces: vec![[0.0; 2]; chain.contacts().len()],
             direction: vec![0.0; n],
             residual: vec![0.0; n],
             events: 0,
             factorisations: 0,
             worst_residual: 0.0,
         };
+        tracer.find_settling();
         tracer.reassemble_all();
         tracer
     }
@@ -147,7 +151,18 @@ impl<'a> Tracer<'a> {
     /// Slip goes on being measured from the unstressed start, so that no contact starts on the border of its state.
     pub fn drive_on(&mut self, drive: Drive, parameter: f64) {
         (self.drive, self.parameter, self.peak) = (drive, parameter, None);
+        self.find_settling();
         self.reassemble_all();
+    }
+
+    fn find_settling(&mut self) {
+        for (k, end) in [(0, 0), (self.chain.bodies(), 1)] {
+            let ground = &self.drive.ground[end];
+            for p in self.chain.at_interface(k) {
+                let velocity = ground.velocity_at(self.chain.place(p), 0.0);
+                self.settling[p] = self.chain.ground_gap(p, velocity);
+            }
+        }
     }
 
     /// Traces until the parameter reaches `target` or the path ends. `see` is called at the start and after every event.
@@ -165,7 +180,7 @@ impl<'a> Tracer<'a> {
             return End::Lost;
         }
         loop {
-            self.note_peak();
+            self.note_peak(self.rate <= 0.0 || self.is_mechanism());
             if see(self).is_break() {
                 return End::Stopped;
             }
@@ -224,7 +239,23 @@ impl<'a> Tracer<'a> {
         let largest = self.direction.iter().map(|d| d.abs()).fold(0.0, f64::max);
         self.rate = if largest > 0.0 { 1.0 / largest } else { 1.0 };
         self.direction.iter_mut().for_each(|d| *d *= self.rate);
-        self.chain.gaps(&self.direction, &mut self.rates);
+        self.find_rates();
+    }
+
+    /// Rates of gap and slip along the direction.
+    fn find_rates(&mut self) {
+        match &self.moving {
+            None => {
+                for p in 0..self.states.len() {
+                    let ([gap, slip], drift) = (self.chain.gap(p, &self.direction), self.drift(p));
+                    self.rates[p] = [gap + drift[0] * self.rate, slip + drift[1] * self.rate];
+                }
+            }
+            Some(moving) => {
+                let along = Velocity { nodes: &self.direction, parameter: self.parameter, rate: self.rate };
+                moving.gap_rates(self.chain, &self.drive, along, &self.gaps, &mut self.rates);
+            }
+        }
     }
 
     fn turn_round(&mut self) {
@@ -236,20 +267,18 @@ impl<'a> Tracer<'a> {
     /// Calls `see(value, next)` for every way out of `state` at contact `p`, along the current direction.
     fn ways_out(&self, p: usize, state: State, see: impl FnMut(Moving, State)) {
         let ([gap, slip], [gap_rate, slip_rate]) = (self.gaps[p], self.rates[p]);
-        let gap = [gap + self.offset(), gap_rate + self.drive.offset[1] * self.rate];
-        self.chain.contacts()[p].ways_out(state, gap, [slip, slip_rate], see);
+        self.chain.contacts()[p].ways_out(state, [gap, gap_rate], [slip, slip_rate], see);
     }
 
     fn nearest_event(&self, barred: Option<(usize, State)>) -> Option<Event> {
-        let still = if self.is_mechanism() { STILL } else { 0.0 };
+        let still = if self.moving.is_none() && self.is_mechanism() { STILL } else { 0.0 };
         let mut nearest: Option<Event> = None;
         for (p, &state) in self.states.iter().enumerate() {
             let stiffness = self.chain.contacts()[p].stiffness[0];
             self.ways_out(p, state, |[value, change], next| {
                 let back = barred.is_some_and(|(contact, old)| contact == p && (next == old || state == State::Open));
                 // Rates of gaps are measured against 1, rates of forces against the penalty.
-                let is_gap = matches!((state, next), (State::Open, _) | (_, State::Open)) || zone(state) != zone(next);
-                let threshold = if is_gap { still } else { still * stiffness };
+                let threshold = if is_gap(state, next) { still } else { still * stiffness };
                 if change < -threshold && !back {
                     let step = (value / -change).max(0.0);
                     if nearest.is_none_or(|event| step < event.step) {
@@ -261,9 +290,10 @@ impl<'a> Tracer<'a> {
         nearest
     }
 
-    fn note_peak(&mut self) {
+    /// Keeps the present point where the path turns down here, and was never higher.
+    fn note_peak(&mut self, turns_down: bool) {
         let highest = self.peak.as_ref().is_none_or(|peak| self.parameter >= peak.parameter);
-        if highest && (self.rate <= 0.0 || self.is_mechanism()) {
+        if highest && turns_down {
             self.peak = Some(Peak {
                 parameter: self.parameter,
                 displacements: self.displacements.clone(),
@@ -278,4 +308,9 @@ impl<'a> Tracer<'a> {
         let gained = self.rate.abs() * self.size * self.load_rate_scale;
         self.factor.pivot_ratio() < SINGULAR || gained < SOFT * self.load_scale
     }
+}
+
+/// True where the border between two states is a gap, not a force.
+fn is_gap(from: State, to: State) -> bool {
+    matches!((from, to), (State::Open, _) | (_, State::Open)) || zone(from) != zone(to)
 }

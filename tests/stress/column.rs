@@ -66,7 +66,7 @@ impl Glued {
         let loads = self.chain.loads(pushes.iter().copied());
         let scale = pushes.iter().map(|p| p.force.norm()).sum();
         let base = vec![0.0; loads.on_nodes.len()];
-        let drive = Drive { base, rate: loads.on_nodes.clone(), offset: [0.0; 2] };
+        let drive = Drive { base, rate: loads.on_nodes.clone(), ..Drive::default() };
         let mut tracer = Tracer::new(&self.chain, drive, 10.0, scale);
         assert_eq!(tracer.trace(1.0, &mut |_| ControlFlow::Continue(())), End::Reached);
         Solved { glued: self, displacements: tracer.displacements().to_vec(), loads }

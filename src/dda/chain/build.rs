@@ -1,13 +1,12 @@
 //! Building a chain: contact points, and stones of one shape condensed once.
 
-use super::{Body, Chain, Kind, stresses};
+use super::{Body, Chain, Kind, Site, stresses};
 use crate::dda::condense::{Condensed, Loose, Node};
 use crate::dda::contact::{Contact, Law};
 use crate::dda::factor::Tridiagonal;
 use crate::dda::macroblock::Macroblock;
-use crate::geometry::{Vec2, cross};
+use crate::geometry::{Vec2, cross, perpendicular};
 use nalgebra::DMatrix;
-use std::ops::Range;
 
 /// Coordinates that differ by this share of the farthest from the origin differ by rounding: some operations' worth.
 const ROUNDING: f64 = 256.0 * f64::EPSILON;
@@ -17,10 +16,8 @@ const ROUNDING: f64 = 256.0 * f64::EPSILON;
 pub struct Touch {
     /// Its place, m.
     pub at: Vec2,
-    /// Unit vector from the body before into the body after.
+    /// Unit vector from the body before into the body after; shear counts along it turned by +90 degrees.
     pub normal: Vec2,
-    /// Unit vector along which shear counts, perpendicular to the normal.
-    pub tangent: Vec2,
     /// Stiffness [k_n, k_t] of the contact itself, N/m2.
     pub stiffness: [f64; 2],
     /// Stiffness of the links that tie it to the subblocks on either side, N/m2. The three are in series.
@@ -90,7 +87,8 @@ impl ChainBuilder {
         let touches = || self.touches.iter().flatten();
         let contacts = touches().map(|t| Contact::new(t.stiffness, t.law)).collect();
         let links = touches().map(|t| t.link).collect();
-        let mut chain = Chain { bodies, kinds, contacts, links, first, interface, places: Vec::new(), elastic };
+        let sites = touches().map(|t| Site { at: t.at, normal: t.normal }).collect();
+        let mut chain = Chain { bodies, kinds, contacts, sites, links, first, interface, places: Vec::new(), elastic };
         chain.places = (0..chain.contacts.len()).map(|p| chain.find_places(p)).collect();
         Ok(chain)
     }
@@ -116,7 +114,7 @@ impl Kind {
 
 /// Nodes of a body between two interfaces, first those on the first.
 fn nodes(before: &[Touch], after: &[Touch]) -> Vec<Node> {
-    let node = |t: &Touch, holds| Node { at: t.at, axes: [t.normal, t.tangent], link: t.link, holds };
+    let node = |t: &Touch, holds| Node { at: t.at, axes: [t.normal, perpendicular(t.normal)], link: t.link, holds };
     before.iter().map(|t| node(t, t.after)).chain(after.iter().map(|t| node(t, t.before))).collect()
 }
 
@@ -148,16 +146,7 @@ fn alike(kind: &Kind, body: &Macroblock, nodes: &[Node], rounding: f64) -> bool 
 fn elastic<'c>(sizes: &[usize], bodies: impl Iterator<Item = &'c Condensed>) -> Tridiagonal {
     let mut k = Tridiagonal::zeros(sizes);
     for (i, condensed) in bodies.enumerate() {
-        let (s, left) = (condensed.stiffness(), sizes[2 * i]);
-        let all = left + sizes[2 * i + 1];
-        let copy = |panel: &mut [f64], rows: Range<usize>, columns: Range<usize>| {
-            let entries = rows.flat_map(|i| columns.clone().map(move |j| s[(i, j)]));
-            panel.iter_mut().zip(entries).for_each(|(entry, x)| *entry = x);
-        };
-        copy(k.diagonal.get_mut(2 * i), 0..left, 0..left);
-        copy(k.diagonal.get_mut(2 * i + 1), left..all, left..all);
-        copy(k.upper.get_mut(2 * i), 0..left, left..all);
-        copy(k.lower.get_mut(2 * i), left..all, 0..left);
+        k.set_pair(2 * i, |i, j| condensed.stiffness()[(i, j)]);
     }
     k
 }

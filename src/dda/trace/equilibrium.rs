@@ -1,8 +1,8 @@
 //! Assembly of the tracer's matrix and the balance of forces on every node.
 
-use super::{Drive, Tracer};
-use crate::dda::chain::Chain;
-use crate::dda::contact::{Law, State};
+use super::Tracer;
+use crate::dda::contact::State;
+use crate::dda::moving::Bearing;
 use crate::dda::panels::subtract_applied;
 
 /// Equilibrium residual, as a share of the load scale, above which the displacements are corrected; and above which
@@ -28,7 +28,26 @@ impl Tracer<'_> {
     }
 
     /// Fills `residual` with load minus resistance of every node; returns the largest entry over the load scale.
-    fn find_residual(&mut self) -> f64 {
+    pub(super) fn find_residual(&mut self) -> f64 {
+        match self.moving.take() {
+            None => self.find_first_order_residual(),
+            Some(mut moving) => {
+                let chain = self.chain;
+                moving.place(chain, &self.drive, self.parameter, &self.displacements, &mut self.gaps);
+                self.residual.fill(0.0);
+                for p in 0..self.states.len() {
+                    self.forces[p] = self.force_of(p);
+                }
+                moving.add_residual(chain, &self.gaps, &self.forces, &mut self.residual);
+                self.moving = Some(moving);
+            }
+        }
+        // `max` passes over NaN, which must not pass for equilibrium.
+        let entries = self.residual.iter().map(|r| if r.is_finite() { r.abs() } else { f64::INFINITY });
+        entries.fold(0.0, f64::max) / self.load_scale
+    }
+
+    fn find_first_order_residual(&mut self) {
         for (i, r) in self.residual.iter_mut().enumerate() {
             *r = self.drive.base[i] + self.drive.rate[i] * self.parameter;
         }
@@ -44,20 +63,29 @@ impl Tracer<'_> {
             }
         }
         for p in 0..self.states.len() {
-            self.gaps[p] = self.chain.gap(p, &self.displacements);
+            let ([gap, slip], settling) = (self.chain.gap(p, &self.displacements), self.settling[p]);
+            let offset = self.offset_of(p, self.drive.offset[0] + self.drive.offset[1] * self.parameter);
+            self.gaps[p] = [gap + offset + settling[0] * self.parameter, slip + settling[1] * self.parameter];
             let force = self.force_of(p);
             self.chain.push(p, force, &mut self.residual);
         }
-        // `max` passes over NaN, which must not pass for equilibrium.
-        let entries = self.residual.iter().map(|r| if r.is_finite() { r.abs() } else { f64::INFINITY });
-        entries.fold(0.0, f64::max) / self.load_scale
+    }
+
+    /// Change of gap and slip of contact `p` per unit of the parameter, the nodes staying where they are (first order).
+    pub(super) fn drift(&self, p: usize) -> [f64; 2] {
+        let [gap, slip] = self.settling[p];
+        [gap + self.offset_of(p, self.drive.offset[1]), slip]
+    }
+
+    /// An offset of the gaps, which is for unbonded contacts only.
+    fn offset_of(&self, p: usize, offset: f64) -> f64 {
+        if self.states[p] == State::Bonded { 0.0 } else { offset }
     }
 
     /// Normal and tangential force of contact `p` at the present gaps, N/m.
     pub(super) fn force_of(&self, p: usize) -> [f64; 2] {
         let ([gap, slip], state) = (self.gaps[p], self.states[p]);
-        let offset = if state == State::Bonded { 0.0 } else { self.offset() };
-        self.chain.contacts()[p].force_in(state, gap + offset, slip)
+        self.chain.contacts()[p].force_in(state, gap, slip)
     }
 
     /// Renews the whole matrix and load rate.
@@ -70,6 +98,16 @@ impl Tracer<'_> {
 
     /// Renews the matrix and the load rate around interface `k`.
     pub(super) fn reassemble(&mut self, k: usize) {
+        match &self.moving {
+            None => self.reassemble_first_order(k),
+            Some(_) => self.reassemble_moving(k),
+        }
+        for face in self.chain.faces(k).into_iter().flatten() {
+            self.factor.invalidate(face);
+        }
+    }
+
+    fn reassemble_first_order(&mut self, k: usize) {
         let (elastic, chain, matrix) = (self.chain.elastic(), self.chain, &mut self.matrix);
         let width = 2 * chain.at_interface(k).len();
         for face in chain.faces(k).into_iter().flatten() {
@@ -78,7 +116,6 @@ impl Tracer<'_> {
             add_contacts(diagonal, width, chain.interface_stiffness(k, &self.states), 1.0);
             let range = elastic.range(face);
             self.load_rate[range.clone()].copy_from_slice(&self.drive.rate[range]);
-            self.factor.invalidate(face);
         }
         if let [Some(before), Some(_)] = chain.faces(k) {
             for panel in [matrix.upper.get_mut(before), matrix.lower.get_mut(before)] {
@@ -86,23 +123,40 @@ impl Tracer<'_> {
                 add_contacts(panel, width, chain.interface_stiffness(k, &self.states), -1.0);
             }
         }
-        self.add_fading_offset(k);
-    }
-
-    /// Adds to the load rate what the drive's offset, changing with the parameter, puts on the nodes of interface `k`.
-    fn add_fading_offset(&mut self, k: usize) {
-        if self.drive.offset[1] == 0.0 {
-            return;
-        }
-        for p in self.chain.at_interface(k).filter(|&p| self.states[p] != State::Bonded) {
-            let rate = self.chain.contacts()[p].force_rate(self.states[p], self.drive.offset[1]);
-            self.chain.push(p, rate, &mut self.load_rate);
+        for p in chain.at_interface(k) {
+            let drift = self.drift(p);
+            if drift != [0.0; 2] {
+                let rate = chain.contacts()[p].force_rate(self.states[p], drift);
+                chain.push(p, rate, &mut self.load_rate);
+            }
         }
     }
 
-    /// Gap offset at the present parameter, m.
-    pub(super) fn offset(&self) -> f64 {
-        self.drive.offset[0] + self.drive.offset[1] * self.parameter
+    fn reassemble_moving(&mut self, k: usize) {
+        let Some(moving) = self.moving.take() else { return };
+        let (chain, matrix) = (self.chain, &mut self.matrix);
+        let points = chain.at_interface(k).map(|p| {
+            let (contact, state, gap) = (&chain.contacts()[p], self.states[p], self.gaps[p]);
+            Bearing { gap, force: contact.force_in(state, gap[0], gap[1]), tangent: contact.tangent_stiffness(state) }
+        });
+        let stiffness = moving.interface(k, points.clone());
+        let faces = chain.faces(k);
+        for (side, face) in faces.into_iter().enumerate() {
+            let Some(face) = face else { continue };
+            let diagonal = matrix.diagonal.get_mut(face);
+            diagonal.copy_from_slice(moving.bodies.diagonal.get(face));
+            stiffness.add([side, side], diagonal);
+            let range = chain.elastic().range(face);
+            self.load_rate[range.clone()].copy_from_slice(&moving.load_rate[range]);
+        }
+        if let [Some(before), Some(_)] = faces {
+            for (panel, sides) in [(matrix.upper.get_mut(before), [0, 1]), (matrix.lower.get_mut(before), [1, 0])] {
+                panel.fill(0.0);
+                stiffness.add(sides, panel);
+            }
+        }
+        moving.add_ground(chain, &self.drive, k, self.parameter, points, &mut self.load_rate);
+        self.moving = Some(moving);
     }
 }
 
@@ -114,19 +168,4 @@ fn add_contacts(panel: &mut [f64], width: usize, contacts: impl Iterator<Item = 
             panel[place] += sign * entry;
         }
     }
-}
-
-/// The drive that takes a chain from an unstressed start, where every contact is pressed by a fictitious pre-load and
-/// the exact answer is D = 0, to its true `loads` on the nodes at parameter 1.
-///
-/// The pre-load is a gap offset that fades with the parameter, balanced by fictitious loads that fade with it.
-pub fn covering(chain: &Chain, loads: &[f64], preload: f64) -> Drive {
-    let mut base = vec![0.0; loads.len()];
-    for (p, contact) in chain.contacts().iter().enumerate() {
-        if contact.law != Law::Bonded {
-            chain.push(p, [-contact.stiffness[0] * preload, 0.0], &mut base);
-        }
-    }
-    let rate = loads.iter().zip(&base).map(|(load, start)| load - start).collect();
-    Drive { base, rate, offset: [-preload, preload] }
 }

@@ -1,0 +1,93 @@
+//! Where bodies and contact points of a chain are.
+
+use super::{Chain, MeanMotion, Node};
+use crate::dda::moving::Turn;
+use crate::geometry::{Vec2, perpendicular};
+use nalgebra::DMatrix;
+use std::ops::Range;
+
+impl Chain {
+    /// Unknowns of all nodes together.
+    pub fn node_unknowns(&self) -> usize {
+        self.elastic.start[self.elastic.rows()]
+    }
+
+    /// Unknowns of the nodes of body `i`.
+    pub(in crate::dda) fn nodes_of(&self, i: usize) -> Range<usize> {
+        self.elastic.start[2 * i]..self.elastic.start[2 * i + 2]
+    }
+
+    /// Which macroblock body `i` is a copy of.
+    pub(in crate::dda) fn kind_of(&self, i: usize) -> usize {
+        self.bodies[i].kind
+    }
+
+    /// Nodes of a kind of body, in its frame.
+    pub(in crate::dda) fn kind_nodes(&self, kind: usize) -> &[Node] {
+        &self.kinds[kind].nodes
+    }
+
+    /// Condensed stiffness of body `i`, N/m2.
+    pub(in crate::dda) fn stiffness_of(&self, i: usize) -> &DMatrix<f64> {
+        self.kinds[self.bodies[i].kind].condensed.stiffness()
+    }
+
+    /// Place of contact `p` in the reference position, m.
+    pub fn place(&self, p: usize) -> Vec2 {
+        self.sites[p].at
+    }
+
+    /// Normal of contact `p` in the reference position.
+    pub fn normal(&self, p: usize) -> Vec2 {
+        self.sites[p].normal
+    }
+
+    /// Vector from the first contact of interface `k` to its last, along their axes, m.
+    pub(in crate::dda) fn line(&self, k: usize) -> [f64; 2] {
+        let points = self.at_interface(k);
+        let (first, last) = (&self.sites[points.start], &self.sites[points.end - 1]);
+        along(first.normal, last.at - first.at)
+    }
+
+    /// Which ground lies beside interface `k`: 0 before the first body, 1 after the last, none between bodies.
+    pub(in crate::dda) fn ground_at(&self, k: usize) -> Option<usize> {
+        [k == 0, k == self.bodies.len()].iter().position(|&here| here)
+    }
+
+    /// Normal and tangential gap that ground moved by `moved` gives contact `p`; none where no ground is.
+    pub(in crate::dda) fn ground_gap(&self, p: usize, moved: Vec2) -> [f64; 2] {
+        let gap = along(self.sites[p].normal, moved);
+        match self.places[p] {
+            [None, _] => gap.map(|x| -x),
+            [_, None] => gap,
+            _ => [0.0; 2],
+        }
+    }
+
+    /// Mean motion of body `i` whose nodes, of mean place `centre` in its frame, have turned and shifted as one and are
+    /// displaced by `elastic` besides.
+    pub(in crate::dda) fn moved(
+        &self,
+        i: usize,
+        centre: Vec2,
+        turn: Turn,
+        shift: [f64; 2],
+        elastic: &[f64],
+    ) -> MeanMotion {
+        let body = &self.bodies[i];
+        let kind = &self.kinds[body.kind];
+        let blocks = kind.macroblock.blocks();
+        let area: f64 = blocks.iter().map(|b| b.area()).sum();
+        let middle = blocks.iter().map(|b| b.centroid() * (b.area() / area)).sum::<Vec2>();
+        let column = |j: usize| kind.mean_of_nodes.column(j) * elastic[j];
+        let mean = (0..elastic.len()).map(column).fold(nalgebra::Vector3::zeros(), |sum, share| sum + share);
+        let (turned, moved) = (turn.shift((middle - centre).into()), turn.pair([mean[0], mean[1]]));
+        let displacement = Vec2::from(shift) + Vec2::from(turned) + Vec2::from(moved);
+        MeanMotion { displacement: body.turned_back(displacement), rotation: turn.angle() + mean[2] }
+    }
+}
+
+/// Components of a vector along a normal and its tangent.
+fn along(normal: Vec2, v: Vec2) -> [f64; 2] {
+    [normal.dot(&v), perpendicular(normal).dot(&v)]
+}

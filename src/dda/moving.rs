@@ -1,0 +1,204 @@
+//! A chain on its moving geometry: bodies that turn by finite angles, contacts whose normals turn with them.
+//!
+//! Macroblocks stay condensed as they were in the reference position; what turns is the frame they are seen from. Within
+//! small strains of the bodies this is exact: forces balance in the place where the chain then is.
+
+mod body;
+mod interface;
+#[cfg(test)]
+mod tests;
+mod turn;
+
+use super::chain::{Chain, MeanMotion};
+use super::factor::Tridiagonal;
+use super::trace::Drive;
+use crate::geometry::Vec2;
+use body::{Corotated, NodeLoads, Pose};
+use interface::Frame;
+pub(super) use interface::{Bearing, Stiffness};
+pub(super) use turn::Turn;
+use turn::{cross, quarter_of};
+
+/// Where all bodies and interfaces of a chain are.
+#[derive(Debug, Clone)]
+pub(super) struct Placed {
+    /// By kind of body.
+    corotated: Vec<Corotated>,
+    poses: Vec<Pose>,
+    frames: Vec<Frame>,
+    /// Stiffness of the bodies where it was last computed.
+    pub bodies: Tridiagonal,
+    /// What their loads grow by per unit of the parameter there, N/m.
+    pub load_rate: Vec<f64>,
+    /// Scratch: loads on the nodes, and the same with all forces turned by -90 degrees.
+    loads: [Vec<f64>; 2],
+    /// Scratch: stiffness of one body.
+    dense: Vec<f64>,
+}
+
+/// A velocity of the whole chain.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Velocity<'d> {
+    /// Of the nodes.
+    pub nodes: &'d [f64],
+    /// The drive's parameter.
+    pub parameter: f64,
+    /// Its rate.
+    pub rate: f64,
+}
+
+impl Placed {
+    /// The chain in its reference position.
+    pub fn new(chain: &Chain) -> Self {
+        let corotated: Vec<Corotated> = (0..chain.kinds()).map(|kind| Corotated::new(chain.kind_nodes(kind))).collect();
+        let still = vec![0.0; chain.node_unknowns()];
+        Placed {
+            poses: (0..chain.bodies()).map(|i| corotated[chain.kind_of(i)].at_rest()).collect(),
+            frames: (0..chain.interfaces()).map(|k| frame(chain, k, &still, 0.0)).collect(),
+            corotated,
+            bodies: chain.elastic().clone(),
+            load_rate: still.clone(),
+            loads: [still.clone(), still],
+            dense: Vec::new(),
+        }
+    }
+
+    /// Moves everything to node displacements `d` with the drive at `parameter`; fills `gaps`.
+    pub fn place(&mut self, chain: &Chain, drive: &Drive, parameter: f64, d: &[f64], gaps: &mut [[f64; 2]]) {
+        let parts = [[&drive.base, &drive.rate], [&drive.turned[0], &drive.turned[1]]];
+        for (load, [base, rate]) in self.loads.iter_mut().zip(parts) {
+            let sum = base.iter().zip(rate).map(|(base, rate)| base + rate * parameter);
+            load.iter_mut().zip(sum).for_each(|(load, sum)| *load = sum);
+        }
+        for (i, pose) in self.poses.iter_mut().enumerate() {
+            let (kind, nodes) = (chain.kind_of(i), chain.nodes_of(i));
+            let [straight, turned] = self.loads.each_ref().map(|load| &load[nodes.clone()]);
+            self.corotated[kind].pose(chain.stiffness_of(i), &d[nodes], NodeLoads { straight, turned }, pose);
+        }
+        for k in 0..chain.interfaces() {
+            let ground = chain.ground_at(k).map(|end| &drive.ground[end]);
+            self.frames[k] = frame(chain, k, d, ground.map_or(0.0, |ground| ground.spin * parameter));
+            for p in chain.at_interface(k) {
+                let moved = ground.map_or(Vec2::zeros(), |ground| ground.moves(chain.place(p), parameter));
+                gaps[p] = self.frames[k].gap(plus(chain.gap(p, d), chain.ground_gap(p, moved)));
+            }
+        }
+    }
+
+    /// Adds loads less elastic forces of all bodies, and what contacts with these gaps and forces put on them, to the
+    /// nodes' `residual`.
+    pub fn add_residual(&self, chain: &Chain, gaps: &[[f64; 2]], forces: &[[f64; 2]], residual: &mut [f64]) {
+        for (i, pose) in self.poses.iter().enumerate() {
+            self.corotated[chain.kind_of(i)].add_residual(pose, &mut residual[chain.nodes_of(i)]);
+        }
+        for k in 0..chain.interfaces() {
+            for (side, face) in chain.faces(k).into_iter().enumerate() {
+                let Some(face) = face else { continue };
+                let points = chain.at_interface(k).map(|p| (forces[p], cross(&forces[p], &gaps[p])));
+                self.frames[k].add_forces(side, points, &mut residual[chain.elastic().range(face)]);
+            }
+        }
+    }
+
+    /// Renews the stiffness of all bodies where they are now, and what their loads grow by with the parameter.
+    pub fn linearise(&mut self, chain: &Chain, drive: &Drive) {
+        for (i, pose) in self.poses.iter().enumerate() {
+            let (nodes, corotated) = (chain.nodes_of(i), &self.corotated[chain.kind_of(i)]);
+            let n = nodes.len();
+            self.dense.resize(n * n, 0.0);
+            corotated.stiffness(chain.stiffness_of(i), pose, &mut self.dense);
+            self.bodies.set_pair(2 * i, |i, j| self.dense[i * n + j]);
+            let rate = NodeLoads { straight: &drive.rate[nodes.clone()], turned: &drive.turned[1][nodes.clone()] };
+            corotated.load_rate(pose, rate, &mut self.load_rate[nodes]);
+        }
+    }
+
+    /// Stiffness of interface `k` with its points bearing like this.
+    pub fn interface(&self, k: usize, points: impl Iterator<Item = Bearing>) -> Stiffness {
+        Stiffness::new(&self.frames[k], points)
+    }
+
+    /// Rates of gap and slip of all contacts, for a velocity.
+    pub fn gap_rates(&self, chain: &Chain, drive: &Drive, along: Velocity, gaps: &[[f64; 2]], rates: &mut [[f64; 2]]) {
+        for k in 0..chain.interfaces() {
+            let spin = self.spin(chain, drive, k, along);
+            for p in chain.at_interface(k) {
+                rates[p] = self.frames[k].gap_rate(gaps[p], between(chain, drive, p, along), spin);
+            }
+        }
+    }
+
+    /// Rates of gap and slip of contact `p` alone.
+    pub fn gap_rate(&self, chain: &Chain, drive: &Drive, p: usize, along: Velocity, gap: [f64; 2]) -> [f64; 2] {
+        let k = chain.interface_of(p);
+        self.frames[k].gap_rate(gap, between(chain, drive, p, along), self.spin(chain, drive, k, along))
+    }
+
+    /// Rate at which the normal of interface `k` turns.
+    fn spin(&self, chain: &Chain, drive: &Drive, k: usize, along: Velocity) -> f64 {
+        let ground = chain.ground_at(k).map_or(0.0, |end| along.rate * drive.ground[end].spin);
+        self.frames[k].spin(faces(chain, k, along.nodes), ground)
+    }
+
+    /// Largest elastic displacement of a body's points over the body's size.
+    pub fn largest_strain(&self) -> f64 {
+        let of = |pose: &Pose| pose.elastic.iter().fold(0.0, |most: f64, u| most.max(u.abs())) / pose.size();
+        self.poses.iter().map(of).fold(0.0, f64::max)
+    }
+
+    /// Adds to the load rate what the moving ground beside interface `k` puts on its nodes; `points` give every contact's
+    /// gap, force, and the change of minus the force per change of gap and slip.
+    pub fn add_ground(
+        &self,
+        chain: &Chain,
+        drive: &Drive,
+        k: usize,
+        parameter: f64,
+        points: impl Iterator<Item = Bearing> + Clone,
+        load_rate: &mut [f64],
+    ) {
+        let Some(ground) = chain.ground_at(k).map(|end| &drive.ground[end]).filter(|g| !g.is_still()) else { return };
+        let frame = &self.frames[k];
+        let spin = 0.5 * ground.spin;
+        let rates = chain.at_interface(k).zip(points).map(|(p, at)| {
+            let moved = ground.velocity_at(chain.place(p), parameter);
+            let gap = frame.gap_rate(at.gap, chain.ground_gap(p, moved), spin);
+            let [nn, nt, tn, tt] = at.tangent;
+            let change = [-(nn * gap[0] + nt * gap[1]), -(tn * gap[0] + tt * gap[1])];
+            let turning = quarter_of(at.force).map(|x| x * spin);
+            let couple = cross(&change, &at.gap) + cross(&at.force, &gap);
+            ([change[0] + turning[0], change[1] + turning[1]], couple)
+        });
+        for (side, face) in chain.faces(k).into_iter().enumerate() {
+            if let Some(face) = face {
+                frame.add_forces(side, rates.clone(), &mut load_rate[chain.elastic().range(face)]);
+            }
+        }
+    }
+
+    /// Mean motion of body `i`: of its nodes' mean and of what is elastic in it, loads between the nodes left out.
+    pub fn mean_motion(&self, chain: &Chain, i: usize) -> MeanMotion {
+        let (pose, centre) = (&self.poses[i], self.corotated[chain.kind_of(i)].centre());
+        chain.moved(i, centre, pose.turn, pose.shift, &pose.elastic)
+    }
+}
+
+/// Velocity between the two sides of contact `p`, along its axes.
+fn between(chain: &Chain, drive: &Drive, p: usize, along: Velocity) -> [f64; 2] {
+    let ground = chain.ground_at(chain.interface_of(p)).map(|end| &drive.ground[end]);
+    let moved = ground.map_or(Vec2::zeros(), |g| g.velocity_at(chain.place(p), along.parameter) * along.rate);
+    plus(chain.gap(p, along.nodes), chain.ground_gap(p, moved))
+}
+
+fn plus(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [a[0] + b[0], a[1] + b[1]]
+}
+
+/// Displacements (or velocities) of the faces beside interface `k`.
+fn faces<'d>(chain: &Chain, k: usize, d: &'d [f64]) -> [Option<&'d [f64]>; 2] {
+    chain.faces(k).map(|face| face.map(|face| &d[chain.elastic().range(face)]))
+}
+
+fn frame(chain: &Chain, k: usize, d: &[f64], ground: f64) -> Frame {
+    Frame::new(chain.line(k), faces(chain, k, d), ground)
+}

@@ -1,0 +1,68 @@
+//! What is driven along a path: loads, the ground, and the preload of an unstressed start.
+
+use crate::dda::chain::Chain;
+use crate::dda::contact::Law;
+use crate::dda::moving::Turn;
+use crate::geometry::{Vec2, perpendicular};
+
+/// A rigid movement of the ground, per unit of the parameter.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Movement {
+    /// Velocity of the point it turns about, m.
+    pub velocity: Vec2,
+    /// Rotation, counter-clockwise positive, rad.
+    pub spin: f64,
+    /// The point it turns about, in its reference position, m.
+    pub about: Vec2,
+}
+
+impl Movement {
+    /// Displacement of a point of the ground at a parameter, m; exact however far it turns.
+    pub fn moves(&self, at: Vec2, parameter: f64) -> Vec2 {
+        let turned = Turn::by(self.spin * parameter).shift((at - self.about).into());
+        self.velocity * parameter + Vec2::from(turned)
+    }
+
+    /// Its derivative by the parameter, m.
+    pub fn velocity_at(&self, at: Vec2, parameter: f64) -> Vec2 {
+        let arm = Turn::by(self.spin * parameter).pair((at - self.about).into());
+        self.velocity + perpendicular(Vec2::from(arm)) * self.spin
+    }
+
+    /// True where nothing moves.
+    pub fn is_still(&self) -> bool {
+        self.velocity == Vec2::zeros() && self.spin == 0.0
+    }
+}
+
+/// What is driven along the path: loads `base + parameter * rate`, an offset of the gaps that changes with the parameter,
+/// and movements of the ground.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Drive {
+    /// Loads on the nodes at parameter 0, N/m.
+    pub base: Vec<f64>,
+    /// Change of the loads per unit of the parameter.
+    pub rate: Vec<f64>,
+    /// Both for the same forces turned by -90 degrees; only a path on moving geometry asks for them.
+    pub turned: [Vec<f64>; 2],
+    /// Gap offset at parameter 0 and its change per unit of the parameter, m (the same for all unbonded contacts); only
+    /// on the reference geometry.
+    pub offset: [f64; 2],
+    /// Movement of the ground before the first body and after the last.
+    pub ground: [Movement; 2],
+}
+
+/// The drive that takes a chain from an unstressed start, where every contact is pressed by a fictitious pre-load and
+/// the exact answer is D = 0, to its true `loads` on the nodes at parameter 1.
+///
+/// The pre-load is a gap offset that fades with the parameter, balanced by fictitious loads that fade with it.
+pub fn covering(chain: &Chain, loads: &[f64], preload: f64) -> Drive {
+    let mut base = vec![0.0; loads.len()];
+    for (p, contact) in chain.contacts().iter().enumerate() {
+        if contact.law != Law::Bonded {
+            chain.push(p, [-contact.stiffness[0] * preload, 0.0], &mut base);
+        }
+    }
+    let rate = loads.iter().zip(&base).map(|(load, start)| load - start).collect();
+    Drive { base, rate, offset: [-preload, preload], ..Drive::default() }
+}
