@@ -196,7 +196,7 @@ fn plus(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
 
 /// Displacements (or velocities) of the faces beside interface `k`.
 fn faces<'d>(chain: &Chain, k: usize, d: &'d [f64]) -> [Option<&'d [f64]>; 2] {
-    chain.faces(k).map(|face| face.map(|face| &d[chain.elastic().range(face)]))
+    chain.faces(k).map(|face| face.map(|face| &d[chain.elastic().range(face)]).filter(|d| !d.is_empty()))
 }
 
 fn frame(chain: &Chain, k: usize, d: &[f64], ground: f64) -> Frame {

@@ -44,9 +44,11 @@ impl Chain {
 
     /// Vector from the first contact of interface `k` to its last, along their axes, m.
     pub(in crate::dda) fn line(&self, k: usize) -> [f64; 2] {
-        let points = self.at_interface(k);
-        let (first, last) = (&self.sites[points.start], &self.sites[points.end - 1]);
-        along(first.normal, last.at - first.at)
+        let points = &self.sites[self.at_interface(k)];
+        match (points.first(), points.last()) {
+            (Some(first), Some(last)) => along(first.normal, last.at - first.at),
+            _ => [0.0; 2],
+        }
     }
 
     /// Which ground lies beside interface `k`: 0 before the first body, 1 after the last, none between bodies.

@@ -49,7 +49,9 @@ impl Tracer<'_> {
     /// are out of balance there are let go step by step.
     pub fn move_on(&mut self, drive: Drive, parameter: f64, see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>) -> End {
         (self.drive, self.parameter, self.moving) = (drive.clone(), parameter, Some(Placed::new(self.chain)));
-        self.find_residual();
+        if self.find_residual() < EQUILIBRIUM {
+            return End::Reached;
+        }
         let held = self.residual.clone();
         let held_turned: Vec<f64> = held.chunks_exact(2).flat_map(|pair| Turn::by(-std::f64::consts::FRAC_PI_2).pair([pair[0], pair[1]])).collect();
         let at = |base: &[f64], rate: &[f64], held: &[f64]| -> Vec<f64> {
@@ -111,6 +113,7 @@ impl Tracer<'_> {
             if !self.correct(hold) || self.missed(&violated, hold) {
                 (self.displacements, self.parameter) = (before.0, before.1);
                 halvings += 1;
+                if std::env::var("DBG").is_ok() { eprintln!("fail step={step:e} {hold:?} par={} rate={} res={:e} ratio={:e}", self.parameter, self.rate, self.worst_residual, self.factor.pivot_ratio()); }
                 if halvings > HALVINGS || self.events > most_events || !(self.find_residual() < FAILED) {
                     return End::Lost;
                 }
@@ -119,6 +122,7 @@ impl Tracer<'_> {
                 continue;
             }
             halvings = 0;
+            if std::env::var("DBG").is_ok() { eprintln!("ok step={step:e} {hold:?} par={} rate={} res={:e}", self.parameter, self.rate, self.worst_residual); }
             match hold {
                 Hold::Parameter => return End::Reached,
                 Hold::Border(event, state) => {
@@ -232,7 +236,9 @@ impl Tracer<'_> {
             self.parameter += along * self.rate;
         }
         let worst = self.find_residual();
-        self.worst_residual = self.worst_residual.max(worst);
+        if worst < FAILED {
+            self.worst_residual = self.worst_residual.max(worst);
+        }
         worst < FAILED
     }
 

@@ -1,0 +1,109 @@
+//! The path on moving geometry against closed forms: snap-through of two bars, an eccentrically loaded column.
+
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+use std::ops::ControlFlow;
+use voussoir::dda::{Block, Chain, ChainBuilder, Drive, Elasticity, End, Law, Push, Touch, Tracer};
+use voussoir::geometry::{Region, Vec2, perpendicular};
+
+fn watch(_: &Tracer) -> ControlFlow<()> {
+    ControlFlow::Continue(())
+}
+
+fn touch(at: Vec2, normal: Vec2, stiffness: f64, link: f64, law: Law) -> Touch {
+    Touch {
+        at,
+        normal,
+        stiffness: [stiffness; 2],
+        link: [link; 2],
+        law,
+        before: [(0, 1.0), (0, 0.0)],
+        after: [(0, 1.0), (0, 0.0)],
+    }
+}
+
+fn block(area: f64, centroid: Vec2, youngs_modulus: f64) -> Block {
+    Block::new(Region { area, centroid }, Elasticity { youngs_modulus, poissons_ratio: 0.0, plane_strain: false })
+}
+
+/// Load at which the first limit point of a chain lies, that starts unloaded.
+fn limit_point(chain: &Chain, push: Push, size: f64) -> (f64, usize) {
+    let load = chain.loads([push]);
+    let zeros = vec![0.0; load.on_nodes.len()];
+    let drive = Drive {
+        base: zeros.clone(),
+        rate: load.on_nodes.clone(),
+        turned: [zeros, load.turned.clone()],
+        ..Drive::default()
+    };
+    let mut tracer = Tracer::new(chain, drive.clone(), size, push.force.norm());
+    assert_eq!(tracer.move_on(drive, 0.0, &mut watch), End::Reached);
+    assert_eq!(tracer.trace_moving(1e9, &mut watch), End::Mechanism);
+    assert!(tracer.worst_residual() < 1e-8);
+    (tracer.peak().unwrap().parameter, tracer.factorisations())
+}
+
+/// Two bars from (-a, 0) and (a, 0) to (0, a tan(alpha)), pinned, loaded at the top (von Mises 1923).
+#[test]
+fn two_shallow_bars_snap_through_at_the_load_of_von_mises() {
+    for alpha in [0.05f64, 0.1, 0.2] {
+        let (a, thickness, modulus) = (10.0, 0.2, 1e9);
+        let (top, length) = (Vec2::new(0.0, a * alpha.tan()), a / alpha.cos());
+        let bar = |from: Vec2, to: Vec2| block(thickness * length, 0.5 * (from + to), modulus);
+        let (left, right) = (Vec2::new(-a, 0.0), Vec2::new(a, 0.0));
+        let mut builder = ChainBuilder::new(vec![bar(left, top).into(), bar(top, right).into()]);
+        // A pin is two bonded points close together.
+        for (at, normal) in [(left, Vec2::x()), (top, Vec2::x()), (right, Vec2::x())] {
+            for side in [-1.0, 1.0] {
+                builder.contact(touch(at + perpendicular(normal) * (side * 5e-5), normal, 1e11, 1e12, Law::Bonded));
+            }
+            builder.next_interface();
+        }
+        let chain = builder.finish().unwrap();
+        let push = Push { body: 0, subblock: 0, at: top, force: Vec2::new(0.0, -1e5) };
+        let (found, _) = limit_point(&chain, push, 2.0 * a);
+        let c = alpha.cos();
+        let stiffness = modulus * thickness / length;
+        let exact = 2.0 * stiffness * a * (1.0 - c.powf(2.0 / 3.0)).powf(1.5) / c;
+        assert!((found * 1e5 / exact - 1.0).abs() < 1e-3, "alpha={alpha}: {} not {exact}", found * 1e5);
+    }
+}
+
+/// A column of stiff blocks on springy joints that open, its load off the middle. With P the load, k the rotational
+/// stiffness of a joint, h the height of a block and cos(phi) = 1 - P h / (2 k), equilibrium of every joint gives the
+/// load's lever at the base e cos(phi / 2) / cos((n + 1/2) phi); the column falls when that is half its width.
+#[test]
+fn a_column_under_an_eccentric_load_falls_when_its_lever_reaches_the_edge() {
+    for (n, eccentricity) in [(20, 0.1), (30, 0.05), (40, 0.2)] {
+        let (width, height, stiffness) = (1.0, 0.5, 1e9);
+        let middle = |i: usize| Vec2::new(0.0, (i as f64 + 0.5) * height);
+        let blocks = (0..n).map(|i| block(width * height, middle(i), 1e12).into()).collect();
+        let mut builder = ChainBuilder::new(blocks);
+        for i in 0..n {
+            for (j, x) in [-0.5, 0.5].into_iter().enumerate() {
+                let law = Law::Coulomb { friction: 2.0, cohesion: 0.0 };
+                // In series with its links, each ten times as stiff, a contact is as stiff as the formula's.
+                let contact = stiffness / (1.0 - if i == 0 { 0.1 } else { 0.2 });
+                let scattered = contact * (1.0 + 1e-6 * (2 * i + j) as f64);
+                builder.contact(touch(Vec2::new(x * width, i as f64 * height), Vec2::y(), scattered, 10.0 * stiffness, law));
+            }
+            builder.next_interface();
+        }
+        let chain = builder.finish().unwrap();
+        let at = Vec2::new(eccentricity, n as f64 * height);
+        let push = Push { body: n - 1, subblock: 0, at, force: Vec2::new(0.0, -1e5) };
+        let (found, _) = limit_point(&chain, push, n as f64 * height);
+        let rotational = 0.5 * stiffness * width * width;
+        let lever = |load: f64| {
+            let phi = (1.0 - 0.5 * load * height / rotational).acos();
+            eccentricity * (0.5 * phi).cos() / ((n as f64 + 0.5) * phi).cos()
+        };
+        let (mut low, mut high) = (0.0, 2.0 * rotational / height * (1.0 - (0.5 * std::f64::consts::PI / (n as f64 + 0.5)).cos()));
+        for _ in 0..200 {
+            let mid = 0.5 * (low + high);
+            if lever(mid) < 0.5 * width { low = mid } else { high = mid }
+        }
+        assert!((found * 1e5 / low - 1.0).abs() < 1e-2, "n={n} e={eccentricity}: {} not {low}", found * 1e5);
+        println!("n={n} e={eccentricity}: {} exact {low}", found * 1e5);
+    }
+}
