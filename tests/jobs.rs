@@ -9,7 +9,7 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 use voussoir::arch::{Arch, Stone};
 use voussoir::collapse::{
-    Aim, Analysis, AnalysisError, Answer, CollapseReport, Cost, Direction, LoadStep, Mesh, Method, Outcome, PlaneModel,
+    Aim, Analysis, AnalysisError, Answer, CollapseReport, Cost, Direction, LoadStep, Geometry, Mesh, Method, Outcome, PlaneModel,
     Question, Seams, Watch,
 };
 use voussoir::geometry::Vec2;
@@ -29,6 +29,7 @@ fn order(what: f64) -> Question {
         direction: Direction::Increase,
         cap: None,
         method: Method::EventPath,
+        geometry: Geometry::FirstOrder,
         share: 0.999,
         mesh: Mesh { subblocks: vec![], seams: Seams::Split },
         fields: vec![],

@@ -7,6 +7,7 @@ mod mechanism;
 mod result;
 mod safety;
 mod stress;
+mod updated;
 mod words;
 
 pub use beam::BeamResult;
@@ -18,6 +19,7 @@ pub use stress::{
     CrushedSubblock, CrushingBody, ElasticCrushingBody, PlasticCrushingBody, StressFieldBody, SubblockColumns,
     mesh_in_words,
 };
+pub use updated::{UpdatedBody, UpdatedEndWord};
 pub use words::{CrushingWord, FaceWord, GovernedBy, GovernsWord, MethodWord, ModeWord, OutcomeWord, ZoneWord};
 
 use super::request::AnalysisRequest;
@@ -70,6 +72,8 @@ pub struct AnalysisResult {
     pub stress_fields: Vec<StressFieldBody>,
     /// When the stone crushes.
     pub crushing: Option<CrushingBody>,
+    /// The answer on moving geometry, where `geometry` asks for it and the arch stands at first order.
+    pub updated_geometry: Option<UpdatedBody>,
     /// Safety factors, where `analysis` asks for them.
     pub safety: Option<SafetyBody>,
     /// The path, event by event.
@@ -159,6 +163,7 @@ impl AnalysisResult {
             at_start: report.at_start.as_ref().map(snapshot),
             stress_fields: report.stress_fields.iter().map(|field| StressFieldBody::new(field, &scale)).collect(),
             crushing: report.crushing.as_ref().map(|crushing| CrushingBody::new(crushing, &request.mesh, &scale)),
+            updated_geometry: report.updated.as_ref().map(|updated| UpdatedBody::new(updated, report, &scale)),
             safety: report.safety.as_ref().map(Into::into),
             history: HistoryColumns::new(&report.history, &scale),
             cost: report.cost.into(),

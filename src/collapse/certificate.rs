@@ -13,7 +13,7 @@ const ZERO: f64 = 1e-12;
 /// Load factors below this share of the one at which scaled loads equal the fixed ones are compared absolutely.
 const SMALL: f64 = 1e-6;
 /// A path whose equilibrium residual, as a share of the loads, exceeds this is not trusted.
-const UNBALANCED: f64 = 1e-8;
+pub(super) const UNBALANCED: f64 = 1e-8;
 /// Equilibria this close, as a share of the loads, may be lost to rounding where stones carry no load.
 const MARGIN: f64 = 1e-9;
 /// Loads that do less work than this in a mechanism do not drive it.

@@ -238,7 +238,7 @@ mod tests {
     use crate::arch::profile::Profile;
     use crate::arch::ring::{JointLines, Line, Ring, Thickness, stations};
     use crate::arch::{Arch, straight_voussoirs};
-    use crate::collapse::{Aim, Direction, Mesh, Method};
+    use crate::collapse::{Aim, Direction, Geometry, Mesh, Method};
 
     /// A semicircle of `n` equal stones, cut into `subblocks` each, without loads.
     fn semicircle(n: usize, subblocks: [usize; 2], curved: bool) -> Analysis {
@@ -264,6 +264,7 @@ mod tests {
             direction: Direction::Increase,
             cap: None,
             method: Method::EventPath,
+            geometry: Geometry::FirstOrder,
             share: 0.999,
             mesh: Mesh { subblocks: vec![subblocks; n], seams: Seams::Split },
             fields: Vec::new(),

@@ -82,7 +82,7 @@ pub(super) fn at_criterion(
     PathEnd { load_factor, residual, mechanism, thrust_line }
 }
 
-fn from_direction(model: &Model, arch: &Arch, direction: &[f64]) -> super::Mechanism {
+pub(super) fn from_direction(model: &Model, arch: &Arch, direction: &[f64]) -> super::Mechanism {
     let motions: Vec<_> = (0..model.voussoirs)
         .map(|v| {
             let motion = model.chain.mean_motion(model.first_voussoir + v, direction, &[]);

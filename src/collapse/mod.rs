@@ -14,6 +14,7 @@ pub mod report;
 mod safety;
 mod smallest_motion;
 mod tally;
+mod updated;
 mod verdict;
 mod yielding;
 
@@ -42,6 +43,15 @@ pub enum PlaneModel {
     Stress,
     /// eps_z = 0.
     Strain,
+}
+
+/// Whether equilibrium is that of the arch as built, or of the arch where its loads have moved it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Geometry {
+    /// As built: first order, what limit analysis certifies.
+    FirstOrder,
+    /// Both: the first-order answer, and beside it that of the path on the moving arch.
+    Updated,
 }
 
 /// How the load path is read.
@@ -164,6 +174,8 @@ pub struct Analysis {
     pub cap: Option<f64>,
     /// How the path is read.
     pub method: Method,
+    /// Whether the path on the moving arch is followed too.
+    pub geometry: Geometry,
     /// At which share of the way to collapse displacements and contact forces are reported, in (0, 1).
     pub share: f64,
     /// How the voussoirs are cut into subblocks.

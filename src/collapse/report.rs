@@ -1,9 +1,11 @@
 //! What an analysis says: plain data, SI units, radians.
 
 mod strength;
+mod updated;
 
 pub use crate::arch::Face;
 pub use strength::*;
+pub use updated::*;
 
 use crate::geometry::Vec2;
 
@@ -211,6 +213,8 @@ pub struct CollapseReport {
     pub stress_fields: Vec<StressField>,
     /// When the stone crushes.
     pub crushing: Option<Crushing>,
+    /// The same question on moving geometry, where asked and where the arch stands at first order.
+    pub updated: Option<UpdatedGeometry>,
     /// The safety factors, where asked.
     pub safety: Option<SafetyPoint>,
     /// The path, event by event.

@@ -4,9 +4,10 @@ use super::certificate::{Certificate, Doubt, LATER_MECHANISM, any_fixed, loaded,
 use super::discretise::{Model, discretise};
 use super::path::{ATTEMPTS, Attempt, Leg, disturbed, follow, nothing_grows, stand, total};
 use super::record::{MOST_STEPS, Recorder, snapshot};
+use super::updated::{self, Course};
 use super::{
-    Aim, Analysis, AnalysisError, CollapseReport, Cost, Crushing, Direction, LimitWindow, LoadStep, Method, Outcome,
-    PathEnd, ThrustRange, Watch, ending, motion, safety,
+    Aim, Analysis, AnalysisError, CollapseReport, Cost, Crushing, Direction, Geometry, LimitWindow, LoadStep, Method, Outcome,
+    PathEnd, ThrustRange, UpdatedGeometry, Watch, ending, motion, safety,
 };
 use crate::arch::{Joint, JointLaw};
 use crate::dda::{End, Tracer};
@@ -61,6 +62,7 @@ pub(super) fn run(analysis: &Analysis, watch: &mut dyn Watch) -> Result<Collapse
         report.notes.push(doubt.to_string());
     }
     report.settle_fields(analysis);
+    report.updated = question.updated(&mut report, watch)?;
     match analysis.aim {
         Aim::Collapse => safety::crushed_at_start(&mut report),
         Aim::Safety { crushing } => safety::judge(&mut report, crushing),
@@ -218,6 +220,20 @@ impl<'a> Question<'a> {
         }
     }
 
+    /// The answer on moving geometry, where it is asked for and the arch stands at first order.
+    fn updated(
+        &self,
+        report: &mut CollapseReport,
+        watch: &mut dyn Watch,
+    ) -> Result<Option<UpdatedGeometry>, AnalysisError> {
+        let stands = report.at_start.is_some() && report.outcome != Outcome::CannotTell;
+        if self.analysis.geometry == Geometry::FirstOrder || !stands {
+            return Ok(None);
+        }
+        let course = Course { start: self.start, sign: self.sign, cap: self.cap, weight: self.weight };
+        updated::follow(self.analysis, course, &mut report.cost, watch).map(Some)
+    }
+
     /// The arch did not stand under its loads at the start.
     fn fallen(&self, mut report: CollapseReport, model: &Model, tracer: &Tracer) -> Attempted {
         // Without fixed loads the smallest load factor is one too many.
@@ -261,6 +277,7 @@ impl<'a> Question<'a> {
             at_start: None,
             stress_fields: Vec::new(),
             crushing: Some(self.crushing.clone()),
+            updated: None,
             safety: None,
             history: Vec::new(),
             cost: Cost { unknowns: model.chain.unknowns(), ..Cost::default() },

@@ -80,6 +80,8 @@ pub struct Tracer<'a> {
     /// The moving geometry; none on the reference geometry (first order).
     moving: Option<Placed>,
     linearised_at: Vec<f64>,
+    /// Highest parameter before the first dip that is worth telling.
+    dip: Option<f64>,
     /// Gap and slip that the moving ground gives every contact per unit of the parameter, first order.
     settling: Vec<[f64; 2]>,
 
@@ -127,6 +129,7 @@ impl<'a> Tracer<'a> {
             peak: None,
             moving: None,
             linearised_at: Vec::new(),
+            dip: None,
             settling: vec![[0.0; 2]; chain.contacts().len()],
             matrix: chain.elastic().clone(),
             load_rate: vec![0.0; n],

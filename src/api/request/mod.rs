@@ -61,6 +61,9 @@ pub struct AnalysisRequest {
     /// How the load path is followed.
     #[serde(default)]
     pub method: MethodRequest,
+    /// Whether it is followed on the moving arch too.
+    #[serde(default)]
+    pub geometry: GeometryRequest,
     /// What the answer shows.
     #[serde(default)]
     pub report: ReportRequest,

@@ -19,6 +19,18 @@ pub enum AimRequest {
     Safety(SafetyRequest),
 }
 
+/// Whether equilibrium is that of the arch as built, or of the arch where its loads have moved it.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum GeometryRequest {
+    /// As built: first order, what limit analysis certifies.
+    #[default]
+    FirstOrder,
+    /// Both: besides, the load path is followed on the arch as it moves, with finite rotations; its answer stands in
+    /// `updated_geometry`. It depends on Young's modulus and the penalty. Needs method `event_path`.
+    Updated,
+}
+
 /// Safety against falling and crushing; needs scaled loads, direction `increase` and method `event_path`.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(default)]

@@ -3,9 +3,9 @@
 use super::stone::{check_overrides, joint_law, override_joints, stone};
 use super::{MAX_FACTOR, MAX_LENGTH_M, arch, check_text, half, loads, mesh};
 use crate::api::fault::Faults;
-use crate::api::request::{AnalysisRequest, DirectionRequest, LoadEntry, MethodRequest};
+use crate::api::request::{AnalysisRequest, DirectionRequest, GeometryRequest, LoadEntry, MethodRequest};
 use crate::arch::{Arch, PointForce, Stone};
-use crate::collapse::{Analysis, Direction, FieldAt, Mesh, Method};
+use crate::collapse::{Analysis, Direction, FieldAt, Geometry, Mesh, Method};
 
 /// Everything of a request but its loads.
 pub struct Site<'a> {
@@ -42,6 +42,9 @@ impl<'a> Site<'a> {
         let joints = arch.as_ref().map_or(usize::MAX, |arch| arch.joints.len());
         let method = method(&request.method, joints, faults);
         check_load_factor(request, faults);
+        let exact = request.geometry == GeometryRequest::FirstOrder || request.method == MethodRequest::EventPath;
+        let detail = "a path on moving geometry is followed exactly: set method to `event_path`";
+        faults.require(exact, "/method", detail);
         let share = request.report.share_of_collapse;
         let detail = format!("{share} is out of range: it must lie between 0 and 1, both excluded, such as 0.999");
         faults.require(share > 0.0 && share < 1.0, "/report/share_of_collapse", detail);
@@ -81,6 +84,7 @@ impl<'a> Site<'a> {
             direction: request.load_factor.direction.into(),
             cap: request.load_factor.cap,
             method: self.method,
+            geometry: request.geometry.into(),
             share: request.report.share_of_collapse,
             mesh: Mesh { subblocks: self.subblocks().to_vec(), seams: request.mesh.seams.into() },
             fields: self.fields.clone(),
@@ -95,6 +99,15 @@ impl From<DirectionRequest> for Direction {
         match direction {
             DirectionRequest::Increase => Direction::Increase,
             DirectionRequest::Decrease => Direction::Decrease,
+        }
+    }
+}
+
+impl From<GeometryRequest> for Geometry {
+    fn from(geometry: GeometryRequest) -> Self {
+        match geometry {
+            GeometryRequest::FirstOrder => Geometry::FirstOrder,
+            GeometryRequest::Updated => Geometry::Updated,
         }
     }
 }

@@ -17,17 +17,26 @@ const LONGEST: f64 = 2e-3;
 /// An event so close to the place of the last linearisation, as a share of the size, does without a new one.
 const NEAR: f64 = 2e-5;
 /// Equilibrium residual, as a share of the load scale, to which a point is corrected, and above which a step is too long.
-const EQUILIBRIUM: f64 = 1e-10;
-const FAILED: f64 = 1e-8;
+const EQUILIBRIUM: f64 = 1e-12;
+const FAILED: f64 = 1e-9;
 /// Corrections to try before a step is taken as too long.
-const CORRECTIONS: usize = 8;
-/// A force beyond its limit by this share of the load scale means that a change of state was missed.
-const MISSED: f64 = 1e-7;
+const CORRECTIONS: usize = 12;
+/// A force beyond its limit by this share of the load scale means that a change of state was missed: ties are told
+/// apart by disturbances of 1e-9.
+const MISSED: f64 = 1e-11;
+/// So many changes of state may lie so close together that the tangent mistakes their order.
+const CLOSE: usize = 4;
 /// So many halvings of a step in a row mean that the path is lost.
 const HALVINGS: usize = 40;
-/// Collapse is the highest point from which the parameter falls by this share of what it rose: smaller dips are stones that
-/// find their seat.
-const FALLEN: f64 = 0.01;
+/// A path has at most so many steps that end at no change of state; real ones have some hundreds.
+const MOST_STEPS: usize = 3000;
+/// Collapse is the highest point of the path from which it does not come back before the parameter has fallen by this share
+/// of what it rose, or the chain has moved by this share of its size; a shorter dip is a snap: stones that find another seat.
+const FALLEN: [f64; 2] = [0.1, 0.01];
+/// Rises that change the loads on a node by less than this share of the load scale count as if they did by so much.
+const LEAST_RISE: f64 = 1e-3;
+/// A snap is worth telling where the parameter falls by this share of what it rose.
+const SNAP: f64 = 0.01;
 /// Displacements beyond this share of the size are no arch of this shape any more.
 const FAR: f64 = 0.3;
 /// Strain beyond which stone is no longer elastic by any measure.
@@ -66,7 +75,7 @@ impl Tracer<'_> {
         };
         debug_assert!(parameter == 0.0 || ground.iter().all(|g| g.is_still()), "the ground starts at rest");
         self.parameter = 0.0;
-        let end = self.trace_moving(1.0, see);
+        let end = self.walk(1.0, f64::INFINITY, see);
         (self.drive, self.parameter, self.peak) = (drive, parameter, None);
         end
     }
@@ -75,9 +84,15 @@ impl Tracer<'_> {
     /// parameter has passed its peak for good, [`End::Rising`] where the chain has moved too far for its displacements to
     /// mean anything.
     pub fn trace_moving(&mut self, target: f64, see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>) -> End {
+        self.walk(target, FALLEN[0], see)
+    }
+
+    /// Traces until the parameter has fallen by this share of what it rose.
+    fn walk(&mut self, target: f64, most_fall: f64, see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>) -> End {
         let start = self.parameter;
         let mut longest = LONGEST * self.size;
-        let (mut halvings, mut zero_steps, mut barred, mut refined) = (0, 0, None, false);
+        self.dip = None;
+        let (mut halvings, mut zero_steps, mut steps, mut barred, mut refined) = (0, 0, 0, None, false);
         let most_zero_steps = super::MOST_ZERO_STEPS[0] + super::MOST_ZERO_STEPS[1] * self.states.len();
         let most_events = self.events + super::MOST_EVENTS[0] + super::MOST_EVENTS[1] * self.states.len();
         if self.find_residual() > FAILED || target <= start {
@@ -92,37 +107,32 @@ impl Tracer<'_> {
             if see(self).is_break() {
                 return End::Stopped;
             }
-            if let Some(end) = self.is_over(start) {
+            if let Some(end) = self.is_over(start, most_fall) {
                 return end;
             }
             let event = self.nearest_event(barred);
             let to_target = if self.rate > 0.0 { (target - self.parameter) / self.rate } else { f64::INFINITY };
             let to_event = event.map_or(f64::INFINITY, |event| event.step);
-            let step = longest.min(to_event).min(to_target);
+            // Where nothing moves the path is straight.
+            let straight = self.direction.iter().all(|&d| d == 0.0);
+            let step = if straight { f64::INFINITY } else { longest }.min(to_event).min(to_target);
             let hold = match event {
                 _ if step == to_target => Hold::Parameter,
                 Some(event) if step == to_event => Hold::Border(event, self.states[event.contact]),
                 _ => Hold::Fastest(fastest(&self.direction)),
             };
             let before = (self.displacements.clone(), self.parameter, self.rate);
-            let violated = self.violated();
-            self.advance(step);
-            if let Hold::Parameter = hold {
-                self.parameter = target;
-            }
-            if !self.correct(hold) || self.missed(&violated, hold) {
+            let Some(hold) = self.step(step, hold, target) else {
                 (self.displacements, self.parameter) = (before.0, before.1);
                 halvings += 1;
-                if std::env::var("DBG").is_ok() { eprintln!("fail step={step:e} {hold:?} par={} rate={} res={:e} ratio={:e}", self.parameter, self.rate, self.worst_residual, self.factor.pivot_ratio()); }
-                if halvings > HALVINGS || self.events > most_events || !(self.find_residual() < FAILED) {
+                if halvings > HALVINGS || self.events > most_events || !(self.find_residual() < FAILED + self.rounding()) {
                     return End::Lost;
                 }
                 longest = 0.5 * step;
                 self.renew_tangent();
                 continue;
-            }
+            };
             halvings = 0;
-            if std::env::var("DBG").is_ok() { eprintln!("ok step={step:e} {hold:?} par={} rate={} res={:e}", self.parameter, self.rate, self.worst_residual); }
             match hold {
                 Hold::Parameter => return End::Reached,
                 Hold::Border(event, state) => {
@@ -139,6 +149,10 @@ impl Tracer<'_> {
                     self.note_peak(self.rate <= 0.0);
                 }
                 Hold::Fastest(_) => {
+                    steps += 1;
+                    if steps > MOST_STEPS {
+                        return End::Lost;
+                    }
                     barred = None;
                     self.renew_tangent();
                     if before.2 > 0.0 && self.rate < 0.0 && !refined {
@@ -163,10 +177,39 @@ impl Tracer<'_> {
         }
     }
 
-    fn is_over(&self, start: f64) -> Option<End> {
-        let fallen = |peak: &super::Peak| self.parameter < peak.parameter - FALLEN * (peak.parameter - start).abs();
-        if self.peak.as_ref().is_some_and(fallen) {
-            return Some(End::Mechanism);
+    /// Makes a step and corrects it, holding what is to be held; none where it is too long. Two changes of state may lie
+    /// so close together that the tangent mistakes their order: what was held in the end is the first of them.
+    fn step(&mut self, step: f64, hold: Hold, target: f64) -> Option<Hold> {
+        let (displacements, parameter, violated) = (self.displacements.clone(), self.parameter, self.violated());
+        let mut hold = hold;
+        for _ in 0..CLOSE {
+            self.advance(step);
+            if let Hold::Parameter = hold {
+                self.parameter = target;
+            }
+            if !self.correct(hold) {
+                return None;
+            }
+            let Some(event) = self.missed(&violated, hold) else { return Some(hold) };
+            hold = Hold::Border(event, self.states[event.contact]);
+            self.displacements.clone_from(&displacements);
+            self.parameter = parameter;
+            self.find_residual();
+        }
+        None
+    }
+
+        fn is_over(&mut self, start: f64, most_fall: f64) -> Option<End> {
+        if let Some(peak) = &self.peak {
+            let moved = farthest(&self.displacements, &peak.displacements);
+            let least = LEAST_RISE * self.load_scale / self.load_rate_scale;
+            let fallen = (peak.parameter - self.parameter) / (peak.parameter - start).max(least);
+            if fallen > most_fall || (fallen > 0.0 && moved > FALLEN[1] * self.size) {
+                return Some(End::Mechanism);
+            }
+            if fallen > SNAP {
+                self.dip = self.dip.or(Some(peak.parameter));
+            }
         }
         let far = self.displacements.iter().fold(0.0, |far: f64, d| far.max(d.abs())) > FAR * self.size;
         let strained = self.moving.as_ref().is_some_and(|moving| moving.largest_strain() > STRAINED);
@@ -197,8 +240,7 @@ impl Tracer<'_> {
     }
 
     fn moved_since_linearisation(&self) -> f64 {
-        let moved = self.displacements.iter().zip(&self.linearised_at).map(|(a, b)| (a - b).abs());
-        moved.fold(0.0, f64::max)
+        farthest(&self.displacements, &self.linearised_at)
     }
 
     /// Brings the chain back to equilibrium while something is held; false where that does not converge.
@@ -207,19 +249,17 @@ impl Tracer<'_> {
         let mut last = f64::INFINITY;
         for _ in 0..CORRECTIONS {
             let worst = self.find_residual();
-            let off = if let Hold::Border(event, state) = hold { self.border(event, state, None)[0] } else { 0.0 };
-            let off_share = match hold {
-                Hold::Border(event, state) => self.as_force(event.contact, state, event.next, off).abs() / self.load_scale,
-                _ => 0.0,
-            };
-            if worst < EQUILIBRIUM && off_share < EQUILIBRIUM {
+            let off = self.off_border(hold);
+            let error = worst + off[1];
+            let slow = error > 0.1 * last;
+            if error < EQUILIBRIUM || (slow && error < FAILED + self.rounding()) {
                 self.worst_residual = self.worst_residual.max(worst);
                 return true;
             }
-            if !(worst + off_share < 10.0 * last) {
-                return false;
+            if slow {
+                self.renew_tangent();
             }
-            last = worst + off_share;
+            last = error;
             self.factor.solve(&self.matrix, &self.residual, &mut correction);
             let along = match hold {
                 Hold::Parameter => 0.0,
@@ -227,7 +267,7 @@ impl Tracer<'_> {
                 Hold::Border(event, state) => {
                     let [_, of_correction] = self.border(event, state, Some(&correction));
                     let [_, of_direction] = self.border(event, state, None);
-                    -(off + of_correction) / of_direction
+                    -(off[0] + of_correction) / of_direction
                 }
             };
             for ((d, c), t) in self.displacements.iter_mut().zip(&correction).zip(&self.direction) {
@@ -235,11 +275,21 @@ impl Tracer<'_> {
             }
             self.parameter += along * self.rate;
         }
-        let worst = self.find_residual();
-        if worst < FAILED {
-            self.worst_residual = self.worst_residual.max(worst);
-        }
-        worst < FAILED
+        false
+    }
+
+    /// How far off the border that is held, where one is, and what that is as a share of the load scale.
+    fn off_border(&self, hold: Hold) -> [f64; 2] {
+        let Hold::Border(event, state) = hold else { return [0.0; 2] };
+        let [off, _] = self.border(event, state, None);
+        [off, self.as_force(event.contact, state, event.next, off).abs() / self.load_scale]
+    }
+
+    /// What rounding of the displacements may leave of the residual, as a share of the load scale.
+    fn rounding(&self) -> f64 {
+        let stiffest = self.chain.contacts().iter().map(|c| c.stiffness[0]).fold(0.0, f64::max);
+        let moved = self.displacements.iter().fold(0.0, |most: f64, d| most.max(d.abs()));
+        8.0 * f64::EPSILON * stiffest * moved / self.load_scale
     }
 
     /// How far a contact is from a border, and how fast it goes there along the direction, or along other velocities of
@@ -267,23 +317,36 @@ impl Tracer<'_> {
         if super::is_gap(from, to) { value * self.chain.contacts()[p].stiffness[0] } else { value }
     }
 
-    /// Which contacts are beyond a border of their state.
-    fn violated(&self) -> Vec<bool> {
-        let beyond = |p: usize| {
-            let (state, mut beyond) = (self.states[p], false);
-            self.ways_out(p, state, |[value, _], next| {
-                beyond |= self.as_force(p, state, next, value) < -MISSED * self.load_scale;
-            });
-            beyond
-        };
-        (0..self.states.len()).map(beyond).collect()
+    /// How far contact `p` is beyond a border of its state, as a share of the load scale, and beyond which.
+    fn beyond(&self, p: usize) -> Option<(f64, State)> {
+        let (state, mut worst) = (self.states[p], None);
+        self.ways_out(p, state, |[value, _], next| {
+            let beyond = -self.as_force(p, state, next, value) / self.load_scale;
+            if beyond > MISSED && worst.is_none_or(|(most, _)| beyond > most) {
+                worst = Some((beyond, next));
+            }
+        });
+        worst
     }
 
-    /// True where a step went beyond a border that it was not meant to reach.
-    fn missed(&self, before: &[bool], hold: Hold) -> bool {
-        let meant = |p: usize| matches!(hold, Hold::Border(event, _) if event.contact == p);
-        self.violated().iter().zip(before).enumerate().any(|(p, (now, before))| *now && !before && !meant(p))
+    /// Which contacts are beyond a border of their state.
+    fn violated(&self) -> Vec<bool> {
+        (0..self.states.len()).map(|p| self.beyond(p).is_some()).collect()
     }
+
+    /// The border that a step went beyond farthest, which it was not meant to reach.
+    fn missed(&self, before: &[bool], hold: Hold) -> Option<Event> {
+        let meant = |p: usize| matches!(hold, Hold::Border(event, _) if event.contact == p);
+        let new = (0..self.states.len()).filter(|&p| !before[p] && !meant(p));
+        let missed = new.filter_map(|p| self.beyond(p).map(|(beyond, next)| (beyond, p, next)));
+        let worst = missed.max_by(|a, b| a.0.total_cmp(&b.0));
+        worst.map(|(_, contact, next)| Event { step: 0.0, contact, next })
+    }
+}
+
+/// Largest difference of two displacements.
+fn farthest(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
 /// The largest entry.

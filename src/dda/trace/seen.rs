@@ -1,6 +1,8 @@
 //! What can be seen of a tracer from outside.
 
 use super::{Peak, Tracer};
+use crate::dda::chain::MeanMotion;
+use crate::geometry::Vec2;
 
 impl Tracer<'_> {
     /// Parameter reached.
@@ -32,6 +34,27 @@ impl Tracer<'_> {
     /// The highest point after which the parameter did not rise at once; none if it always rose.
     pub fn peak(&self) -> Option<&Peak> {
         self.peak.as_ref()
+    }
+
+    /// Goes back to the peak, to be looked at there; false where the path has none.
+    pub fn return_to_peak(&mut self) -> bool {
+        let Some(peak) = self.peak.clone() else { return false };
+        (self.parameter, self.displacements, self.direction) = (peak.parameter, peak.displacements, peak.direction);
+        self.states = peak.states;
+        self.find_residual();
+        true
+    }
+
+    /// Where the path on moving geometry first dipped, only to rise higher later on.
+    pub fn snap(&self) -> Option<f64> {
+        self.dip.filter(|&dip| self.peak.as_ref().is_none_or(|peak| peak.parameter > dip))
+    }
+
+    /// Mean motion of body `i` on moving geometry, what loads add between the nodes left out; still on the reference
+    /// geometry.
+    pub fn mean_motion(&self, i: usize) -> MeanMotion {
+        let still = MeanMotion { displacement: Vec2::zeros(), rotation: 0.0 };
+        self.moving.as_ref().map_or(still, |moving| moving.mean_motion(self.chain, i))
     }
 
     /// Changes of contact state so far.

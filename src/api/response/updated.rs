@@ -1,0 +1,81 @@
+//! The answer on moving geometry.
+
+use super::Scale;
+use super::mechanism::{HingeBody, SlideBody};
+use super::words::ModeWord;
+use crate::collapse::{CollapseReport, UpdatedEnd, UpdatedGeometry};
+use serde::Serialize;
+use utoipa::ToSchema;
+
+/// How the path on moving geometry ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum UpdatedEndWord {
+    /// The arch falls at the highest load of the path.
+    Collapse,
+    /// The arch falls while its geometry moves under the loads at the start of the path.
+    FallsAsLoaded,
+    /// Stands up to the cap.
+    StandsToCap,
+    /// Stands up to a load that strains the stone, or moves the arch, beyond what the model describes.
+    BeyondModel,
+    /// The path could not be followed.
+    CannotTell,
+}
+
+/// The answer on moving geometry. It depends on Young's modulus and the penalty: as they grow it tends to the first-order one.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub struct UpdatedBody {
+    /// How the path ended.
+    pub end: UpdatedEndWord,
+    /// Intensity there: at collapse, or the highest at which the arch is known to stand; null where it falls as loaded.
+    pub intensity: Option<f64>,
+    /// The same as a load factor.
+    pub load_factor: Option<f64>,
+    /// Load factor over that of the first-order collapse; null where either is missing.
+    pub over_first_order: Option<f64>,
+    /// Displacement of the crown at that load, to the right and upwards.
+    pub crown_displacement_m: Option<[f64; 2]>,
+    /// Largest displacement of a stone's centroid at that load.
+    pub largest_displacement_m: Option<f64>,
+    /// How the crown moves as the arch begins to fall; null where it does not.
+    pub mode: Option<ModeWord>,
+    /// Hinges as the arch begins to fall.
+    pub hinges: Vec<HingeBody>,
+    /// Sliding joints as the arch begins to fall.
+    pub slides: Vec<SlideBody>,
+    /// Largest equilibrium residual on the path, as a share of the loads.
+    pub residual: f64,
+}
+
+impl UpdatedBody {
+    pub(super) fn new(updated: &UpdatedGeometry, report: &CollapseReport, scale: &Scale<'_>) -> Self {
+        let first_order = report.end.as_ref().map(|end| end.load_factor);
+        let over = updated.load_factor.zip(first_order).map(|(updated, first)| updated / first);
+        let mechanism = updated.mechanism.as_ref();
+        UpdatedBody {
+            end: updated.end.into(),
+            intensity: updated.load_factor.map(|factor| scale.intensity(factor)),
+            load_factor: updated.load_factor,
+            over_first_order: over.filter(|over| over.is_finite()),
+            crown_displacement_m: updated.crown.map(Into::into),
+            largest_displacement_m: updated.largest,
+            mode: mechanism.map(|mechanism| mechanism.mode.into()),
+            hinges: mechanism.map_or_else(Vec::new, |m| m.hinges.iter().map(Into::into).collect()),
+            slides: mechanism.map_or_else(Vec::new, |m| m.slides.iter().map(Into::into).collect()),
+            residual: updated.residual,
+        }
+    }
+}
+
+impl From<UpdatedEnd> for UpdatedEndWord {
+    fn from(end: UpdatedEnd) -> Self {
+        match end {
+            UpdatedEnd::Collapse => UpdatedEndWord::Collapse,
+            UpdatedEnd::FallsAsLoaded => UpdatedEndWord::FallsAsLoaded,
+            UpdatedEnd::StandsToCap => UpdatedEndWord::StandsToCap,
+            UpdatedEnd::BeyondModel => UpdatedEndWord::BeyondModel,
+            UpdatedEnd::CannotTell => UpdatedEndWord::CannotTell,
+        }
+    }
+}

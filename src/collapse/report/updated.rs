@@ -1,0 +1,36 @@
+//! What an analysis on the moving geometry says, beside the first-order one.
+
+use super::Mechanism;
+use crate::geometry::Vec2;
+
+/// How the path on moving geometry ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum UpdatedEnd {
+    /// The arch falls at the highest load of the path.
+    Collapse,
+    /// The arch falls while its geometry moves under the loads at the start of the path.
+    FallsAsLoaded,
+    /// Stands up to the cap.
+    StandsToCap,
+    /// Stands up to a load that strains the stone, or moves the arch, beyond what the model describes.
+    BeyondModel,
+    /// The path could not be followed.
+    CannotTell,
+}
+
+/// The answer on moving geometry.
+#[derive(Debug, Clone, PartialEq)]
+pub struct UpdatedGeometry {
+    /// How the path ended.
+    pub end: UpdatedEnd,
+    /// Load factor there: at collapse, or the highest at which the arch is known to stand.
+    pub load_factor: Option<f64>,
+    /// Displacement of the crown at that load, m.
+    pub crown: Option<Vec2>,
+    /// Largest displacement of any stone's centroid there, m.
+    pub largest: Option<f64>,
+    /// How the arch begins to fall.
+    pub mechanism: Option<Mechanism>,
+    /// Largest equilibrium residual on the path, as a share of the loads.
+    pub residual: f64,
+}
