@@ -67,7 +67,7 @@ fn the_buried_arch_weighs_and_carries_what_the_reference_says() {
     for (joints, weight, gravel) in
         [(9, 188.0, 100.04), (17, 190.5, 94.82), (27, 191.02, 93.73), (61, 191.28, 93.19), (201, 191.34, 93.08)]
     {
-        let analysis = analysis(&format!("paper-case-1-{joints}"));
+        let analysis = analysis(&format!("paper/table-2/{joints}-joints"));
         assert_eq!(analysis.arch.joints.len(), joints);
         let down: f64 = analysis.fixed.iter().map(|force| -force.force.y / 1000.0).sum();
         assert!((down - weight - 2.0 * gravel).abs() < 0.016, "{joints}: {down}");
