@@ -17,8 +17,8 @@ mod folders;
 const WINDOW: f64 = 1e-6;
 /// Sections of an `expected.json`.
 const SECTIONS: [&str; 5] = ["kind", "source", "quantities", "tolerance", "note"];
-/// What a case may rest on; `pinned` is our own number and proves nothing.
-const KINDS: [&str; 4] = ["closed_form", "published", "limit_analysis", "pinned"];
+/// What a case may rest on; `separate_solution` is another program's number, `pinned` is our own and proves nothing.
+const KINDS: [&str; 5] = ["closed_form", "published", "limit_analysis", "separate_solution", "pinned"];
 
 struct Case {
     name: String,

@@ -16,7 +16,7 @@ const COUNTS: [(&str, [usize; 3]); 8] = [
     ("lateral-7", [31, 33, 267]),
     ("paper/table-2/27-joints", [70, 72, 1947]),
     ("paper/table-2/201-joints", [88, 90, 14931]),
-    ("paper/table-4/limits", [68, 71, 1126]),
+    ("paper/table-4", [68, 71, 1126]),
     ("paper/figure-11", [64, 66, 1072]),
     ("pointed", [29, 30, 1056]),
     ("sliding-arch", [71, 73, 1176]),
