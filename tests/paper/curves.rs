@@ -3,6 +3,10 @@
 use super::sheet::{close, expected, factor, number, request, solve, updated_geometry};
 use serde_json::{Value, json};
 
+/// Largest factor up to which the paper's own sign of collapse is looked for, and how often the search is halved.
+const MOST: f64 = 30.0;
+const HALVINGS: usize = 10;
+
 /// The single analysis of a curve's request at one abscissa.
 fn at(curve: &Value, abscissa: f64) -> Value {
     let mut request = curve.clone();
@@ -13,6 +17,36 @@ fn at(curve: &Value, abscissa: f64) -> Value {
         }
     }
     request
+}
+
+/// Whether three joints are open by 0.01 m, the paper's sign of collapse, under `factor` times the scaled loads.
+fn is_open(request: &Value, factor: f64) -> bool {
+    let mut request = request.clone();
+    request["analysis"] = json!("collapse");
+    for load in request["loads"].as_array_mut().unwrap().iter_mut().filter(|load| load["scaled"] == true) {
+        load["coefficient"] = json!(factor * load["coefficient"].as_f64().unwrap_or(1.0));
+    }
+    let answer = solve(&request);
+    let Some(gaps) = answer["at_unit_load"]["contacts"]["gap_m"].as_array() else { return true };
+    let joints = answer["at_unit_load"]["contacts"]["joint"].as_array().unwrap();
+    let open = gaps.iter().zip(joints).filter(|(gap, _)| gap.as_f64().unwrap() > 0.01).map(|(_, joint)| joint.as_u64());
+    open.collect::<std::collections::BTreeSet<_>>().len() >= 3
+}
+
+/// The factor at which they are; it depends on Young's modulus.
+fn opened(request: &Value) -> String {
+    match (is_open(request, 1.0), is_open(request, MOST)) {
+        (true, _) => "< 1".to_owned(),
+        (_, false) => format!("> {MOST}"),
+        _ => {
+            let (mut closed, mut open) = (1.0, MOST);
+            for _ in 0..HALVINGS {
+                let middle = f64::sqrt(closed * open);
+                *if is_open(request, middle) { &mut open } else { &mut closed } = middle;
+            }
+            format!("{open:.2}")
+        }
+    }
 }
 
 /// Zone by the paper's rule: the first of instability and of first yield, whatever the plastic sections say.
@@ -34,8 +68,8 @@ fn zone(point: &Value) -> &'static str {
 fn compare(case: &str, printed: impl Fn(f64) -> &'static str) -> Vec<(f64, &'static str)> {
     let (request, expected) = (request(case), expected(case));
     println!(
-        "{:>7} {:>22} {:>16} {:>12} {:>22} {:>16} {:>5} {:>9}  printed",
-        "", "instability, limit an.", "ours", "first yield", "plastic, cone prog.", "ours", "zone", "updated"
+        "{:>7} {:>22} {:>16} {:>12} {:>22} {:>16} {:>8} {:>5} {:>9}  printed",
+        "", "instability, limit an.", "ours", "first yield", "plastic, cone prog.", "ours", "opened", "zone", "updated"
     );
     let answer = solve(&request);
     let mut zones = Vec::new();
@@ -51,9 +85,10 @@ fn compare(case: &str, printed: impl Fn(f64) -> &'static str) -> Vec<(f64, &'sta
         }
         let [a, b, c] = ["instability", "elastic", "plastic_section"].map(|name| factor(&point[name]));
         println!(
-            "{abscissa:>7} {:>22} {a:>16} {b:>12} {:>22} {c:>16} {:>5} {:>9}  {}",
+            "{abscissa:>7} {:>22} {a:>16} {b:>12} {:>22} {c:>16} {:>8} {:>5} {:>9}  {}",
             factor(&other["instability"]),
             factor(&other["plastic_section"]),
+            if other.is_null() { String::new() } else { opened(&at(&request, abscissa)) },
             zone(point),
             updated_geometry(&at(&request, abscissa)),
             printed(abscissa)
