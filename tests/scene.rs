@@ -30,16 +30,16 @@ fn every_case_can_be_read_and_says_what_to_expect() {
     for case in cases() {
         let text = std::fs::read(case.join("request.json")).unwrap();
         let faults = read_question(&text).err();
-        assert!(faults.is_none(), "{}: {faults:?}", case.display());
+        assert!(faults.is_none(), "{}: {faults:?}", folders::name(&case));
         let expected: Value = serde_json::from_slice(&std::fs::read(case.join("expected.json")).unwrap()).unwrap();
         let kind = expected["kind"].as_str().unwrap();
         assert!(
             ["limit_analysis", "published", "closed_form", "separate_solution"].contains(&kind),
             "{}",
-            case.display()
+            folders::name(&case)
         );
         assert!(expected["source"].is_string() && expected["tolerance"].is_object() && expected["note"].is_string());
-        assert!(expected["quantities"].is_object(), "{}", case.display());
+        assert!(expected["quantities"].is_object(), "{}", folders::name(&case));
     }
 }
 
@@ -48,7 +48,7 @@ fn a_request_with_its_defaults_reads_as_itself() {
     for case in cases() {
         let request = read(&std::fs::read(case.join("request.json")).unwrap()).unwrap();
         let echo = serde_json::to_vec(&request).unwrap();
-        assert_eq!(read(&echo).unwrap(), request, "{}", case.display());
+        assert_eq!(read(&echo).unwrap(), request, "{}", folders::name(&case));
     }
     let first = read(
         br#"{"arch": {"profile": {"circular": {"span_m": 4, "rise_m": 1}}, "thickness": {"constant_m": 0.3},
