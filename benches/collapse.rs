@@ -45,7 +45,7 @@ fn read(request: &Value) -> Analysis {
 }
 
 fn paper(joints: usize) -> Analysis {
-    let file = format!("{}/cases/paper-case-1-{joints}/request.json", env!("CARGO_MANIFEST_DIR"));
+    let file = format!("{}/cases/paper/table-2/{joints}-joints/request.json", env!("CARGO_MANIFEST_DIR"));
     read(&serde_json::from_slice(&std::fs::read(file).unwrap()).unwrap())
 }
 

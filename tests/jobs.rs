@@ -9,8 +9,8 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 use voussoir::arch::{Arch, Stone};
 use voussoir::collapse::{
-    Aim, Analysis, AnalysisError, Answer, CollapseReport, Cost, Direction, LoadStep, Geometry, Mesh, Method, Outcome, PlaneModel,
-    Question, Seams, Watch,
+    Aim, Analysis, AnalysisError, Answer, CollapseReport, Cost, Direction, Geometry, LoadStep, Mesh, Method, Outcome,
+    PlaneModel, Question, Seams, Watch,
 };
 use voussoir::geometry::Vec2;
 use voussoir::jobs::{Dismissal, Failure, Job, JobId, JobStore, Limits, Refusal, State, Status};

@@ -85,7 +85,13 @@ fn a_column_under_an_eccentric_load_falls_when_its_lever_reaches_the_edge() {
                 // In series with its links, each ten times as stiff, a contact is as stiff as the formula's.
                 let contact = stiffness / (1.0 - if i == 0 { 0.1 } else { 0.2 });
                 let scattered = contact * (1.0 + 1e-6 * (2 * i + j) as f64);
-                builder.contact(touch(Vec2::new(x * width, i as f64 * height), Vec2::y(), scattered, 10.0 * stiffness, law));
+                builder.contact(touch(
+                    Vec2::new(x * width, i as f64 * height),
+                    Vec2::y(),
+                    scattered,
+                    10.0 * stiffness,
+                    law,
+                ));
             }
             builder.next_interface();
         }
@@ -98,7 +104,8 @@ fn a_column_under_an_eccentric_load_falls_when_its_lever_reaches_the_edge() {
             let phi = (1.0 - 0.5 * load * height / rotational).acos();
             eccentricity * (0.5 * phi).cos() / ((n as f64 + 0.5) * phi).cos()
         };
-        let (mut low, mut high) = (0.0, 2.0 * rotational / height * (1.0 - (0.5 * std::f64::consts::PI / (n as f64 + 0.5)).cos()));
+        let (mut low, mut high) =
+            (0.0, 2.0 * rotational / height * (1.0 - (0.5 * std::f64::consts::PI / (n as f64 + 0.5)).cos()));
         for _ in 0..200 {
             let mid = 0.5 * (low + high);
             if lever(mid) < 0.5 * width { low = mid } else { high = mid }

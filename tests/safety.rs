@@ -5,9 +5,9 @@ use serde_json::{Value, json};
 use voussoir::api::read::read_question;
 use voussoir::collapse::{Answer, CollapseReport, Governs, Outcome, Question, Reach, Unwatched, answer, run};
 
-/// The oval under 2 m of embankment of `cases/paper-oval-stress`, changed.
+/// The oval under 2 m of embankment of `cases/paper/figure-11`, changed.
 fn oval(change: impl Fn(&mut Value)) -> CollapseReport {
-    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/cases/paper-oval-stress/request.json");
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/cases/paper/figure-11/request.json");
     let mut request: Value = serde_json::from_slice(&std::fs::read(file).unwrap()).unwrap();
     change(&mut request);
     let (_, question) = read_question(request.to_string().as_bytes()).unwrap();
@@ -119,7 +119,7 @@ fn half_an_arch_has_the_safety_of_the_whole() {
 
 #[test]
 fn a_curve_is_its_points_one_by_one() {
-    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/cases/paper-oval-safety-crown-load/request.json");
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/cases/paper/figure-13/request.json");
     let (_, question) = read_question(&std::fs::read(file).unwrap()).unwrap();
     let Answer::Curve(points) = answer(&question, &mut Unwatched).unwrap() else { unreachable!("a curve") };
     let Question::Curve(asked) = question else { unreachable!("a curve") };

@@ -1,7 +1,7 @@
-//! From joints to an arch: checks that the stones can exist, adds springings and abutments, halves.
+//! From joints to an arch: checks that the stones can exist, adds springings and abutments.
 
 use super::{Abutment, Arch, Face, Joint, JointLaw, Sides, Voussoir};
-use crate::geometry::{Region, Vec2, mirrored, segments_meet};
+use crate::geometry::{Region, Vec2, segments_meet};
 
 /// Most voussoirs an arch may have.
 pub const MAX_VOUSSOIRS: usize = 2001;
@@ -96,36 +96,5 @@ impl Arch {
             region.area = region.area.abs();
             Some(Abutment { base, region })
         });
-    }
-
-    /// The first joint that is not the mirror image (in place and law) of its partner; `None` for a symmetric arch.
-    pub fn asymmetry(&self) -> Option<usize> {
-        let (n, axis) = (self.joints.len() - 1, self.axis());
-        let size = (self.joints[0].middle() - self.joints[n].middle()).norm().max(self.joints[0].length());
-        (0..=n / 2).find(|&k| {
-            let (a, b) = (&self.joints[k], &self.joints[n - k]);
-            let apart =
-                (a.intrados - mirrored(b.intrados, axis)).norm() + (a.extrados - mirrored(b.extrados, axis)).norm();
-            apart > 1e-9 * size || a.law != b.law
-        })
-    }
-
-    /// Abscissa of the vertical through the middle between the springings, m.
-    pub fn axis(&self) -> f64 {
-        0.5 * (self.joints[0].middle().x + self.joints[self.joints.len() - 1].middle().x)
-    }
-
-    /// The left half of a symmetric arch of an even number of voussoirs, its crown against a frictionless wall.
-    pub fn left_half(&self) -> Arch {
-        let n = self.voussoirs.len() / 2;
-        let mut joints = self.joints[..=n].to_vec();
-        joints[n].law = JointLaw::Dry { friction: 0.0, cohesion: 0.0 };
-        Arch {
-            voussoirs: self.voussoirs[..n].to_vec(),
-            joints,
-            abutments: [self.abutments[0], None],
-            half: true,
-            angle_centre: self.angle_centre,
-        }
     }
 }

@@ -279,25 +279,5 @@ fn patch_load(arch: &Arch, sides: &[Side], force: f64, centre: f64, width: f64) 
     Ok(forces)
 }
 
-/// True when the forces on every voussoir are the mirror image, about x = `axis`, of those on its partner.
-pub fn is_symmetric(forces: &[PointForce], voussoirs: usize, axis: f64) -> bool {
-    let origin = Vec2::new(axis, 0.0);
-    let mut sums = vec![[0.0; 3]; voussoirs];
-    let mut scale = [0.0f64; 2];
-    for force in forces {
-        let arm = force.at - origin;
-        let sum = &mut sums[force.voussoir];
-        sum[0] += force.force.x;
-        sum[1] += force.force.y;
-        sum[2] += crate::geometry::cross(arm, force.force);
-        scale = [scale[0] + force.force.norm(), scale[1].max(arm.norm())];
-    }
-    let (force, moment) = (1e-9 * scale[0], 1e-9 * scale[0] * scale[1]);
-    (0..voussoirs.div_ceil(2)).all(|k| {
-        let (a, b) = (sums[k], sums[voussoirs - 1 - k]);
-        (a[0] + b[0]).abs() <= force && (a[1] - b[1]).abs() <= force && (a[2] + b[2]).abs() <= moment
-    })
-}
-
 #[cfg(test)]
 mod tests;

@@ -6,11 +6,13 @@
 
 mod build;
 mod ellipse;
+mod half;
 pub mod load;
 pub mod profile;
 pub mod ring;
 
 pub use build::{ArchFault, MAX_VOUSSOIRS, straight_voussoirs};
+pub use half::is_symmetric;
 
 use crate::geometry::{Region, Vec2};
 
@@ -75,6 +77,8 @@ pub enum JointLaw {
     },
     /// Glued: neither opens nor slides.
     Bonded,
+    /// Plane of symmetry through a stone, no joint: carries any normal force and bending, tension too, and no shear.
+    Mirror,
 }
 
 /// The contact face between two stones, a straight segment from intrados to extrados.
@@ -152,7 +156,8 @@ pub struct Arch {
     pub joints: Vec<Joint>,
     /// Left and right abutment, where there are any. A half arch has the left one only.
     pub abutments: [Option<Abutment>; 2],
-    /// True for the left half of a symmetric arch: the last joint is the crown, resting on a frictionless wall.
+    /// True for the left half of a symmetric arch: the last joint is the crown, on a frictionless wall, or the axis, where
+    /// a keystone is cut.
     pub half: bool,
     /// Point about which positions are given as angles: the centre of the circle, else mid-span at the springing level.
     pub angle_centre: Vec2,

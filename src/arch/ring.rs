@@ -186,6 +186,14 @@ impl Ring {
         (0..ends.len() - 1).map(voussoir).collect()
     }
 
+    /// The left half of the curved stone on the axis, and the ends of the cut.
+    pub fn left_half_of_keystone(&self) -> Option<(Voussoir, JointEnds)> {
+        let k = self.stations.len() / 2;
+        let cut = Ring { stations: vec![self.stations[k - 1], 0.0], ..self.clone() };
+        let ends = cut.set_out().ok()?;
+        Some((*cut.curved_voussoirs(&ends)?.first()?, ends[1]))
+    }
+
     fn arc(&self, from: f64, to: f64) -> Option<Sides> {
         self.profile.centre_at(0.5 * (from + to)).map(|centre| Sides::Arcs { centre })
     }

@@ -183,7 +183,11 @@ pub fn arch(arch: &ArchRequest) -> String {
         ProfileRequest::Surveyed(surveyed) => ("surveyed", surveyed.intrados_m.len()),
     };
     let count = arch.voussoirs.unwrap_or(joints.saturating_sub(1));
-    let half = if arch.half { ", the left half of it against a frictionless wall" } else { "" };
+    let half = match (arch.half, count.is_multiple_of(2)) {
+        (false, _) => "",
+        (true, true) => ", the left half of it against a frictionless wall",
+        (true, false) => ", the left half of it, the keystone cut on the axis",
+    };
     format!("{shape}, {count} voussoirs, {} joints{half}", count + 1)
 }
 

@@ -132,6 +132,8 @@ fn touches<'a>(
     let links = before.into_iter().chain(after).count() as f64;
     let contact = 1.0 / (1.0 - links / LINK);
     let places = places(before, after);
+    // A mirror plane holds across and lets slide along.
+    let along = if joint.law == JointLaw::Mirror { 0.0 } else { 1.0 };
     (0..places.len()).map(move |j| {
         let eta = places[j];
         let sides = [eta - places[j.saturating_sub(1)], places[(j + 1).min(places.len() - 1)] - eta];
@@ -142,7 +144,7 @@ fn touches<'a>(
         Touch {
             at: joint.intrados + (joint.extrados - joint.intrados) * eta,
             normal: joint.normal(),
-            stiffness: [0, 1].map(|_| contact * stiffness * (1.0 + STIFFNESS_SCATTER * scatter.next())),
+            stiffness: [1.0, along].map(|by| by * contact * stiffness * (1.0 + STIFFNESS_SCATTER * scatter.next())),
             link: [LINK * stiffness; 2],
             law: law(joint, share),
             before: before.map_or(nobody, |g| g.on_joint(true, eta, sides)),
@@ -166,7 +168,7 @@ fn places(before: Option<&Grid>, after: Option<&Grid>) -> Vec<f64> {
 /// Law of a contact point that has this share of the joint.
 fn law(joint: &Joint, share: f64) -> Law {
     match joint.law {
-        JointLaw::Bonded => Law::Bonded,
+        JointLaw::Bonded | JointLaw::Mirror => Law::Bonded,
         JointLaw::Dry { friction, cohesion } => Law::Coulomb { friction, cohesion: share * cohesion * joint.length() },
     }
 }

@@ -5,7 +5,7 @@ use super::mechanism;
 use super::motion::motion_at;
 use super::path::Fall;
 use super::{Analysis, PathEnd, Thrust};
-use crate::arch::{Arch, PointForce};
+use crate::arch::{Arch, JointLaw, PointForce};
 use crate::dda::{Peak, State, Tracer, Zone};
 use crate::limit::{Condition, Resultant, StaticTheorem};
 
@@ -96,6 +96,9 @@ pub(super) fn from_direction(model: &Model, arch: &Arch, direction: &[f64]) -> s
 fn conditions(model: &Model, arch: &Arch, peak: &Peak) -> Vec<Condition> {
     let mut conditions = Vec::new();
     for joint in 0..arch.joints.len() {
+        if arch.joints[joint].law == JointLaw::Mirror {
+            conditions.push(Condition { joint, weights: [0.0, 0.0, 1.0], constant: 0.0 });
+        }
         let contacts = model.contacts(joint);
         // With force at one end alone there is none at the other.
         for (face, but) in [(0, contacts.end - 1), (1, contacts.start)] {

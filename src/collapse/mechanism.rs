@@ -56,7 +56,11 @@ pub(super) fn from_statics(
 
 /// What a joint at its limits lets happen.
 fn joint_releases(arch: &Arch, k: usize, r: &Resultant, slipping: Option<f64>, at_limit: f64) -> Vec<(usize, Release)> {
-    let JointLaw::Dry { friction, cohesion } = arch.joints[k].law else { return Vec::new() };
+    let (friction, cohesion) = match arch.joints[k].law {
+        JointLaw::Dry { friction, cohesion } => (friction, cohesion),
+        JointLaw::Mirror => return [1.0, -1.0].map(|sign| (k, Release::Sliding(sign))).to_vec(),
+        JointLaw::Bonded => return Vec::new(),
+    };
     let normal = r.normal();
     let scale = at_limit * normal.abs().max(r.shear.abs());
     let mut releases = Vec::new();

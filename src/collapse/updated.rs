@@ -58,9 +58,8 @@ fn attempt(
         stand(&model, &fixed, course.start, course.weight, &mut |t| see(t, course.start * t.parameter()));
     let mut moved = false;
     if end == End::Reached {
-        end = tracer.move_on(drive(&model, fixed, course.sign), course.sign * course.start, &mut |t| {
-            see(t, course.start)
-        });
+        end = tracer
+            .move_on(drive(&model, fixed, course.sign), course.sign * course.start, &mut |t| see(t, course.start));
         if end == End::Reached {
             moved = true;
             end = tracer.trace_moving(course.cap, &mut |t| see(t, course.sign * t.parameter()));

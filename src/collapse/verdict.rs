@@ -6,8 +6,8 @@ use super::path::{ATTEMPTS, Attempt, Leg, disturbed, follow, nothing_grows, stan
 use super::record::{MOST_STEPS, Recorder, snapshot};
 use super::updated::{self, Course};
 use super::{
-    Aim, Analysis, AnalysisError, CollapseReport, Cost, Crushing, Direction, Geometry, LimitWindow, LoadStep, Method, Outcome,
-    PathEnd, ThrustRange, UpdatedGeometry, Watch, ending, motion, safety,
+    Aim, Analysis, AnalysisError, CollapseReport, Cost, Crushing, Direction, Geometry, LimitWindow, LoadStep, Method,
+    Outcome, PathEnd, ThrustRange, UpdatedGeometry, Watch, ending, motion, safety,
 };
 use crate::arch::{Joint, JointLaw};
 use crate::dda::{End, Tracer};

@@ -159,7 +159,7 @@ impl Placed {
     ) {
         let Some(ground) = chain.ground_at(k).map(|end| &drive.ground[end]).filter(|g| !g.is_still()) else { return };
         let frame = &self.frames[k];
-        let spin = 0.5 * ground.spin;
+        let spin = ground.spin;
         let rates = chain.at_interface(k).zip(points).map(|(p, at)| {
             let moved = ground.velocity_at(chain.place(p), parameter);
             let gap = frame.gap_rate(at.gap, chain.ground_gap(p, moved), spin);

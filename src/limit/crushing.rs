@@ -99,7 +99,7 @@ impl StaticTheorem {
     }
 
     fn sections(&self, strength: f64) -> Vec<Section> {
-        let dry = self.joints.iter().enumerate().filter(|(_, joint)| joint.law != JointLaw::Bonded);
+        let dry = self.joints.iter().enumerate().filter(|(_, joint)| matches!(joint.law, JointLaw::Dry { .. }));
         dry.map(|(k, joint)| {
             let [intrados, extrados, _] = self.forces[k];
             Section {

@@ -93,16 +93,22 @@ impl StaticTheorem {
     }
 
     fn add_inequalities(&mut self, k: usize) {
-        let JointLaw::Dry { friction, cohesion } = self.joints[k].law else { return };
         let [intrados, extrados, shear] = self.forces[k];
-        let adhesion = cohesion * self.joints[k].length();
-        let capacity = |sign: f64| {
+        let capacity = |friction: f64, adhesion: f64, sign: f64| {
             (
                 (intrados.0 + extrados.0) * friction + shear.0 * sign,
                 (intrados.1 + extrados.1) * friction + shear.1 * sign + adhesion,
             )
         };
-        for (row, constant) in [intrados, extrados, capacity(1.0), capacity(-1.0)] {
+        let conditions = match self.joints[k].law {
+            JointLaw::Dry { friction, cohesion } => {
+                let adhesion = cohesion * self.joints[k].length();
+                vec![intrados, extrados, capacity(friction, adhesion, 1.0), capacity(friction, adhesion, -1.0)]
+            }
+            JointLaw::Mirror => vec![capacity(0.0, 0.0, 1.0), capacity(0.0, 0.0, -1.0)],
+            JointLaw::Bonded => Vec::new(),
+        };
+        for (row, constant) in conditions {
             let norm = row.norm();
             self.inequalities.push(Inequality { row: row / norm, constant: constant / norm });
         }

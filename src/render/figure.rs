@@ -1,7 +1,7 @@
 //! One picture of an arch at collapse: stones, hinges, slides, thrust line, and how it moves.
 
 use super::canvas::{Canvas, WIDTH};
-use crate::arch::Arch;
+use crate::arch::{Arch, JointLaw};
 use crate::collapse::{Face, PathEnd};
 use crate::geometry::{Vec2, cross, perpendicular};
 
@@ -16,6 +16,7 @@ const STYLE: &str = "\
 .abutment{fill:#e0dbd1;stroke:#93897a;stroke-width:.8;stroke-linejoin:round}
 .ground{stroke:#55524d;stroke-width:2}
 .hatch{stroke:#55524d;stroke-width:1}
+.axis{stroke:#55524d;stroke-width:1.4;stroke-dasharray:9 3 2 3}
 .ghost{fill:#3b6ea5;fill-opacity:.1;stroke:#3b6ea5;stroke-opacity:.85;stroke-width:1.3;stroke-linejoin:round}
 .thrust{fill:none;stroke:#c8392b;stroke-width:2.2;stroke-linejoin:round;stroke-linecap:round}
 .hinge{fill:#fff;stroke:#1d1d1f;stroke-width:2.4}
@@ -117,13 +118,20 @@ fn thrust_line(arch: &Arch, end: &PathEnd) -> Vec<Vec2> {
     end.thrust_line.iter().filter(near).map(|thrust| thrust.at).collect()
 }
 
-/// Abutments, and hatched ground under whatever the arch stands on (a wall beside a half arch).
+/// Abutments, and hatched ground under whatever the arch stands on (a wall beside a half arch); an axis where a stone
+/// is cut on it.
 fn draw_supports(canvas: &mut Canvas, arch: &Arch) {
     let Some((first, last)) = arch.joints.first().zip(arch.joints.last()) else { return };
     for (springing, abutment, sign) in [(first, &arch.abutments[0], -1.0), (last, &arch.abutments[1], 1.0)] {
         if let Some(abutment) = abutment {
             let base = &abutment.base;
             canvas.polygon("abutment", &[springing.intrados, springing.extrados, base.extrados, base.intrados]);
+        }
+        if springing.law == JointLaw::Mirror {
+            let (a, b) = (canvas.place(springing.intrados), canvas.place(springing.extrados));
+            let along = (b - a).normalize();
+            canvas.line("axis", a - 16.0 * along, b + 16.0 * along);
+            continue;
         }
         let held = abutment.as_ref().map_or(springing, |abutment| &abutment.base);
         let (a, b) = (canvas.place(held.intrados), canvas.place(held.extrados));

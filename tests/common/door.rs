@@ -34,10 +34,11 @@ pub fn problem(analysis: &Analysis) -> Problem {
             bond: match joint.law {
                 JointLaw::Dry { friction, cohesion } => Bond::Dry { friction, cohesion },
                 JointLaw::Bonded => Bond::Bonded,
+                JointLaw::Mirror => Bond::Mirror,
             },
         })
         .collect();
-    if let Some(crown) = seams.last_mut().filter(|_| arch.half) {
+    if let Some(crown) = seams.last_mut().filter(|crown| arch.half && crown.bond != Bond::Mirror) {
         crown.bond = Bond::Dry { friction: 0.0, cohesion: 0.0 };
     }
     let push = |f: &PointForce| Push { block: f.voussoir, at: f.at.into(), force: f.force.into() };

@@ -32,6 +32,8 @@ pub enum Bond {
     Dry { friction: f64, cohesion: f64 },
     /// Anything.
     Bonded,
+    /// Anything but shear.
+    Mirror,
 }
 
 /// A joint: its two ends and what it can carry.

@@ -99,7 +99,17 @@ impl Programme {
     /// No tension at either corner and Coulomb's law, for every dry joint.
     fn conditions(&mut self, problem: &Problem, scale: &Scale) {
         for (joint, seam) in problem.seams.iter().enumerate() {
-            let Bond::Dry { friction, cohesion } = seam.bond else { continue };
+            let (friction, cohesion) = match seam.bond {
+                Bond::Dry { friction, cohesion } => (friction, cohesion),
+                Bond::Bonded => continue,
+                Bond::Mirror => {
+                    for sign in [1.0, -1.0] {
+                        self.entry(3 * joint + 2, sign);
+                        self.right.push(0.0);
+                    }
+                    continue;
+                }
+            };
             for corner in 0..2 {
                 self.entry(3 * joint + corner, -1.0);
                 self.give(scale);
@@ -125,7 +135,8 @@ impl Programme {
     /// force F at either corner. With c = f t this is |(F - 1/2, N / sqrt c)| <= F + 1/2.
     fn strengths(&mut self, problem: &Problem, scale: &Scale) {
         let Some(strength) = problem.strength else { return };
-        for (joint, seam) in problem.seams.iter().enumerate().filter(|(_, seam)| seam.bond != Bond::Bonded) {
+        for (joint, seam) in problem.seams.iter().enumerate().filter(|(_, seam)| matches!(seam.bond, Bond::Dry { .. }))
+        {
             let capacity = strength * distance(seam.intrados, seam.extrados) / scale.force;
             for corner in 0..2 {
                 for half in [0.5, -0.5] {

@@ -17,12 +17,9 @@ struct Shape {
 /// The request of a seed.
 pub fn request(seed: u64) -> Value {
     let dice = &mut Dice::new(seed);
-    let mut count = dice.decades(5.0, 202.0) as usize;
+    let count = dice.decades(5.0, 202.0) as usize;
     let symmetric = dice.chance(0.12);
     let half = symmetric && dice.chance(0.7);
-    if half {
-        count += count % 2;
-    }
     let (mut arch, half_span, top) = profile(dice, count, symmetric);
     // A pointed arch cannot be cut as finely as others, see `pointed`.
     let count = arch["voussoirs"].as_u64().map_or(count, |n| n as usize);

@@ -36,8 +36,9 @@ pub struct ArchRequest {
     /// Whether the springing joints are dry like the others, or glued.
     #[serde(default)]
     pub springing_joints: SpringingJoints,
-    /// Only the left half, its crown joint against a frictionless wall; for symmetric arches of an even number of
-    /// voussoirs. The fixed loads together, and the scaled loads together, have to be symmetric.
+    /// Only the left half, for symmetric arches: a crown joint rests on a frictionless wall, a keystone is cut on the
+    /// axis and neither turns nor moves sideways there. The cut counts as the last joint, which never opens. The fixed
+    /// loads together, and the scaled loads together, have to be symmetric.
     #[serde(default)]
     pub half: bool,
 }

@@ -24,8 +24,8 @@ pub struct MeshRequest {
 pub enum SubblocksRequest {
     /// The same in every voussoir; 1 x 1 by default: every voussoir is one block.
     Uniform(Subblocks),
-    /// One entry per voussoir of the whole arch, left to right; half an arch uses those of its own voussoirs. Not with
-    /// `curved_beam`.
+    /// One entry per voussoir of the whole arch, left to right. Half an arch uses those of its own voussoirs, half a
+    /// keystone half of its number along, rounded up. Not with `curved_beam`.
     PerVoussoir(Vec<Subblocks>),
 }
 

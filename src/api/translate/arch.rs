@@ -119,7 +119,8 @@ fn surveyed_ends(request: &ArchRequest, surveyed: &Surveyed, faults: &mut Faults
     (faults.len() == before).then(|| intrados.iter().zip(extrados).map(pair).collect())
 }
 
-fn ring(request: &ArchRequest, faults: &mut Faults) -> Option<Ring> {
+/// The ring of an arch that is not surveyed, or faults.
+pub fn ring(request: &ArchRequest, faults: &mut Faults) -> Option<Ring> {
     let before = faults.len();
     let profile = profile(&request.profile, faults);
     let line = request.line.unwrap_or_default();

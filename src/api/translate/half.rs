@@ -1,28 +1,22 @@
 //! Half an arch: only of what is symmetric.
 
-use super::loads;
+use super::{arch, loads};
 use crate::api::fault::Faults;
-use crate::api::request::{AnalysisRequest, LoadEntry};
-use crate::arch::{Arch, PointForce, load};
+use crate::api::request::{AnalysisRequest, ArchRequest, LoadEntry};
+use crate::arch::{Arch, PointForce, is_symmetric};
 
-/// The left half; none where there is no joint at the crown.
-pub fn halved(arch: &Arch, faults: &mut Faults) -> Option<Arch> {
-    let n = arch.voussoirs.len();
-    let even = n.is_multiple_of(2);
-    faults.require(
-        even,
-        "/arch/half",
-        format!("half an arch needs a joint at the crown, so an even number of voussoirs; this one has {n}"),
-    );
+/// The left half of the arch of `request`.
+pub fn halved(arch: &Arch, request: &ArchRequest, faults: &mut Faults) -> Arch {
     if let Some(joint) = arch.asymmetry() {
-        let other = n - joint;
+        let other = arch.voussoirs.len() - joint;
         let detail = format!(
             "half an arch needs a symmetric one, but joint {joint} is not the mirror image of joint {other} in place, \
              friction and cohesion: set half to false"
         );
         faults.add("/arch/half", detail);
     }
-    even.then(|| arch.left_half())
+    let ring = (request.curved_sides && arch.keystone().is_some()).then(|| arch::ring(request, &mut Faults::default()));
+    arch.left_half(ring.flatten().and_then(|ring| ring.left_half_of_keystone()))
 }
 
 /// Whether the fixed loads together, and the scaled loads together, are symmetric.
@@ -42,7 +36,7 @@ pub fn check_loads(request: &AnalysisRequest, entries: &[LoadEntry], arch: &Arch
 
 /// Of the fixed, or of the scaled, loads those that lean to one side; none where together they do not.
 fn without_mirror_image(entries: &[LoadEntry], density: f64, arch: &Arch, scaled: bool) -> Vec<usize> {
-    let symmetric = |forces: &[PointForce]| load::is_symmetric(forces, arch.voussoirs.len(), arch.axis());
+    let symmetric = |forces: &[PointForce]| is_symmetric(forces, arch.voussoirs.len(), arch.axis());
     let (mut all, mut lopsided) = (Vec::new(), Vec::new());
     for (i, entry) in entries.iter().enumerate().filter(|(_, entry)| entry.scaled == scaled) {
         // A load that does not fit the arch has a fault of its own.

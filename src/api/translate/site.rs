@@ -16,8 +16,10 @@ pub struct Site<'a> {
     whole: Option<Arch>,
     /// The arch that is analysed: the whole one or its left half.
     arch: Option<Arch>,
-    /// Subblocks of every voussoir of the whole arch, radial and along.
+    /// Subblocks of every voussoir of the whole arch, radial and along; those of its half where a keystone is cut.
     subblocks: Vec<[usize; 2]>,
+    /// The voussoir that is cut in half.
+    cut: Option<usize>,
     method: Method,
     fields: Vec<FieldAt>,
 }
@@ -34,11 +36,15 @@ impl<'a> Site<'a> {
             override_joints(request, arch);
         }
         let arch = match request.arch.half {
-            true => whole.as_ref().and_then(|arch| half::halved(arch, faults)),
+            true => whole.as_ref().map(|arch| half::halved(arch, &request.arch, faults)),
             false => whole.clone(),
         };
         let analysed = arch.as_ref().map(|arch| arch.voussoirs.len());
-        let subblocks = mesh::subblocks(&request.mesh, whole.as_ref(), analysed, faults);
+        let mut subblocks = mesh::subblocks(&request.mesh, whole.as_ref(), analysed, faults);
+        let cut = whole.as_ref().filter(|_| request.arch.half).and_then(Arch::keystone);
+        if let Some([_, along]) = cut.and_then(|keystone| subblocks.get_mut(keystone)) {
+            *along = along.div_ceil(2);
+        }
         let joints = arch.as_ref().map_or(usize::MAX, |arch| arch.joints.len());
         let method = method(&request.method, joints, faults);
         check_load_factor(request, faults);
@@ -50,12 +56,13 @@ impl<'a> Site<'a> {
         faults.require(share > 0.0 && share < 1.0, "/report/share_of_collapse", detail);
         let pieces = mesh::total(subblocks.iter().take(analysed.unwrap_or(0)));
         let fields = mesh::fields(&request.report, pieces, faults);
-        Site { request, stone, whole, arch, subblocks, method, fields }
+        Site { request, stone, whole, arch, subblocks, cut, method, fields }
     }
 
     /// Into how many pieces the extrados side of every voussoir of the whole arch is cut.
     pub fn pieces(&self) -> Vec<usize> {
-        self.subblocks.iter().map(|[_, along]| *along).collect()
+        let whole = |k: usize| if self.cut == Some(k) { 2 } else { 1 };
+        self.subblocks.iter().enumerate().map(|(k, [_, along])| whole(k) * along).collect()
     }
 
     /// Subblocks of every voussoir that is analysed.
@@ -72,12 +79,13 @@ impl<'a> Site<'a> {
             half::check_loads(request, entries, whole, faults);
         }
         let arch = self.arch.as_ref()?;
-        let last = arch.voussoirs.len();
-        // Half an arch carries the loads on its own stones.
-        let keep = |forces: Vec<PointForce>| forces.into_iter().filter(|force| force.voussoir < last).collect();
+        let halve = |forces: Vec<PointForce>| match self.whole.as_ref().filter(|_| request.arch.half) {
+            Some(whole) => whole.on_left_half(arch, &forces),
+            None => forces,
+        };
         Some(Analysis {
-            fixed: keep(fixed),
-            scaled: keep(scaled),
+            fixed: halve(fixed),
+            scaled: halve(scaled),
             stone: self.stone,
             plane: request.stone.plane.into(),
             penalty_ratio: request.stone.penalty_ratio,

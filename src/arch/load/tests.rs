@@ -1,7 +1,7 @@
 use super::*;
 use crate::arch::profile::Profile;
 use crate::arch::ring::{JointLines, Line, Ring, Thickness, stations};
-use crate::arch::{JointLaw, straight_voussoirs};
+use crate::arch::{JointLaw, is_symmetric, straight_voussoirs};
 use crate::geometry::cross;
 use std::f64::consts::PI;
 
@@ -192,7 +192,7 @@ fn abutments_lie_outside_the_springings_and_the_half_is_the_left_one() {
         assert!(abutment.base.middle().y < joint.middle().y);
     }
     assert_eq!(arch.asymmetry(), None);
-    let half = arch.left_half();
+    let half = arch.left_half(None);
     assert_eq!((half.voussoirs.len(), half.joints.len(), half.half), (3, 4, true));
     assert_eq!(half.joints[3].law, JointLaw::Dry { friction: 0.0, cohesion: 0.0 });
     assert!(half.abutments[0].is_some() && half.abutments[1].is_none());

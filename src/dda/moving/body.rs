@@ -117,8 +117,8 @@ impl Corotated {
             pose.load[0][i] = cos * straight + sin * turned;
             pose.load[1][i] = cos * turned - sin * straight;
         }
-        pose.moment = cross(&pose.elastic, &pose.force) - cross(&pose.elastic, &pose.load[0])
-            + dot(&pose.elastic, &pose.load[1]);
+        pose.moment =
+            cross(&pose.elastic, &pose.force) - cross(&pose.elastic, &pose.load[0]) + dot(&pose.elastic, &pose.load[1]);
     }
 
     /// Adds load less elastic force to the nodes' `residual`, N/m.
@@ -162,8 +162,7 @@ impl Corotated {
             *a = net - *a - rate;
         }
         let spun: Vec<f64> = self.spin.iter().zip(&turned).map(|(arm, u)| arm + u).collect();
-        let beta =
-            dot(&a, &spun) - cross(&pose.elastic, &pose.load[1]) - dot(&pose.elastic, &pose.load[0]);
+        let beta = dot(&a, &spun) - cross(&pose.elastic, &pose.load[1]) - dot(&pose.elastic, &pose.load[0]);
         let (w, inertia) = (&self.spin, pose.inertia);
         // (a w' + w a') / rho + m (P w' + w P') / rho^2 - beta w w' / rho^2 as b w' + w b'.
         let b: Vec<f64> = (0..n)

@@ -1,7 +1,7 @@
 //! The contact points of one interface between two faces that have turned.
 //!
-//! The normal turns by the mean of the two faces' angles, `phi = (phi_before + phi_after) / 2`, each face's angle being
-//! that of the line through its outermost points. With r the vector from a point before to the one after, the gap is
+//! Between bodies the normal turns by the mean of the two faces' angles, `phi = (phi_before + phi_after) / 2`, each face's
+//! angle being that of the line through its outermost points; on the ground it turns with the ground. With r the vector from a point before to the one after, the gap is
 //! `g_n = r . n` and the slip `g_t = r . t`; as phi changes, `dg_n = n . dr + g_t dphi` and `dg_t = t . dr - g_n dphi`.
 //! Forces on the faces are what does work on these, so that with the couple that goes with dphi they balance exactly.
 //! Vectors are lists of pairs along the points' axes (normal and tangent in the reference position).
@@ -18,7 +18,7 @@ struct Line {
     length: f64,
 }
 
-/// Where an interface is: its two faces, none where the ground is, and how far its normal has turned.
+/// Where an interface is: its two faces, none beside the ground, and how far its normal has turned.
 #[derive(Debug, Clone)]
 pub struct Frame {
     lines: [Option<Line>; 2],
@@ -62,11 +62,13 @@ impl Line {
 }
 
 impl Frame {
-    /// Where faces displaced by `d` are, that were `line` before; `ground` is how far the ground has turned.
+    /// Where faces displaced by `d` are, that were `line` before; `ground` is how far the ground has turned, where it takes
+    /// the place of one.
     pub fn new(line: [f64; 2], d: [Option<&[f64]>; 2], ground: f64) -> Self {
-        let lines = d.map(|d| d.map(|d| Line::new(line, d)));
-        let angles = lines.map(|line| line.map_or(ground, |line| line.turn.angle()));
-        Frame { lines, turn: Turn::by(0.5 * (angles[0] + angles[1])) }
+        let [Some(before), Some(after)] = d else { return Frame { lines: [None; 2], turn: Turn::by(ground) } };
+        let lines = [before, after].map(|d| Line::new(line, d));
+        let angles = lines.map(|line| line.turn.angle());
+        Frame { lines: lines.map(Some), turn: Turn::by(0.5 * (angles[0] + angles[1])) }
     }
 
     /// Gap and slip of a point, from the vector between its two sides.
@@ -74,16 +76,15 @@ impl Frame {
         self.turn.back().pair(r)
     }
 
-    /// Rate of phi for velocities of the faces' points, and of the ground.
+    /// Rate of phi for velocities of the faces' points, or of the ground.
     pub fn spin(&self, d: [Option<&[f64]>; 2], ground: f64) -> f64 {
-        let of = |(line, d): (&Option<Line>, Option<&[f64]>)| match (line, d) {
-            (Some(line), Some(d)) => {
-                let (n, lever) = (d.len(), line.lever());
-                lever[0] * (d[n - 2] - d[0]) + lever[1] * (d[n - 1] - d[1])
-            }
-            _ => 0.5 * ground,
+        let of = |(line, d): (&Option<Line>, Option<&[f64]>)| {
+            let (line, d) = line.as_ref().zip(d)?;
+            let (n, lever) = (d.len(), line.lever());
+            Some(lever[0] * (d[n - 2] - d[0]) + lever[1] * (d[n - 1] - d[1]))
         };
-        self.lines.iter().zip(d).map(of).sum()
+        let faces = self.lines.iter().zip(d).filter_map(of).sum::<f64>();
+        if self.lines[0].is_none() { ground } else { faces }
     }
 
     /// Rates of gap and slip, for the velocity between a point's two sides and the rate of phi.

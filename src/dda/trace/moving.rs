@@ -62,7 +62,10 @@ impl Tracer<'_> {
             return End::Reached;
         }
         let held = self.residual.clone();
-        let held_turned: Vec<f64> = held.chunks_exact(2).flat_map(|pair| Turn::by(-std::f64::consts::FRAC_PI_2).pair([pair[0], pair[1]])).collect();
+        let held_turned: Vec<f64> = held
+            .chunks_exact(2)
+            .flat_map(|pair| Turn::by(-std::f64::consts::FRAC_PI_2).pair([pair[0], pair[1]]))
+            .collect();
         let at = |base: &[f64], rate: &[f64], held: &[f64]| -> Vec<f64> {
             (0..held.len()).map(|i| base[i] + parameter * rate[i] - held[i]).collect()
         };
@@ -125,7 +128,10 @@ impl Tracer<'_> {
             let Some(hold) = self.step(step, hold, target) else {
                 (self.displacements, self.parameter) = (before.0, before.1);
                 halvings += 1;
-                if halvings > HALVINGS || self.events > most_events || !(self.find_residual() < FAILED + self.rounding()) {
+                if halvings > HALVINGS
+                    || self.events > most_events
+                    || !(self.find_residual() < FAILED + self.rounding())
+                {
                     return End::Lost;
                 }
                 longest = 0.5 * step;
@@ -199,7 +205,7 @@ impl Tracer<'_> {
         None
     }
 
-        fn is_over(&mut self, start: f64, most_fall: f64) -> Option<End> {
+    fn is_over(&mut self, start: f64, most_fall: f64) -> Option<End> {
         if let Some(peak) = &self.peak {
             let moved = farthest(&self.displacements, &peak.displacements);
             let least = LEAST_RISE * self.load_scale / self.load_rate_scale;

@@ -1,0 +1,95 @@
+//! Half a symmetric arch: whether it is symmetric, its left half, and the loads on that.
+
+use super::ring::JointEnds;
+use super::{Arch, Joint, JointLaw, PointForce, Sides, Voussoir};
+use crate::geometry::{Region, Vec2, cross, mirrored};
+
+impl Arch {
+    /// The first joint that is not the mirror image (in place and law) of its partner; `None` for a symmetric arch.
+    pub fn asymmetry(&self) -> Option<usize> {
+        let (n, axis) = (self.joints.len() - 1, self.axis());
+        let size = (self.joints[0].middle() - self.joints[n].middle()).norm().max(self.joints[0].length());
+        (0..=n / 2).find(|&k| {
+            let (a, b) = (&self.joints[k], &self.joints[n - k]);
+            let apart =
+                (a.intrados - mirrored(b.intrados, axis)).norm() + (a.extrados - mirrored(b.extrados, axis)).norm();
+            apart > 1e-9 * size || a.law != b.law
+        })
+    }
+
+    /// Abscissa of the vertical through the middle between the springings, m.
+    pub fn axis(&self) -> f64 {
+        0.5 * (self.joints[0].middle().x + self.joints[self.joints.len() - 1].middle().x)
+    }
+
+    /// The stone on the axis of a symmetric arch; none where a joint is there.
+    pub fn keystone(&self) -> Option<usize> {
+        let n = self.voussoirs.len();
+        (!n.is_multiple_of(2)).then_some(n / 2)
+    }
+
+    /// The left half of a symmetric arch.
+    ///
+    /// A crown joint rests on a frictionless wall. A keystone is cut in two on the axis, and the cut on a mirror plane;
+    /// `curved` is its left half with the ends of the cut, needed where its sides are arcs.
+    pub fn left_half(&self, curved: Option<(Voussoir, JointEnds)>) -> Arch {
+        let n = self.voussoirs.len() / 2;
+        let (mut joints, mut voussoirs) = (self.joints[..=n].to_vec(), self.voussoirs[..n].to_vec());
+        if self.keystone().is_some() {
+            let (stone, [intrados, extrados]) = curved.unwrap_or_else(|| self.straight_half(n));
+            joints.push(Joint { intrados, extrados, law: JointLaw::Mirror });
+            voussoirs.push(stone);
+        } else {
+            joints[n].law = JointLaw::Dry { friction: 0.0, cohesion: 0.0 };
+        }
+        Arch { voussoirs, joints, abutments: [self.abutments[0], None], half: true, angle_centre: self.angle_centre }
+    }
+
+    /// Left half of a straight-sided stone on the axis, and the ends of the cut.
+    fn straight_half(&self, k: usize) -> (Voussoir, JointEnds) {
+        let [a, b, c, d] = self.corners(k);
+        let cut = [0.5 * (a + b), 0.5 * (d + c)].map(|end| Vec2::new(self.axis(), end.y));
+        let region = Region::polygon(&[a, cut[0], cut[1], d]);
+        (Voussoir { region, sides: Sides::Straight }, cut)
+    }
+
+    /// Of symmetric `forces` on the whole of an arch, what its left half `half` carries.
+    pub fn on_left_half(&self, half: &Arch, forces: &[PointForce]) -> Vec<PointForce> {
+        let axis = self.axis();
+        let share = |force: &PointForce| {
+            if self.keystone() != Some(force.voussoir) {
+                return *force;
+            }
+            // The mirror image of what acts right of the axis acts left of it; half of either is half of both.
+            let (at, push) = if force.spread {
+                (half.voussoirs[force.voussoir].region.centroid, force.force)
+            } else if force.at.x > axis {
+                (mirrored(force.at, axis), mirrored(force.force, 0.0))
+            } else {
+                (force.at, force.force)
+            };
+            PointForce { at, force: 0.5 * push, ..*force }
+        };
+        forces.iter().filter(|force| force.voussoir < half.voussoirs.len()).map(share).collect()
+    }
+}
+
+/// True when the forces on every voussoir are the mirror image, about x = `axis`, of those on its partner.
+pub fn is_symmetric(forces: &[PointForce], voussoirs: usize, axis: f64) -> bool {
+    let origin = Vec2::new(axis, 0.0);
+    let mut sums = vec![[0.0; 3]; voussoirs];
+    let mut scale = [0.0f64; 2];
+    for force in forces {
+        let arm = force.at - origin;
+        let sum = &mut sums[force.voussoir];
+        sum[0] += force.force.x;
+        sum[1] += force.force.y;
+        sum[2] += cross(arm, force.force);
+        scale = [scale[0] + force.force.norm(), scale[1].max(arm.norm())];
+    }
+    let (force, moment) = (1e-9 * scale[0], 1e-9 * scale[0] * scale[1]);
+    (0..voussoirs.div_ceil(2)).all(|k| {
+        let (a, b) = (sums[k], sums[voussoirs - 1 - k]);
+        (a[0] + b[0]).abs() <= force && (a[1] - b[1]).abs() <= force && (a[2] + b[2]).abs() <= moment
+    })
+}
