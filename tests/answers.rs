@@ -70,6 +70,8 @@ fn report() -> CollapseReport {
         at_start: None,
         stress_fields: vec![field(1.0)],
         crushing: Some(Crushing { strength: 1e7, elastic: Some(elastic), plastic_section: Some(plastic) }),
+        updated: None,
+        settlement: None,
         safety: Some(point()),
         history: vec![],
         cost: Cost::default(),

@@ -87,6 +87,8 @@ fn report() -> Answer {
         at_start: None,
         stress_fields: vec![],
         crushing: None,
+        updated: None,
+        settlement: None,
         safety: None,
         history: vec![],
         cost: Cost::default(),

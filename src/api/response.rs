@@ -6,6 +6,7 @@ mod columns;
 mod mechanism;
 mod result;
 mod safety;
+mod settlement;
 mod stress;
 mod updated;
 mod words;
@@ -15,6 +16,7 @@ pub use columns::{BlockColumns, ContactColumns, HistoryColumns, SnapshotBody, Th
 pub use mechanism::{Collapse, End, HingeBody, SlideBody};
 pub use result::JobResult;
 pub use safety::{CurvePointBody, ReachBody, SafetyBody, SafetyCurveResult};
+pub use settlement::{DisplacementColumns, SettlementBody, SettlementColumns, SettlementEndWord, SettlementPathBody};
 pub use stress::{
     CrushedSubblock, CrushingBody, ElasticCrushingBody, PlasticCrushingBody, StressFieldBody, SubblockColumns,
     mesh_in_words,
@@ -74,6 +76,8 @@ pub struct AnalysisResult {
     pub crushing: Option<CrushingBody>,
     /// The answer on moving geometry, where `geometry` asks for it and the arch stands at first order.
     pub updated_geometry: Option<UpdatedBody>,
+    /// What the movement of springings does, where `analysis` asks for it.
+    pub settlement: Option<SettlementBody>,
     /// Safety factors, where `analysis` asks for them.
     pub safety: Option<SafetyBody>,
     /// The path, event by event.
@@ -164,6 +168,7 @@ impl AnalysisResult {
             stress_fields: report.stress_fields.iter().map(|field| StressFieldBody::new(field, &scale)).collect(),
             crushing: report.crushing.as_ref().map(|crushing| CrushingBody::new(crushing, &request.mesh, &scale)),
             updated_geometry: report.updated.as_ref().map(|updated| UpdatedBody::new(updated, report, &scale)),
+            settlement: report.settlement.as_ref().map(Into::into),
             safety: report.safety.as_ref().map(Into::into),
             history: HistoryColumns::new(&report.history, &scale),
             cost: report.cost.into(),

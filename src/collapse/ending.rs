@@ -2,11 +2,11 @@
 
 use super::discretise::Model;
 use super::mechanism;
-use super::motion::motion_at;
+use super::motion::{Motion, motion_at};
 use super::path::Fall;
 use super::{Analysis, PathEnd, Thrust};
 use crate::arch::{Arch, JointLaw, PointForce};
-use crate::dda::{Peak, State, Tracer, Zone};
+use crate::dda::{Movement, Peak, State, Tracer, Zone};
 use crate::limit::{Condition, Resultant, StaticTheorem};
 
 /// Polishing undoes a disturbance of about 1e-9 of the loads; a larger change means that other conditions were solved.
@@ -82,14 +82,36 @@ pub(super) fn at_criterion(
     PathEnd { load_factor, residual, mechanism, thrust_line }
 }
 
+/// How an arch goes on whose springings move like this.
+pub(super) fn at_movement(
+    analysis: &Analysis,
+    model: &Model,
+    tracer: &Tracer,
+    ground: &[Movement; 2],
+) -> super::Mechanism {
+    let motion = |ground: &Movement| motion_at(ground.about, ground.velocity, ground.spin);
+    let rate = tracer.rate();
+    let ends = ground.each_ref().map(|ground| Motion::STILL.plus(motion(ground), rate));
+    mechanism::from_velocities(&analysis.arch, &motions(model, &analysis.arch, tracer.direction()), ends)
+}
+
+/// The thrust line of what the contacts carry now.
+pub(super) fn carried_by(analysis: &Analysis, model: &Model, tracer: &Tracer) -> Vec<Thrust> {
+    let forces = tracer.contact_forces();
+    thrust_line(&analysis.arch, &resultants(model, |p| forces[p]))
+}
+
 pub(super) fn from_direction(model: &Model, arch: &Arch, direction: &[f64]) -> super::Mechanism {
-    let motions: Vec<_> = (0..model.voussoirs)
-        .map(|v| {
-            let motion = model.chain.mean_motion(model.first_voussoir + v, direction, &[]);
-            motion_at(arch.voussoirs[v].region.centroid, motion.displacement, motion.rotation)
-        })
-        .collect();
-    mechanism::from_velocities(arch, &motions)
+    mechanism::from_velocities(arch, &motions(model, arch, direction), [Motion::STILL; 2])
+}
+
+/// Motions of the voussoirs in a direction of the nodes.
+fn motions(model: &Model, arch: &Arch, direction: &[f64]) -> Vec<Motion> {
+    let of = |v: usize| {
+        let motion = model.chain.mean_motion(model.first_voussoir + v, direction, &[]);
+        motion_at(arch.voussoirs[v].region.centroid, motion.displacement, motion.rotation)
+    };
+    (0..model.voussoirs).map(of).collect()
 }
 
 /// What the contact states at the peak say of the joint forces there.

@@ -121,12 +121,11 @@ fn describe(arch: &Arch, releases: &[(usize, Release)], rates: &[f64]) -> Mechan
     assemble(arch, &relative, &openings, &slid)
 }
 
-/// Reads a mechanism off velocities of the stones; for paths whose peak is not a mechanism of the joints at their limits.
-pub(super) fn from_velocities(arch: &Arch, motions: &[Motion]) -> Mechanism {
-    let before = |k: usize| if k == 0 { Motion::STILL } else { motions[k - 1] };
-    let relative: Vec<Motion> = (0..arch.joints.len())
-        .map(|k| motions.get(k).copied().unwrap_or(Motion::STILL).plus(before(k), -1.0))
-        .collect();
+/// Reads a mechanism off velocities of the stones and of the ground at both ends; for paths whose peak is not a mechanism of the joints at their limits.
+pub(super) fn from_velocities(arch: &Arch, motions: &[Motion], ground: [Motion; 2]) -> Mechanism {
+    let before = |k: usize| if k == 0 { ground[0] } else { motions[k - 1] };
+    let relative: Vec<Motion> =
+        (0..arch.joints.len()).map(|k| motions.get(k).copied().unwrap_or(ground[1]).plus(before(k), -1.0)).collect();
     let mut openings = Vec::new();
     let mut slid = Vec::new();
     for (joint, motion) in arch.joints.iter().zip(&relative) {

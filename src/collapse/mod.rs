@@ -12,6 +12,7 @@ mod path;
 mod record;
 pub mod report;
 mod safety;
+mod settlement;
 mod smallest_motion;
 mod tally;
 mod updated;
@@ -72,7 +73,7 @@ pub enum Method {
 }
 
 /// What an analysis is after.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Aim {
     /// The load factor at which the arch falls.
     Collapse,
@@ -81,6 +82,19 @@ pub enum Aim {
         /// Which of the two answers about crushing counts.
         crushing: CrushingKind,
     },
+    /// What becomes of the arch as its springings move, its loads staying as they are.
+    Settlement([SpringingMovement; 2]),
+}
+
+/// Where one springing ends up, seen from where it was built.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct SpringingMovement {
+    /// Movement away from the arch, m.
+    pub outwards: f64,
+    /// Movement downwards, m.
+    pub downwards: f64,
+    /// Rotation about the middle of the springing joint that opens its intrados, rad.
+    pub rotation: f64,
 }
 
 /// The two answers about crushing of the stone.

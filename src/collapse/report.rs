@@ -1,9 +1,11 @@
 //! What an analysis says: plain data, SI units, radians.
 
+mod settlement;
 mod strength;
 mod updated;
 
 pub use crate::arch::Face;
+pub use settlement::*;
 pub use strength::*;
 pub use updated::*;
 
@@ -20,6 +22,10 @@ pub enum Outcome {
     StandsInWindow,
     /// Stands however far the load factor goes (up to the cap).
     NeverCollapses,
+    /// Stands, and follows its springings through their whole movement.
+    FollowsMovement,
+    /// Stands, and falls before its springings have come to the end of their movement.
+    FallsByMovement,
     /// The stone crushes: first, in a safety analysis; under the loads at the start of the path, in any other.
     Crushes,
     /// The path and the certificate contradict each other, or the path could not be followed.
@@ -215,6 +221,8 @@ pub struct CollapseReport {
     pub crushing: Option<Crushing>,
     /// The same question on moving geometry, where asked and where the arch stands at first order.
     pub updated: Option<UpdatedGeometry>,
+    /// What the springings' movement does, where asked and where the arch stands.
+    pub settlement: Option<SettlementReport>,
     /// The safety factors, where asked.
     pub safety: Option<SafetyPoint>,
     /// The path, event by event.

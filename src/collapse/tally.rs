@@ -98,6 +98,14 @@ impl CollapseReport {
         for field in &self.stress_fields {
             finite("stress field", Box::new(field.subblocks.iter().flat_map(|s| s.stress)))?;
         }
+        let updated = self.updated.iter().flat_map(|u| [u.load_factor, u.largest, u.crown.map(|c| c.x + c.y)]);
+        finite("updated geometry", Box::new(updated.flatten()))?;
+        for path in self.settlement.iter().flat_map(|s| std::iter::once(&s.first_order).chain(&s.updated)) {
+            let points = path.points.iter().flat_map(|p| [p.share, p.thrust, p.left, p.right.unwrap_or(0.0)]);
+            finite("settlement", Box::new(points.chain(path.displacements.iter().flatten().copied())))?;
+            let line = path.thrust_line.iter().flat_map(|t| [t.normal, t.shear, t.eccentricity, t.at.x, t.at.y]);
+            finite("settlement", Box::new(line))?;
+        }
         let elastic = self.crushing.iter().filter_map(|c| c.elastic.as_ref());
         finite("first yield", Box::new(elastic.filter_map(|e| e.load_factor)))?;
         finite("history", Box::new(self.history.iter().flat_map(|h| [h.load_factor, h.crown.x, h.crown.y, h.largest])))

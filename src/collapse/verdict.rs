@@ -7,12 +7,16 @@ use super::record::{MOST_STEPS, Recorder, snapshot};
 use super::updated::{self, Course};
 use super::{
     Aim, Analysis, AnalysisError, CollapseReport, Cost, Crushing, Direction, Geometry, LimitWindow, LoadStep, Method,
-    Outcome, PathEnd, ThrustRange, UpdatedGeometry, Watch, ending, motion, safety,
+    Outcome, PathEnd, SettlementEnd, SpringingMovement, ThrustRange, UpdatedGeometry, Watch, ending, motion, safety,
+    settlement,
 };
 use crate::arch::{Joint, JointLaw};
 use crate::dda::{End, Tracer};
 use std::cell::Cell;
 use std::ops::ControlFlow;
+
+/// Note on an arch of which nothing is asked but whether it stands.
+const NOTHING_GROWS: &str = "Nothing grows with the load factor: the answer says only that the arch stands.";
 
 /// By default the load factor is raised until the scaled loads are so many times the fixed ones.
 const DEFAULT_CAP: f64 = 1e6;
@@ -66,6 +70,7 @@ pub(super) fn run(analysis: &Analysis, watch: &mut dyn Watch) -> Result<Collapse
     match analysis.aim {
         Aim::Collapse => safety::crushed_at_start(&mut report),
         Aim::Safety { crushing } => safety::judge(&mut report, crushing),
+        Aim::Settlement(movements) => question.settle(&mut report, movements, watch)?,
     }
     report.check_finite()?;
     Ok(report)
@@ -89,12 +94,12 @@ impl<'a> Question<'a> {
         let balance = if fixed > 0.0 && scaled > 0.0 { fixed / scaled } else { 1.0 };
         let sign = if analysis.direction == Direction::Increase { 1.0 } else { -1.0 };
         let cap = analysis.cap.unwrap_or(match analysis.aim {
-            Aim::Collapse => DEFAULT_CAP * balance,
+            Aim::Collapse | Aim::Settlement(_) => DEFAULT_CAP * balance,
             Aim::Safety { .. } => DEFAULT_CAP * balance.max(1.0),
         });
         let settled = loaded(analysis)[0];
         let start = match analysis.aim {
-            Aim::Collapse => certificate.start(settled, sign, cap),
+            Aim::Collapse | Aim::Settlement(_) => certificate.start(settled, sign, cap),
             Aim::Safety { .. } => certificate.full_load(settled, cap),
         };
         let thrust = any_fixed(analysis).then(|| certificate.theorem.thrust_range(0.0)).flatten();
@@ -129,7 +134,9 @@ impl<'a> Question<'a> {
         if nothing_grows(&model, total(&analysis.scaled)) {
             report.outcome = Outcome::NeverCollapses;
             report.fields_at_rest(analysis, &model, tracer.displacements());
-            report.notes.push("Nothing grows with the load factor: the answer says only that the arch stands.".into());
+            if !matches!(analysis.aim, Aim::Settlement(_)) {
+                report.notes.push(NOTHING_GROWS.into());
+            }
             return Ok(Attempted { report, doubt: None });
         }
         let mut back = tracer.clone();
@@ -227,11 +234,36 @@ impl<'a> Question<'a> {
         watch: &mut dyn Watch,
     ) -> Result<Option<UpdatedGeometry>, AnalysisError> {
         let stands = report.at_start.is_some() && report.outcome != Outcome::CannotTell;
-        if self.analysis.geometry == Geometry::FirstOrder || !stands {
+        let settles = matches!(self.analysis.aim, Aim::Settlement(_));
+        if self.analysis.geometry == Geometry::FirstOrder || !stands || settles {
             return Ok(None);
         }
         let course = Course { start: self.start, sign: self.sign, cap: self.cap, weight: self.weight };
         updated::follow(self.analysis, course, &mut report.cost, watch).map(Some)
+    }
+
+    /// What becomes of a standing arch as its springings move.
+    fn settle(
+        &self,
+        report: &mut CollapseReport,
+        movements: [SpringingMovement; 2],
+        watch: &mut dyn Watch,
+    ) -> Result<(), AnalysisError> {
+        safety::crushed_at_start(report);
+        if report.at_start.is_none() || report.outcome == Outcome::CannotTell {
+            return Ok(());
+        }
+        report.settlement = settlement::follow(self.analysis, movements, self.weight, &mut report.cost, watch)?;
+        let ends = report.settlement.iter().flat_map(|s| [Some(s.first_order.end), s.updated.as_ref().map(|u| u.end)]);
+        let ends: Vec<SettlementEnd> = ends.flatten().collect();
+        if report.outcome != Outcome::Crushes {
+            report.outcome = match ends.last() {
+                Some(SettlementEnd::Follows) => Outcome::FollowsMovement,
+                Some(SettlementEnd::Collapse) => Outcome::FallsByMovement,
+                Some(SettlementEnd::CannotTell) | None => Outcome::CannotTell,
+            };
+        }
+        Ok(())
     }
 
     /// The arch did not stand under its loads at the start.
@@ -243,7 +275,7 @@ impl<'a> Question<'a> {
         let doubt =
             self.certificate.fallen(self.start, !loaded(self.analysis)[1], !fall.mechanism.slides.is_empty(), power);
         let doubt = doubt.or(self.certificate.standing_doubt(fall.residual));
-        let safety = self.analysis.aim != Aim::Collapse;
+        let safety = matches!(self.analysis.aim, Aim::Safety { .. });
         report.notes.extend(self.certificate.out_of_reach(self.start, safety, any_fixed(self.analysis)));
         report.outcome = Outcome::FallsAsBuilt;
         report.end = Some(fall);
@@ -278,6 +310,7 @@ impl<'a> Question<'a> {
             stress_fields: Vec::new(),
             crushing: Some(self.crushing.clone()),
             updated: None,
+            settlement: None,
             safety: None,
             history: Vec::new(),
             cost: Cost { unknowns: model.chain.unknowns(), ..Cost::default() },

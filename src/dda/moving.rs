@@ -176,6 +176,11 @@ impl Placed {
         }
     }
 
+    /// A force that turns with the normal of interface `k`, along the axes of the reference position.
+    pub fn turned(&self, k: usize, force: [f64; 2]) -> [f64; 2] {
+        self.frames[k].turn.pair(force)
+    }
+
     /// Mean motion of body `i`: of its nodes' mean and of what is elastic in it, loads between the nodes left out.
     pub fn mean_motion(&self, chain: &Chain, i: usize) -> MeanMotion {
         let (pose, centre) = (&self.poses[i], self.corotated[chain.kind_of(i)].centre());

@@ -42,7 +42,6 @@ pub fn bonded(stones: &[Mesh], faces: &[[Vec2; 2]], smooth: Option<usize>) -> Gl
             let touch = Touch {
                 at: a + (b - a) * eta,
                 normal: Vec2::new(tangent.y, -tangent.x),
-                tangent,
                 stiffness: [3.0 * PENALTY * share, shear * PENALTY * share],
                 link: [8.0 * PENALTY * share, 8.0 * PENALTY * share],
                 law: Law::Bonded,
@@ -177,7 +176,7 @@ impl<'g> Whole<'g> {
     }
 
     fn link(&mut self, body: usize, touch: &Touch, holds: [(usize, f64); 2], node: usize) {
-        for (c, along) in [touch.normal, touch.tangent].into_iter().enumerate() {
+        for (c, along) in [touch.normal, Vec2::new(-touch.normal.y, touch.normal.x)].into_iter().enumerate() {
             let mut row = vec![(node + c, -1.0)];
             for (block, share) in holds.into_iter().filter(|h| h.1 > 0.0) {
                 row.extend(self.displacement(body, block, touch.at, along, share));

@@ -17,6 +17,31 @@ pub enum AimRequest {
     Collapse,
     /// How far the scaled loads, in full at load factor 1, can grow until the arch falls or its stone crushes.
     Safety(SafetyRequest),
+    /// What becomes of the arch as its springings move, its loads staying as they are.
+    Settlement(SettlementRequest),
+}
+
+/// Where the springings end up. They move there in proportion; no load may be scaled.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(default)]
+pub struct SettlementRequest {
+    /// The left springing.
+    pub left: MovementRequest,
+    /// The right springing; not for half an arch, whose other half moves as its mirror image.
+    pub right: MovementRequest,
+}
+
+/// Movement of one springing. Components are at most as large as the arch.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(default)]
+pub struct MovementRequest {
+    /// Away from the arch, m; negative towards it.
+    pub outwards_m: f64,
+    /// Downwards, m; negative upwards.
+    pub downwards_m: f64,
+    /// About the middle of the springing joint, degrees; positive opens the joint's intrados.
+    #[schema(minimum = -90.0, maximum = 90.0)]
+    pub rotation_deg: f64,
 }
 
 /// Whether equilibrium is that of the arch as built, or of the arch where its loads have moved it.

@@ -17,6 +17,10 @@ pub enum OutcomeWord {
     StandsInWindow,
     /// Stands up to the cap.
     NeverCollapses,
+    /// Stands, and follows its springings through their whole movement.
+    FollowsMovement,
+    /// Stands, and falls before its springings have come to the end of their movement.
+    FallsByMovement,
     /// The stone crushes before the arch falls: in a safety analysis that crushing governs; in any other, where its joints
     /// are crushed and its stones yield under the loads at the start of the path already.
     Crushes,
@@ -142,6 +146,8 @@ impl From<Outcome> for OutcomeWord {
             Outcome::FallsAsBuilt => OutcomeWord::FallsAsBuilt,
             Outcome::StandsInWindow => OutcomeWord::StandsInWindow,
             Outcome::NeverCollapses => OutcomeWord::NeverCollapses,
+            Outcome::FollowsMovement => OutcomeWord::FollowsMovement,
+            Outcome::FallsByMovement => OutcomeWord::FallsByMovement,
             Outcome::Crushes => OutcomeWord::Crushes,
             Outcome::CannotTell => OutcomeWord::CannotTell,
         }

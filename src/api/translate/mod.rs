@@ -7,6 +7,7 @@ mod loads;
 mod mesh;
 mod profile;
 mod safety;
+mod settlement;
 mod site;
 mod stone;
 
@@ -50,6 +51,10 @@ fn arch_question(request: &AnalysisRequest, faults: &mut Faults) -> Option<Quest
         AimRequest::Safety(safety) => {
             safety::check(request, faults);
             safety.curve.as_ref()
+        }
+        AimRequest::Settlement(settlement) => {
+            settlement::check(request, settlement, &site, faults);
+            None
         }
     };
     safety::check_flags(request, curve, faults);

@@ -135,6 +135,7 @@ impl From<&AimRequest> for Aim {
         match aim {
             AimRequest::Collapse => Aim::Collapse,
             AimRequest::Safety(safety) => Aim::Safety { crushing: safety.crushing.into() },
+            AimRequest::Settlement(settlement) => Aim::Settlement([settlement.left, settlement.right].map(Into::into)),
         }
     }
 }

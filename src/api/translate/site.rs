@@ -6,6 +6,7 @@ use crate::api::fault::Faults;
 use crate::api::request::{AnalysisRequest, DirectionRequest, GeometryRequest, LoadEntry, MethodRequest};
 use crate::arch::{Arch, PointForce, Stone};
 use crate::collapse::{Analysis, Direction, FieldAt, Geometry, Mesh, Method};
+use crate::geometry::Vec2;
 
 /// Everything of a request but its loads.
 pub struct Site<'a> {
@@ -63,6 +64,14 @@ impl<'a> Site<'a> {
     pub fn pieces(&self) -> Vec<usize> {
         let whole = |k: usize| if self.cut == Some(k) { 2 } else { 1 };
         self.subblocks.iter().enumerate().map(|(k, [_, along])| whole(k) * along).collect()
+    }
+
+    /// Distance of the whole arch's joints farthest apart, m; none where it cannot be built.
+    pub fn size(&self) -> Option<f64> {
+        let ends = |arch: &Arch| arch.joints.iter().flat_map(|j| [j.intrados, j.extrados]).collect::<Vec<_>>();
+        let ends = ends(self.whole.as_ref()?);
+        let from = |a: &Vec2| ends.iter().map(|b| (a - b).norm()).fold(0.0, f64::max);
+        ends.iter().map(from).reduce(f64::max)
     }
 
     /// Subblocks of every voussoir that is analysed.

@@ -2,7 +2,7 @@
 
 use super::{Peak, Tracer};
 use crate::dda::chain::MeanMotion;
-use crate::geometry::Vec2;
+use crate::geometry::{Vec2, perpendicular};
 
 impl Tracer<'_> {
     /// Parameter reached.
@@ -20,6 +20,16 @@ impl Tracer<'_> {
         (0..self.states.len()).map(|p| self.force_of(p)).collect()
     }
 
+    /// Resultant of the forces of interface `k` on the body after it, N/m.
+    pub fn force_through(&self, k: usize) -> Vec2 {
+        let of = |p: usize| {
+            let (normal, [pressure, shear]) = (self.chain.normal(p), self.force_of(p));
+            let along = self.moving.as_ref().map_or([pressure, shear], |moving| moving.turned(k, [pressure, shear]));
+            normal * along[0] + perpendicular(normal) * along[1]
+        };
+        self.chain.at_interface(k).map(of).sum()
+    }
+
     /// Displacements of the nodes at `parameter`, were the path to go on as it does now.
     pub fn ahead(&self, parameter: f64) -> Vec<f64> {
         let step = (parameter - self.parameter) / self.rate;
@@ -29,6 +39,11 @@ impl Tracer<'_> {
     /// Direction in which the path goes on.
     pub fn direction(&self) -> &[f64] {
         &self.direction
+    }
+
+    /// Change of the parameter in that direction.
+    pub fn rate(&self) -> f64 {
+        self.rate
     }
 
     /// The highest point after which the parameter did not rise at once; none if it always rose.

@@ -1,0 +1,130 @@
+//! What the movement of springings does.
+
+use super::columns::{ThrustColumns, column};
+use super::mechanism::{HingeBody, SlideBody};
+use super::words::ModeWord;
+use crate::collapse::{SettlementEnd, SettlementPath, SettlementPoint, SettlementReport};
+use serde::Serialize;
+use utoipa::ToSchema;
+
+/// How a movement ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SettlementEndWord {
+    /// The arch follows to the end of the movement.
+    Follows,
+    /// The arch falls before the movement is complete.
+    Collapse,
+    /// The path could not be followed.
+    CannotTell,
+}
+
+/// What the movement of springings does, at first order and on moving geometry.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub struct SettlementBody {
+    /// On the geometry as built: where the thrust ends up, the least or the greatest that limit analysis allows if the
+    /// movement is large enough. An arch does not fall at first order.
+    pub first_order: SettlementPathBody,
+    /// On moving geometry, where `geometry` asks for it.
+    pub updated_geometry: Option<SettlementPathBody>,
+}
+
+/// One path.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub struct SettlementPathBody {
+    /// How it ended.
+    pub end: SettlementEndWord,
+    /// Share of the movement at the end: 1, or less where the arch falls.
+    pub share_of_movement: f64,
+    /// Horizontal thrust at the end, with which the left springing pushes the arch to the right.
+    pub thrust_n_per_m: f64,
+    /// The path, event by event, from the arch as it stands before the movement.
+    pub history: SettlementColumns,
+    /// How the crown goes on at the end.
+    pub mode: ModeWord,
+    /// Hinges on which the arch follows its springings, or falls, at the end.
+    pub hinges: Vec<HingeBody>,
+    /// Joints that slide at the end.
+    pub slides: Vec<SlideBody>,
+    /// Resultant per joint at the end, as places on the joints as built.
+    pub thrust_line: ThrustColumns,
+    /// Displacement of every voussoir at the end.
+    pub displacements: DisplacementColumns,
+    /// Largest equilibrium residual, as a share of the loads.
+    pub residual: f64,
+}
+
+/// Thrust and reactions as the springings move.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub struct SettlementColumns {
+    /// Share of the movement.
+    pub share_of_movement: Vec<f64>,
+    /// Horizontal force of the left springing on the arch, to the right.
+    pub thrust_n_per_m: Vec<f64>,
+    /// Vertical force of the left springing on the arch, upwards.
+    pub left_reaction_n_per_m: Vec<f64>,
+    /// Vertical force of the right springing on the arch, upwards; null for half an arch.
+    pub right_reaction_n_per_m: Vec<Option<f64>>,
+}
+
+/// Displacement of every voussoir, left to right.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub struct DisplacementColumns {
+    /// Of the centroid, to the right.
+    pub x_m: Vec<f64>,
+    /// Of the centroid, upwards.
+    pub y_m: Vec<f64>,
+    /// Counter-clockwise.
+    pub rotation_rad: Vec<f64>,
+}
+
+impl From<&SettlementReport> for SettlementBody {
+    fn from(report: &SettlementReport) -> Self {
+        SettlementBody {
+            first_order: (&report.first_order).into(),
+            updated_geometry: report.updated.as_ref().map(Into::into),
+        }
+    }
+}
+
+impl From<&SettlementPath> for SettlementPathBody {
+    fn from(path: &SettlementPath) -> Self {
+        SettlementPathBody {
+            end: path.end.into(),
+            share_of_movement: path.share,
+            thrust_n_per_m: path.points.last().map_or(0.0, |point| point.thrust),
+            history: SettlementColumns::new(&path.points),
+            mode: path.mechanism.mode.into(),
+            hinges: path.mechanism.hinges.iter().map(Into::into).collect(),
+            slides: path.mechanism.slides.iter().map(Into::into).collect(),
+            thrust_line: ThrustColumns::new(&path.thrust_line),
+            displacements: DisplacementColumns {
+                x_m: column(&path.displacements, |row| row[0]),
+                y_m: column(&path.displacements, |row| row[1]),
+                rotation_rad: column(&path.displacements, |row| row[2]),
+            },
+            residual: path.residual,
+        }
+    }
+}
+
+impl SettlementColumns {
+    fn new(rows: &[SettlementPoint]) -> Self {
+        SettlementColumns {
+            share_of_movement: column(rows, |row| row.share),
+            thrust_n_per_m: column(rows, |row| row.thrust),
+            left_reaction_n_per_m: column(rows, |row| row.left),
+            right_reaction_n_per_m: column(rows, |row| row.right),
+        }
+    }
+}
+
+impl From<SettlementEnd> for SettlementEndWord {
+    fn from(end: SettlementEnd) -> Self {
+        match end {
+            SettlementEnd::Follows => SettlementEndWord::Follows,
+            SettlementEnd::Collapse => SettlementEndWord::Collapse,
+            SettlementEnd::CannotTell => SettlementEndWord::CannotTell,
+        }
+    }
+}

@@ -1,0 +1,55 @@
+//! What the movement of springings does.
+
+use super::{Mechanism, Thrust};
+
+/// How a movement ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SettlementEnd {
+    /// The arch follows to the end of the movement.
+    Follows,
+    /// The arch falls before the movement is complete.
+    Collapse,
+    /// The path could not be followed.
+    CannotTell,
+}
+
+/// One point of a movement.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SettlementPoint {
+    /// Share of the movement that has happened.
+    pub share: f64,
+    /// Horizontal force of the left springing on the arch, to the right positive, N/m.
+    pub thrust: f64,
+    /// Vertical force of the left springing on the arch, upwards positive, N/m.
+    pub left: f64,
+    /// The same of the right springing; none for half an arch.
+    pub right: Option<f64>,
+}
+
+/// The arch on a movement of its springings.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SettlementPath {
+    /// How it ended.
+    pub end: SettlementEnd,
+    /// Share of the movement at the end: 1, or less where the arch falls.
+    pub share: f64,
+    /// The path, event by event, from the arch as it stands before the movement.
+    pub points: Vec<SettlementPoint>,
+    /// How the arch moves on at the end: the hinges on which it follows its springings, or falls.
+    pub mechanism: Mechanism,
+    /// Resultants per joint at the end.
+    pub thrust_line: Vec<Thrust>,
+    /// Displacement (u, v) of every voussoir's centroid and its rotation at the end, m and rad.
+    pub displacements: Vec<[f64; 3]>,
+    /// Largest equilibrium residual, as a share of the loads.
+    pub residual: f64,
+}
+
+/// The answer: at first order, and on moving geometry where asked.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SettlementReport {
+    /// On the geometry as built.
+    pub first_order: SettlementPath,
+    /// On moving geometry.
+    pub updated: Option<SettlementPath>,
+}

@@ -1,0 +1,144 @@
+//! Settlement: the springings move while the loads stay.
+//!
+//! At first order the thrust runs to its least (springings that part) or greatest value (that approach) and stays there: the
+//! arch has become a three-hinge arch, which follows any movement. On moving geometry its thrust goes on changing until
+//! it no longer finds room in the stones.
+
+use super::certificate::UNBALANCED;
+use super::discretise::{Model, discretise};
+use super::path::{ATTEMPTS, Attempt, disturbed, stand};
+use super::{
+    Analysis, AnalysisError, Cost, Geometry, LoadStep, SettlementEnd, SettlementPath, SettlementPoint,
+    SettlementReport, SpringingMovement, Watch, ending,
+};
+use crate::arch::Arch;
+use crate::dda::{Drive, End, Movement, Tracer};
+use crate::geometry::Vec2;
+use std::cell::Cell;
+use std::ops::ControlFlow;
+
+/// Follows the movement; the work is added to `cost`. None where the arch does not stand before it.
+///
+/// # Errors
+/// When stopped by `watch`.
+pub(super) fn follow(
+    analysis: &Analysis,
+    movements: [SpringingMovement; 2],
+    weight: f64,
+    cost: &mut Cost,
+    watch: &mut dyn Watch,
+) -> Result<Option<SettlementReport>, AnalysisError> {
+    let mut path = |geometry: Geometry| -> Result<Option<SettlementPath>, AnalysisError> {
+        let mut last = None;
+        for i in 0..ATTEMPTS {
+            last = attempt(analysis, movements, geometry, weight, Attempt::number(i), cost, watch)?;
+            if last.as_ref().is_some_and(|path| path.end != SettlementEnd::CannotTell) {
+                break;
+            }
+        }
+        Ok(last)
+    };
+    let Some(first_order) = path(Geometry::FirstOrder)? else { return Ok(None) };
+    let updated = if analysis.geometry == Geometry::Updated { path(Geometry::Updated)? } else { None };
+    Ok(Some(SettlementReport { first_order, updated }))
+}
+
+fn attempt(
+    analysis: &Analysis,
+    movements: [SpringingMovement; 2],
+    geometry: Geometry,
+    weight: f64,
+    attempt: Attempt,
+    cost: &mut Cost,
+    watch: &mut dyn Watch,
+) -> Result<Option<SettlementPath>, AnalysisError> {
+    let model = discretise(analysis, attempt.seed)?;
+    let base = disturbed(&model, 0.0, attempt);
+    let reached = Cell::new(0.0);
+    let mut see = |tracer: &Tracer, share: f64| {
+        reached.set(share);
+        watch.on_step(&LoadStep { load_factor: share, events: tracer.events() }).map_break(|_| ())
+    };
+    let (mut tracer, end) = stand(&model, &base, 0.0, weight, &mut |t| see(t, 0.0));
+    let mut stopped = end == End::Stopped;
+    if !stopped && end != End::Reached {
+        cost.add(&tracer, Cost::default());
+        return Ok(None);
+    }
+    let zeros = vec![0.0; base.len()];
+    let ground = ground(&analysis.arch, movements);
+    let drive =
+        Drive { base, rate: zeros.clone(), turned: [model.fixed.turned.clone(), zeros], ground, ..Drive::default() };
+    let mut points = Vec::new();
+    let mut record = |tracer: &Tracer| -> ControlFlow<()> {
+        points.push(point(&model, &analysis.arch, tracer));
+        see(tracer, tracer.parameter())
+    };
+    let mut end = End::Reached;
+    if !stopped {
+        if geometry == Geometry::Updated {
+            end = tracer.move_on(drive, 0.0, &mut |_| ControlFlow::Continue(()));
+            if end == End::Reached {
+                end = tracer.trace_moving(1.0, &mut record);
+            }
+        } else {
+            tracer.drive_on(drive, 0.0);
+            end = tracer.trace(1.0, &mut record);
+        }
+        stopped = end == End::Stopped;
+    }
+    cost.add(&tracer, Cost::default());
+    if stopped {
+        return Err(AnalysisError::Stopped { load_factor: reached.get(), events: tracer.events() });
+    }
+    let falls = end == End::Mechanism && tracer.return_to_peak();
+    points.retain(|at| at.share < tracer.parameter());
+    points.push(point(&model, &analysis.arch, &tracer));
+    let end = match end {
+        _ if tracer.worst_residual() > UNBALANCED => SettlementEnd::CannotTell,
+        End::Reached => SettlementEnd::Follows,
+        End::Mechanism if falls => SettlementEnd::Collapse,
+        _ => SettlementEnd::CannotTell,
+    };
+    Ok(Some(SettlementPath {
+        end,
+        share: tracer.parameter(),
+        points,
+        mechanism: ending::at_movement(analysis, &model, &tracer, &ground),
+        thrust_line: ending::carried_by(analysis, &model, &tracer),
+        displacements: displacements(&model, &tracer, geometry),
+        residual: tracer.worst_residual(),
+    }))
+}
+
+/// Displacement and rotation of every voussoir.
+fn displacements(model: &Model, tracer: &Tracer, geometry: Geometry) -> Vec<[f64; 3]> {
+    let of = |voussoir: usize| {
+        let motion = match geometry {
+            Geometry::FirstOrder => model.motion(voussoir, 0.0, tracer.displacements()),
+            Geometry::Updated => tracer.mean_motion(model.first_voussoir + voussoir),
+        };
+        [motion.displacement.x, motion.displacement.y, motion.rotation]
+    };
+    (0..model.voussoirs).map(of).collect()
+}
+
+/// Movements of the ground at both ends of the chain, for the whole movement.
+fn ground(arch: &Arch, movements: [SpringingMovement; 2]) -> [Movement; 2] {
+    let springings = [arch.joints.first(), arch.joints.last()];
+    // Outwards is to the left on the left, and a rotation that opens the intrados there turns clockwise.
+    std::array::from_fn(|end| {
+        let (sign, by) = (if end == 0 { -1.0 } else { 1.0 }, movements[end]);
+        Movement {
+            velocity: Vec2::new(sign * by.outwards, -by.downwards),
+            spin: sign * by.rotation,
+            about: springings[end].map_or(Vec2::zeros(), |joint| joint.middle()),
+        }
+    })
+}
+
+fn point(model: &Model, arch: &Arch, tracer: &Tracer) -> SettlementPoint {
+    let left = tracer.force_through(model.first_voussoir);
+    let right = tracer.force_through(model.first_voussoir + model.voussoirs);
+    SettlementPoint { share: tracer.parameter(), thrust: left.x, left: left.y, right: (!arch.half).then_some(-right.y) }
+}
