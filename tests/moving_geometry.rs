@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use std::ops::ControlFlow;
-use voussoir::dda::{Block, Chain, ChainBuilder, Drive, Elasticity, End, Law, Push, Touch, Tracer};
+use voussoir::dda::{Block, Chain, ChainBuilder, Drive, Elasticity, End, Law, Patience, Push, Touch, Tracer};
 use voussoir::geometry::{Region, Vec2, perpendicular};
 
 fn watch(_: &Tracer) -> ControlFlow<()> {
@@ -38,7 +38,7 @@ fn limit_point(chain: &Chain, push: Push, size: f64) -> (f64, usize) {
     };
     let mut tracer = Tracer::new(chain, drive.clone(), size, push.force.norm());
     assert_eq!(tracer.move_on(drive, 0.0, &mut watch), End::Reached);
-    assert_eq!(tracer.trace_moving(1e9, &mut watch), End::Mechanism);
+    assert_eq!(tracer.trace_moving(1e9, Patience { fall: 0.1, movement: 0.05 }, &mut watch), End::Mechanism);
     assert!(tracer.worst_residual() < 1e-8);
     (tracer.peak().unwrap().parameter, tracer.factorisations())
 }

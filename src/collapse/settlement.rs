@@ -12,10 +12,14 @@ use super::{
     SettlementReport, SpringingMovement, Watch, ending,
 };
 use crate::arch::Arch;
-use crate::dda::{Drive, End, Movement, Tracer};
+use crate::dda::{Drive, End, Movement, Patience, Tracer};
 use crate::geometry::Vec2;
 use std::cell::Cell;
 use std::ops::ControlFlow;
+
+/// The springings stay where they are while stones find another seat: hinges may move from joint to joint, and a joint that
+/// has opened far takes far to close.
+const PATIENCE: Patience = Patience { fall: 0.9, movement: 0.2 };
 
 /// Follows the movement; the work is added to `cost`. None where the arch does not stand before it.
 ///
@@ -79,7 +83,7 @@ fn attempt(
         if geometry == Geometry::Updated {
             end = tracer.move_on(drive, 0.0, &mut |_| ControlFlow::Continue(()));
             if end == End::Reached {
-                end = tracer.trace_moving(1.0, &mut record);
+                end = tracer.trace_moving(1.0, PATIENCE, &mut record);
             }
         } else {
             tracer.drive_on(drive, 0.0);

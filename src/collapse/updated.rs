@@ -4,8 +4,11 @@ use super::certificate::UNBALANCED;
 use super::discretise::{Model, discretise};
 use super::path::{ATTEMPTS, Attempt, disturbed, stand};
 use super::{Analysis, AnalysisError, Cost, LoadStep, UpdatedEnd, UpdatedGeometry, Watch, ending, mechanism};
-use crate::dda::{Drive, End, Tracer};
+use crate::dda::{Drive, End, Patience, Tracer};
 use std::cell::Cell;
+
+/// Under loads that stay, an arch that has to give up a tenth of them to stay in equilibrium falls.
+const PATIENCE: Patience = Patience { fall: 0.1, movement: 0.01 };
 
 /// From where to where the load factor goes.
 #[derive(Debug, Clone, Copy)]
@@ -62,7 +65,7 @@ fn attempt(
             .move_on(drive(&model, fixed, course.sign), course.sign * course.start, &mut |t| see(t, course.start));
         if end == End::Reached {
             moved = true;
-            end = tracer.trace_moving(course.cap, &mut |t| see(t, course.sign * t.parameter()));
+            end = tracer.trace_moving(course.cap, PATIENCE, &mut |t| see(t, course.sign * t.parameter()));
         }
     }
     cost.add(&tracer, Cost::default());

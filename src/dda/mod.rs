@@ -28,4 +28,4 @@ pub use chain::{Chain, ChainBuilder, Loads, MeanMotion, Push, Touch};
 pub use condense::{Condensed, Loose, Node, free_response};
 pub use contact::{Contact, ContactForce, Law, State, Zone};
 pub use macroblock::{Bond, Macroblock, Seam};
-pub use trace::{Drive, End, Movement, Peak, Tracer, covering};
+pub use trace::{Drive, End, Movement, Patience, Peak, Tracer, covering};

@@ -11,6 +11,7 @@ mod moving;
 mod seen;
 
 pub use drive::{Drive, Movement, covering};
+pub use moving::Patience;
 
 use super::chain::Chain;
 use super::contact::{Moving, State, zone};
@@ -82,6 +83,8 @@ pub struct Tracer<'a> {
     linearised_at: Vec<f64>,
     /// Highest parameter before the first dip that is worth telling.
     dip: Option<f64>,
+    /// Whether the path lies so far below its peak that it has ended for sure.
+    fallen: bool,
     /// Gap and slip that the moving ground gives every contact per unit of the parameter, first order.
     settling: Vec<[f64; 2]>,
 
@@ -130,6 +133,7 @@ impl<'a> Tracer<'a> {
             moving: None,
             linearised_at: Vec::new(),
             dip: None,
+            fallen: false,
             settling: vec![[0.0; 2]; chain.contacts().len()],
             matrix: chain.elastic().clone(),
             load_rate: vec![0.0; n],

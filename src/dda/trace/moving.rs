@@ -29,10 +29,9 @@ const CLOSE: usize = 4;
 /// So many halvings of a step in a row mean that the path is lost.
 const HALVINGS: usize = 40;
 /// A path has at most so many steps that end at no change of state; real ones have some hundreds.
-const MOST_STEPS: usize = 3000;
-/// Collapse is the highest point of the path from which it does not come back before the parameter has fallen by this share
-/// of what it rose, or the chain has moved by this share of its size; a shorter dip is a snap: stones that find another seat.
-const FALLEN: [f64; 2] = [0.1, 0.01];
+const MOST_STEPS: usize = 1000;
+/// A path that is lost after it has fallen by this share of what it rose, or moved by this share of its size, has fallen.
+const SURE: Patience = Patience { fall: 0.1, movement: 0.01 };
 /// Rises that change the loads on a node by less than this share of the load scale count as if they did by so much.
 const LEAST_RISE: f64 = 1e-3;
 /// A snap is worth telling where the parameter falls by this share of what it rose.
@@ -41,6 +40,16 @@ const SNAP: f64 = 0.01;
 const FAR: f64 = 0.3;
 /// Strain beyond which stone is no longer elastic by any measure.
 const STRAINED: f64 = 0.02;
+
+/// How long a path may lie below its peak until that counts as its end. A shorter dip is a snap: stones that find another
+/// seat.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Patience {
+    /// Fall of the parameter, as a share of what it rose.
+    pub fall: f64,
+    /// Movement of the chain, as a share of its size.
+    pub movement: f64,
+}
 
 /// What is held while a step is corrected to equilibrium.
 #[derive(Debug, Clone, Copy)]
@@ -78,7 +87,7 @@ impl Tracer<'_> {
         };
         debug_assert!(parameter == 0.0 || ground.iter().all(|g| g.is_still()), "the ground starts at rest");
         self.parameter = 0.0;
-        let end = self.walk(1.0, f64::INFINITY, see);
+        let end = self.trace_moving(1.0, Patience { fall: f64::INFINITY, ..SURE }, see);
         (self.drive, self.parameter, self.peak) = (drive, parameter, None);
         end
     }
@@ -86,15 +95,22 @@ impl Tracer<'_> {
     /// Traces on moving geometry until the parameter reaches `target` or the path ends: [`End::Mechanism`] where the
     /// parameter has passed its peak for good, [`End::Rising`] where the chain has moved too far for its displacements to
     /// mean anything.
-    pub fn trace_moving(&mut self, target: f64, see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>) -> End {
-        self.walk(target, FALLEN[0], see)
+    pub fn trace_moving(
+        &mut self,
+        target: f64,
+        patience: Patience,
+        see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>,
+    ) -> End {
+        (self.dip, self.peak, self.fallen) = (None, None, false);
+        match self.walk(target, patience, see) {
+            End::Lost if self.fallen => End::Mechanism,
+            end => end,
+        }
     }
 
-    /// Traces until the parameter has fallen by this share of what it rose.
-    fn walk(&mut self, target: f64, most_fall: f64, see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>) -> End {
+    fn walk(&mut self, target: f64, patience: Patience, see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>) -> End {
         let start = self.parameter;
         let mut longest = LONGEST * self.size;
-        self.dip = None;
         let (mut halvings, mut zero_steps, mut steps, mut barred, mut refined) = (0, 0, 0, None, false);
         let most_zero_steps = super::MOST_ZERO_STEPS[0] + super::MOST_ZERO_STEPS[1] * self.states.len();
         let most_events = self.events + super::MOST_EVENTS[0] + super::MOST_EVENTS[1] * self.states.len();
@@ -110,7 +126,7 @@ impl Tracer<'_> {
             if see(self).is_break() {
                 return End::Stopped;
             }
-            if let Some(end) = self.is_over(start, most_fall) {
+            if let Some(end) = self.is_over(start, patience) {
                 return end;
             }
             let event = self.nearest_event(barred);
@@ -205,15 +221,17 @@ impl Tracer<'_> {
         None
     }
 
-    fn is_over(&mut self, start: f64, most_fall: f64) -> Option<End> {
+    fn is_over(&mut self, start: f64, patience: Patience) -> Option<End> {
         if let Some(peak) = &self.peak {
             let moved = farthest(&self.displacements, &peak.displacements);
             let least = LEAST_RISE * self.load_scale / self.load_rate_scale;
-            let fallen = (peak.parameter - self.parameter) / (peak.parameter - start).max(least);
-            if fallen > most_fall || (fallen > 0.0 && moved > FALLEN[1] * self.size) {
+            let fall = (peak.parameter - self.parameter) / (peak.parameter - start).max(least);
+            let beyond = |p: Patience| fall > p.fall || (fall > 0.0 && moved > p.movement * self.size);
+            if beyond(patience) {
                 return Some(End::Mechanism);
             }
-            if fallen > SNAP {
+            self.fallen = beyond(SURE);
+            if fall > SNAP {
                 self.dip = self.dip.or(Some(peak.parameter));
             }
         }
