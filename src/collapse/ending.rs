@@ -6,7 +6,7 @@ use super::motion::{Motion, motion_at};
 use super::path::Fall;
 use super::{Analysis, PathEnd, Thrust};
 use crate::arch::{Arch, JointLaw, PointForce};
-use crate::dda::{Movement, Peak, State, Tracer, Zone};
+use crate::dda::{Peak, State, Tracer, Zone};
 use crate::limit::{Condition, Resultant, StaticTheorem};
 
 /// Polishing undoes a disturbance of about 1e-9 of the loads; a larger change means that other conditions were solved.
@@ -82,17 +82,26 @@ pub(super) fn at_criterion(
     PathEnd { load_factor, residual, mechanism, thrust_line }
 }
 
-/// How an arch goes on whose springings move like this.
-pub(super) fn at_movement(
-    analysis: &Analysis,
-    model: &Model,
-    tracer: &Tracer,
-    ground: &[Movement; 2],
-) -> super::Mechanism {
-    let motion = |ground: &Movement| motion_at(ground.about, ground.velocity, ground.spin);
-    let rate = tracer.rate();
-    let ends = ground.each_ref().map(|ground| Motion::STILL.plus(motion(ground), rate));
-    mechanism::from_velocities(&analysis.arch, &motions(model, &analysis.arch, tracer.direction()), ends)
+/// How an arch goes on in the direction of its path: joints that are open at one end turn about the other, be it further
+/// open or back, and slide as their contact points do.
+pub(super) fn at_rates(analysis: &Analysis, model: &Model, tracer: &Tracer) -> super::Mechanism {
+    let arch = &analysis.arch;
+    let forces = tracer.contact_forces();
+    let rates = |joint: usize| {
+        let contacts = model.contacts(joint);
+        let ends = [contacts.start, contacts.end - 1];
+        let [[i, slip_i], [e, slip_e]] = ends.map(|p| tracer.gap_rate(p));
+        let turns = (i - e).abs();
+        let [i, e] = match ends.map(|p| forces[p][0] > 0.0) {
+            [true, true] => [0.0, 0.0],
+            [true, false] => [0.0, turns],
+            [false, true] => [turns, 0.0],
+            [false, false] => [i, e],
+        };
+        [[i, slip_i], [e, slip_e]]
+    };
+    let rates: Vec<_> = (0..arch.joints.len()).map(rates).collect();
+    mechanism::from_rates(arch, &motions(model, arch, tracer.direction()), &rates)
 }
 
 /// The thrust line of what the contacts carry now.
@@ -102,7 +111,7 @@ pub(super) fn carried_by(analysis: &Analysis, model: &Model, tracer: &Tracer) ->
 }
 
 pub(super) fn from_direction(model: &Model, arch: &Arch, direction: &[f64]) -> super::Mechanism {
-    mechanism::from_velocities(arch, &motions(model, arch, direction), [Motion::STILL; 2])
+    mechanism::from_velocities(arch, &motions(model, arch, direction))
 }
 
 /// Motions of the voussoirs in a direction of the nodes.

@@ -3,14 +3,17 @@
 use super::motion::Motion;
 use super::smallest_motion::{Column, smallest_motion};
 use super::{Face, Hinge, Mechanism, Mode, Slide};
-use crate::arch::{Arch, JointLaw, PointForce};
-use crate::geometry::cross;
+use crate::arch::{Arch, Joint, JointLaw, PointForce};
+use crate::geometry::{Vec2, cross};
 use crate::limit::Resultant;
 
 /// Releases slower than this share of the fastest do not move.
 const MOVES: f64 = 1e-6;
 /// In a direction of the load path, joint motions below this share of the fastest corner are elastic strain or rounding.
 const ELASTIC: f64 = 1e-5;
+/// The same on a path on moving geometry, where joints go on straining as the arch falls: measured, real hinges turn at a
+/// hundredth or more of the fastest.
+const MOVING_ELASTIC: f64 = 3e-4;
 
 /// A relative motion that a joint at its limit allows, of unit rate.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -118,42 +121,53 @@ fn describe(arch: &Arch, releases: &[(usize, Release)], rates: &[f64]) -> Mechan
             Release::Sliding(sign) => slid[k] += sign * rate,
         }
     }
-    assemble(arch, &relative, &openings, &slid)
+    let mut motion = Motion::STILL;
+    let along = relative[..arch.voussoirs.len()].iter().map(|&r| {
+        motion = motion.plus(r, 1.0);
+        motion
+    });
+    assemble(arch, &along.collect::<Vec<_>>(), &openings, &slid)
 }
 
-/// Reads a mechanism off velocities of the stones and of the ground at both ends; for paths whose peak is not a mechanism of the joints at their limits.
-pub(super) fn from_velocities(arch: &Arch, motions: &[Motion], ground: [Motion; 2]) -> Mechanism {
-    let before = |k: usize| if k == 0 { ground[0] } else { motions[k - 1] };
-    let relative: Vec<Motion> =
-        (0..arch.joints.len()).map(|k| motions.get(k).copied().unwrap_or(ground[1]).plus(before(k), -1.0)).collect();
-    let mut openings = Vec::new();
-    let mut slid = Vec::new();
-    for (joint, motion) in arch.joints.iter().zip(&relative) {
-        let opening = [joint.intrados, joint.extrados].map(|corner| motion.at(corner).dot(&joint.normal()));
-        let length = joint.length();
-        openings.push(if opening[0] > opening[1] { [opening[0] / length, 0.0] } else { [0.0, opening[1] / length] });
-        slid.push(if matches!(joint.law, JointLaw::Bonded) {
-            0.0
-        } else {
-            motion.at(joint.middle()).dot(&joint.tangent())
-        });
-    }
-    // Elastic strain and rounding are no joint motion; how fast the stones are says how small that is.
-    let corners = arch
-        .joints
-        .iter()
-        .skip(1)
-        .zip(motions)
-        .map(|(joint, m)| m.at(joint.intrados).norm().max(m.at(joint.extrados).norm()));
-    let still = ELASTIC * corners.fold(0.0, f64::max);
-    for (opening, joint) in openings.iter_mut().zip(&arch.joints) {
-        opening.iter_mut().filter(|o| **o * joint.length() < still).for_each(|o| *o = 0.0);
-    }
-    slid.iter_mut().filter(|s| s.abs() < still).for_each(|s| *s = 0.0);
-    assemble(arch, &relative, &openings, &slid)
+/// Reads a mechanism off velocities of the stones; for paths whose peak is not a mechanism of the joints at their limits.
+pub(super) fn from_velocities(arch: &Arch, motions: &[Motion]) -> Mechanism {
+    let relative = |k: usize| {
+        let before = if k == 0 { Motion::STILL } else { motions[k - 1] };
+        motions.get(k).copied().unwrap_or(Motion::STILL).plus(before, -1.0)
+    };
+    let corners = |(k, joint): (usize, &Joint)| {
+        let rate = |v: Vec2| [v.dot(&joint.normal()), v.dot(&joint.tangent())];
+        [joint.intrados, joint.extrados].map(|corner| rate(relative(k).at(corner)))
+    };
+    let rates: Vec<_> = arch.joints.iter().enumerate().map(corners).collect();
+    read_off(arch, motions, &rates, ELASTIC)
 }
 
-fn assemble(arch: &Arch, relative: &[Motion], openings: &[[f64; 2]], slid: &[f64]) -> Mechanism {
+/// Reads a mechanism off the rates of gap and slip at the corners of every joint, intrados first.
+pub(super) fn from_rates(arch: &Arch, motions: &[Motion], rates: &[[[f64; 2]; 2]]) -> Mechanism {
+    read_off(arch, motions, rates, MOVING_ELASTIC)
+}
+
+/// Elastic strain and rounding are no joint motion: below this share of the fastest corner nothing opens or slides.
+fn read_off(arch: &Arch, motions: &[Motion], rates: &[[[f64; 2]; 2]], elastic: f64) -> Mechanism {
+    let corners = arch.joints.iter().skip(1).zip(motions);
+    let speed = |(joint, m): (&Joint, &Motion)| m.at(joint.intrados).norm().max(m.at(joint.extrados).norm());
+    let still = elastic * corners.map(speed).fold(0.0, f64::max);
+    let moves = |rate: f64| if rate.abs() < still { 0.0 } else { rate };
+    let opening = |(joint, [[i, _], [e, _]]): (&Joint, &[[f64; 2]; 2])| {
+        let (i, e) = (moves(*i) / joint.length(), moves(*e) / joint.length());
+        if i > e { [i, 0.0] } else { [0.0, e] }
+    };
+    let slide = |(joint, [[_, i], [_, e]]): (&Joint, &[[f64; 2]; 2])| match joint.law {
+        JointLaw::Bonded => 0.0,
+        _ => moves(0.5 * (i + e)),
+    };
+    let openings: Vec<_> = arch.joints.iter().zip(rates).map(opening).collect();
+    let slid: Vec<_> = arch.joints.iter().zip(rates).map(slide).collect();
+    assemble(arch, motions, &openings, &slid)
+}
+
+fn assemble(arch: &Arch, motions: &[Motion], openings: &[[f64; 2]], slid: &[f64]) -> Mechanism {
     let hinge_rate = openings.iter().flatten().copied().fold(0.0, f64::max);
     let slide_rate = slid.iter().map(|s| s.abs()).fold(0.0, f64::max);
     let scale = if hinge_rate > 0.0 { 1.0 / hinge_rate } else { 1.0 / slide_rate.max(f64::MIN_POSITIVE) };
@@ -166,14 +180,7 @@ fn assemble(arch: &Arch, relative: &[Motion], openings: &[[f64; 2]], slid: &[f64
     let wall = if arch.half { arch.joints.len() - 1 } else { arch.joints.len() };
     let sliding = slid.iter().enumerate().filter(|&(k, &s)| s != 0.0 && k != wall);
     let slides: Vec<Slide> = sliding.map(|(joint, &s)| Slide { joint, rate: s * scale }).collect();
-    let mut motion = Motion::STILL;
-    let motions: Vec<Motion> = relative[..arch.voussoirs.len()]
-        .iter()
-        .map(|&r| {
-            motion = motion.plus(r, scale);
-            motion
-        })
-        .collect();
+    let motions: Vec<Motion> = motions.iter().map(|&m| Motion::STILL.plus(m, scale)).collect();
     let velocities = arch.voussoirs.iter().zip(&motions).map(|(v, m)| {
         let velocity = m.at(v.region.centroid);
         [velocity.x, velocity.y, m.spin]
@@ -223,8 +230,8 @@ fn angles(arch: &Arch, joint: usize) -> (f64, f64) {
 mod tests {
     use super::super::motion::motion_at;
     use super::*;
-    use crate::arch::{Joint, Sides, Voussoir};
-    use crate::geometry::{Region, Vec2};
+    use crate::arch::{Sides, Voussoir};
+    use crate::geometry::Region;
 
     fn semicircle(n: usize) -> Arch {
         let law = JointLaw::Dry { friction: 0.7, cohesion: 0.0 };

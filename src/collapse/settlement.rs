@@ -108,9 +108,10 @@ fn attempt(
         end,
         share: tracer.parameter(),
         points,
-        mechanism: ending::at_movement(analysis, &model, &tracer, &ground),
+        mechanism: ending::at_rates(analysis, &model, &tracer),
         thrust_line: ending::carried_by(analysis, &model, &tracer),
         displacements: displacements(&model, &tracer, geometry),
+        snap: tracer.snap(),
         residual: tracer.worst_residual(),
     }))
 }

@@ -72,15 +72,16 @@ fn attempt(
     if end == End::Stopped {
         return Err(AnalysisError::Stopped { load_factor: reached.get(), events: tracer.events() });
     }
+    let falls = end == End::Mechanism && tracer.return_to_peak();
     let end = match end {
-        End::Mechanism if moved && tracer.worst_residual() <= UNBALANCED => UpdatedEnd::Collapse,
-        End::Mechanism | End::Rising if !moved => UpdatedEnd::FallsAsLoaded,
         _ if tracer.worst_residual() > UNBALANCED => UpdatedEnd::CannotTell,
+        End::Mechanism if moved && falls => UpdatedEnd::Collapse,
+        End::Mechanism | End::Rising if !moved => UpdatedEnd::FallsAsLoaded,
         End::Reached => UpdatedEnd::StandsToCap,
         End::Rising => UpdatedEnd::BeyondModel,
         _ => UpdatedEnd::CannotTell,
     };
-    Ok(describe(analysis, &model, tracer, course.sign, end))
+    Ok(describe(analysis, &model, &tracer, course.sign, end))
 }
 
 fn drive(model: &Model, fixed: Vec<f64>, sign: f64) -> Drive {
@@ -93,22 +94,31 @@ fn drive(model: &Model, fixed: Vec<f64>, sign: f64) -> Drive {
     }
 }
 
-fn describe(analysis: &Analysis, model: &Model, mut tracer: Tracer, sign: f64, end: UpdatedEnd) -> UpdatedGeometry {
+fn describe(analysis: &Analysis, model: &Model, tracer: &Tracer, sign: f64, end: UpdatedEnd) -> UpdatedGeometry {
     let residual = tracer.worst_residual();
     if matches!(end, UpdatedEnd::FallsAsLoaded | UpdatedEnd::CannotTell) {
-        return UpdatedGeometry { end, load_factor: None, crown: None, largest: None, mechanism: None, residual };
+        return UpdatedGeometry {
+            end,
+            load_factor: None,
+            crown: None,
+            largest: None,
+            mechanism: None,
+            snap: None,
+            residual,
+        };
     }
-    let falls = end == UpdatedEnd::Collapse && tracer.return_to_peak();
+    let falls = end == UpdatedEnd::Collapse;
     let of = |voussoir: usize| tracer.mean_motion(model.first_voussoir + voussoir).displacement;
     let [left, right] = mechanism::crown(&analysis.arch);
     let largest = (0..model.voussoirs).map(|v| of(v).norm()).fold(0.0, f64::max);
-    let mechanism = falls.then(|| ending::from_direction(model, &analysis.arch, tracer.direction()));
+    let mechanism = falls.then(|| ending::at_rates(analysis, model, tracer));
     UpdatedGeometry {
         end,
         load_factor: Some(sign * tracer.parameter()),
         crown: Some(0.5 * (of(left) + of(right))),
         largest: Some(largest),
         mechanism,
+        snap: tracer.snap().map(|at| sign * at),
         residual,
     }
 }

@@ -46,6 +46,8 @@ pub struct Peak {
     pub direction: Vec<f64>,
     /// Contact states in which the path goes on.
     pub states: Vec<State>,
+    /// Largest equilibrium residual up to there, as a share of the load scale.
+    pub residual: f64,
 }
 
 /// A pivot ratio below this is a mechanism (measured: regular 1e-2 to 1e-8, singular below 1e-14).
@@ -306,6 +308,7 @@ impl<'a> Tracer<'a> {
                 displacements: self.displacements.clone(),
                 direction: self.direction.clone(),
                 states: self.states.clone(),
+                residual: self.worst_residual,
             });
         }
     }

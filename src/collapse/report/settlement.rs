@@ -41,6 +41,8 @@ pub struct SettlementPath {
     pub thrust_line: Vec<Thrust>,
     /// Displacement (u, v) of every voussoir's centroid and its rotation at the end, m and rad.
     pub displacements: Vec<[f64; 3]>,
+    /// Share at which the arch first snaps into another shape: the path dips by more than a hundredth, then goes on.
+    pub snap: Option<f64>,
     /// Largest equilibrium residual, as a share of the loads.
     pub residual: f64,
 }

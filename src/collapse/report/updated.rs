@@ -31,6 +31,9 @@ pub struct UpdatedGeometry {
     pub largest: Option<f64>,
     /// How the arch begins to fall.
     pub mechanism: Option<Mechanism>,
+    /// Load factor at which the arch first snaps into another shape, where the path dips by more than a hundredth of what it
+    /// rose and then goes on rising.
+    pub snap: Option<f64>,
     /// Largest equilibrium residual on the path, as a share of the loads.
     pub residual: f64,
 }

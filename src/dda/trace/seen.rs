@@ -46,6 +46,11 @@ impl Tracer<'_> {
         self.rate
     }
 
+    /// Rates of gap and slip of contact `p` in that direction.
+    pub fn gap_rate(&self, p: usize) -> [f64; 2] {
+        self.rates[p]
+    }
+
     /// The highest point after which the parameter did not rise at once; none if it always rose.
     pub fn peak(&self) -> Option<&Peak> {
         self.peak.as_ref()
@@ -55,8 +60,11 @@ impl Tracer<'_> {
     pub fn return_to_peak(&mut self) -> bool {
         let Some(peak) = self.peak.clone() else { return false };
         (self.parameter, self.displacements, self.direction) = (peak.parameter, peak.displacements, peak.direction);
-        self.states = peak.states;
+        (self.states, self.worst_residual) = (peak.states, peak.residual);
         self.find_residual();
+        // Which way the path goes on there, were the parameter to stay.
+        self.rate = 0.0;
+        self.find_rates();
         true
     }
 
