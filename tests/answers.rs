@@ -72,6 +72,8 @@ fn report() -> CollapseReport {
         crushing: Some(Crushing { strength: 1e7, elastic: Some(elastic), plastic_section: Some(plastic) }),
         safety: Some(point()),
         history: vec![],
+        motion: None,
+        other_motion: None,
         cost: Cost::default(),
         notes: vec![],
     }

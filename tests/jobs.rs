@@ -32,6 +32,7 @@ fn order(what: f64) -> Question {
         share: 0.999,
         mesh: Mesh { subblocks: vec![], seams: Seams::Split },
         fields: vec![],
+        motion: None,
         aim: Aim::Collapse,
     }))
 }
@@ -88,6 +89,8 @@ fn report() -> Answer {
         crushing: None,
         safety: None,
         history: vec![],
+        motion: None,
+        other_motion: None,
         cost: Cost::default(),
         notes: vec![],
     }))

@@ -6,7 +6,7 @@ use super::path::{ATTEMPTS, Attempt, Leg, disturbed, follow, nothing_grows, stan
 use super::record::{MOST_STEPS, Recorder, snapshot};
 use super::{
     Aim, Analysis, AnalysisError, CollapseReport, Cost, Crushing, Direction, LimitWindow, LoadStep, Method, Outcome,
-    PathEnd, ThrustRange, Watch, ending, motion, safety,
+    PathEnd, ThrustRange, Watch, ending, falling, motion, safety,
 };
 use crate::arch::{Joint, JointLaw};
 use crate::dda::{End, Tracer};
@@ -65,6 +65,7 @@ pub(super) fn run(analysis: &Analysis, watch: &mut dyn Watch) -> Result<Collapse
         Aim::Collapse => safety::crushed_at_start(&mut report),
         Aim::Safety { crushing } => safety::judge(&mut report, crushing),
     }
+    falling::follow(analysis, &mut report, watch)?;
     report.check_finite()?;
     Ok(report)
 }
@@ -263,6 +264,8 @@ impl<'a> Question<'a> {
             crushing: Some(self.crushing.clone()),
             safety: None,
             history: Vec::new(),
+            motion: None,
+            other_motion: None,
             cost: Cost { unknowns: model.chain.unknowns(), ..Cost::default() },
             notes: Vec::new(),
         }

@@ -6,6 +6,8 @@ use crate::geometry::{Vec2, perpendicular};
 
 /// A second corner this far along the separating axis, as a share of the thickness, may carry force too.
 const REACH: f64 = 0.05;
+/// Cosine of the angle beyond which faces do not lie against each other any more, and other sides may touch.
+const OPEN: f64 = 0.5;
 
 /// A corner of one block on a side of another.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,8 +31,9 @@ pub struct Meeting {
     pub distance: f64,
     /// Angle by which the block after is turned against the block before, positive when open at the inner end, rad.
     pub opening: f64,
-    /// How far the block after has slid towards the outer end, m.
-    pub slid: f64,
+    /// By how much the corners of the block after lie further out than those of the block before, at the inner and the
+    /// outer end, m.
+    pub offsets: [f64; 2],
 }
 
 /// How the block `a` lies to the block `b` after it; `thickness` says what is near.
@@ -45,15 +48,14 @@ pub fn meeting(a: &Corners, b: &Corners, thickness: f64) -> Meeting {
     let inner = if middle.dot(&(b_inner - a_inner)) >= 0.0 { of_b(b_inner) } else { of_a(a_inner) };
     let outer = if middle.dot(&(b_outer - a_outer)) <= 0.0 { of_b(b_outer) } else { of_a(a_outer) };
     let opening = ta.perp(&tb).atan2(ta.dot(&tb));
-    let facing = middle.dot(&(outer.at - inner.at)) > 0.0;
-    let nearer = if inner.gap <= outer.gap { b_inner - a_inner } else { b_outer - a_outer };
-    let slid = nearer.dot(&middle.normalize());
+    let facing = ta.dot(&tb) > OPEN && middle.dot(&(outer.at - inner.at)) > 0.0;
+    let offsets = [b_inner - a_inner, b_outer - a_outer].map(|apart| apart.dot(&middle.normalize()));
     if facing {
         let distance = inner.gap.min(outer.gap);
-        return Meeting { touches: [Some(inner), Some(outer)], facing, distance, opening, slid };
+        return Meeting { touches: [Some(inner), Some(outer)], facing, distance, opening, offsets };
     }
     let (touches, distance) = around_corner(a, b, thickness);
-    Meeting { touches, facing, distance, opening, slid }
+    Meeting { touches, facing, distance, opening, offsets }
 }
 
 /// Distance between convex blocks along the side that separates them best, m; negative when they overlap.
@@ -118,7 +120,7 @@ mod tests {
     fn faces_touch_at_both_ends() {
         let m = meeting(&square(0.0, 0.0), &square(1.0, 0.0), 1.0);
         let gaps = m.touches.map(|t| t.unwrap().gap);
-        assert_eq!((m.facing, m.distance, m.opening, m.slid, gaps), (true, 0.0, 0.0, 0.0, [0.0; 2]));
+        assert_eq!((m.facing, m.distance, m.opening, m.offsets, gaps), (true, 0.0, 0.0, [0.0; 2], [0.0; 2]));
         assert!(m.touches.iter().flatten().all(|t| t.normal == Vec2::new(1.0, 0.0)));
     }
 
@@ -127,7 +129,7 @@ mod tests {
         let m = meeting(&square(0.0, 0.0), &square(1.1, 0.3), 1.0);
         let [inner, outer] = m.touches.map(|t| t.unwrap());
         assert!((inner.at - Vec2::new(1.1, 0.3)).norm() < 1e-15 && (outer.at - Vec2::new(1.0, 1.0)).norm() < 1e-15);
-        assert!((m.slid - 0.3).abs() < 1e-15 && (m.distance - 0.1).abs() < 1e-15);
+        assert!((m.offsets[0] - 0.3).abs() < 1e-15 && (m.distance - 0.1).abs() < 1e-15);
     }
 
     #[test]

@@ -80,6 +80,8 @@ struct Pair {
     distance: f64,
     tangential: f64,
     slip: [f64; 2],
+    /// Distance of the tangential force from its bounds: kept, since a difference of large forces would lose its digits.
+    room: [f64; 2],
 }
 
 /// The linearised contact: changes of (N, T) are `base` less `stiffness` times changes of distance and slip.
@@ -94,18 +96,6 @@ type Targets = [f64; 3];
 impl Contact {
     fn rubs(&self) -> bool {
         self.slope > SMOOTH || self.constant > SMOOTH
-    }
-
-    /// Distance of the tangential force from its bounds.
-    fn room(&self, pair: &Pair) -> [f64; 2] {
-        let bound = self.slope * pair.normal + self.constant;
-        [bound - pair.tangential, bound + pair.tangential]
-    }
-
-    /// Changes of the distances of the tangential force from its bounds.
-    fn room_change(&self, change: &Pair) -> [f64; 2] {
-        let bound = self.slope * change.normal;
-        [bound - change.tangential, bound + change.tangential]
     }
 
     /// What `increments` add along row `r` (0 normal, 1 tangent).
@@ -129,7 +119,7 @@ impl Contact {
         if !self.rubs() {
             return Linear { base: [base_n, 0.0], stiffness: [[kn, 0.0], [0.0, 0.0]] };
         }
-        let room = self.room(pair);
+        let room = pair.room;
         let yields = [pair.slip[0] / room[0], pair.slip[1] / room[1]];
         let kt = 1.0 / (yields[0] + yields[1]);
         let coupling = self.slope * (yields[0] - yields[1]);
@@ -143,13 +133,24 @@ impl Contact {
         let moved = [self.along(0, step), self.along(1, step)];
         let [normal, tangential] =
             [0, 1].map(|r| linear.base[r] - linear.stiffness[r][0] * moved[0] - linear.stiffness[r][1] * moved[1]);
-        let mut change = Pair { normal, distance: residuals[0] + moved[0], tangential, slip: [0.0; 2] };
-        if self.rubs() {
-            let (room, by) = (self.room(pair), self.room_change(&change));
-            change.slip = [0, 1].map(|i| (targets[i + 1] - pair.slip[i] * by[i]) / room[i]);
-        } else {
+        let mut change = Pair { normal, distance: residuals[0] + moved[0], tangential, ..Pair::NOTHING };
+        if !self.rubs() {
             change.tangential = 0.0;
+            return change;
         }
+        let bound = self.slope * normal;
+        let room = [bound - tangential, bound + tangential];
+        // The side that friction is further from follows its force, the other one the slip: neither cancels.
+        let near = if pair.slip[0] * pair.room[1] >= pair.slip[1] * pair.room[0] { 0 } else { 1 };
+        let (far, slid) = (1 - near, residuals[1] + moved[1]);
+        change.room[far] = room[far];
+        change.slip[far] = (targets[far + 1] - pair.slip[far] * room[far]) / pair.room[far];
+        change.slip[near] = change.slip[far] + if near == 0 { -slid } else { slid };
+        change.room[near] = if pair.slip[near] > pair.room[near] {
+            (targets[near + 1] - pair.room[near] * change.slip[near]) / pair.slip[near]
+        } else {
+            room[near]
+        };
         change
     }
 
@@ -159,7 +160,7 @@ impl Contact {
             let idle = (1.0, 0.0);
             return [(pair.normal, change.normal), (pair.distance, change.distance), idle, idle, idle, idle];
         }
-        let (room, by) = (self.room(pair), self.room_change(change));
+        let (room, by) = (pair.room, change.room);
         [
             (pair.normal, change.normal),
             (pair.distance, change.distance),
@@ -173,7 +174,8 @@ impl Contact {
     fn start(&self) -> Pair {
         let [force, distance] = START;
         let normal = self.guess.max(force);
-        Pair { normal, distance: self.gap.max(distance), tangential: 0.0, slip: [distance; 2] }
+        let bound = self.slope * normal + self.constant;
+        Pair { normal, distance: self.gap.max(distance), tangential: 0.0, slip: [distance; 2], room: [bound; 2] }
     }
 }
 
@@ -181,7 +183,7 @@ impl Contact {
 fn products(problem: &Problem, pairs: &[Pair], changes: Option<(&[Pair], f64)>) -> (f64, usize) {
     let (mut sum, mut count) = (0.0, 0);
     for (c, contact) in problem.contacts.iter().enumerate() {
-        let change = changes.map_or(Pair { normal: 0.0, distance: 0.0, tangential: 0.0, slip: [0.0; 2] }, |(all, _)| all[c]);
+        let change = changes.map_or(Pair::NOTHING, |(all, _)| all[c]);
         let share = changes.map_or(0.0, |(_, share)| share);
         let all = contact.positives(&pairs[c], &change).map(|(value, by)| value + share * by);
         let used = if contact.rubs() { 3 } else { 1 };
@@ -251,11 +253,10 @@ impl Problem {
         unbalanced: &[Vector3<f64>],
         mean: f64,
     ) -> Option<(Vec<Vector3<f64>>, Vec<Pair>)> {
-        let to_nothing = |contact: &Contact, pair: &Pair| -> Targets {
-            let room = contact.room(pair);
-            [-pair.normal * pair.distance, -room[0] * pair.slip[0], -room[1] * pair.slip[1]]
+        let to_nothing = |pair: &Pair| -> Targets {
+            [-pair.normal * pair.distance, -pair.room[0] * pair.slip[0], -pair.room[1] * pair.slip[1]]
         };
-        let mut targets: Vec<Targets> = self.contacts.iter().zip(pairs).map(|(c, p)| to_nothing(c, p)).collect();
+        let mut targets: Vec<Targets> = pairs.iter().map(to_nothing).collect();
         let matrix = self.matrix(pairs, apart, &targets);
         let factors = matrix.factor()?;
         let solve = |targets: &[Targets]| {
@@ -322,11 +323,14 @@ impl Contact {
 }
 
 impl Pair {
+    const NOTHING: Pair = Pair { normal: 0.0, distance: 0.0, tangential: 0.0, slip: [0.0; 2], room: [0.0; 2] };
+
     fn add(&mut self, change: &Pair, share: f64) {
         self.normal += share * change.normal;
         self.distance += share * change.distance;
         self.tangential += share * change.tangential;
         self.slip = [0, 1].map(|i| self.slip[i] + share * change.slip[i]);
+        self.room = [0, 1].map(|i| self.room[i] + share * change.room[i]);
     }
 }
 

@@ -64,6 +64,8 @@ pub struct Frame {
     pub places: Vec<Place>,
     /// How blocks lie at every interface; none where there is nothing after the last block.
     pub meetings: Vec<Option<Meeting>>,
+    /// How far the block after every interface has slid towards the outer end, m.
+    pub slid: Vec<f64>,
     /// Contacts that touch, with the forces that they carried in the step.
     pub carried: Vec<Carried>,
     /// Largest displacement of a corner since the start, m.
@@ -115,6 +117,8 @@ pub struct Falling {
     normals: Vec<[f64; 2]>,
     /// Whether the ends of every interface have their cohesion.
     intact: Vec<[bool; 2]>,
+    /// Offsets of the corners at every interface at the start, m.
+    offsets: Vec<[f64; 2]>,
 }
 
 /// A step that may be made.
@@ -136,19 +140,23 @@ impl Falling {
         let loads = blocks.iter().map(Block::pushed).sum::<f64>().max(f64::MIN_POSITIVE);
         let mass = blocks.iter().map(|block| block.inertia[0]).sum::<f64>();
         let interfaces = friction.len();
-        Falling {
+        let mut falling = Falling {
             places: blocks.iter().map(Block::start).collect(),
             parameter: 0.0,
             step: STRIDE * thickness * mass / loads,
             normals: vec![[0.0; 2]; interfaces],
             intact: vec![[true; 2]; interfaces],
+            offsets: Vec::new(),
             blocks,
             grounds,
             friction,
             thickness,
             loads,
             mass,
-        }
+        };
+        let meetings = falling.meetings(&falling.places);
+        falling.offsets = meetings.iter().map(|m| m.map_or([0.0; 2], |m| m.offsets)).collect();
+        falling
     }
 
     /// The chain as it is, before a step.
@@ -163,6 +171,7 @@ impl Falling {
             work: 0.0,
             residual: 0.0,
             excess: 0.0,
+            slid: self.slid(&meetings),
             meetings,
         }
     }
@@ -201,6 +210,9 @@ impl Falling {
             let meetings = self.meetings(&trial.places);
             let meet = self.strangers(&trial.places);
             if overlap(&meetings) > OVERLAP * self.thickness || meet.is_some() {
+                if meet.is_some() && trial.moved < NEAR * self.thickness {
+                    return Ok(Advance::Meet(meet.unwrap_or_default()));
+                }
                 met = meet.or(met);
                 longest = self.step;
                 self.step *= 0.5;
@@ -237,18 +249,19 @@ impl Falling {
             work,
             residual: trial.solution.residual,
             excess: trial.excess,
+            slid: self.slid(&meetings),
             meetings,
         }
     }
 
     /// Takes their cohesion from ends that have opened or slid.
     fn tear(&mut self, meetings: &[Option<Meeting>]) {
-        let most = TORN * self.thickness;
-        for (intact, meeting) in self.intact.iter_mut().zip(meetings) {
+        let (most, slid) = (TORN * self.thickness, self.slid(meetings));
+        for ((intact, meeting), slid) in self.intact.iter_mut().zip(meetings).zip(slid) {
             let Some(meeting) = meeting else { continue };
             for (end, touch) in meeting.touches.iter().enumerate() {
                 let open = touch.is_none_or(|touch| touch.gap > most);
-                intact[end] &= meeting.facing && !open && meeting.slid.abs() <= most;
+                intact[end] &= meeting.facing && !open && slid.abs() <= most;
             }
         }
     }
@@ -373,6 +386,17 @@ impl Falling {
             all.extend(touches.filter_map(|(end, touch)| touch.map(|touch| (k, end, touch))));
         }
         all
+    }
+
+    /// How far blocks have slid, read off the end that is nearer to closed.
+    fn slid(&self, meetings: &[Option<Meeting>]) -> Vec<f64> {
+        let at = |(meeting, start): (&Option<Meeting>, &[f64; 2])| {
+            let Some(meeting) = meeting else { return 0.0 };
+            let gaps = meeting.touches.map(|touch| touch.map_or(f64::INFINITY, |touch| touch.gap));
+            let end = usize::from(gaps[1] < gaps[0]);
+            meeting.offsets[end] - start[end]
+        };
+        meetings.iter().zip(&self.offsets).map(at).collect()
     }
 
     /// What touches in these meetings, with forces that were carried at the same interface and end.

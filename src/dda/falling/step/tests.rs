@@ -27,11 +27,11 @@ fn on_ground(blocks: Vec<Block>, [from, to]: [f64; 2], coefficient: f64, slope: 
 /// Up to `most` frames, each checked for what holds of all; and the last step's outcome if it was another.
 fn run(falling: &mut Falling, most: usize) -> (Vec<Frame>, Option<Advance>) {
     let mut frames = vec![falling.frame()];
-    for _ in 0..most {
+    for step in 0..most {
         match falling.advance().unwrap() {
             Advance::Moved(frame) => {
                 assert!(frame.overlap <= OVERLAP && frame.residual < 1e-9 && frame.excess < 1e-5, "{frame:?}");
-                assert!(frame.work > 0.0);
+                assert!(frame.work > 0.0, "step {step} work {:e} overlap before {:e} {frame:?}", frame.work, frames.last().unwrap().overlap);
                 frames.push(*frame);
             }
             other => return (frames, Some(other)),
