@@ -51,7 +51,14 @@ fn say(name: &str, motion: &FallingMotion, m: &Measured) {
     println!(
         "{name}: {:?} after {} steps, {moved:.3} of the span; overlap {:.1e}, area {:.1e}, residual {:.1e}, friction \
          beyond its bound {:.1e} ({} steps), least work {:.1e}",
-        motion.end, m.frames - 1, m.overlap, m.area, m.residual, m.excess, m.beyond, m.work
+        motion.end,
+        m.frames - 1,
+        m.overlap,
+        m.area,
+        m.residual,
+        m.excess,
+        m.beyond,
+        m.work
     );
 }
 

@@ -75,7 +75,8 @@ impl Block {
 
     /// Resultant of its forces in a place: force, N/m, and moment about the centroid, N.
     pub(super) fn load(&self, place: &Place) -> Vector3<f64> {
-        let part = |&(arm, force): &(Vec2, Vec2)| Vector3::new(force.x, force.y, cross(turned(arm, place.angle), force));
+        let part =
+            |&(arm, force): &(Vec2, Vec2)| Vector3::new(force.x, force.y, cross(turned(arm, place.angle), force));
         self.pushes.iter().map(part).sum()
     }
 

@@ -66,7 +66,8 @@ pub fn separation(a: &Corners, b: &Corners) -> f64 {
 /// The corners that touch along the best separating side.
 fn around_corner(a: &Corners, b: &Corners, thickness: f64) -> ([Option<Touch>; 2], f64) {
     let ((side_a, of_a), (side_b, of_b)) = (best_side(a, b), best_side(b, a));
-    let (side, other, sign, distance) = if of_a >= of_b { (ends(a, side_a), b, 1.0, of_a) } else { (ends(b, side_b), a, -1.0, of_b) };
+    let (side, other, sign, distance) =
+        if of_a >= of_b { (ends(a, side_a), b, 1.0, of_a) } else { (ends(b, side_b), a, -1.0, of_b) };
     let (along, normal) = directions(side);
     let mut near: Vec<Touch> =
         other.iter().map(|&at| Touch { at, normal: normal * sign, gap: normal.dot(&(at - side[0])) }).collect();

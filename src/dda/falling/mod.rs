@@ -9,8 +9,10 @@
 
 mod block;
 mod contact;
+mod neighbours;
 mod solver;
 mod step;
+mod trial;
 mod tridiagonal;
 
 pub use block::{Block, Corners, Place};

@@ -19,13 +19,13 @@ use nalgebra::{Matrix3, Vector3};
 /// Iterations after which a step has failed; ten to twenty are usual.
 const MOST_ITERATIONS: usize = 80;
 /// Mean product of force and distance left at the end.
-const CLOSED: f64 = 1e-12;
+const CLOSED: f64 = 1e-10;
 /// Largest residual left at the end.
-const BALANCED: f64 = 1e-10;
+const BALANCED: f64 = 1e-9;
 /// Share of the way to the nearest bound that is gone.
 const NEARLY: f64 = 0.995;
-/// Forces and distances that the iteration starts from.
-const START: [f64; 2] = [0.1, 0.01];
+/// Forces and distances that the iteration starts from: the first from which it converges, which is nearly always the first.
+const STARTS: [[f64; 2]; 3] = [[0.1, 0.01], [1.0, 0.01], [0.1, 1.0]];
 /// Bounds on friction below this are none.
 const SMOOTH: f64 = 1e-9;
 
@@ -171,8 +171,7 @@ impl Contact {
         ]
     }
 
-    fn start(&self) -> Pair {
-        let [force, distance] = START;
+    fn start(&self, [force, distance]: [f64; 2]) -> Pair {
         let normal = self.guess.max(force);
         let bound = self.slope * normal + self.constant;
         Pair { normal, distance: self.gap.max(distance), tangential: 0.0, slip: [distance; 2], room: [bound; 2] }
@@ -208,9 +207,16 @@ fn largest_share(problem: &Problem, pairs: &[Pair], changes: &[Pair]) -> f64 {
 
 impl Problem {
     /// Makes the step.
+    ///
+    /// # Errors
+    /// When the iteration converges from none of its starts.
     pub(super) fn solve(&self) -> Result<Solution, Unsolved> {
+        STARTS.iter().find_map(|&start| self.solve_from(start).ok()).ok_or(Unsolved)
+    }
+
+    fn solve_from(&self, start: [f64; 2]) -> Result<Solution, Unsolved> {
         let mut increments = vec![Vector3::zeros(); self.load.len()];
-        let mut pairs: Vec<Pair> = self.contacts.iter().map(Contact::start).collect();
+        let mut pairs: Vec<Pair> = self.contacts.iter().map(|contact| contact.start(start)).collect();
         for _ in 0..MOST_ITERATIONS {
             let unbalanced = self.unbalanced(&increments, &pairs);
             let apart: Vec<[f64; 2]> =
@@ -272,6 +278,8 @@ impl Problem {
         let (_, predicted) = solve(&targets);
         let (sum, count) = products(self, pairs, Some((&predicted, largest_share(self, pairs, &predicted))));
         let centred = mean * (sum / count.max(1) as f64 / mean).clamp(0.0, 1.0).powi(3);
+        // Products far below what is asked for only make the equations worse conditioned.
+        let centred = centred.max(0.1 * CLOSED);
         for (c, contact) in self.contacts.iter().enumerate() {
             let positives = contact.positives(&pairs[c], &predicted[c]);
             for (target, two) in targets[c].iter_mut().zip(positives.chunks(2)) {

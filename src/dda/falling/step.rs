@@ -1,10 +1,10 @@
 //! Step after step: loads, contacts, increments, and whether they may stand.
 
 use super::block::{Block, Corners, Place};
-use super::contact::{Meeting, Touch, meeting, separation};
-use super::solver::{Contact, Problem, Solution};
-use crate::geometry::{Vec2, cross, perpendicular};
-use nalgebra::Vector3;
+use super::contact::Meeting;
+use super::neighbours::{Placed, overlap};
+use super::trial::Trial;
+use crate::geometry::Vec2;
 
 /// Corners move by about this share of the thickness in a step. A larger one bends paths and overlaps more.
 const STRIDE: f64 = 0.02;
@@ -13,7 +13,7 @@ const LONGEST: f64 = 0.03;
 /// A step whose corners move less than this share of the thickness is lengthened.
 const SHORTEST: f64 = 0.01;
 /// Largest overlap after a step, as a share of the thickness; a step that leaves more is shortened.
-const OVERLAP: f64 = 5e-4;
+pub(super) const OVERLAP: f64 = 5e-4;
 /// Blocks whose gap is at most this share of the thickness touch.
 const NEAR: f64 = 1e-3;
 /// Blocks further apart than this share of the thickness are clear of each other.
@@ -24,10 +24,6 @@ const REST: f64 = 1e-7;
 const TORN: f64 = 1e-4;
 /// Times that one step is shortened or lengthened.
 const MOST_TRIALS: usize = 40;
-/// Bounds on friction are taken from the normal forces of the step before so often.
-const ROUNDS: usize = 12;
-/// Friction of a step is right to this share of the loads.
-const RUBBED: f64 = 1e-6;
 
 /// Friction at an interface: |T| <= coefficient N + cohesion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -100,38 +96,26 @@ pub struct Stuck;
 /// blocks that are not there.
 #[derive(Debug, Clone)]
 pub struct Falling {
-    blocks: Vec<Block>,
-    grounds: [Option<Corners>; 2],
-    friction: Vec<Friction>,
+    pub(super) blocks: Vec<Block>,
+    pub(super) grounds: [Option<Corners>; 2],
+    pub(super) friction: Vec<Friction>,
     /// Scale of lengths, m.
-    thickness: f64,
+    pub(super) thickness: f64,
     /// Sum of all loads, N/m.
-    loads: f64,
+    pub(super) loads: f64,
     /// Sum of all masses, kg/m.
-    mass: f64,
-    places: Vec<Place>,
-    parameter: f64,
+    pub(super) mass: f64,
+    pub(super) places: Vec<Place>,
+    pub(super) parameter: f64,
     /// Step of the parameter to try next.
-    step: f64,
+    pub(super) step: f64,
     /// Normal forces of the step before, share of the loads.
-    normals: Vec<[f64; 2]>,
+    pub(super) normals: Vec<[f64; 2]>,
     /// Whether the ends of every interface have their cohesion.
-    intact: Vec<[bool; 2]>,
+    pub(super) intact: Vec<[bool; 2]>,
     /// Offsets of the corners at every interface at the start, m.
-    offsets: Vec<[f64; 2]>,
+    pub(super) offsets: Vec<[f64; 2]>,
 }
-
-/// A step that may be made.
-struct Trial {
-    places: Vec<Place>,
-    solution: Solution,
-    excess: f64,
-    /// Largest movement of a corner, m.
-    moved: f64,
-}
-
-/// A contact of the step's problem and where it belongs: interface and end.
-type Placed = (usize, usize, Touch);
 
 impl Falling {
     /// Blocks at their start between two grounds (the second may be missing), with friction at every interface. `thickness`
@@ -266,128 +250,6 @@ impl Falling {
         }
     }
 
-    /// The step of the present size, if it can be made.
-    fn attempt(&self, contacts: &[Placed]) -> Result<Trial, Stuck> {
-        let mut problem = self.problem(contacts);
-        let solution = match problem.solve() {
-            Ok(solution) => solution,
-            Err(_) => self.with_given_bounds(&mut problem, contacts)?,
-        };
-        let excess = contacts.iter().zip(&solution.forces).zip(&problem.contacts).map(|((&(k, end, _), force), _)| {
-            force[1].abs() - self.friction[k].coefficient * force[0] - self.cohesion(k, end)
-        });
-        let excess = excess.fold(0.0, f64::max);
-        let mut moved: f64 = 0.0;
-        let mut places = Vec::with_capacity(self.places.len());
-        for ((block, place), by) in self.blocks.iter().zip(&self.places).zip(&solution.increments) {
-            let by = Vector3::new(by.x * self.thickness, by.y * self.thickness, by.z);
-            let next = if block.fixed { *place } else { place.moved(&by) };
-            let (from, to) = (block.corners(place), block.corners(&next));
-            moved = from.iter().zip(&to).map(|(from, to)| (to - from).norm()).fold(moved, f64::max);
-            places.push(next);
-        }
-        if !moved.is_finite() {
-            return Err(Stuck);
-        }
-        Ok(Trial { places, solution, excess, moved })
-    }
-
-    /// The same step with bounds on friction that do not depend on it, brought up to date round by round. Each round is a
-    /// convex programme.
-    fn with_given_bounds(&self, problem: &mut Problem, contacts: &[Placed]) -> Result<Solution, Stuck> {
-        let coefficient = |c: usize| self.friction[contacts[c].0].coefficient;
-        let cohesion: Vec<f64> = problem.contacts.iter().map(|contact| contact.constant).collect();
-        for (c, contact) in problem.contacts.iter_mut().enumerate() {
-            contact.slope = 0.0;
-            contact.constant += coefficient(c) * contact.guess;
-        }
-        let mut last = Err(Stuck);
-        for _ in 0..ROUNDS {
-            let Ok(solution) = problem.solve() else { break };
-            let mut change: f64 = 0.0;
-            for (c, contact) in problem.contacts.iter_mut().enumerate() {
-                let bound = cohesion[c] + coefficient(c) * solution.forces[c][0];
-                change = change.max((bound - contact.constant).abs());
-                contact.constant = 0.5 * (contact.constant + bound);
-            }
-            last = Ok(solution);
-            if change < RUBBED {
-                break;
-            }
-        }
-        last
-    }
-
-    /// The step's problem in units of thickness and loads.
-    fn problem(&self, contacts: &[Placed]) -> Problem {
-        let of_step = self.mass * self.thickness / (self.loads * self.step);
-        let resistance = |block: &Block| {
-            let [mass, inertia] = block.inertia.map(|i| i / self.mass);
-            Vector3::new(mass, mass, inertia / self.thickness.powi(2)) * of_step
-        };
-        let load = |(block, place): (&Block, &Place)| {
-            let load = if block.fixed { Vector3::zeros() } else { block.load(place) };
-            Vector3::new(load.x, load.y, load.z / self.thickness) / self.loads
-        };
-        Problem {
-            resistance: self.blocks.iter().map(resistance).collect(),
-            load: self.blocks.iter().zip(&self.places).map(load).collect(),
-            contacts: contacts.iter().map(|placed| self.contact(placed)).collect(),
-        }
-    }
-
-    fn contact(&self, &(k, end, touch): &Placed) -> Contact {
-        let movable = |block: usize| self.blocks.get(block).is_some_and(|block| !block.fixed).then_some(block);
-        let blocks = [k.checked_sub(1).and_then(movable), movable(k)];
-        let rows = |side: usize| {
-            let Some(block) = blocks[side] else { return [Vector3::zeros(); 2] };
-            let arm = (touch.at - self.places[block].centroid) / self.thickness;
-            let sign = if side == 0 { -1.0 } else { 1.0 };
-            [touch.normal, perpendicular(touch.normal)].map(|way| Vector3::new(way.x, way.y, cross(arm, way)) * sign)
-        };
-        Contact {
-            blocks,
-            rows: [rows(0), rows(1)],
-            gap: touch.gap / self.thickness,
-            slope: self.friction[k].coefficient,
-            constant: self.cohesion(k, end),
-            guess: self.normals[k][end],
-        }
-    }
-
-    /// Cohesion at an end of an interface, share of the loads.
-    fn cohesion(&self, interface: usize, end: usize) -> f64 {
-        let whole = self.intact[interface][end];
-        if whole { 0.5 * self.friction[interface].cohesion / self.loads } else { 0.0 }
-    }
-
-    /// True where something at the interface can move.
-    fn movable(&self, interface: usize) -> bool {
-        let moves = |block: usize| self.blocks.get(block).is_some_and(|block| !block.fixed);
-        interface.checked_sub(1).is_some_and(moves) || moves(interface)
-    }
-
-    fn corners(&self, places: &[Place]) -> Vec<Corners> {
-        self.blocks.iter().zip(places).map(|(block, place)| block.corners(place)).collect()
-    }
-
-    fn meetings(&self, places: &[Place]) -> Vec<Option<Meeting>> {
-        let corners = self.corners(places);
-        let before = |k: usize| k.checked_sub(1).map_or(self.grounds[0], |block| Some(corners[block]));
-        let after = |k: usize| corners.get(k).copied().or(self.grounds[1]);
-        let at = |k: usize| before(k).zip(after(k)).map(|(a, b)| meeting(&a, &b, self.thickness));
-        (0..self.friction.len()).map(at).collect()
-    }
-
-    fn touches(&self, meetings: &[Option<Meeting>]) -> Vec<Placed> {
-        let mut all = Vec::with_capacity(2 * meetings.len());
-        for (k, meeting) in meetings.iter().enumerate().filter(|(k, _)| self.movable(*k)) {
-            let touches = meeting.iter().flat_map(|meeting| meeting.touches.iter().enumerate());
-            all.extend(touches.filter_map(|(end, touch)| touch.map(|touch| (k, end, touch))));
-        }
-        all
-    }
-
     /// How far blocks have slid, read off the end that is nearer to closed.
     fn slid(&self, meetings: &[Option<Meeting>]) -> Vec<f64> {
         let at = |(meeting, start): (&Option<Meeting>, &[f64; 2])| {
@@ -412,50 +274,6 @@ impl Falling {
         };
         self.touches(meetings).into_iter().filter(near).map(carried).collect()
     }
-
-    /// Two that are no neighbours and overlap, if there are any.
-    fn strangers(&self, places: &[Place]) -> Option<[Option<usize>; 2]> {
-        let corners = self.corners(places);
-        let mut all: Vec<(Option<usize>, Corners)> = self.grounds[0].into_iter().map(|c| (None, c)).collect();
-        all.extend(corners.into_iter().enumerate().map(|(block, c)| (Some(block), c)));
-        all.extend(self.grounds[1].into_iter().map(|c| (None, c)));
-        let boxes: Vec<[Vec2; 2]> = all.iter().map(|(_, corners)| around(corners)).collect();
-        for i in 0..all.len() {
-            for j in i + 2..all.len() {
-                let [(a, of_a), (b, of_b)] = [&all[i], &all[j]];
-                let apart = boxes[i][0].x > boxes[j][1].x
-                    || boxes[j][0].x > boxes[i][1].x
-                    || boxes[i][0].y > boxes[j][1].y
-                    || boxes[j][0].y > boxes[i][1].y;
-                let ground = a.is_none() && b.is_none();
-                if !apart && !ground && separation(of_a, of_b) < -OVERLAP * self.thickness {
-                    return Some([*a, *b]);
-                }
-            }
-        }
-        None
-    }
-
-    /// Largest displacement of a corner since the start, m.
-    fn displacement(&self) -> f64 {
-        let mut most: f64 = 0.0;
-        for (block, place) in self.blocks.iter().zip(&self.places) {
-            let (from, to) = (block.corners(&block.start()), block.corners(place));
-            most = from.iter().zip(&to).map(|(from, to)| (to - from).norm()).fold(most, f64::max);
-        }
-        most
-    }
-}
-
-/// Largest overlap in these meetings, m.
-fn overlap(meetings: &[Option<Meeting>]) -> f64 {
-    meetings.iter().flatten().map(|meeting| -meeting.distance).fold(0.0, f64::max)
-}
-
-/// Lowest and highest coordinates.
-fn around(corners: &Corners) -> [Vec2; 2] {
-    let low = corners.iter().fold(corners[0], |low, corner| low.inf(corner));
-    [low, corners.iter().fold(corners[0], |high, corner| high.sup(corner))]
 }
 
 #[cfg(test)]

@@ -31,7 +31,12 @@ fn run(falling: &mut Falling, most: usize) -> (Vec<Frame>, Option<Advance>) {
         match falling.advance().unwrap() {
             Advance::Moved(frame) => {
                 assert!(frame.overlap <= OVERLAP && frame.residual < 1e-9 && frame.excess < 1e-5, "{frame:?}");
-                assert!(frame.work > 0.0, "step {step} work {:e} overlap before {:e} {frame:?}", frame.work, frames.last().unwrap().overlap);
+                assert!(
+                    frame.work > 0.0,
+                    "step {step} work {:e} overlap before {:e} {frame:?}",
+                    frame.work,
+                    frames.last().unwrap().overlap
+                );
                 frames.push(*frame);
             }
             other => return (frames, Some(other)),
@@ -128,7 +133,8 @@ fn a_toppled_tower_moves_as_its_mirror_image_does() {
     assert_eq!(right.len(), left.len());
     for (a, b) in right.iter().zip(&left) {
         for (a, b) in a.places.iter().zip(&b.places) {
-            let apart = (a.centroid.x + b.centroid.x).abs() + (a.centroid.y - b.centroid.y).abs() + (a.angle + b.angle).abs();
+            let apart =
+                (a.centroid.x + b.centroid.x).abs() + (a.centroid.y - b.centroid.y).abs() + (a.angle + b.angle).abs();
             assert!(apart < 1e-6, "{a:?} {b:?}");
         }
     }
@@ -145,7 +151,11 @@ fn a_block_in_the_air_falls_by_g_times_the_parameter() {
 #[test]
 fn blocks_that_are_no_neighbours_are_kept_apart() {
     // Three in a row upwards, the last one right above the first and falling onto it.
-    let mut blocks = vec![stone([0.0, 0.0], [2.0, 1.0], 0.0), stone([5.0, 1.0], [2.0, 1.0], 0.0), stone([0.0, 1.2], [2.0, 1.0], 0.0)];
+    let mut blocks = vec![
+        stone([0.0, 0.0], [2.0, 1.0], 0.0),
+        stone([5.0, 1.0], [2.0, 1.0], 0.0),
+        stone([0.0, 1.2], [2.0, 1.0], 0.0),
+    ];
     blocks[0].fixed = true;
     blocks[1].fixed = true;
     let mut falling = on_ground(blocks, [-50.0, 50.0], 0.5, 0.0);
