@@ -7,8 +7,12 @@ mod common;
 use common::falling::{Measured, measure};
 use common::{door, random_arch};
 use serde_json::{Value, json};
+use std::ops::ControlFlow;
 use std::path::Path;
-use voussoir::collapse::{Analysis, CollapseReport, FallingMotion, MotionEnd, Unwatched, run};
+use voussoir::collapse::{
+    Analysis, AnalysisError, CollapseReport, FallingMotion, LoadStep, MotionEnd, MotionFrame, Stop, Unwatched, Watch,
+    run,
+};
 
 /// Deepest overlap of stones, share of the thickness.
 const OVERLAP: f64 = 1e-3;
@@ -118,4 +122,115 @@ fn random_arches_fall_to_one_of_the_ends() {
         seen.iter().filter(|(_, slides)| *slides > 0).count()
     );
     assert!(all.is_empty(), "{} complaints: {all:#?}", all.len());
+}
+
+/// Corners of stone `k` of the last frame that two motions both have, at most `most`.
+fn same_frame(a: &FallingMotion, b: &FallingMotion, most: usize) -> usize {
+    most.min(a.frames.len() - 1).min(b.frames.len() - 1)
+}
+
+#[test]
+fn a_symmetric_arch_falls_symmetrically() {
+    for (name, most) in [("paper-case-1-27", 1e-3), ("paper-case-1-61", 1e-3), ("paper-oval-crown-load", 1e-3)] {
+        let (_, report) = solve(&case(name));
+        let motion = report.motion.unwrap();
+        let lean = |frame: &MotionFrame| {
+            let both = frame.centroids.iter().zip(frame.centroids.iter().rev());
+            let turned = frame.rotations.iter().zip(frame.rotations.iter().rev());
+            let apart = both.map(|(a, b)| (a.x + b.x).abs().max((a.y - b.y).abs()));
+            apart.chain(turned.map(|(a, b)| (a + b).abs())).fold(0.0, f64::max)
+        };
+        let all: Vec<f64> = motion.frames.iter().map(lean).collect();
+        println!("{name}: lean {:.1e} after 10 steps, {:.1e} at the end", all[10], all[all.len() - 1]);
+        assert!(all[10] < 1e-6 && all.iter().all(|lean| *lean < most), "{name}: {all:?}");
+    }
+}
+
+#[test]
+fn a_mirrored_arch_falls_as_the_mirror_image() {
+    let mut mirrored = case("first-arch");
+    mirrored["loads"][1]["load"]["point_load"]["x_m"] = json!(5.0);
+    let (a, b) = (solve(&case("first-arch")).1.motion.unwrap(), solve(&mirrored).1.motion.unwrap());
+    assert_eq!(a.frames.len(), b.frames.len());
+    let mut worst: f64 = 0.0;
+    for (a, b) in a.frames.iter().zip(&b.frames) {
+        for (a, b) in a.centroids.iter().zip(b.centroids.iter().rev()) {
+            worst = worst.max((a.x + b.x).abs().max((a.y - b.y).abs()));
+        }
+    }
+    println!("mirror images differ by {worst:.1e} m");
+    assert!(worst < 1e-4);
+}
+
+#[test]
+fn half_an_arch_falls_as_the_whole_does() {
+    let mut half = case("paper-case-1-61");
+    half["arch"]["half"] = json!(true);
+    let (whole, half) = (solve(&case("paper-case-1-61")).1.motion.unwrap(), solve(&half).1.motion.unwrap());
+    assert_eq!(whole.end, half.end);
+    let at = same_frame(&whole, &half, 10);
+    let (whole, half) = (&whole.frames[at], &half.frames[at]);
+    let apart = half.centroids.iter().zip(&whole.centroids).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+    println!("half and whole differ by {apart:.1e} m after {at} steps, which moved them by {:.1e}", whole.displacement);
+    assert!(apart < 0.01 * whole.displacement);
+}
+
+#[test]
+fn the_arch_sets_out_in_its_mechanism() {
+    for name in ["first-arch", "lateral-7", "paper-oval-embankment-lower", "paper-oval-embankment-upper"] {
+        let (_, report) = solve(&case(name));
+        let (motion, end) = (report.motion.unwrap(), report.end.unwrap());
+        assert!(end.mechanism.slides.is_empty(), "{name}");
+        let moved = motion.frames[1].centroids.iter().zip(&motion.frames[0].centroids).map(|(a, b)| a - b);
+        let (mut both, mut squares) = (0.0, [0.0; 2]);
+        for (moved, [u, v, _]) in moved.zip(&end.mechanism.velocities) {
+            both += moved.x * u + moved.y * v;
+            squares = [squares[0] + moved.norm_squared(), squares[1] + u * u + v * v];
+        }
+        let cosine = both / (squares[0] * squares[1]).sqrt();
+        println!("{name}: first step against the mechanism, cosine {cosine:.6}");
+        assert!(cosine > 0.99, "{name}: {cosine}");
+    }
+}
+
+#[test]
+fn a_motion_is_asked_for_and_bounded() {
+    let mut plain = case("first-arch");
+    plain.as_object_mut().unwrap().remove("motion");
+    assert_eq!(solve(&plain).1.motion, None);
+    let mut short = case("first-arch");
+    short["motion"] = json!({"most_frames": 7});
+    let motion = solve(&short).1.motion.unwrap();
+    assert_eq!((motion.end, motion.frames.len()), (MotionEnd::StepLimit, 8));
+    short["motion"] = json!({"share_of_span": 0.01});
+    assert_eq!(solve(&short).1.motion.unwrap().end, MotionEnd::Moved);
+    for (wrong, pointer) in [
+        (json!({"most_frames": 0}), "/motion/most_frames"),
+        (json!({"most_frames": 3000}), "/motion/most_frames"),
+        (json!({"share_of_span": 0.0}), "/motion/share_of_span"),
+        (json!({"steps": 5}), "/motion/steps"),
+    ] {
+        short["motion"] = wrong;
+        let faults = door::analysis(&short).unwrap_err();
+        assert!(faults.starts_with(&format!("{pointer}: ")) && faults.lines().count() == 1, "{faults}");
+    }
+    short["motion"] = json!({});
+    short["analysis"] = json!({"safety": {}});
+    assert!(door::analysis(&short).unwrap_err().starts_with("/motion: "));
+}
+
+/// Stops at the first step after a collapse at this load factor.
+struct StopsBeyond(f64);
+
+impl Watch for StopsBeyond {
+    fn on_step(&mut self, step: &LoadStep) -> ControlFlow<Stop> {
+        if step.load_factor > self.0 { ControlFlow::Break(Stop) } else { ControlFlow::Continue(()) }
+    }
+}
+
+#[test]
+fn a_motion_can_be_stopped() {
+    let analysis = door::analysis(&case("first-arch")).unwrap();
+    let stopped = run(&analysis, &mut StopsBeyond(244.0));
+    assert!(matches!(stopped, Err(AnalysisError::Stopped { load_factor, .. }) if load_factor > 244.0));
 }

@@ -22,6 +22,8 @@ const CLEAR: f64 = 0.02;
 const REST: f64 = 1e-7;
 /// Cohesion is lost where an interface has opened or slid by this share of the thickness.
 const TORN: f64 = 1e-4;
+/// A step is shortened so often before friction is taken from bounds that lag behind.
+const FAILURES: usize = 3;
 /// Times that one step is shortened or lengthened.
 const MOST_TRIALS: usize = 40;
 
@@ -117,6 +119,20 @@ pub struct Falling {
     pub(super) offsets: Vec<[f64; 2]>,
 }
 
+/// What a trial is worth.
+enum Verdict {
+    /// Nothing moves.
+    Rests,
+    /// These two, no neighbours, overlap.
+    Meets([Option<usize>; 2]),
+    /// Better a step of this share of it.
+    TooLong(f64),
+    /// Better a step of this many times it.
+    TooShort(f64),
+    /// Take it.
+    Right,
+}
+
 impl Falling {
     /// Blocks at their start between two grounds (the second may be missing), with friction at every interface. `thickness`
     /// is the scale of lengths: that of the thinnest block.
@@ -173,47 +189,60 @@ impl Falling {
     /// When none is found.
     pub fn advance(&mut self) -> Result<Advance, Stuck> {
         let contacts = self.touches(&self.meetings(&self.places));
-        let mut met = None;
-        let (mut shortest, mut longest) = (0.0_f64, f64::INFINITY);
+        let (mut met, mut failures, mut longest) = (None, 0, f64::INFINITY);
         for _ in 0..MOST_TRIALS {
-            let trial = self.attempt(&contacts);
-            let Ok(trial) = trial else {
-                longest = self.step;
-                self.step *= 0.25;
-                continue;
-            };
-            if trial.moved * self.mass < REST * self.loads * self.step && trial.moved < SHORTEST * self.thickness {
-                return Ok(Advance::Rest);
-            }
-            let stride = STRIDE * self.thickness / trial.moved;
-            if trial.moved > LONGEST * self.thickness {
-                longest = self.step;
-                self.step *= stride.clamp(0.01, 0.8);
-                continue;
-            }
-            let meetings = self.meetings(&trial.places);
-            let meet = self.strangers(&trial.places);
-            if overlap(&meetings) > OVERLAP * self.thickness || meet.is_some() {
-                if meet.is_some() && trial.moved < NEAR * self.thickness {
-                    return Ok(Advance::Meet(meet.unwrap_or_default()));
-                }
-                met = meet.or(met);
+            let Ok(trial) = self.attempt(&contacts, failures >= FAILURES) else {
+                failures += 1;
                 longest = self.step;
                 self.step *= 0.5;
                 continue;
+            };
+            let meetings = self.meetings(&trial.places);
+            match self.judge(&trial, &meetings) {
+                Verdict::Rests => return Ok(Advance::Rest),
+                Verdict::Meets(two) if trial.moved < NEAR * self.thickness => return Ok(Advance::Meet(two)),
+                Verdict::Meets(two) => {
+                    met = Some(two);
+                    longest = self.step;
+                    self.step *= 0.5;
+                }
+                Verdict::TooLong(factor) => {
+                    longest = self.step;
+                    self.step *= factor;
+                }
+                Verdict::TooShort(factor) if met.is_none() && factor * self.step < longest => self.step *= factor,
+                Verdict::TooShort(_) | Verdict::Right => {
+                    return Ok(Advance::Moved(Box::new(self.accept(trial, meetings, &contacts))));
+                }
             }
-            shortest = shortest.max(self.step);
-            let longer = self.step * stride.clamp(1.0, 100.0);
-            if trial.moved < SHORTEST * self.thickness && longer < longest && met.is_none() {
-                self.step = longer;
-                continue;
-            }
-            return Ok(Advance::Moved(Box::new(self.accept(trial, meetings, &contacts, stride))));
         }
         met.map(Advance::Meet).ok_or(Stuck)
     }
 
-    fn accept(&mut self, trial: Trial, meetings: Vec<Option<Meeting>>, contacts: &[Placed], stride: f64) -> Frame {
+    fn judge(&self, trial: &Trial, meetings: &[Option<Meeting>]) -> Verdict {
+        let (moved, stride) = (trial.moved / self.thickness, self.stride(trial));
+        if trial.moved * self.mass < REST * self.loads * self.step && moved < SHORTEST {
+            return Verdict::Rests;
+        }
+        if moved > LONGEST {
+            return Verdict::TooLong(stride.clamp(0.01, 0.8));
+        }
+        if let Some(two) = self.strangers(&trial.places) {
+            return Verdict::Meets(two);
+        }
+        if overlap(meetings) > OVERLAP * self.thickness {
+            return Verdict::TooLong(0.5);
+        }
+        if moved < SHORTEST { Verdict::TooShort(stride.clamp(1.0, 100.0)) } else { Verdict::Right }
+    }
+
+    /// The stride that is wanted over that of a trial.
+    fn stride(&self, trial: &Trial) -> f64 {
+        STRIDE * self.thickness / trial.moved
+    }
+
+    fn accept(&mut self, trial: Trial, meetings: Vec<Option<Meeting>>, contacts: &[Placed]) -> Frame {
+        let stride = self.stride(&trial);
         let work = |((block, from), to): ((&Block, &Place), &Place)| block.work(from, to);
         let work = self.blocks.iter().zip(&self.places).zip(&trial.places).map(work).sum();
         self.normals.iter_mut().for_each(|ends| *ends = [0.0; 2]);

@@ -23,10 +23,14 @@ pub(super) struct Trial {
 
 impl Falling {
     /// The step of the present size, if it can be made.
-    pub(super) fn attempt(&self, contacts: &[Placed]) -> Result<Trial, Stuck> {
+    ///
+    /// # Errors
+    /// When it cannot: try a shorter one, or `lagging` bounds on friction.
+    pub(super) fn attempt(&self, contacts: &[Placed], lagging: bool) -> Result<Trial, Stuck> {
         let mut problem = self.problem(contacts);
         let solution = match problem.solve() {
             Ok(solution) => solution,
+            Err(_) if !lagging => return Err(Stuck),
             Err(_) => self.with_given_bounds(&mut problem, contacts)?,
         };
         let excess = contacts.iter().zip(&solution.forces).zip(&problem.contacts).map(|((&(k, end, _), force), _)| {

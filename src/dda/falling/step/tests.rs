@@ -1,4 +1,5 @@
 use super::*;
+use crate::geometry::perpendicular;
 
 const GRAVITY: f64 = 9.81;
 
@@ -27,16 +28,11 @@ fn on_ground(blocks: Vec<Block>, [from, to]: [f64; 2], coefficient: f64, slope: 
 /// Up to `most` frames, each checked for what holds of all; and the last step's outcome if it was another.
 fn run(falling: &mut Falling, most: usize) -> (Vec<Frame>, Option<Advance>) {
     let mut frames = vec![falling.frame()];
-    for step in 0..most {
+    for _ in 0..most {
         match falling.advance().unwrap() {
             Advance::Moved(frame) => {
                 assert!(frame.overlap <= OVERLAP && frame.residual < 1e-9 && frame.excess < 1e-5, "{frame:?}");
-                assert!(
-                    frame.work > 0.0,
-                    "step {step} work {:e} overlap before {:e} {frame:?}",
-                    frame.work,
-                    frames.last().unwrap().overlap
-                );
+                assert!(frame.work > 0.0, "{frame:?}");
                 frames.push(*frame);
             }
             other => return (frames, Some(other)),
@@ -66,7 +62,7 @@ fn a_block_slides_down_a_steeper_slope() {
     assert!((moved.normalize() - along).norm() < 1e-9 && last.places[0].angle.abs() < 1e-9);
     // The parameter times what weight and friction make of gravity along the slope.
     let pace = GRAVITY * (slope.sin() - coefficient * slope.cos());
-    assert!((moved.norm() / (pace * last.parameter) - 1.0).abs() < 1e-8);
+    assert!((moved.norm() / (pace * last.parameter) - 1.0).abs() < 1e-6);
     // The floor carries the block: action and reaction, at every contact.
     let normal: f64 = last.carried.iter().map(|c| c.normal).sum();
     let tangential: f64 = last.carried.iter().map(|c| c.tangential).sum();
