@@ -9,7 +9,9 @@
 
 mod block;
 mod contact;
+mod frame;
 mod neighbours;
+mod pair;
 mod solver;
 mod step;
 mod trial;
@@ -17,4 +19,5 @@ mod tridiagonal;
 
 pub use block::{Block, Corners, Place};
 pub use contact::{Meeting, Touch, meeting, separation};
-pub use step::{Advance, Carried, Falling, Frame, Friction, Stuck};
+pub use frame::{Advance, Carried, Frame, Stuck};
+pub use step::{Falling, Friction};

@@ -2,9 +2,9 @@
 
 use super::block::{Block, Corners, Place};
 use super::contact::Meeting;
+use super::frame::{Advance, Carried, Frame, Stuck};
 use super::neighbours::{Placed, overlap};
 use super::trial::Trial;
-use crate::geometry::Vec2;
 
 /// Corners move by about this share of the thickness in a step. A larger one bends paths and overlaps more.
 const STRIDE: f64 = 0.02;
@@ -35,64 +35,6 @@ pub struct Friction {
     /// Cohesion of the whole interface, N/m, half of it at either end; an end that opens or slides loses it for good.
     pub cohesion: f64,
 }
-
-/// A force between two blocks.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Carried {
-    /// Which interface.
-    pub interface: usize,
-    /// Where, m.
-    pub at: Vec2,
-    /// Unit normal, into the block after.
-    pub direction: Vec2,
-    /// Normal force, N/m.
-    pub normal: f64,
-    /// Tangential force on the block after, positive to the left of the normal, N/m.
-    pub tangential: f64,
-    /// Gap, m.
-    pub gap: f64,
-}
-
-/// The chain after a step.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Frame {
-    /// Sum of all steps of the time-like parameter, s2.
-    pub parameter: f64,
-    /// Every block's place.
-    pub places: Vec<Place>,
-    /// How blocks lie at every interface; none where there is nothing after the last block.
-    pub meetings: Vec<Option<Meeting>>,
-    /// How far the block after every interface has slid towards the outer end, m.
-    pub slid: Vec<f64>,
-    /// Contacts that touch, with the forces that they carried in the step.
-    pub carried: Vec<Carried>,
-    /// Largest displacement of a corner since the start, m.
-    pub displacement: f64,
-    /// Largest overlap of neighbours, m.
-    pub overlap: f64,
-    /// Work of the loads in the step, N.
-    pub work: f64,
-    /// Largest residual of equilibrium of any block, as a share of the loads.
-    pub residual: f64,
-    /// By how much friction is beyond its bound at most, as a share of the loads.
-    pub excess: f64,
-}
-
-/// What a step led to.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Advance {
-    /// The blocks have moved.
-    Moved(Box<Frame>),
-    /// Nothing moves: the blocks are in equilibrium.
-    Rest,
-    /// Going on, these two, no neighbours, would enter each other (none: the ground).
-    Meet([Option<usize>; 2]),
-}
-
-/// No step was found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("no quasi-static step was found that keeps rigid blocks out of each other")]
-pub struct Stuck;
 
 /// A chain of rigid blocks on the move. Interface `k` lies between block `k - 1` and block `k`; grounds take the places of
 /// blocks that are not there.

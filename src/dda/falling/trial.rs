@@ -1,9 +1,11 @@
 //! One trial of a step: the problem it poses, its solution, and where that takes the blocks.
 
 use super::block::{Block, Place};
+use super::frame::Stuck;
 use super::neighbours::Placed;
-use super::solver::{Contact, Problem, Solution};
-use super::step::{Falling, Stuck};
+use super::pair::Contact;
+use super::solver::{Problem, Solution};
+use super::step::Falling;
 use crate::geometry::{cross, perpendicular};
 use nalgebra::Vector3;
 

@@ -1,11 +1,12 @@
 use super::*;
+use crate::geometry::Vec2;
 use crate::geometry::perpendicular;
 
 const GRAVITY: f64 = 9.81;
 
 /// A block `width` wide and `height` high, its lower left corner at (x, y) before everything is turned by `slope` about the
 /// origin; weight 1 per area.
-fn stone([x, y]: [f64; 2], [width, height]: [f64; 2], slope: f64) -> Block {
+fn piece([x, y]: [f64; 2], [width, height]: [f64; 2], slope: f64) -> Block {
     let mut block = Block::new(corners([x, y], [width, height], slope), 1.0 / GRAVITY);
     block.push(block.centroid, Vec2::new(0.0, -width * height));
     block
@@ -46,14 +47,14 @@ fn run(falling: &mut Falling, most: usize) -> (Vec<Frame>, Option<Advance>) {
 
 #[test]
 fn a_block_rests_on_a_slope_up_to_the_angle_of_friction() {
-    let mut falling = on_ground(vec![stone([0.0, 0.0], [2.0, 1.0], 0.2)], [-50.0, 50.0], 1.001 * 0.2f64.tan(), 0.2);
+    let mut falling = on_ground(vec![piece([0.0, 0.0], [2.0, 1.0], 0.2)], [-50.0, 50.0], 1.001 * 0.2f64.tan(), 0.2);
     assert_eq!(falling.advance(), Ok(Advance::Rest));
 }
 
 #[test]
 fn a_block_slides_down_a_steeper_slope() {
     let (slope, coefficient) = (0.4f64, 0.3);
-    let mut falling = on_ground(vec![stone([0.0, 0.0], [2.0, 1.0], slope)], [-50.0, 50.0], coefficient, slope);
+    let mut falling = on_ground(vec![piece([0.0, 0.0], [2.0, 1.0], slope)], [-50.0, 50.0], coefficient, slope);
     let (frames, end) = run(&mut falling, 20);
     assert_eq!((frames.len(), end), (21, None));
     let last = frames.last().unwrap();
@@ -72,14 +73,14 @@ fn a_block_slides_down_a_steeper_slope() {
 #[test]
 fn cohesion_holds_a_block_until_it_is_torn() {
     let held = |cohesion: f64| {
-        let mut falling = on_ground(vec![stone([0.0, 0.0], [2.0, 1.0], 0.4)], [-50.0, 50.0], 0.3, 0.4);
+        let mut falling = on_ground(vec![piece([0.0, 0.0], [2.0, 1.0], 0.4)], [-50.0, 50.0], 0.3, 0.4);
         falling.friction[0].cohesion = cohesion;
         falling.advance().unwrap() == Advance::Rest
     };
     let missing = 2.0 * (0.4f64.sin() - 0.3 * 0.4f64.cos());
     assert!(held(1.001 * missing) && !held(0.999 * missing));
     // Once it slides the rest of its cohesion is gone.
-    let mut falling = on_ground(vec![stone([0.0, 0.0], [2.0, 1.0], 0.4)], [-50.0, 50.0], 0.3, 0.4);
+    let mut falling = on_ground(vec![piece([0.0, 0.0], [2.0, 1.0], 0.4)], [-50.0, 50.0], 0.3, 0.4);
     falling.friction[0].cohesion = 0.5 * missing;
     falling.advance().unwrap();
     assert_eq!(falling.intact[0], [false; 2]);
@@ -88,7 +89,7 @@ fn cohesion_holds_a_block_until_it_is_torn() {
 #[test]
 fn a_slender_block_topples_about_its_corner() {
     // Twice as high as wide, on a slope beyond 1 in 2.
-    let mut falling = on_ground(vec![stone([0.0, 0.0], [1.0, 2.0], 0.5)], [-50.0, 50.0], 1.0, 0.5);
+    let mut falling = on_ground(vec![piece([0.0, 0.0], [1.0, 2.0], 0.5)], [-50.0, 50.0], 1.0, 0.5);
     let (frames, _) = run(&mut falling, 40);
     let last = frames.last().unwrap();
     let corner = |frame: &Frame| falling.blocks[0].corners(&frame.places[0])[3];
@@ -100,18 +101,18 @@ fn a_slender_block_topples_about_its_corner() {
 }
 
 #[test]
-fn a_stone_slides_off_the_one_below_and_falls_past_its_corner() {
+fn a_block_slides_off_the_one_below_and_falls_past_its_corner() {
     // The lower one is fixed, the upper one pushed to the right.
-    let mut below = stone([0.0, 0.0], [2.0, 1.0], 0.0);
+    let mut below = piece([0.0, 0.0], [2.0, 1.0], 0.0);
     below.fixed = true;
-    let mut above = stone([1.0, 1.0], [2.0, 1.0], 0.0);
+    let mut above = piece([1.0, 1.0], [2.0, 1.0], 0.0);
     above.push(above.centroid, Vec2::new(1.5, 0.0));
     let mut falling = on_ground(vec![below, above], [-50.0, 2.0], 0.3, 0.0);
     let (frames, end) = run(&mut falling, 400);
     assert_eq!(end, None);
     let last = frames.last().unwrap();
     assert_eq!(falling.parted(last), Some(1));
-    // It tilts over the edge, and its lower left corner has left the top of the stone below.
+    // It tilts over the edge, and its lower left corner has left the top of the block below.
     assert!(last.places[1].angle < -0.1 && last.places[1].centroid.x > 2.0, "{:?}", last.places[1]);
 }
 
@@ -122,7 +123,7 @@ fn a_toppled_tower_moves_as_its_mirror_image_does() {
             block.push(block.centroid, Vec2::new(sign * if k == 2 { 0.9 } else { 0.1 }, 0.0));
             block
         };
-        let blocks = (0..3).map(|k| stone([-0.5, k as f64], [1.0, 1.0], 0.0)).enumerate().map(push).collect();
+        let blocks = (0..3).map(|k| piece([-0.5, k as f64], [1.0, 1.0], 0.0)).enumerate().map(push).collect();
         on_ground(blocks, [-50.0, 50.0], 0.5, 0.0)
     };
     let (right, left) = (run(&mut tower(1.0), 30).0, run(&mut tower(-1.0), 30).0);
@@ -138,7 +139,7 @@ fn a_toppled_tower_moves_as_its_mirror_image_does() {
 
 #[test]
 fn a_block_in_the_air_falls_by_g_times_the_parameter() {
-    let mut falling = on_ground(vec![stone([0.0, 3.0], [1.0, 1.0], 0.0)], [-50.0, 50.0], 0.5, 0.0);
+    let mut falling = on_ground(vec![piece([0.0, 3.0], [1.0, 1.0], 0.0)], [-50.0, 50.0], 0.5, 0.0);
     falling.step = 0.001;
     let Advance::Moved(frame) = falling.advance().unwrap() else { panic!("it falls") };
     assert!((frame.places[0].centroid.y - 3.5 + GRAVITY * frame.parameter).abs() < 1e-9);
@@ -148,9 +149,9 @@ fn a_block_in_the_air_falls_by_g_times_the_parameter() {
 fn blocks_that_are_no_neighbours_are_kept_apart() {
     // Three in a row upwards, the last one right above the first and falling onto it.
     let mut blocks = vec![
-        stone([0.0, 0.0], [2.0, 1.0], 0.0),
-        stone([5.0, 1.0], [2.0, 1.0], 0.0),
-        stone([0.0, 1.2], [2.0, 1.0], 0.0),
+        piece([0.0, 0.0], [2.0, 1.0], 0.0),
+        piece([5.0, 1.0], [2.0, 1.0], 0.0),
+        piece([0.0, 1.2], [2.0, 1.0], 0.0),
     ];
     blocks[0].fixed = true;
     blocks[1].fixed = true;
