@@ -50,11 +50,12 @@ fn complaints(motion: &FallingMotion, measured: &Measured) -> Vec<String> {
     words
 }
 
-fn say(name: &str, motion: &FallingMotion, m: &Measured) {
+fn say(name: &str, report: &CollapseReport, motion: &FallingMotion, m: &Measured) {
     let moved = motion.frames.last().unwrap().displacement / motion.span;
     println!(
-        "{name}: {:?} after {} steps, {moved:.3} of the span; overlap {:.1e}, area {:.1e}, residual {:.1e}, friction \
+        "{name} ({:?}): {:?} after {} steps, {moved:.3} of the span; overlap {:.1e}, area {:.1e}, residual {:.1e}, friction \
          beyond its bound {:.1e} ({} steps), least work {:.1e}",
+        report.outcome,
         motion.end,
         m.frames - 1,
         m.overlap,
@@ -87,7 +88,7 @@ fn the_arches_of_the_paper_fall() {
         assert!(report.motion.is_some() && report.other_motion.is_some() == both, "{name}");
         for motion in report.motion.iter().chain(&report.other_motion) {
             let measured = measure(&analysis.arch, motion);
-            say(name, motion, &measured);
+            say(name, &report, motion, &measured);
             all.extend(complaints(motion, &measured).into_iter().map(|words| format!("{name}: {words}")));
             let moved = matches!(motion.end, MotionEnd::Moved | MotionEnd::StoneFree { .. });
             assert!(moved, "{name}: {:?}", motion.end);
@@ -105,7 +106,7 @@ fn random_arches_fall_to_one_of_the_ends() {
         seed += 1;
         for motion in report.motion.iter().chain(&report.other_motion) {
             let measured = measure(&analysis.arch, motion);
-            say(&name, motion, &measured);
+            say(&name, &report, motion, &measured);
             all.extend(complaints(motion, &measured).into_iter().map(|words| format!("{name}: {words}")));
             seen.push((motion.end, motion.frames.last().unwrap().slides.len()));
         }

@@ -165,3 +165,26 @@ fn blocks_that_are_no_neighbours_are_kept_apart() {
     }
     assert_eq!(end, Some(Advance::Meet([Some(0), Some(2)])));
 }
+
+#[test]
+fn three_blocks_over_a_gap_sway_on_hinges_that_alternate() {
+    let at = |angle: f64, radius: f64| Vec2::new(-angle.cos(), angle.sin()) * radius;
+    let ends = |k: usize| [0.95, 1.05].map(|radius| at(std::f64::consts::PI * k as f64 / 3.0, radius));
+    let between = |[a, b]: [Vec2; 2], [c, d]: [Vec2; 2]| [a, c, d, b];
+    let blocks = (0..3).map(|k| {
+        let mut block = Block::new(between(ends(k), ends(k + 1)), 1.0 / GRAVITY);
+        block.push(block.centroid, Vec2::new(0.03, -0.1));
+        block
+    });
+    let below = |k: usize| ends(k).map(|end| end - Vec2::new(0.0, 0.1));
+    let grounds = [Some(between(below(0), ends(0))), Some(between(ends(3), below(3)))];
+    let friction = vec![Friction { coefficient: 0.7, cohesion: 0.0 }; 4];
+    let mut falling = Falling::new(blocks.collect(), grounds, friction, 0.1);
+    let (frames, _) = run(&mut falling, 40);
+    let last = frames.last().unwrap();
+    assert!(frames.len() == 41 && last.places[1].centroid.x > 0.03, "{}", frames.len());
+    let openings: Vec<f64> = last.meetings.iter().map(|meeting| meeting.unwrap().opening).collect();
+    assert!(openings.iter().all(|opening| opening.abs() > 0.01), "{openings:?}");
+    assert!(openings.windows(2).all(|two| two[0] * two[1] < 0.0), "{openings:?}");
+    assert!(last.slid.iter().all(|slid| slid.abs() < 1e-4), "{:?}", last.slid);
+}
