@@ -172,10 +172,18 @@ impl Falling {
         if let Some(two) = self.strangers(&trial.places) {
             return Verdict::Meets(two);
         }
-        if overlap(meetings) > OVERLAP * self.thickness {
+        // A step against the loads has gone past an equilibrium; or it undoes an overlap, which takes little.
+        let against = moved > NEAR && self.work(&trial.places) < 0.0;
+        if against || overlap(meetings) > OVERLAP * self.thickness {
             return Verdict::TooLong(0.5);
         }
         if moved < SHORTEST { Verdict::TooShort(stride.clamp(1.0, 100.0)) } else { Verdict::Right }
+    }
+
+    /// Work of the loads on the way to these places, N.
+    fn work(&self, places: &[Place]) -> f64 {
+        let work = |((block, from), to): ((&Block, &Place), &Place)| block.work(from, to);
+        self.blocks.iter().zip(&self.places).zip(places).map(work).sum()
     }
 
     /// The stride that is wanted over that of a trial.
@@ -185,8 +193,7 @@ impl Falling {
 
     fn accept(&mut self, trial: Trial, meetings: Vec<Option<Meeting>>, contacts: &[Placed]) -> Frame {
         let stride = self.stride(&trial);
-        let work = |((block, from), to): ((&Block, &Place), &Place)| block.work(from, to);
-        let work = self.blocks.iter().zip(&self.places).zip(&trial.places).map(work).sum();
+        let work = self.work(&trial.places);
         self.normals.iter_mut().for_each(|ends| *ends = [0.0; 2]);
         for (&(k, end, _), force) in contacts.iter().zip(&trial.solution.forces) {
             self.normals[k][end] = force[0];
