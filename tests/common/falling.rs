@@ -57,6 +57,8 @@ pub fn measure(arch: &Arch, motion: &FallingMotion) -> Measured {
     let start: Vec<f64> = stones(arch, &motion.frames[0]).iter().map(|c| Region::polygon(c).area).collect();
     let most = motion.frames.iter().map(|f| f.work).fold(f64::MIN_POSITIVE, f64::max);
     for (number, frame) in motion.frames.iter().enumerate() {
+        // The springings and the wall are in the frame's own figure only.
+        measured.overlap = measured.overlap.max(frame.penetration);
         let stones = stones(arch, frame);
         for (i, a) in stones.iter().enumerate() {
             measured.area = measured.area.max((Region::polygon(a).area / start[i] - 1.0).abs());
