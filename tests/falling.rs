@@ -207,6 +207,28 @@ fn the_arch_sets_out_in_its_mechanism() {
 }
 
 #[test]
+fn a_motion_is_served_in_columns() {
+    let body = case("paper-oval-crown-load").to_string();
+    let (request, question) = voussoir::api::read::read_question(body.as_bytes()).unwrap();
+    let answer = voussoir::collapse::answer(&question, &mut Unwatched).unwrap();
+    let bytes = voussoir::api::response::JobResult::new(&request, &answer).unwrap().to_bytes().unwrap();
+    let served: Value = serde_json::from_slice(&bytes).unwrap();
+    for key in ["motion", "other_motion"] {
+        let motion = &served[key];
+        assert_eq!(motion["end"], "moved");
+        let rows = |group: &str, column: &str| motion[group][column].as_array().unwrap().len();
+        let frames = rows("frames", "parameter_s2");
+        assert!(frames > 100 && frames == rows("places", "x_m") && frames == rows("frames", "penetration"));
+        assert!(
+            motion["places"]["rotation_rad"].as_array().unwrap().iter().all(|row| row.as_array().unwrap().len() == 16)
+        );
+        assert!(rows("contacts", "joint") > 17 * frames && rows("contacts", "joint") == rows("contacts", "normal_y"));
+        assert_eq!(rows("hinges", "face"), rows("hinges", "opening_rad"));
+        assert_eq!(rows("slides", "frame"), rows("slides", "by_m"));
+    }
+}
+
+#[test]
 fn a_motion_is_asked_for_and_bounded() {
     let mut plain = case("first-arch");
     plain.as_object_mut().unwrap().remove("motion");

@@ -98,6 +98,10 @@ pub struct MotionContactColumns {
     pub x_m: Vec<f64>,
     /// Where.
     pub y_m: Vec<f64>,
+    /// Unit normal, into the stone after the joint.
+    pub normal_x: Vec<f64>,
+    /// Unit normal, into the stone after the joint.
+    pub normal_y: Vec<f64>,
     /// Normal force in the step to this frame, compression positive; 0 in the first frame.
     pub normal_n_per_m: Vec<f64>,
     /// Tangential force on the stone after the joint, towards the extrados positive; 0 in the first frame.
@@ -214,6 +218,8 @@ impl MotionContactColumns {
             joint: column(rows, |row| row.1.joint),
             x_m: column(rows, |row| row.1.at.x),
             y_m: column(rows, |row| row.1.at.y),
+            normal_x: column(rows, |row| row.1.direction.x),
+            normal_y: column(rows, |row| row.1.direction.y),
             normal_n_per_m: column(rows, |row| row.1.normal),
             tangential_n_per_m: column(rows, |row| row.1.tangential),
             gap_m: column(rows, |row| row.1.gap),

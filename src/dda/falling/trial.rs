@@ -9,15 +9,16 @@ use super::step::Falling;
 use crate::geometry::{cross, perpendicular};
 use nalgebra::Vector3;
 
-/// Bounds on friction are taken from the normal forces of the step before so often.
+/// Bounds on friction that do not depend on the step are brought up to date so often, starting from the step before.
 const ROUNDS: usize = 12;
-/// Friction of a step is right to this share of the loads.
+/// They are up to date when they change by less than this share of the loads.
 const RUBBED: f64 = 1e-6;
 
 /// A step that may be made.
 pub(super) struct Trial {
     pub places: Vec<Place>,
     pub solution: Solution,
+    /// Friction beyond its bound, share of the loads.
     pub excess: f64,
     /// Largest movement of a corner, m.
     pub moved: f64,
@@ -35,7 +36,7 @@ impl Falling {
             Err(_) if !lagging => return Err(Stuck),
             Err(_) => self.with_given_bounds(&mut problem, contacts)?,
         };
-        let excess = contacts.iter().zip(&solution.forces).zip(&problem.contacts).map(|((&(k, end, _), force), _)| {
+        let excess = contacts.iter().zip(&solution.forces).map(|(&(k, end, _), force)| {
             force[1].abs() - self.friction[k].coefficient * force[0] - self.cohesion(k, end)
         });
         let excess = excess.fold(0.0, f64::max);
