@@ -9,6 +9,7 @@ use common::{door, random_arch};
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
 use std::path::Path;
+use std::time::Instant;
 use voussoir::collapse::{
     Analysis, AnalysisError, CollapseReport, FallingMotion, LoadStep, MotionEnd, MotionFrame, Stop, Unwatched, Watch,
     run,
@@ -204,6 +205,21 @@ fn the_arch_sets_out_in_its_mechanism() {
         println!("{name}: first step against the mechanism, cosine {cosine:.6}");
         assert!(cosine > 0.99, "{name}: {cosine}");
     }
+}
+
+/// Ten times slower than measured, and still within what was promised.
+#[test]
+fn sixty_one_stones_fall_in_no_time() {
+    let mut request = case("first-arch");
+    request["arch"]["voussoirs"] = json!(61);
+    request["arch"]["thickness"] = json!({"constant_m": 1.1});
+    request["stone"] = json!({"friction_angle_deg": 45.0});
+    request["motion"] = json!({"share_of_span": 1.0});
+    let clock = Instant::now();
+    let motion = solve(&request).1.motion.unwrap();
+    let seconds = clock.elapsed().as_secs_f64();
+    println!("{} steps of 61 stones with the collapse itself: {seconds:.2} s", motion.frames.len() - 1);
+    assert!(motion.frames.len() > 250 && seconds < 3.0, "{} {seconds}", motion.frames.len());
 }
 
 #[test]
