@@ -74,6 +74,8 @@ fn report() -> CollapseReport {
         settlement: None,
         safety: Some(point()),
         history: vec![],
+        motion: None,
+        other_motion: None,
         cost: Cost::default(),
         notes: vec![],
     }

@@ -33,6 +33,7 @@ fn order(what: f64) -> Question {
         share: 0.999,
         mesh: Mesh { subblocks: vec![], seams: Seams::Split },
         fields: vec![],
+        motion: None,
         aim: Aim::Collapse,
     }))
 }
@@ -91,6 +92,8 @@ fn report() -> Answer {
         settlement: None,
         safety: None,
         history: vec![],
+        motion: None,
+        other_motion: None,
         cost: Cost::default(),
         notes: vec![],
     }))

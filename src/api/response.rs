@@ -3,6 +3,7 @@
 
 mod beam;
 mod columns;
+mod falling;
 mod mechanism;
 mod result;
 mod safety;
@@ -13,6 +14,9 @@ mod words;
 
 pub use beam::BeamResult;
 pub use columns::{BlockColumns, ContactColumns, HistoryColumns, SnapshotBody, ThrustColumns, VelocityColumns};
+pub use falling::{
+    FrameColumns, MotionBody, MotionContactColumns, MotionEndWord, OpenHingeColumns, PlaceColumns, SlidColumns,
+};
 pub use mechanism::{Collapse, End, HingeBody, SlideBody};
 pub use result::JobResult;
 pub use safety::{CurvePointBody, ReachBody, SafetyBody, SafetyCurveResult};
@@ -80,6 +84,10 @@ pub struct AnalysisResult {
     pub settlement: Option<SettlementBody>,
     /// Safety factors, where `analysis` asks for them.
     pub safety: Option<SafetyBody>,
+    /// How the arch moves on from its collapse, where `motion` asks for it.
+    pub motion: Option<MotionBody>,
+    /// How it moves on from `other_end`, where `motion` asks for it.
+    pub other_motion: Option<MotionBody>,
     /// The path, event by event.
     pub history: HistoryColumns,
     /// Counts of the work done; the same on any machine.
@@ -170,6 +178,8 @@ impl AnalysisResult {
             updated_geometry: report.updated.as_ref().map(|updated| UpdatedBody::new(updated, report, &scale)),
             settlement: report.settlement.as_ref().map(Into::into),
             safety: report.safety.as_ref().map(Into::into),
+            motion: report.motion.as_ref().map(|motion| MotionBody::new(motion, &scale)),
+            other_motion: report.other_motion.as_ref().map(|motion| MotionBody::new(motion, &scale)),
             history: HistoryColumns::new(&report.history, &scale),
             cost: report.cost.into(),
             notes: report.notes.clone(),

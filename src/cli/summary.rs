@@ -31,6 +31,11 @@ pub fn summary(result: &AnalysisResult, wall_time: Duration) -> String {
     };
     append(&mut text, &format!("Outer joints at {at}, forces per metre of depth"), springings(result));
     let of_safety = result.safety.iter().flat_map(|safety| &safety.notes);
+    for (name, motion) in [("", &result.motion), (" from the other end", &result.other_motion)] {
+        if let Some(motion) = motion {
+            paragraph(&mut text, &wording::motion(name, motion, wording::unit(result)));
+        }
+    }
     for note in result.notes.iter().chain(of_safety.filter(|note| !result.notes.contains(note))) {
         paragraph(&mut text, &format!("Note: {note}"));
     }

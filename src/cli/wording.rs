@@ -3,7 +3,7 @@
 use super::safety;
 use serde::Serialize;
 use voussoir::api::request::{ArchRequest, DirectionRequest, LoadEntry, LoadRequest, PointLoad, ProfileRequest};
-use voussoir::api::response::{AnalysisResult, Collapse, HingeBody, MethodWord, OutcomeWord, SlideBody};
+use voussoir::api::response::{AnalysisResult, Collapse, HingeBody, MethodWord, MotionBody, OutcomeWord, SlideBody};
 use voussoir::collapse::Digits;
 
 /// Longest line of prose, characters.
@@ -27,6 +27,19 @@ pub fn limits(result: &AnalysisResult) -> [Option<Limit<'_>>; 2] {
         slides: &end.slides,
     });
     if reversed(result) { [main, other] } else { [other, main] }
+}
+
+/// Motion after collapse in two sentences.
+pub fn motion(from: &str, motion: &MotionBody, unit: &str) -> String {
+    let most = motion.frames.penetration.iter().copied().fold(0.0, f64::max);
+    format!(
+        "Motion after collapse{from}, in {} steps at intensity {} {unit}, by {} m at most: {} Stones overlap by {most:.0e} of \
+         the thickness at most.",
+        motion.frames.parameter_s2.len() - 1,
+        Digits(motion.intensity),
+        Digits(motion.frames.largest_displacement_m.last().copied().unwrap_or(0.0)),
+        motion.why
+    )
 }
 
 /// Crushing that takes less than this share off a collapse load is not worth a word in the first line.

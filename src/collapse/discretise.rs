@@ -270,6 +270,7 @@ mod tests {
             share: 0.999,
             mesh: Mesh { subblocks: vec![subblocks; n], seams: Seams::Split },
             fields: Vec::new(),
+            motion: None,
         }
     }
 

@@ -5,6 +5,7 @@ mod certificate;
 mod digits;
 mod discretise;
 mod ending;
+mod falling;
 mod grid;
 mod mechanism;
 mod motion;
@@ -134,6 +135,15 @@ pub enum FieldAt {
     NearCollapse,
 }
 
+/// How far an arch is followed after it has begun to fall.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MotionAsked {
+    /// Most steps, each of them a frame of the answer.
+    pub most_frames: usize,
+    /// Until some corner has moved by this share of the span.
+    pub share_of_span: f64,
+}
+
 /// One point of a safety curve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CurvePoint {
@@ -196,6 +206,8 @@ pub struct Analysis {
     pub mesh: Mesh,
     /// Where stress fields are reported.
     pub fields: Vec<FieldAt>,
+    /// How far the arch is followed after it has begun to fall, where it is.
+    pub motion: Option<MotionAsked>,
 }
 
 /// The curved beam of section 3.3 of the paper: a quarter ring in bending by end shear, cut into subblocks.

@@ -1,10 +1,12 @@
 //! What an analysis says: plain data, SI units, radians.
 
+mod falling;
 mod settlement;
 mod strength;
 mod updated;
 
 pub use crate::arch::Face;
+pub use falling::*;
 pub use settlement::*;
 pub use strength::*;
 pub use updated::*;
@@ -227,6 +229,10 @@ pub struct CollapseReport {
     pub safety: Option<SafetyPoint>,
     /// The path, event by event.
     pub history: Vec<HistoryPoint>,
+    /// How the arch moves on from `end`, where asked.
+    pub motion: Option<FallingMotion>,
+    /// How it moves on from `other_end`, where asked.
+    pub other_motion: Option<FallingMotion>,
     /// Counts.
     pub cost: Cost,
     /// What an engineer should know before using the numbers: why intensity and window differ, what was not reached.

@@ -106,6 +106,12 @@ impl CollapseReport {
             let line = path.thrust_line.iter().flat_map(|t| [t.normal, t.shear, t.eccentricity, t.at.x, t.at.y]);
             finite("settlement", Box::new(line))?;
         }
+        for frame in self.motion.iter().chain(&self.other_motion).flat_map(|motion| &motion.frames) {
+            let places = frame.centroids.iter().flat_map(|at| [at.x, at.y]).chain(frame.rotations.iter().copied());
+            finite("motion", Box::new(places.chain([frame.parameter, frame.displacement, frame.penetration])))?;
+            let forces = frame.contacts.iter().flat_map(|c| [c.normal, c.tangential, c.gap, c.at.x, c.at.y]);
+            finite("contact forces in motion", Box::new(forces))?;
+        }
         let elastic = self.crushing.iter().filter_map(|c| c.elastic.as_ref());
         finite("first yield", Box::new(elastic.filter_map(|e| e.load_factor)))?;
         finite("history", Box::new(self.history.iter().flat_map(|h| [h.load_factor, h.crown.x, h.crown.y, h.largest])))

@@ -7,8 +7,8 @@ use super::record::{MOST_STEPS, Recorder, snapshot};
 use super::updated::{self, Course};
 use super::{
     Aim, Analysis, AnalysisError, CollapseReport, Cost, Crushing, Direction, Geometry, LimitWindow, LoadStep, Method,
-    Outcome, PathEnd, SettlementEnd, SpringingMovement, ThrustRange, UpdatedGeometry, Watch, ending, motion, safety,
-    settlement,
+    Outcome, PathEnd, SettlementEnd, SpringingMovement, ThrustRange, UpdatedGeometry, Watch, ending, falling, motion,
+    safety, settlement,
 };
 use crate::arch::{Joint, JointLaw};
 use crate::dda::{End, Tracer};
@@ -72,6 +72,7 @@ pub(super) fn run(analysis: &Analysis, watch: &mut dyn Watch) -> Result<Collapse
         Aim::Safety { crushing } => safety::judge(&mut report, crushing),
         Aim::Settlement(movements) => question.settle(&mut report, movements, watch)?,
     }
+    falling::follow(analysis, &mut report, watch)?;
     report.check_finite()?;
     Ok(report)
 }
@@ -313,6 +314,8 @@ impl<'a> Question<'a> {
             settlement: None,
             safety: None,
             history: Vec::new(),
+            motion: None,
+            other_motion: None,
             cost: Cost { unknowns: model.chain.unknowns(), ..Cost::default() },
             notes: Vec::new(),
         }

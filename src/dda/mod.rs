@@ -17,6 +17,7 @@ mod chain;
 mod condense;
 mod contact;
 mod factor;
+pub mod falling;
 mod macroblock;
 mod moving;
 mod panels;

@@ -3,6 +3,7 @@
 
 pub mod dice;
 pub mod door;
+pub mod falling;
 pub mod folders;
 pub mod masonry;
 pub mod motion;

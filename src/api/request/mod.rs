@@ -5,12 +5,14 @@ mod arch;
 mod beam;
 mod loads;
 mod mesh;
+mod motion;
 mod question;
 
 pub use arch::*;
 pub use beam::*;
 pub use loads::*;
 pub use mesh::*;
+pub use motion::*;
 pub use question::*;
 
 use crate::arch::Stone;
@@ -67,6 +69,9 @@ pub struct AnalysisRequest {
     /// What the answer shows.
     #[serde(default)]
     pub report: ReportRequest,
+    /// Asks how the arch moves on when it has begun to fall.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub motion: Option<MotionRequest>,
 }
 
 /// Stone and joint material. Defaults: Table 1 of the paper.

@@ -5,6 +5,7 @@ mod beam;
 mod half;
 mod loads;
 mod mesh;
+mod motion;
 mod profile;
 mod safety;
 mod settlement;

@@ -1,11 +1,11 @@
 //! What all analyses of one request share.
 
 use super::stone::{check_overrides, joint_law, override_joints, stone};
-use super::{MAX_FACTOR, MAX_LENGTH_M, arch, check_text, half, loads, mesh};
+use super::{MAX_FACTOR, MAX_LENGTH_M, arch, check_text, half, loads, mesh, motion};
 use crate::api::fault::Faults;
 use crate::api::request::{AnalysisRequest, DirectionRequest, GeometryRequest, LoadEntry, MethodRequest};
 use crate::arch::{Arch, PointForce, Stone};
-use crate::collapse::{Analysis, Direction, FieldAt, Geometry, Mesh, Method};
+use crate::collapse::{Analysis, Direction, FieldAt, Geometry, Mesh, Method, MotionAsked};
 use crate::geometry::Vec2;
 
 /// Everything of a request but its loads.
@@ -23,6 +23,7 @@ pub struct Site<'a> {
     cut: Option<usize>,
     method: Method,
     fields: Vec<FieldAt>,
+    motion: Option<MotionAsked>,
 }
 
 impl<'a> Site<'a> {
@@ -57,7 +58,8 @@ impl<'a> Site<'a> {
         faults.require(share > 0.0 && share < 1.0, "/report/share_of_collapse", detail);
         let pieces = mesh::total(subblocks.iter().take(analysed.unwrap_or(0)));
         let fields = mesh::fields(&request.report, pieces, faults);
-        Site { request, stone, whole, arch, subblocks, cut, method, fields }
+        let motion = motion::motion(request, analysed.unwrap_or(0), faults);
+        Site { request, stone, whole, arch, subblocks, cut, method, fields, motion }
     }
 
     /// Into how many pieces the extrados side of every voussoir of the whole arch is cut.
@@ -105,6 +107,7 @@ impl<'a> Site<'a> {
             share: request.report.share_of_collapse,
             mesh: Mesh { subblocks: self.subblocks().to_vec(), seams: request.mesh.seams.into() },
             fields: self.fields.clone(),
+            motion: self.motion,
             aim: (&request.analysis).into(),
             arch: arch.clone(),
         })

@@ -1,0 +1,26 @@
+//! What is asked of the motion after collapse.
+
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+/// Most steps of a motion.
+pub const MAX_MOTION_FRAMES: usize = 3000;
+
+/// Motion after collapse: rigid stones at loads a little beyond those of collapse, step by step. Only where `analysis` asks
+/// for collapse.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(default)]
+pub struct MotionRequest {
+    /// Most steps, each a frame of the answer: 1 to 3000, and frames times voussoirs at most 60,000.
+    #[schema(minimum = 1, maximum = 3000)]
+    pub most_frames: usize,
+    /// The motion ends when some corner has moved by this share of the span.
+    #[schema(exclusive_minimum = 0.0, maximum = 1.0)]
+    pub share_of_span: f64,
+}
+
+impl Default for MotionRequest {
+    fn default() -> Self {
+        MotionRequest { most_frames: 300, share_of_span: 0.1 }
+    }
+}

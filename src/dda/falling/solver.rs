@@ -1,0 +1,247 @@
+//! One quasi-static step: the increments of all blocks that balance their loads with contact forces and a resistance
+//! proportional to mass, by a primal-dual interior-point method (Mehrotra's predictor and corrector).
+//!
+//! Unknown are the increments `q` of a chain of blocks and, at every contact, the normal force `N` and the tangential force
+//! `T` on the block after it:
+//!
+//! ```text
+//! K q = F + G_n' N + G_t' T            K: mass over the square of the time-like step
+//! gap + G_n q = w >= 0,  N >= 0,  N w = 0
+//! |T| <= b = slope N + constant        T = b where G_t q < 0, T = -b where G_t q > 0
+//! ```
+//!
+//! With `slope` = 0 this is a convex quadratic programme. Everything is in units of the caller's that make loads and lengths
+//! about one.
+
+use super::pair::{Contact, Pair, Targets};
+use super::tridiagonal::Tridiagonal;
+use nalgebra::{Matrix3, Vector3};
+
+/// Iterations after which a step has failed; ten to twenty are usual.
+const MOST_ITERATIONS: usize = 80;
+/// Mean product of force and distance left at the end.
+const CLOSED: f64 = 1e-10;
+/// Largest residual left at the end.
+const BALANCED: f64 = 1e-9;
+/// Share of the way to the nearest bound that is gone.
+const NEARLY: f64 = 0.995;
+/// Forces and distances that the iteration starts from: the first from which it converges, which is nearly always the first.
+const STARTS: [[f64; 2]; 3] = [[0.1, 0.01], [1.0, 0.01], [0.1, 1.0]];
+
+/// A step to be made.
+#[derive(Debug, Clone)]
+pub(super) struct Problem {
+    /// Resistance of every block, diagonal.
+    pub resistance: Vec<Vector3<f64>>,
+    /// Load on every block.
+    pub load: Vec<Vector3<f64>>,
+    /// All contacts.
+    pub contacts: Vec<Contact>,
+}
+
+/// A step made.
+#[derive(Debug, Clone)]
+pub(super) struct Solution {
+    /// Increments of every block.
+    pub increments: Vec<Vector3<f64>>,
+    /// Normal and tangential force of every contact, the latter on the block after it.
+    pub forces: Vec<[f64; 2]>,
+    /// Largest residual of equilibrium.
+    pub residual: f64,
+}
+
+/// The iteration did not converge.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Unsolved;
+
+/// Sum of products of what complements each other after `share` of the change, and how many they are.
+fn products(problem: &Problem, pairs: &[Pair], changes: Option<(&[Pair], f64)>) -> (f64, usize) {
+    let (mut sum, mut count) = (0.0, 0);
+    for (c, contact) in problem.contacts.iter().enumerate() {
+        let change = changes.map_or(Pair::NOTHING, |(all, _)| all[c]);
+        let share = changes.map_or(0.0, |(_, share)| share);
+        let all = contact.positives(&pairs[c], &change).map(|(value, by)| value + share * by);
+        let used = if contact.rubs() { 3 } else { 1 };
+        sum += all.chunks(2).take(used).map(|two| two[0] * two[1]).sum::<f64>();
+        count += used;
+    }
+    (sum, count)
+}
+
+/// The largest share, at most 1, of a change that keeps everything positive.
+fn largest_share(problem: &Problem, pairs: &[Pair], changes: &[Pair]) -> f64 {
+    let mut share: f64 = 1.0;
+    for ((contact, pair), change) in problem.contacts.iter().zip(pairs).zip(changes) {
+        for (value, by) in contact.positives(pair, change) {
+            if by < 0.0 {
+                share = share.min(-value / by);
+            }
+        }
+    }
+    share
+}
+
+impl Problem {
+    /// Makes the step.
+    ///
+    /// # Errors
+    /// When the iteration converges from none of its starts.
+    pub(super) fn solve(&self) -> Result<Solution, Unsolved> {
+        STARTS.iter().find_map(|&start| self.solve_from(start).ok()).ok_or(Unsolved)
+    }
+
+    fn solve_from(&self, start: [f64; 2]) -> Result<Solution, Unsolved> {
+        let mut increments = vec![Vector3::zeros(); self.load.len()];
+        let mut pairs: Vec<Pair> = self.contacts.iter().map(|contact| contact.start(start)).collect();
+        for _ in 0..MOST_ITERATIONS {
+            let unbalanced = self.unbalanced(&increments, &pairs);
+            let apart: Vec<[f64; 2]> =
+                self.contacts.iter().zip(&pairs).map(|(c, p)| c.residuals(p, &increments)).collect();
+            let residual = unbalanced.iter().map(Vector3::amax).fold(0.0, f64::max);
+            let gaping = apart.iter().flatten().fold(0.0, |most: f64, r| most.max(r.abs()));
+            let (sum, count) = products(self, &pairs, None);
+            let mean = sum / count.max(1) as f64;
+            if mean < CLOSED && residual < BALANCED && gaping < BALANCED {
+                let forces = pairs.iter().map(|pair| [pair.normal, pair.tangential]).collect();
+                return Ok(Solution { increments, forces, residual });
+            }
+            let (step, changes) = self.direction(&pairs, &apart, &unbalanced, mean).ok_or(Unsolved)?;
+            let share = (NEARLY * largest_share(self, &pairs, &changes)).min(1.0);
+            if !share.is_finite() || share < 1e-10 {
+                return Err(Unsolved);
+            }
+            increments.iter_mut().zip(&step).for_each(|(q, by)| *q += by * share);
+            pairs.iter_mut().zip(&changes).for_each(|(pair, change)| pair.add(change, share));
+        }
+        Err(Unsolved)
+    }
+
+    /// Load and contact forces less resistance, per block.
+    fn unbalanced(&self, increments: &[Vector3<f64>], pairs: &[Pair]) -> Vec<Vector3<f64>> {
+        let mut left: Vec<Vector3<f64>> = (self.load.iter().zip(&self.resistance).zip(increments))
+            .map(|((load, resistance), q)| load - resistance.component_mul(q))
+            .collect();
+        for (contact, pair) in self.contacts.iter().zip(pairs) {
+            contact.spread(&mut left, [pair.normal, pair.tangential]);
+        }
+        left
+    }
+
+    /// Predictor and corrector with one factorisation.
+    fn direction(
+        &self,
+        pairs: &[Pair],
+        apart: &[[f64; 2]],
+        unbalanced: &[Vector3<f64>],
+        mean: f64,
+    ) -> Option<(Vec<Vector3<f64>>, Vec<Pair>)> {
+        let to_nothing = |pair: &Pair| -> Targets {
+            [-pair.normal * pair.distance, -pair.room[0] * pair.slip[0], -pair.room[1] * pair.slip[1]]
+        };
+        let mut targets: Vec<Targets> = pairs.iter().map(to_nothing).collect();
+        let matrix = self.matrix(pairs, apart, &targets);
+        let factors = matrix.factor()?;
+        let solve = |targets: &[Targets]| {
+            let mut step = unbalanced.to_vec();
+            for (c, contact) in self.contacts.iter().enumerate() {
+                contact.spread(&mut step, contact.linear(&pairs[c], apart[c], &targets[c]).base);
+            }
+            factors.solve(&mut step);
+            let change = |(c, contact): (usize, &Contact)| contact.change(&pairs[c], apart[c], &targets[c], &step);
+            let changes: Vec<Pair> = self.contacts.iter().enumerate().map(change).collect();
+            (step, changes)
+        };
+        let (_, predicted) = solve(&targets);
+        let (sum, count) = products(self, pairs, Some((&predicted, largest_share(self, pairs, &predicted))));
+        let centred = mean * (sum / count.max(1) as f64 / mean).clamp(0.0, 1.0).powi(3);
+        // Products far below what is asked for only make the equations worse conditioned.
+        let centred = centred.max(0.1 * CLOSED);
+        for (c, contact) in self.contacts.iter().enumerate() {
+            let positives = contact.positives(&pairs[c], &predicted[c]);
+            for (target, two) in targets[c].iter_mut().zip(positives.chunks(2)) {
+                *target += centred - two[0].1 * two[1].1;
+            }
+        }
+        Some(solve(&targets))
+    }
+
+    fn matrix(&self, pairs: &[Pair], apart: &[[f64; 2]], targets: &[Targets]) -> Tridiagonal {
+        let blocks = self.load.len();
+        let mut matrix = Tridiagonal {
+            diagonal: self.resistance.iter().map(Matrix3::from_diagonal).collect(),
+            upper: vec![Matrix3::zeros(); blocks.saturating_sub(1)],
+            lower: vec![Matrix3::zeros(); blocks.saturating_sub(1)],
+        };
+        for (c, contact) in self.contacts.iter().enumerate() {
+            let stiffness = contact.linear(&pairs[c], apart[c], &targets[c]).stiffness;
+            // rows[i]' * stiffness * rows[j]
+            let block = |i: usize, j: usize| {
+                let [n, t] = contact.rows[i];
+                let [m, s] = contact.rows[j];
+                n * m.transpose() * stiffness[0][0]
+                    + t * (m.transpose() * stiffness[1][0] + s.transpose() * stiffness[1][1])
+            };
+            for (side, at) in contact.blocks.iter().enumerate() {
+                if let Some(at) = at {
+                    matrix.diagonal[*at] += block(side, side);
+                }
+            }
+            if let [Some(before), Some(_)] = contact.blocks {
+                matrix.upper[before] += block(0, 1);
+                matrix.lower[before] += block(1, 0);
+            }
+        }
+        matrix
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A point of mass 1 / step on a floor, loaded with (along, down); the floor's normal is y.
+    fn on_floor(load: [f64; 2], slope: f64, constant: f64) -> Solution {
+        let nothing = Vector3::zeros();
+        let contact = Contact {
+            blocks: [None, Some(0)],
+            rows: [[nothing; 2], [Vector3::y(), Vector3::x()]],
+            gap: 0.0,
+            slope,
+            constant,
+            guess: 0.0,
+        };
+        let load = vec![Vector3::new(load[0], -load[1], 0.0)];
+        Problem { resistance: vec![Vector3::repeat(2.0)], load, contacts: vec![contact] }.solve().unwrap()
+    }
+
+    #[test]
+    fn a_point_rests_within_the_cone_of_friction() {
+        for (slope, constant) in [(0.5, 0.0), (0.0, 0.5)] {
+            let solution = on_floor([0.4, 1.0], slope, constant);
+            assert!(solution.increments[0].norm() < 1e-9);
+            assert!((solution.forces[0][0] - 1.0).abs() < 1e-9 && (solution.forces[0][1] + 0.4).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn a_point_slides_beyond_it_without_rising() {
+        for (slope, constant) in [(0.5, 0.0), (0.0, 0.5)] {
+            let solution = on_floor([-0.8, 1.0], slope, constant);
+            assert!((solution.increments[0] - Vector3::new(-0.15, 0.0, 0.0)).norm() < 1e-9);
+            assert!((solution.forces[0][1] - 0.5).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn a_point_pulled_up_lifts_off() {
+        let solution = on_floor([0.2, -1.0], 0.5, 0.0);
+        assert!((solution.increments[0] - Vector3::new(0.1, 0.5, 0.0)).norm() < 1e-9);
+        assert!(solution.forces[0].iter().all(|force| force.abs() < 1e-9));
+    }
+
+    #[test]
+    fn without_friction_nothing_holds() {
+        let solution = on_floor([0.2, 1.0], 0.0, 0.0);
+        assert!((solution.increments[0] - Vector3::new(0.1, 0.0, 0.0)).norm() < 1e-9);
+    }
+}
