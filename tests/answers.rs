@@ -40,6 +40,7 @@ fn field(load_factor: f64) -> StressField {
 
 fn point() -> SafetyPoint {
     SafetyPoint {
+        updated: None,
         abscissa: Some(0.5),
         instability: Reach::At(2.5),
         elastic: Reach::Never,

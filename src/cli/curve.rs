@@ -69,20 +69,23 @@ fn facts(result: &SafetyCurveResult, wall_time: Duration) -> Table {
 fn points(result: &SafetyCurveResult) -> Option<Table> {
     let mut table = bare();
     let abscissa = if result.unit == "-" { "abscissa".to_owned() } else { format!("abscissa, {}", result.unit) };
+    let moving = result.points.iter().any(|point| point.safety.updated_geometry.is_some());
+    let moving = moving.then_some("on moving geometry");
     let crushing = ["first yield", "plastic section", "safety factor", "governed by", "mode", "zone"];
-    table.set_header([&[abscissa.as_str(), "instability"][..], &crushing].concat());
+    table.set_header([abscissa.as_str(), "instability"].into_iter().chain(moving).chain(crushing));
     table.add_rows(result.points.iter().map(|point| {
         let safety = &point.safety;
-        [
-            Digits(point.abscissa).to_string(),
-            reach(safety.instability),
+        let moving = moving.map(|_| safety.updated_geometry.map_or("-".to_owned(), reach));
+        let crushing = [
             reach(safety.elastic),
             reach(safety.plastic_section),
             reach(safety.governing),
             word(&safety.governed_by),
             safety.mode.map_or("-".to_owned(), |mode| word(&mode)),
             zone(safety.zone).to_owned(),
-        ]
+        ];
+        let before = [Digits(point.abscissa).to_string(), reach(safety.instability)];
+        before.into_iter().chain(moving).chain(crushing).collect::<Vec<_>>()
     }));
     (!result.points.is_empty()).then_some(table)
 }

@@ -4,6 +4,7 @@ mod beam;
 mod curve;
 mod figure;
 pub mod health;
+mod moving;
 mod safety;
 pub mod serve;
 pub mod solve;

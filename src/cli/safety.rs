@@ -91,9 +91,10 @@ fn factors(safety: &SafetyBody) -> String {
     let [governing, instability, elastic, plastic] =
         [safety.governing, safety.instability, safety.elastic, safety.plastic_section].map(reach);
     let governs = word(&safety.governed_by);
+    let moving = safety.updated_geometry.map(|at| format!("; on moving geometry: {}", reach(at))).unwrap_or_default();
     format!(
         "{governing}, governed by: {governs}{zone}\n\
-         (instability: {instability}; first yield: {elastic}; plastic section: {plastic})"
+         (instability: {instability}{moving}; first yield: {elastic}; plastic section: {plastic})"
     )
 }
 

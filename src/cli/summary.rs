@@ -1,7 +1,7 @@
 //! The answer as a person reads it.
 
-use super::safety;
 use super::wording::{self, Limit, word};
+use super::{moving, safety};
 use comfy_table::{Table, presets};
 use std::fmt::Write;
 use std::time::Duration;
@@ -71,7 +71,7 @@ fn facts(result: &AnalysisResult, wall_time: Duration) -> Table {
         let [lowest, highest] = [range.lowest_n_per_m, range.highest_n_per_m].map(|thrust| Digits(thrust / 1e3));
         fact("thrust range", format!("{lowest} to {highest} kN per metre of depth"));
     }
-    for (name, value) in safety::facts(result) {
+    for (name, value) in moving::facts(result).into_iter().chain(safety::facts(result)) {
         fact(name, value);
     }
     let cost = &result.cost;

@@ -1,6 +1,6 @@
 //! An answer in sentences.
 
-use super::safety;
+use super::{moving, safety};
 use serde::Serialize;
 use voussoir::api::request::{ArchRequest, DirectionRequest, LoadEntry, LoadRequest, PointLoad, ProfileRequest};
 use voussoir::api::response::{AnalysisResult, Collapse, HingeBody, MethodWord, MotionBody, OutcomeWord, SlideBody};
@@ -50,9 +50,13 @@ pub fn headline(result: &AnalysisResult) -> String {
     if let Some(safety) = &result.safety {
         return safety::headline(result, safety);
     }
+    if let Some(settlement) = &result.settlement {
+        return moving::headline(settlement);
+    }
     let sentence = match (result.outcome, &result.collapse) {
         (OutcomeWord::Collapse, Some(collapse)) => {
-            format!("The arch collapses {}.{}", reached(result, collapse), with_strength(result))
+            let first = if result.updated_geometry.is_some() { " at first order" } else { "" };
+            format!("The arch collapses{first} {}.{}", reached(result, collapse), with_strength(result))
         }
         (OutcomeWord::StandsInWindow, _) => in_window(result) + &with_strength(result),
         (OutcomeWord::FallsAsBuilt, _) => falls(result).to_owned(),

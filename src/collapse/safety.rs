@@ -2,7 +2,7 @@
 
 use super::{
     AnalysisError, CollapseReport, Crushing, CrushingKind, CurvePoint, Digits, Governs, LimitWindow, Mode, Outcome,
-    Reach, SafetyPoint, Watch, Zone,
+    Reach, SafetyPoint, UpdatedEnd, UpdatedGeometry, Watch, Zone,
 };
 
 /// Note on a missing answer.
@@ -51,8 +51,16 @@ pub(super) fn judge(report: &mut CollapseReport, counted: CrushingKind) {
     report.notes.extend(uncrushed.then(|| UNCRUSHED.into()));
     let takes_elastic = uncrushed || (counted == CrushingKind::Elastic && !too_coarse);
     let crushes = if takes_elastic { elastic } else { plastic_section };
-    let (governing, governed_by) = first(instability, crushes);
-    let mode = report.end.as_ref().map(|end| end.mechanism.mode);
+    let updated = report.updated.as_ref().map(on_moving_geometry);
+    report.notes.extend(report.updated.as_ref().and_then(beyond_model));
+    let moves_first = updated.is_some_and(|updated| updated == Reach::Unknown || is_before(updated, instability));
+    let (governing, governed_by) = first(updated.filter(|_| moves_first).unwrap_or(instability), crushes);
+    let moving = report.updated.as_ref().filter(|_| moves_first);
+    let mechanism = match moving {
+        Some(moving) => moving.mechanism.as_ref(),
+        None => report.end.as_ref().map(|end| &end.mechanism),
+    };
+    let mode = mechanism.map(|mechanism| mechanism.mode);
     let zone = zone(governed_by, mode);
     if governed_by == Governs::Crushing {
         report.outcome = Outcome::Crushes;
@@ -60,6 +68,7 @@ pub(super) fn judge(report: &mut CollapseReport, counted: CrushingKind) {
     report.safety = Some(SafetyPoint {
         abscissa: None,
         instability,
+        updated,
         elastic,
         plastic_section,
         governing,
@@ -105,6 +114,7 @@ impl SafetyPoint {
         SafetyPoint {
             abscissa: Some(abscissa),
             instability: Reach::Unknown,
+            updated: None,
             elastic: Reach::Unknown,
             plastic_section: Reach::Unknown,
             governing: Reach::Unknown,
@@ -131,6 +141,25 @@ fn instability(report: &CollapseReport) -> Reach {
         (Outcome::FallsAsBuilt, _) => Reach::DoesNotStand,
         _ => Reach::Unknown,
     }
+}
+
+fn on_moving_geometry(updated: &UpdatedGeometry) -> Reach {
+    match (updated.end, updated.load_factor) {
+        (UpdatedEnd::Collapse, Some(factor)) => Reach::At(factor),
+        (UpdatedEnd::FallsAsLoaded, _) => Reach::DoesNotStand,
+        (UpdatedEnd::StandsToCap | UpdatedEnd::BeyondModel, _) => Reach::Never,
+        (UpdatedEnd::Collapse | UpdatedEnd::CannotTell, _) => Reach::Unknown,
+    }
+}
+
+/// Note on an arch that is strained or moved beyond the model before it falls.
+fn beyond_model(updated: &UpdatedGeometry) -> Option<String> {
+    let reached = updated.load_factor.filter(|_| updated.end == UpdatedEnd::BeyondModel)?;
+    Some(format!(
+        "On moving geometry the arch stands up to load factor {}; beyond that its stone would be strained, or the arch \
+         moved, more than the model describes.",
+        Digits(reached)
+    ))
 }
 
 fn elastic(crushing: &Crushing) -> Reach {

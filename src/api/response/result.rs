@@ -66,5 +66,5 @@ fn has_stress(field: &StressField) -> bool {
 
 fn is_told(point: &SafetyPoint) -> bool {
     let reaches = [point.instability, point.elastic, point.plastic_section, point.governing];
-    reaches.iter().all(|reach| !matches!(reach, Reach::At(factor) if !factor.is_finite()))
+    reaches.iter().chain(&point.updated).all(|reach| !matches!(reach, Reach::At(factor) if !factor.is_finite()))
 }

@@ -39,11 +39,13 @@ impl From<Reach> for ReachBody {
 pub struct SafetyBody {
     /// Until the arch becomes a mechanism.
     pub instability: ReachBody,
+    /// The same on moving geometry; null where `geometry` does not ask for it.
+    pub updated_geometry: Option<ReachBody>,
     /// Until the equivalent stress reaches the strength in some subblock; depends on the mesh.
     pub elastic: ReachBody,
     /// Until joints of finite strength can no longer be in equilibrium; does not depend on the mesh.
     pub plastic_section: ReachBody,
-    /// The first of instability and the kind of crushing that counts.
+    /// The first of instability, on moving geometry too where asked, and the kind of crushing that counts.
     pub governing: ReachBody,
     /// Which of the two that is.
     pub governed_by: GovernsWord,
@@ -59,6 +61,7 @@ impl From<&SafetyPoint> for SafetyBody {
     fn from(point: &SafetyPoint) -> Self {
         SafetyBody {
             instability: point.instability.into(),
+            updated_geometry: point.updated.map(Into::into),
             elastic: point.elastic.into(),
             plastic_section: point.plastic_section.into(),
             governing: point.governing.into(),

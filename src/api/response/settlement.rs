@@ -50,6 +50,8 @@ pub struct SettlementPathBody {
     pub thrust_line: ThrustColumns,
     /// Displacement of every voussoir at the end.
     pub displacements: DisplacementColumns,
+    /// Share of the movement at which the arch first snaps into another shape; null where it does not.
+    pub snap_share_of_movement: Option<f64>,
     /// Largest equilibrium residual, as a share of the loads.
     pub residual: f64,
 }
@@ -103,6 +105,7 @@ impl From<&SettlementPath> for SettlementPathBody {
                 y_m: column(&path.displacements, |row| row[1]),
                 rotation_rad: column(&path.displacements, |row| row[2]),
             },
+            snap_share_of_movement: path.snap,
             residual: path.residual,
         }
     }

@@ -44,6 +44,9 @@ pub struct UpdatedBody {
     pub hinges: Vec<HingeBody>,
     /// Sliding joints as the arch begins to fall.
     pub slides: Vec<SlideBody>,
+    /// Intensity at which the arch first snaps into another shape: the path dips there by more than a hundredth of what it
+    /// rose, then goes on rising; null where it does not.
+    pub snap_intensity: Option<f64>,
     /// Largest equilibrium residual on the path, as a share of the loads.
     pub residual: f64,
 }
@@ -63,6 +66,7 @@ impl UpdatedBody {
             mode: mechanism.map(|mechanism| mechanism.mode.into()),
             hinges: mechanism.map_or_else(Vec::new, |m| m.hinges.iter().map(Into::into).collect()),
             slides: mechanism.map_or_else(Vec::new, |m| m.slides.iter().map(Into::into).collect()),
+            snap_intensity: updated.snap.map(|at| scale.intensity(at)),
             residual: updated.residual,
         }
     }

@@ -127,11 +127,13 @@ pub struct SafetyPoint {
     pub abscissa: Option<f64>,
     /// Against becoming a mechanism.
     pub instability: Reach,
+    /// The same on moving geometry, where asked.
+    pub updated: Option<Reach>,
     /// Against first yield of a subblock.
     pub elastic: Reach,
     /// Against collapse with plastic sections.
     pub plastic_section: Reach,
-    /// The first of instability and that kind of crushing which the request counts.
+    /// The first of instability, on moving geometry too where asked, and that kind of crushing which the request counts.
     pub governing: Reach,
     /// Which of them that is.
     pub governed_by: Governs,

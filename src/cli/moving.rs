@@ -1,0 +1,63 @@
+//! Moving geometry and moving springings in words.
+
+use super::wording::{self, word};
+use voussoir::api::response::{
+    AnalysisResult, SettlementBody, SettlementEndWord, SettlementPathBody, UpdatedBody, UpdatedEndWord,
+};
+use voussoir::collapse::Digits;
+
+/// One sentence on springings that move.
+pub fn headline(settlement: &SettlementBody) -> String {
+    let path = settlement.updated_geometry.as_ref().unwrap_or(&settlement.first_order);
+    let share = format!("{} %", Digits(100.0 * path.share_of_movement));
+    match (path.end, &settlement.updated_geometry) {
+        (SettlementEndWord::Follows, Some(_)) => "The arch follows its springings through their whole movement.".into(),
+        (SettlementEndWord::Follows, None) => {
+            "At first order the arch follows its springings; only on updated geometry can they bring it down.".into()
+        }
+        (SettlementEndWord::Collapse, _) => format!("The arch falls when its springings have moved by {share}."),
+        (SettlementEndWord::CannotTell, _) => "No answer: the movement could not be followed.".into(),
+    }
+}
+
+/// Name and value of every line about moving geometry and moving springings.
+pub fn facts(result: &AnalysisResult) -> Vec<(&'static str, String)> {
+    let mut lines = Vec::new();
+    if let Some(updated) = &result.updated_geometry {
+        lines.push(("moving geometry", on_moving_geometry(result, updated)));
+    }
+    if let Some(settlement) = &result.settlement {
+        lines.push(("first order", path(&settlement.first_order)));
+        if let Some(updated) = &settlement.updated_geometry {
+            lines.push(("moving geometry", path(updated)));
+        }
+    }
+    lines
+}
+
+fn on_moving_geometry(result: &AnalysisResult, updated: &UpdatedBody) -> String {
+    let at = updated.intensity.map(|at| format!("{} {}", Digits(at), wording::unit(result))).unwrap_or_default();
+    match updated.end {
+        UpdatedEndWord::Collapse => {
+            let over = updated.over_first_order.map(|over| format!(", {} of the first-order load", Digits(over)));
+            let snap = updated.snap_intensity.map(|at| format!("; snaps first at {}", Digits(at)));
+            let mode = updated.mode.map(|mode| format!(" ({})", word(&mode))).unwrap_or_default();
+            format!("collapse at {at}{mode}{}{}", over.unwrap_or_default(), snap.unwrap_or_default())
+        }
+        UpdatedEndWord::FallsAsLoaded => "falls while its geometry moves under the loads at the start".into(),
+        UpdatedEndWord::StandsToCap => format!("stands up to {at}, the cap"),
+        UpdatedEndWord::BeyondModel => format!("stands up to {at}, where it is strained or moved beyond the model"),
+        UpdatedEndWord::CannotTell => "could not be followed".into(),
+    }
+}
+
+fn path(path: &SettlementPathBody) -> String {
+    let (share, thrust) = (Digits(100.0 * path.share_of_movement), Digits(path.thrust_n_per_m / 1e3));
+    let end = match path.end {
+        SettlementEndWord::Follows => "follows the whole movement".to_owned(),
+        SettlementEndWord::Collapse => format!("falls at {share} % of the movement"),
+        SettlementEndWord::CannotTell => format!("lost at {share} % of the movement"),
+    };
+    let hinges: Vec<_> = path.hinges.iter().map(|hinge| hinge.joint.to_string()).collect();
+    format!("{end}; thrust then {thrust} kN per metre of depth, turning at joints {}", hinges.join(", "))
+}
