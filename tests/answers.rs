@@ -40,7 +40,7 @@ fn field(load_factor: f64) -> StressField {
 
 fn point() -> SafetyPoint {
     SafetyPoint {
-        updated: None,
+        updated: Some(Reach::At(2.25)),
         abscissa: Some(0.5),
         instability: Reach::At(2.5),
         elastic: Reach::Never,
@@ -127,7 +127,8 @@ fn crushing_and_safety_are_served() {
 
 fn safety() -> Value {
     json!({
-        "instability": {"state": "at", "load_factor": 2.5}, "elastic": {"state": "never"},
+        "instability": {"state": "at", "load_factor": 2.5},
+        "updated_geometry": {"state": "at", "load_factor": 2.25}, "elastic": {"state": "never"},
         "plastic_section": {"state": "does_not_stand"}, "governing": {"state": "unknown"},
         "governed_by": "instability", "mode": "crown_rises", "zone": "crown_rises", "notes": ["mind the gap"]
     })

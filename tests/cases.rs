@@ -116,12 +116,24 @@ impl Case {
             "error_percent" | "energy_j_per_m" | "exact_energy_j_per_m" => {
                 return self.number(key, value, &format!("/{key}"));
             }
+            "motion_crown" | "other_motion_crown" => json!(self.crown_in(key.trim_end_matches("_crown"))),
             "safety" => return self.safety_point(key, value, &self.answer["safety"].clone()),
             "points" => return self.points(key, value.as_array().unwrap()),
             "minimum_thickness_m" => return self.least_thickness(key, value.as_f64().unwrap()),
             _ => return self.faults.push(format!("unknown quantity {key}")),
         };
         self.expect(found == *value, || format!("{key}: expected {value}, got {found}"));
+    }
+
+    /// Which way the highest stone goes in a motion after collapse, from its first frame to its last.
+    fn crown_in(&self, motion: &str) -> &'static str {
+        let heights = &self.answer[motion]["places"]["y_m"];
+        let of =
+            |frame: &Value| -> Vec<f64> { frame.as_array().unwrap().iter().map(|y| y.as_f64().unwrap()).collect() };
+        let [first, last] =
+            [heights.as_array().unwrap().first(), heights.as_array().unwrap().last()].map(|f| of(f.unwrap()));
+        let crown = (0..first.len()).max_by(|&a, &b| first[a].total_cmp(&first[b])).unwrap();
+        if last[crown] > first[crown] { "rises" } else { "descends" }
     }
 
     /// Some points of a safety curve, found by their abscissa.

@@ -75,13 +75,13 @@ fn say(name: &str, report: &CollapseReport, motion: &FallingMotion, m: &Measured
 #[test]
 fn the_arches_of_the_paper_fall() {
     let names = [
-        "paper-case-1-9",
-        "paper-case-1-17",
-        "paper-case-1-27",
-        "paper-case-1-61",
-        "paper-oval-embankment-lower",
-        "paper-oval-embankment-upper",
-        "paper-oval-crown-load",
+        "paper/table-2/9-joints",
+        "paper/table-2/17-joints",
+        "paper/table-2/27-joints",
+        "paper/table-2/61-joints",
+        "paper/table-3/lower-limit",
+        "paper/table-3/upper-limit",
+        "paper/table-4",
         "first-arch",
         "lateral-7",
         "sliding-arch",
@@ -89,7 +89,7 @@ fn the_arches_of_the_paper_fall() {
     let mut all = Vec::new();
     for name in names {
         let (analysis, report) = solve(&case(name));
-        let both = name.starts_with("paper-oval");
+        let both = name.starts_with("paper/table-3") || name == "paper/table-4";
         assert!(report.motion.is_some() && report.other_motion.is_some() == both, "{name}");
         for motion in report.motion.iter().chain(&report.other_motion) {
             let measured = measure(&analysis.arch, motion);
@@ -145,7 +145,8 @@ fn same_frame(a: &FallingMotion, b: &FallingMotion, most: usize) -> usize {
 
 #[test]
 fn a_symmetric_arch_falls_symmetrically() {
-    for (name, most) in [("paper-case-1-27", 1e-3), ("paper-case-1-61", 1e-3), ("paper-oval-crown-load", 1e-3)] {
+    for (name, most) in [("paper/table-2/27-joints", 1e-3), ("paper/table-2/61-joints", 1e-3), ("paper/table-4", 1e-3)]
+    {
         let (_, report) = solve(&case(name));
         let motion = report.motion.unwrap();
         let lean = |frame: &MotionFrame| {
@@ -178,9 +179,9 @@ fn a_mirrored_arch_falls_as_the_mirror_image() {
 
 #[test]
 fn half_an_arch_falls_as_the_whole_does() {
-    let mut half = case("paper-case-1-61");
+    let mut half = case("paper/table-2/61-joints");
     half["arch"]["half"] = json!(true);
-    let (whole, half) = (solve(&case("paper-case-1-61")).1.motion.unwrap(), solve(&half).1.motion.unwrap());
+    let (whole, half) = (solve(&case("paper/table-2/61-joints")).1.motion.unwrap(), solve(&half).1.motion.unwrap());
     assert_eq!(whole.end, half.end);
     let at = same_frame(&whole, &half, 10);
     let (whole, half) = (&whole.frames[at], &half.frames[at]);
@@ -191,7 +192,7 @@ fn half_an_arch_falls_as_the_whole_does() {
 
 #[test]
 fn the_arch_sets_out_in_its_mechanism() {
-    for name in ["first-arch", "lateral-7", "paper-oval-embankment-lower", "paper-oval-embankment-upper"] {
+    for name in ["first-arch", "lateral-7", "paper/table-3/lower-limit", "paper/table-3/upper-limit"] {
         let (_, report) = solve(&case(name));
         let (motion, end) = (report.motion.unwrap(), report.end.unwrap());
         assert!(end.mechanism.slides.is_empty(), "{name}");
@@ -224,7 +225,7 @@ fn sixty_one_stones_fall_in_no_time() {
 
 #[test]
 fn a_motion_is_served_in_columns() {
-    let body = case("paper-oval-crown-load").to_string();
+    let body = case("paper/table-4").to_string();
     let (request, question) = voussoir::api::read::read_question(body.as_bytes()).unwrap();
     let answer = voussoir::collapse::answer(&question, &mut Unwatched).unwrap();
     let bytes = voussoir::api::response::JobResult::new(&request, &answer).unwrap().to_bytes().unwrap();

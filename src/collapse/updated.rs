@@ -7,8 +7,9 @@ use super::{Analysis, AnalysisError, Cost, LoadStep, UpdatedEnd, UpdatedGeometry
 use crate::dda::{Drive, End, Patience, Tracer};
 use std::cell::Cell;
 
-/// Under loads that stay, an arch that has to give up a tenth of them to stay in equilibrium falls.
-const PATIENCE: Patience = Patience { fall: 0.1, movement: 0.01 };
+/// An arch falls that has to give up this share of its first-order load to stay in equilibrium, or to move by this share of
+/// its size before it can carry more. Shorter dips are snaps.
+const FALLEN: [f64; 2] = [0.1, 0.01];
 
 /// From where to where the load factor goes.
 #[derive(Debug, Clone, Copy)]
@@ -19,8 +20,17 @@ pub(super) struct Course {
     pub sign: f64,
     /// Largest absolute load factor to try.
     pub cap: f64,
+    /// Load factor of collapse at first order, where there is one.
+    pub first_order: Option<f64>,
     /// Sum of all loads at the start, N/m.
     pub weight: f64,
+}
+
+impl Course {
+    fn patience(&self) -> Patience {
+        let rise = self.first_order.map_or(0.0, |collapse| (collapse - self.start).abs());
+        Patience { fall: FALLEN[0], rise, movement: FALLEN[1] }
+    }
 }
 
 /// Follows the load path on moving geometry; the work is added to `cost`.
@@ -65,7 +75,7 @@ fn attempt(
             .move_on(drive(&model, fixed, course.sign), course.sign * course.start, &mut |t| see(t, course.start));
         if end == End::Reached {
             moved = true;
-            end = tracer.trace_moving(course.cap, PATIENCE, &mut |t| see(t, course.sign * t.parameter()));
+            end = tracer.trace_moving(course.cap, course.patience(), &mut |t| see(t, course.sign * t.parameter()));
         }
     }
     cost.add(&tracer, Cost::default());

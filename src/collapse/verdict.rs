@@ -239,7 +239,9 @@ impl<'a> Question<'a> {
         if self.analysis.geometry == Geometry::FirstOrder || !stands || settles {
             return Ok(None);
         }
-        let course = Course { start: self.start, sign: self.sign, cap: self.cap, weight: self.weight };
+        let first_order = report.end.as_ref().map(|end| end.load_factor);
+        let (start, sign, cap, weight) = (self.start, self.sign, self.cap, self.weight);
+        let course = Course { start, sign, cap, first_order, weight };
         updated::follow(self.analysis, course, &mut report.cost, watch).map(Some)
     }
 

@@ -5,6 +5,7 @@
 //! that path exactly. It never asks for a direction of loading: after each crossing the sign of the new tangent is the
 //! one that goes on crossing, so rises and falls of the load factor, and momentary mechanisms, pass by themselves.
 
+mod correct;
 mod drive;
 mod equilibrium;
 mod moving;

@@ -5,9 +5,9 @@
 //! of the change of state; the displacement that grows fastest, so that the load may rise or fall and limit points
 //! are passed; or the parameter, at the end.
 
-use super::{End, Event, Tracer};
-use crate::dda::contact::State;
-use crate::dda::moving::{Placed, Turn, Velocity};
+use super::correct::{EQUILIBRIUM, FAILED, Hold};
+use super::{End, Tracer};
+use crate::dda::moving::{Placed, Turn};
 use crate::dda::trace::Drive;
 use std::ops::ControlFlow;
 
@@ -16,24 +16,12 @@ use std::ops::ControlFlow;
 const LONGEST: f64 = 2e-3;
 /// An event so close to the place of the last linearisation, as a share of the size, does without a new one.
 const NEAR: f64 = 2e-5;
-/// Equilibrium residual, as a share of the load scale, to which a point is corrected, and above which a step is too long.
-const EQUILIBRIUM: f64 = 1e-12;
-const FAILED: f64 = 1e-9;
-/// Corrections to try before a step is taken as too long.
-const CORRECTIONS: usize = 12;
-/// A force beyond its limit by this share of the load scale means that a change of state was missed: ties are told
-/// apart by disturbances of 1e-9.
-const MISSED: f64 = 1e-11;
-/// So many changes of state may lie so close together that the tangent mistakes their order.
-const CLOSE: usize = 4;
 /// So many halvings of a step in a row mean that the path is lost.
 const HALVINGS: usize = 40;
 /// A path has at most so many steps that end at no change of state; real ones have some hundreds.
 const MOST_STEPS: usize = 1000;
-/// A path that is lost after it has fallen by this share of what it rose, or moved by this share of its size, has fallen.
-const SURE: Patience = Patience { fall: 0.1, movement: 0.01 };
-/// Rises that change the loads on a node by less than this share of the load scale count as if they did by so much.
-const LEAST_RISE: f64 = 1e-3;
+/// A path that is lost after it has fallen by this share, or moved by this share of its size, has fallen.
+const SURE: [f64; 2] = [0.1, 0.01];
 /// A snap is worth telling where the parameter falls by this share of what it rose.
 const SNAP: f64 = 0.01;
 /// Displacements beyond this share of the size are no arch of this shape any more.
@@ -47,19 +35,10 @@ const STRAINED: f64 = 0.02;
 pub struct Patience {
     /// Fall of the parameter, as a share of what it rose.
     pub fall: f64,
+    /// Rises smaller than this count as this.
+    pub rise: f64,
     /// Movement of the chain, as a share of its size.
     pub movement: f64,
-}
-
-/// What is held while a step is corrected to equilibrium.
-#[derive(Debug, Clone, Copy)]
-enum Hold {
-    /// The parameter.
-    Parameter,
-    /// The displacement that grows fastest.
-    Fastest(usize),
-    /// The border that a contact is on.
-    Border(Event, State),
 }
 
 impl Tracer<'_> {
@@ -87,7 +66,7 @@ impl Tracer<'_> {
         };
         debug_assert!(parameter == 0.0 || ground.iter().all(|g| g.is_still()), "the ground starts at rest");
         self.parameter = 0.0;
-        let end = self.trace_moving(1.0, Patience { fall: f64::INFINITY, ..SURE }, see);
+        let end = self.trace_moving(1.0, Patience { fall: f64::INFINITY, rise: 1.0, movement: SURE[1] }, see);
         (self.drive, self.parameter, self.peak) = (drive, parameter, None);
         end
     }
@@ -114,7 +93,7 @@ impl Tracer<'_> {
         let (mut halvings, mut zero_steps, mut steps, mut barred, mut refined) = (0, 0, 0, None, false);
         let most_zero_steps = super::MOST_ZERO_STEPS[0] + super::MOST_ZERO_STEPS[1] * self.states.len();
         let most_events = self.events + super::MOST_EVENTS[0] + super::MOST_EVENTS[1] * self.states.len();
-        if self.find_residual() > FAILED || target <= start {
+        if self.find_residual() > FAILED + self.rounding() || target <= start {
             return End::Lost;
         }
         self.linearise();
@@ -141,13 +120,13 @@ impl Tracer<'_> {
                 _ => Hold::Fastest(fastest(&self.direction)),
             };
             let before = (self.displacements.clone(), self.parameter, self.rate);
-            let Some(hold) = self.step(step, hold, target) else {
+            let held = self.step(step, hold, target);
+            // A limit point short of the next event is a point of the path too.
+            let passed = |hold: &Hold| matches!(hold, Hold::Border(..)) && before.2 > 0.0 && self.parameter < before.1;
+            let Some(hold) = held.filter(|hold| !passed(hold) || step < NEAR * self.size) else {
                 (self.displacements, self.parameter) = (before.0, before.1);
                 halvings += 1;
-                if halvings > HALVINGS
-                    || self.events > most_events
-                    || !(self.find_residual() < FAILED + self.rounding())
-                {
+                if halvings > HALVINGS || self.events > most_events || self.find_residual() > FAILED + self.rounding() {
                     return End::Lost;
                 }
                 longest = 0.5 * step;
@@ -177,21 +156,9 @@ impl Tracer<'_> {
                     }
                     barred = None;
                     self.renew_tangent();
-                    if before.2 > 0.0 && self.rate < 0.0 && !refined {
-                        // A limit point lies in between: the rate falls about linearly through zero.
-                        let share = before.2 / (before.2 - self.rate);
-                        (self.displacements, self.parameter) = (before.0, before.1);
-                        self.find_residual();
-                        self.renew_tangent();
-                        self.advance(share * step);
-                        if !self.correct(Hold::Fastest(fastest(&self.direction))) {
-                            return End::Lost;
-                        }
-                        self.renew_tangent();
-                        self.note_peak(true);
-                        refined = true;
-                    } else {
-                        refined = false;
+                    refined = before.2 > 0.0 && self.rate < 0.0 && !refined;
+                    if refined && !self.stop_at_limit_point(before, step) {
+                        return End::Lost;
                     }
                     longest = (2.0 * longest).min(LONGEST * self.size);
                 }
@@ -199,35 +166,27 @@ impl Tracer<'_> {
         }
     }
 
-    /// Makes a step and corrects it, holding what is to be held; none where it is too long. Two changes of state may lie
-    /// so close together that the tangent mistakes their order: what was held in the end is the first of them.
-    fn step(&mut self, step: f64, hold: Hold, target: f64) -> Option<Hold> {
-        let (displacements, parameter, violated) = (self.displacements.clone(), self.parameter, self.violated());
-        let mut hold = hold;
-        for _ in 0..CLOSE {
-            self.advance(step);
-            if let Hold::Parameter = hold {
-                self.parameter = target;
-            }
-            if !self.correct(hold) {
-                return None;
-            }
-            let Some(event) = self.missed(&violated, hold) else { return Some(hold) };
-            hold = Hold::Border(event, self.states[event.contact]);
-            self.displacements.clone_from(&displacements);
-            self.parameter = parameter;
-            self.find_residual();
-        }
-        None
+    /// Goes back to `before` (displacements, parameter and its rate) a step ago, and stops where the parameter is highest in
+    /// between: the rate falls about linearly through zero. False where that point is not found.
+    fn stop_at_limit_point(&mut self, before: (Vec<f64>, f64, f64), step: f64) -> bool {
+        let share = before.2 / (before.2 - self.rate);
+        (self.displacements, self.parameter) = (before.0, before.1);
+        self.find_residual();
+        self.renew_tangent();
+        self.advance(share * step);
+        let found = self.correct(Hold::Fastest(fastest(&self.direction)));
+        self.renew_tangent();
+        self.note_peak(true);
+        found
     }
 
+    /// How the path has ended, if it has.
     fn is_over(&mut self, start: f64, patience: Patience) -> Option<End> {
         if let Some(peak) = &self.peak {
             let moved = farthest(&self.displacements, &peak.displacements);
-            let least = LEAST_RISE * self.load_scale / self.load_rate_scale;
-            let fall = (peak.parameter - self.parameter) / (peak.parameter - start).max(least);
-            let beyond = |p: Patience| fall > p.fall || (fall > 0.0 && moved > p.movement * self.size);
-            if beyond(patience) {
+            let fall = (peak.parameter - self.parameter) / (peak.parameter - start).max(patience.rise);
+            let beyond = |most: [f64; 2]| fall > most[0] || (fall > 0.0 && moved > most[1] * self.size);
+            if beyond([patience.fall, patience.movement]) {
                 return Some(End::Mechanism);
             }
             self.fallen = beyond(SURE);
@@ -237,11 +196,12 @@ impl Tracer<'_> {
         }
         let far = self.displacements.iter().fold(0.0, |far: f64, d| far.max(d.abs())) > FAR * self.size;
         let strained = self.moving.as_ref().is_some_and(|moving| moving.largest_strain() > STRAINED);
-        (far || strained).then_some(if self.peak.is_some() { End::Mechanism } else { End::Rising })
+        let below = self.peak.as_ref().is_some_and(|peak| self.parameter < peak.parameter);
+        (far || strained).then_some(if below { End::Mechanism } else { End::Rising })
     }
 
     /// Linearises where the chain is and goes on the way it went.
-    fn renew_tangent(&mut self) {
+    pub(super) fn renew_tangent(&mut self) {
         let before = self.direction.clone();
         self.linearise();
         self.solve_tangent();
@@ -265,106 +225,6 @@ impl Tracer<'_> {
 
     fn moved_since_linearisation(&self) -> f64 {
         farthest(&self.displacements, &self.linearised_at)
-    }
-
-    /// Brings the chain back to equilibrium while something is held; false where that does not converge.
-    fn correct(&mut self, hold: Hold) -> bool {
-        let mut correction = vec![0.0; self.displacements.len()];
-        let mut last = f64::INFINITY;
-        for _ in 0..CORRECTIONS {
-            let worst = self.find_residual();
-            let off = self.off_border(hold);
-            let error = worst + off[1];
-            let slow = error > 0.1 * last;
-            if error < EQUILIBRIUM || (slow && error < FAILED + self.rounding()) {
-                self.worst_residual = self.worst_residual.max(worst);
-                return true;
-            }
-            if slow {
-                self.renew_tangent();
-            }
-            last = error;
-            self.factor.solve(&self.matrix, &self.residual, &mut correction);
-            let along = match hold {
-                Hold::Parameter => 0.0,
-                Hold::Fastest(c) => -correction[c] / self.direction[c],
-                Hold::Border(event, state) => {
-                    let [_, of_correction] = self.border(event, state, Some(&correction));
-                    let [_, of_direction] = self.border(event, state, None);
-                    -(off[0] + of_correction) / of_direction
-                }
-            };
-            for ((d, c), t) in self.displacements.iter_mut().zip(&correction).zip(&self.direction) {
-                *d += c + along * t;
-            }
-            self.parameter += along * self.rate;
-        }
-        false
-    }
-
-    /// How far off the border that is held, where one is, and what that is as a share of the load scale.
-    fn off_border(&self, hold: Hold) -> [f64; 2] {
-        let Hold::Border(event, state) = hold else { return [0.0; 2] };
-        let [off, _] = self.border(event, state, None);
-        [off, self.as_force(event.contact, state, event.next, off).abs() / self.load_scale]
-    }
-
-    /// What rounding of the displacements may leave of the residual, as a share of the load scale.
-    fn rounding(&self) -> f64 {
-        let stiffest = self.chain.contacts().iter().map(|c| c.stiffness[0]).fold(0.0, f64::max);
-        let moved = self.displacements.iter().fold(0.0, |most: f64, d| most.max(d.abs()));
-        8.0 * f64::EPSILON * stiffest * moved / self.load_scale
-    }
-
-    /// How far a contact is from a border, and how fast it goes there along the direction, or along other velocities of
-    /// the nodes with the parameter held.
-    fn border(&self, event: Event, state: State, along: Option<&[f64]>) -> [f64; 2] {
-        let (p, gap) = (event.contact, self.gaps[event.contact]);
-        let rate = match (along, &self.moving) {
-            (Some(direction), Some(moving)) => {
-                let along = Velocity { nodes: direction, parameter: self.parameter, rate: 0.0 };
-                moving.gap_rate(self.chain, &self.drive, p, along, gap)
-            }
-            _ => self.rates[p],
-        };
-        let mut found = [0.0; 2];
-        self.chain.contacts()[p].ways_out(state, [gap[0], rate[0]], [gap[1], rate[1]], |value, next| {
-            if next == event.next || state == State::Open {
-                found = value;
-            }
-        });
-        found
-    }
-
-    /// What a border function is worth as a force, N/m.
-    fn as_force(&self, p: usize, from: State, to: State, value: f64) -> f64 {
-        if super::is_gap(from, to) { value * self.chain.contacts()[p].stiffness[0] } else { value }
-    }
-
-    /// How far contact `p` is beyond a border of its state, as a share of the load scale, and beyond which.
-    fn beyond(&self, p: usize) -> Option<(f64, State)> {
-        let (state, mut worst) = (self.states[p], None);
-        self.ways_out(p, state, |[value, _], next| {
-            let beyond = -self.as_force(p, state, next, value) / self.load_scale;
-            if beyond > MISSED && worst.is_none_or(|(most, _)| beyond > most) {
-                worst = Some((beyond, next));
-            }
-        });
-        worst
-    }
-
-    /// Which contacts are beyond a border of their state.
-    fn violated(&self) -> Vec<bool> {
-        (0..self.states.len()).map(|p| self.beyond(p).is_some()).collect()
-    }
-
-    /// The border that a step went beyond farthest, which it was not meant to reach.
-    fn missed(&self, before: &[bool], hold: Hold) -> Option<Event> {
-        let meant = |p: usize| matches!(hold, Hold::Border(event, _) if event.contact == p);
-        let new = (0..self.states.len()).filter(|&p| !before[p] && !meant(p));
-        let missed = new.filter_map(|p| self.beyond(p).map(|(beyond, next)| (beyond, p, next)));
-        let worst = missed.max_by(|a, b| a.0.total_cmp(&b.0));
-        worst.map(|(_, contact, next)| Event { step: 0.0, contact, next })
     }
 }
 

@@ -1,0 +1,200 @@
+//! Springings that move: thrust against limit analysis, collapse against statics of the moved arch.
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may panic")]
+
+mod common;
+
+use common::door::{analysis, solve};
+use common::wire::{ask, circular, continuous};
+use serde_json::{Value, json};
+use voussoir::arch::Face;
+use voussoir::collapse::{CollapseReport, Outcome, SettlementEnd, SettlementPath};
+
+/// No joint slides.
+const ROUGH: f64 = 80.0;
+
+/// An arch whose springings move, each given as `left` and `right` of the request.
+fn settled(arch: Value, left: Value, right: Value, geometry: &str) -> CollapseReport {
+    let mut request = ask(arch, ROUGH, &[]);
+    // Stone as heavy as stone: displacements of a light arch on stiff joints are all rounding.
+    request["stone"]["density_kg_m3"] = json!(2300.0);
+    request["stone"]["youngs_modulus_pa"] = json!(1e10);
+    request["stone"]["compressive_strength_pa"] = json!(1e12);
+    request["analysis"] = json!({"settlement": {"left": left, "right": right}});
+    request["geometry"] = json!(geometry);
+    solve(&request)
+}
+
+/// Of stone of 2300 kg/m3.
+fn weight_of(arch: Value) -> f64 {
+    let mut request = ask(arch, ROUGH, &[]);
+    request["stone"]["density_kg_m3"] = json!(2300.0);
+    analysis(&request).unwrap().fixed.iter().map(|f| f.force.norm()).sum()
+}
+
+fn parting(arch: Value, each: f64, geometry: &str) -> CollapseReport {
+    settled(arch, json!({"outwards_m": each}), json!({"outwards_m": each}), geometry)
+}
+
+fn first_order(report: &CollapseReport) -> &SettlementPath {
+    &report.settlement.as_ref().unwrap().first_order
+}
+
+fn updated(report: &CollapseReport) -> &SettlementPath {
+    report.settlement.as_ref().unwrap().updated.as_ref().unwrap()
+}
+
+fn thrust(path: &SettlementPath) -> f64 {
+    path.points.last().unwrap().thrust
+}
+
+/// `thrust_range.json` (derived and checked there): least and greatest thrust over the weight, continuous joints.
+const THRUSTS: [(f64, f64, [f64; 2]); 9] = [
+    (90.0, 0.12, [0.190828, 0.207004]),
+    (90.0, 0.15, [0.175873, 0.226976]),
+    (90.0, 0.2, [0.154042, 0.254554]),
+    (80.0, 0.15, [0.197857, 0.314927]),
+    (70.0, 0.1, [0.259573, 0.378587]),
+    (60.0, 0.1, [0.302835, 0.507605]),
+    (60.0, 0.05, [0.353895, 0.441552]),
+    (45.0, 0.1, [0.394605, 0.889544]),
+    (30.0, 0.05, [0.641035, 1.469093]),
+];
+
+#[test]
+fn springings_that_part_or_approach_find_the_least_and_the_greatest_thrust() {
+    println!("half opening  t/R   least, path and window (share of the weight)   greatest");
+    for (half, t, expected) in THRUSTS {
+        let arch = continuous(half, t);
+        let weight = weight_of(arch.clone());
+        for (way, each) in [0.02, -0.02].into_iter().enumerate() {
+            let report = parting(arch.clone(), each, "first_order");
+            let range = report.thrust_range.unwrap();
+            let limit = [range.lowest, range.highest][way];
+            let path = first_order(&report);
+            assert_eq!((path.end, report.outcome), (SettlementEnd::Follows, Outcome::FollowsMovement));
+            println!("{half} {t} {:.9} {:.9} {}", thrust(path) / weight, limit / weight, expected[way]);
+            assert!((thrust(path) / limit - 1.0).abs() < 1e-6, "{half} {t}: {} not {limit}", thrust(path));
+            assert!((thrust(path) / weight / expected[way] - 1.0).abs() < 3e-3);
+            assert_eq!(path.mechanism.hinges.len(), 3 + usize::from(path.mechanism.hinges.len() > 3));
+        }
+    }
+}
+
+/// `spreading_supports.json` (statics of the moved three-hinge arch): half opening, t/R, voussoirs, spread at collapse, m
+/// for a mean radius of 1 m.
+const SPREADS: [(f64, f64, usize, f64); 5] = [
+    (90.0, 0.15, 20, 0.108202),
+    (90.0, 0.2, 20, 0.305357),
+    (80.0, 0.15, 16, 0.214378),
+    (60.0, 0.1, 16, 0.146627),
+    (45.0, 0.1, 12, 0.146627),
+];
+
+#[test]
+fn parting_springings_bring_the_arch_down_at_a_finite_spread() {
+    for (half, t, count, expected) in SPREADS {
+        let report = parting(circular(half, t, count), 0.2, "updated");
+        let path = updated(&report);
+        let spread = 0.4 * path.share;
+        println!(
+            "{half} {t} {count}: {spread:.6}, expected {expected}, snaps first at {:?}",
+            path.snap.map(|s| 0.4 * s)
+        );
+        assert_eq!((path.end, report.outcome), (SettlementEnd::Collapse, Outcome::FallsByMovement));
+        assert!((spread / expected - 1.0).abs() < 1e-3, "{half} {t}: {spread} not {expected}");
+        assert!(path.residual < 1e-8);
+        let limit = report.thrust_range.unwrap().lowest;
+        assert!((thrust(first_order(&report)) / limit - 1.0).abs() < 1e-6);
+    }
+}
+
+#[test]
+fn the_thrust_grows_with_the_spread_as_statics_of_the_moved_arch_say() {
+    let report = parting(circular(90.0, 0.15, 20), 0.2, "updated");
+    let weight = weight_of(circular(90.0, 0.15, 20));
+    let points = &updated(&report).points;
+    // The elastic arch needs some thousandths of a millimetre before it has opened its hinges.
+    for (spread, expected) in [(1e-4, 0.175635), (0.02, 0.183968), (0.05, 0.197898), (0.08, 0.213968), (0.1, 0.226191)]
+    {
+        let after = points.iter().position(|p| 0.4 * p.share >= spread).unwrap();
+        let (a, b) = (&points[after - 1], &points[after]);
+        let thrust = a.thrust + (b.thrust - a.thrust) * (spread / 0.4 - a.share) / (b.share - a.share);
+        assert!((thrust / weight / expected - 1.0).abs() < 1e-3, "{spread}: {} not {expected}", thrust / weight);
+    }
+}
+
+/// A three-hinge arch follows any movement of its springings; its thrust is one of those that limit analysis allows.
+#[test]
+fn springings_that_settle_or_turn_keep_the_thrust_within_its_range() {
+    for left in [
+        json!({"downwards_m": 0.03}),
+        json!({"downwards_m": -0.03}),
+        json!({"rotation_deg": 2}),
+        json!({"rotation_deg": -2}),
+        json!({"outwards_m": 0.01, "downwards_m": 0.02, "rotation_deg": 1}),
+    ] {
+        let report = settled(circular(75.0, 0.12, 21), left.clone(), json!({}), "first_order");
+        let (path, range) = (first_order(&report), report.thrust_range.unwrap());
+        assert_eq!(path.end, SettlementEnd::Follows, "{left}");
+        for point in &path.points {
+            let slack = 1e-6 * range.highest;
+            assert!((range.lowest - slack..=range.highest + slack).contains(&point.thrust), "{left}: {}", point.thrust);
+            let weight = point.left + point.right.unwrap();
+            assert!((weight / (path.points[0].left + path.points[0].right.unwrap()) - 1.0).abs() < 1e-8);
+        }
+    }
+}
+
+#[test]
+fn half_an_arch_spreads_as_the_whole_does() {
+    let mut half = circular(90.0, 0.15, 20);
+    half["half"] = json!(true);
+    for geometry in ["first_order", "updated"] {
+        let whole = parting(circular(90.0, 0.15, 20), 0.2, geometry);
+        let half = settled(half.clone(), json!({"outwards_m": 0.2}), json!({}), geometry);
+        let (a, b) = match geometry {
+            "updated" => (updated(&whole), updated(&half)),
+            _ => (first_order(&whole), first_order(&half)),
+        };
+        assert!((a.share / b.share - 1.0).abs() < 1e-5 && (thrust(a) / thrust(b) - 1.0).abs() < 1e-5);
+    }
+}
+
+/// A left springing that opens its intrados turns clockwise, and the stone on it with it unless their joint opens there.
+#[test]
+fn a_springing_that_turns_takes_its_stone_along() {
+    for rotation in [3.0f64, -3.0] {
+        let turned = settled(circular(90.0, 0.2, 20), json!({"rotation_deg": rotation}), json!({}), "first_order");
+        let path = first_order(&turned);
+        let pressed = if rotation > 0.0 { Face::Extrados } else { Face::Intrados };
+        let [.., stone] = path.displacements[0];
+        match path.mechanism.hinges.iter().find(|hinge| hinge.joint == 0) {
+            Some(hinge) => assert_eq!(hinge.face, pressed),
+            None => assert!((stone / -rotation.to_radians() - 1.0).abs() < 1e-2, "{rotation}: {stone}"),
+        }
+    }
+}
+
+#[test]
+fn what_cannot_move_is_said() {
+    let fault = |change: &dyn Fn(&mut Value)| {
+        let mut request = ask(circular(90.0, 0.15, 20), ROUGH, &[]);
+        request["analysis"] = json!({"settlement": {"left": {"outwards_m": 0.1}}});
+        change(&mut request);
+        analysis(&request).unwrap_err()
+    };
+    assert!(fault(&|r| r["analysis"]["settlement"] = json!({})).starts_with("/analysis/settlement: nothing moves"));
+    assert!(fault(&|r| r["loads"][0]["scaled"] = json!(true)).starts_with("/loads/0/scaled: "));
+    assert!(fault(&|r| r["analysis"]["settlement"]["left"]["outwards_m"] = json!(3)).contains("size of the arch"));
+    assert!(fault(&|r| r["analysis"]["settlement"]["right"] = json!({"rotation_deg": 91})).contains("90 degrees"));
+    assert!(
+        fault(&|r| {
+            r["arch"]["half"] = json!(true);
+            r["analysis"]["settlement"]["right"] = json!({"outwards_m": 0.1});
+        })
+        .starts_with("/analysis/settlement/right: the other half")
+    );
+    assert!(fault(&|r| r["report"] = json!({"stress_fields": ["unit_load"]})).starts_with("/report/stress_fields: "));
+    let steps = json!({"fixed_steps": {"step": 1.0}});
+    assert!(fault(&|r| r["method"] = steps.clone()).starts_with("/method: "));
+}
