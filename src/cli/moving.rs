@@ -16,6 +16,9 @@ pub fn headline(settlement: &SettlementBody) -> String {
             "At first order the arch follows its springings; only on updated geometry can they bring it down.".into()
         }
         (SettlementEndWord::Collapse, _) => format!("The arch falls when its springings have moved by {share}."),
+        (SettlementEndWord::FallsAsLoaded, _) => {
+            "On updated geometry the arch falls under its loads before its springings move.".into()
+        }
         (SettlementEndWord::CannotTell, _) => "No answer: the movement could not be followed.".into(),
     }
 }
@@ -44,7 +47,11 @@ fn on_moving_geometry(result: &AnalysisResult, updated: &UpdatedBody) -> String 
             let mode = updated.mode.map(|mode| format!(" ({})", word(&mode))).unwrap_or_default();
             format!("collapse at {at}{mode}{}{}", over.unwrap_or_default(), snap.unwrap_or_default())
         }
-        UpdatedEndWord::FallsAsLoaded => "falls while its geometry moves under the loads at the start".into(),
+        UpdatedEndWord::FallsAsLoaded => {
+            let share =
+                updated.share_of_loads.map(|share| format!("{} % of ", Digits(100.0 * share))).unwrap_or_default();
+            format!("falls under {share}the loads at the start of the path")
+        }
         UpdatedEndWord::StandsToCap => format!("stands up to {at}, the cap"),
         UpdatedEndWord::BeyondModel => format!("stands up to {at}, where it is strained or moved beyond the model"),
         UpdatedEndWord::CannotTell => "could not be followed".into(),
@@ -56,6 +63,7 @@ fn path(path: &SettlementPathBody) -> String {
     let end = match path.end {
         SettlementEndWord::Follows => "follows the whole movement".to_owned(),
         SettlementEndWord::Collapse => format!("falls at {share} % of the movement"),
+        SettlementEndWord::FallsAsLoaded => return "falls under its loads before any movement".to_owned(),
         SettlementEndWord::CannotTell => format!("lost at {share} % of the movement"),
     };
     let hinges: Vec<_> = path.hinges.iter().map(|hinge| hinge.joint.to_string()).collect();

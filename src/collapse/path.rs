@@ -3,8 +3,12 @@
 use super::discretise::{Model, Scatter};
 use super::record::Recorder;
 use crate::arch::PointForce;
-use crate::dda::{Drive, End, Peak, Tracer, covering};
+use crate::dda::{Drive, End, Patience, Peak, Tracer, covering};
 use std::ops::ControlFlow;
+
+/// An arch falls that has to give up this share of its load to stay in equilibrium, or to move by this share of its size
+/// before it can carry more. Shorter dips are snaps.
+pub(super) const FALLEN: [f64; 2] = [0.1, 0.01];
 
 /// Scaled loads whose resultants on every stone are below this share of their sizes cancel.
 const CANCELS: f64 = 1e-12;
@@ -68,6 +72,58 @@ pub(super) fn stand<'a>(
     let mut tracer = Tracer::new(&model.chain, covering(&model.chain, &target, preload), model.size, load_scale);
     let end = tracer.trace(1.0, see);
     (tracer, end)
+}
+
+/// How much of the loads at the start is brought on at first order before geometry moves: what they move by then is small.
+const FIRST_SHARE: f64 = 0.1;
+
+/// Whether the arch stands where its loads have moved it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Moved {
+    /// It does.
+    Stands,
+    /// It falls when this share of the loads has come on.
+    Falls(f64),
+    /// It does not stand at first order.
+    FallsAsBuilt,
+    /// Asked to stop.
+    Stopped,
+    /// The path could not be followed.
+    Lost,
+}
+
+/// Brings the chain to the loads at load factor `start` on moving geometry, all loads growing together.
+pub(super) fn stand_moved<'a>(
+    model: &'a Model,
+    fixed: &[f64],
+    start: f64,
+    load_scale: f64,
+    see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>,
+) -> (Tracer<'a>, Moved) {
+    let little: Vec<f64> = fixed.iter().map(|load| load * FIRST_SHARE).collect();
+    let (mut tracer, end) = stand(model, &little, start * FIRST_SHARE, load_scale, see);
+    match end {
+        End::Reached => {}
+        End::Stopped => return (tracer, Moved::Stopped),
+        End::Mechanism => return (tracer, Moved::FallsAsBuilt),
+        End::Rising | End::Lost => return (tracer, Moved::Lost),
+    }
+    let zeros = vec![0.0; fixed.len()];
+    let turned = model.fixed.turned.iter().zip(&model.scaled.turned).map(|(f, s)| f + s * start).collect();
+    let drive =
+        Drive { base: zeros.clone(), rate: at(model, fixed, start), turned: [zeros, turned], ..Drive::default() };
+    let mut end = tracer.move_on(drive, FIRST_SHARE, see);
+    if end == End::Reached {
+        let patience = Patience { fall: FALLEN[0], rise: 1.0, movement: FALLEN[1] };
+        end = tracer.trace_moving(1.0, patience, see);
+    }
+    let moved = match end {
+        End::Reached => Moved::Stands,
+        End::Mechanism if tracer.return_to_peak() => Moved::Falls(tracer.parameter()),
+        End::Stopped => Moved::Stopped,
+        _ => Moved::Lost,
+    };
+    (tracer, moved)
 }
 
 /// Where a path went after its peak.

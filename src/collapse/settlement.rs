@@ -6,7 +6,7 @@
 
 use super::certificate::UNBALANCED;
 use super::discretise::{Model, discretise};
-use super::path::{ATTEMPTS, Attempt, disturbed, stand};
+use super::path::{ATTEMPTS, Attempt, Moved, disturbed, stand, stand_moved};
 use super::{
     Analysis, AnalysisError, Cost, Geometry, LoadStep, SettlementEnd, SettlementPath, SettlementPoint,
     SettlementReport, SpringingMovement, Watch, ending,
@@ -63,50 +63,55 @@ fn attempt(
         reached.set(share);
         watch.on_step(&LoadStep { load_factor: share, events: tracer.events() }).map_break(|_| ())
     };
-    let (mut tracer, end) = stand(&model, &base, 0.0, weight, &mut |t| see(t, 0.0));
-    let mut stopped = end == End::Stopped;
-    if !stopped && end != End::Reached {
-        cost.add(&tracer, Cost::default());
-        return Ok(None);
-    }
-    let zeros = vec![0.0; base.len()];
-    let ground = ground(&analysis.arch, movements);
-    let drive =
-        Drive { base, rate: zeros.clone(), turned: [model.fixed.turned.clone(), zeros], ground, ..Drive::default() };
-    let mut points = Vec::new();
-    let mut record = |tracer: &Tracer| -> ControlFlow<()> {
-        points.push(point(&model, &analysis.arch, tracer));
-        see(tracer, tracer.parameter())
-    };
-    let mut end = End::Reached;
-    if !stopped {
-        if geometry == Geometry::Updated {
-            end = tracer.move_on(drive, 0.0, &mut |_| ControlFlow::Continue(()));
-            if end == End::Reached {
-                end = tracer.trace_moving(1.0, PATIENCE, &mut record);
-            }
-        } else {
-            tracer.drive_on(drive, 0.0);
-            end = tracer.trace(1.0, &mut record);
+    let (mut tracer, stood) = match geometry {
+        Geometry::FirstOrder => {
+            let (tracer, end) = stand(&model, &base, 0.0, weight, &mut |t| see(t, 0.0));
+            let stood = match end {
+                End::Reached => Moved::Stands,
+                End::Stopped => Moved::Stopped,
+                _ => Moved::FallsAsBuilt,
+            };
+            (tracer, stood)
         }
-        stopped = end == End::Stopped;
+        Geometry::Updated => stand_moved(&model, &base, 0.0, weight, &mut |t| see(t, 0.0)),
+    };
+    let ground = ground(&analysis.arch, movements);
+    let mut points = Vec::new();
+    let mut end = if stood == Moved::Stopped { End::Stopped } else { End::Lost };
+    if stood == Moved::Stands {
+        let zeros = vec![0.0; base.len()];
+        let turned = [model.fixed.turned.clone(), zeros.clone()];
+        tracer.drive_on(Drive { base, rate: zeros, turned, ground, ..Drive::default() }, 0.0);
+        let mut record = |tracer: &Tracer| -> ControlFlow<()> {
+            points.push(point(&model, &analysis.arch, tracer));
+            see(tracer, tracer.parameter())
+        };
+        end = match geometry {
+            Geometry::FirstOrder => tracer.trace(1.0, &mut record),
+            Geometry::Updated => tracer.trace_moving(1.0, PATIENCE, &mut record),
+        };
     }
     cost.add(&tracer, Cost::default());
-    if stopped {
+    if end == End::Stopped {
         return Err(AnalysisError::Stopped { load_factor: reached.get(), events: tracer.events() });
     }
+    if stood == Moved::FallsAsBuilt {
+        return Ok(None);
+    }
     let falls = end == End::Mechanism && tracer.return_to_peak();
-    points.retain(|at| at.share < tracer.parameter());
+    let reached = if stood == Moved::Stands { tracer.parameter() } else { 0.0 };
+    points.retain(|at| at.share < reached);
     points.push(point(&model, &analysis.arch, &tracer));
     let end = match end {
         _ if tracer.worst_residual() > UNBALANCED => SettlementEnd::CannotTell,
+        _ if matches!(stood, Moved::Falls(_)) => SettlementEnd::FallsAsLoaded,
         End::Reached => SettlementEnd::Follows,
         End::Mechanism if falls => SettlementEnd::Collapse,
         _ => SettlementEnd::CannotTell,
     };
     Ok(Some(SettlementPath {
         end,
-        share: tracer.parameter(),
+        share: reached,
         points,
         mechanism: ending::at_rates(analysis, &model, &tracer),
         thrust_line: ending::carried_by(analysis, &model, &tracer),

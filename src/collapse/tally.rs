@@ -98,7 +98,8 @@ impl CollapseReport {
         for field in &self.stress_fields {
             finite("stress field", Box::new(field.subblocks.iter().flat_map(|s| s.stress)))?;
         }
-        let updated = self.updated.iter().flat_map(|u| [u.load_factor, u.largest, u.crown.map(|c| c.x + c.y)]);
+        let updated =
+            self.updated.iter().flat_map(|u| [u.load_factor, u.share_of_loads, u.largest, u.crown.map(|c| c.x + c.y)]);
         finite("updated geometry", Box::new(updated.flatten()))?;
         for path in self.settlement.iter().flat_map(|s| std::iter::once(&s.first_order).chain(&s.updated)) {
             let points = path.points.iter().flat_map(|p| [p.share, p.thrust, p.left, p.right.unwrap_or(0.0)]);

@@ -2,14 +2,10 @@
 
 use super::certificate::UNBALANCED;
 use super::discretise::{Model, discretise};
-use super::path::{ATTEMPTS, Attempt, disturbed, stand};
+use super::path::{ATTEMPTS, Attempt, FALLEN, Moved, disturbed, stand_moved};
 use super::{Analysis, AnalysisError, Cost, LoadStep, UpdatedEnd, UpdatedGeometry, Watch, ending, mechanism};
 use crate::dda::{Drive, End, Patience, Tracer};
 use std::cell::Cell;
-
-/// An arch falls that has to give up this share of its first-order load to stay in equilibrium, or to move by this share of
-/// its size before it can carry more. Shorter dips are snaps.
-const FALLEN: [f64; 2] = [0.1, 0.01];
 
 /// From where to where the load factor goes.
 #[derive(Debug, Clone, Copy)]
@@ -28,7 +24,8 @@ pub(super) struct Course {
 
 impl Course {
     fn patience(&self) -> Patience {
-        let rise = self.first_order.map_or(0.0, |collapse| (collapse - self.start).abs());
+        // An arch that does not fall at first order has no load to measure a dip by.
+        let rise = self.first_order.map_or(f64::INFINITY, |collapse| (collapse - self.start).abs());
         Patience { fall: FALLEN[0], rise, movement: FALLEN[1] }
     }
 }
@@ -67,31 +64,27 @@ fn attempt(
         reached.set(load_factor);
         watch.on_step(&LoadStep { load_factor, events: tracer.events() }).map_break(|_| ())
     };
-    let (mut tracer, mut end) =
-        stand(&model, &fixed, course.start, course.weight, &mut |t| see(t, course.start * t.parameter()));
-    let mut moved = false;
-    if end == End::Reached {
-        end = tracer
-            .move_on(drive(&model, fixed, course.sign), course.sign * course.start, &mut |t| see(t, course.start));
-        if end == End::Reached {
-            moved = true;
-            end = tracer.trace_moving(course.cap, course.patience(), &mut |t| see(t, course.sign * t.parameter()));
-        }
+    let (mut tracer, stood) = stand_moved(&model, &fixed, course.start, course.weight, &mut |t| see(t, course.start));
+    let mut end = End::Stopped;
+    if stood == Moved::Stands {
+        tracer.drive_on(drive(&model, fixed, course.sign), course.sign * course.start);
+        end = tracer.trace_moving(course.cap, course.patience(), &mut |t| see(t, course.sign * t.parameter()));
     }
     cost.add(&tracer, Cost::default());
-    if end == End::Stopped {
+    if matches!((stood, end), (Moved::Stopped, _) | (Moved::Stands, End::Stopped)) {
         return Err(AnalysisError::Stopped { load_factor: reached.get(), events: tracer.events() });
     }
     let falls = end == End::Mechanism && tracer.return_to_peak();
-    let end = match end {
+    let end = match (stood, end) {
         _ if tracer.worst_residual() > UNBALANCED => UpdatedEnd::CannotTell,
-        End::Mechanism if moved && falls => UpdatedEnd::Collapse,
-        End::Mechanism | End::Rising if !moved => UpdatedEnd::FallsAsLoaded,
-        End::Reached => UpdatedEnd::StandsToCap,
-        End::Rising => UpdatedEnd::BeyondModel,
+        (Moved::Falls(_), _) => UpdatedEnd::FallsAsLoaded,
+        (Moved::Stands, End::Mechanism) if falls => UpdatedEnd::Collapse,
+        (Moved::Stands, End::Reached) => UpdatedEnd::StandsToCap,
+        (Moved::Stands, End::Rising) => UpdatedEnd::BeyondModel,
         _ => UpdatedEnd::CannotTell,
     };
-    Ok(describe(analysis, &model, &tracer, course.sign, end))
+    let share = if let (Moved::Falls(share), UpdatedEnd::FallsAsLoaded) = (stood, end) { Some(share) } else { None };
+    Ok(describe(analysis, &model, &tracer, course.sign, end, share))
 }
 
 fn drive(model: &Model, fixed: Vec<f64>, sign: f64) -> Drive {
@@ -104,31 +97,27 @@ fn drive(model: &Model, fixed: Vec<f64>, sign: f64) -> Drive {
     }
 }
 
-fn describe(analysis: &Analysis, model: &Model, tracer: &Tracer, sign: f64, end: UpdatedEnd) -> UpdatedGeometry {
-    let residual = tracer.worst_residual();
-    if matches!(end, UpdatedEnd::FallsAsLoaded | UpdatedEnd::CannotTell) {
-        return UpdatedGeometry {
-            end,
-            load_factor: None,
-            crown: None,
-            largest: None,
-            mechanism: None,
-            snap: None,
-            residual,
-        };
-    }
-    let falls = end == UpdatedEnd::Collapse;
+fn describe(
+    analysis: &Analysis,
+    model: &Model,
+    tracer: &Tracer,
+    sign: f64,
+    end: UpdatedEnd,
+    share: Option<f64>,
+) -> UpdatedGeometry {
+    let known = end != UpdatedEnd::CannotTell;
+    let falls = matches!(end, UpdatedEnd::Collapse | UpdatedEnd::FallsAsLoaded);
     let of = |voussoir: usize| tracer.mean_motion(model.first_voussoir + voussoir).displacement;
     let [left, right] = mechanism::crown(&analysis.arch);
     let largest = (0..model.voussoirs).map(|v| of(v).norm()).fold(0.0, f64::max);
-    let mechanism = falls.then(|| ending::at_rates(analysis, model, tracer));
     UpdatedGeometry {
         end,
-        load_factor: Some(sign * tracer.parameter()),
-        crown: Some(0.5 * (of(left) + of(right))),
-        largest: Some(largest),
-        mechanism,
-        snap: tracer.snap().map(|at| sign * at),
-        residual,
+        load_factor: (known && share.is_none()).then(|| sign * tracer.parameter()),
+        share_of_loads: share,
+        crown: known.then(|| 0.5 * (of(left) + of(right))),
+        largest: known.then_some(largest),
+        mechanism: falls.then(|| ending::at_rates(analysis, model, tracer)),
+        snap: tracer.snap().filter(|_| known && share.is_none()).map(|at| sign * at),
+        residual: tracer.worst_residual(),
     }
 }

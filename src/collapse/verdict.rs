@@ -262,7 +262,7 @@ impl<'a> Question<'a> {
         if report.outcome != Outcome::Crushes {
             report.outcome = match ends.last() {
                 Some(SettlementEnd::Follows) => Outcome::FollowsMovement,
-                Some(SettlementEnd::Collapse) => Outcome::FallsByMovement,
+                Some(SettlementEnd::Collapse | SettlementEnd::FallsAsLoaded) => Outcome::FallsByMovement,
                 Some(SettlementEnd::CannotTell) | None => Outcome::CannotTell,
             };
         }

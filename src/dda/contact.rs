@@ -161,6 +161,20 @@ impl Contact {
         ContactForce { normal, tangential, gap }
     }
 
+    /// State of a point at a gap and a slip, by the law itself.
+    pub fn state_at(&self, [gap, slip]: [f64; 2]) -> State {
+        if self.law == Law::Bonded {
+            return State::Bonded;
+        }
+        if gap >= self.reach.max(0.0) {
+            return State::Open;
+        }
+        let zone = if gap < 0.0 { Zone::Pressed } else { Zone::Adhering };
+        let (trial, capacity) = (self.trial_shear(slip), self.capacity(zone, gap));
+        let sign = if trial < 0.0 { -1.0 } else { 1.0 };
+        if trial.abs() < capacity { State::Stick(zone) } else { State::Slip { sign, zone } }
+    }
+
     /// State in which a pressed point starts.
     pub fn pressed_state(&self) -> State {
         match self.law {
@@ -251,6 +265,20 @@ mod tests {
                 assert!(here.tangential.abs() <= 0.5 * here.normal + cohesion + 1e-12);
             }
             assert_eq!((at(-1e-3, 0.0).normal, at(reach + 1e-9, -1.0).tangential), (10.0, 0.0));
+        }
+    }
+
+    #[test]
+    fn the_state_at_a_gap_and_a_slip_carries_the_force_of_the_law() {
+        for cohesion in [0.0, 3.0] {
+            let c = contact(cohesion);
+            for gap in [-2e-3, -1e-4, 1e-4, 2e-3, 4e-3] {
+                for slip in [-1e-2, -1e-4, 0.0, 1e-5, 1e-2] {
+                    let (by_law, state) = (c.force(gap, slip), c.state_at([gap, slip]));
+                    let [normal, shear] = c.force_in(state, gap, slip);
+                    assert!((normal - by_law.normal).abs() + (shear - by_law.tangential).abs() < 1e-12, "{state:?}");
+                }
+            }
         }
     }
 

@@ -47,12 +47,17 @@ pub fn factor(reach: &Value) -> String {
     }
 }
 
-/// Collapse with updated geometry, first-order collapse beside it.
+/// Load factor of collapse on moving geometry, or how its path ends; `-` where the arch does not stand at first order.
 pub fn updated_geometry(request: &Value) -> String {
     let mut request = request.clone();
     request["geometry"] = json!("updated");
-    let intensity = answered(&request).map(|answer| number(&answer, "/updated_geometry/intensity"));
-    intensity.filter(|i| i.is_finite()).map_or("-".to_owned(), |i| format!("{i:.3}"))
+    let updated = &solve(&request)["updated_geometry"];
+    match (updated["end"].as_str(), updated["load_factor"].as_f64()) {
+        (Some("collapse"), Some(factor)) => format!("{factor:.3}"),
+        (Some(end), Some(factor)) => format!("{} ({factor:.3})", end.replace('_', " ")),
+        (Some(end), None) => end.replace('_', " "),
+        (None, _) => "-".to_owned(),
+    }
 }
 
 /// Hinges of the left half and the crown: angle from the springing in degrees, and the face that opens.

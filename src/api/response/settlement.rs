@@ -15,6 +15,8 @@ pub enum SettlementEndWord {
     Follows,
     /// The arch falls before the movement is complete.
     Collapse,
+    /// On moving geometry the arch falls under its loads before any movement.
+    FallsAsLoaded,
     /// The path could not be followed.
     CannotTell,
 }
@@ -127,6 +129,7 @@ impl From<SettlementEnd> for SettlementEndWord {
         match end {
             SettlementEnd::Follows => SettlementEndWord::Follows,
             SettlementEnd::Collapse => SettlementEndWord::Collapse,
+            SettlementEnd::FallsAsLoaded => SettlementEndWord::FallsAsLoaded,
             SettlementEnd::CannotTell => SettlementEndWord::CannotTell,
         }
     }

@@ -13,7 +13,7 @@ use utoipa::ToSchema;
 pub enum UpdatedEndWord {
     /// The arch falls at the highest load of the path.
     Collapse,
-    /// The arch falls while its geometry moves under the loads at the start of the path.
+    /// The arch falls before the loads at the start of the path have come on in full.
     FallsAsLoaded,
     /// Stands up to the cap.
     StandsToCap,
@@ -34,6 +34,8 @@ pub struct UpdatedBody {
     pub load_factor: Option<f64>,
     /// Load factor over that of the first-order collapse; null where either is missing.
     pub over_first_order: Option<f64>,
+    /// Share of the loads at the start of the path under which the arch falls as they come on together; null otherwise.
+    pub share_of_loads: Option<f64>,
     /// Displacement of the crown at that load, to the right and upwards.
     pub crown_displacement_m: Option<[f64; 2]>,
     /// Largest displacement of a stone's centroid at that load.
@@ -61,6 +63,7 @@ impl UpdatedBody {
             intensity: updated.load_factor.map(|factor| scale.intensity(factor)),
             load_factor: updated.load_factor,
             over_first_order: over.filter(|over| over.is_finite()),
+            share_of_loads: updated.share_of_loads,
             crown_displacement_m: updated.crown.map(Into::into),
             largest_displacement_m: updated.largest,
             mode: mechanism.map(|mechanism| mechanism.mode.into()),

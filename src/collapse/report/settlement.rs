@@ -9,6 +9,8 @@ pub enum SettlementEnd {
     Follows,
     /// The arch falls before the movement is complete.
     Collapse,
+    /// On moving geometry the arch falls under its loads before any movement.
+    FallsAsLoaded,
     /// The path could not be followed.
     CannotTell,
 }

@@ -8,7 +8,7 @@ use crate::geometry::Vec2;
 pub enum UpdatedEnd {
     /// The arch falls at the highest load of the path.
     Collapse,
-    /// The arch falls while its geometry moves under the loads at the start of the path.
+    /// The arch falls before the loads at the start of the path have come on in full.
     FallsAsLoaded,
     /// Stands up to the cap.
     StandsToCap,
@@ -25,6 +25,8 @@ pub struct UpdatedGeometry {
     pub end: UpdatedEnd,
     /// Load factor there: at collapse, or the highest at which the arch is known to stand.
     pub load_factor: Option<f64>,
+    /// Share of the loads at the start under which the arch falls as they come on, where it does.
+    pub share_of_loads: Option<f64>,
     /// Displacement of the crown at that load, m.
     pub crown: Option<Vec2>,
     /// Largest displacement of any stone's centroid there, m.

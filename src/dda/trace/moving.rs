@@ -46,6 +46,11 @@ impl Tracer<'_> {
     /// are out of balance there are let go step by step.
     pub fn move_on(&mut self, drive: Drive, parameter: f64, see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>) -> End {
         (self.drive, self.parameter, self.moving) = (drive.clone(), parameter, Some(Placed::new(self.chain)));
+        // Gaps on moving geometry differ from those at first order, and so may states.
+        self.find_residual();
+        for (p, contact) in self.chain.contacts().iter().enumerate() {
+            self.states[p] = contact.state_at(self.gaps[p]);
+        }
         if self.find_residual() < EQUILIBRIUM {
             return End::Reached;
         }
@@ -184,8 +189,9 @@ impl Tracer<'_> {
     fn is_over(&mut self, start: f64, patience: Patience) -> Option<End> {
         if let Some(peak) = &self.peak {
             let moved = farthest(&self.displacements, &peak.displacements);
+            let below = self.parameter < peak.parameter;
             let fall = (peak.parameter - self.parameter) / (peak.parameter - start).max(patience.rise);
-            let beyond = |most: [f64; 2]| fall > most[0] || (fall > 0.0 && moved > most[1] * self.size);
+            let beyond = |most: [f64; 2]| below && (fall > most[0] || moved > most[1] * self.size);
             if beyond([patience.fall, patience.movement]) {
                 return Some(End::Mechanism);
             }
