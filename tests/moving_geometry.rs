@@ -45,7 +45,10 @@ fn limit_point(chain: &Chain, push: Push, size: f64) -> (f64, usize) {
     };
     let mut tracer = Tracer::new(chain, drive.clone(), size, push.force.norm());
     assert_eq!(tracer.move_on(drive, 0.0, &mut watch), End::Reached);
-    assert_eq!(tracer.trace_moving(1e9, Patience { fall: 0.1, rise: 0.0, movement: 0.05 }, &mut watch), End::Mechanism);
+    assert_eq!(
+        tracer.trace_moving(1e9, Patience { fall: 0.1, rise: 0.0, movement: [0.0, 0.05] }, &mut watch),
+        End::Mechanism
+    );
     assert!(tracer.worst_residual() < 1e-8);
     (tracer.peak().unwrap().parameter, tracer.factorisations())
 }

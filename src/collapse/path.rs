@@ -6,9 +6,10 @@ use crate::arch::PointForce;
 use crate::dda::{Drive, End, Patience, Peak, Tracer, covering};
 use std::ops::ControlFlow;
 
-/// An arch falls that has to give up this share of its load to stay in equilibrium, or to move by this share of its size
-/// before it can carry more. Shorter dips are snaps.
-pub(super) const FALLEN: [f64; 2] = [0.1, 0.01];
+/// An arch falls that has to give up this share of its load to stay in equilibrium, if it moves visibly as it does; or to move
+/// by the second of these shares of its size before it can carry more. Shorter dips are snaps.
+pub(super) const FALLEN: f64 = 0.1;
+pub(super) const MOVED: [f64; 2] = [0.002, 0.01];
 
 /// Scaled loads whose resultants on every stone are below this share of their sizes cancel.
 const CANCELS: f64 = 1e-12;
@@ -114,7 +115,7 @@ pub(super) fn stand_moved<'a>(
         Drive { base: zeros.clone(), rate: at(model, fixed, start), turned: [zeros, turned], ..Drive::default() };
     let mut end = tracer.move_on(drive, FIRST_SHARE, see);
     if end == End::Reached {
-        let patience = Patience { fall: FALLEN[0], rise: 1.0, movement: FALLEN[1] };
+        let patience = Patience { fall: FALLEN, rise: 1.0, movement: [0.0, MOVED[1]] };
         end = tracer.trace_moving(1.0, patience, see);
     }
     let moved = match end {

@@ -19,7 +19,7 @@ use std::ops::ControlFlow;
 
 /// The springings stay where they are while stones find another seat: hinges may move from joint to joint, and a joint that
 /// has opened far takes far to close.
-const PATIENCE: Patience = Patience { fall: 0.9, rise: 0.0, movement: 0.2 };
+const PATIENCE: Patience = Patience { fall: 0.9, rise: 0.0, movement: [0.0, 0.2] };
 
 /// Follows the movement; the work is added to `cost`. None where the arch does not stand before it.
 ///

@@ -2,10 +2,14 @@
 
 use super::certificate::UNBALANCED;
 use super::discretise::{Model, discretise};
-use super::path::{ATTEMPTS, Attempt, FALLEN, Moved, disturbed, stand_moved};
+use super::path::{ATTEMPTS, Attempt, FALLEN, MOVED, Moved, disturbed, stand_moved};
 use super::{Analysis, AnalysisError, Cost, LoadStep, UpdatedEnd, UpdatedGeometry, Watch, ending, mechanism};
 use crate::dda::{Drive, End, Patience, Tracer};
 use std::cell::Cell;
+
+/// Note on stones that are one subblock thick.
+pub(super) const UNBENT: &str = "On moving geometry stones that are one subblock thick do not bend; only their joints give. \
+     With soft stone the arch then seems stronger than it is: compare a mesh of at least 2 x 2.";
 
 /// From where to where the load factor goes.
 #[derive(Debug, Clone, Copy)]
@@ -16,17 +20,16 @@ pub(super) struct Course {
     pub sign: f64,
     /// Largest absolute load factor to try.
     pub cap: f64,
-    /// Load factor of collapse at first order, where there is one.
-    pub first_order: Option<f64>,
+    /// How much the load factor rises at first order; where there is no end to it, by how much loads as large as those at
+    /// the start would raise it. Dips are measured by it.
+    pub rise: f64,
     /// Sum of all loads at the start, N/m.
     pub weight: f64,
 }
 
 impl Course {
     fn patience(&self) -> Patience {
-        // An arch that does not fall at first order has no load to measure a dip by.
-        let rise = self.first_order.map_or(f64::INFINITY, |collapse| (collapse - self.start).abs());
-        Patience { fall: FALLEN[0], rise, movement: FALLEN[1] }
+        Patience { fall: FALLEN, rise: self.rise, movement: MOVED }
     }
 }
 

@@ -66,6 +66,10 @@ pub(super) fn run(analysis: &Analysis, watch: &mut dyn Watch) -> Result<Collapse
         report.notes.push(doubt.to_string());
     }
     report.settle_fields(analysis);
+    let unbent = analysis.mesh.subblocks.iter().any(|[radial, _]| *radial == 1);
+    if analysis.geometry == Geometry::Updated && unbent && report.at_start.is_some() {
+        report.notes.push(updated::UNBENT.into());
+    }
     report.updated = question.updated(&mut report, watch)?;
     match analysis.aim {
         Aim::Collapse => safety::crushed_at_start(&mut report),
@@ -239,9 +243,10 @@ impl<'a> Question<'a> {
         if self.analysis.geometry == Geometry::FirstOrder || !stands || settles {
             return Ok(None);
         }
-        let first_order = report.end.as_ref().map(|end| end.load_factor);
         let (start, sign, cap, weight) = (self.start, self.sign, self.cap, self.weight);
-        let course = Course { start, sign, cap, first_order, weight };
+        let as_much = weight / total(&self.analysis.scaled).max(f64::MIN_POSITIVE);
+        let rise = report.end.as_ref().map_or(as_much, |end| (end.load_factor - start).abs());
+        let course = Course { start, sign, cap, rise, weight };
         updated::follow(self.analysis, course, &mut report.cost, watch).map(Some)
     }
 

@@ -20,7 +20,7 @@ const NEAR: f64 = 2e-5;
 const HALVINGS: usize = 40;
 /// A path has at most so many steps that end at no change of state; real ones have some hundreds.
 const MOST_STEPS: usize = 1000;
-/// A path that is lost after it has fallen by this share, or moved by this share of its size, has fallen.
+/// A path that is lost after it has fallen by this share and moved a little, or moved by this share of its size, has ended.
 const SURE: [f64; 2] = [0.1, 0.01];
 /// A snap is worth telling where the parameter falls by this share of what it rose.
 const SNAP: f64 = 0.01;
@@ -33,12 +33,12 @@ const STRAINED: f64 = 0.02;
 /// seat.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Patience {
-    /// Fall of the parameter, as a share of what it rose.
+    /// Fall of the parameter, as a share of what it rose, that counts together with a small movement.
     pub fall: f64,
     /// Rises smaller than this count as this.
     pub rise: f64,
-    /// Movement of the chain, as a share of its size.
-    pub movement: f64,
+    /// Movements of the chain, as shares of its size: the small one, and the one that counts alone.
+    pub movement: [f64; 2],
 }
 
 impl Tracer<'_> {
@@ -71,7 +71,7 @@ impl Tracer<'_> {
         };
         debug_assert!(parameter == 0.0 || ground.iter().all(|g| g.is_still()), "the ground starts at rest");
         self.parameter = 0.0;
-        let end = self.trace_moving(1.0, Patience { fall: f64::INFINITY, rise: 1.0, movement: SURE[1] }, see);
+        let end = self.trace_moving(1.0, Patience { fall: f64::INFINITY, rise: 1.0, movement: [0.0, SURE[1]] }, see);
         (self.drive, self.parameter, self.peak) = (drive, parameter, None);
         end
     }
@@ -191,11 +191,13 @@ impl Tracer<'_> {
             let moved = farthest(&self.displacements, &peak.displacements);
             let below = self.parameter < peak.parameter;
             let fall = (peak.parameter - self.parameter) / (peak.parameter - start).max(patience.rise);
-            let beyond = |most: [f64; 2]| below && (fall > most[0] || moved > most[1] * self.size);
-            if beyond([patience.fall, patience.movement]) {
+            let moved = moved / self.size;
+            let [little, far] = patience.movement;
+            let beyond = |most: f64, far: f64| below && (moved > far || (fall > most && moved > little));
+            if beyond(patience.fall, far) {
                 return Some(End::Mechanism);
             }
-            self.fallen = beyond(SURE);
+            self.fallen = beyond(SURE[0], SURE[1]);
             if fall > SNAP {
                 self.dip = self.dip.or(Some(peak.parameter));
             }
