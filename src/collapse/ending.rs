@@ -92,13 +92,13 @@ pub(super) fn at_rates(analysis: &Analysis, model: &Model, tracer: &Tracer) -> s
         let ends = [contacts.start, contacts.end - 1];
         let [[i, slip_i], [e, slip_e]] = ends.map(|p| tracer.gap_rate(p));
         let turns = (i - e).abs();
-        let [i, e] = match ends.map(|p| forces[p][0] > 0.0) {
-            [true, true] => [0.0, 0.0],
-            [true, false] => [0.0, turns],
-            [false, true] => [turns, 0.0],
-            [false, false] => [i, e],
-        };
-        [[i, slip_i], [e, slip_e]]
+        // An open end slips past the other stone's as the joint turns; what slides is the end that touches.
+        match ends.map(|p| forces[p][0] > 0.0) {
+            [true, true] => [[0.0, slip_i], [0.0, slip_e]],
+            [true, false] => [[0.0, slip_i], [turns, slip_i]],
+            [false, true] => [[turns, slip_e], [0.0, slip_e]],
+            [false, false] => [[i, slip_i], [e, slip_e]],
+        }
     };
     let rates: Vec<_> = (0..arch.joints.len()).map(rates).collect();
     mechanism::from_rates(arch, &motions(model, arch, tracer.direction()), &rates)

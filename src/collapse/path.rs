@@ -93,7 +93,9 @@ pub(super) enum Moved {
     Lost,
 }
 
-/// Brings the chain to the loads at load factor `start` on moving geometry, all loads growing together.
+/// Brings the chain to the loads at load factor `start` on moving geometry: to where it stands at first order, and from
+/// there by letting go what is out of balance on the moved arch. Where that ends in a fall, all loads grow together from a
+/// little, which tells how much of them the arch can bear.
 pub(super) fn stand_moved<'a>(
     model: &'a Model,
     fixed: &[f64],
@@ -101,30 +103,35 @@ pub(super) fn stand_moved<'a>(
     load_scale: f64,
     see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>,
 ) -> (Tracer<'a>, Moved) {
-    let little: Vec<f64> = fixed.iter().map(|load| load * FIRST_SHARE).collect();
-    let (mut tracer, end) = stand(model, &little, start * FIRST_SHARE, load_scale, see);
-    match end {
-        End::Reached => {}
-        End::Stopped => return (tracer, Moved::Stopped),
-        End::Mechanism => return (tracer, Moved::FallsAsBuilt),
-        End::Rising | End::Lost => return (tracer, Moved::Lost),
-    }
     let zeros = vec![0.0; fixed.len()];
-    let turned = model.fixed.turned.iter().zip(&model.scaled.turned).map(|(f, s)| f + s * start).collect();
+    let turned: Vec<f64> = model.fixed.turned.iter().zip(&model.scaled.turned).map(|(f, s)| f + s * start).collect();
     let drive =
         Drive { base: zeros.clone(), rate: at(model, fixed, start), turned: [zeros, turned], ..Drive::default() };
-    let mut end = tracer.move_on(drive, FIRST_SHARE, see);
-    if end == End::Reached {
-        let patience = Patience { fall: FALLEN, rise: 1.0, movement: [0.0, MOVED[1]] };
-        end = tracer.trace_moving(1.0, patience, see);
+    let mut outcome = None;
+    for share in [1.0, FIRST_SHARE] {
+        let little: Vec<f64> = fixed.iter().map(|load| load * share).collect();
+        let (mut tracer, mut end) = stand(model, &little, start * share, load_scale, see);
+        if end == End::Reached {
+            end = tracer.move_on(drive.clone(), share, see);
+            if share < 1.0 && end == End::Reached {
+                let patience = Patience { fall: FALLEN, rise: 1.0, movement: [0.0, MOVED[1]] };
+                end = tracer.trace_moving(1.0, patience, see);
+            }
+        } else if end == End::Mechanism {
+            return (tracer, Moved::FallsAsBuilt);
+        }
+        let moved = match end {
+            End::Reached => Moved::Stands,
+            End::Stopped => Moved::Stopped,
+            End::Mechanism if share < 1.0 && tracer.return_to_peak() => Moved::Falls(tracer.parameter()),
+            _ => Moved::Lost,
+        };
+        if matches!(moved, Moved::Stands | Moved::Stopped) {
+            return (tracer, moved);
+        }
+        outcome = Some((tracer, moved));
     }
-    let moved = match end {
-        End::Reached => Moved::Stands,
-        End::Mechanism if tracer.return_to_peak() => Moved::Falls(tracer.parameter()),
-        End::Stopped => Moved::Stopped,
-        _ => Moved::Lost,
-    };
-    (tracer, moved)
+    outcome.unwrap_or_else(|| (Tracer::new(&model.chain, drive, model.size, load_scale), Moved::Lost))
 }
 
 /// Where a path went after its peak.

@@ -19,7 +19,7 @@ use std::ops::ControlFlow;
 
 /// The springings stay where they are while stones find another seat: hinges may move from joint to joint, and a joint that
 /// has opened far takes far to close.
-const PATIENCE: Patience = Patience { fall: 0.9, rise: 0.0, movement: [0.0, 0.2] };
+const PATIENCE: Patience = Patience { fall: 0.9, rise: 1.0, movement: [0.02, 0.2] };
 
 /// Follows the movement; the work is added to `cost`. None where the arch does not stand before it.
 ///
@@ -100,13 +100,14 @@ fn attempt(
     }
     let falls = end == End::Mechanism && tracer.return_to_peak();
     let reached = if stood == Moved::Stands { tracer.parameter() } else { 0.0 };
-    points.retain(|at| at.share < reached);
+    let peak = points.iter().position(|at| at.share >= reached);
+    points.truncate(peak.unwrap_or(points.len()));
     points.push(point(&model, &analysis.arch, &tracer));
     let end = match end {
         _ if tracer.worst_residual() > UNBALANCED => SettlementEnd::CannotTell,
         _ if matches!(stood, Moved::Falls(_)) => SettlementEnd::FallsAsLoaded,
         End::Reached => SettlementEnd::Follows,
-        End::Mechanism if falls => SettlementEnd::Collapse,
+        End::Mechanism if falls && geometry == Geometry::Updated => SettlementEnd::Collapse,
         _ => SettlementEnd::CannotTell,
     };
     Ok(Some(SettlementPath {

@@ -77,7 +77,9 @@ fn attempt(
     if matches!((stood, end), (Moved::Stopped, _) | (Moved::Stands, End::Stopped)) {
         return Err(AnalysisError::Stopped { load_factor: reached.get(), events: tracer.events() });
     }
-    let falls = end == End::Mechanism && tracer.return_to_peak();
+    // A path that runs back past its start has found the other end of the loads that the arch can bear.
+    let turned_back = tracer.parameter() < course.sign * course.start;
+    let falls = end == End::Mechanism && !turned_back && tracer.return_to_peak();
     let end = match (stood, end) {
         _ if tracer.worst_residual() > UNBALANCED => UpdatedEnd::CannotTell,
         (Moved::Falls(_), _) => UpdatedEnd::FallsAsLoaded,

@@ -83,7 +83,6 @@ pub struct Tracer<'a> {
 
     /// The moving geometry; none on the reference geometry (first order).
     moving: Option<Placed>,
-    linearised_at: Vec<f64>,
     /// Highest parameter before the first dip that is worth telling.
     dip: Option<f64>,
     /// Whether the path lies so far below its peak that it has ended for sure.
@@ -134,7 +133,6 @@ impl<'a> Tracer<'a> {
             rate: 0.0,
             peak: None,
             moving: None,
-            linearised_at: Vec::new(),
             dip: None,
             fallen: false,
             settling: vec![[0.0; 2]; chain.contacts().len()],

@@ -40,7 +40,8 @@ pub struct SettlementPathBody {
     pub share_of_movement: f64,
     /// Horizontal thrust at the end, with which the left springing pushes the arch to the right.
     pub thrust_n_per_m: f64,
-    /// The path, event by event, from the arch as it stands before the movement.
+    /// The path, event by event, from the arch as it stands before the movement to the largest share it reaches. Where the
+    /// share falls in between, the arch snaps into another shape.
     pub history: SettlementColumns,
     /// How the crown goes on at the end.
     pub mode: ModeWord,

@@ -10,7 +10,7 @@ const MAX_PLACES: usize = 60_000;
 /// What is asked of the motion of so many voussoirs, where it is.
 pub fn motion(request: &AnalysisRequest, voussoirs: usize, faults: &mut Faults) -> Option<MotionAsked> {
     let asked = request.motion.as_ref()?;
-    let detail = "a safety analysis shows no motion: leave it out, or set analysis to `collapse`";
+    let detail = "only an analysis of collapse shows a motion: leave it out, or set analysis to `collapse`";
     faults.require(request.analysis == AimRequest::Collapse, "/motion", detail);
     let frames = asked.most_frames;
     let detail = format!("{frames} frames: give 1 to {MAX_MOTION_FRAMES}");

@@ -14,7 +14,7 @@ use std::ops::ControlFlow;
 /// Longest step between two linearisations, as a share of the chain's size: joints of slender stones then turn by a
 /// degree at most.
 const LONGEST: f64 = 2e-3;
-/// An event so close to the place of the last linearisation, as a share of the size, does without a new one.
+/// Limit points are not looked for in steps shorter than this share of the size.
 const NEAR: f64 = 2e-5;
 /// So many halvings of a step in a row mean that the path is lost.
 const HALVINGS: usize = 40;
@@ -85,14 +85,45 @@ impl Tracer<'_> {
         patience: Patience,
         see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>,
     ) -> End {
+        let (start, begun) = (self.parameter, self.clone());
+        let end = self.trace_one_way(target, patience, 1.0, see);
+        if end != End::Mechanism || self.parameter >= start {
+            return end;
+        }
+        // From a point on the middle branch of an S the path up ends where the parameter was to come from; the way down
+        // passes a fold and goes up then.
+        let (events, factorisations, other) = (self.events, self.factorisations, std::mem::replace(self, begun));
+        let end = self.trace_one_way(target, patience, -1.0, see);
+        if end == End::Mechanism && self.parameter < start {
+            *self = other;
+        } else {
+            self.events += events;
+            self.factorisations += factorisations;
+        }
+        end
+    }
+
+    fn trace_one_way(
+        &mut self,
+        target: f64,
+        patience: Patience,
+        way: f64,
+        see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>,
+    ) -> End {
         (self.dip, self.peak, self.fallen) = (None, None, false);
-        match self.walk(target, patience, see) {
+        match self.walk(target, patience, way, see) {
             End::Lost if self.fallen => End::Mechanism,
             end => end,
         }
     }
 
-    fn walk(&mut self, target: f64, patience: Patience, see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>) -> End {
+    fn walk(
+        &mut self,
+        target: f64,
+        patience: Patience,
+        way: f64,
+        see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>,
+    ) -> End {
         let start = self.parameter;
         let mut longest = LONGEST * self.size;
         let (mut halvings, mut zero_steps, mut steps, mut barred, mut refined) = (0, 0, 0, None, false);
@@ -103,7 +134,7 @@ impl Tracer<'_> {
         }
         self.linearise();
         self.solve_tangent();
-        if self.rate < 0.0 {
+        if self.rate * way < 0.0 {
             self.turn_round();
         }
         loop {
@@ -128,7 +159,8 @@ impl Tracer<'_> {
             let held = self.step(step, hold, target);
             // A limit point short of the next event is a point of the path too.
             let passed = |hold: &Hold| matches!(hold, Hold::Border(..)) && before.2 > 0.0 && self.parameter < before.1;
-            let Some(hold) = held.filter(|hold| !passed(hold) || step < NEAR * self.size) else {
+            let passed = |hold: &Hold| step >= NEAR * self.size && passed(hold);
+            let Some(hold) = held.filter(|hold| !passed(hold) && self.went_on(&before.0, step)) else {
                 (self.displacements, self.parameter) = (before.0, before.1);
                 halvings += 1;
                 if halvings > HALVINGS || self.events > most_events || self.find_residual() > FAILED + self.rounding() {
@@ -147,9 +179,8 @@ impl Tracer<'_> {
                         return End::Lost;
                     }
                     barred = Some((event.contact, state));
-                    if self.moved_since_linearisation() > NEAR * self.size {
-                        self.linearise();
-                    }
+                    // Geometric stiffness goes with the forces too, which change without much movement.
+                    self.linearise();
                     self.cross(event);
                     refined = false;
                     self.note_peak(self.rate <= 0.0);
@@ -169,6 +200,12 @@ impl Tracer<'_> {
                 }
             }
         }
+    }
+
+    /// True unless a correction has undone a step from displacements `before`, and more.
+    fn went_on(&self, before: &[f64], step: f64) -> bool {
+        let moved = self.displacements.iter().zip(before).zip(&self.direction).map(|((d, b), t)| (d - b) * t);
+        step == 0.0 || moved.sum::<f64>() >= 0.0
     }
 
     /// Goes back to `before` (displacements, parameter and its rate) a step ago, and stops where the parameter is highest in
@@ -227,12 +264,7 @@ impl Tracer<'_> {
                 self.matrix.lower.get_mut(2 * i).copy_from_slice(moving.bodies.lower.get(2 * i));
             }
         }
-        self.linearised_at.clone_from(&self.displacements);
         self.reassemble_all();
-    }
-
-    fn moved_since_linearisation(&self) -> f64 {
-        farthest(&self.displacements, &self.linearised_at)
     }
 }
 
