@@ -75,7 +75,10 @@ impl Glued {
     /// contacts summed spring by spring (`dda::condense`, `dda::macroblock` say which), solved densely.
     pub fn whole(&self, pushes: &[Push]) -> Vec<[f64; 3]> {
         let mut whole = Whole::new(self);
-        self.stones.iter().enumerate().for_each(|(body, mesh)| whole.stone(body, mesh));
+        for (body, mesh) in self.stones.iter().enumerate() {
+            whole.stone(body, mesh);
+            whole.cogs(body, mesh);
+        }
         let mut node = 6 * whole.first[self.stones.len()];
         for (k, touch) in &self.touches {
             let mut ends = Vec::new();
@@ -171,6 +174,19 @@ impl<'g> Whole<'g> {
                     }
                 }
                 self.spring(share * layer, &row);
+            }
+        }
+    }
+
+    /// Around every inner corner, 0.1 E A on the alternating sum of the four rotations.
+    fn cogs(&mut self, body: usize, mesh: &Mesh) {
+        for j in 1..mesh.along {
+            for i in 1..mesh.radial {
+                let ring = [(i - 1, j - 1, 1.0), (i, j - 1, -1.0), (i - 1, j, -1.0), (i, j, 1.0)]
+                    .map(|(i, j, sign)| (j * mesh.radial + i, sign));
+                let area = ring.iter().map(|(k, _)| mesh.blocks[*k].area()).sum::<f64>() / 4.0;
+                let row: Row = ring.iter().map(|&(k, sign)| (6 * (self.first[body] + k) + 2, sign)).collect();
+                self.spring(0.1 * STONE.youngs_modulus * area, &row);
             }
         }
     }
