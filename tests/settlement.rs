@@ -75,7 +75,7 @@ fn springings_that_part_or_approach_find_the_least_and_the_greatest_thrust() {
             println!("{half} {t} {:.9} {:.9} {}", thrust(path) / weight, limit / weight, expected[way]);
             assert!((thrust(path) / limit - 1.0).abs() < 1e-6, "{half} {t}: {} not {limit}", thrust(path));
             assert!((thrust(path) / weight / expected[way] - 1.0).abs() < 3e-3);
-            assert_eq!(path.mechanism.hinges.len(), 3 + usize::from(path.mechanism.hinges.len() > 3));
+            assert!((3..=4).contains(&path.mechanism.hinges.len()), "{:?}", path.mechanism.hinges);
         }
     }
 }
@@ -101,7 +101,9 @@ fn parting_springings_bring_the_arch_down_at_a_finite_spread() {
             path.snap.map(|s| 0.4 * s)
         );
         assert_eq!((path.end, report.outcome), (SettlementEnd::Collapse, Outcome::FallsByMovement));
-        assert!((spread / expected - 1.0).abs() < 1e-3, "{half} {t}: {spread} not {expected}");
+        assert!((spread / expected - 1.0).abs() < 2e-4, "{half} {t}: {spread} not {expected}");
+        assert!(path.mechanism.slides.is_empty(), "{:?}", path.mechanism);
+        assert!(path.points.iter().all(|point| point.share <= path.share));
         assert!(path.residual < 1e-8);
         let limit = report.thrust_range.unwrap().lowest;
         assert!((thrust(first_order(&report)) / limit - 1.0).abs() < 1e-6);
@@ -141,6 +143,22 @@ fn springings_that_settle_or_turn_keep_the_thrust_within_its_range() {
             assert!((range.lowest - slack..=range.highest + slack).contains(&point.thrust), "{left}: {}", point.thrust);
             let weight = point.left + point.right.unwrap();
             assert!((weight / (path.points[0].left + path.points[0].right.unwrap()) - 1.0).abs() < 1e-8);
+        }
+    }
+}
+
+/// An odd arch of a mason's friction, one springing moving: a stone that finds its seat at the start is no collapse.
+#[test]
+fn an_odd_arch_follows_one_springing_on_moving_geometry() {
+    for left in [json!({"downwards_m": 0.05}), json!({"rotation_deg": 1}), json!({"outwards_m": -0.02})] {
+        for mirrored in [false, true] {
+            let mut request = ask(circular(90.0, 0.15, 27), 30.0, &[]);
+            request["stone"]["density_kg_m3"] = json!(2300.0);
+            request["stone"]["youngs_modulus_pa"] = json!(1e10);
+            request["geometry"] = json!("updated");
+            request["analysis"] = json!({"settlement": {if mirrored { "right" } else { "left" }: left}});
+            let report = solve(&request);
+            assert_eq!(updated(&report).end, SettlementEnd::Follows, "{left} {mirrored}");
         }
     }
 }

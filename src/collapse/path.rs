@@ -31,6 +31,9 @@ pub(super) struct Attempt {
 /// Attempts made before a path is given up. The disturbance grows, since a tie that survives one may need a larger.
 pub(super) const ATTEMPTS: usize = 6;
 
+/// Attempts made on moving geometry, whose paths take longer.
+pub(super) const MOVING_ATTEMPTS: usize = 3;
+
 impl Attempt {
     pub(super) fn number(i: usize) -> Self {
         Attempt { seed: 1 + i as u64, disturbance: 1e-9 * 30f64.powi(i.saturating_sub(1).min(2) as i32) }

@@ -6,7 +6,7 @@
 
 use super::certificate::UNBALANCED;
 use super::discretise::{Model, discretise};
-use super::path::{ATTEMPTS, Attempt, Moved, disturbed, stand, stand_moved};
+use super::path::{Attempt, MOVING_ATTEMPTS, Moved, disturbed, stand, stand_moved};
 use super::{
     Analysis, AnalysisError, Cost, Geometry, LoadStep, SettlementEnd, SettlementPath, SettlementPoint,
     SettlementReport, SpringingMovement, Watch, ending,
@@ -34,7 +34,7 @@ pub(super) fn follow(
 ) -> Result<Option<SettlementReport>, AnalysisError> {
     let mut path = |geometry: Geometry| -> Result<Option<SettlementPath>, AnalysisError> {
         let mut last = None;
-        for i in 0..ATTEMPTS {
+        for i in 0..MOVING_ATTEMPTS {
             last = attempt(analysis, movements, geometry, weight, Attempt::number(i), cost, watch)?;
             if last.as_ref().is_some_and(|path| path.end != SettlementEnd::CannotTell) {
                 break;

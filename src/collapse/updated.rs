@@ -2,7 +2,7 @@
 
 use super::certificate::UNBALANCED;
 use super::discretise::{Model, discretise};
-use super::path::{ATTEMPTS, Attempt, FALLEN, MOVED, Moved, disturbed, stand_moved};
+use super::path::{Attempt, FALLEN, MOVED, MOVING_ATTEMPTS, Moved, disturbed, stand_moved};
 use super::{Analysis, AnalysisError, Cost, LoadStep, UpdatedEnd, UpdatedGeometry, Watch, ending, mechanism};
 use crate::dda::{Drive, End, Patience, Tracer};
 use std::cell::Cell;
@@ -44,7 +44,7 @@ pub(super) fn follow(
     watch: &mut dyn Watch,
 ) -> Result<UpdatedGeometry, AnalysisError> {
     let mut answer = attempt(analysis, course, Attempt::number(0), cost, watch)?;
-    for i in 1..ATTEMPTS {
+    for i in 1..MOVING_ATTEMPTS {
         if answer.end != UpdatedEnd::CannotTell {
             break;
         }

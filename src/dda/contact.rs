@@ -166,10 +166,10 @@ impl Contact {
         if self.law == Law::Bonded {
             return State::Bonded;
         }
-        if gap >= self.reach.max(0.0) {
+        if gap > self.reach {
             return State::Open;
         }
-        let zone = if gap < 0.0 { Zone::Pressed } else { Zone::Adhering };
+        let zone = if gap <= 0.0 { Zone::Pressed } else { Zone::Adhering };
         let (trial, capacity) = (self.trial_shear(slip), self.capacity(zone, gap));
         let sign = if trial < 0.0 { -1.0 } else { 1.0 };
         if trial.abs() < capacity { State::Stick(zone) } else { State::Slip { sign, zone } }

@@ -45,6 +45,8 @@ pub struct Peak {
     pub displacements: Vec<f64>,
     /// Direction in which the path goes on, its largest entry 1 m.
     pub direction: Vec<f64>,
+    /// Change of the parameter in that direction.
+    pub rate: f64,
     /// Contact states in which the path goes on.
     pub states: Vec<State>,
     /// Largest equilibrium residual up to there, as a share of the load scale.
@@ -306,6 +308,7 @@ impl<'a> Tracer<'a> {
                 parameter: self.parameter,
                 displacements: self.displacements.clone(),
                 direction: self.direction.clone(),
+                rate: self.rate,
                 states: self.states.clone(),
                 residual: self.worst_residual,
             });

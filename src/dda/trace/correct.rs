@@ -94,7 +94,8 @@ impl Tracer<'_> {
     /// What rounding of the displacements may leave of the residual, as a share of the load scale.
     pub(super) fn rounding(&self) -> f64 {
         let stiffest = self.chain.contacts().iter().map(|c| c.stiffness[0]).fold(0.0, f64::max);
-        let moved = self.displacements.iter().fold(0.0, |most: f64, d| most.max(d.abs()));
+        // A correction that runs away is no rounding.
+        let moved = self.displacements.iter().fold(0.0, |most: f64, d| most.max(d.abs())).min(self.size);
         8.0 * f64::EPSILON * stiffest * moved / self.load_scale
     }
 
@@ -124,7 +125,7 @@ impl Tracer<'_> {
     }
 
     /// How far contact `p` is beyond a border of its state, as a share of the load scale, and beyond which.
-    fn beyond(&self, p: usize) -> Option<(f64, State)> {
+    pub(super) fn beyond(&self, p: usize) -> Option<(f64, State)> {
         let (state, mut worst) = (self.states[p], None);
         self.ways_out(p, state, |[value, _], next| {
             let beyond = -self.as_force(p, state, next, value) / self.load_scale;

@@ -16,12 +16,18 @@ use std::ops::ControlFlow;
 const LONGEST: f64 = 2e-3;
 /// Limit points are not looked for in steps shorter than this share of the size.
 const NEAR: f64 = 2e-5;
+/// Steps shorter than this share of the size are rounding.
+const ROUNDING: f64 = 1e-10;
+/// A path has at most so many events, and so many more per contact; real ones have about two per contact.
+const MOST_EVENTS: [usize; 2] = [200, 6];
 /// So many halvings of a step in a row mean that the path is lost.
 const HALVINGS: usize = 40;
-/// A path has at most so many steps that end at no change of state; real ones have some hundreds.
-const MOST_STEPS: usize = 1000;
+/// A path has at most so many steps that end at no change of state; real ones have up to two hundred.
+const MOST_STEPS: usize = 400;
 /// A path that is lost after it has fallen by this share and moved a little, or moved by this share of its size, has ended.
 const SURE: [f64; 2] = [0.1, 0.01];
+/// So has one that is lost after it has fallen by this share, however little it has moved.
+const DEEP: f64 = 0.5;
 /// A snap is worth telling where the parameter falls by this share of what it rose.
 const SNAP: f64 = 0.01;
 /// Displacements beyond this share of the size are no arch of this shape any more.
@@ -48,8 +54,8 @@ impl Tracer<'_> {
         (self.drive, self.parameter, self.moving) = (drive.clone(), parameter, Some(Placed::new(self.chain)));
         // Gaps on moving geometry differ from those at first order, and so may states.
         self.find_residual();
-        for (p, contact) in self.chain.contacts().iter().enumerate() {
-            self.states[p] = contact.state_at(self.gaps[p]);
+        for p in (0..self.states.len()).filter(|&p| self.beyond(p).is_some()).collect::<Vec<_>>() {
+            self.states[p] = self.chain.contacts()[p].state_at(self.gaps[p]);
         }
         if self.find_residual() < EQUILIBRIUM {
             return End::Reached;
@@ -128,7 +134,7 @@ impl Tracer<'_> {
         let mut longest = LONGEST * self.size;
         let (mut halvings, mut zero_steps, mut steps, mut barred, mut refined) = (0, 0, 0, None, false);
         let most_zero_steps = super::MOST_ZERO_STEPS[0] + super::MOST_ZERO_STEPS[1] * self.states.len();
-        let most_events = self.events + super::MOST_EVENTS[0] + super::MOST_EVENTS[1] * self.states.len();
+        let most_events = self.events + MOST_EVENTS[0] + MOST_EVENTS[1] * self.states.len();
         if self.find_residual() > FAILED + self.rounding() || target <= start {
             return End::Lost;
         }
@@ -205,7 +211,7 @@ impl Tracer<'_> {
     /// True unless a correction has undone a step from displacements `before`, and more.
     fn went_on(&self, before: &[f64], step: f64) -> bool {
         let moved = self.displacements.iter().zip(before).zip(&self.direction).map(|((d, b), t)| (d - b) * t);
-        step == 0.0 || moved.sum::<f64>() >= 0.0
+        step < ROUNDING * self.size || moved.sum::<f64>() >= 0.0
     }
 
     /// Goes back to `before` (displacements, parameter and its rate) a step ago, and stops where the parameter is highest in
@@ -234,8 +240,8 @@ impl Tracer<'_> {
             if beyond(patience.fall, far) {
                 return Some(End::Mechanism);
             }
-            self.fallen = beyond(SURE[0], SURE[1]);
-            if fall > SNAP {
+            self.fallen = beyond(SURE[0], SURE[1]) || fall > DEEP;
+            if fall > SNAP && peak.parameter > start {
                 self.dip = self.dip.or(Some(peak.parameter));
             }
         }

@@ -62,8 +62,7 @@ impl Tracer<'_> {
         (self.parameter, self.displacements, self.direction) = (peak.parameter, peak.displacements, peak.direction);
         (self.states, self.worst_residual) = (peak.states, peak.residual);
         self.find_residual();
-        // Which way the path goes on there, were the parameter to stay.
-        self.rate = 0.0;
+        self.rate = peak.rate;
         self.find_rates();
         true
     }
