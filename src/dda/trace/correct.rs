@@ -31,6 +31,7 @@ impl Tracer<'_> {
     /// so close together that the tangent mistakes their order: what was held in the end is the first of them.
     pub(super) fn step(&mut self, step: f64, hold: Hold, target: f64) -> Option<Hold> {
         let (displacements, parameter, violated) = (self.displacements.clone(), self.parameter, self.violated());
+        let (direction, rate) = (self.direction.clone(), self.rate);
         let mut hold = hold;
         for _ in 0..CLOSE {
             self.advance(step);
@@ -43,8 +44,10 @@ impl Tracer<'_> {
             let Some(event) = self.missed(&violated, hold) else { return Some(hold) };
             hold = Hold::Border(event, self.states[event.contact]);
             self.displacements.clone_from(&displacements);
-            self.parameter = parameter;
+            self.direction.clone_from(&direction);
+            (self.parameter, self.rate) = (parameter, rate);
             self.find_residual();
+            self.find_rates();
         }
         None
     }

@@ -162,6 +162,7 @@ impl Tracer<'_> {
                 _ => Hold::Fastest(fastest(&self.direction)),
             };
             let before = (self.displacements.clone(), self.parameter, self.rate);
+            let direction = self.direction.clone();
             let held = self.step(step, hold, target);
             // A limit point short of the next event is a point of the path too.
             let passed = |hold: &Hold| matches!(hold, Hold::Border(..)) && before.2 > 0.0 && self.parameter < before.1;
@@ -173,6 +174,8 @@ impl Tracer<'_> {
                     return End::Lost;
                 }
                 longest = 0.5 * step;
+                // Corrections renew the direction as they go, and may have lost their way.
+                self.direction = direction;
                 self.renew_tangent();
                 continue;
             };
