@@ -15,12 +15,21 @@ pub fn headline(settlement: &SettlementBody) -> String {
         (SettlementEndWord::Follows, None) => {
             "At first order the arch follows its springings; only on updated geometry can they bring it down.".into()
         }
-        (SettlementEndWord::Collapse, _) => format!("The arch falls when its springings have moved by {share}."),
+        (SettlementEndWord::Collapse, _) => {
+            format!("The arch falls when its springings have done {share} of their movement.")
+        }
         (SettlementEndWord::FallsAsLoaded, _) => {
             "On updated geometry the arch falls under its loads before its springings move.".into()
         }
         (SettlementEndWord::CannotTell, _) => "No answer: the movement could not be followed.".into(),
     }
+}
+
+/// A sentence on an arch that falls on moving geometry before the loads at the start are on in full.
+pub fn before_the_start(result: &AnalysisResult) -> Option<&'static str> {
+    let updated = result.updated_geometry.as_ref()?;
+    let falls = updated.end == UpdatedEndWord::FallsAsLoaded;
+    falls.then_some(" On moving geometry it falls before the loads at the start of its path are on in full.")
 }
 
 /// Name and value of every line about moving geometry and moving springings.
@@ -52,6 +61,7 @@ fn on_moving_geometry(result: &AnalysisResult, updated: &UpdatedBody) -> String 
                 updated.share_of_loads.map(|share| format!("{} % of ", Digits(100.0 * share))).unwrap_or_default();
             format!("falls under {share}the loads at the start of the path")
         }
+        UpdatedEndWord::StandsToCap if at.is_empty() => "stands".into(),
         UpdatedEndWord::StandsToCap => format!("stands up to {at}, the cap"),
         UpdatedEndWord::BeyondModel => format!("stands up to {at}, where it is strained or moved beyond the model"),
         UpdatedEndWord::CannotTell => "could not be followed".into(),
@@ -67,5 +77,6 @@ fn path(path: &SettlementPathBody) -> String {
         SettlementEndWord::CannotTell => format!("lost at {share} % of the movement"),
     };
     let hinges: Vec<_> = path.hinges.iter().map(|hinge| hinge.joint.to_string()).collect();
-    format!("{end}; thrust then {thrust} kN per metre of depth, turning at joints {}", hinges.join(", "))
+    let turning = if hinges.is_empty() { String::new() } else { format!(", turning at joints {}", hinges.join(", ")) };
+    format!("{end}; thrust then {thrust} kN per metre of depth{turning}")
 }

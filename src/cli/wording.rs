@@ -56,7 +56,8 @@ pub fn headline(result: &AnalysisResult) -> String {
     let sentence = match (result.outcome, &result.collapse) {
         (OutcomeWord::Collapse, Some(collapse)) => {
             let first = if result.updated_geometry.is_some() { " at first order" } else { "" };
-            format!("The arch collapses{first} {}.{}", reached(result, collapse), with_strength(result))
+            let moved = moving::before_the_start(result).unwrap_or_default();
+            format!("The arch collapses{first} {}.{}{moved}", reached(result, collapse), with_strength(result))
         }
         (OutcomeWord::StandsInWindow, _) => in_window(result) + &with_strength(result),
         (OutcomeWord::FallsAsBuilt, _) => falls(result).to_owned(),

@@ -110,14 +110,14 @@ fn describe(
     end: UpdatedEnd,
     share: Option<f64>,
 ) -> UpdatedGeometry {
-    let known = end != UpdatedEnd::CannotTell;
+    let (known, grows) = (end != UpdatedEnd::CannotTell, !analysis.scaled.is_empty());
     let falls = matches!(end, UpdatedEnd::Collapse | UpdatedEnd::FallsAsLoaded);
     let of = |voussoir: usize| tracer.mean_motion(model.first_voussoir + voussoir).displacement;
     let [left, right] = mechanism::crown(&analysis.arch);
     let largest = (0..model.voussoirs).map(|v| of(v).norm()).fold(0.0, f64::max);
     UpdatedGeometry {
         end,
-        load_factor: (known && share.is_none()).then(|| sign * tracer.parameter()),
+        load_factor: (known && share.is_none() && grows).then(|| sign * tracer.parameter()),
         share_of_loads: share,
         crown: known.then(|| 0.5 * (of(left) + of(right))),
         largest: known.then_some(largest),

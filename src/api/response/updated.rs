@@ -3,7 +3,7 @@
 use super::Scale;
 use super::mechanism::{HingeBody, SlideBody};
 use super::words::ModeWord;
-use crate::collapse::{CollapseReport, UpdatedEnd, UpdatedGeometry};
+use crate::collapse::{CollapseReport, Outcome, UpdatedEnd, UpdatedGeometry};
 use serde::Serialize;
 use utoipa::ToSchema;
 
@@ -28,11 +28,13 @@ pub enum UpdatedEndWord {
 pub struct UpdatedBody {
     /// How the path ended.
     pub end: UpdatedEndWord,
-    /// Intensity there: at collapse, or the highest at which the arch is known to stand; null where it falls as loaded.
+    /// Intensity there: at collapse, or the highest at which the arch is known to stand; null where it falls as loaded, or where
+    /// nothing grows.
     pub intensity: Option<f64>,
     /// The same as a load factor.
     pub load_factor: Option<f64>,
-    /// Load factor over that of the first-order collapse; null where either is missing.
+    /// Load factor over that of the first-order collapse; null where either is missing, and for an arch that stands in a
+    /// window only.
     pub over_first_order: Option<f64>,
     /// Share of the loads at the start of the path under which the arch falls as they come on together; null otherwise.
     pub share_of_loads: Option<f64>,
@@ -62,7 +64,8 @@ impl UpdatedBody {
             end: updated.end.into(),
             intensity: updated.load_factor.map(|factor| scale.intensity(factor)),
             load_factor: updated.load_factor,
-            over_first_order: over.filter(|over| over.is_finite()),
+            // In a window both may be negative, and a ratio would read the wrong way round.
+            over_first_order: over.filter(|over| over.is_finite() && report.outcome != Outcome::StandsInWindow),
             share_of_loads: updated.share_of_loads,
             crown_displacement_m: updated.crown.map(Into::into),
             largest_displacement_m: updated.largest,
