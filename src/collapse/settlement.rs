@@ -66,9 +66,40 @@ fn attempt(
         reached.set(share);
         watch.on_step(&LoadStep { load_factor: share, events: tracer.events() }).map_break(|_| ())
     };
+    let ground = ground(&analysis.arch, movements);
+    let followed = trace(analysis, &model, geometry, base, ground, weight, &mut see);
+    cost.add(&followed.tracer, Cost::default());
+    match followed.stood {
+        _ if followed.end == End::Stopped => {
+            Err(AnalysisError::Stopped { load_factor: reached.get(), events: followed.tracer.events() })
+        }
+        Moved::FallsAsBuilt => Ok(None),
+        _ => Ok(Some(describe(analysis, &model, geometry, followed))),
+    }
+}
+
+/// A path that has been followed.
+struct Followed<'m> {
+    tracer: Tracer<'m>,
+    /// Whether the arch stood before the movement.
+    stood: Moved,
+    end: End,
+    points: Vec<SettlementPoint>,
+}
+
+/// Brings the loads on and moves the springings.
+fn trace<'m>(
+    analysis: &Analysis,
+    model: &'m Model,
+    geometry: Geometry,
+    base: Vec<f64>,
+    ground: [Movement; 2],
+    weight: f64,
+    see: &mut dyn FnMut(&Tracer, f64) -> ControlFlow<()>,
+) -> Followed<'m> {
     let (mut tracer, stood) = match geometry {
         Geometry::FirstOrder => {
-            let (tracer, end) = stand(&model, &base, 0.0, weight, &mut |t| see(t, 0.0));
+            let (tracer, end) = stand(model, &base, 0.0, weight, &mut |t| see(t, 0.0));
             let stood = match end {
                 End::Reached => Moved::Stands,
                 End::Stopped => Moved::Stopped,
@@ -76,36 +107,38 @@ fn attempt(
             };
             (tracer, stood)
         }
-        Geometry::Updated => stand_moved(&model, &base, 0.0, weight, &mut |t| see(t, 0.0)),
+        Geometry::Updated => stand_moved(model, &base, 0.0, weight, &mut |t| see(t, 0.0)),
     };
-    let ground = ground(&analysis.arch, movements);
     let mut points = Vec::new();
-    let mut end = if stood == Moved::Stopped { End::Stopped } else { End::Lost };
-    if stood == Moved::Stands {
-        let zeros = vec![0.0; base.len()];
-        let turned = [model.fixed.turned.clone(), zeros.clone()];
-        tracer.drive_on(Drive { base, rate: zeros, turned, ground, ..Drive::default() }, 0.0);
-        let mut record = |tracer: &Tracer| -> ControlFlow<()> {
-            points.push(point(&model, &analysis.arch, tracer));
-            see(tracer, tracer.parameter())
-        };
-        end = match geometry {
-            Geometry::FirstOrder => tracer.trace(1.0, &mut record),
-            Geometry::Updated => tracer.trace_moving(1.0, PATIENCE, &mut record),
-        };
+    if stood != Moved::Stands {
+        let end = if stood == Moved::Stopped { End::Stopped } else { End::Lost };
+        return Followed { tracer, stood, end, points };
     }
-    cost.add(&tracer, Cost::default());
-    if end == End::Stopped {
-        return Err(AnalysisError::Stopped { load_factor: reached.get(), events: tracer.events() });
-    }
-    if stood == Moved::FallsAsBuilt {
-        return Ok(None);
-    }
+    let zeros = vec![0.0; base.len()];
+    let turned = [model.fixed.turned.clone(), zeros.clone()];
+    tracer.drive_on(Drive { base, rate: zeros, turned, ground, ..Drive::default() }, 0.0);
+    let mut record = |tracer: &Tracer| -> ControlFlow<()> {
+        // The path may be begun anew, the other way.
+        if tracer.parameter() == 0.0 {
+            points.clear();
+        }
+        points.push(point(model, &analysis.arch, tracer, tracer.parameter()));
+        see(tracer, tracer.parameter())
+    };
+    let end = match geometry {
+        Geometry::FirstOrder => tracer.trace(1.0, &mut record),
+        Geometry::Updated => tracer.trace_moving(1.0, PATIENCE, &mut record),
+    };
+    Followed { tracer, stood, end, points }
+}
+
+fn describe(analysis: &Analysis, model: &Model, geometry: Geometry, followed: Followed) -> SettlementPath {
+    let Followed { mut tracer, stood, end, mut points } = followed;
     let falls = end == End::Mechanism && tracer.return_to_peak();
-    let reached = if stood == Moved::Stands { tracer.parameter() } else { 0.0 };
-    let peak = points.iter().position(|at| at.share >= reached);
+    let share = if stood == Moved::Stands { tracer.parameter() } else { 0.0 };
+    let peak = points.iter().position(|at| at.share >= share);
     points.truncate(peak.unwrap_or(points.len()));
-    points.push(point(&model, &analysis.arch, &tracer));
+    points.push(point(model, &analysis.arch, &tracer, share));
     let end = match end {
         _ if tracer.worst_residual() > UNBALANCED => SettlementEnd::CannotTell,
         _ if matches!(stood, Moved::Falls(_)) => SettlementEnd::FallsAsLoaded,
@@ -113,16 +146,16 @@ fn attempt(
         End::Mechanism if falls && geometry == Geometry::Updated => SettlementEnd::Collapse,
         _ => SettlementEnd::CannotTell,
     };
-    Ok(Some(SettlementPath {
+    SettlementPath {
         end,
-        share: reached,
+        share,
         points,
-        mechanism: ending::at_rates(analysis, &model, &tracer),
-        thrust_line: ending::carried_by(analysis, &model, &tracer),
-        displacements: displacements(&model, &tracer, geometry),
+        mechanism: ending::at_rates(analysis, model, &tracer),
+        thrust_line: ending::carried_by(analysis, model, &tracer),
+        displacements: displacements(model, &tracer, geometry),
         snap: tracer.snap(),
         residual: tracer.worst_residual(),
-    }))
+    }
 }
 
 /// Displacement and rotation of every voussoir.
@@ -151,8 +184,8 @@ fn ground(arch: &Arch, movements: [SpringingMovement; 2]) -> [Movement; 2] {
     })
 }
 
-fn point(model: &Model, arch: &Arch, tracer: &Tracer) -> SettlementPoint {
+fn point(model: &Model, arch: &Arch, tracer: &Tracer, share: f64) -> SettlementPoint {
     let left = tracer.force_through(model.first_voussoir);
     let right = tracer.force_through(model.first_voussoir + model.voussoirs);
-    SettlementPoint { share: tracer.parameter(), thrust: left.x, left: left.y, right: (!arch.half).then_some(-right.y) }
+    SettlementPoint { share, thrust: left.x, left: left.y, right: (!arch.half).then_some(-right.y) }
 }
