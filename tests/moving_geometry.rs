@@ -40,7 +40,7 @@ fn limit_point(chain: &Chain, push: Push, size: f64) -> f64 {
     let drive = Drive {
         base: zeros.clone(),
         rate: load.on_nodes.clone(),
-        turned: [zeros, load.turned.clone()],
+        turned: [zeros, chain.turned_loads([push])],
         ..Drive::default()
     };
     let mut tracer = Tracer::new(chain, drive.clone(), size, push.force.norm());
@@ -201,6 +201,7 @@ fn random_arches_on_moving_geometry() {
         "{fell} fell, {near} of those that do not slide within 2 %; from {least:.1e} to {worst:.1e} of first order off"
     );
     println!("could not be followed: {lost:?}");
+    // No more than today: a count of what is not solved, not a tolerance.
     assert!(fell > 80 && near > 30 && worst < 0.02 && lost.len() <= 5);
 }
 

@@ -8,6 +8,7 @@
 mod common;
 
 use common::door::solve;
+use common::masonry::THRUSTS;
 use common::table::{Table, hinges, slides};
 use common::wire::*;
 use serde_json::{Value, json};
@@ -97,17 +98,7 @@ fn the_exact_semicircle() {
 #[test]
 fn thrust_ranges() {
     let mut table = Table::titled("thrust_range.json (300 annular sectors, share of the weight)");
-    for (half, t, expected) in [
-        (90.0, 0.12, [0.190828, 0.207004]),
-        (90.0, 0.15, [0.175873, 0.226976]),
-        (90.0, 0.2, [0.154042, 0.254554]),
-        (80.0, 0.15, [0.197857, 0.314927]),
-        (70.0, 0.1, [0.259573, 0.378587]),
-        (60.0, 0.1, [0.302835, 0.507605]),
-        (60.0, 0.05, [0.353895, 0.441552]),
-        (45.0, 0.1, [0.394605, 0.889544]),
-        (30.0, 0.05, [0.641035, 1.469093]),
-    ] {
+    for (half, t, expected) in THRUSTS {
         let range = solve(&ask(continuous(half, t), ROUGH, &[])).thrust_range.unwrap();
         let weight = GAMMA * t * 2.0 * half * PI / 180.0;
         table.number(&format!("alpha {half} t/R {t} least"), expected[0], range.lowest / weight, 0.003);

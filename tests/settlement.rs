@@ -4,6 +4,7 @@
 mod common;
 
 use common::door::{analysis, solve};
+use common::masonry::THRUSTS;
 use common::wire::{ask, circular, continuous};
 use serde_json::{Value, json};
 use voussoir::arch::Face;
@@ -46,19 +47,6 @@ fn updated(report: &CollapseReport) -> &SettlementPath {
 fn thrust(path: &SettlementPath) -> f64 {
     path.points.last().unwrap().thrust
 }
-
-/// `thrust_range.json` (derived and checked there): least and greatest thrust over the weight, continuous joints.
-const THRUSTS: [(f64, f64, [f64; 2]); 9] = [
-    (90.0, 0.12, [0.190828, 0.207004]),
-    (90.0, 0.15, [0.175873, 0.226976]),
-    (90.0, 0.2, [0.154042, 0.254554]),
-    (80.0, 0.15, [0.197857, 0.314927]),
-    (70.0, 0.1, [0.259573, 0.378587]),
-    (60.0, 0.1, [0.302835, 0.507605]),
-    (60.0, 0.05, [0.353895, 0.441552]),
-    (45.0, 0.1, [0.394605, 0.889544]),
-    (30.0, 0.05, [0.641035, 1.469093]),
-];
 
 #[test]
 fn springings_that_part_or_approach_find_the_least_and_the_greatest_thrust() {

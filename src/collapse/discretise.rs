@@ -1,7 +1,7 @@
 //! From an arch to a chain of blocks: the only door between masonry and mechanics.
 
 use super::grid::{Grid, Lines, ON_LINE};
-use super::{Analysis, PlaneModel, Seams};
+use super::{Analysis, Geometry, PlaneModel, Seams};
 use crate::arch::{Abutment, Joint, JointLaw, PointForce, Stone};
 use crate::dda::{Bond, Chain, ChainBuilder, Elasticity, Law, Loads, Loose, MeanMotion, Push, Touch};
 use crate::geometry::{Region, Vec2};
@@ -32,6 +32,8 @@ pub(super) struct Model {
     /// Loads that stay, and those that the load factor multiplies.
     pub fixed: Loads,
     pub scaled: Loads,
+    /// Both with every force turned by -90 degrees, on the nodes; only where the path on moving geometry is asked for.
+    pub turned: [Vec<f64>; 2],
 }
 
 /// Numbers in (-1, 1) that look random and are always the same (SplitMix64).
@@ -80,10 +82,19 @@ pub(super) fn discretise(analysis: &Analysis, seed: u64) -> Result<Model, Loose>
     let chain = builder.finish()?;
     let first_voussoir = usize::from(left.is_some());
     let around = |k: usize| places(k.checked_sub(1).map(|k| &bodies[k]), bodies.get(k));
-    let loads = |forces: &[PointForce]| chain.loads(forces.iter().flat_map(|f| pushes(f, first_voussoir, &grids)));
+    let on_subblocks = |forces: &Vec<PointForce>| -> Vec<Push> {
+        forces.iter().flat_map(|f| pushes(f, first_voussoir, &grids)).collect()
+    };
+    let forces = [&analysis.fixed, &analysis.scaled].map(on_subblocks);
+    let turned = match analysis.geometry {
+        Geometry::FirstOrder => [Vec::new(), Vec::new()],
+        Geometry::Updated => forces.each_ref().map(|forces| chain.turned_loads(forces.iter().copied())),
+    };
+    let [fixed, scaled] = forces.map(|forces| chain.loads(forces));
     Ok(Model {
-        fixed: loads(&analysis.fixed),
-        scaled: loads(&analysis.scaled),
+        fixed,
+        scaled,
+        turned,
         first_voussoir,
         voussoirs: arch.voussoirs.len(),
         size: extent(arch.joints.iter().flat_map(|j| [j.intrados, j.extrados])),
@@ -240,7 +251,7 @@ mod tests {
     use crate::arch::profile::Profile;
     use crate::arch::ring::{JointLines, Line, Ring, Thickness, stations};
     use crate::arch::{Arch, straight_voussoirs};
-    use crate::collapse::{Aim, Direction, Geometry, Mesh, Method};
+    use crate::collapse::{Aim, Direction, Mesh, Method};
 
     /// A semicircle of `n` equal stones, cut into `subblocks` each, without loads.
     fn semicircle(n: usize, subblocks: [usize; 2], curved: bool) -> Analysis {

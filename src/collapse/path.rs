@@ -2,6 +2,7 @@
 
 use super::discretise::{Model, Scatter};
 use super::record::Recorder;
+use super::{AnalysisError, Cost};
 use crate::arch::PointForce;
 use crate::dda::{Drive, End, Patience, Peak, Tracer, covering};
 use std::ops::ControlFlow;
@@ -32,12 +33,27 @@ pub(super) struct Attempt {
 pub(super) const ATTEMPTS: usize = 6;
 
 /// Attempts made on moving geometry, whose paths take longer.
-pub(super) const MOVING_ATTEMPTS: usize = 3;
+const MOVING_ATTEMPTS: usize = 3;
 
 impl Attempt {
     pub(super) fn number(i: usize) -> Self {
         Attempt { seed: 1 + i as u64, disturbance: 1e-9 * 30f64.powi(i.saturating_sub(1).min(2) as i32) }
     }
+}
+
+/// The first answer on moving geometry that tells; the last one if none does.
+pub(super) fn first_that_tells<T>(
+    tells: impl Fn(&T) -> bool,
+    mut attempt: impl FnMut(Attempt) -> Result<T, AnalysisError>,
+) -> Result<T, AnalysisError> {
+    let mut answer = attempt(Attempt::number(0))?;
+    for next in (1..MOVING_ATTEMPTS).map(Attempt::number) {
+        if tells(&answer) {
+            break;
+        }
+        answer = attempt(next)?;
+    }
+    Ok(answer)
 }
 
 /// Sum of the sizes of all forces, N/m.
@@ -97,44 +113,56 @@ pub(super) enum Moved {
 }
 
 /// Brings the chain to the loads at load factor `start` on moving geometry: to where it stands at first order, and from
-/// there by letting go what is out of balance on the moved arch. Where that ends in a fall, all loads grow together from a
-/// little, which tells how much of them the arch can bear.
+/// there by letting go what is out of balance on the moved arch. Where that fails, all loads grow together from a little,
+/// which tells how much of them the arch can bear; the work of the way that is left goes to `cost`.
 pub(super) fn stand_moved<'a>(
+    model: &'a Model,
+    fixed: &[f64],
+    start: f64,
+    load_scale: f64,
+    cost: &mut Cost,
+    see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>,
+) -> (Tracer<'a>, Moved) {
+    let (tracer, moved) = stand_moved_from(1.0, model, fixed, start, load_scale, see);
+    if moved != Moved::Lost {
+        return (tracer, moved);
+    }
+    cost.add(&tracer, Cost::default());
+    stand_moved_from(FIRST_SHARE, model, fixed, start, load_scale, see)
+}
+
+/// The same from this share of the loads, brought on at first order.
+fn stand_moved_from<'a>(
+    share: f64,
     model: &'a Model,
     fixed: &[f64],
     start: f64,
     load_scale: f64,
     see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>,
 ) -> (Tracer<'a>, Moved) {
-    let zeros = vec![0.0; fixed.len()];
-    let turned: Vec<f64> = model.fixed.turned.iter().zip(&model.scaled.turned).map(|(f, s)| f + s * start).collect();
-    let drive =
-        Drive { base: zeros.clone(), rate: at(model, fixed, start), turned: [zeros, turned], ..Drive::default() };
-    let mut outcome = None;
-    for share in [1.0, FIRST_SHARE] {
-        let little: Vec<f64> = fixed.iter().map(|load| load * share).collect();
-        let (mut tracer, mut end) = stand(model, &little, start * share, load_scale, see);
-        if end == End::Reached {
-            end = tracer.move_on(drive.clone(), share, see);
-            if share < 1.0 && end == End::Reached {
-                let patience = Patience { fall: FALLEN, rise: 1.0, movement: [0.0, MOVED[1]] };
-                end = tracer.trace_moving(1.0, patience, see);
-            }
-        } else if end == End::Mechanism {
-            return (tracer, Moved::FallsAsBuilt);
-        }
-        let moved = match end {
-            End::Reached => Moved::Stands,
-            End::Stopped => Moved::Stopped,
-            End::Mechanism if share < 1.0 && tracer.return_to_peak() => Moved::Falls(tracer.parameter()),
-            _ => Moved::Lost,
-        };
-        if matches!(moved, Moved::Stands | Moved::Stopped) {
-            return (tracer, moved);
-        }
-        outcome = Some((tracer, moved));
+    let part: Vec<f64> = fixed.iter().map(|load| load * share).collect();
+    let (mut tracer, mut end) = stand(model, &part, start * share, load_scale, see);
+    if end == End::Mechanism {
+        return (tracer, Moved::FallsAsBuilt);
     }
-    outcome.unwrap_or_else(|| (Tracer::new(&model.chain, drive, model.size, load_scale), Moved::Lost))
+    if end == End::Reached {
+        let [fixed_turned, scaled_turned] = &model.turned;
+        let turned = fixed_turned.iter().zip(scaled_turned).map(|(f, s)| f + s * start).collect();
+        let zeros = vec![0.0; fixed.len()];
+        let (base, rate) = (zeros.clone(), at(model, fixed, start));
+        end = tracer.move_on(Drive { base, rate, turned: [zeros, turned], ..Drive::default() }, share, see);
+    }
+    if share < 1.0 && end == End::Reached {
+        let patience = Patience { fall: FALLEN, rise: 1.0, movement: [0.0, MOVED[1]] };
+        end = tracer.trace_moving(1.0, patience, see);
+    }
+    let moved = match end {
+        End::Reached => Moved::Stands,
+        End::Stopped => Moved::Stopped,
+        End::Mechanism if share < 1.0 && tracer.return_to_peak() => Moved::Falls(tracer.parameter()),
+        _ => Moved::Lost,
+    };
+    (tracer, moved)
 }
 
 /// Where a path went after its peak.

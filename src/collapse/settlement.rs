@@ -5,7 +5,7 @@
 //! it no longer finds room in the stones.
 
 use super::discretise::{Model, discretise};
-use super::path::{Attempt, MOVING_ATTEMPTS, Moved, disturbed, stand, stand_moved};
+use super::path::{Attempt, Moved, disturbed, first_that_tells, stand, stand_moved};
 use super::{
     Analysis, AnalysisError, Cost, Geometry, LoadStep, SettlementEnd, SettlementPath, SettlementPoint,
     SettlementReport, SpringingMovement, Watch, ending,
@@ -36,14 +36,9 @@ pub(super) fn follow(
     watch: &mut dyn Watch,
 ) -> Result<Option<SettlementReport>, AnalysisError> {
     let mut path = |geometry: Geometry| -> Result<Option<SettlementPath>, AnalysisError> {
-        let mut last = None;
-        for i in 0..MOVING_ATTEMPTS {
-            last = attempt(analysis, movements, geometry, weight, Attempt::number(i), cost, watch)?;
-            if last.as_ref().is_some_and(|path| path.end != SettlementEnd::CannotTell) {
-                break;
-            }
-        }
-        Ok(last)
+        let tells =
+            |path: &Option<SettlementPath>| path.as_ref().is_some_and(|path| path.end != SettlementEnd::CannotTell);
+        first_that_tells(tells, |number| attempt(analysis, movements, geometry, weight, number, cost, watch))
     };
     let Some(first_order) = path(Geometry::FirstOrder)? else { return Ok(None) };
     let updated = if analysis.geometry == Geometry::Updated { path(Geometry::Updated)? } else { None };
@@ -66,8 +61,11 @@ fn attempt(
         reached.set(share);
         watch.on_step(&LoadStep { load_factor: share, events: tracer.events() }).map_break(|_| ())
     };
+    let zeros = vec![0.0; base.len()];
+    let turned = [model.turned[0].clone(), zeros.clone()];
     let ground = ground(&analysis.arch, movements);
-    let followed = trace(analysis, &model, geometry, base, ground, weight, &mut see);
+    let drive = Drive { base, rate: zeros, turned, ground, ..Drive::default() };
+    let followed = trace(analysis, &model, geometry, drive, weight, cost, &mut see);
     cost.add(&followed.tracer, Cost::default());
     match followed.stood {
         _ if followed.end == End::Stopped => {
@@ -87,19 +85,19 @@ struct Followed<'m> {
     points: Vec<SettlementPoint>,
 }
 
-/// Brings the loads on and moves the springings.
+/// Brings the loads on that `drive` has at the start, and moves the springings as it says.
 fn trace<'m>(
     analysis: &Analysis,
     model: &'m Model,
     geometry: Geometry,
-    base: Vec<f64>,
-    ground: [Movement; 2],
+    drive: Drive,
     weight: f64,
+    cost: &mut Cost,
     see: &mut dyn FnMut(&Tracer, f64) -> ControlFlow<()>,
 ) -> Followed<'m> {
     let (mut tracer, stood) = match geometry {
         Geometry::FirstOrder => {
-            let (tracer, end) = stand(model, &base, 0.0, weight, &mut |t| see(t, 0.0));
+            let (tracer, end) = stand(model, &drive.base, 0.0, weight, &mut |t| see(t, 0.0));
             let stood = match end {
                 End::Reached => Moved::Stands,
                 End::Stopped => Moved::Stopped,
@@ -107,16 +105,14 @@ fn trace<'m>(
             };
             (tracer, stood)
         }
-        Geometry::Updated => stand_moved(model, &base, 0.0, weight, &mut |t| see(t, 0.0)),
+        Geometry::Updated => stand_moved(model, &drive.base, 0.0, weight, cost, &mut |t| see(t, 0.0)),
     };
     let mut points = Vec::new();
     if stood != Moved::Stands {
         let end = if stood == Moved::Stopped { End::Stopped } else { End::Lost };
         return Followed { tracer, stood, end, points };
     }
-    let zeros = vec![0.0; base.len()];
-    let turned = [model.fixed.turned.clone(), zeros.clone()];
-    tracer.drive_on(Drive { base, rate: zeros, turned, ground, ..Drive::default() }, 0.0);
+    tracer.drive_on(drive, 0.0);
     let mut record = |tracer: &Tracer| -> ControlFlow<()> {
         // The path may be begun anew, the other way.
         if tracer.parameter() == 0.0 {

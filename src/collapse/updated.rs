@@ -2,7 +2,7 @@
 
 use super::certificate::UNBALANCED;
 use super::discretise::{Model, discretise};
-use super::path::{Attempt, FALLEN, MOVED, MOVING_ATTEMPTS, Moved, disturbed, stand_moved};
+use super::path::{Attempt, FALLEN, MOVED, Moved, disturbed, first_that_tells, stand_moved};
 use super::{Analysis, AnalysisError, Cost, LoadStep, UpdatedEnd, UpdatedGeometry, Watch, ending, mechanism};
 use crate::dda::{Drive, End, Patience, Tracer};
 use std::cell::Cell;
@@ -43,14 +43,8 @@ pub(super) fn follow(
     cost: &mut Cost,
     watch: &mut dyn Watch,
 ) -> Result<UpdatedGeometry, AnalysisError> {
-    let mut answer = attempt(analysis, course, Attempt::number(0), cost, watch)?;
-    for i in 1..MOVING_ATTEMPTS {
-        if answer.end != UpdatedEnd::CannotTell {
-            break;
-        }
-        answer = attempt(analysis, course, Attempt::number(i), cost, watch)?;
-    }
-    Ok(answer)
+    let tells = |answer: &UpdatedGeometry| answer.end != UpdatedEnd::CannotTell;
+    first_that_tells(tells, |number| attempt(analysis, course, number, cost, watch))
 }
 
 fn attempt(
@@ -67,7 +61,8 @@ fn attempt(
         reached.set(load_factor);
         watch.on_step(&LoadStep { load_factor, events: tracer.events() }).map_break(|_| ())
     };
-    let (mut tracer, stood) = stand_moved(&model, &fixed, course.start, course.weight, &mut |t| see(t, course.start));
+    let at_start = &mut |t: &Tracer| see(t, course.start);
+    let (mut tracer, stood) = stand_moved(&model, &fixed, course.start, course.weight, cost, at_start);
     let mut end = End::Stopped;
     if stood == Moved::Stands {
         tracer.drive_on(drive(&model, fixed, course.sign), course.sign * course.start);
@@ -97,7 +92,7 @@ fn drive(model: &Model, fixed: Vec<f64>, sign: f64) -> Drive {
     Drive {
         base: fixed,
         rate: signed(&model.scaled.on_nodes),
-        turned: [model.fixed.turned.clone(), signed(&model.scaled.turned)],
+        turned: [model.turned[0].clone(), signed(&model.turned[1])],
         ..Drive::default()
     }
 }

@@ -262,10 +262,9 @@ impl<'a> Question<'a> {
             return Ok(());
         }
         report.settlement = settlement::follow(self.analysis, movements, self.weight, &mut report.cost, watch)?;
-        let ends = report.settlement.iter().flat_map(|s| [Some(s.first_order.end), s.updated.as_ref().map(|u| u.end)]);
-        let ends: Vec<SettlementEnd> = ends.flatten().collect();
         if report.outcome != Outcome::Crushes {
-            report.outcome = match ends.last() {
+            let settlement = report.settlement.as_ref();
+            report.outcome = match settlement.map(|s| s.updated.as_ref().unwrap_or(&s.first_order).end) {
                 Some(SettlementEnd::Follows) => Outcome::FollowsMovement,
                 Some(SettlementEnd::Collapse | SettlementEnd::FallsAsLoaded) => Outcome::FallsByMovement,
                 Some(SettlementEnd::CannotTell) | None => Outcome::CannotTell,

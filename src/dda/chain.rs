@@ -49,8 +49,6 @@ struct Site {
 pub struct Loads {
     /// What they are worth on the nodes, N/m.
     pub on_nodes: Vec<f64>,
-    /// The same with every force turned by -90 degrees: what a body that turns sees of them.
-    pub turned: Vec<f64>,
     /// Mean displacement and rotation of every body with its nodes held, in the body's frame.
     mean: Vec<[f64; 3]>,
     /// Stress of its subblocks with its nodes held, in the body's frame, three numbers each.
@@ -205,30 +203,38 @@ impl Chain {
 
     /// Condenses forces on subblocks onto the nodes.
     pub fn loads(&self, pushes: impl IntoIterator<Item = Push>) -> Loads {
-        let zeros = |b: &Body| DVector::zeros(6 * self.kinds[b.kind].macroblock.blocks().len());
-        let mut on_blocks: [Vec<DVector<f64>>; 2] = std::array::from_fn(|_| self.bodies.iter().map(zeros).collect());
-        for push in pushes {
-            let body = &self.bodies[push.body];
-            let block = &self.kinds[body.kind].macroblock.blocks()[push.subblock];
-            let (at, force) = (body.turned(push.at - body.origin), body.turned(push.force));
-            for (on_blocks, force) in on_blocks.iter_mut().zip([force, -perpendicular(force)]) {
-                let load: V6 = block.load(at, force);
-                let mut place = on_blocks[push.body].fixed_rows_mut::<6>(6 * push.subblock);
-                place += load;
-            }
-        }
-        let [straight, turned] = &on_blocks;
-        let mut loads = Loads { on_nodes: Vec::new(), turned: Vec::new(), mean: Vec::new(), stress: Vec::new() };
-        for (body, (load, turned)) in self.bodies.iter().zip(straight.iter().zip(turned)) {
+        let mut loads = Loads { on_nodes: Vec::new(), mean: Vec::new(), stress: Vec::new() };
+        for (body, load) in self.bodies.iter().zip(self.on_blocks(pushes)) {
             let kind = &self.kinds[body.kind];
-            loads.on_nodes.extend(kind.condensed.on_nodes(load).iter());
-            loads.turned.extend(kind.condensed.on_nodes(turned).iter());
-            let inner = kind.condensed.inner(load);
+            loads.on_nodes.extend(kind.condensed.on_nodes(&load).iter());
+            let inner = kind.condensed.inner(&load);
             let mean = &kind.mean * &inner;
             loads.mean.push([mean[0], mean[1], mean[2]]);
             loads.stress.push(stresses(&kind.stress, inner.as_slice()).as_slice().to_vec());
         }
         loads
+    }
+
+    /// What forces are worth on the nodes with every one turned by -90 degrees, N/m: what bodies that turn see of them.
+    pub fn turned_loads(&self, pushes: impl IntoIterator<Item = Push>) -> Vec<f64> {
+        let turned = pushes.into_iter().map(|push| Push { force: -perpendicular(push.force), ..push });
+        let on_nodes =
+            |(body, load): (&Body, DVector<f64>)| self.kinds[body.kind].condensed.on_nodes(&load).as_slice().to_vec();
+        self.bodies.iter().zip(self.on_blocks(turned)).flat_map(on_nodes).collect()
+    }
+
+    /// Generalised loads on the subblocks of every body, in its frame.
+    fn on_blocks(&self, pushes: impl IntoIterator<Item = Push>) -> Vec<DVector<f64>> {
+        let zeros = |b: &Body| DVector::zeros(6 * self.kinds[b.kind].macroblock.blocks().len());
+        let mut on_blocks: Vec<DVector<f64>> = self.bodies.iter().map(zeros).collect();
+        for push in pushes {
+            let body = &self.bodies[push.body];
+            let block = &self.kinds[body.kind].macroblock.blocks()[push.subblock];
+            let load: V6 = block.load(body.turned(push.at - body.origin), body.turned(push.force));
+            let mut place = on_blocks[push.body].fixed_rows_mut::<6>(6 * push.subblock);
+            place += load;
+        }
+        on_blocks
     }
 
     /// Mean motion of body `i` for node displacements (or velocities) `d` and what loads, each times its factor, add

@@ -85,6 +85,11 @@ pub struct ContactForce {
 /// A quantity and its rate along the path.
 pub type Moving = [f64; 2];
 
+/// Change of normal and tangential force for changes of gap and slip, by a tangent stiffness, N/m.
+pub(super) fn force_change([nn, nt, tn, tt]: [f64; 4], [gap, slip]: [f64; 2]) -> [f64; 2] {
+    [-(nn * gap + nt * slip), -(tn * gap + tt * slip)]
+}
+
 impl Contact {
     /// A contact point with the given stiffness and law.
     pub fn new(stiffness: [f64; 2], law: Law) -> Self {
@@ -129,9 +134,8 @@ impl Contact {
     }
 
     /// Change of normal and tangential force in a state per change of gap and slip, N/m.
-    pub fn force_rate(&self, state: State, [gap, slip]: [f64; 2]) -> [f64; 2] {
-        let [nn, nt, tn, tt] = self.tangent_stiffness(state);
-        [-(nn * gap + nt * slip), -(tn * gap + tt * slip)]
+    pub fn force_rate(&self, state: State, rates: [f64; 2]) -> [f64; 2] {
+        force_change(self.tangent_stiffness(state), rates)
     }
 
     /// Tangent stiffness in a state, N/m2: change of (-N, -T) per change of (gap, slip), row by row.

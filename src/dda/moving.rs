@@ -10,6 +10,7 @@ mod tests;
 mod turn;
 
 use super::chain::{Chain, MeanMotion};
+use super::contact::force_change;
 use super::factor::Tridiagonal;
 use super::trace::Drive;
 use crate::geometry::Vec2;
@@ -17,6 +18,7 @@ use body::{Corotated, NodeLoads, Pose};
 use interface::Frame;
 pub(super) use interface::{Bearing, Stiffness};
 pub(super) use turn::Turn;
+pub(super) use turn::quarter;
 use turn::{cross, quarter_of};
 
 /// Where all bodies and interfaces of a chain are.
@@ -158,13 +160,11 @@ impl Placed {
         load_rate: &mut [f64],
     ) {
         let Some(ground) = chain.ground_at(k).map(|end| &drive.ground[end]).filter(|g| !g.is_still()) else { return };
-        let frame = &self.frames[k];
-        let spin = ground.spin;
+        let (frame, spin) = (&self.frames[k], ground.spin);
         let rates = chain.at_interface(k).zip(points).map(|(p, at)| {
             let moved = ground.velocity_at(chain.place(p), parameter);
             let gap = frame.gap_rate(at.gap, chain.ground_gap(p, moved), spin);
-            let [nn, nt, tn, tt] = at.tangent;
-            let change = [-(nn * gap[0] + nt * gap[1]), -(tn * gap[0] + tt * gap[1])];
+            let change = force_change(at.tangent, gap);
             let turning = quarter_of(at.force).map(|x| x * spin);
             let couple = cross(&change, &at.gap) + cross(&at.force, &gap);
             ([change[0] + turning[0], change[1] + turning[1]], couple)

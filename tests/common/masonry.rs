@@ -3,6 +3,19 @@
 use super::oracle::{Bond, Point, Problem, Push, Seam, distance};
 use std::f64::consts::{FRAC_PI_2, PI};
 
+/// `thrust_range.json` (derived and checked there): least and greatest thrust over the weight, continuous joints; half opening and t/R.
+pub const THRUSTS: [(f64, f64, [f64; 2]); 9] = [
+    (90.0, 0.12, [0.190828, 0.207004]),
+    (90.0, 0.15, [0.175873, 0.226976]),
+    (90.0, 0.2, [0.154042, 0.254554]),
+    (80.0, 0.15, [0.197857, 0.314927]),
+    (70.0, 0.1, [0.259573, 0.378587]),
+    (60.0, 0.1, [0.302835, 0.507605]),
+    (60.0, 0.05, [0.353895, 0.441552]),
+    (45.0, 0.1, [0.394605, 0.889544]),
+    (30.0, 0.05, [0.641035, 1.469093]),
+];
+
 /// A ring of stones: joints from left to right as (intrados, extrados), stones by area and centroid.
 #[derive(Debug, Clone)]
 pub struct Ring {

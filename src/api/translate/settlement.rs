@@ -8,8 +8,9 @@ use crate::collapse::SpringingMovement;
 /// Whether a movement of springings can be followed.
 pub fn check(request: &AnalysisRequest, settlement: &SettlementRequest, site: &Site<'_>, faults: &mut Faults) {
     let sides = [("left", settlement.left), ("right", settlement.right)];
+    let size = site.size();
     for (side, movement) in sides {
-        check_movement(&format!("/analysis/settlement/{side}"), movement, site.size(), faults);
+        check_movement(&format!("/analysis/settlement/{side}"), movement, size, faults);
     }
     let still = |movement: MovementRequest| movement == MovementRequest::default();
     let detail = "nothing moves: give left or right a movement, such as outwards_m";

@@ -1,6 +1,7 @@
 //! A rigid block: four corners that keep their distances, and forces that move with its material.
 
-use crate::geometry::{Region, Vec2, cross, perpendicular};
+use crate::dda::moving::Turn;
+use crate::geometry::{Region, Vec2, cross};
 use nalgebra::Vector3;
 
 /// Corners counter-clockwise: inner end of the face towards the block before, inner and outer end of the face towards the
@@ -17,9 +18,8 @@ pub struct Place {
 }
 
 /// `arm` turned by `angle`.
-fn turned(arm: Vec2, angle: f64) -> Vec2 {
-    let (sin, cos) = angle.sin_cos();
-    arm * cos + perpendicular(arm) * sin
+pub(super) fn turned(arm: Vec2, angle: f64) -> Vec2 {
+    Turn::by(angle).pair(arm.into()).into()
 }
 
 impl Place {

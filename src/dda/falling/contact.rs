@@ -113,8 +113,7 @@ mod tests {
     }
 
     fn turned(corners: Corners, centre: Vec2, angle: f64) -> Corners {
-        let (sin, cos) = angle.sin_cos();
-        corners.map(|c| centre + (c - centre) * cos + perpendicular(c - centre) * sin)
+        corners.map(|c| centre + super::super::block::turned(c - centre, angle))
     }
 
     #[test]

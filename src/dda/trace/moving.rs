@@ -7,7 +7,7 @@
 
 use super::correct::{EQUILIBRIUM, FAILED, Hold};
 use super::{End, Tracer};
-use crate::dda::moving::{Placed, Turn};
+use crate::dda::moving::{Placed, quarter};
 use crate::dda::trace::Drive;
 use std::ops::ControlFlow;
 
@@ -47,6 +47,14 @@ pub struct Patience {
     pub movement: [f64; 2],
 }
 
+/// A path to follow: how far, for how long below its peak, and from its start with the parameter rising (+1) or falling (-1).
+#[derive(Debug, Clone, Copy)]
+struct Way {
+    target: f64,
+    patience: Patience,
+    sign: f64,
+}
+
 impl Tracer<'_> {
     /// Takes a path that stands at first order over to the moving geometry, with `drive` at `parameter`: the forces that
     /// are out of balance there are let go step by step.
@@ -61,21 +69,17 @@ impl Tracer<'_> {
             return End::Reached;
         }
         let held = self.residual.clone();
-        let held_turned: Vec<f64> = held
-            .chunks_exact(2)
-            .flat_map(|pair| Turn::by(-std::f64::consts::FRAC_PI_2).pair([pair[0], pair[1]]))
-            .collect();
+        let held_turned: Vec<f64> = quarter(&held).map(|x| -x).collect();
         let at = |base: &[f64], rate: &[f64], held: &[f64]| -> Vec<f64> {
             (0..held.len()).map(|i| base[i] + parameter * rate[i] - held[i]).collect()
         };
-        let ground = drive.ground;
+        debug_assert!(parameter == 0.0 || drive.ground.iter().all(|g| g.is_still()), "the ground starts at rest");
         self.drive = Drive {
             base: at(&drive.base, &drive.rate, &held),
             turned: [at(&drive.turned[0], &drive.turned[1], &held_turned), held_turned],
             rate: held,
             ..Drive::default()
         };
-        debug_assert!(parameter == 0.0 || ground.iter().all(|g| g.is_still()), "the ground starts at rest");
         self.parameter = 0.0;
         let end = self.trace_moving(1.0, Patience { fall: f64::INFINITY, rise: 1.0, movement: [0.0, SURE[1]] }, see);
         (self.drive, self.parameter, self.peak) = (drive, parameter, None);
@@ -91,45 +95,33 @@ impl Tracer<'_> {
         patience: Patience,
         see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>,
     ) -> End {
-        let (start, begun) = (self.parameter, self.clone());
-        let end = self.trace_one_way(target, patience, 1.0, see);
+        let (start, residual) = (self.parameter, self.worst_residual);
+        let (displacements, states) = (self.displacements.clone(), self.states.clone());
+        let end = self.trace_one_way(Way { target, patience, sign: 1.0 }, see);
         if end != End::Mechanism || self.parameter >= start {
             return end;
         }
         // From a point on the middle branch of an S the path up ends where the parameter was to come from; the way down
         // passes a fold and goes up then.
-        let (events, factorisations, other) = (self.events, self.factorisations, std::mem::replace(self, begun));
-        let end = self.trace_one_way(target, patience, -1.0, see);
+        let first = (self.parameter, self.peak.take(), self.dip, self.worst_residual);
+        (self.parameter, self.displacements, self.states, self.worst_residual) =
+            (start, displacements, states, residual);
+        let end = self.trace_one_way(Way { target, patience, sign: -1.0 }, see);
         if end == End::Mechanism && self.parameter < start {
-            *self = other;
-        } else {
-            self.events += events;
-            self.factorisations += factorisations;
+            (self.parameter, self.peak, self.dip, self.worst_residual) = first;
         }
         end
     }
 
-    fn trace_one_way(
-        &mut self,
-        target: f64,
-        patience: Patience,
-        way: f64,
-        see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>,
-    ) -> End {
+    fn trace_one_way(&mut self, way: Way, see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>) -> End {
         (self.dip, self.peak, self.fallen) = (None, None, false);
-        match self.walk(target, patience, way, see) {
+        match self.walk(way, see) {
             End::Lost if self.fallen => End::Mechanism,
             end => end,
         }
     }
 
-    fn walk(
-        &mut self,
-        target: f64,
-        patience: Patience,
-        way: f64,
-        see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>,
-    ) -> End {
+    fn walk(&mut self, Way { target, patience, sign }: Way, see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>) -> End {
         let start = self.parameter;
         let mut longest = LONGEST * self.size;
         let (mut halvings, mut zero_steps, mut steps, mut barred, mut refined) = (0, 0, 0, None, false);
@@ -140,7 +132,7 @@ impl Tracer<'_> {
         }
         self.linearise();
         self.solve_tangent();
-        if self.rate * way < 0.0 {
+        if self.rate * sign < 0.0 {
             self.turn_round();
         }
         loop {
@@ -165,8 +157,8 @@ impl Tracer<'_> {
             let direction = self.direction.clone();
             let held = self.step(step, hold, target);
             // A limit point short of the next event is a point of the path too.
-            let passed = |hold: &Hold| matches!(hold, Hold::Border(..)) && before.2 > 0.0 && self.parameter < before.1;
-            let passed = |hold: &Hold| step >= NEAR * self.size && passed(hold);
+            let passed = before.2 > 0.0 && self.parameter < before.1 && step >= NEAR * self.size;
+            let passed = |hold: &Hold| passed && matches!(hold, Hold::Border(..));
             let Some(hold) = held.filter(|hold| !passed(hold) && self.went_on(&before.0, step)) else {
                 (self.displacements, self.parameter) = (before.0, before.1);
                 halvings += 1;
@@ -233,13 +225,14 @@ impl Tracer<'_> {
 
     /// How the path has ended, if it has.
     fn is_over(&mut self, start: f64, patience: Patience) -> Option<End> {
-        if let Some(peak) = &self.peak {
-            let moved = farthest(&self.displacements, &peak.displacements);
-            let below = self.parameter < peak.parameter;
+        let below = self.peak.as_ref().filter(|peak| self.parameter < peak.parameter);
+        let is_below = below.is_some();
+        self.fallen = false;
+        if let Some(peak) = below {
+            let moved = farthest(&self.displacements, &peak.displacements) / self.size;
             let fall = (peak.parameter - self.parameter) / (peak.parameter - start).max(patience.rise);
-            let moved = moved / self.size;
             let [little, far] = patience.movement;
-            let beyond = |most: f64, far: f64| below && (moved > far || (fall > most && moved > little));
+            let beyond = |most: f64, far: f64| moved > far || (fall > most && moved > little);
             if beyond(patience.fall, far) {
                 return Some(End::Mechanism);
             }
@@ -250,8 +243,7 @@ impl Tracer<'_> {
         }
         let far = self.displacements.iter().fold(0.0, |far: f64, d| far.max(d.abs())) > FAR * self.size;
         let strained = self.moving.as_ref().is_some_and(|moving| moving.largest_strain() > STRAINED);
-        let below = self.peak.as_ref().is_some_and(|peak| self.parameter < peak.parameter);
-        (far || strained).then_some(if below { End::Mechanism } else { End::Rising })
+        (far || strained).then_some(if is_below { End::Mechanism } else { End::Rising })
     }
 
     /// Linearises where the chain is and goes on the way it went.
