@@ -18,8 +18,10 @@ const LINEAR: f64 = 0.003;
 /// Stiffness against subblocks around a corner turning one against the next, over E times a subblock's area.
 ///
 /// Where all of them do, like cogs, no seam's mean jump sees it, and the force of a hinge on a corner subblock would turn
-/// them against the weak springs alone. In a smooth field these rotations differ by the square of the subblocks' size only,
-/// so that from 0.01 to 1 neither stress nor energy of a beam changes visibly.
+/// them against the weak springs alone. In a smooth field these rotations differ by the square of the subblocks' size only:
+/// from 0.01 to 1 the energy of the curved beam keeps four digits and its stress error stays within a fiftieth of itself. What
+/// gives next to a hinge does depend on it: on moving geometry the 4 x 4 quarter-load case at 1e10 Pa falls at 225, 229 and
+/// 233 kN for 0.01, 0.1 and 1.
 const COGS: f64 = 0.1;
 
 /// How subblocks are bonded at their seams.
