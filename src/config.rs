@@ -1,8 +1,15 @@
 //! What can be set, by flag or by environment variable; `--help` is the list.
 
+use axum::http::HeaderValue;
+use clap::builder::RangedU64ValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use std::thread::available_parallelism;
+use std::time::Duration;
+use voussoir::api::request::MAX_SUBBLOCKS;
+use voussoir::api::{self, Settings, Tokens};
+use voussoir::arch::MAX_VOUSSOIRS;
+use voussoir::jobs;
 
 /// Tells when a masonry arch falls, how, and how sure we are.
 #[derive(Debug, Parser)]
@@ -44,18 +51,12 @@ pub struct Solve {
 pub struct Serve {
     #[command(flatten)]
     pub address: Address,
-    /// Threads that analyse [default: cores less one]
-    #[arg(long, env = "VOUSSOIR_WORKERS", value_parser = count(1, 1024))]
-    pub workers: Option<u64>,
-    /// Jobs that may wait; beyond it a submission is answered with 503
-    #[arg(long, env = "VOUSSOIR_QUEUE", default_value_t = 1000, value_parser = count(1, 1_000_000))]
-    pub queue: u64,
-    /// Finished jobs kept; beyond it the one that finished first is forgotten
-    #[arg(long, env = "VOUSSOIR_JOBS_KEPT", default_value_t = 1000, value_parser = count(1, 1_000_000))]
-    pub jobs_kept: u64,
-    /// Longest request body in bytes; beyond it a submission is answered with 413
-    #[arg(long, env = "VOUSSOIR_BODY_LIMIT", default_value_t = 1 << 20, value_parser = count(1024, 1 << 30))]
-    pub body_limit: u64,
+    #[command(flatten)]
+    pub work: Work,
+    #[command(flatten)]
+    pub kept: Kept,
+    #[command(flatten)]
+    pub requests: Requests,
     /// Seconds accepted jobs may take to end once told to stop; then they are cancelled
     #[arg(long, env = "VOUSSOIR_GRACE", default_value_t = 10, value_parser = count(0, 3600))]
     pub grace: u64,
@@ -65,6 +66,68 @@ pub struct Serve {
     /// What is logged, as level or as list of target=level
     #[arg(long, env = "VOUSSOIR_LOG", default_value = "info")]
     pub log: String,
+}
+
+/// How much is worked on.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Work")]
+pub struct Work {
+    /// Threads that analyse [default: cores less one]
+    #[arg(long, env = "VOUSSOIR_WORKERS", value_parser = count(1, 1024))]
+    pub workers: Option<u64>,
+    /// Jobs that may wait; beyond it a submission is answered with 503
+    #[arg(long, env = "VOUSSOIR_QUEUE", default_value_t = 1000, value_parser = count(1, 1_000_000))]
+    pub queue: u64,
+    /// Jobs of one client (token, or else address) that may wait; beyond it 429 [default: as --queue]
+    #[arg(long, env = "VOUSSOIR_QUEUE_PER_CLIENT", value_parser = count(1, 1_000_000))]
+    pub queue_per_client: Option<u64>,
+    /// Seconds a worker may be at one job; then it fails
+    #[arg(long, env = "VOUSSOIR_JOB_TIME", default_value_t = 600, value_parser = count(1, 1_000_000))]
+    pub job_time: u64,
+    /// Most voussoirs of an arch
+    #[arg(long, env = "VOUSSOIR_VOUSSOIRS", default_value_t = MAX_VOUSSOIRS as u64,
+        value_parser = count(2, MAX_VOUSSOIRS as u64))]
+    pub voussoirs: u64,
+    /// Most subblocks of an analysis
+    #[arg(long, env = "VOUSSOIR_SUBBLOCKS", default_value_t = MAX_SUBBLOCKS as u64,
+        value_parser = count(1, MAX_SUBBLOCKS as u64))]
+    pub subblocks: u64,
+}
+
+/// How much is kept.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Jobs kept")]
+pub struct Kept {
+    /// Finished jobs kept; beyond it the one that finished first is forgotten
+    #[arg(long, env = "VOUSSOIR_JOBS_KEPT", default_value_t = 1000, value_parser = count(1, 1_000_000))]
+    pub jobs_kept: u64,
+    /// Seconds a finished job is kept
+    #[arg(long, env = "VOUSSOIR_KEPT_FOR", default_value_t = 86_400, value_parser = count(1, 100_000_000))]
+    pub kept_for: u64,
+    /// Bytes all jobs may hold: beyond it finished ones are forgotten, those that finished first before others
+    #[arg(long, env = "VOUSSOIR_KEPT_BYTES", default_value_t = 1 << 29, value_parser = count(1 << 20, 1 << 40))]
+    pub kept_bytes: u64,
+}
+
+/// What one request may ask for, and who may ask.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Requests")]
+pub struct Requests {
+    /// Longest request body in bytes; beyond it a submission is answered with 413
+    #[arg(long, env = "VOUSSOIR_BODY_LIMIT", default_value_t = 1 << 20, value_parser = count(1024, 1 << 30))]
+    pub body_limit: u64,
+    /// Seconds a request may take to arrive, head and body each; then the connection is closed or answered with 408
+    #[arg(long, env = "VOUSSOIR_REQUEST_TIME", default_value_t = 30, value_parser = count(1, 3600))]
+    pub request_time: u64,
+    /// Event streams open at once; beyond it 503
+    #[arg(long, env = "VOUSSOIR_EVENT_STREAMS", default_value_t = 100, value_parser = count(0, 100_000))]
+    pub event_streams: u64,
+    /// Bearer token that opens the service, may be given several times or as a list with commas; open to all without
+    #[arg(long = "token", env = "VOUSSOIR_TOKENS", value_delimiter = ',', hide_env_values = true, value_parser = token)]
+    pub tokens: Vec<String>,
+    /// Origin whose pages may ask (CORS), such as https://example.org, may be given several times or as a list
+    #[arg(long = "cors-origin", env = "VOUSSOIR_CORS_ORIGINS", value_delimiter = ',', value_parser = origin)]
+    pub origins: Vec<HeaderValue>,
 }
 
 /// Options of `health`.
@@ -92,18 +155,60 @@ pub enum LogFormat {
 }
 
 impl Serve {
-    /// Threads that analyse: one core is left to answer requests.
-    pub fn workers(&self) -> usize {
+    /// What the store of jobs takes on. One core is left to answer requests.
+    pub fn job_limits(&self) -> jobs::Limits {
         let spare = || available_parallelism().map_or(1, |cores| cores.get().saturating_sub(1).max(1));
-        self.workers.map_or_else(spare, size)
+        let (work, kept) = (&self.work, &self.kept);
+        jobs::Limits {
+            workers: work.workers.map_or_else(spare, size),
+            queue: size(work.queue),
+            queue_per_client: size(work.queue_per_client.unwrap_or(work.queue)),
+            kept: size(kept.jobs_kept),
+            kept_for: Duration::from_secs(kept.kept_for),
+            bytes: size(kept.kept_bytes),
+            time: Duration::from_secs(work.job_time),
+        }
+    }
+
+    /// How the interface behaves.
+    pub fn settings(&self) -> Settings {
+        let requests = &self.requests;
+        Settings {
+            limits: api::Limits {
+                body: size(requests.body_limit),
+                request_time: Duration::from_secs(requests.request_time),
+                voussoirs: size(self.work.voussoirs),
+                subblocks: size(self.work.subblocks),
+                streams: size(requests.event_streams),
+            },
+            tokens: Tokens::new(requests.tokens.iter().map(String::as_str)),
+            origins: requests.origins.clone(),
+        }
     }
 }
 
 /// A checked count as a size.
-pub fn size(count: u64) -> usize {
+fn size(count: u64) -> usize {
     usize::try_from(count).unwrap_or(usize::MAX)
 }
 
-fn count(least: u64, most: u64) -> clap::builder::RangedU64ValueParser {
+fn count(least: u64, most: u64) -> RangedU64ValueParser {
     clap::value_parser!(u64).range(least..=most)
+}
+
+/// A token that an authorization header can carry (`b64token` of RFC 6750).
+fn token(text: &str) -> Result<String, String> {
+    let fits = |byte: u8| byte.is_ascii_alphanumeric() || b"-._~+/=".contains(&byte);
+    match !text.is_empty() && text.bytes().all(fits) {
+        true => Ok(text.to_owned()),
+        false => Err("a token is made of letters, digits and -._~+/=".to_owned()),
+    }
+}
+
+/// An origin as a browser sends it: scheme, host and perhaps port, nothing after.
+fn origin(text: &str) -> Result<HeaderValue, String> {
+    let host = ["http://", "https://"].iter().find_map(|scheme| text.strip_prefix(scheme));
+    let fits = host.is_some_and(|host| !host.is_empty() && !host.contains(['/', '*', ' ']));
+    let value = HeaderValue::from_str(text).ok().filter(|_| fits);
+    value.ok_or_else(|| "an origin is a scheme and a host, such as https://example.org".to_owned())
 }

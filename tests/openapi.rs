@@ -23,7 +23,7 @@ fn every_operation_is_described() {
             operations += 1;
         }
     }
-    assert_eq!(operations, 7);
+    assert_eq!(operations, 15);
 }
 
 #[test]

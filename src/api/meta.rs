@@ -1,5 +1,7 @@
 //! Handlers about the service itself.
 
+use super::problem::Problem;
+use super::{Service, document};
 use axum::Json;
 use axum::http::header;
 use axum::response::IntoResponse;
@@ -7,16 +9,22 @@ use serde::Serialize;
 use std::sync::LazyLock;
 use utoipa::ToSchema;
 
-static DOCUMENT: LazyLock<String> = LazyLock::new(super::document);
+static DOCUMENT: LazyLock<String> = LazyLock::new(document::document);
 
 /// A sign of life.
 #[derive(Debug, Serialize, ToSchema)]
 pub(super) struct Health {
-    /// Always `live`.
+    /// `live` or `ready`.
     #[schema(example = "live")]
     status: &'static str,
     /// Version of the program.
     version: &'static str,
+}
+
+impl Health {
+    fn of(status: &'static str) -> Json<Self> {
+        Json(Health { status, version: env!("CARGO_PKG_VERSION") })
+    }
 }
 
 /// Is the process alive?
@@ -25,7 +33,20 @@ pub(super) struct Health {
     responses((status = 200, description = "Alive", body = Health))
 )]
 pub(super) async fn live() -> Json<Health> {
-    Json(Health { status: "live", version: env!("CARGO_PKG_VERSION") })
+    Health::of("live")
+}
+
+/// Are jobs accepted?
+#[utoipa::path(
+    get, path = "/health/ready", tag = "service", operation_id = "ready",
+    responses(
+        (status = 200, description = "Ready", body = Health),
+        (status = 503, description = "Shutting down", body = Problem, content_type = "application/problem+json",
+            headers(("retry-after" = u64, description = "Seconds after which to try again"))),
+    )
+)]
+pub(super) async fn ready(state: axum::extract::State<Service>) -> Result<Json<Health>, Problem> {
+    if state.jobs.is_open() { Ok(Health::of("ready")) } else { Err(Problem::shutting_down()) }
 }
 
 /// This document.

@@ -1,67 +1,77 @@
 //! The HTTP interface: a request becomes a [`Question`](crate::collapse::Question), its answer becomes JSON. Nothing is
 //! computed here.
 
+mod body;
+mod docs;
+mod document;
+mod etag;
+mod events;
 pub mod fault;
+mod format;
 mod jobs;
 mod layers;
+mod limits;
 mod meta;
+mod metrics;
+mod parts;
 pub mod problem;
+pub mod prose;
 pub mod read;
 pub mod request;
 pub mod response;
+mod results;
+mod service;
 pub mod status;
+mod submit;
 mod timestamp;
 pub mod translate;
 mod tree;
 
-use crate::jobs::JobStore;
+pub use document::document;
+pub use layers::Tokens;
+pub use limits::Limits;
+pub use service::{Analyse, Service, Settings};
+
 use axum::Router;
-use request::Request;
-use std::sync::Arc;
 use utoipa::OpenApi;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
-
-/// What every handler can reach.
-#[derive(Clone)]
-pub struct Service {
-    /// All jobs, each with the request it came from.
-    pub jobs: Arc<JobStore<Request>>,
-    /// Longest body taken, bytes.
-    pub body_limit: usize,
-}
 
 #[derive(OpenApi)]
 #[openapi(
     info(title = "Voussoir", description = "Tells when a masonry arch falls, how, and how sure we are."),
     tags(
-        (name = "jobs", description = "Analyses, from submission to results; words of OGC API - Processes"),
+        (name = "jobs", description = "Analyses, from submission to their end; words of OGC API - Processes"),
+        (name = "results", description = "What came out, as a whole and in parts"),
         (name = "service", description = "The service itself"),
     )
 )]
 struct Document;
 
-/// Where everything is.
-fn routes() -> OpenApiRouter<Service> {
+/// What needs a token, where there are tokens.
+fn guarded() -> OpenApiRouter<Service> {
     OpenApiRouter::with_openapi(Document::openapi())
-        .routes(routes!(jobs::submit, jobs::list))
+        .routes(routes!(submit::submit, jobs::list))
         .routes(routes!(jobs::show, jobs::dismiss))
-        .routes(routes!(jobs::results))
-        .routes(routes!(meta::live))
-        .routes(routes!(meta::openapi))
+        .routes(routes!(jobs::request))
+        .routes(routes!(events::events))
+        .routes(routes!(results::results))
+        .routes(routes!(results::history))
+        .routes(routes!(results::field))
+        .routes(routes!(results::figure))
+        .routes(routes!(submit::validate))
+        .routes(routes!(metrics::metrics))
+}
+
+/// What is open to all.
+fn open() -> OpenApiRouter<Service> {
+    OpenApiRouter::new().routes(routes!(meta::live)).routes(routes!(meta::ready)).routes(routes!(meta::openapi))
 }
 
 /// The service, ready to be served.
 pub fn router(service: Service) -> Router {
-    let body_limit = service.body_limit;
-    let (router, _) = routes().with_state(service).split_for_parts();
-    layers::wrap(router, body_limit)
-}
-
-/// The OpenAPI document, as it is served and as `openapi/voussoir.json` holds it.
-pub fn document() -> String {
-    // Serialising a document of strings and numbers cannot fail; an empty one would fail its test.
-    let mut text = routes().into_openapi().to_pretty_json().unwrap_or_default();
-    text.push('\n');
-    text
+    let (guarded, _) = guarded().split_for_parts();
+    let (open, _) = open().split_for_parts();
+    let router = layers::guard(guarded, service.tokens.clone()).merge(open).merge(docs::router());
+    layers::wrap(router.with_state(service.clone()), &service)
 }

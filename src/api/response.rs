@@ -197,7 +197,7 @@ impl AnalysisResult {
 }
 
 /// Compact JSON and a newline.
-fn line(value: &impl Serialize) -> serde_json::Result<Vec<u8>> {
+pub(super) fn line(value: &impl Serialize) -> serde_json::Result<Vec<u8>> {
     let mut bytes = serde_json::to_vec(value)?;
     bytes.push(b'\n');
     Ok(bytes)

@@ -2,12 +2,13 @@
 
 use super::problem::Problem;
 use super::timestamp::rfc3339;
+use crate::collapse::LoadStep;
 use crate::jobs::{Job, JobId, State, Status};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
 /// Status words of OGC API - Processes.
-#[derive(Debug, Clone, Copy, Serialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum StatusWord {
     /// Waits in the queue.
@@ -31,12 +32,23 @@ pub struct ProgressBody {
     events: usize,
 }
 
+impl From<LoadStep> for ProgressBody {
+    fn from(step: LoadStep) -> Self {
+        let LoadStep { load_factor, events } = step;
+        ProgressBody { load_factor, events }
+    }
+}
+
 /// Where to go from here.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct Links {
     /// This status.
     #[serde(rename = "self")]
     status: String,
+    /// The request, defaults filled in.
+    request: String,
+    /// What becomes of the job, as it happens.
+    events: String,
     /// The results.
     results: String,
 }
@@ -64,6 +76,9 @@ pub struct JobStatus {
     finished: Option<String>,
     /// Seconds a worker spent on it, once it has ended.
     wall_time_s: Option<f64>,
+    /// Place in the queue, 1 for the next; null unless it waits.
+    #[schema(minimum = 1)]
+    queue_position: Option<usize>,
     /// How far the analysis has come; null before its first step.
     progress: Option<ProgressBody>,
     /// Why there are no results; null unless failed.
@@ -77,6 +92,27 @@ pub struct JobStatus {
 pub struct JobList {
     /// Newest first.
     pub jobs: Vec<JobStatus>,
+    /// Where to go from here.
+    pub links: ListLinks,
+}
+
+/// Where to go from a list.
+#[derive(Debug, Serialize, ToSchema)]
+pub struct ListLinks {
+    /// The jobs submitted before these; left out where there are none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub next: Option<String>,
+}
+
+/// A status as the wire has it.
+pub fn word(status: Status) -> &'static str {
+    match status {
+        Status::Accepted => "accepted",
+        Status::Running => "running",
+        Status::Successful => "successful",
+        Status::Failed => "failed",
+        Status::Dismissed => "dismissed",
+    }
 }
 
 /// The path of a job's status.
@@ -84,9 +120,16 @@ pub fn path(id: JobId) -> String {
     format!("/v1/jobs/{id}")
 }
 
-impl<T> From<&Job<T>> for JobStatus {
-    fn from(job: &Job<T>) -> Self {
-        let progress = job.progress.step();
+impl Links {
+    fn new(id: JobId) -> Self {
+        let status = path(id);
+        let [request, events, results] = ["request", "events", "results"].map(|part| format!("{status}/{part}"));
+        Links { status, request, events, results }
+    }
+}
+
+impl<R> From<&Job<R>> for JobStatus {
+    fn from(job: &Job<R>) -> Self {
         JobStatus {
             job_id: job.id.to_string(),
             kind: "process",
@@ -95,12 +138,13 @@ impl<T> From<&Job<T>> for JobStatus {
             started: job.started.map(|moment| rfc3339(moment.wall)),
             finished: job.finished.map(|moment| rfc3339(moment.wall)),
             wall_time_s: job.wall_time().map(|time| time.as_secs_f64()),
-            progress: progress.map(|step| ProgressBody { load_factor: step.load_factor, events: step.events }),
+            queue_position: job.position,
+            progress: job.progress.step().map(Into::into),
             problem: match &job.state {
                 State::Failed(failure) => Some(failure.into()),
                 _ => None,
             },
-            links: Links { status: path(job.id), results: format!("{}/results", path(job.id)) },
+            links: Links::new(job.id),
         }
     }
 }
@@ -113,6 +157,18 @@ impl From<Status> for StatusWord {
             Status::Successful => StatusWord::Successful,
             Status::Failed => StatusWord::Failed,
             Status::Dismissed => StatusWord::Dismissed,
+        }
+    }
+}
+
+impl From<StatusWord> for Status {
+    fn from(word: StatusWord) -> Self {
+        match word {
+            StatusWord::Accepted => Status::Accepted,
+            StatusWord::Running => Status::Running,
+            StatusWord::Successful => Status::Successful,
+            StatusWord::Failed => Status::Failed,
+            StatusWord::Dismissed => Status::Dismissed,
         }
     }
 }

@@ -1,15 +1,8 @@
 //! The verbs.
 
-mod beam;
-mod curve;
-mod figure;
 pub mod health;
-mod moving;
-mod safety;
 pub mod serve;
 pub mod solve;
-mod summary;
-mod wording;
 
 use std::fmt::Display;
 use std::io::{self, Write};

@@ -1,17 +1,20 @@
 //! `voussoir serve`: start, serve, stop in order.
 
 use super::fail;
-use crate::config::{Serve, size};
+use crate::config::Serve;
 use crate::telemetry;
+use axum_server::{Handle, Server};
+use hyper_util::rt::TokioTimer;
 use std::io;
+use std::net::{SocketAddr, TcpListener};
 use std::process::ExitCode;
-use std::sync::Arc;
-use std::time::{Duration, Instant};
-use tokio::net::TcpListener;
-use tokio::sync::oneshot;
+use std::time::Duration;
+use tokio::runtime::Runtime;
 use voussoir::api::{self, Service};
 use voussoir::collapse;
-use voussoir::jobs::{JobStore, Limits};
+
+/// Time for answers that are on their way when everything else has ended.
+const LAST_ANSWERS: Duration = Duration::from_secs(2);
 
 /// Serves until SIGTERM or ctrl-c.
 pub fn serve(options: &Serve) -> ExitCode {
@@ -25,45 +28,48 @@ pub fn serve(options: &Serve) -> ExitCode {
 }
 
 fn run(options: &Serve) -> io::Result<()> {
-    let limits = Limits { workers: options.workers(), queue: size(options.queue), kept: size(options.jobs_kept) };
-    let jobs = Arc::new(JobStore::start(limits, collapse::answer)?);
-    let service = Service { jobs: jobs.clone(), body_limit: size(options.body_limit) };
-    let grace = Duration::from_secs(options.grace);
-    let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build()?;
-    let told = runtime.block_on(listen(&options.address.bind, service, limits, grace))?;
-    // Dropping the runtime waits for nothing: what is still connected after the grace time is cut off.
+    let (limits, settings) = (options.job_limits(), options.settings());
+    let request_time = settings.limits.request_time;
+    let listener = TcpListener::bind(&options.address.bind)?;
+    listener.set_nonblocking(true)?;
+    let address = listener.local_addr()?;
+    let service = Service::start(limits, settings, collapse::answer)?;
+    tracing::info!(%address, ?limits, "listening");
+    let runtime = Runtime::new()?;
+    let handle = Handle::new();
+    let ending = runtime.spawn(end(service.clone(), handle.clone(), Duration::from_secs(options.grace)));
+    runtime.block_on(async {
+        let mut server = axum_server::from_tcp(listener)?.handle(handle);
+        be_patient(&mut server, request_time);
+        server.serve(api::router(service).into_make_service_with_connect_info::<SocketAddr>()).await?;
+        ending.await.map_err(io::Error::other)
+    })?;
+    // What is still connected is cut off.
     runtime.shutdown_background();
-    if !jobs.shutdown(grace.saturating_sub(told.elapsed())) {
-        tracing::warn!("an analysis would not stop");
-    }
     tracing::info!("stopped");
     Ok(())
 }
 
-/// Serves until told to stop and every connection has ended, or `grace` has passed. Returns when it was told.
-async fn listen(bind: &str, service: Service, limits: Limits, grace: Duration) -> io::Result<Instant> {
-    let listener = TcpListener::bind(bind).await?;
-    let Limits { workers, queue, kept } = limits;
-    tracing::info!(address = %listener.local_addr()?, workers, queue, kept, "listening");
-    let jobs = service.jobs.clone();
-    let (tell, told) = oneshot::channel();
-    let server = axum::serve(listener, api::router(service)).with_graceful_shutdown(async move {
-        asked_to_stop().await;
-        tracing::info!("stopping");
-        jobs.close();
-        // Nobody listens only when the server has ended by itself.
-        let _ = tell.send(Instant::now());
-    });
-    let mut told_at = None;
-    let overdue = async {
-        told_at = told.await.ok();
-        tokio::time::sleep(grace).await;
-    };
-    tokio::select! {
-        ended = server => ended?,
-        () = overdue => tracing::warn!("connections cut off"),
+/// So patient and no more with a request's head; a client that has said all it will may still read the answer.
+fn be_patient<A: axum_server::Address>(server: &mut Server<A>, request_time: Duration) {
+    let builder = server.http_builder();
+    *builder = builder.clone().http1_only();
+    builder.http1().timer(TokioTimer::new()).header_read_timeout(request_time).half_close(true);
+}
+
+/// Once told to stop: accepts no more jobs and ends event streams, lets jobs end within `grace` while everyone can still
+/// ask for them, cancels the rest, and then lets the last answers out.
+async fn end(service: Service, handle: Handle<SocketAddr>, grace: Duration) {
+    asked_to_stop().await;
+    tracing::info!("stopping");
+    service.jobs.close();
+    service.stopping.cancel();
+    #[allow(clippy::disallowed_methods, reason = "waits for the workers, which takes a thread but no core")]
+    let idle = tokio::task::spawn_blocking(move || service.jobs.shutdown(grace)).await;
+    if !matches!(idle, Ok(true)) {
+        tracing::warn!("an analysis would not stop");
     }
-    Ok(told_at.unwrap_or_else(Instant::now))
+    handle.graceful_shutdown(Some(LAST_ANSWERS));
 }
 
 /// Waits for SIGTERM or ctrl-c.

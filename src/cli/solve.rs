@@ -1,16 +1,17 @@
 //! `voussoir solve`: one request, one answer, no server.
 
-use super::{beam, complain, curve, fail, figure, print, summary};
+use super::{complain, fail, print};
 use crate::config::Solve;
 use std::fs;
 use std::io::{self, Read};
 use std::path::Path;
 use std::process::ExitCode;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 use voussoir::api::fault::Fault;
+use voussoir::api::prose;
 use voussoir::api::read::read_question;
 use voussoir::api::response::JobResult;
-use voussoir::collapse::{self, Answer, Question, Unwatched};
+use voussoir::collapse::{self, Unwatched};
 
 /// Exit code for a request that cannot be analysed.
 const FAULTY: u8 = 2;
@@ -36,10 +37,10 @@ pub fn solve(options: &Solve) -> ExitCode {
     };
     let bytes = match options.json {
         true => result.to_bytes(),
-        false => Ok(summarise(&result, wall_time).into_bytes()),
+        false => Ok(prose::prose(&result, wall_time).into_bytes()),
     };
     let drawn = match &options.figure {
-        Some(file) => draw(file, &question, &answer, &result),
+        Some(file) => draw(file, prose::figure(&question, &answer, &result)),
         None => Ok(()),
     };
     let printed = match bytes {
@@ -49,21 +50,9 @@ pub fn solve(options: &Solve) -> ExitCode {
     drawn.map_or_else(fail, |()| printed)
 }
 
-fn summarise(result: &JobResult, wall_time: Duration) -> String {
-    match result {
-        JobResult::Analysis(result) => summary::summary(result, wall_time),
-        JobResult::SafetyCurve(result) => curve::summary(result, wall_time),
-        JobResult::CurvedBeam(result) => beam::summary(result, wall_time),
-    }
-}
-
-fn draw(file: &Path, question: &Question, answer: &Answer, result: &JobResult) -> Result<(), String> {
-    match (question, answer, result) {
-        (Question::One(analysis), Answer::One(report), JobResult::Analysis(result)) => {
-            figure::write(file, &analysis.arch, report, result)
-        }
-        _ => Err("no figure: only one arch that falls is drawn, no curve and no curved beam".to_owned()),
-    }
+/// Writes the picture of an answer into a file.
+fn draw(file: &Path, picture: Result<String, String>) -> Result<(), String> {
+    fs::write(file, picture?).map_err(|error| format!("cannot write {}: {error}", file.display()))
 }
 
 fn load(file: &Path) -> io::Result<Vec<u8>> {

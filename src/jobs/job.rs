@@ -1,16 +1,15 @@
 //! One job and where it stands.
 
-use crate::collapse::{AnalysisError, Answer, LoadStep, Stop, Watch};
-use std::ops::ControlFlow;
+use super::progress::Progress;
+use crate::collapse::{AnalysisError, Answer};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::time::{Duration, Instant, SystemTime};
 
 /// Names a job; version 7, so that ids sort by time of submission.
 pub type JobId = uuid::Uuid;
 
 /// Status words of OGC API - Processes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Status {
     /// Waits in the queue.
     Accepted,
@@ -22,6 +21,13 @@ pub enum Status {
     Failed,
     /// Cancelled.
     Dismissed,
+}
+
+impl Status {
+    /// True for a state that a job never leaves.
+    pub fn is_final(self) -> bool {
+        self > Status::Running
+    }
 }
 
 /// Where a job stands, with what belongs to it there.
@@ -39,15 +45,37 @@ pub enum State {
     Dismissed,
 }
 
+/// What a worker makes of a request.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Product {
+    /// The answer.
+    pub answer: Answer,
+    /// What keeping it costs, bytes.
+    pub bytes: usize,
+}
+
 /// Why a job has no answer.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Failure {
     /// The mechanics said why.
     #[error(transparent)]
     Analysis(#[from] AnalysisError),
-    /// A defect of the program: the analysis panicked.
+    /// It took longer than a job may.
+    #[error(
+        "the analysis took longer than the {} s it may, and was stopped at load factor {load_factor} after {events} \
+         events; a coarser mesh, fewer voussoirs or fewer abscissae take less", limit.as_secs_f64()
+    )]
+    Overdue {
+        /// The time it may take.
+        limit: Duration,
+        /// Load factor reached.
+        load_factor: f64,
+        /// Events so far.
+        events: usize,
+    },
+    /// A defect of the program: the analysis panicked, or its answer cannot be written down.
     #[error("the analysis ended in an internal error; it is a defect of the program, not of the request")]
-    Panicked,
+    Defect,
 }
 
 /// A moment, as the wall clock shows it and as durations are measured.
@@ -70,47 +98,13 @@ impl Moment {
     }
 }
 
-/// How far a running analysis has come; written by its worker, read by anyone. Also carries the wish to stop.
-#[derive(Debug, Default)]
-pub struct Progress {
-    load_factor: AtomicU64,
-    events: AtomicUsize,
-    stop: AtomicBool,
-}
-
-impl Progress {
-    /// The last step seen; none before the first.
-    pub fn step(&self) -> Option<LoadStep> {
-        let events = self.events.load(Ordering::Acquire);
-        let load_factor = f64::from_bits(self.load_factor.load(Ordering::Relaxed));
-        // Stored one too high, so that zero means "not yet".
-        events.checked_sub(1).map(|events| LoadStep { load_factor, events })
-    }
-
-    /// Asks the analysis to stop at its next step.
-    pub(super) fn cancel(&self) {
-        self.stop.store(true, Ordering::Relaxed);
-    }
-}
-
-/// The worker's eye on one analysis.
-pub(super) struct Observer<'a>(pub(super) &'a Progress);
-
-impl Watch for Observer<'_> {
-    fn on_step(&mut self, step: &LoadStep) -> ControlFlow<Stop> {
-        self.0.load_factor.store(step.load_factor.to_bits(), Ordering::Relaxed);
-        self.0.events.store(step.events.saturating_add(1), Ordering::Release);
-        if self.0.stop.load(Ordering::Relaxed) { ControlFlow::Break(Stop) } else { ControlFlow::Continue(()) }
-    }
-}
-
 /// A job as it stood when the store was asked; cheap to copy.
-#[derive(Debug, Clone)]
-pub struct Job<T> {
+#[derive(Debug)]
+pub struct Job<R> {
     /// Its name.
     pub id: JobId,
-    /// What the caller attached.
-    pub attachment: Arc<T>,
+    /// What is asked.
+    pub request: Arc<R>,
     /// How far the analysis has come.
     pub progress: Arc<Progress>,
     /// When it was accepted.
@@ -121,20 +115,41 @@ pub struct Job<T> {
     pub finished: Option<Moment>,
     /// Where it stands.
     pub state: State,
+    /// How many jobs go first, this one included, while it waits.
+    pub position: Option<usize>,
 }
 
-impl<T> Job<T> {
+impl<R> Clone for Job<R> {
+    fn clone(&self) -> Self {
+        let (request, progress, state) = (self.request.clone(), self.progress.clone(), self.state.clone());
+        Job { request, progress, state, ..*self }
+    }
+}
+
+impl<R> Job<R> {
     /// A job just accepted.
-    pub(super) fn accepted(id: JobId, attachment: T) -> Self {
+    pub(super) fn accepted(id: JobId, request: R) -> Self {
         Job {
             id,
-            attachment: Arc::new(attachment),
+            request: Arc::new(request),
             progress: Arc::default(),
             created: Moment::now(),
             started: None,
             finished: None,
             state: State::Accepted,
+            position: None,
         }
+    }
+
+    /// Brings it to another state.
+    pub(super) fn turn(&mut self, state: State) {
+        self.state = state;
+        let (now, status) = (Moment::now(), self.status());
+        match status {
+            Status::Running => self.started = Some(now),
+            _ => self.finished = Some(now),
+        }
+        self.progress.tell(status);
     }
 
     /// The state in one word.

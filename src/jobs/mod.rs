@@ -1,19 +1,41 @@
 //! Who runs when: an in-memory store of jobs, a bounded queue, and the threads that work it off.
 //!
-//! A job is one [`Question`](crate::collapse::Question) on its way to an answer. Whatever the caller wants to find
-//! again beside the answer (the request as it was posted, say) travels with the job as its *attachment*.
-//! Nothing here knows of HTTP or JSON. Clocks live here and not below, so the same question gives the same answer.
+//! A job is a request on its way to an [`Answer`](crate::collapse::Answer). Nothing here knows of HTTP or JSON, or what
+//! a request is made of. Clocks live here and not below, so the same request gives the same answer.
 
 mod job;
+mod progress;
 mod store;
 mod table;
 mod worker;
 
-pub use job::{Failure, Job, JobId, Moment, Progress, State, Status};
-pub use store::{Analyse, Dismissal, JobStore, Limits};
-pub use table::Refusal;
+pub use job::{Failure, Job, JobId, Moment, Product, State, Status};
+pub use progress::Progress;
+pub use store::{Analyse, Dismissal, Ended, JobStore};
+pub use table::{Load, Refusal, Submission};
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+/// How much the store takes on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Limits {
+    /// Worker threads, at least 1.
+    pub workers: usize,
+    /// Jobs that may wait.
+    pub queue: usize,
+    /// Jobs of one client that may wait.
+    pub queue_per_client: usize,
+    /// Finished jobs that are kept; beyond it the one that ended first is forgotten.
+    pub kept: usize,
+    /// How long a finished job is kept.
+    pub kept_for: Duration,
+    /// What all jobs may cost, bytes: beyond it finished ones are forgotten, the one that ended first before others,
+    /// and where those that have not ended cost more, nothing is accepted.
+    pub bytes: usize,
+    /// How long a worker may be at one job.
+    pub time: Duration,
+}
 
 /// Locks, whatever happened to the last holder: no code of ours can leave the data half written.
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {

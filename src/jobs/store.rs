@@ -1,77 +1,84 @@
 //! The store: accepts, shows, cancels and forgets jobs, and stops in order.
 
-use super::job::{Job, JobId};
-use super::table::{Refusal, Table};
-use super::{lock, worker};
-use crate::collapse::{AnalysisError, Answer, Question, Watch};
+use super::job::{Failure, Job, JobId, Product, Status};
+use super::table::{Load, Refusal, Submission, Table};
+use super::{Limits, lock, worker};
+use crate::collapse::Watch;
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
-/// What the workers do with a question; [`collapse::answer`](crate::collapse::answer) outside tests.
-pub type Analyse = dyn Fn(&Question, &mut dyn Watch) -> Result<Answer, AnalysisError> + Send + Sync;
+/// What the workers do with a request.
+pub type Analyse<R> = dyn Fn(&R, &mut dyn Watch) -> Result<Product, Failure> + Send + Sync;
+
+/// Sees every job that has ended, once.
+pub type Ended<R> = dyn Fn(&Job<R>) + Send + Sync;
 
 /// How long a cancelled analysis may take to notice before its thread is given up.
 const LAST_STEP: Duration = Duration::from_secs(2);
 
-/// How much the store takes on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Limits {
-    /// Worker threads, at least 1.
-    pub workers: usize,
-    /// Jobs that may wait, at least 1.
-    pub queue: usize,
-    /// Finished jobs that are kept; beyond it the one that finished first is forgotten.
-    pub kept: usize,
-}
-
 /// What [`JobStore::dismiss`] did.
 #[derive(Debug, Clone)]
-pub enum Dismissal<T> {
+pub enum Dismissal<R> {
     /// The job had not ended: it is cancelled now.
-    Cancelled(Job<T>),
+    Cancelled(Job<R>),
     /// The job had ended: it is forgotten now.
     Forgotten,
 }
 
 /// What store and workers share.
-pub(super) struct Shared<T> {
-    pub(super) analyse: Box<Analyse>,
+pub(super) struct Shared<R> {
+    pub(super) analyse: Box<Analyse<R>>,
+    pub(super) ended: Box<Ended<R>>,
     pub(super) limits: Limits,
-    pub(super) table: Mutex<Table<T>>,
+    pub(super) table: Mutex<Table<R>>,
     /// There is work, or there will never be again.
     pub(super) work: Condvar,
     /// A worker has come back.
     pub(super) back: Condvar,
 }
 
-/// All jobs and the threads that run them. `T` is what a caller attaches to a job.
-pub struct JobStore<T> {
-    shared: Arc<Shared<T>>,
-    workers: Mutex<Vec<JoinHandle<()>>>,
-    /// How the shutdown ended, once it has.
-    ended: Mutex<Option<bool>>,
+impl<R> Shared<R> {
+    /// Works on the books; what that takes off them is dropped when others may have them again.
+    pub(super) fn books<V>(&self, work: impl FnOnce(&mut Table<R>) -> V) -> V {
+        let mut table = lock(&self.table);
+        table.tidy();
+        let value = work(&mut table);
+        let forgotten = table.forgotten();
+        drop(table);
+        drop(forgotten);
+        value
+    }
 }
 
-impl<T: Clone + Send + Sync + 'static> JobStore<T> {
-    /// Starts the workers.
+/// All jobs and the threads that run them. `R` is what a job asks.
+pub struct JobStore<R> {
+    shared: Arc<Shared<R>>,
+    workers: Mutex<Vec<JoinHandle<()>>>,
+    /// How the shutdown ended, once it has.
+    over: Mutex<Option<bool>>,
+}
+
+impl<R: PartialEq + Send + Sync + 'static> JobStore<R> {
+    /// Starts the workers, which `analyse` the requests; `ended` is told of every job that has ended.
     ///
     /// # Errors
     /// When the system gives no thread.
-    pub fn start<A>(limits: Limits, analyse: A) -> std::io::Result<Self>
-    where
-        A: Fn(&Question, &mut dyn Watch) -> Result<Answer, AnalysisError> + Send + Sync + 'static,
-    {
-        let limits = Limits { workers: limits.workers.max(1), queue: limits.queue.max(1), ..limits };
+    pub fn start(
+        limits: Limits,
+        analyse: impl Fn(&R, &mut dyn Watch) -> Result<Product, Failure> + Send + Sync + 'static,
+        ended: impl Fn(&Job<R>) + Send + Sync + 'static,
+    ) -> std::io::Result<Self> {
         let shared = Arc::new(Shared {
             analyse: Box::new(analyse),
+            ended: Box::new(ended),
             limits,
-            table: Mutex::new(Table::new()),
+            table: Mutex::new(Table::new(limits)),
             work: Condvar::new(),
             back: Condvar::new(),
         });
-        let store = JobStore { shared, workers: Mutex::default(), ended: Mutex::default() };
-        for number in 0..limits.workers {
+        let store = JobStore { shared, workers: Mutex::default(), over: Mutex::default() };
+        for number in 0..limits.workers.max(1) {
             let shared = store.shared.clone();
             let name = format!("voussoir-worker-{number}");
             let handle = thread::Builder::new().name(name).spawn(move || worker::work(&shared))?;
@@ -80,52 +87,60 @@ impl<T: Clone + Send + Sync + 'static> JobStore<T> {
         Ok(store)
     }
 
-    /// Puts a question at the end of the queue.
+    /// Puts a request at the end of the queue. One whose key is known and asks the same gives the job it named.
     ///
     /// # Errors
-    /// When the queue is full or the store is shutting down; nothing is accepted then.
-    pub fn submit(&self, question: Question, attachment: T) -> Result<Job<T>, Refusal> {
-        let mut table = lock(&self.shared.table);
-        // Named under the lock, so that the order of ids is the order of the queue.
-        let job = Job::accepted(JobId::now_v7(), attachment);
-        table.accept(job.clone(), question, &self.shared.limits)?;
-        drop(table);
+    /// When the queue or the memory is full, the key names another request, or the store is shutting down; nothing is
+    /// accepted then.
+    pub fn submit(&self, submission: Submission<R>) -> Result<Job<R>, Refusal> {
+        let job = self.shared.books(|table| table.accept(submission))?;
         self.shared.work.notify_one();
         Ok(job)
     }
+}
 
+impl<R> JobStore<R> {
     /// The job as it stands.
-    pub fn get(&self, id: JobId) -> Option<Job<T>> {
-        lock(&self.shared.table).get(id)
+    pub fn get(&self, id: JobId) -> Option<Job<R>> {
+        self.shared.books(|table| table.get(id))
     }
 
-    /// At most `limit` jobs, newest first.
-    pub fn newest(&self, limit: usize) -> Vec<Job<T>> {
-        lock(&self.shared.table).newest(limit)
+    /// At most `limit` jobs, newest first; of one `status` only, and submitted before the job `before` only, if asked.
+    pub fn list(&self, status: Option<Status>, before: Option<JobId>, limit: usize) -> Vec<Job<R>> {
+        self.shared.books(|table| table.list(status, before, limit))
+    }
+
+    /// What the store holds just now.
+    pub fn load(&self) -> Load {
+        self.shared.books(|table| table.load())
+    }
+
+    /// False once the store accepts nothing more.
+    pub fn is_open(&self) -> bool {
+        self.shared.books(|table| table.is_open())
     }
 
     /// Cancels a job that has not ended, forgets one that has. None when there is no such job.
-    pub fn dismiss(&self, id: JobId) -> Option<Dismissal<T>> {
-        let kept = self.shared.limits.kept;
-        let mut table = lock(&self.shared.table);
-        let job = table.get(id)?;
-        if job.finished.is_some() {
-            let forgotten = table.forget(id);
-            drop(table);
-            drop(forgotten);
-            return Some(Dismissal::Forgotten);
+    pub fn dismiss(&self, id: JobId) -> Option<Dismissal<R>> {
+        let dismissal = self.shared.books(|table| {
+            table.get(id)?;
+            Some(match table.cancel(id) {
+                Some(job) => Dismissal::Cancelled(job),
+                None => {
+                    table.forget(id);
+                    Dismissal::Forgotten
+                }
+            })
+        })?;
+        if let Dismissal::Cancelled(job) = &dismissal {
+            (self.shared.ended)(job);
         }
-        let surplus = table.cancel(id, kept);
-        let ended = table.get(id).or_else(|| surplus.iter().find(|old| old.id == id).cloned());
-        drop(table);
-        ended.map(Dismissal::Cancelled)
+        Some(dismissal)
     }
-}
 
-impl<T> JobStore<T> {
     /// Accepts nothing more. What was accepted still runs.
     pub fn close(&self) {
-        lock(&self.shared.table).close();
+        self.shared.books(|table| table.close());
         self.shared.work.notify_all();
     }
 
@@ -133,18 +148,17 @@ impl<T> JobStore<T> {
     /// A second call waits for nothing more and says the same.
     /// False when an analysis would not stop and its thread had to be left behind.
     pub fn shutdown(&self, grace: Duration) -> bool {
-        let mut ended = lock(&self.ended);
-        if let Some(idle) = *ended {
+        let mut over = lock(&self.over);
+        if let Some(idle) = *over {
             return idle;
         }
         self.close();
         if !self.wait_until_idle(grace) {
-            let mut table = lock(&self.shared.table);
-            for id in table.active() {
-                // Nothing is forgotten here: the books are about to close anyway.
-                table.cancel(id, usize::MAX);
+            for id in self.shared.books(|table| table.active()) {
+                if let Some(job) = self.shared.books(|table| table.cancel(id)) {
+                    (self.shared.ended)(&job);
+                }
             }
-            drop(table);
             self.shared.work.notify_all();
         }
         let idle = self.wait_until_idle(LAST_STEP);
@@ -154,7 +168,7 @@ impl<T> JobStore<T> {
                 let _ = worker.join();
             }
         }
-        *ended = Some(idle);
+        *over = Some(idle);
         idle
     }
 
@@ -169,7 +183,7 @@ impl<T> JobStore<T> {
     }
 }
 
-impl<T> Drop for JobStore<T> {
+impl<R> Drop for JobStore<R> {
     fn drop(&mut self) {
         self.shutdown(Duration::ZERO);
     }

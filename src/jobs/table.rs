@@ -1,112 +1,206 @@
 //! Every job there is, and who is next: plain bookkeeping, to be used under the store's lock.
 
-use super::job::{Job, JobId, Moment, Progress, State};
-use super::store::Limits;
-use crate::collapse::Question;
+use super::Limits;
+use super::job::{Job, JobId, Moment, State, Status};
 use std::collections::{BTreeMap, VecDeque};
-use std::sync::Arc;
+use std::mem;
 
-/// Why a job was not accepted.
+/// A request on its way into the store.
+#[derive(Debug, Clone)]
+pub struct Submission<R> {
+    /// What is asked.
+    pub request: R,
+    /// What keeping it costs, bytes.
+    pub bytes: usize,
+    /// Who asks.
+    pub client: String,
+    /// A name the client gave this submission, so that sending it twice does no harm.
+    pub key: Option<String>,
+}
+
+/// Why a request was not accepted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum Refusal {
     /// As many jobs wait as may.
     #[error("the queue is full: {0} jobs are waiting")]
     QueueFull(usize),
+    /// As many jobs of this client wait as may.
+    #[error("{0} jobs of this client are waiting, as many as one client may have there")]
+    ClientQueueFull(usize),
+    /// The jobs that have not ended fill the memory.
+    #[error("the jobs that have not ended hold {0} bytes, and with this one more than they may")]
+    MemoryFull(usize),
+    /// The key names another request.
+    #[error("job {0} was submitted with the same key and another request")]
+    KeyTaken(JobId),
     /// The store is shutting down.
     #[error("the service is shutting down")]
     Closed,
 }
 
-/// A job taken from the queue.
-pub(super) struct Task {
-    pub(super) id: JobId,
-    pub(super) question: Question,
-    pub(super) progress: Arc<Progress>,
+/// What the store holds just now.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Load {
+    /// Jobs that wait.
+    pub waiting: usize,
+    /// Jobs in the hands of workers, dismissed ones included until their worker is free.
+    pub running: usize,
+    /// Jobs that have ended and are kept.
+    pub finished: usize,
+    /// What all of them cost, bytes.
+    pub bytes: usize,
 }
 
-/// The books. Ids sort by time, so the map does too.
-pub(super) struct Table<T> {
-    jobs: BTreeMap<JobId, Job<T>>,
-    waiting: VecDeque<Task>,
-    /// Ids in the order in which they reached a final state; may name jobs forgotten since.
+/// One job and what only the books know of it.
+#[derive(Debug)]
+struct Entry<R> {
+    job: Job<R>,
+    bytes: usize,
+    client: String,
+    key: Option<String>,
+}
+
+/// The books. Ids sort by time of submission, and so do the map and the queue.
+#[derive(Debug)]
+pub(super) struct Table<R> {
+    limits: Limits,
+    jobs: BTreeMap<JobId, Entry<R>>,
+    waiting: VecDeque<JobId>,
+    /// How many jobs of each client wait.
+    clients: BTreeMap<String, usize>,
+    /// Jobs by the key they were submitted with.
+    keys: BTreeMap<String, JobId>,
+    /// In the order in which they reached a final state.
     finished: VecDeque<JobId>,
-    /// Tasks in the hands of workers, dismissed ones included.
+    /// In the hands of workers, dismissed ones included.
     running: Vec<JobId>,
+    /// What all jobs cost, and those that have not ended.
+    bytes: usize,
+    active_bytes: usize,
+    /// Taken off the books, to be dropped outside the lock.
+    forgotten: Vec<Job<R>>,
     open: bool,
 }
 
-impl<T> Table<T> {
-    pub(super) fn new() -> Self {
+impl<R> Table<R> {
+    pub(super) fn new(limits: Limits) -> Self {
         Table {
+            limits,
             jobs: BTreeMap::new(),
             waiting: VecDeque::new(),
+            clients: BTreeMap::new(),
+            keys: BTreeMap::new(),
             finished: VecDeque::new(),
             running: Vec::new(),
+            bytes: 0,
+            active_bytes: 0,
+            forgotten: Vec::new(),
             open: true,
         }
     }
 
-    pub(super) fn accept(&mut self, job: Job<T>, question: Question, limits: &Limits) -> Result<(), Refusal> {
-        if !self.open {
-            return Err(Refusal::Closed);
-        }
-        if self.waiting.len() >= limits.queue {
-            return Err(Refusal::QueueFull(self.waiting.len()));
-        }
-        self.waiting.push_back(Task { id: job.id, question, progress: job.progress.clone() });
-        self.jobs.insert(job.id, job);
-        Ok(())
-    }
-
     /// Hands out the job that has waited longest.
-    pub(super) fn take(&mut self) -> Option<Task> {
-        let task = self.waiting.pop_front()?;
-        self.running.push(task.id);
-        if let Some(job) = self.jobs.get_mut(&task.id) {
-            job.state = State::Running;
-            job.started = Some(Moment::now());
-        }
-        Some(task)
+    pub(super) fn take(&mut self) -> Option<Job<R>> {
+        let id = self.waiting.pop_front()?;
+        let entry = self.jobs.get_mut(&id)?;
+        left(&mut self.clients, &entry.client);
+        entry.job.turn(State::Running);
+        self.running.push(id);
+        Some(entry.job.clone())
     }
 
-    /// A worker is done with `id`. Returns what had to be forgotten to keep within `kept`.
-    pub(super) fn give_back(&mut self, id: JobId, state: State, kept: usize) -> Vec<Job<T>> {
+    /// A worker is done with `id`: the job as it has ended, unless it had before.
+    pub(super) fn give_back(&mut self, id: JobId, state: State, bytes: usize) -> Option<Job<R>> {
         self.running.retain(|&other| other != id);
-        self.end(id, state, kept)
+        self.end(id, state, bytes)
     }
 
-    /// Ends a job that has not ended yet; returns what had to be forgotten to keep within `kept`.
-    pub(super) fn end(&mut self, id: JobId, state: State, kept: usize) -> Vec<Job<T>> {
-        match self.jobs.get_mut(&id) {
-            Some(job) if job.finished.is_none() => {
-                job.state = state;
-                job.finished = Some(Moment::now());
-            }
-            _ => return Vec::new(),
+    /// Cancels a job that has not ended and returns it; its worker, if any, is told to stop.
+    pub(super) fn cancel(&mut self, id: JobId) -> Option<Job<R>> {
+        if let Ok(place) = self.waiting.binary_search(&id) {
+            self.waiting.remove(place);
+            left(&mut self.clients, &self.jobs.get(&id)?.client);
         }
+        self.jobs.get(&id)?.job.progress.cancel();
+        self.end(id, State::Dismissed, 0)
+    }
+
+    /// Ends a job that has not ended yet and returns it; an answer costs `bytes`.
+    fn end(&mut self, id: JobId, state: State, bytes: usize) -> Option<Job<R>> {
+        let entry = self.jobs.get_mut(&id).filter(|entry| !entry.job.status().is_final())?;
+        entry.job.turn(state);
+        self.active_bytes -= entry.bytes;
+        entry.bytes += bytes;
+        self.bytes += bytes;
+        let job = entry.job.clone();
         self.finished.push_back(id);
-        let surplus = self.finished.len().saturating_sub(kept);
-        self.finished.drain(..surplus).filter_map(|old| self.jobs.remove(&old)).collect()
+        self.tidy();
+        Some(job)
     }
 
-    /// Cancels a job that has not ended; its worker, if any, is told to stop.
-    pub(super) fn cancel(&mut self, id: JobId, kept: usize) -> Vec<Job<T>> {
-        self.waiting.retain(|task| task.id != id);
-        if let Some(job) = self.jobs.get(&id) {
-            job.progress.cancel();
+    /// Forgets finished jobs, oldest first, until what is left is within the limits. The one that ended last stays
+    /// whatever it costs, or nobody could ever read it.
+    pub(super) fn tidy(&mut self) {
+        let (Limits { kept, kept_for, bytes, .. }, now) = (self.limits, Moment::now());
+        while let Some(&oldest) = self.finished.front() {
+            let ended = self.jobs.get(&oldest).and_then(|entry| entry.job.finished);
+            let old = ended.is_none_or(|ended| now.since(&ended) > kept_for);
+            let surplus = self.finished.len() > kept || (self.bytes > bytes && self.finished.len() > 1);
+            if !old && !surplus {
+                break;
+            }
+            self.finished.pop_front();
+            self.remove(oldest);
         }
-        self.end(id, State::Dismissed, kept)
     }
 
     /// Drops a finished job from the books.
-    pub(super) fn forget(&mut self, id: JobId) -> Option<Job<T>> {
+    pub(super) fn forget(&mut self, id: JobId) {
         self.finished.retain(|&other| other != id);
-        self.jobs.remove(&id)
+        self.remove(id);
+    }
+
+    fn remove(&mut self, id: JobId) {
+        let Some(entry) = self.jobs.remove(&id) else { return };
+        self.bytes -= entry.bytes;
+        if let Some(key) = &entry.key {
+            self.keys.remove(key);
+        }
+        self.forgotten.push(entry.job);
+    }
+
+    /// What has been taken off the books since the last call.
+    pub(super) fn forgotten(&mut self) -> Vec<Job<R>> {
+        mem::take(&mut self.forgotten)
+    }
+
+    pub(super) fn get(&self, id: JobId) -> Option<Job<R>> {
+        self.jobs.get(&id).map(|entry| self.seen(entry))
+    }
+
+    /// At most `limit` jobs, newest first, of one status if asked, submitted before `before` if asked.
+    pub(super) fn list(&self, status: Option<Status>, before: Option<JobId>, limit: usize) -> Vec<Job<R>> {
+        let end = before.unwrap_or(JobId::max());
+        let wanted = |entry: &&Entry<R>| status.is_none_or(|status| entry.job.status() == status);
+        let entries = self.jobs.range(..end).rev().map(|(_, entry)| entry);
+        entries.filter(wanted).take(limit).map(|entry| self.seen(entry)).collect()
+    }
+
+    /// The job with its place in the queue.
+    fn seen(&self, entry: &Entry<R>) -> Job<R> {
+        let waits = entry.job.status() == Status::Accepted;
+        let place = if waits { self.waiting.binary_search(&entry.job.id).ok() } else { None };
+        Job { position: place.map(|place| place + 1), ..entry.job.clone() }
     }
 
     /// Ids of all jobs that have not ended.
     pub(super) fn active(&self) -> Vec<JobId> {
-        self.waiting.iter().map(|task| task.id).chain(self.running.iter().copied()).collect()
+        self.waiting.iter().chain(&self.running).copied().collect()
+    }
+
+    pub(super) fn load(&self) -> Load {
+        let (waiting, running) = (self.waiting.len(), self.running.len());
+        Load { waiting, running, finished: self.finished.len(), bytes: self.bytes }
     }
 
     pub(super) fn close(&mut self) {
@@ -126,13 +220,52 @@ impl<T> Table<T> {
     }
 }
 
-impl<T: Clone> Table<T> {
-    pub(super) fn get(&self, id: JobId) -> Option<Job<T>> {
-        self.jobs.get(&id).cloned()
+impl<R: PartialEq> Table<R> {
+    /// Puts a request at the end of the queue; the job that already has its key and asks the same is left as it is.
+    pub(super) fn accept(&mut self, submission: Submission<R>) -> Result<Job<R>, Refusal> {
+        if let Some(&id) = submission.key.as_ref().and_then(|key| self.keys.get(key)) {
+            let known = self.get(id).filter(|job| *job.request == submission.request);
+            return known.ok_or(Refusal::KeyTaken(id));
+        }
+        self.check(&submission)?;
+        let Submission { request, bytes, client, key } = submission;
+        // Named under the lock, so that the order of ids is the order of the queue.
+        let id = JobId::now_v7();
+        *self.clients.entry(client.clone()).or_default() += 1;
+        self.keys.extend(key.clone().map(|key| (key, id)));
+        self.waiting.push_back(id);
+        self.bytes += bytes;
+        self.active_bytes += bytes;
+        let entry = Entry { job: Job::accepted(id, request), bytes, client, key };
+        let job = entry.job.clone();
+        self.jobs.insert(id, entry);
+        self.tidy();
+        Ok(Job { position: Some(self.waiting.len()), ..job })
     }
 
-    /// At most `limit` jobs, newest first.
-    pub(super) fn newest(&self, limit: usize) -> Vec<Job<T>> {
-        self.jobs.values().rev().take(limit).cloned().collect()
+    fn check(&self, submission: &Submission<R>) -> Result<(), Refusal> {
+        let of_client = self.clients.get(&submission.client).copied().unwrap_or(0);
+        let (waiting, limits) = (self.waiting.len(), &self.limits);
+        if !self.open {
+            Err(Refusal::Closed)
+        } else if waiting >= limits.queue {
+            Err(Refusal::QueueFull(waiting))
+        } else if self.active_bytes.saturating_add(submission.bytes) > limits.bytes {
+            Err(Refusal::MemoryFull(self.active_bytes))
+        } else if of_client >= limits.queue_per_client {
+            Err(Refusal::ClientQueueFull(of_client))
+        } else {
+            Ok(())
+        }
+    }
+}
+
+/// One job of this client waits no more.
+fn left(clients: &mut BTreeMap<String, usize>, client: &str) {
+    if let Some(count) = clients.get_mut(client) {
+        *count -= 1;
+        if *count == 0 {
+            clients.remove(client);
+        }
     }
 }

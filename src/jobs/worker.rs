@@ -1,33 +1,34 @@
 //! A worker: takes a job, runs it, writes down how it ended, and takes the next.
 
-use super::job::{Failure, Observer, Progress, State};
+use super::job::{Failure, Job, State};
 use super::lock;
-use super::store::{Analyse, Shared};
-use super::table::Task;
-use crate::collapse::{AnalysisError, Question};
+use super::progress::Observer;
+use super::store::Shared;
+use crate::collapse::AnalysisError;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, PoisonError};
 
 /// The life of a worker thread.
-pub(super) fn work<T>(shared: &Shared<T>) {
-    while let Some(task) = next(shared) {
-        let span = tracing::info_span!("job", job.id = %task.id);
+pub(super) fn work<R>(shared: &Shared<R>) {
+    while let Some(job) = next(shared) {
+        let span = tracing::info_span!("job", job.id = %job.id);
         let _entered = span.enter();
         tracing::info!("started");
-        let state = attempt(&*shared.analyse, &task.question, &task.progress);
+        let (state, bytes) = attempt(shared, &job);
         match &state {
             State::Failed(Failure::Analysis(error @ AnalysisError::Stopped { .. })) => tracing::info!("{error}"),
             State::Failed(failure) => tracing::warn!(%failure, "failed"),
             _ => tracing::info!("ended"),
         }
-        let forgotten = lock(&shared.table).give_back(task.id, state, shared.limits.kept);
+        if let Some(job) = shared.books(|table| table.give_back(job.id, state, bytes)) {
+            (shared.ended)(&job);
+        }
         shared.back.notify_all();
-        drop(forgotten);
     }
 }
 
-/// Waits for a task; none once the store is closed and the queue empty.
-fn next<T>(shared: &Shared<T>) -> Option<Task> {
+/// Waits for a job; none once the store is closed and the queue empty.
+fn next<R>(shared: &Shared<R>) -> Option<Job<R>> {
     let table = lock(&shared.table);
     let mut table = shared
         .work
@@ -36,12 +37,17 @@ fn next<T>(shared: &Shared<T>) -> Option<Task> {
     table.take()
 }
 
-/// Answers one question; whatever happens in it, there is a final state.
-fn attempt(analyse: &Analyse, question: &Question, progress: &Arc<Progress>) -> State {
-    // The answer is built from `question` alone and is lost with a panic, so nothing half-built is seen.
-    match catch_unwind(AssertUnwindSafe(|| analyse(question, &mut Observer(progress)))) {
-        Ok(Ok(answer)) => State::Successful(Arc::new(answer)),
-        Ok(Err(error)) => State::Failed(Failure::Analysis(error)),
-        Err(_) => State::Failed(Failure::Panicked),
+/// Answers one request; whatever happens in it, there is a final state, and what keeping it costs.
+fn attempt<R>(shared: &Shared<R>, job: &Job<R>) -> (State, usize) {
+    let limit = shared.limits.time;
+    let mut observer = Observer::new(&job.progress, limit);
+    // The answer is built from the request alone and is lost with a panic, so nothing half-built is seen.
+    match catch_unwind(AssertUnwindSafe(|| (shared.analyse)(&job.request, &mut observer))) {
+        Ok(Ok(product)) => (State::Successful(Arc::new(product.answer)), product.bytes),
+        Ok(Err(Failure::Analysis(AnalysisError::Stopped { load_factor, events }))) if observer.overdue => {
+            (State::Failed(Failure::Overdue { limit, load_factor, events }), 0)
+        }
+        Ok(Err(failure)) => (State::Failed(failure), 0),
+        Err(_) => (State::Failed(Failure::Defect), 0),
     }
 }

@@ -2,3 +2,4 @@
 
 mod canvas;
 pub mod figure;
+pub mod vtu;

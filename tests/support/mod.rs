@@ -8,14 +8,13 @@ pub mod broken;
 use serde_json::{Value, json};
 use std::io::{Read, Write};
 use std::net::{SocketAddr, TcpStream};
-use std::sync::Arc;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 use tokio::net::TcpListener;
 use tokio::runtime::Runtime;
-use voussoir::api::{self, Service};
+use voussoir::api::{self, Service, Settings, Tokens};
 use voussoir::collapse::{self, AnalysisError, LoadStep, Question, Watch};
-use voussoir::jobs::{JobStore, Limits};
+use voussoir::jobs::Limits;
 
 pub const BODY_LIMIT: usize = 64 << 10;
 
@@ -86,8 +85,27 @@ pub fn trouble(share: f64) -> Value {
     request
 }
 
+/// Limits of a store with so many workers and places in the queue.
+pub fn limits(workers: usize, queue: usize) -> Limits {
+    let (kept_for, time) = (Duration::from_secs(1000), Duration::from_secs(1000));
+    Limits { workers, queue, queue_per_client: queue, kept: 1000, kept_for, bytes: 1 << 30, time }
+}
+
+/// An open service.
+pub fn settings() -> Settings {
+    let limits = api::Limits {
+        body: BODY_LIMIT,
+        request_time: Duration::from_secs(30),
+        voussoirs: 200,
+        subblocks: 1000,
+        streams: 3,
+    };
+    Settings { limits, tokens: Tokens::default(), origins: vec![] }
+}
+
 pub struct Server {
     pub address: SocketAddr,
+    pub service: Service,
     _runtime: Runtime,
 }
 
@@ -99,14 +117,17 @@ pub struct Answer {
 
 impl Server {
     pub fn start(workers: usize, queue: usize) -> Self {
-        let limits = Limits { workers, queue, kept: 1000 };
-        let jobs = Arc::new(JobStore::start(limits, analyse).unwrap());
-        let router = api::router(Service { jobs, body_limit: BODY_LIMIT });
+        Self::with(limits(workers, queue), settings())
+    }
+
+    pub fn with(limits: Limits, settings: Settings) -> Self {
+        let service = Service::start(limits, settings, analyse).unwrap();
+        let router = api::router(service.clone());
         let runtime = tokio::runtime::Builder::new_multi_thread().worker_threads(1).enable_all().build().unwrap();
         let listener = runtime.block_on(TcpListener::bind("127.0.0.1:0")).unwrap();
         let address = listener.local_addr().unwrap();
         runtime.spawn(async { axum::serve(listener, router).await });
-        Server { address, _runtime: runtime }
+        Server { address, service, _runtime: runtime }
     }
 
     /// Sends bytes as they are and reads until the server hangs up.

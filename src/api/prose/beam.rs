@@ -2,10 +2,10 @@
 
 use super::summary::bare;
 use super::wording;
+use crate::api::request::{CurvedBeamRequest, SeamsRequest};
+use crate::api::response::{BeamResult, mesh_in_words};
+use crate::collapse::Digits;
 use std::time::Duration;
-use voussoir::api::request::{CurvedBeamRequest, SeamsRequest};
-use voussoir::api::response::{BeamResult, mesh_in_words};
-use voussoir::collapse::Digits;
 
 /// Error and energy.
 pub fn summary(result: &BeamResult, wall_time: Duration) -> String {

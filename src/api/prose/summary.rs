@@ -2,11 +2,11 @@
 
 use super::wording::{self, Limit, word};
 use super::{moving, safety};
+use crate::api::response::{AnalysisResult, HingeBody, OutcomeWord, SlideBody};
+use crate::collapse::Digits;
 use comfy_table::{Table, presets};
 use std::fmt::Write;
 use std::time::Duration;
-use voussoir::api::response::{AnalysisResult, HingeBody, OutcomeWord, SlideBody};
-use voussoir::collapse::Digits;
 
 /// Forces below this share of the largest are round-off.
 const ROUND_OFF: f64 = 1e-12;

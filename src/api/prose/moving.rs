@@ -1,10 +1,10 @@
 //! Moving geometry and moving springings in words.
 
 use super::wording::{self, word};
-use voussoir::api::response::{
+use crate::api::response::{
     AnalysisResult, SettlementBody, SettlementEndWord, SettlementPathBody, UpdatedBody, UpdatedEndWord,
 };
-use voussoir::collapse::Digits;
+use crate::collapse::Digits;
 
 /// One sentence on springings that move.
 pub fn headline(settlement: &SettlementBody) -> String {

@@ -1,10 +1,10 @@
 //! An answer in sentences.
 
 use super::{moving, safety};
+use crate::api::request::{ArchRequest, DirectionRequest, LoadEntry, LoadRequest, PointLoad, ProfileRequest};
+use crate::api::response::{AnalysisResult, Collapse, HingeBody, MethodWord, MotionBody, OutcomeWord, SlideBody};
+use crate::collapse::Digits;
 use serde::Serialize;
-use voussoir::api::request::{ArchRequest, DirectionRequest, LoadEntry, LoadRequest, PointLoad, ProfileRequest};
-use voussoir::api::response::{AnalysisResult, Collapse, HingeBody, MethodWord, MotionBody, OutcomeWord, SlideBody};
-use voussoir::collapse::Digits;
 
 /// Longest line of prose, characters.
 const WIDTH: usize = 100;

@@ -3,10 +3,10 @@
 use super::safety::{mesh, reach, zone};
 use super::summary::{append, bare, paragraph};
 use super::wording::{self, word};
+use crate::api::response::{CurvePointBody, GovernsWord, ReachBody, SafetyCurveResult};
+use crate::collapse::Digits;
 use comfy_table::Table;
 use std::time::Duration;
-use voussoir::api::response::{CurvePointBody, GovernsWord, ReachBody, SafetyCurveResult};
-use voussoir::collapse::Digits;
 
 /// Most abscissae named with a note.
 const NAMED: usize = 5;

@@ -1,0 +1,164 @@
+//! What becomes of a job, as server-sent events.
+//!
+//! Nothing is kept for this: an event's id says how the job stood, so whoever comes back with the last id seen is told
+//! what has changed since.
+
+use super::Service;
+use super::jobs::{JobPath, find};
+use super::problem::{Problem, kinds};
+use super::request::Request;
+use super::status::{JobStatus, ProgressBody, word};
+use crate::jobs::{Job, JobId, JobStore, Status};
+use axum::http::{HeaderMap, HeaderName, StatusCode};
+use axum::response::sse::{Event, KeepAlive, Sse};
+use axum::response::{IntoResponse, Response};
+use futures_util::stream;
+use std::sync::Arc;
+use std::time::Duration;
+use tokio::sync::OwnedSemaphorePermit;
+use tokio::sync::watch::Receiver;
+use tokio_util::sync::CancellationToken;
+
+/// How often a running analysis is looked at.
+const LOOK: Duration = Duration::from_millis(200);
+
+/// How often a quiet stream shows that it is alive.
+const ALIVE: Duration = Duration::from_secs(10);
+
+const LAST_EVENT_ID: HeaderName = HeaderName::from_static("last-event-id");
+
+type AppState = axum::extract::State<Service>;
+
+/// What becomes of a job, as it happens.
+#[utoipa::path(
+    get, path = "/v1/jobs/{id}/events", tag = "jobs", operation_id = "get_events",
+    params(
+        ("id" = String, Path, format = "uuid", description = "Job id"),
+        ("last-event-id" = Option<String>, Header, description = "Id of the last event seen: only what has changed \
+            since is told"),
+    ),
+    responses(
+        (status = 200, description = "Server-sent events: `status` (data: the status), `step` (data: load factor and \
+            contact events so far), `end` (data: the final status), after which the stream ends",
+            body = String, content_type = "text/event-stream"),
+        (status = 204, description = "The client has seen the end"),
+        (status = 503, description = "Too many streams are open, or shutting down", body = Problem,
+            content_type = "application/problem+json",
+            headers(("retry-after" = u64, description = "Seconds after which to try again"))),
+    )
+)]
+pub(super) async fn events(state: AppState, path: JobPath, headers: HeaderMap) -> Result<Response, Problem> {
+    let job = find(&state, path.0)?;
+    let seen = headers.get(LAST_EVENT_ID).and_then(|id| Seen::read(id.to_str().ok()?));
+    if seen.is_some_and(|seen| seen.status.is_final()) {
+        return Ok(StatusCode::NO_CONTENT.into_response());
+    }
+    if state.stopping.is_cancelled() {
+        return Err(Problem::shutting_down());
+    }
+    let full = |_| Problem::of(kinds::STREAMS_FULL, format!("{} event streams are open", state.limits.streams));
+    let permit = state.streams.clone().try_acquire_owned().map_err(full)?;
+    let follower = Follower {
+        jobs: state.jobs.clone(),
+        id: job.id,
+        changes: job.progress.status(),
+        seen,
+        stopping: state.stopping.clone(),
+        _permit: permit,
+    };
+    let events = stream::unfold(follower, |mut follower| async {
+        let event = follower.next().await?;
+        Some((event, follower))
+    });
+    let sse = Sse::new(events).keep_alive(KeepAlive::new().interval(ALIVE));
+    // Proxies are asked to pass events on as they come.
+    Ok(([(HeaderName::from_static("x-accel-buffering"), "no")], sse).into_response())
+}
+
+/// How a job stood when a client was last told.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Seen {
+    status: Status,
+    events: Option<usize>,
+}
+
+impl Seen {
+    fn of(job: &Job<Request>) -> Self {
+        Seen { status: job.status(), events: job.progress.step().map(|step| step.events) }
+    }
+
+    /// As an event's id has it: `running-153`.
+    fn write(self) -> String {
+        let events = self.events.map(|events| format!("-{events}")).unwrap_or_default();
+        format!("{}{events}", word(self.status))
+    }
+
+    fn read(id: &str) -> Option<Self> {
+        let (name, events) = id.split_once('-').map_or((id, None), |(name, events)| (name, events.parse().ok()));
+        let all = [Status::Accepted, Status::Running, Status::Successful, Status::Failed, Status::Dismissed];
+        let status = all.into_iter().find(|status| word(*status) == name)?;
+        Some(Seen { status, events })
+    }
+}
+
+/// One client that follows one job.
+struct Follower {
+    jobs: Arc<JobStore<Request>>,
+    id: JobId,
+    changes: Receiver<Status>,
+    seen: Option<Seen>,
+    stopping: CancellationToken,
+    _permit: OwnedSemaphorePermit,
+}
+
+impl Follower {
+    /// The next event; none after the end, when the job is forgotten or the service stops.
+    async fn next(&mut self) -> Option<Result<Event, axum::Error>> {
+        if self.seen.is_some_and(|seen| seen.status.is_final()) {
+            return None;
+        }
+        loop {
+            self.changes.borrow_and_update();
+            let job = self.jobs.get(self.id)?;
+            let now = Seen::of(&job);
+            if let Some(event) = self.told(&job, now) {
+                self.seen = Some(now);
+                return Some(event.map(|event| event.id(now.write())));
+            }
+            tokio::select! {
+                () = self.stopping.cancelled() => return None,
+                _ = self.changes.changed() => {}
+                () = tokio::time::sleep(LOOK), if now.status == Status::Running => {}
+            }
+        }
+    }
+
+    /// What is new, if anything.
+    fn told(&self, job: &Job<Request>, now: Seen) -> Option<Result<Event, axum::Error>> {
+        let known = self.seen.is_some_and(|seen| seen.status == now.status);
+        match (known, job.progress.step()) {
+            (false, _) => {
+                let name = if now.status.is_final() { "end" } else { "status" };
+                Some(Event::default().event(name).json_data(JobStatus::from(job)))
+            }
+            (true, Some(step)) if self.seen != Some(now) => {
+                Some(Event::default().event("step").json_data(ProgressBody::from(step)))
+            }
+            _ => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_id_says_how_the_job_stood() {
+        for (status, events) in [(Status::Accepted, None), (Status::Running, Some(0)), (Status::Failed, Some(153))] {
+            let seen = Seen { status, events };
+            assert_eq!(Seen::read(&seen.write()), Some(seen));
+        }
+        assert_eq!(Seen::read("something-else"), None);
+    }
+}

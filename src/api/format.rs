@@ -1,0 +1,93 @@
+//! In which format something is given, by the header `accept` or, before it, by the query parameter `f`.
+
+use super::problem::{Problem, kinds};
+use axum::http::HeaderMap;
+use headers::HeaderMapExt;
+use headers_accept::Accept;
+use mediatype::MediaType;
+
+/// A format.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) enum Format {
+    /// JSON.
+    Json,
+    /// Text for people.
+    Text,
+    /// Comma-separated values, a line of names first.
+    Csv,
+    /// An unstructured grid of VTK, as ParaView reads it.
+    Vtu,
+    /// A drawing.
+    Svg,
+}
+
+impl Format {
+    /// Its name in the query.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Format::Json => "json",
+            Format::Text => "text",
+            Format::Csv => "csv",
+            Format::Vtu => "vtu",
+            Format::Svg => "svg",
+        }
+    }
+
+    /// Its media type.
+    pub(super) fn media_type(self) -> &'static str {
+        match self {
+            Format::Json => "application/json",
+            Format::Text => "text/plain",
+            Format::Csv => "text/csv",
+            Format::Vtu => "application/vnd.vtk.vtu+xml",
+            Format::Svg => "image/svg+xml",
+        }
+    }
+
+    /// The same as the header `content-type` has it.
+    pub(super) fn content_type(self) -> &'static str {
+        match self {
+            Format::Text => "text/plain; charset=utf-8",
+            other => other.media_type(),
+        }
+    }
+
+    /// The format a client wants of those `offered`, the first of them where it does not say.
+    pub(super) fn choose(asked: Option<&str>, headers: &HeaderMap, offered: &[Format]) -> Result<Format, Problem> {
+        let names = || offered.iter().map(|format| format.name()).collect::<Vec<_>>().join(", ");
+        if let Some(name) = asked {
+            let found = offered.iter().copied().find(|format| format.name() == name);
+            let detail = || format!("f is one of {} here", names());
+            return found.ok_or_else(|| Problem::of(kinds::BAD_QUERY, detail()));
+        }
+        let first = offered.first().copied().ok_or_else(Problem::internal)?;
+        // A header that cannot be read asks for nothing.
+        let Some(accept) = headers.typed_get::<Accept>() else { return Ok(first) };
+        let types: Vec<_> = offered.iter().filter_map(|format| MediaType::parse(format.media_type()).ok()).collect();
+        let best = accept.negotiate(&types).and_then(|best| types.iter().position(|one| one == best));
+        best.and_then(|place| offered.get(place).copied()).ok_or_else(|| Problem::not_acceptable(&names()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use axum::http::{HeaderValue, header};
+
+    #[test]
+    fn the_query_goes_first_then_the_header() {
+        let offered = [Format::Json, Format::Csv];
+        let choose = |f: Option<&str>, accept: &'static str| {
+            let headers = HeaderMap::from_iter([(header::ACCEPT, HeaderValue::from_static(accept))]);
+            Format::choose(f, &headers, &offered).ok()
+        };
+        assert_eq!(choose(None, "*/*"), Some(Format::Json));
+        assert_eq!(choose(None, "text/csv"), Some(Format::Csv));
+        assert_eq!(choose(None, "text/csv;q=0.5, application/json;q=0.1"), Some(Format::Csv));
+        assert_eq!(choose(None, "text/*"), Some(Format::Csv));
+        assert_eq!(choose(None, "image/png"), None);
+        assert_eq!(choose(Some("csv"), "application/json"), Some(Format::Csv));
+        assert_eq!(choose(Some("vtu"), "*/*"), None);
+        assert_eq!(Format::choose(None, &HeaderMap::new(), &offered).ok(), Some(Format::Json));
+    }
+}

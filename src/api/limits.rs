@@ -1,0 +1,55 @@
+//! How much one request may ask for.
+
+use super::fault::{Fault, Faults};
+use super::request::{ProfileRequest, Request};
+use crate::collapse::{Analysis, Question};
+use std::time::Duration;
+
+/// How much one request may ask for, beside what the validator allows at most.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Limits {
+    /// Longest body, bytes.
+    pub body: usize,
+    /// Time in which a body has to arrive.
+    pub request_time: Duration,
+    /// Most voussoirs of an arch.
+    pub voussoirs: usize,
+    /// Most subblocks of an analysis.
+    pub subblocks: usize,
+    /// Most event streams open at once.
+    pub streams: usize,
+}
+
+impl Limits {
+    /// What of a question is more than this service takes.
+    pub(super) fn check(&self, request: &Request, question: &Question) -> Vec<Fault> {
+        let mut faults = Faults::default();
+        let (voussoirs, subblocks) = size(question);
+        let place = match request {
+            Request::Arch(request) if matches!(request.arch.profile, ProfileRequest::Surveyed(_)) => {
+                "/arch/profile/surveyed/intrados_m"
+            }
+            _ => "/arch/voussoirs",
+        };
+        let most = self.voussoirs;
+        let detail = format!("{voussoirs} voussoirs: this service takes at most {most}; use fewer");
+        faults.require(voussoirs <= most, place, detail);
+        let most = self.subblocks;
+        let detail = format!("{subblocks} subblocks in all: this service takes at most {most}; use a coarser mesh");
+        faults.require(subblocks <= most, "/mesh/subblocks", detail);
+        faults.into_vec()
+    }
+}
+
+/// Voussoirs and subblocks of one analysis; all points of a curve have the same.
+fn size(question: &Question) -> (usize, usize) {
+    let of = |analysis: &Analysis| {
+        let subblocks = analysis.mesh.subblocks.iter().map(|[radial, along]| radial * along).sum();
+        (analysis.arch.voussoirs.len(), subblocks)
+    };
+    match question {
+        Question::One(analysis) => of(analysis),
+        Question::Curve(points) => points.first().map_or((0, 0), |point| of(&point.analysis)),
+        Question::CurvedBeam(beam) => (1, beam.subblocks.iter().product()),
+    }
+}

@@ -1,0 +1,169 @@
+//! Problems, RFC 9457: the only shape in which this service says no.
+
+pub mod kinds;
+
+use super::fault::Fault;
+use crate::jobs::{Failure, JobId, Refusal};
+use axum::http::{HeaderValue, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use kinds::Kind;
+use serde::Serialize;
+use std::time::Duration;
+use utoipa::ToSchema;
+
+/// The media type of a problem.
+pub const MEDIA_TYPE: &str = "application/problem+json";
+
+/// Seconds after which a client may try again.
+pub(super) const RETRY_AFTER: u64 = 1;
+
+/// What went wrong, for whom it may concern.
+#[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
+pub struct Problem {
+    /// Which kind of problem: a URI that stays the same for every occurrence.
+    #[serde(rename = "type")]
+    kind: &'static str,
+    /// The kind in words.
+    title: &'static str,
+    /// HTTP status code.
+    status: u16,
+    /// This occurrence in words.
+    detail: String,
+    /// Every fault of the request, each with the place where it sits.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schema(required = false)]
+    errors: Vec<Fault>,
+}
+
+impl Problem {
+    /// A problem of a kind of ours.
+    pub fn of(kind: Kind, detail: impl Into<String>) -> Self {
+        let Kind { uri, status, title } = kind;
+        Problem { kind: uri, title, status: status.as_u16(), detail: detail.into(), errors: Vec::new() }
+    }
+
+    /// A problem that its status code says all about.
+    pub fn plain(status: StatusCode, detail: impl Into<String>) -> Self {
+        Problem::of(Kind { uri: "about:blank", status, title: status.canonical_reason().unwrap_or("Error") }, detail)
+    }
+
+    /// The request is JSON, but describes no analysis.
+    pub fn faults(errors: Vec<Fault>) -> Self {
+        let detail = "every fault is listed in errors, with the place where it sits";
+        Problem { errors, ..Problem::of(kinds::INVALID_REQUEST, detail) }
+    }
+
+    /// The body is not said to be JSON.
+    pub fn unsupported_media_type() -> Self {
+        let detail = "send the request with the header content-type: application/json";
+        Problem::plain(StatusCode::UNSUPPORTED_MEDIA_TYPE, detail)
+    }
+
+    /// The body is too long.
+    pub fn too_long(limit: usize) -> Self {
+        Problem::plain(StatusCode::PAYLOAD_TOO_LARGE, format!("the body may have at most {limit} bytes"))
+    }
+
+    /// The body did not arrive in time.
+    pub fn too_slow(limit: Duration) -> Self {
+        let detail = format!("the body did not arrive within {} s", limit.as_secs_f64());
+        Problem::plain(StatusCode::REQUEST_TIMEOUT, detail)
+    }
+
+    /// Nothing lives at this path.
+    pub fn no_such_path(path: &str) -> Self {
+        Problem::plain(StatusCode::NOT_FOUND, format!("nothing is at {path}; /openapi.json lists what is where"))
+    }
+
+    /// The path knows other methods only.
+    pub fn method_not_allowed() -> Self {
+        Problem::plain(StatusCode::METHOD_NOT_ALLOWED, "the header allow lists the methods of this path")
+    }
+
+    /// None of the formats the client takes is on offer.
+    pub fn not_acceptable(offered: &str) -> Self {
+        let detail = format!("this comes as {offered}: name one of them in the header accept, or in the query as f");
+        Problem::plain(StatusCode::NOT_ACCEPTABLE, detail)
+    }
+
+    /// There is no token, or another one.
+    pub fn unauthorized() -> Self {
+        let detail = "send a token of this service in the header authorization: Bearer <token>";
+        Problem::plain(StatusCode::UNAUTHORIZED, detail)
+    }
+
+    /// There is no job of this name.
+    pub fn no_such_job(id: &str) -> Self {
+        let detail = format!("there is no job {id}; finished jobs are forgotten after a while");
+        Problem::of(kinds::NO_SUCH_JOB, detail)
+    }
+
+    /// The job has not ended yet.
+    pub fn result_not_ready(id: JobId) -> Self {
+        let detail = format!("job {id} has not ended yet; its status is at /v1/jobs/{id}");
+        Problem::of(kinds::RESULT_NOT_READY, detail)
+    }
+
+    /// The job was cancelled, there will be no result.
+    pub fn dismissed(id: JobId) -> Self {
+        let detail = format!("job {id} was dismissed and has no result; submit it again");
+        Problem::of(kinds::DISMISSED, detail)
+    }
+
+    /// The service takes no more jobs.
+    pub fn shutting_down() -> Self {
+        Refusal::Closed.into()
+    }
+
+    /// A defect of the program.
+    pub fn internal() -> Self {
+        let detail = "a defect of the program, not of the request; the header x-request-id finds it in the log";
+        Problem::plain(StatusCode::INTERNAL_SERVER_ERROR, detail)
+    }
+
+    /// True where trying again later may help.
+    fn passes(&self) -> bool {
+        matches!(self.status, 429 | 503) || self.kind == kinds::RESULT_NOT_READY.uri
+    }
+}
+
+impl From<Refusal> for Problem {
+    fn from(refusal: Refusal) -> Self {
+        let kind = match refusal {
+            Refusal::QueueFull(_) => kinds::QUEUE_FULL,
+            Refusal::ClientQueueFull(_) => kinds::CLIENT_QUEUE_FULL,
+            Refusal::MemoryFull(_) => kinds::MEMORY_FULL,
+            Refusal::KeyTaken(_) => kinds::KEY_TAKEN,
+            Refusal::Closed => kinds::SHUTTING_DOWN,
+        };
+        Problem::of(kind, refusal.to_string())
+    }
+}
+
+impl From<&Failure> for Problem {
+    fn from(failure: &Failure) -> Self {
+        let kind = match failure {
+            Failure::Overdue { .. } => kinds::ANALYSIS_OVERDUE,
+            Failure::Analysis(_) => kinds::ANALYSIS_FAILED,
+            Failure::Defect => kinds::ANALYSIS_DEFECT,
+        };
+        Problem::of(kind, failure.to_string())
+    }
+}
+
+impl IntoResponse for Problem {
+    fn into_response(self) -> Response {
+        let status = StatusCode::from_u16(self.status).unwrap_or(StatusCode::INTERNAL_SERVER_ERROR);
+        let body = serde_json::to_vec(&self).unwrap_or_default();
+        let mut response = (status, [(header::CONTENT_TYPE, MEDIA_TYPE)], body).into_response();
+        let headers = response.headers_mut();
+        headers.insert(header::CACHE_CONTROL, HeaderValue::from_static("no-store"));
+        if self.passes() {
+            headers.insert(header::RETRY_AFTER, HeaderValue::from(RETRY_AFTER));
+        }
+        if status == StatusCode::UNAUTHORIZED {
+            headers.insert(header::WWW_AUTHENTICATE, HeaderValue::from_static("Bearer"));
+        }
+        response
+    }
+}

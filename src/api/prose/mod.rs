@@ -1,0 +1,23 @@
+//! An answer in words, and the words under its picture.
+
+mod beam;
+mod curve;
+mod figure;
+mod moving;
+mod safety;
+mod summary;
+mod wording;
+
+pub use figure::figure;
+
+use super::response::JobResult;
+use std::time::Duration;
+
+/// The answer as an engineer reads it; `wall_time` is what finding it took.
+pub fn prose(result: &JobResult, wall_time: Duration) -> String {
+    match result {
+        JobResult::Analysis(result) => summary::summary(result, wall_time),
+        JobResult::SafetyCurve(result) => curve::summary(result, wall_time),
+        JobResult::CurvedBeam(result) => beam::summary(result, wall_time),
+    }
+}

@@ -1,0 +1,173 @@
+//! Handlers that take a request: submit it, or only look it over.
+
+use super::body::{JsonBody, aside, check_syntax};
+use super::fault::Fault;
+use super::layers::Client;
+use super::problem::{Problem, kinds};
+use super::request::Request;
+use super::response::line;
+use super::status::{self, JobStatus};
+use super::{Service, read};
+use crate::jobs::{Job, Submission};
+use axum::body::Bytes;
+use axum::http::{HeaderMap, HeaderName, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use axum::{Extension, Json};
+use serde::Serialize;
+use std::time::Duration;
+use utoipa::ToSchema;
+
+/// Longest wait for the end of a job.
+const LONGEST_WAIT: Duration = Duration::from_secs(30);
+
+/// Longest idempotency key, characters.
+const LONGEST_KEY: usize = 200;
+
+const PREFER: HeaderName = HeaderName::from_static("prefer");
+const PREFERENCE_APPLIED: HeaderName = HeaderName::from_static("preference-applied");
+const IDEMPOTENCY_KEY: HeaderName = HeaderName::from_static("idempotency-key");
+
+type AppState = axum::extract::State<Service>;
+
+/// Submit an analysis.
+#[utoipa::path(
+    post, path = "/v1/jobs", tag = "jobs", operation_id = "submit_job",
+    params(
+        ("prefer" = Option<String>, Header,
+            description = "`wait=N`: answer when the job has ended, or after N seconds, 30 at most"),
+        ("idempotency-key" = Option<String>, Header, min_length = 1, max_length = 200, pattern = "^[!-~]+$",
+            description = "A name for this submission: sent again with the same body, it gives the job it named"),
+    ),
+    request_body(content = Request, content_type = "application/json"),
+    responses(
+        (status = 201, description = "Accepted; poll the status", body = JobStatus, headers(
+            ("location" = String, description = "Path of the job's status"),
+            ("preference-applied" = Option<String>, description = "The wait that was granted, where one was asked for"),
+        )),
+        (status = 422, description = "Describes no analysis: every fault is listed; or the idempotency key was used for \
+            another request", body = Problem, content_type = "application/problem+json"),
+        (status = 429, description = "As many jobs of this client wait as may", body = Problem,
+            content_type = "application/problem+json",
+            headers(("retry-after" = u64, description = "Seconds after which to try again"))),
+        (status = 503, description = "Queue or memory full, or shutting down", body = Problem,
+            content_type = "application/problem+json",
+            headers(("retry-after" = u64, description = "Seconds after which to try again"))),
+    )
+)]
+pub(super) async fn submit(
+    state: AppState,
+    headers: HeaderMap,
+    Extension(client): Extension<Client>,
+    JsonBody(body): JsonBody,
+) -> Result<Response, Problem> {
+    let key = idempotency_key(&headers)?.map(|key| client.scoped(key));
+    let (request, bytes) = read_within(&state, body).await?;
+    let job = state.jobs.submit(Submission { request, bytes, client: client.name, key })?;
+    tracing::Span::current().record("job.id", tracing::field::display(job.id));
+    let location = [(header::LOCATION, status::path(job.id))];
+    let Some(wait) = preferred_wait(&headers) else {
+        return Ok((StatusCode::CREATED, location, Json(JobStatus::from(&job))).into_response());
+    };
+    let job = waited_for(&state, job, wait).await;
+    let applied = [(PREFERENCE_APPLIED, format!("wait={}", wait.as_secs()))];
+    Ok((StatusCode::CREATED, location, applied, Json(JobStatus::from(&job))).into_response())
+}
+
+/// The job when it has ended, or as it stands after `wait`.
+async fn waited_for(state: &Service, job: Job<Request>, wait: Duration) -> Job<Request> {
+    // Timed out or ended, what counts is how the job stands then; it may be forgotten already.
+    let _ = tokio::time::timeout(wait, job.progress.ended()).await;
+    state.jobs.get(job.id).unwrap_or(job)
+}
+
+/// What is wrong with a request.
+#[derive(Debug, Serialize, ToSchema)]
+pub(super) struct Verdict {
+    /// True where it would be accepted.
+    valid: bool,
+    /// Every fault, with the place where it sits.
+    errors: Vec<Fault>,
+}
+
+/// Look a request over: all its faults, nothing queued.
+#[utoipa::path(
+    post, path = "/v1/validate", tag = "jobs", operation_id = "validate",
+    request_body(content = Request, content_type = "application/json"),
+    responses(
+        (status = 200, description = "What is wrong with it, if anything", body = Verdict),
+    )
+)]
+pub(super) async fn validate(state: AppState, JsonBody(body): JsonBody) -> Result<Json<Verdict>, Problem> {
+    let limits = state.limits;
+    let errors = aside(move || {
+        check_syntax(&body)?;
+        Ok(match read::read_question(&body) {
+            Ok((request, question)) => limits.check(&request, &question),
+            Err(faults) => faults,
+        })
+    });
+    let errors = errors.await?;
+    Ok(Json(Verdict { valid: errors.is_empty(), errors }))
+}
+
+/// Reads a body; the request, if this service takes it, and what keeping it costs in bytes.
+async fn read_within(state: &Service, body: Bytes) -> Result<(Request, usize), Problem> {
+    let limits = state.limits;
+    aside(move || {
+        check_syntax(&body)?;
+        let (request, question) = read::read_question(&body).map_err(Problem::faults)?;
+        let faults = limits.check(&request, &question);
+        if !faults.is_empty() {
+            return Err(Problem::faults(faults));
+        }
+        let bytes = line(&request).map_err(|_| Problem::internal())?.len();
+        Ok((request, bytes))
+    })
+    .await
+}
+
+fn idempotency_key(headers: &HeaderMap) -> Result<Option<&str>, Problem> {
+    let Some(value) = headers.get(IDEMPOTENCY_KEY) else { return Ok(None) };
+    let key = value.to_str().unwrap_or_default();
+    let plain = (1..=LONGEST_KEY).contains(&key.len()) && key.bytes().all(|byte| byte.is_ascii_graphic());
+    let detail = format!("idempotency-key has to be 1 to {LONGEST_KEY} printable ASCII characters without blanks");
+    if plain { Ok(Some(key)) } else { Err(Problem::of(kinds::BAD_HEADER, detail)) }
+}
+
+/// The wait a client prefers (RFC 7240), cut to the longest there is; what cannot be read is left aside, as it asks.
+fn preferred_wait(headers: &HeaderMap) -> Option<Duration> {
+    let lines = headers.get_all(PREFER).iter().filter_map(|value| value.to_str().ok());
+    let mut preferences = lines.flat_map(|line| line.split(',')).map(|one| one.split(';').next().unwrap_or_default());
+    let seconds = preferences.find_map(|preference| {
+        let (name, value) = preference.split_once('=')?;
+        if !name.trim().eq_ignore_ascii_case("wait") {
+            return None;
+        }
+        value.trim().trim_matches('"').parse::<u64>().ok()
+    })?;
+    Some(Duration::from_secs(seconds).min(LONGEST_WAIT))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use axum::http::HeaderValue;
+
+    #[test]
+    fn a_wait_is_read_as_rfc_7240_writes_it() {
+        for (text, seconds) in [
+            ("wait=5", Some(5)),
+            ("respond-async, wait=10", Some(10)),
+            ("Wait = \"7\"; x=1", Some(7)),
+            ("wait=900", Some(30)),
+            ("wait=0", Some(0)),
+            ("wait", None),
+            ("wait=-1", None),
+            ("wait=soon", None),
+            ("return=minimal", None),
+        ] {
+            let headers = HeaderMap::from_iter([(PREFER, HeaderValue::from_static(text))]);
+            assert_eq!(preferred_wait(&headers), seconds.map(Duration::from_secs), "{text}");
+        }
+    }
+}

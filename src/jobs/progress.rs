@@ -1,0 +1,87 @@
+//! How far a job has come, and the wish to stop it: what its worker and everyone else share.
+
+use super::job::Status;
+use crate::collapse::{LoadStep, Stop, Watch};
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
+use tokio::sync::watch;
+
+/// Written by the job's worker, read by anyone.
+#[derive(Debug)]
+pub struct Progress {
+    load_factor: AtomicU64,
+    events: AtomicUsize,
+    stop: AtomicBool,
+    status: watch::Sender<Status>,
+}
+
+impl Default for Progress {
+    fn default() -> Self {
+        let status = watch::Sender::new(Status::Accepted);
+        Progress {
+            load_factor: AtomicU64::default(),
+            events: AtomicUsize::default(),
+            stop: AtomicBool::default(),
+            status,
+        }
+    }
+}
+
+impl Progress {
+    /// The last step seen; none before the first.
+    pub fn step(&self) -> Option<LoadStep> {
+        let events = self.events.load(Ordering::Acquire);
+        let load_factor = f64::from_bits(self.load_factor.load(Ordering::Relaxed));
+        // Stored one too high, so that zero means "not yet".
+        events.checked_sub(1).map(|events| LoadStep { load_factor, events })
+    }
+
+    /// The status and whatever becomes of it.
+    pub fn status(&self) -> watch::Receiver<Status> {
+        self.status.subscribe()
+    }
+
+    /// Returns when the job has reached a final state.
+    pub async fn ended(&self) {
+        // The sender lives as long as `self`, so there is always an answer.
+        let _ = self.status().wait_for(|status| status.is_final()).await;
+    }
+
+    /// Asks the analysis to stop at its next step.
+    pub(super) fn cancel(&self) {
+        self.stop.store(true, Ordering::Relaxed);
+    }
+
+    /// Lets those who wait know where the job stands.
+    pub(super) fn tell(&self, status: Status) {
+        self.status.send_replace(status);
+    }
+}
+
+/// The worker's eye on one analysis.
+pub(super) struct Observer<'a> {
+    progress: &'a Progress,
+    due: Option<Instant>,
+    /// True once the analysis has been told to stop because its time was over.
+    pub(super) overdue: bool,
+}
+
+impl<'a> Observer<'a> {
+    /// Watches an analysis that begins now and may take so long.
+    pub(super) fn new(progress: &'a Progress, limit: Duration) -> Self {
+        Observer { progress, due: Instant::now().checked_add(limit), overdue: false }
+    }
+}
+
+impl Watch for Observer<'_> {
+    fn on_step(&mut self, step: &LoadStep) -> ControlFlow<Stop> {
+        self.progress.load_factor.store(step.load_factor.to_bits(), Ordering::Relaxed);
+        self.progress.events.store(step.events.saturating_add(1), Ordering::Release);
+        self.overdue = self.due.is_some_and(|due| Instant::now() > due);
+        match self.overdue || self.progress.stop.load(Ordering::Relaxed) {
+            true => ControlFlow::Break(Stop),
+            false => ControlFlow::Continue(()),
+        }
+    }
+}

@@ -1,0 +1,64 @@
+//! A stress field as an unstructured grid of VTK, in XML and text, as ParaView reads it.
+
+use crate::collapse::{StressField, SubblockStress};
+use std::fmt::Write;
+
+/// Number of a polygon among VTK's kinds of cells.
+const POLYGON: u8 = 7;
+
+/// One cell per subblock; the stresses are constant in it, Pa, compression negative.
+pub fn vtu(field: &StressField) -> String {
+    let cells = &field.subblocks;
+    let mut file = String::from("<?xml version=\"1.0\"?>\n");
+    file.push_str(
+        "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n",
+    );
+    let load_factor = [field.load_factor];
+    let load_factor = array("Float64", "load_factor", 1, load_factor.iter()).replacen(
+        "<DataArray",
+        "<DataArray NumberOfTuples=\"1\"",
+        1,
+    );
+    // Writing to a string cannot fail.
+    let _ = writeln!(file, "<FieldData>\n{load_factor}</FieldData>");
+    let _ = writeln!(file, "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">", 4 * cells.len(), cells.len());
+    let corners = cells.iter().flat_map(|cell| cell.corners.iter().flat_map(|corner| [corner.x, corner.y, 0.0]));
+    let _ = writeln!(file, "<Points>\n{}</Points>", array("Float64", "Points", 3, corners));
+    let _ = writeln!(
+        file,
+        "<Cells>\n{}{}{}</Cells>",
+        array("Int64", "connectivity", 1, 0..4 * cells.len()),
+        array("Int64", "offsets", 1, (1..=cells.len()).map(|cell| 4 * cell)),
+        array("UInt8", "types", 1, cells.iter().map(|_| POLYGON)),
+    );
+    let _ = writeln!(file, "<CellData>\n{}</CellData>", cell_data(cells));
+    file.push_str("</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
+    file
+}
+
+fn cell_data(cells: &[SubblockStress]) -> String {
+    let number = |name: &str, value: fn(&SubblockStress) -> f64| array("Float64", name, 1, cells.iter().map(value));
+    let place = |name: &str, value: fn(&SubblockStress) -> usize| array("Int64", name, 1, cells.iter().map(value));
+    [
+        place("voussoir", |cell| cell.voussoir),
+        place("radial", |cell| cell.place[0]),
+        place("along", |cell| cell.place[1]),
+        number("sigma_x_pa", |cell| cell.stress[0]),
+        number("sigma_y_pa", |cell| cell.stress[1]),
+        number("tau_xy_pa", |cell| cell.stress[2]),
+        number("sigma_1_pa", |cell| cell.principal()[0]),
+        number("sigma_2_pa", |cell| cell.principal()[1]),
+        number("tresca_pa", SubblockStress::tresca),
+    ]
+    .concat()
+}
+
+fn array(kind: &str, name: &str, components: usize, values: impl Iterator<Item = impl std::fmt::Display>) -> String {
+    let mut text =
+        format!("<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"ascii\">\n");
+    for value in values {
+        let _ = write!(text, "{value} ");
+    }
+    text.push_str("\n</DataArray>\n");
+    text
+}
