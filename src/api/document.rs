@@ -3,6 +3,7 @@
 use super::problem::{MEDIA_TYPE, Problem};
 use super::{guarded, open};
 use utoipa::ToSchema;
+use utoipa::openapi::link::{Link, LinkBuilder};
 use utoipa::openapi::path::Operation;
 use utoipa::openapi::security::{Http, HttpAuthScheme, SecurityRequirement, SecurityScheme};
 use utoipa::openapi::{Content, OpenApi, Ref, RefOr, ResponseBuilder};
@@ -34,6 +35,10 @@ const OF_BODIES: [(&str, &str); 4] = [
     ("413", "The body is too long"),
     ("415", "The body is not said to be JSON"),
 ];
+
+/// What a job's id is good for.
+const LINKED: [&str; 8] =
+    ["get_job", "dismiss_job", "get_request", "get_events", "get_results", "get_history", "get_field", "get_figure"];
 
 /// The OpenAPI document, as it is served and as `openapi/voussoir.json` holds it.
 pub fn document() -> String {
@@ -69,8 +74,21 @@ fn complete(document: &mut OpenApi) {
             }
         }
     }
+    let submission = document.paths.paths.get_mut("/v1/jobs").and_then(|item| item.post.as_mut());
+    if let Some(RefOr::T(accepted)) = submission.and_then(|submit| submit.responses.responses.get_mut("201")) {
+        accepted.links.extend(LINKED.map(|operation| (operation.to_owned(), RefOr::T(link(operation)))));
+    }
     let scheme = SecurityScheme::Http(Http::new(HttpAuthScheme::Bearer));
     document.components.get_or_insert_default().add_security_scheme(TOKEN, scheme);
+}
+
+/// Leads from a submission to what can be asked of its job.
+fn link(operation: &str) -> Link {
+    let link = LinkBuilder::new().operation_id(operation).parameter("id", "$response.body#/job_id");
+    match operation {
+        "get_field" => link.parameter("load", "near_collapse").build(),
+        _ => link.build(),
+    }
 }
 
 /// Adds a problem to an operation that does not speak of this status itself.

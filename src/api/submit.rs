@@ -1,7 +1,6 @@
 //! Handlers that take a request: submit it, or only look it over.
 
 use super::body::{JsonBody, aside, check_syntax};
-use super::fault::Fault;
 use super::layers::Client;
 use super::problem::{Problem, kinds};
 use super::request::Request;
@@ -80,34 +79,28 @@ async fn waited_for(state: &Service, job: Job<Request>, wait: Duration) -> Job<R
     state.jobs.get(job.id).unwrap_or(job)
 }
 
-/// What is wrong with a request.
+/// A request that would be accepted.
 #[derive(Debug, Serialize, ToSchema)]
 pub(super) struct Verdict {
-    /// True where it would be accepted.
+    /// Always true; a faulty request is answered with a problem.
     valid: bool,
-    /// Every fault, with the place where it sits.
-    errors: Vec<Fault>,
+    /// The request as it was understood, defaults filled in.
+    request: Request,
 }
 
-/// Look a request over: all its faults, nothing queued.
+/// Look a request over: the answer of a submission, but nothing is queued.
 #[utoipa::path(
     post, path = "/v1/validate", tag = "jobs", operation_id = "validate",
     request_body(content = Request, content_type = "application/json"),
     responses(
-        (status = 200, description = "What is wrong with it, if anything", body = Verdict),
+        (status = 200, description = "It would be accepted", body = Verdict),
+        (status = 422, description = "Describes no analysis: every fault is listed", body = Problem,
+            content_type = "application/problem+json"),
     )
 )]
 pub(super) async fn validate(state: AppState, JsonBody(body): JsonBody) -> Result<Json<Verdict>, Problem> {
-    let limits = state.limits;
-    let errors = aside(move || {
-        check_syntax(&body)?;
-        Ok(match read::read_question(&body) {
-            Ok((request, question)) => limits.check(&request, &question),
-            Err(faults) => faults,
-        })
-    });
-    let errors = errors.await?;
-    Ok(Json(Verdict { valid: errors.is_empty(), errors }))
+    let (request, _) = read_within(&state, body).await?;
+    Ok(Json(Verdict { valid: true, request }))
 }
 
 /// Reads a body; the request, if this service takes it, and what keeping it costs in bytes.
