@@ -1,6 +1,6 @@
 //! Handlers of `/v1/jobs/{id}/results`: the answer as a whole and in parts.
 
-use super::body::aside;
+use super::body::Aside;
 use super::etag::Version;
 use super::format::Format;
 use super::jobs::{JobPath, find};
@@ -33,6 +33,7 @@ pub(super) struct FormatQuery {
 /// What is asked of an answer: whose, in which format, and what the client has already.
 pub(super) struct Asked {
     job: Finished,
+    aside: Aside,
     f: Option<String>,
     headers: HeaderMap,
 }
@@ -57,7 +58,8 @@ impl FromRequestParts<Service> for Asked {
             State::Failed(failure) => return Err(failure.into()),
             State::Successful(answer) => answer.clone(),
         };
-        Ok(Asked { job: Finished { job, answer }, f, headers: parts.headers.clone() })
+        let (job, aside) = (Finished { job, answer }, service.aside.clone());
+        Ok(Asked { job, aside, f, headers: parts.headers.clone() })
     }
 }
 
@@ -69,13 +71,13 @@ impl Asked {
         offered: &[Format],
         write: impl FnOnce(&Finished, Format) -> Result<Vec<u8>, Problem> + Send + 'static,
     ) -> Result<Response, Problem> {
-        let Asked { job, f, headers } = self;
+        let Asked { job, aside, f, headers } = self;
         let format = Format::choose(f.as_deref(), &headers, offered)?;
         let version = Version::of((job.job.id, part, format));
         let mut response = match version.known(&headers) {
             Some(response) => response,
             None => {
-                let body = aside(move || write(&job, format)).await?;
+                let body = aside.run(move || write(&job, format)).await?;
                 version.mark(([(header::CONTENT_TYPE, format.content_type())], body))
             }
         };
