@@ -1,6 +1,7 @@
 //! The README's own lines, run as they stand.
 #![cfg(all(feature = "server", unix))]
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test stops at the first surprise")]
+#![allow(clippy::disallowed_methods, reason = "a thread that reads the log to its end")]
 
 use std::io::{BufRead, BufReader};
 use std::path::PathBuf;
@@ -80,7 +81,7 @@ fn the_readme_lists_every_setting() {
     let readme = std::fs::read_to_string(format!("{ROOT}/README.md")).unwrap();
     let is_flag = |word: &&str| word.starts_with("--") && word.bytes().all(|b| b == b'-' || b.is_ascii_lowercase());
     let flags: Vec<_> = help.split_whitespace().filter(is_flag).filter(|word| *word != "--help").collect();
-    let variables: Vec<_> = help.split(['[', '=']).filter_map(|part| part.strip_prefix("env: ")).collect();
+    let variables: Vec<_> = help.split(['[', '=', ']']).filter_map(|part| part.strip_prefix("env: ")).collect();
     assert!(flags.len() >= 17 && variables.len() >= 17, "{flags:?} {variables:?}");
     for name in flags.iter().chain(&variables) {
         let named = readme.contains(&format!("`{name}`"));
