@@ -3,7 +3,9 @@
 use super::heart::Heart;
 
 /// Entries that are copied between two heartbeats.
-const AT_ONCE: usize = 1 << 20;
+const AT_ONCE: usize = 1 << 18;
+/// Work of copying an entry to memory that is new, in multiplications.
+const COPIED: usize = 4;
 
 /// Matrices stored row by row, one after the other.
 #[derive(Debug, Clone, Default)]
@@ -30,7 +32,7 @@ impl Panels {
         let mut entries = vec![0.0; self.entries.len()];
         for (into, from) in entries.chunks_mut(AT_ONCE).zip(self.entries.chunks(AT_ONCE)) {
             into.copy_from_slice(from);
-            if heart.work(from.len()).is_err() {
+            if heart.work(COPIED * from.len()).is_err() {
                 break;
             }
         }

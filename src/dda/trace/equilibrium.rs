@@ -10,6 +10,8 @@ use crate::dda::panels::subtract_applied;
 /// the path is given up.
 const CORRECT: f64 = 1e-11;
 const GIVE_UP: f64 = 1e-6;
+/// Work of renewing an entry of the matrix's diagonal and those beside it, in multiplications.
+const RENEWED: usize = 8;
 
 impl Tracer<'_> {
     /// Measures the equilibrium residual of every node, corrects the displacements where it matters; false when
@@ -109,7 +111,7 @@ impl Tracer<'_> {
             self.reassemble(k);
             let faces = self.chain.faces(k).into_iter().flatten();
             let done: usize = faces.map(|face| self.matrix.diagonal.get(face).len()).sum();
-            if self.heart.work(2 * done).is_err() {
+            if self.heart.work(RENEWED * done).is_err() {
                 return;
             }
         }
