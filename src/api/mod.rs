@@ -3,6 +3,7 @@
 
 pub mod fault;
 mod jobs;
+mod kinds;
 mod layers;
 mod meta;
 pub mod problem;
@@ -13,6 +14,7 @@ pub mod status;
 mod timestamp;
 pub mod translate;
 mod tree;
+mod wording;
 
 use crate::jobs::JobStore;
 use axum::Router;
