@@ -1,6 +1,7 @@
 //! The HTTP interface: a request becomes a [`Question`](crate::collapse::Question), its answer becomes JSON. Nothing is
 //! computed here.
 
+mod contract;
 pub mod fault;
 mod jobs;
 mod kinds;
@@ -63,7 +64,7 @@ pub fn router(service: Service) -> Router {
 /// The OpenAPI document, as it is served and as `openapi/voussoir.json` holds it.
 pub fn document() -> String {
     // Serialising a document of strings and numbers cannot fail; an empty one would fail its test.
-    let mut text = routes().into_openapi().to_pretty_json().unwrap_or_default();
+    let mut text = contract::complete(routes().into_openapi()).to_pretty_json().unwrap_or_default();
     text.push('\n');
     text
 }
