@@ -1,7 +1,7 @@
 //! The OpenAPI document: what the handlers say of themselves, and what holds for many of them.
 
 use super::problem::{MEDIA_TYPE, Problem};
-use super::{guarded, open};
+use super::{contract, guarded, open};
 use utoipa::ToSchema;
 use utoipa::openapi::link::{Link, LinkBuilder};
 use utoipa::openapi::path::Operation;
@@ -42,7 +42,7 @@ const LINKED: [&str; 8] =
 
 /// The OpenAPI document, as it is served and as `openapi/voussoir.json` holds it.
 pub fn document() -> String {
-    let mut document = guarded().merge(open()).into_openapi();
+    let mut document = contract::complete(guarded().merge(open()).into_openapi());
     complete(&mut document);
     // Serialising a document of strings and numbers cannot fail; an empty one would fail its test.
     let mut text = document.to_pretty_json().unwrap_or_default();
