@@ -310,7 +310,7 @@ mod tests {
 
     /// Of so many kinds are its stones.
     fn kinds(analysis: &Analysis) -> usize {
-        watched(&mut Unwatched, |pulse| discretise(analysis, 1, pulse).unwrap().chain.kinds())
+        watched(&mut Unwatched, |pulse| Ok(discretise(analysis, 1, pulse)?.chain.kinds())).unwrap()
     }
 
     #[test]
@@ -328,7 +328,7 @@ mod tests {
     fn the_subblocks_of_a_stone_tile_it() {
         for curved in [false, true] {
             let analysis = semicircle(7, [5, 4], curved);
-            let grids = watched(&mut Unwatched, |pulse| discretise(&analysis, 1, pulse).unwrap().grids);
+            let grids = watched(&mut Unwatched, |pulse| Ok(discretise(&analysis, 1, pulse)?.grids)).unwrap();
             for (grid, stone) in grids.iter().zip(&analysis.arch.voussoirs) {
                 let all = grid.cells().map(|(i, j)| grid.region(i, j)).reduce(Region::join).unwrap();
                 assert!((all.area / stone.region.area - 1.0).abs() < 1e-12);

@@ -2,8 +2,7 @@
 
 use super::{AnalysisError, LoadStep, Watch};
 use crate::dda::Heart;
-use std::cell::Cell;
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::ops::ControlFlow;
 
 /// Tells the watch of every step, and of the same step again at every heartbeat until the next.
@@ -13,11 +12,20 @@ pub(super) struct Pulse<'w> {
     pub heart: Heart<'w>,
 }
 
-/// Runs something under a watch.
-pub(super) fn watched<T>(watch: &mut dyn Watch, run: impl FnOnce(&Pulse) -> T) -> T {
+/// Runs something under a watch. Where that has asked to stop there is no answer, whatever was computed.
+///
+/// # Errors
+/// When stopped, and those of `run`.
+pub(super) fn watched<T>(
+    watch: &mut dyn Watch,
+    run: impl FnOnce(&Pulse) -> Result<T, AnalysisError>,
+) -> Result<T, AnalysisError> {
     let (watch, last) = (RefCell::new(watch), Cell::new(LoadStep { load_factor: 0.0, events: 0 }));
     let ask = || watch.borrow_mut().on_step(&last.get()).map_break(|_| ());
-    run(&Pulse { last: &last, heart: Heart::new(&ask) })
+    let pulse = Pulse { last: &last, heart: Heart::new(&ask) };
+    let result = run(&pulse);
+    pulse.check()?;
+    result
 }
 
 impl Pulse<'_> {
