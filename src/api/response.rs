@@ -102,10 +102,10 @@ pub struct AnalysisResult {
 /// Horizontal thrust under the fixed loads.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct ThrustRangeBody {
-    /// Least.
-    pub lowest_n_per_m: f64,
-    /// Greatest.
-    pub highest_n_per_m: f64,
+    /// Least; null: as far the other way as one likes.
+    pub lowest_n_per_m: Option<f64>,
+    /// Greatest; null: as much as one likes, as in an arch so flat that its stones are wedged.
+    pub highest_n_per_m: Option<f64>,
 }
 
 /// Counts of the work done.
@@ -234,6 +234,7 @@ impl From<Cost> for CostBody {
 
 impl From<ThrustRange> for ThrustRangeBody {
     fn from(range: ThrustRange) -> Self {
-        ThrustRangeBody { lowest_n_per_m: range.lowest, highest_n_per_m: range.highest }
+        let [lowest_n_per_m, highest_n_per_m] = [range.lowest, range.highest].map(|end| end.is_finite().then_some(end));
+        ThrustRangeBody { lowest_n_per_m, highest_n_per_m }
     }
 }

@@ -68,7 +68,9 @@ fn facts(result: &AnalysisResult, wall_time: Duration) -> Table {
     }
     fact("limit window", wording::window(result));
     if let Some(range) = &result.thrust_range {
-        let [lowest, highest] = [range.lowest_n_per_m, range.highest_n_per_m].map(|thrust| Digits(thrust / 1e3));
+        let words = |thrust: f64| Digits(thrust / 1e3).to_string();
+        let [lowest, highest] =
+            [range.lowest_n_per_m, range.highest_n_per_m].map(|end| end.map_or("any".to_owned(), words));
         fact("thrust range", format!("{lowest} to {highest} kN per metre of depth"));
     }
     for (name, value) in moving::facts(result).into_iter().chain(safety::facts(result)) {

@@ -9,9 +9,12 @@ use crate::api::request::{
 };
 use crate::arch::profile::Profile;
 use crate::arch::ring::{JointEnds, JointLines, Line, Ring, Thickness, stations};
-use crate::arch::{Arch, ArchFault, JointLaw, MAX_VOUSSOIRS, straight_voussoirs};
+use crate::arch::{Arch, ArchFault, Joint, JointLaw, MAX_VOUSSOIRS, straight_voussoirs};
 use crate::collapse::Digits;
 use crate::geometry::Vec2;
+
+/// Least height of an abutment over the thickness it carries: far below, its area and stiffness cannot be told.
+const LEAST_ABUTMENT: f64 = 1e-6;
 
 /// Most faults of single stones that are listed.
 const MAX_STONE_FAULTS: usize = 20;
@@ -46,7 +49,18 @@ pub fn arch(request: &ArchRequest, law: JointLaw, faults: &mut Faults) -> Option
         arch.joints[last].law = JointLaw::Bonded;
     }
     if let Some(abutments) = &request.abutments {
-        arch.stand_on_abutments(abutments.height_m);
+        let springings = [&arch.joints[0], &arch.joints[arch.joints.len() - 1]];
+        let least = LEAST_ABUTMENT * springings.map(Joint::length).into_iter().fold(0.0, f64::max);
+        let height = abutments.height_m;
+        let detail = format!(
+            "{} m is too low beside stones of this thickness: give at least {} m, or leave the abutments out",
+            Shown(height),
+            Digits(least)
+        );
+        if !faults.require(height >= least, "/arch/abutments/height_m", detail) {
+            return None;
+        }
+        arch.stand_on_abutments(height);
     }
     Some(arch)
 }

@@ -1,0 +1,184 @@
+//! What holds for any body: it is refused with faults one can follow, or read as a request that reads again as itself.
+
+use std::cell::Cell;
+use std::ops::ControlFlow;
+use voussoir::api::fault::Fault;
+use voussoir::api::read::read_question;
+use voussoir::api::request::Request;
+use voussoir::api::response::JobResult;
+use voussoir::arch::{Arch, JointLaw, PointForce};
+use voussoir::collapse::{self, Analysis, LoadStep, Question, Stop, Watch};
+
+/// Reads a body; what was asked, where it was not refused.
+pub fn read(body: &[u8]) -> Option<(Request, Question)> {
+    match read_question(body) {
+        Err(faults) => {
+            assert!(!faults.is_empty(), "refused without a fault");
+            faults.iter().for_each(check_fault);
+            None
+        }
+        Ok((request, question)) => {
+            check_echo(&request, &question);
+            assert!(is_finite(&question), "a number of the question is not finite");
+            Some((request, question))
+        }
+    }
+}
+
+fn check_fault(fault: &Fault) {
+    let Fault { pointer, detail } = fault;
+    assert!(pointer.is_empty() || pointer.starts_with('/'), "no pointer: {pointer}");
+    let escapes = pointer.split('~').skip(1).all(|rest| rest.starts_with(['0', '1']));
+    assert!(escapes, "no pointer: {pointer}");
+    assert!(!detail.trim().is_empty() && detail.len() < 1000, "{} characters of detail", detail.len());
+}
+
+fn check_echo(request: &Request, question: &Question) {
+    let echo = serde_json::to_vec(request).expect("a request can be written");
+    match read_question(&echo) {
+        Ok(again) => {
+            assert!(again.0 == *request, "its echo is another request");
+            assert!(again.1 == *question, "its echo asks another question");
+        }
+        Err(faults) => panic!("its echo is refused: {faults:?}"),
+    }
+}
+
+fn is_finite(question: &Question) -> bool {
+    match question {
+        Question::One(analysis) => analysis_is_finite(analysis),
+        Question::Curve(points) => {
+            points.iter().all(|point| point.abscissa.is_finite() && analysis_is_finite(&point.analysis))
+        }
+        Question::CurvedBeam(beam) => {
+            let stone = &beam.stone;
+            let numbers =
+                [beam.inner_radius, beam.outer_radius, beam.shear, stone.youngs_modulus, stone.poissons_ratio];
+            numbers.iter().all(|number| number.is_finite())
+        }
+    }
+}
+
+fn analysis_is_finite(analysis: &Analysis) -> bool {
+    let stone = &analysis.stone;
+    let numbers = [
+        stone.density,
+        stone.youngs_modulus,
+        stone.poissons_ratio,
+        stone.friction_angle,
+        stone.cohesion,
+        stone.compressive_strength,
+        analysis.penalty_ratio,
+        analysis.cap.unwrap_or(0.0),
+        analysis.share,
+    ];
+    let force = |force: &PointForce| force.at.iter().chain(force.force.iter()).all(|number| number.is_finite());
+    numbers.iter().all(|number| number.is_finite())
+        && analysis.fixed.iter().chain(&analysis.scaled).all(force)
+        && arch_is_finite(&analysis.arch)
+}
+
+fn arch_is_finite(arch: &Arch) -> bool {
+    let law = |law: &JointLaw| match law {
+        JointLaw::Dry { friction, cohesion } => friction.is_finite() && cohesion.is_finite(),
+        _ => true,
+    };
+    let abutments = arch.abutments.iter().flatten();
+    abutments
+        .into_iter()
+        .all(|abutment| abutment.region.area > 0.0 && abutment.region.centroid.iter().all(|x| x.is_finite()))
+        && arch.joints.iter().all(|joint| {
+            joint.intrados.iter().chain(joint.extrados.iter()).all(|number| number.is_finite()) && law(&joint.law)
+        })
+        && arch.voussoirs.iter().all(|voussoir| {
+            voussoir.region.area > 0.0
+                && voussoir.region.area.is_finite()
+                && voussoir.region.centroid.iter().all(|number| number.is_finite())
+        })
+}
+
+/// How an analysis ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Solved {
+    Answered,
+    Stopped,
+    Failed,
+}
+
+/// Whether a question is answered in no time.
+pub fn is_small(question: &Question) -> bool {
+    let small = |analysis: &Analysis| {
+        analysis.arch.voussoirs.len() <= 60
+            && analysis.mesh.subblocks.iter().map(|[radial, along]| radial * along).sum::<usize>() <= 200
+            && analysis.motion.is_none_or(|motion| motion.most_frames <= 30)
+    };
+    match question {
+        Question::One(analysis) => small(analysis),
+        Question::Curve(points) => points.len() <= 5 && points.iter().all(|point| small(&point.analysis)),
+        Question::CurvedBeam(beam) => beam.subblocks[0] * beam.subblocks[1] <= 200,
+    }
+}
+
+struct Patience(Cell<usize>);
+
+impl Watch for Patience {
+    fn on_step(&mut self, _: &LoadStep) -> ControlFlow<Stop> {
+        let left = self.0.get();
+        self.0.set(left.saturating_sub(1));
+        if left == 0 { ControlFlow::Break(Stop) } else { ControlFlow::Continue(()) }
+    }
+}
+
+/// Solves a question for so many steps; its answer has to be one by the schema, without `null` for a number.
+pub fn solve(request: &Request, question: &Question, steps: usize, schema: &Answers) -> Solved {
+    match collapse::answer(question, &mut Patience(Cell::new(steps))) {
+        Ok(answer) => {
+            let result = JobResult::new(request, &answer).expect("an answer without numbers that JSON cannot say");
+            let bytes = result.to_bytes().expect("an answer can be written");
+            let value = serde_json::from_slice(&bytes).expect("what is written is JSON");
+            let wrong: Vec<_> = schema.errors(&result, &value).into_iter().take(3).collect();
+            assert!(wrong.is_empty(), "no answer by the schema: {wrong:?}");
+            Solved::Answered
+        }
+        Err(collapse::AnalysisError::Stopped { .. }) => Solved::Stopped,
+        Err(error) => {
+            assert!(!error.to_string().is_empty());
+            Solved::Failed
+        }
+    }
+}
+
+/// The schemas of the answers to an analysis, a curve and a beam.
+pub struct Answers([jsonschema::Validator; 3]);
+
+impl Answers {
+    pub fn new() -> Self {
+        let document = voussoir::api::document();
+        let document: serde_json::Value = serde_json::from_str(&document).expect("the document is JSON");
+        let schema = |name: &str| {
+            let reference = format!("#/components/schemas/{name}");
+            let schema = serde_json::json!({"$ref": reference, "components": document["components"]});
+            jsonschema::draft202012::new(&schema).expect("the schema is one")
+        };
+        Answers(["AnalysisResult", "SafetyCurveResult", "BeamResult"].map(schema))
+    }
+
+    /// Where an answer is none by its schema.
+    fn errors(&self, result: &JobResult, value: &serde_json::Value) -> Vec<String> {
+        let which = match result {
+            JobResult::Analysis(_) => 0,
+            JobResult::SafetyCurve(_) => 1,
+            JobResult::CurvedBeam(_) => 2,
+        };
+        let errors = self.0[which].iter_errors(value);
+        errors.map(|error| format!("{}: {:.100}", error.instance_path(), error.to_string())).collect()
+    }
+}
+
+/// All cases as seeds, and the good requests of the contract.
+pub fn seeds() -> Vec<serde_json::Value> {
+    let folders = crate::folders::folders(&crate::folders::cases());
+    let text = |folder: &std::path::PathBuf| std::fs::read(folder.join("request.json")).expect("a case has a request");
+    let cases = folders.iter().map(|folder| serde_json::from_slice(&text(folder)).expect("a case is JSON"));
+    cases.chain(crate::bodies::bodies()).collect()
+}
