@@ -287,3 +287,17 @@ fn a_motion_can_be_stopped() {
     let stopped = run(&analysis, &mut StopsBeyond(244.0));
     assert!(matches!(stopped, Err(AnalysisError::Stopped { load_factor, .. }) if load_factor > 244.0));
 }
+
+#[test]
+fn a_load_so_small_that_its_factor_overflows_has_no_motion() {
+    let mut request = case("first-arch");
+    request["loads"][1]["load"]["point_load"]["force_n_per_m"] = json!(1e-320);
+    request["method"] = json!({"fixed_steps": {"step": 1.0}});
+    request["motion"] = json!({});
+    let error = run(&door::analysis(&request).unwrap(), &mut Unwatched);
+    let told = match error {
+        Ok(report) => report.motion.is_none_or(|motion| motion.load_factor.is_finite() && motion.overload.is_finite()),
+        Err(error) => matches!(error, AnalysisError::NotFinite { .. } | AnalysisError::TooManySteps { .. }),
+    };
+    assert!(told);
+}

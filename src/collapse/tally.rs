@@ -124,7 +124,9 @@ impl CollapseReport {
             let line = path.thrust_line.iter().flat_map(|t| [t.normal, t.shear, t.eccentricity, t.at.x, t.at.y]);
             finite("settlement", Box::new(line))?;
         }
-        for frame in self.motion.iter().chain(&self.other_motion).flat_map(|motion| &motion.frames) {
+        let motions = || self.motion.iter().chain(&self.other_motion);
+        finite("motion", Box::new(motions().flat_map(|motion| [motion.load_factor, motion.overload])))?;
+        for frame in motions().flat_map(|motion| &motion.frames) {
             let places = frame.centroids.iter().flat_map(|at| [at.x, at.y]).chain(frame.rotations.iter().copied());
             finite("motion", Box::new(places.chain([frame.parameter, frame.displacement, frame.penetration])))?;
             let forces = frame.contacts.iter().flat_map(|c| [c.normal, c.tangential, c.gap, c.at.x, c.at.y]);
