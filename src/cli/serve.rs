@@ -39,7 +39,7 @@ fn run(options: &Serve) -> io::Result<()> {
     let handle = Handle::new();
     let ending = runtime.spawn(end(service.clone(), handle.clone(), Duration::from_secs(options.grace)));
     runtime.block_on(async {
-        let mut server = axum_server::from_tcp(listener)?.handle(handle);
+        let mut server = axum_server::from_tcp(listener)?.handle(handle).http1_only();
         be_patient(&mut server, request_time);
         server.serve(api::router(service).into_make_service_with_connect_info::<SocketAddr>()).await?;
         ending.await.map_err(io::Error::other)
@@ -50,11 +50,10 @@ fn run(options: &Serve) -> io::Result<()> {
     Ok(())
 }
 
-/// So patient and no more with a request's head; a client that has said all it will may still read the answer.
+/// So patient and no more with a request's head; a client that has said all it will may still read the answer. The server
+/// has to be told on its own that it speaks HTTP/1 only, or it waits for a first byte without end.
 fn be_patient<A: axum_server::Address>(server: &mut Server<A>, request_time: Duration) {
-    let builder = server.http_builder();
-    *builder = builder.clone().http1_only();
-    builder.http1().timer(TokioTimer::new()).header_read_timeout(request_time).half_close(true);
+    server.http_builder().http1().timer(TokioTimer::new()).header_read_timeout(request_time).half_close(true);
 }
 
 /// Once told to stop: accepts no more jobs and ends event streams, lets jobs end within `grace` while everyone can still
