@@ -11,7 +11,7 @@ use divan::{Bencher, black_box};
 use serde_json::{Value, json};
 use voussoir::api::read::read_analysis;
 use voussoir::collapse::{Analysis, FieldAt, Unwatched, run};
-use voussoir::limit::StaticTheorem;
+use voussoir::limit::{StaticTheorem, unwatched};
 
 /// Numbers of voussoirs.
 const SIZES: [usize; 4] = [9, 61, 201, 1001];
@@ -55,7 +55,7 @@ fn collapse(bencher: Bencher, analysis: &Analysis) {
 
 fn limit_window(bencher: Bencher, analysis: &Analysis) {
     let Analysis { arch, fixed, scaled, .. } = analysis;
-    bencher.bench_local(|| StaticTheorem::new(black_box(arch), fixed, scaled).window());
+    bencher.bench_local(|| StaticTheorem::new(black_box(arch), fixed, scaled).window(&unwatched));
 }
 
 #[divan::bench(args = SIZES)]

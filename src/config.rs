@@ -116,7 +116,7 @@ pub struct Requests {
     /// Longest request body in bytes; beyond it a submission is answered with 413
     #[arg(long, env = "VOUSSOIR_BODY_LIMIT", default_value_t = 1 << 20, value_parser = count(1024, 1 << 30))]
     pub body_limit: u64,
-    /// Seconds a request may take to arrive, head and body each; then the connection is closed or answered with 408
+    /// Seconds a request's head, its body (then 408) and a stalled answer may take before the connection is closed
     #[arg(long, env = "VOUSSOIR_REQUEST_TIME", default_value_t = 30, value_parser = count(1, 3600))]
     pub request_time: u64,
     /// Event streams open at once; beyond it 503

@@ -241,7 +241,7 @@ fn combinations_that_cannot_be() {
             "/arch/thickness",
         ),
         (vec![("/arch/joints", json!({"rays": {"centre_m": [0, 30]}}))], "/arch/joints/rays/centre_m"),
-        (vec![("/arch/joints", json!({"rays": {"centre_m": [0, 1e7]}}))], "/arch/joints/rays/centre_m"),
+        (vec![("/arch/joints", json!({"rays": {"centre_m": [0, 1e7]}}))], "/arch/joints/rays/centre_m/1"),
         (vec![("/arch/joints", json!({"rays": {"centre_m": [0, 1, 2]}}))], "/arch/joints/rays/centre_m"),
         (
             vec![("/arch/curved_sides", json!(true)), ("/arch/joints", json!({"rays": {"centre_m": [0, -1]}}))],
@@ -313,9 +313,9 @@ fn stones_that_cannot_be_built_are_refused() {
     let swapped = survey(json!([[-2, 0], [0, 1], [1, 0]]), json!([[-1, 0], [0, 2], [2, 0]]));
     assert_eq!(pointers(&faults(&swapped)), [points[0]]);
     let short = survey(json!([[-1, 0], [1, 0]]), json!([[-2, 0], [2, 0]]));
-    assert_eq!(pointers(&faults(&short)), ["/arch/profile/surveyed/intrados_m"]);
+    assert_eq!(pointers(&faults(&short)), ["/arch/profile/surveyed/intrados_m", "/arch/profile/surveyed/extrados_m"]);
     let far = survey(json!([[-1, 0], [0, 1e9], [1, 0]]), json!([[-2, 0], [0, 2], [2, 0]]));
-    assert_eq!(pointers(&faults(&far)), ["/arch/profile/surveyed/intrados_m/1"]);
+    assert_eq!(pointers(&faults(&far)), ["/arch/profile/surveyed/intrados_m/1/1"]);
     let closed = survey(
         json!([[-0.1, -1], [-1, 0], [0, 1], [1, 0], [0.1, -1]]),
         json!([[0.3, -2], [-2, 0], [0, 2], [2, 0], [-0.3, -2]]),
@@ -401,6 +401,88 @@ fn text_that_is_no_json_is_refused_with_line_and_column() {
         assert_eq!(pointers(&read(text.as_bytes()).unwrap_err()), [""], "{text}");
     }
     assert_eq!(pointers(&read(b"{}").unwrap_err()), ["/arch", "/loads"]);
+}
+
+#[test]
+fn a_list_is_no_object_and_an_object_no_word() {
+    let a_list = [
+        ("/stone", json!([])),
+        ("/stone", json!([2000, 1e9])),
+        ("/arch", json!([1])),
+        ("/mesh/subblocks/uniform", json!([2, 3])),
+        ("/loads/0/load/self_weight", json!([])),
+        ("/loads/0", json!([{"self_weight": {}}])),
+        ("/joint_overrides/0", json!([6, 20])),
+        ("/arch/abutments", json!([1])),
+    ];
+    for (pointer, value) in a_list {
+        let mut request = good();
+        set(&mut request, pointer, value);
+        let found = faults(&request);
+        assert_eq!(pointers(&found), [pointer], "{found:?}");
+        assert!(found[0].detail.starts_with("a list where an object belongs"), "{found:?}");
+    }
+    for (pointer, value) in [("/method", json!({"event_path": null})), ("/arch/line", json!({"axis": null}))] {
+        let mut request = good();
+        set(&mut request, pointer, value);
+        let found = faults(&request);
+        assert_eq!(pointers(&found), [pointer], "{found:?}");
+        assert!(found[0].detail.starts_with("an object where text belongs: write"), "{found:?}");
+    }
+}
+
+#[test]
+fn one_cause_is_one_fault() {
+    let settlement = json!({
+        "arch": good()["arch"], "loads": [{"load": {"self_weight": {}}}],
+        "analysis": {"settlement": {"left": {"outward_m": 0.1}}}
+    });
+    assert_eq!(pointers(&faults(&settlement)), ["/analysis/settlement/left/outward_m"]);
+    let mut request = good();
+    set(&mut request, "/loads/1/load", json!({"fill_pressure": {"fill_hieght_m": 5}}));
+    assert_eq!(pointers(&faults(&request)), ["/loads/1/load/fill_pressure/fill_hieght_m"]);
+    let mut request = good();
+    set(&mut request, "/analysis", json!({"safety": {}}));
+    set(&mut request, "/geometry", json!("updated"));
+    assert_eq!(pointers(&faults(&request)), ["/method"]);
+    let mut request = good();
+    set(&mut request, "/curved_beam", json!({"inner_radius_m": 1, "outer_radius_m": 2, "end_shear_n_per_m": 1}));
+    let found = faults(&request);
+    let of_an_arch = ["/analysis", "/arch", "/joint_overrides", "/load_factor", "/loads", "/method", "/report"];
+    assert_eq!(pointers(&found), of_an_arch);
+    assert!(found.iter().all(|fault| fault.detail.contains("goes with an arch")), "{found:?}");
+}
+
+#[test]
+fn what_a_settlement_makes_no_use_of_is_refused() {
+    let mut request = good();
+    for pointer in ["/method", "/load_factor/unit", "/report/stress_fields"] {
+        remove(&mut request, pointer);
+    }
+    set(&mut request, "/analysis", json!({"settlement": {"left": {"outwards_m": 0.01}}}));
+    set(&mut request, "/load_factor/direction", json!("decrease"));
+    set(&mut request, "/loads/2/scaled", json!(false));
+    set(&mut request, "/loads/3/scaled", json!(false));
+    let unused = ["/load_factor/direction", "/load_factor/cap", "/report/share_of_collapse"];
+    assert_eq!(pointers(&faults(&request)), unused);
+    // An answer repeats its request with all defaults, and what it repeats can be sent again.
+    set(&mut request, "/load_factor", json!({"direction": "increase"}));
+    set(&mut request, "/report", json!({"share_of_collapse": 0.999}));
+    assert!(read_analysis(request.to_string().as_bytes()).is_ok());
+}
+
+#[test]
+fn faults_are_short_whatever_the_numbers_are() {
+    for pointer in ["/arch/thickness/constant_m", "/arch/voussoirs", "/stone/poissons_ratio", "/loads/2/coefficient"] {
+        let mut request = good();
+        set(&mut request, pointer, json!(1e300));
+        let found = faults(&request);
+        assert_eq!(pointers(&found), [pointer]);
+        assert!(found[0].detail.len() < 200, "{found:?}");
+    }
+    let mut request = good();
+    set(&mut request, "/arch/line", json!("x".repeat(5000)));
+    assert!(faults(&request)[0].detail.len() < 200);
 }
 
 #[test]

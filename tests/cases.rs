@@ -105,6 +105,10 @@ impl Case {
                 self.number(key, &value[0], "/limit_window/0");
                 return self.number(key, &value[1], "/limit_window/1");
             }
+            "thrust_range" => {
+                self.number(key, &value[0], "/thrust_range/lowest_n_per_m");
+                return self.number(key, &value[1], "/thrust_range/highest_n_per_m");
+            }
             // Ends of a stability window: the path rises to the highest, and is followed down to the lowest too.
             "highest" => return self.number(key, value, "/collapse/intensity"),
             "lowest" => return self.number(key, value, "/other_end/intensity"),

@@ -8,7 +8,7 @@ use common::{door, random_arch};
 use serde_json::{Value, json};
 use voussoir::arch::{Joint, PointForce};
 use voussoir::collapse::Analysis;
-use voussoir::limit::StaticTheorem;
+use voussoir::limit::{StaticTheorem, unwatched};
 
 /// How many random arches, from seed 0.
 const ARCHES: u64 = 360;
@@ -50,12 +50,12 @@ fn compare(seed: u64) -> Result<Found, String> {
     let analysis = door::analysis(&random_arch::request(seed))?;
     let theorem = theorem(&analysis);
     let strength = mean_stress(&analysis) * Dice::new(seed).decades(1.0, 300.0);
-    let plain = theorem.window().map_err(|_| "plain window unsolved")?;
-    let hard = theorem.crushing_window(HARD).map_err(|_| "hard window unsolved")?;
+    let plain = theorem.window(&unwatched).map_err(|_| "plain window unsolved")?;
+    let hard = theorem.crushing_window(HARD, &unwatched).map_err(|_| "hard window unsolved")?;
     if hard.as_ref().map(|window| window.ends) != plain {
         return Err(format!("hard {hard:?}, plain {plain:?}"));
     }
-    let ours = theorem.crushing_window(strength).map_err(|_| "unsolved")?.map(|window| window.ends);
+    let ours = theorem.crushing_window(strength, &unwatched).map_err(|_| "unsolved")?.map(|window| window.ends);
     let problem = common::oracle::Problem { strength: Some(strength), ..door::problem(&analysis) };
     let give = problem.give();
     if give.abs() < BALANCE {
@@ -195,8 +195,8 @@ fn hold(title: &str, rows: &[[f64; 3]], request: impl Fn(f64) -> Value) {
     for &[abscissa, rigid, plastic] in rows {
         let analysis = door::analysis(&request(abscissa)).unwrap();
         let theorem = theorem(&analysis);
-        let plain = theorem.window().unwrap();
-        let crushing = theorem.crushing_window(STRENGTH).unwrap().map(|window| window.ends);
+        let plain = theorem.window(&unwatched).unwrap();
+        let crushing = theorem.crushing_window(STRENGTH, &unwatched).unwrap().map(|window| window.ends);
         let problem = common::oracle::Problem { strength: Some(STRENGTH), ..door::problem(&analysis) };
         let cones = if problem.give() < 0.0 { problem.window() } else { None };
         let same = match (crushing, cones) {

@@ -5,7 +5,9 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use std::ops::ControlFlow;
-use voussoir::dda::{Block, Chain, ChainBuilder, Drive, Elasticity, End, Law, Loads, Push, Touch, Tracer, covering};
+use voussoir::dda::{
+    Block, Chain, ChainBuilder, Drive, Elasticity, End, Heart, Law, Loads, Push, Touch, Tracer, covering,
+};
 use voussoir::geometry::{Region, Vec2};
 
 const PENALTY: f64 = 1e10;
@@ -63,7 +65,7 @@ fn chain(rectangles: &[Rectangle], faces: &[Face], friction: f64) -> Chain {
         }
         builder.next_interface();
     }
-    builder.finish().unwrap()
+    builder.finish(&Heart::unwatched()).unwrap()
 }
 
 /// Blocks of equal size one on the other, each set off by `shift[i]` from the left.
@@ -82,12 +84,13 @@ fn stack(shifts: &[f64], b: f64, h: f64, friction: f64) -> (Vec<Rectangle>, Chai
 
 /// Loads that a uniform acceleration (in g) puts on the blocks.
 fn body_loads(blocks: &[Rectangle], chain: &Chain, acceleration: Vec2) -> Loads {
-    chain.loads(blocks.iter().enumerate().map(|(body, r)| Push {
+    let push = |(body, r): (usize, &Rectangle)| Push {
         body,
         subblock: 0,
         at: 0.5 * (r.low + r.high),
         force: acceleration * (WEIGHT_DENSITY * r.area()),
-    }))
+    };
+    chain.loads(blocks.iter().enumerate().map(push), &Heart::unwatched()).unwrap()
 }
 
 fn weight(blocks: &[Rectangle]) -> f64 {
@@ -99,11 +102,11 @@ fn watch(_: &Tracer) -> ControlFlow<()> {
 }
 
 /// Brings the loads on; the tracer stands at them if the end says so.
-fn stand<'a>(blocks: &[Rectangle], chain: &'a Chain, loads: &Loads) -> (Tracer<'a>, End) {
+fn stand<'a>(blocks: &[Rectangle], chain: &'a Chain, loads: &Loads, heart: &'a Heart<'a>) -> (Tracer<'a>, End) {
     let loads = &loads.on_nodes;
     let largest = loads.iter().map(|l| l.abs()).fold(0.0, f64::max);
     let preload = loads.len() as f64 * largest / PENALTY;
-    let mut tracer = Tracer::new(chain, covering(chain, loads, preload), 10.0, weight(blocks));
+    let mut tracer = Tracer::new(chain, covering(chain, loads, preload), 10.0, weight(blocks), heart);
     let end = tracer.trace(1.0, &mut watch);
     (tracer, end)
 }
@@ -111,7 +114,8 @@ fn stand<'a>(blocks: &[Rectangle], chain: &'a Chain, loads: &Loads) -> (Tracer<'
 /// Horizontal acceleration in g at which the blocks fall.
 fn lateral_capacity(blocks: &[Rectangle], chain: &Chain) -> f64 {
     let gravity = body_loads(blocks, chain, Vec2::new(0.0, -1.0));
-    let (mut tracer, end) = stand(blocks, chain, &gravity);
+    let heart = Heart::unwatched();
+    let (mut tracer, end) = stand(blocks, chain, &gravity, &heart);
     assert_eq!(end, End::Reached);
     let rate = body_loads(blocks, chain, Vec2::new(1.0, 0.0));
     tracer.drive_on(Drive { base: gravity.on_nodes, rate: rate.on_nodes, ..Drive::default() }, 0.0);
@@ -125,7 +129,8 @@ fn on_slope(b: f64, h: f64, slope_deg: f64, friction_deg: f64) -> &'static str {
     let (blocks, chain) = stack(&[0.0], b, h, friction_deg.to_radians().tan());
     let slope = slope_deg.to_radians();
     let loads = body_loads(&blocks, &chain, Vec2::new(slope.sin(), -slope.cos()));
-    let (tracer, end) = stand(&blocks, &chain, &loads);
+    let heart = Heart::unwatched();
+    let (tracer, end) = stand(&blocks, &chain, &loads, &heart);
     if end == End::Reached {
         return "stable";
     }
@@ -198,7 +203,8 @@ fn overhang_stands_just_below_the_harmonic_limit_and_falls_just_above() {
                 })
                 .collect();
             let chain = chain(&blocks, &faces, 0.7);
-            let (_, end) = stand(&blocks, &chain, &body_loads(&blocks, &chain, Vec2::new(0.0, -1.0)));
+            let heart = Heart::unwatched();
+            let (_, end) = stand(&blocks, &chain, &body_loads(&blocks, &chain, Vec2::new(0.0, -1.0)), &heart);
             assert_eq!(end, expected, "n={n} at {share} of the limit");
         }
     }
@@ -208,7 +214,8 @@ fn overhang_stands_just_below_the_harmonic_limit_and_falls_just_above() {
 fn a_pile_carries_its_weight_as_mean_stress_and_penetrates_by_n_over_2k() {
     let (blocks, chain) = stack(&[0.0; 4], 1.0, 0.5, 0.7);
     let loads = body_loads(&blocks, &chain, Vec2::new(0.0, -1.0));
-    let (tracer, end) = stand(&blocks, &chain, &loads);
+    let heart = Heart::unwatched();
+    let (tracer, end) = stand(&blocks, &chain, &loads, &heart);
     assert_eq!(end, End::Reached);
     for i in 0..4 {
         let above = (3 - i) as f64 * 0.5;

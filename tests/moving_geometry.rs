@@ -10,7 +10,7 @@ use common::wire::{ask, circular, paper_case_1};
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
 use voussoir::collapse::{CollapseReport, Outcome, Unwatched, UpdatedEnd, UpdatedGeometry, run};
-use voussoir::dda::{Block, Chain, ChainBuilder, Drive, Elasticity, End, Law, Patience, Push, Touch, Tracer};
+use voussoir::dda::{Block, Chain, ChainBuilder, Drive, Elasticity, End, Heart, Law, Patience, Push, Touch, Tracer};
 use voussoir::geometry::{Region, Vec2, perpendicular};
 
 fn watch(_: &Tracer) -> ControlFlow<()> {
@@ -35,15 +35,16 @@ fn block(area: f64, centroid: Vec2, youngs_modulus: f64) -> Block {
 
 /// Load at which the first limit point of a chain lies, that starts unloaded.
 fn limit_point(chain: &Chain, push: Push, size: f64) -> f64 {
-    let load = chain.loads([push]);
+    let heart = Heart::unwatched();
+    let load = chain.loads([push], &heart).unwrap();
     let zeros = vec![0.0; load.on_nodes.len()];
     let drive = Drive {
         base: zeros.clone(),
         rate: load.on_nodes.clone(),
-        turned: [zeros, chain.turned_loads([push])],
+        turned: [zeros, chain.turned_loads([push], &heart).unwrap()],
         ..Drive::default()
     };
-    let mut tracer = Tracer::new(chain, drive.clone(), size, push.force.norm());
+    let mut tracer = Tracer::new(chain, drive.clone(), size, push.force.norm(), &heart);
     assert_eq!(tracer.move_on(drive, 0.0, &mut watch), End::Reached);
     assert_eq!(
         tracer.trace_moving(1e9, Patience { fall: 0.1, rise: 0.0, movement: [0.0, 0.05] }, &mut watch),
@@ -70,7 +71,7 @@ fn two_shallow_bars_snap_through_at_the_load_of_von_mises() {
             }
             builder.next_interface();
         }
-        let chain = builder.finish().unwrap();
+        let chain = builder.finish(&Heart::unwatched()).unwrap();
         let push = Push { body: 0, subblock: 0, at: top, force: Vec2::new(0.0, -1e5) };
         let found = limit_point(&chain, push, 2.0 * a);
         let c = alpha.cos();
@@ -106,7 +107,7 @@ fn a_column_under_an_eccentric_load_falls_when_its_lever_reaches_the_edge() {
             }
             builder.next_interface();
         }
-        let chain = builder.finish().unwrap();
+        let chain = builder.finish(&Heart::unwatched()).unwrap();
         let at = Vec2::new(eccentricity, n as f64 * height);
         let push = Push { body: n - 1, subblock: 0, at, force: Vec2::new(0.0, -1e5) };
         let found = limit_point(&chain, push, n as f64 * height);

@@ -7,6 +7,10 @@ use axum::extract::{FromRequest, Request};
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::IntoResponse;
 use serde::de::IgnoredAny;
+use std::num::NonZeroUsize;
+use std::sync::Arc;
+use std::thread::available_parallelism;
+use tokio::sync::Semaphore;
 
 /// A body that is JSON, arrived in time and is not too long.
 pub(super) struct JsonBody(pub(super) Bytes);
@@ -43,10 +47,30 @@ pub(super) fn check_syntax(body: &[u8]) -> Result<(), Problem> {
     serde_json::from_str::<IgnoredAny>(text).map(drop).map_err(|error| not_json(&error))
 }
 
-/// Runs what takes a while, reading or writing, on a thread of its own kind, so that others need not wait for it.
-#[allow(clippy::disallowed_methods, reason = "reading and writing are no analysis: short, and need no cancelling")]
-pub(super) async fn aside<V: Send + 'static>(
-    work: impl FnOnce() -> Result<V, Problem> + Send + 'static,
-) -> Result<V, Problem> {
-    tokio::task::spawn_blocking(work).await.unwrap_or_else(|_| Err(Problem::internal()))
+/// Threads for what takes a while, reading or writing, so that others need not wait for it; only so many at once.
+#[derive(Debug, Clone)]
+pub(super) struct Aside(Arc<Semaphore>);
+
+impl Default for Aside {
+    /// As many as there are cores.
+    fn default() -> Self {
+        Aside(Arc::new(Semaphore::new(available_parallelism().map_or(1, NonZeroUsize::get))))
+    }
+}
+
+impl Aside {
+    /// Runs `work` when it is its turn.
+    #[allow(clippy::disallowed_methods, reason = "reading and writing are no analysis: short, and need no cancelling")]
+    pub(super) async fn run<V: Send + 'static>(
+        &self,
+        work: impl FnOnce() -> Result<V, Problem> + Send + 'static,
+    ) -> Result<V, Problem> {
+        let permit = self.0.clone().acquire_owned().await.map_err(|_| Problem::internal())?;
+        let done = tokio::task::spawn_blocking(move || {
+            let value = work();
+            drop(permit);
+            value
+        });
+        done.await.unwrap_or_else(|_| Err(Problem::internal()))
+    }
 }

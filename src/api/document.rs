@@ -1,12 +1,15 @@
 //! The OpenAPI document: what the handlers say of themselves, and what holds for many of them.
 
+use super::format::Format;
 use super::problem::{MEDIA_TYPE, Problem};
-use super::{guarded, open};
+use super::results::{FIELD, FIGURE, HISTORY, RESULTS};
+use super::{contract, guarded, open};
 use utoipa::ToSchema;
 use utoipa::openapi::link::{Link, LinkBuilder};
-use utoipa::openapi::path::Operation;
+use utoipa::openapi::path::{Operation, Parameter, ParameterBuilder, ParameterIn};
+use utoipa::openapi::schema::{ObjectBuilder, Type};
 use utoipa::openapi::security::{Http, HttpAuthScheme, SecurityRequirement, SecurityScheme};
-use utoipa::openapi::{Content, OpenApi, Ref, RefOr, ResponseBuilder};
+use utoipa::openapi::{Content, OpenApi, Ref, RefOr, Required, ResponseBuilder};
 
 /// Name of the security scheme.
 const TOKEN: &str = "token";
@@ -40,9 +43,13 @@ const OF_BODIES: [(&str, &str); 4] = [
 const LINKED: [&str; 8] =
     ["get_job", "dismiss_job", "get_request", "get_events", "get_results", "get_history", "get_field", "get_figure"];
 
+/// Ends of paths, and the formats on offer there.
+const FORMATS: [(&str, &[Format]); 4] =
+    [("/results", &RESULTS), ("/history", &HISTORY), ("/fields/{load}", &FIELD), ("/figure", &FIGURE)];
+
 /// The OpenAPI document, as it is served and as `openapi/voussoir.json` holds it.
 pub fn document() -> String {
-    let mut document = guarded().merge(open()).into_openapi();
+    let mut document = contract::complete(guarded().merge(open()).into_openapi());
     complete(&mut document);
     // Serialising a document of strings and numbers cannot fail; an empty one would fail its test.
     let mut text = document.to_pretty_json().unwrap_or_default();
@@ -68,6 +75,9 @@ fn complete(document: &mut OpenApi) {
                 let known = ResponseBuilder::new().description("As the client knows it already").build();
                 operation.responses.responses.entry("304".to_owned()).or_insert(RefOr::T(known));
             }
+            if let Some((_, formats)) = FORMATS.iter().find(|(end, _)| path.ends_with(end)) {
+                operation.parameters.get_or_insert_default().push(RefOr::T(format_of(formats)));
+            }
             if is_guarded(path) {
                 // A token, or none where the service is open to all.
                 operation.security = Some(vec![SecurityRequirement::new(TOKEN, NONE), SecurityRequirement::default()]);
@@ -80,6 +90,19 @@ fn complete(document: &mut OpenApi) {
     }
     let scheme = SecurityScheme::Http(Http::new(HttpAuthScheme::Bearer));
     document.components.get_or_insert_default().add_security_scheme(TOKEN, scheme);
+}
+
+/// The query parameter that chooses one of these formats.
+fn format_of(formats: &[Format]) -> Parameter {
+    let names = ObjectBuilder::new().schema_type(Type::String);
+    let names = names.enum_values(Some(formats.iter().map(|format| format.name())));
+    ParameterBuilder::new()
+        .name("f")
+        .parameter_in(ParameterIn::Query)
+        .required(Required::False)
+        .description(Some("Format; goes before the header `accept`"))
+        .schema(Some(names))
+        .build()
 }
 
 /// Leads from a submission to what can be asked of its job.

@@ -18,6 +18,7 @@ use std::time::Duration;
 use tokio::sync::OwnedSemaphorePermit;
 use tokio::sync::watch::Receiver;
 use tokio_util::sync::CancellationToken;
+use utoipa::ToSchema;
 
 /// How often a running analysis is looked at.
 const LOOK: Duration = Duration::from_millis(200);
@@ -40,7 +41,7 @@ type AppState = axum::extract::State<Service>;
     responses(
         (status = 200, description = "Server-sent events: `status` (data: the status), `step` (data: load factor and \
             contact events so far), `end` (data: the final status), after which the stream ends",
-            body = String, content_type = "text/event-stream"),
+            body = StreamEvent, content_type = "text/event-stream"),
         (status = 204, description = "The client has seen the end"),
         (status = 503, description = "Too many streams are open, or shutting down", body = Problem,
             content_type = "application/problem+json",
@@ -73,6 +74,18 @@ pub(super) async fn events(state: AppState, path: JobPath, headers: HeaderMap) -
     let sse = Sse::new(events).keep_alive(KeepAlive::new().interval(ALIVE));
     // Proxies are asked to pass events on as they come.
     Ok(([(HeaderName::from_static("x-accel-buffering"), "no")], sse).into_response())
+}
+
+/// One event of the stream.
+#[derive(ToSchema)]
+#[allow(dead_code, reason = "describes what is written event by event")]
+struct StreamEvent {
+    /// `status`, `step` or `end`.
+    event: String,
+    /// How the job stands: what `last-event-id` is to say to go on from here.
+    id: String,
+    /// JSON: the status, or of a step load factor and contact events.
+    data: String,
 }
 
 /// How a job stood when a client was last told.

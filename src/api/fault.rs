@@ -1,6 +1,8 @@
 //! What is wrong with a request, for whoever wrote it.
 
 use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::ops::RangeInclusive;
 use utoipa::ToSchema;
 
 /// One thing that is wrong with a request, and how to mend it.
@@ -55,14 +57,58 @@ impl Faults {
 
     /// Requires `least < value <= most`.
     pub fn within(&mut self, pointer: impl Into<String>, value: f64, least: f64, most: f64) -> bool {
-        let detail = format!("{value} is out of range: it must be greater than {least} and at most {most}");
-        self.require(value > least && value <= most, pointer, detail)
+        let rule = format!("it must be greater than {} and at most {}", Shown(least), Shown(most));
+        self.in_range(value > least && value <= most, pointer, value, &rule)
     }
 
     /// Requires `least <= value < below`.
     pub fn from_to(&mut self, pointer: impl Into<String>, value: f64, least: f64, below: f64) -> bool {
-        let detail = format!("{value} is out of range: it must be at least {least} and less than {below}");
-        self.require(value >= least && value < below, pointer, detail)
+        let rule = format!("it must be at least {} and less than {}", Shown(least), Shown(below));
+        self.in_range(value >= least && value < below, pointer, value, &rule)
+    }
+
+    /// Requires `above < value < below`.
+    pub fn inside(&mut self, pointer: impl Into<String>, value: f64, above: f64, below: f64) -> bool {
+        let rule = format!("it must lie between {} and {}, both excluded", Shown(above), Shown(below));
+        self.in_range(value > above && value < below, pointer, value, &rule)
+    }
+
+    /// Requires `-most <= value <= most`.
+    pub fn either_way(&mut self, pointer: impl Into<String>, value: f64, most: f64) -> bool {
+        let rule = format!("it must be from -{most} to {most}", most = Shown(most));
+        self.in_range(value.abs() <= most, pointer, value, &rule)
+    }
+
+    /// A fault of a number alone, whatever the rest of the request: the schema has the same bounds.
+    pub fn in_range(&mut self, holds: bool, pointer: impl Into<String>, value: f64, rule: &str) -> bool {
+        holds || self.require(false, pointer, format!("{} is out of range: {rule}", Shown(value)))
+    }
+
+    /// Requires a count, or an index, to lie in a range; `what` it counts.
+    pub fn counted(
+        &mut self,
+        pointer: impl Into<String>,
+        count: usize,
+        range: RangeInclusive<usize>,
+        what: &str,
+    ) -> bool {
+        let (least, most) = (range.start(), range.end());
+        let detail = format!("{count} is out of range: {what} run from {least} to {most}");
+        self.require(range.contains(&count), pointer, detail)
+    }
+
+    /// Requires a list to have so many items.
+    pub fn listing(
+        &mut self,
+        pointer: impl Into<String>,
+        count: usize,
+        range: RangeInclusive<usize>,
+        what: &str,
+    ) -> bool {
+        let (least, most) = (range.start(), range.end());
+        let words = if *least == 0 { format!("at most {most}") } else { format!("{least} to {most}") };
+        let detail = format!("{count} {what}, which is out of range: list {words}");
+        self.require(range.contains(&count), pointer, detail)
     }
 
     /// True when nothing is wrong so far.
@@ -81,9 +127,29 @@ impl Faults {
     }
 }
 
+/// A number as a fault shows it: all its digits, and an exponent where it is very large or small.
+#[derive(Debug, Clone, Copy)]
+pub struct Shown(pub f64);
+
+impl fmt::Display for Shown {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let plain = self.0 == 0.0 || (1e-5..1e7).contains(&self.0.abs());
+        if plain { write!(f, "{}", self.0) } else { write!(f, "{:e}", self.0) }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn numbers_are_short_and_whole() {
+        for (value, text) in
+            [(1e300, "1e300"), (-2.5e-9, "-2.5e-9"), (0.0, "0"), (90.000_001, "90.000001"), (4e6, "4000000")]
+        {
+            assert_eq!(Shown(value).to_string(), text);
+        }
+    }
 
     #[test]
     fn pointers_are_escaped() {

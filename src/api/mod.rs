@@ -2,6 +2,7 @@
 //! computed here.
 
 mod body;
+mod contract;
 mod docs;
 mod document;
 mod etag;
@@ -9,6 +10,7 @@ mod events;
 pub mod fault;
 mod format;
 mod jobs;
+mod kinds;
 mod layers;
 mod limits;
 mod meta;
@@ -26,6 +28,7 @@ mod submit;
 mod timestamp;
 pub mod translate;
 mod tree;
+mod wording;
 
 pub use document::document;
 pub use layers::Tokens;

@@ -2,8 +2,10 @@
 
 use super::fault::{Fault, Faults, child, lies_under, listed};
 use super::request::{AnalysisRequest, BeamRequest, JointsRequest, LineRequest, ProfileRequest, Request};
-use super::{translate, tree};
+use super::wording::in_plain_words;
+use super::{kinds, translate, tree};
 use crate::collapse::{Analysis, Question};
+use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
@@ -33,10 +35,20 @@ pub fn read_question(body: &[u8]) -> Result<(Request, Question), Vec<Fault>> {
         match translate::translate(&request) {
             Ok(question) if faults.is_empty() => return Ok((request, question)),
             Ok(_) => {}
-            Err(more) => faults.extend(more),
+            Err(more) => {
+                let fresh: Vec<_> = more.into_iter().filter(|fault| !follows(fault, &faults)).collect();
+                faults.extend(fresh);
+            }
         }
     }
     Err(listed(faults))
+}
+
+/// True for a fault that may come of a structural one: of what was not read as it was meant, or of an object that
+/// lacks something where a misspelt name stands in it.
+fn follows(fault: &Fault, structural: &[Fault]) -> bool {
+    let around = |place: &str| !fault.pointer.is_empty() && lies_under(place, &fault.pointer);
+    structural.iter().any(|first| lies_under(&fault.pointer, &first.pointer) || around(&first.pointer))
 }
 
 /// Reads a request for one analysis of an arch, for those who want nothing else.
@@ -68,25 +80,65 @@ fn read_structure(body: &[u8]) -> (Option<Request>, Faults) {
         faults.add(pointer, "this name stands more than once in its object: keep one");
     }
     let request = match tree.get("curved_beam") {
-        Some(_) => read_tree::<BeamRequest>(tree, &mut faults).map(|request| Request::CurvedBeam(Box::new(request))),
-        None => read_tree(tree, &mut faults).map(|request| Request::Arch(Box::new(with_defaults(request)))),
+        Some(_) => {
+            let request = read_tree::<BeamRequest>(tree, beam_misfit, &mut faults);
+            request.map(|request| Request::CurvedBeam(Box::new(request)))
+        }
+        None => {
+            let request = read_tree(tree, misfit, &mut faults);
+            request.map(|request| Request::Arch(Box::new(with_defaults(request))))
+        }
     };
     (request, faults)
 }
 
+/// What to do about a field that does not belong.
+fn misfit(_pointer: &str) -> &'static str {
+    "there is no field of this name here: remove it or correct its spelling"
+}
+
+/// What to do about a field that does not belong beside `curved_beam`.
+fn beam_misfit(pointer: &str) -> &'static str {
+    const OF_AN_ARCH: [&str; 9] = [
+        "/arch",
+        "/joint_overrides",
+        "/loads",
+        "/analysis",
+        "/load_factor",
+        "/method",
+        "/geometry",
+        "/report",
+        "/motion",
+    ];
+    match OF_AN_ARCH.contains(&pointer) {
+        true => "this goes with an arch, not with curved_beam: leave this out, or leave out curved_beam",
+        false => misfit(pointer),
+    }
+}
+
 /// Reads a tree as one kind of body.
-fn read_tree<R: DeserializeOwned>(mut tree: Value, faults: &mut Faults) -> Option<R> {
+fn read_tree<R: DeserializeOwned + Serialize>(
+    mut tree: Value,
+    misfit: fn(&str) -> &'static str,
+    faults: &mut Faults,
+) -> Option<R> {
     let mut mended: Vec<String> = Vec::new();
     for _ in 0..MAX_STRUCTURAL_FAULTS {
         match attempt(&tree) {
             Ok((request, unknown)) => {
                 let stands_in = |pointer: &String| mended.iter().any(|place| lies_under(pointer, place));
+                let read = serde_json::to_value(&request).unwrap_or_default();
+                for fault in kinds::mistaken(&tree, &read).into_iter().filter(|fault| !stands_in(&fault.pointer)) {
+                    faults.add(fault.pointer, fault.detail);
+                }
                 for pointer in unknown.into_iter().filter(|pointer| !stands_in(pointer)) {
-                    faults.add(pointer, "there is no field of this name here: remove it or correct its spelling");
+                    let detail = misfit(&pointer);
+                    faults.add(pointer, detail);
                 }
                 return mended.is_empty().then_some(request);
             }
             Err(fault) => {
+                let fault = list_around::<R>(&tree, &fault.pointer).unwrap_or(fault);
                 let place = mend::<R>(&mut tree, &fault.pointer);
                 // What was taken away for its own fault is not missing.
                 if !mended.contains(&fault.pointer) {
@@ -111,6 +163,25 @@ fn attempt<R: DeserializeOwned>(tree: &Value) -> Result<(R, BTreeSet<String>), F
         Ok(request) => Ok((request, unknown)),
         Err(error) => Err(fault_at(&track.path(), &error.to_string(), tree)),
     }
+}
+
+/// The fault of a list around a place where an object belongs: serde has read its items as fields.
+fn list_around<R: DeserializeOwned>(tree: &Value, pointer: &str) -> Option<Fault> {
+    let ends = pointer.match_indices('/').map(|(at, _)| at).chain([pointer.len()]);
+    for place in ends.map(|end| &pointer[..end]) {
+        if !tree.pointer(place).is_some_and(Value::is_array) {
+            continue;
+        }
+        let mut emptied = tree.clone();
+        *emptied.pointer_mut(place)? = json!({});
+        let belongs = attempt::<R>(&emptied).err().is_some_and(|fault| {
+            fault.pointer == place && !fault.detail.contains("missing") && fault.detail.contains("expected")
+        });
+        if !belongs {
+            return Some(kinds::list_for_object(place.to_owned()));
+        }
+    }
+    None
 }
 
 fn fault_at(path: &serde_path_to_error::Path, message: &str, tree: &Value) -> Fault {
@@ -142,21 +213,6 @@ fn existing(mut pointer: String, tree: &Value) -> String {
         pointer.truncate(parent.len());
     }
     pointer
-}
-
-fn in_plain_words(message: &str) -> String {
-    let words = [
-        ("invalid type: unit variant, expected newtype variant", "this alternative needs an object: {\"name\": {...}}"),
-        ("invalid type: newtype variant, expected unit variant", "this alternative stands alone, as text"),
-        ("expected f64", "expected a number"),
-        ("expected usize", "expected a whole number, not negative"),
-        ("expected an array of length 2", "expected a pair [x, y]"),
-        ("invalid value: map, expected map with a single key", "expected an object with exactly one member"),
-        ("expected struct ", "expected an object: "),
-        ("expected enum", "expected one of the alternatives, as an object with one member"),
-        ("expected a sequence", "expected a list"),
-    ];
-    words.iter().fold(message.to_owned(), |text, (from, to)| text.replace(from, to))
 }
 
 /// Pointer to an unknown field. serde_ignored does not name the alternative chosen in an object with one member.

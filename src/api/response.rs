@@ -31,6 +31,7 @@ pub use words::{CrushingWord, FaceWord, GovernedBy, GovernsWord, MethodWord, Mod
 use super::request::AnalysisRequest;
 use crate::collapse::{CollapseReport, Cost, LimitWindow, ThrustRange};
 use serde::Serialize;
+use std::io;
 use utoipa::ToSchema;
 
 /// The answer to a request for one analysis of an arch.
@@ -201,6 +202,27 @@ pub(super) fn line(value: &impl Serialize) -> serde_json::Result<Vec<u8>> {
     let mut bytes = serde_json::to_vec(value)?;
     bytes.push(b'\n');
     Ok(bytes)
+}
+
+/// Bytes of `value` as compact JSON, written nowhere: what keeping a request or an answer is taken to cost.
+pub(super) fn weight(value: &impl Serialize) -> serde_json::Result<usize> {
+    let mut scales = Scales(0);
+    serde_json::to_writer(&mut scales, value)?;
+    Ok(scales.0)
+}
+
+/// Counts bytes.
+struct Scales(usize);
+
+impl io::Write for Scales {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0 += bytes.len();
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
 }
 
 impl From<Cost> for CostBody {

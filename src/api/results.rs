@@ -1,6 +1,6 @@
 //! Handlers of `/v1/jobs/{id}/results`: the answer as a whole and in parts.
 
-use super::body::aside;
+use super::body::Aside;
 use super::etag::Version;
 use super::format::Format;
 use super::jobs::{JobPath, find};
@@ -19,20 +19,24 @@ use axum::response::Response;
 use serde::Deserialize;
 use std::sync::Arc;
 use std::time::Duration;
-use utoipa::IntoParams;
+
+/// Formats of the whole answer and of its parts, the first for those who do not say.
+pub(super) const RESULTS: [Format; 2] = [Format::Json, Format::Text];
+pub(super) const HISTORY: [Format; 2] = [Format::Json, Format::Csv];
+pub(super) const FIELD: [Format; 3] = [Format::Json, Format::Csv, Format::Vtu];
+pub(super) const FIGURE: [Format; 1] = [Format::Svg];
 
 /// In which format.
-#[derive(Debug, Deserialize, IntoParams)]
+#[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-#[into_params(parameter_in = Query)]
-pub(super) struct FormatQuery {
-    /// Name of a format; goes before the header `accept`.
+struct FormatQuery {
     f: Option<String>,
 }
 
 /// What is asked of an answer: whose, in which format, and what the client has already.
 pub(super) struct Asked {
     job: Finished,
+    aside: Aside,
     f: Option<String>,
     headers: HeaderMap,
 }
@@ -57,7 +61,8 @@ impl FromRequestParts<Service> for Asked {
             State::Failed(failure) => return Err(failure.into()),
             State::Successful(answer) => answer.clone(),
         };
-        Ok(Asked { job: Finished { job, answer }, f, headers: parts.headers.clone() })
+        let (job, aside) = (Finished { job, answer }, service.aside.clone());
+        Ok(Asked { job, aside, f, headers: parts.headers.clone() })
     }
 }
 
@@ -69,13 +74,13 @@ impl Asked {
         offered: &[Format],
         write: impl FnOnce(&Finished, Format) -> Result<Vec<u8>, Problem> + Send + 'static,
     ) -> Result<Response, Problem> {
-        let Asked { job, f, headers } = self;
+        let Asked { job, aside, f, headers } = self;
         let format = Format::choose(f.as_deref(), &headers, offered)?;
         let version = Version::of((job.job.id, part, format));
         let mut response = match version.known(&headers) {
             Some(response) => response,
             None => {
-                let body = aside(move || write(&job, format)).await?;
+                let body = aside.run(move || write(&job, format)).await?;
                 version.mark(([(header::CONTENT_TYPE, format.content_type())], body))
             }
         };
@@ -121,7 +126,7 @@ impl Finished {
 /// A job's results.
 #[utoipa::path(
     get, path = "/v1/jobs/{id}/results", tag = "results", operation_id = "get_results",
-    params(("id" = String, Path, format = "uuid", description = "Job id"), FormatQuery),
+    params(("id" = String, Path, format = "uuid", description = "Job id")),
     responses(
         (status = 200, description = "The answer to what was asked; the same bytes for the same request", content(
             (JobResult = "application/json"), (String = "text/plain"),
@@ -131,7 +136,7 @@ impl Finished {
 pub(super) async fn results(asked: Asked) -> Result<Response, Problem> {
     let wall_time = asked.job.job.wall_time().unwrap_or(Duration::ZERO);
     asked
-        .give("results", &[Format::Json, Format::Text], move |job, format| {
+        .give("results", &RESULTS, move |job, format| {
             let result = job.result()?;
             match format {
                 Format::Text => Ok(prose::prose(&result, wall_time).into_bytes()),
@@ -144,7 +149,7 @@ pub(super) async fn results(asked: Asked) -> Result<Response, Problem> {
 /// The load path of a job, point by point.
 #[utoipa::path(
     get, path = "/v1/jobs/{id}/results/history", tag = "results", operation_id = "get_history",
-    params(("id" = String, Path, format = "uuid", description = "Job id"), FormatQuery),
+    params(("id" = String, Path, format = "uuid", description = "Job id")),
     responses(
         (status = 200, description = "One column per quantity", content(
             (HistoryColumns = "application/json"), (String = "text/csv"),
@@ -162,7 +167,7 @@ pub(super) async fn history(asked: Asked) -> Result<Response, Problem> {
             _ => line(&result.history).map_err(|_| Problem::internal()),
         }
     };
-    asked.give("history", &[Format::Json, Format::Csv], write).await
+    asked.give("history", &HISTORY, write).await
 }
 
 /// A stress field of a job.
@@ -172,7 +177,6 @@ pub(super) async fn history(asked: Asked) -> Result<Response, Problem> {
         ("id" = String, Path, format = "uuid", description = "Job id"),
         ("load" = String, Path, description = "`unit_load`, `near_collapse` or a load factor, as asked for in \
             `report.stress_fields`", example = "near_collapse"),
-        FormatQuery,
     ),
     responses(
         (status = 200, description = "Stress in every subblock", content(
@@ -194,13 +198,13 @@ pub(super) async fn field(
             _ => line(&body).map_err(|_| Problem::internal()),
         }
     };
-    asked.give(&part, &[Format::Json, Format::Csv, Format::Vtu], write).await
+    asked.give(&part, &FIELD, write).await
 }
 
 /// The picture of a job's answer.
 #[utoipa::path(
     get, path = "/v1/jobs/{id}/results/figure", tag = "results", operation_id = "get_figure",
-    params(("id" = String, Path, format = "uuid", description = "Job id"), FormatQuery),
+    params(("id" = String, Path, format = "uuid", description = "Job id")),
     responses(
         (status = 200, description = "The arch as it falls", content((String = "image/svg+xml")),
             headers(("etag" = String, description = "Names this answer"))),
@@ -213,5 +217,5 @@ pub(super) async fn figure(asked: Asked) -> Result<Response, Problem> {
         let picture = prose::figure(&question, &job.answer, &job.result()?);
         picture.map(String::into_bytes).map_err(|reason| Problem::of(kinds::NO_SUCH_PART, reason))
     };
-    asked.give("figure", &[Format::Svg], write).await
+    asked.give("figure", &FIGURE, write).await
 }

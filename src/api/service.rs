@@ -1,10 +1,11 @@
 //! What every handler can reach.
 
+use super::body::Aside;
 use super::layers::Tokens;
 use super::limits::Limits;
 use super::metrics::Metrics;
 use super::request::Request;
-use super::response::JobResult;
+use super::response::{JobResult, weight};
 use super::translate;
 use crate::collapse::{AnalysisError, Answer, Question, Watch};
 use crate::jobs::{self, Failure, JobStore, Product};
@@ -40,6 +41,7 @@ pub struct Service {
     pub(super) origins: Vec<HeaderValue>,
     pub(super) metrics: Metrics,
     pub(super) streams: Arc<Semaphore>,
+    pub(super) aside: Aside,
 }
 
 impl Service {
@@ -55,7 +57,8 @@ impl Service {
         let Settings { limits, tokens, origins } = settings;
         let streams = Arc::new(Semaphore::new(limits.streams));
         let (jobs, stopping) = (Arc::new(jobs), CancellationToken::new());
-        Ok(Service { jobs, stopping, limits, tokens, origins, metrics, streams })
+        let aside = Aside::default();
+        Ok(Service { jobs, stopping, limits, tokens, origins, metrics, streams, aside })
     }
 }
 
@@ -65,6 +68,6 @@ fn perform(request: &Request, watch: &mut dyn Watch, analyse: Analyse) -> Result
     let question = translate::translate(request).map_err(|_| Failure::Defect)?;
     let answer = analyse(&question, watch)?;
     let result = JobResult::new(request, &answer).ok_or(Failure::Defect)?;
-    let bytes = result.to_bytes().map_err(|_| Failure::Defect)?.len();
+    let bytes = weight(&result).map_err(|_| Failure::Defect)?;
     Ok(Product { answer, bytes })
 }

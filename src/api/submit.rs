@@ -1,10 +1,10 @@
 //! Handlers that take a request: submit it, or only look it over.
 
-use super::body::{JsonBody, aside, check_syntax};
+use super::body::{JsonBody, check_syntax};
 use super::layers::Client;
 use super::problem::{Problem, kinds};
 use super::request::Request;
-use super::response::line;
+use super::response::weight;
 use super::status::{self, JobStatus};
 use super::{Service, read};
 use crate::jobs::{Job, Submission};
@@ -106,17 +106,17 @@ pub(super) async fn validate(state: AppState, JsonBody(body): JsonBody) -> Resul
 /// Reads a body; the request, if this service takes it, and what keeping it costs in bytes.
 async fn read_within(state: &Service, body: Bytes) -> Result<(Request, usize), Problem> {
     let limits = state.limits;
-    aside(move || {
+    let reading = state.aside.run(move || {
         check_syntax(&body)?;
         let (request, question) = read::read_question(&body).map_err(Problem::faults)?;
         let faults = limits.check(&request, &question);
         if !faults.is_empty() {
             return Err(Problem::faults(faults));
         }
-        let bytes = line(&request).map_err(|_| Problem::internal())?.len();
+        let bytes = weight(&request).map_err(|_| Problem::internal())?;
         Ok((request, bytes))
-    })
-    .await
+    });
+    reading.await
 }
 
 fn idempotency_key(headers: &HeaderMap) -> Result<Option<&str>, Problem> {

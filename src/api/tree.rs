@@ -9,6 +9,8 @@ use std::cell::RefCell;
 const LONGEST_LIST: usize = 10_000;
 /// Longest member name, bytes.
 const LONGEST_NAME: usize = 200;
+/// Below, every whole number is one that a float holds exactly.
+const MOST_EXACT: f64 = 9e15;
 /// Most names that stand twice and are told of.
 const MOST_REPEATED: usize = 100;
 
@@ -63,8 +65,10 @@ impl<'de> Visitor<'de> for Node<'_> {
         Ok(value.into())
     }
 
+    /// In JSON 12.0 is as whole a number as 12.
     fn visit_f64<E>(self, value: f64) -> Result<Value, E> {
-        Ok(value.into())
+        let whole = value.fract() == 0.0 && (0.0..MOST_EXACT).contains(&value);
+        Ok(if whole { Value::from(value as u64) } else { value.into() })
     }
 
     fn visit_str<E: Error>(self, value: &str) -> Result<Value, E> {
@@ -114,10 +118,15 @@ mod tests {
 
     #[test]
     fn the_tree_is_that_of_serde_json() {
-        let text = br#"{"a": [1, -2, 2.5, "x", null, true, {"b/c": []}], "d": 1e300}"#;
+        let text = br#"{"a": [1, -2, 2.5, -3.0, "x", null, true, {"b/c": []}], "d": 1e300}"#;
         let (tree, repeated) = parse(text).unwrap();
         assert_eq!(tree, serde_json::from_slice::<Value>(text).unwrap());
         assert!(repeated.is_empty());
+    }
+
+    #[test]
+    fn whole_numbers_are_whole_however_they_are_written() {
+        assert_eq!(parse(b"[12.0, 1.2e1, 0.0, -0.0]").unwrap().0, serde_json::json!([12, 12, 0, 0]));
     }
 
     #[test]

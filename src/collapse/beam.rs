@@ -2,6 +2,7 @@
 
 use super::discretise::{bond, elasticity};
 use super::grid::{Grid, Lines};
+use super::pulse::Pulse;
 use super::{AnalysisError, BeamReport, CurvedBeam, DEFAULT_PENALTY_RATIO, PlaneModel, StressField, SubblockStress};
 use crate::arch::{Joint, JointLaw};
 use crate::dda::{Macroblock, free_response};
@@ -76,13 +77,16 @@ impl Exact {
 }
 
 /// Solves the beam and holds it against the exact solution.
-pub(super) fn solve(beam: &CurvedBeam) -> Result<BeamReport, AnalysisError> {
+pub(super) fn solve(beam: &CurvedBeam, pulse: &Pulse) -> Result<BeamReport, AnalysisError> {
+    pulse.go_on()?;
     let exact = Exact::new(beam);
     let (grid, body) = macroblock(beam);
+    pulse.go_on()?;
     let load = end_loads(beam, &exact, &grid, &body);
     let unknowns = 6 * body.blocks().len();
-    let displacements =
-        free_response(&body, &load).ok_or(AnalysisError::NotFinite { what: "displacements of the curved beam" })?;
+    let response = free_response(&body, &load, &pulse.heart).map_err(|_| pulse.stopped())?;
+    let displacements = response.ok_or(AnalysisError::NotFinite { what: "displacements of the curved beam" })?;
+    pulse.go_on()?;
     let stresses: Vec<[f64; 3]> = body
         .blocks()
         .iter()

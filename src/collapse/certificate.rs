@@ -1,7 +1,8 @@
 //! The exact limit window of an arch, and what to make of a load path that differs from it.
 
 use super::path::total;
-use super::{Analysis, Crushing, Digits, LimitWindow, Method, PathEnd, PlasticCrushing};
+use super::pulse::Pulse;
+use super::{Analysis, AnalysisError, Crushing, Digits, LimitWindow, Method, PathEnd, PlasticCrushing};
 use crate::limit::{CrushingWindow, StaticTheorem};
 
 /// Path and window agree when their load factors differ by less than this share.
@@ -80,13 +81,15 @@ impl Doubt {
 }
 
 impl Certificate {
-    pub(super) fn new(analysis: &Analysis) -> Self {
+    pub(super) fn new(analysis: &Analysis, pulse: &Pulse) -> Result<Self, AnalysisError> {
+        pulse.go_on()?;
         let theorem = StaticTheorem::new(&analysis.arch, &analysis.fixed, &analysis.scaled);
-        let window = theorem.window();
+        let window = theorem.window(&|| pulse.beat());
+        pulse.check()?;
         let solved = window.is_ok();
         let mut certificate = Certificate { theorem, window: None, solved, any_fixed: any_fixed(analysis) };
         certificate.window = window.ok().and_then(|window| certificate.tidy(window));
-        certificate
+        Ok(certificate)
     }
 
     /// A window without rounding.
@@ -131,13 +134,15 @@ impl Certificate {
     }
 
     /// What limit analysis says of stone of this strength, Pa.
-    pub(super) fn crushing(&self, strength: f64) -> Crushing {
-        let plastic_section = self.theorem.crushing_window(strength).ok().map(|window| {
+    pub(super) fn crushing(&self, strength: f64, pulse: &Pulse) -> Result<Crushing, AnalysisError> {
+        let found = self.theorem.crushing_window(strength, &|| pulse.beat());
+        pulse.check()?;
+        let plastic_section = found.ok().map(|window| {
             let (ends, joints) = window.map(|CrushingWindow { ends, joints }| (ends, joints)).unzip();
             let window = self.tidy(ends).map(|[lowest, highest]| LimitWindow { lowest, highest });
             PlasticCrushing { window, joints: joints.unwrap_or_default() }
         });
-        Crushing { strength, elastic: None, plastic_section }
+        Ok(Crushing { strength, elastic: None, plastic_section })
     }
 
     /// `settled`: every stone carries a fixed load.
@@ -200,10 +205,10 @@ impl Certificate {
     }
 
     /// The arch fell at the start of the path; `loose`: some stone carries no load; `power` is what its loads do in the
-    /// mechanism, as a share of the most they could.
-    pub(super) fn fallen(&self, start: f64, loose: bool, slides: bool, power: f64) -> Option<Doubt> {
+    /// mechanism, as a share of the most they could. No answer where the heart stands still.
+    pub(super) fn fallen(&self, start: f64, loose: bool, slides: bool, power: f64, pulse: &Pulse) -> Option<Doubt> {
         // The joints of unloaded stones carry nothing, which leaves the static theorem no room to be solved in.
-        if loose && !self.stands_at(start) && self.theorem.nearly_stands(start, MARGIN) {
+        if loose && !self.stands_at(start) && self.theorem.nearly_stands(start, MARGIN, &|| pulse.beat()) {
             return Some(Doubt::LooseStones);
         }
         let doubt = match slides {

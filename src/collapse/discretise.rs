@@ -1,9 +1,10 @@
 //! From an arch to a chain of blocks: the only door between masonry and mechanics.
 
 use super::grid::{Grid, Lines, ON_LINE};
-use super::{Analysis, Geometry, PlaneModel, Seams};
+use super::pulse::Pulse;
+use super::{Analysis, AnalysisError, Geometry, PlaneModel, Seams};
 use crate::arch::{Abutment, Joint, JointLaw, PointForce, Stone};
-use crate::dda::{Bond, Chain, ChainBuilder, Elasticity, Law, Loads, Loose, MeanMotion, Push, Touch};
+use crate::dda::{Bond, Chain, ChainBuilder, Elasticity, Law, Loads, MeanMotion, Push, Stopped, Touch, Unbuilt};
 use crate::geometry::{Region, Vec2};
 
 /// Relative scatter of the contact stiffnesses. Ties between contacts of a symmetric arch need something to break
@@ -14,9 +15,15 @@ const STIFFNESS_SCATTER: f64 = 1e-4;
 /// links (one towards the ground, two between stones) make up the joint's own.
 const LINK: f64 = 4.0;
 
+/// Work of cutting out a subblock with its seams, in multiplications.
+const CUT: usize = 2000;
+/// Work of finding a subblock's shape, in multiplications.
+const SHAPE: usize = 200;
+
 /// A chain of macroblocks with the voussoirs' and joints' places in it, and the loads on it.
-#[derive(Debug)]
-pub(super) struct Model {
+pub(super) struct Model<'p> {
+    /// The watch on the analysis that it is for.
+    pub pulse: &'p Pulse<'p>,
     pub chain: Chain,
     /// Body of voussoir 0 (1 where there is a left abutment).
     pub first_voussoir: usize,
@@ -55,7 +62,7 @@ impl Scatter {
 }
 
 /// Cuts the arch into one macroblock per voussoir, and one block per abutment.
-pub(super) fn discretise(analysis: &Analysis, seed: u64) -> Result<Model, Loose> {
+pub(super) fn discretise<'p>(analysis: &Analysis, seed: u64, pulse: &'p Pulse<'p>) -> Result<Model<'p>, AnalysisError> {
     let arch = &analysis.arch;
     let elasticity = elasticity(&analysis.stone, analysis.plane);
     let penalty = analysis.penalty_ratio * analysis.stone.youngs_modulus;
@@ -70,7 +77,12 @@ pub(super) fn discretise(analysis: &Analysis, seed: u64) -> Result<Model, Loose>
     let bodies: Vec<Grid> = stand(left, 0).into_iter().chain(grids.iter().copied()).chain(stand(right, last)).collect();
     let bond = bond(analysis.mesh.seams, penalty);
     let mut scatter = Scatter::new(seed);
-    let mut builder = ChainBuilder::new(bodies.iter().map(|g| g.macroblock(elasticity, bond)).collect());
+    let mut macroblocks = Vec::with_capacity(bodies.len());
+    for grid in &bodies {
+        macroblocks.push(grid.macroblock(elasticity, bond));
+        pulse.work(CUT * grid.radial * grid.along)?;
+    }
+    let mut builder = ChainBuilder::new(macroblocks);
     let mut softest = f64::INFINITY;
     for (k, joint) in joints.iter().enumerate() {
         for touch in touches(joint, k.checked_sub(1).map(|k| &bodies[k]), bodies.get(k), penalty, &mut scatter) {
@@ -79,22 +91,25 @@ pub(super) fn discretise(analysis: &Analysis, seed: u64) -> Result<Model, Loose>
         }
         builder.next_interface();
     }
-    let chain = builder.finish()?;
+    let chain = builder.finish(&pulse.heart).map_err(|error| match error {
+        Unbuilt::Loose(loose) => loose.into(),
+        Unbuilt::Stopped(_) => pulse.stopped(),
+    })?;
     let first_voussoir = usize::from(left.is_some());
     let around = |k: usize| places(k.checked_sub(1).map(|k| &bodies[k]), bodies.get(k));
-    let on_subblocks = |forces: &Vec<PointForce>| -> Vec<Push> {
-        forces.iter().flat_map(|f| pushes(f, first_voussoir, &grids)).collect()
+    let on_subblocks = |force: &PointForce| pushes(force, first_voussoir, &grids);
+    let (heart, stopped) = (&pulse.heart, |_: Stopped| pulse.stopped());
+    let straight = |forces: &[PointForce]| chain.loads(forces.iter().flat_map(on_subblocks), heart).map_err(stopped);
+    let turned = |forces: &[PointForce]| match analysis.geometry {
+        Geometry::FirstOrder => Ok(Vec::new()),
+        Geometry::Updated => chain.turned_loads(forces.iter().flat_map(on_subblocks), heart).map_err(stopped),
     };
-    let forces = [&analysis.fixed, &analysis.scaled].map(on_subblocks);
-    let turned = match analysis.geometry {
-        Geometry::FirstOrder => [Vec::new(), Vec::new()],
-        Geometry::Updated => forces.each_ref().map(|forces| chain.turned_loads(forces.iter().copied())),
-    };
-    let [fixed, scaled] = forces.map(|forces| chain.loads(forces));
+    let (fixed, scaled) = (&analysis.fixed, &analysis.scaled);
     Ok(Model {
-        fixed,
-        scaled,
-        turned,
+        turned: [turned(fixed)?, turned(scaled)?],
+        fixed: straight(fixed)?,
+        scaled: straight(scaled)?,
+        pulse,
         first_voussoir,
         voussoirs: arch.voussoirs.len(),
         size: extent(arch.joints.iter().flat_map(|j| [j.intrados, j.extrados])),
@@ -209,7 +224,7 @@ fn extent(points: impl Iterator<Item = Vec2>) -> f64 {
     (high - low).norm()
 }
 
-impl Model {
+impl Model<'_> {
     /// All loads at a load factor, each with its own.
     pub(super) fn loads_at(&self, load_factor: f64) -> [(&Loads, f64); 2] {
         [(&self.fixed, 1.0), (&self.scaled, load_factor)]
@@ -218,6 +233,13 @@ impl Model {
     /// Mean motion of a voussoir.
     pub(super) fn motion(&self, voussoir: usize, load_factor: f64, displacements: &[f64]) -> MeanMotion {
         self.chain.mean_motion(self.first_voussoir + voussoir, displacements, &self.loads_at(load_factor))
+    }
+
+    /// Work of finding the stress in every subblock of a voussoir, in multiplications.
+    pub(super) fn work_of_stresses(&self, voussoir: usize) -> usize {
+        let Grid { radial, along, .. } = self.grids[voussoir];
+        let nodes = [voussoir, voussoir + 1].map(|joint| self.contacts(joint).len());
+        radial * along * (SHAPE + 6 * (nodes[0] + nodes[1]))
     }
 
     /// Stress in every subblock of a voussoir, Pa.
@@ -251,7 +273,8 @@ mod tests {
     use crate::arch::profile::Profile;
     use crate::arch::ring::{JointLines, Line, Ring, Thickness, stations};
     use crate::arch::{Arch, straight_voussoirs};
-    use crate::collapse::{Aim, Direction, Mesh, Method};
+    use crate::collapse::pulse::watched;
+    use crate::collapse::{Aim, Direction, Mesh, Method, Unwatched};
 
     /// A semicircle of `n` equal stones, cut into `subblocks` each, without loads.
     fn semicircle(n: usize, subblocks: [usize; 2], curved: bool) -> Analysis {
@@ -285,14 +308,19 @@ mod tests {
         }
     }
 
+    /// Of so many kinds are its stones.
+    fn kinds(analysis: &Analysis) -> usize {
+        watched(&mut Unwatched, |pulse| discretise(analysis, 1, pulse).unwrap().chain.kinds())
+    }
+
     #[test]
     fn stones_of_one_shape_are_condensed_once() {
         for (subblocks, curved) in [([1, 1], false), ([3, 2], false), ([3, 2], true)] {
             let mut analysis = semicircle(61, subblocks, curved);
-            assert_eq!(discretise(&analysis, 1).unwrap().chain.kinds(), 1);
+            assert_eq!(kinds(&analysis), 1);
             // A stone with another mesh is of another kind, and so are its neighbours, whose joints have its points.
             analysis.mesh.subblocks[30] = [5, 2];
-            assert_eq!(discretise(&analysis, 1).unwrap().chain.kinds(), 4);
+            assert_eq!(kinds(&analysis), 4);
         }
     }
 
@@ -300,8 +328,8 @@ mod tests {
     fn the_subblocks_of_a_stone_tile_it() {
         for curved in [false, true] {
             let analysis = semicircle(7, [5, 4], curved);
-            let model = discretise(&analysis, 1).unwrap();
-            for (grid, stone) in model.grids.iter().zip(&analysis.arch.voussoirs) {
+            let grids = watched(&mut Unwatched, |pulse| discretise(&analysis, 1, pulse).unwrap().grids);
+            for (grid, stone) in grids.iter().zip(&analysis.arch.voussoirs) {
                 let all = grid.cells().map(|(i, j)| grid.region(i, j)).reduce(Region::join).unwrap();
                 assert!((all.area / stone.region.area - 1.0).abs() < 1e-12);
                 assert!((all.centroid - stone.region.centroid).norm() < 1e-12 * 10.0);

@@ -44,7 +44,7 @@ pub(super) fn at_peak(
     };
     let driving: Vec<PointForce> = analysis.scaled.iter().map(|f| PointForce { force: f.force * sign, ..*f }).collect();
     let slipping: Vec<Option<f64>> = (0..arch.joints.len()).map(|k| sliding_shear(model, k, peak)).collect();
-    let at_limits = mechanism::from_statics(arch, &forces, &slipping, &driving, POLISHED);
+    let at_limits = mechanism::from_statics(arch, &forces, &slipping, &driving, POLISHED, &model.pulse.heart);
     let later = at_limits.is_none();
     let mechanism = at_limits.unwrap_or_else(|| {
         from_direction(model, arch, if fall.turned_back { &peak.direction } else { &fall.direction })
@@ -64,7 +64,8 @@ pub(super) fn at_fall(analysis: &Analysis, model: &Model, tracer: &Tracer, start
     let forces = tracer.contact_forces();
     let along_path = from_direction(model, arch, tracer.direction());
     let none = vec![None; arch.joints.len()];
-    let smallest = mechanism::from_statics(arch, &resultants(model, |p| forces[p]), &none, &driving, AS_BUILT);
+    let (carried, heart) = (resultants(model, |p| forces[p]), &model.pulse.heart);
+    let smallest = mechanism::from_statics(arch, &carried, &none, &driving, AS_BUILT, heart);
     let mechanism = smallest.filter(|m| along_path.slides.is_empty() && m.slides.is_empty()).unwrap_or(along_path);
     PathEnd { load_factor, residual: tracer.worst_residual(), mechanism, thrust_line: Vec::new() }
 }

@@ -1,8 +1,9 @@
 //! Motion after collapse: from an arch, its loads and its report to rigid blocks on the move, and back to frames.
 
+use super::pulse::Pulse;
 use super::{
-    Analysis, AnalysisError, CollapseReport, Direction, FallingMotion, LoadStep, MotionAsked, MotionContact, MotionEnd,
-    MotionFrame, OpenHinge, Outcome, Slid, Watch,
+    Analysis, AnalysisError, CollapseReport, Direction, FallingMotion, MotionAsked, MotionContact, MotionEnd,
+    MotionFrame, OpenHinge, Outcome, Slid,
 };
 use crate::arch::{Arch, Face, Joint, JointLaw};
 use crate::dda::falling::{Advance, Block, Corners, Falling, Frame, Friction};
@@ -27,11 +28,7 @@ const HALVED: &str = "No motion is shown: it knows no stone cut in half. Set hal
 type Loading = (f64, f64);
 
 /// Moves the arch on from the collapse in a report, and from the other end of a window too.
-pub(super) fn follow(
-    analysis: &Analysis,
-    report: &mut CollapseReport,
-    watch: &mut dyn Watch,
-) -> Result<(), AnalysisError> {
+pub(super) fn follow(analysis: &Analysis, report: &mut CollapseReport, pulse: &Pulse) -> Result<(), AnalysisError> {
     let Some(asked) = analysis.motion else { return Ok(()) };
     let falls = matches!(report.outcome, Outcome::Collapse | Outcome::FallsAsBuilt | Outcome::StandsInWindow);
     if !falls || (report.end.is_none() && report.other_end.is_none()) {
@@ -48,10 +45,10 @@ pub(super) fn follow(
         end.as_ref().map(|end| loadings(analysis, report, end.load_factor, sign))
     };
     if let Some(loadings) = of_end(true, report) {
-        report.motion = Some(first_to_begin(analysis, asked, &loadings, report, watch)?);
+        report.motion = Some(first_to_begin(analysis, asked, &loadings, report, pulse)?);
     }
     if let Some(loadings) = of_end(false, report) {
-        report.other_motion = Some(first_to_begin(analysis, asked, &loadings, report, watch)?);
+        report.other_motion = Some(first_to_begin(analysis, asked, &loadings, report, pulse)?);
     }
     let lost = |motion: &Option<FallingMotion>| motion.as_ref().is_some_and(|motion| motion.end == MotionEnd::Lost);
     if lost(&report.motion) || lost(&report.other_motion) {
@@ -80,13 +77,13 @@ fn first_to_begin(
     asked: MotionAsked,
     loadings: &[Loading],
     report: &CollapseReport,
-    watch: &mut dyn Watch,
+    pulse: &Pulse,
 ) -> Result<FallingMotion, AnalysisError> {
-    let mut motion = run(analysis, asked, loadings[0], report, watch)?;
+    let mut motion = run(analysis, asked, loadings[0], report, pulse)?;
     for &loading in &loadings[1..] {
         let moved = motion.frames.last().map_or(0.0, |frame| frame.displacement);
         if motion.end == MotionEnd::AtRest && moved < BEGUN * motion.thickness {
-            motion = run(analysis, asked, loading, report, watch)?;
+            motion = run(analysis, asked, loading, report, pulse)?;
         }
     }
     Ok(motion)
@@ -97,7 +94,7 @@ fn run(
     asked: MotionAsked,
     (load_factor, overload): Loading,
     report: &CollapseReport,
-    watch: &mut dyn Watch,
+    pulse: &Pulse,
 ) -> Result<FallingMotion, AnalysisError> {
     let arch = &analysis.arch;
     let thickness = arch.joints.iter().map(Joint::length).fold(f64::INFINITY, f64::min);
@@ -107,8 +104,8 @@ fn run(
     let mut frames = vec![read(&frame, thickness)];
     let end = loop {
         let events = report.cost.events + frames.len();
-        if watch.on_step(&LoadStep { load_factor, events }).is_break() {
-            return Err(AnalysisError::Stopped { load_factor, events });
+        if pulse.step(load_factor, events).is_break() {
+            return Err(pulse.stopped());
         }
         if let Some(joint) = falling.parted(&frame) {
             break MotionEnd::StoneFree { voussoir: freed(&frame, &frames, joint), joint };
@@ -119,7 +116,9 @@ fn run(
         if frames.len() > asked.most_frames {
             break MotionEnd::StepLimit;
         }
-        match falling.advance() {
+        let advance = falling.advance(&pulse.heart);
+        pulse.check()?;
+        match advance {
             Ok(Advance::Moved(next)) => frame = *next,
             Ok(Advance::Rest) => break MotionEnd::AtRest,
             Ok(Advance::Meet(voussoirs)) => break MotionEnd::StonesMeet { voussoirs },

@@ -4,6 +4,7 @@ use super::motion::Motion;
 use super::smallest_motion::{Column, smallest_motion};
 use super::{Face, Hinge, Mechanism, Mode, Slide};
 use crate::arch::{Arch, Joint, JointLaw, PointForce};
+use crate::dda::Heart;
 use crate::geometry::{Vec2, cross};
 use crate::limit::Resultant;
 
@@ -30,13 +31,14 @@ enum Release {
 ///
 /// `slipping` holds the sign of the shear where a joint is known to slide (a hinge that slides has only half of the
 /// joint's cohesion left, which the resultant alone does not tell). `at_limit` is the share of a joint's force below which
-/// a corner's is none, and within which its shear is at capacity.
+/// a corner's is none, and within which its shear is at capacity. None, too, where the heart stands still.
 pub(super) fn from_statics(
     arch: &Arch,
     resultants: &[Resultant],
     slipping: &[Option<f64>],
     driving: &[PointForce],
     at_limit: f64,
+    heart: &Heart,
 ) -> Option<Mechanism> {
     let releases: Vec<(usize, Release)> =
         resultants.iter().enumerate().flat_map(|(k, r)| joint_releases(arch, k, r, slipping[k], at_limit)).collect();
@@ -53,7 +55,7 @@ pub(super) fn from_statics(
             Column::new(closure.x, closure.y, m.spin, power)
         })
         .collect();
-    let rates = smallest_motion(&columns)?;
+    let rates = smallest_motion(&columns, heart)?;
     Some(describe(arch, &releases, &rates))
 }
 
@@ -270,7 +272,8 @@ mod tests {
         let arch = semicircle(12);
         let set = [(0, Extrados), (3, Intrados), (6, Extrados), (9, Intrados), (12, Extrados)];
         let none = vec![None; 13];
-        let mechanism = from_statics(&arch, &resultants(12, &set), &none, &crown_load(&arch), 1e-8).unwrap();
+        let mechanism =
+            from_statics(&arch, &resultants(12, &set), &none, &crown_load(&arch), 1e-8, &Heart::unwatched()).unwrap();
         let found: Vec<_> = mechanism.hinges.iter().map(|h| (h.joint, h.face)).collect();
         assert_eq!(found, set);
         assert_eq!(mechanism.mode, Mode::CrownDescends);
@@ -288,7 +291,10 @@ mod tests {
     fn three_hinges_are_no_mechanism() {
         let arch = semicircle(12);
         let set = [(0, Face::Extrados), (6, Face::Extrados), (12, Face::Extrados)];
-        assert_eq!(from_statics(&arch, &resultants(12, &set), &[None; 13], &crown_load(&arch), 1e-8), None);
+        assert_eq!(
+            from_statics(&arch, &resultants(12, &set), &[None; 13], &crown_load(&arch), 1e-8, &Heart::unwatched()),
+            None
+        );
     }
 
     #[test]

@@ -10,6 +10,7 @@ mod grid;
 mod mechanism;
 mod motion;
 mod path;
+mod pulse;
 mod record;
 pub mod report;
 mod safety;
@@ -24,6 +25,7 @@ pub use digits::Digits;
 pub use report::*;
 
 use crate::arch::{Arch, PointForce, Stone};
+use pulse::watched;
 use std::ops::ControlFlow;
 
 /// Contact penalty as a multiple of Young's modulus in Table 1 of the paper (1e10 N/m over 1e9 Pa).
@@ -246,7 +248,11 @@ pub struct Stop;
 
 /// Sees an analysis go by and may stop it.
 pub trait Watch {
-    /// Called at every event.
+    /// Called at every event of a path, and as a heartbeat wherever the analysis is at work for more than some
+    /// milliseconds: the last step is then told again, before the first one load factor 0 and no events.
+    ///
+    /// The analysis ends as soon as this breaks, with [`AnalysisError::Stopped`] at the step told last, and does not call it
+    /// again. How often it is called depends on the question alone, never on a clock.
     fn on_step(&mut self, step: &LoadStep) -> ControlFlow<Stop>;
 }
 
@@ -292,11 +298,11 @@ pub enum AnalysisError {
 /// # Errors
 /// When stopped by `watch`, or when a result is not finite.
 pub fn answer(question: &Question, watch: &mut dyn Watch) -> Result<Answer, AnalysisError> {
-    match question {
-        Question::One(analysis) => run(analysis, watch).map(|report| Answer::One(Box::new(report))),
-        Question::Curve(points) => safety::curve(points, watch).map(Answer::Curve),
-        Question::CurvedBeam(beam) => beam::solve(beam).map(Answer::CurvedBeam),
-    }
+    watched(watch, |pulse| match question {
+        Question::One(analysis) => verdict::run(analysis, pulse).map(|report| Answer::One(Box::new(report))),
+        Question::Curve(points) => safety::curve(points, pulse).map(Answer::Curve),
+        Question::CurvedBeam(beam) => beam::solve(beam, pulse).map(Answer::CurvedBeam),
+    })
 }
 
 /// Runs the analysis: limit window, then the load path from where it says the arch stands, then the comparison.
@@ -304,5 +310,5 @@ pub fn answer(question: &Question, watch: &mut dyn Watch) -> Result<Answer, Anal
 /// # Errors
 /// When stopped by `watch`, or when a result is not finite.
 pub fn run(analysis: &Analysis, watch: &mut dyn Watch) -> Result<CollapseReport, AnalysisError> {
-    verdict::run(analysis, watch)
+    watched(watch, |pulse| verdict::run(analysis, pulse))
 }

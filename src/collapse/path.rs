@@ -80,7 +80,7 @@ fn at(model: &Model, fixed: &[f64], load_factor: f64) -> Vec<f64> {
 
 /// Brings the chain from its unstressed start to the loads at load factor `start`.
 pub(super) fn stand<'a>(
-    model: &'a Model,
+    model: &'a Model<'a>,
     fixed: &[f64],
     start: f64,
     load_scale: f64,
@@ -89,7 +89,8 @@ pub(super) fn stand<'a>(
     let target = at(model, fixed, start);
     // Deep enough that nothing has opened yet when the true loads begin to act.
     let preload = target.len() as f64 * largest(&target) / model.softest;
-    let mut tracer = Tracer::new(&model.chain, covering(&model.chain, &target, preload), model.size, load_scale);
+    let drive = covering(&model.chain, &target, preload);
+    let mut tracer = Tracer::new(&model.chain, drive, model.size, load_scale, &model.pulse.heart);
     let end = tracer.trace(1.0, see);
     (tracer, end)
 }
@@ -116,7 +117,7 @@ pub(super) enum Moved {
 /// there by letting go what is out of balance on the moved arch. Where that fails, all loads grow together from a little,
 /// which tells how much of them the arch can bear; the work of the way that is left goes to `cost`.
 pub(super) fn stand_moved<'a>(
-    model: &'a Model,
+    model: &'a Model<'a>,
     fixed: &[f64],
     start: f64,
     load_scale: f64,
@@ -134,7 +135,7 @@ pub(super) fn stand_moved<'a>(
 /// The same from this share of the loads, brought on at first order.
 fn stand_moved_from<'a>(
     share: f64,
-    model: &'a Model,
+    model: &'a Model<'a>,
     fixed: &[f64],
     start: f64,
     load_scale: f64,
@@ -216,7 +217,9 @@ pub(super) fn follow(
     if recorder.too_many_steps() {
         return Leg::TooManySteps;
     }
+    let stopped = recorder.model.pulse.heart.check().is_err();
     match (met, end) {
+        _ if stopped => Leg::Stopped,
         (Some(load_factor), _) => Leg::Criterion(load_factor),
         (None, End::Stopped) => Leg::Stopped,
         (None, End::Lost) => Leg::Lost,

@@ -1,11 +1,10 @@
 //! What is kept of a path: its history, the arch at load factor 1 and just before collapse.
 
 use super::discretise::Model;
-use super::grid::Grid;
 use super::yielding::Yielding;
 use super::{
-    Analysis, BlockState, ContactForce, ElasticCrushing, FieldAt, HistoryPoint, Method, Snapshot, StressField,
-    mechanism,
+    Analysis, AnalysisError, BlockState, ContactForce, ElasticCrushing, FieldAt, HistoryPoint, Method, Snapshot,
+    StressField, mechanism,
 };
 use crate::dda::MeanMotion;
 use std::collections::VecDeque;
@@ -14,13 +13,15 @@ use std::rc::Rc;
 /// Most fixed steps of one path. The paper takes about fifty; more than this is a mistake in the step.
 pub(super) const MOST_STEPS: usize = 10_000;
 
+/// Work of looking at a gap, in multiplications.
+const LOOK: usize = 10;
+
 /// A point of the path: load factor and displacements of the nodes.
 pub(super) type Point = (f64, Vec<f64>);
 
 /// Keeps what will be asked of a path while it is traced.
-#[derive(Debug)]
 pub(super) struct Recorder<'a> {
-    pub model: &'a Model,
+    pub model: &'a Model<'a>,
     method: Method,
     share: f64,
     /// Load factor at which the path starts.
@@ -43,7 +44,7 @@ pub(super) struct Recorder<'a> {
 
 impl<'a> Recorder<'a> {
     /// A recorder for a path that starts at load factor `start` and goes the way of `sign`.
-    pub(super) fn new(model: &'a Model, analysis: &Analysis, [start, sign]: [f64; 2]) -> Self {
+    pub(super) fn new(model: &'a Model<'a>, analysis: &Analysis, [start, sign]: [f64; 2]) -> Self {
         let fields = analysis.fields.iter().filter_map(|field| match field {
             FieldAt::LoadFactor(load_factor) => Some(*load_factor),
             FieldAt::NearCollapse => None,
@@ -172,6 +173,10 @@ impl<'a> Recorder<'a> {
             self.steps_done += 1;
             let displacements = interpolate(before, now, at);
             self.model.chain.gaps(&displacements, &mut gaps);
+            // The path is stopped at the end of this event.
+            if self.model.pulse.heart.work(LOOK * gaps.len()).is_err() {
+                return None;
+            }
             let open = (0..=self.model.voussoirs).filter(|&k| self.model.contacts(k).any(|p| gaps[p][0] > opening));
             if open.count() >= hinges {
                 return Some((at, displacements));
@@ -187,13 +192,13 @@ fn interpolate(a: &Point, b: &Point, load_factor: f64) -> Vec<f64> {
 }
 
 /// The arch at one point of the path.
-pub(super) fn snapshot(model: &Model, load_factor: f64, displacements: &[f64]) -> Snapshot {
-    let blocks = (0..model.voussoirs)
-        .map(|v| {
-            let MeanMotion { displacement, rotation } = model.motion(v, load_factor, displacements);
-            BlockState { displacement, rotation, stress: model.mean_stress(v, load_factor, displacements) }
-        })
-        .collect();
+pub(super) fn snapshot(model: &Model, load_factor: f64, displacements: &[f64]) -> Result<Snapshot, AnalysisError> {
+    let block = |v: usize| {
+        model.pulse.work(model.work_of_stresses(v))?;
+        let MeanMotion { displacement, rotation } = model.motion(v, load_factor, displacements);
+        Ok(BlockState { displacement, rotation, stress: model.mean_stress(v, load_factor, displacements) })
+    };
+    let blocks = (0..model.voussoirs).map(block).collect::<Result<_, AnalysisError>>()?;
     let forces = model.chain.contact_forces(displacements);
     let contact = |joint: usize, p: usize| ContactForce {
         joint,
@@ -205,12 +210,19 @@ pub(super) fn snapshot(model: &Model, load_factor: f64, displacements: &[f64]) -
     let contacts = (0..=model.voussoirs)
         .flat_map(|joint| model.contacts(joint).map(move |p| (joint, p)))
         .map(|(j, p)| contact(j, p));
-    Snapshot { load_factor, blocks, contacts: contacts.collect() }
+    Ok(Snapshot { load_factor, blocks, contacts: contacts.collect() })
 }
 
 /// Stress in every subblock at one point of the path.
-pub(super) fn stress_field(model: &Model, load_factor: f64, displacements: &[f64]) -> StressField {
-    let stone =
-        |(voussoir, grid): (usize, &Grid)| grid.field(voussoir, &model.stresses(voussoir, load_factor, displacements));
-    StressField { load_factor, subblocks: model.grids.iter().enumerate().flat_map(stone).collect() }
+pub(super) fn stress_field(
+    model: &Model,
+    load_factor: f64,
+    displacements: &[f64],
+) -> Result<StressField, AnalysisError> {
+    let mut subblocks = Vec::new();
+    for (voussoir, grid) in model.grids.iter().enumerate() {
+        model.pulse.work(model.work_of_stresses(voussoir))?;
+        subblocks.extend(grid.field(voussoir, &model.stresses(voussoir, load_factor, displacements)));
+    }
+    Ok(StressField { load_factor, subblocks })
 }

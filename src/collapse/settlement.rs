@@ -6,14 +6,14 @@
 
 use super::discretise::{Model, discretise};
 use super::path::{Attempt, Moved, disturbed, first_that_tells, stand, stand_moved};
+use super::pulse::Pulse;
 use super::{
-    Analysis, AnalysisError, Cost, Geometry, LoadStep, SettlementEnd, SettlementPath, SettlementPoint,
-    SettlementReport, SpringingMovement, Watch, ending,
+    Analysis, AnalysisError, Cost, Geometry, SettlementEnd, SettlementPath, SettlementPoint, SettlementReport,
+    SpringingMovement, ending,
 };
 use crate::arch::Arch;
 use crate::dda::{Drive, End, Movement, Patience, Tracer};
 use crate::geometry::Vec2;
-use std::cell::Cell;
 use std::ops::ControlFlow;
 
 /// The springings stay where they are while stones find another seat: hinges may move from joint to joint, and a joint that
@@ -33,12 +33,12 @@ pub(super) fn follow(
     movements: [SpringingMovement; 2],
     weight: f64,
     cost: &mut Cost,
-    watch: &mut dyn Watch,
+    pulse: &Pulse,
 ) -> Result<Option<SettlementReport>, AnalysisError> {
     let mut path = |geometry: Geometry| -> Result<Option<SettlementPath>, AnalysisError> {
         let tells =
             |path: &Option<SettlementPath>| path.as_ref().is_some_and(|path| path.end != SettlementEnd::CannotTell);
-        first_that_tells(tells, |number| attempt(analysis, movements, geometry, weight, number, cost, watch))
+        first_that_tells(tells, |number| attempt(analysis, movements, geometry, weight, number, cost, pulse))
     };
     let Some(first_order) = path(Geometry::FirstOrder)? else { return Ok(None) };
     let updated = if analysis.geometry == Geometry::Updated { path(Geometry::Updated)? } else { None };
@@ -52,15 +52,11 @@ fn attempt(
     weight: f64,
     attempt: Attempt,
     cost: &mut Cost,
-    watch: &mut dyn Watch,
+    pulse: &Pulse,
 ) -> Result<Option<SettlementPath>, AnalysisError> {
-    let model = discretise(analysis, attempt.seed)?;
+    let model = discretise(analysis, attempt.seed, pulse)?;
     let base = disturbed(&model, 0.0, attempt);
-    let reached = Cell::new(0.0);
-    let mut see = |tracer: &Tracer, share: f64| {
-        reached.set(share);
-        watch.on_step(&LoadStep { load_factor: share, events: tracer.events() }).map_break(|_| ())
-    };
+    let mut see = |tracer: &Tracer, share: f64| pulse.step(share, tracer.events());
     let zeros = vec![0.0; base.len()];
     let turned = [model.turned[0].clone(), zeros.clone()];
     let ground = ground(&analysis.arch, movements);
@@ -68,9 +64,7 @@ fn attempt(
     let followed = trace(analysis, &model, geometry, drive, weight, cost, &mut see);
     cost.add(&followed.tracer, Cost::default());
     match followed.stood {
-        _ if followed.end == End::Stopped => {
-            Err(AnalysisError::Stopped { load_factor: reached.get(), events: followed.tracer.events() })
-        }
+        _ if followed.end == End::Stopped => Err(pulse.stopped()),
         Moved::FallsAsBuilt => Ok(None),
         _ => Ok(Some(describe(analysis, &model, geometry, followed))),
     }
@@ -88,7 +82,7 @@ struct Followed<'m> {
 /// Brings the loads on that `drive` has at the start, and moves the springings as it says.
 fn trace<'m>(
     analysis: &Analysis,
-    model: &'m Model,
+    model: &'m Model<'m>,
     geometry: Geometry,
     drive: Drive,
     weight: f64,

@@ -1,15 +1,19 @@
 //! The smallest of all motions that joints at their limits allow.
 
+use crate::dda::Heart;
 use nalgebra::{SMatrix, SVector};
 
 /// Closure of the chain (two velocities and a spin) and power, per unit rate of a release.
 pub(super) type Column = SVector<f64, 4>;
 
+/// Work of looking at one column, in multiplications.
+const WORK: usize = 20;
+
 /// Smallest rates x >= 0 (in the sum of squares) with closure 0 and power 1.
 ///
 /// The dual of this quadratic program is an unconstrained convex function of four multipliers y with
-/// x = max(0, a . y); its stationary point is found by Newton's method with backtracking.
-pub(super) fn smallest_motion(columns: &[Column]) -> Option<Vec<f64>> {
+/// x = max(0, a . y); its stationary point is found by Newton's method with backtracking. None where the heart stands still.
+pub(super) fn smallest_motion(columns: &[Column], heart: &Heart) -> Option<Vec<f64>> {
     let target = Column::new(0.0, 0.0, 0.0, 1.0);
     let rates = |y: &Column| -> Vec<f64> { columns.iter().map(|a| a.dot(y).max(0.0)).collect() };
     let value = |y: &Column| 0.5 * rates(y).iter().map(|x| x * x).sum::<f64>() - target.dot(y);
@@ -30,7 +34,9 @@ pub(super) fn smallest_motion(columns: &[Column]) -> Option<Vec<f64>> {
         let mut length = 1.0;
         while value(&(y + step * length)) > before + 1e-4 * length * slope + 1e-16 * before.abs() && length > 1e-12 {
             length *= 0.5;
+            heart.work(WORK * columns.len()).ok()?;
         }
+        heart.work(2 * WORK * columns.len()).ok()?;
         y += step * length;
         if !y.iter().all(|v| v.is_finite()) || y.norm() > 1e14 {
             return None;
@@ -51,7 +57,7 @@ mod tests {
             .enumerate()
             .map(|(i, &(x, y))| Column::new(x, y, if i % 2 == 0 { 1.0 } else { -1.0 }, 0.3 * i as f64 - 0.4))
             .collect();
-        let x = smallest_motion(&columns).unwrap();
+        let x = smallest_motion(&columns, &Heart::unwatched()).unwrap();
         let sum = columns.iter().zip(&x).fold(Column::zeros(), |s, (a, x)| s + a * *x);
         assert!((sum - Column::new(0.0, 0.0, 0.0, 1.0)).norm() < 1e-9 && x.iter().all(|&x| x >= 0.0));
         // Along every direction of the null space that keeps x >= 0 the sum of squares only grows.
@@ -72,6 +78,6 @@ mod tests {
     #[test]
     fn without_a_motion_there_is_none() {
         let columns = [Column::new(1.0, 0.0, 1.0, 1.0), Column::new(1.0, 1.0, 1.0, 1.0)];
-        assert_eq!(smallest_motion(&columns), None);
+        assert_eq!(smallest_motion(&columns, &Heart::unwatched()), None);
     }
 }

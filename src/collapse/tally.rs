@@ -30,21 +30,38 @@ impl Cost {
 
 impl CollapseReport {
     /// Stress fields that are asked for and lie on a path; `near`: the point just before collapse.
-    pub(super) fn add_fields(&mut self, analysis: &Analysis, model: &Model, path: &Recorder, near: Option<&Point>) {
+    pub(super) fn add_fields(
+        &mut self,
+        analysis: &Analysis,
+        model: &Model,
+        path: &Recorder,
+        near: Option<&Point>,
+    ) -> Result<(), AnalysisError> {
         let found = analysis.fields.iter().filter_map(|field| match field {
             FieldAt::LoadFactor(load_factor) => path.at(*load_factor).map(|d| (*load_factor, d)),
             FieldAt::NearCollapse => near.map(|(load_factor, d)| (*load_factor, d.as_slice())),
         });
-        self.stress_fields.extend(found.map(|(load_factor, d)| stress_field(model, load_factor, d)));
+        for (load_factor, d) in found {
+            self.stress_fields.push(stress_field(model, load_factor, d)?);
+        }
+        Ok(())
     }
 
     /// Stress fields of an arch on which nothing grows: the same at any load factor.
-    pub(super) fn fields_at_rest(&mut self, analysis: &Analysis, model: &Model, displacements: &[f64]) {
+    pub(super) fn fields_at_rest(
+        &mut self,
+        analysis: &Analysis,
+        model: &Model,
+        displacements: &[f64],
+    ) -> Result<(), AnalysisError> {
         let factors = analysis.fields.iter().filter_map(|field| match field {
             FieldAt::LoadFactor(factor) => Some(*factor),
             FieldAt::NearCollapse => None,
         });
-        self.stress_fields.extend(factors.map(|factor| stress_field(model, factor, displacements)));
+        for factor in factors {
+            self.stress_fields.push(stress_field(model, factor, displacements)?);
+        }
+        Ok(())
     }
 
     /// Takes in the leg that was followed the other way; its point near collapse is not the one that was asked for.

@@ -3,9 +3,9 @@
 use super::certificate::UNBALANCED;
 use super::discretise::{Model, discretise};
 use super::path::{Attempt, FALLEN, MOVED, Moved, disturbed, first_that_tells, stand_moved};
-use super::{Analysis, AnalysisError, Cost, LoadStep, UpdatedEnd, UpdatedGeometry, Watch, ending, mechanism};
+use super::pulse::Pulse;
+use super::{Analysis, AnalysisError, Cost, UpdatedEnd, UpdatedGeometry, ending, mechanism};
 use crate::dda::{Drive, End, Patience, Tracer};
-use std::cell::Cell;
 
 /// Note on stones that are one subblock thick.
 pub(super) const UNBENT: &str = "On moving geometry stones that are one subblock thick do not bend; only their joints give. \
@@ -41,10 +41,10 @@ pub(super) fn follow(
     analysis: &Analysis,
     course: Course,
     cost: &mut Cost,
-    watch: &mut dyn Watch,
+    pulse: &Pulse,
 ) -> Result<UpdatedGeometry, AnalysisError> {
     let tells = |answer: &UpdatedGeometry| answer.end != UpdatedEnd::CannotTell;
-    first_that_tells(tells, |number| attempt(analysis, course, number, cost, watch))
+    first_that_tells(tells, |number| attempt(analysis, course, number, cost, pulse))
 }
 
 fn attempt(
@@ -52,15 +52,11 @@ fn attempt(
     course: Course,
     attempt: Attempt,
     cost: &mut Cost,
-    watch: &mut dyn Watch,
+    pulse: &Pulse,
 ) -> Result<UpdatedGeometry, AnalysisError> {
-    let model = discretise(analysis, attempt.seed)?;
+    let model = discretise(analysis, attempt.seed, pulse)?;
     let fixed = disturbed(&model, course.start, attempt);
-    let reached = Cell::new(course.start);
-    let mut see = |tracer: &Tracer, load_factor: f64| {
-        reached.set(load_factor);
-        watch.on_step(&LoadStep { load_factor, events: tracer.events() }).map_break(|_| ())
-    };
+    let see = |tracer: &Tracer, load_factor: f64| pulse.step(load_factor, tracer.events());
     let at_start = &mut |t: &Tracer| see(t, course.start);
     let (mut tracer, stood) = stand_moved(&model, &fixed, course.start, course.weight, cost, at_start);
     let mut end = End::Stopped;
@@ -70,7 +66,7 @@ fn attempt(
     }
     cost.add(&tracer, Cost::default());
     if matches!((stood, end), (Moved::Stopped, _) | (Moved::Stands, End::Stopped)) {
-        return Err(AnalysisError::Stopped { load_factor: reached.get(), events: tracer.events() });
+        return Err(pulse.stopped());
     }
     // A path that runs back past its start has found the other end of the loads that the arch can bear.
     let turned_back = tracer.parameter() < course.sign * course.start;

@@ -3,16 +3,16 @@
 use super::certificate::{Certificate, Doubt, LATER_MECHANISM, any_fixed, loaded, mesh_notes};
 use super::discretise::{Model, discretise};
 use super::path::{ATTEMPTS, Attempt, Leg, disturbed, follow, nothing_grows, stand, total};
+use super::pulse::Pulse;
 use super::record::{MOST_STEPS, Recorder, snapshot};
 use super::updated::{self, Course};
 use super::{
-    Aim, Analysis, AnalysisError, CollapseReport, Cost, Crushing, Direction, Geometry, LimitWindow, LoadStep, Method,
-    Outcome, PathEnd, SettlementEnd, SpringingMovement, ThrustRange, UpdatedGeometry, Watch, ending, falling, motion,
-    safety, settlement,
+    Aim, Analysis, AnalysisError, CollapseReport, Cost, Crushing, Direction, Geometry, LimitWindow, Method, Outcome,
+    PathEnd, SettlementEnd, SpringingMovement, ThrustRange, UpdatedGeometry, ending, falling, motion, safety,
+    settlement,
 };
 use crate::arch::{Joint, JointLaw};
 use crate::dda::{End, Tracer};
-use std::cell::Cell;
 use std::ops::ControlFlow;
 
 /// Note on an arch of which nothing is asked but whether it stands.
@@ -24,6 +24,7 @@ const DEFAULT_CAP: f64 = 1e6;
 /// What all attempts at one analysis share.
 struct Question<'a> {
     analysis: &'a Analysis,
+    pulse: &'a Pulse<'a>,
     certificate: Certificate,
     /// +1 where the load factor increases, -1 where it decreases.
     sign: f64,
@@ -35,8 +36,6 @@ struct Question<'a> {
     thrust_range: Option<ThrustRange>,
     /// What limit analysis says of crushing.
     crushing: Crushing,
-    /// Load factor of the last event.
-    reached: Cell<f64>,
 }
 
 /// A report, and why it is not believed as it stands, if so.
@@ -48,14 +47,14 @@ struct Attempted {
 /// Is told of every event: the tracer and its load factor.
 type Progress<'w> = dyn FnMut(&Tracer, f64) -> ControlFlow<()> + 'w;
 
-pub(super) fn run(analysis: &Analysis, watch: &mut dyn Watch) -> Result<CollapseReport, AnalysisError> {
-    let question = Question::new(analysis);
-    let mut attempted = question.attempt(Attempt::number(0), watch)?;
+pub(super) fn run(analysis: &Analysis, pulse: &Pulse) -> Result<CollapseReport, AnalysisError> {
+    let question = Question::new(analysis, pulse)?;
+    let mut attempted = question.attempt(Attempt::number(0))?;
     for i in 1..ATTEMPTS {
         if attempted.doubt.is_none() {
             break;
         }
-        let next = question.attempt(Attempt::number(i), watch)?;
+        let next = question.attempt(Attempt::number(i))?;
         attempted = attempted.or_better(next);
     }
     let Attempted { mut report, doubt } = attempted;
@@ -70,13 +69,14 @@ pub(super) fn run(analysis: &Analysis, watch: &mut dyn Watch) -> Result<Collapse
     if analysis.geometry == Geometry::Updated && unbent && report.at_start.is_some() {
         report.notes.push(updated::UNBENT.into());
     }
-    report.updated = question.updated(&mut report, watch)?;
+    report.updated = question.updated(&mut report)?;
     match analysis.aim {
         Aim::Collapse => safety::crushed_at_start(&mut report),
         Aim::Safety { crushing } => safety::judge(&mut report, crushing),
-        Aim::Settlement(movements) => question.settle(&mut report, movements, watch)?,
+        Aim::Settlement(movements) => question.settle(&mut report, movements)?,
     }
-    falling::follow(analysis, &mut report, watch)?;
+    falling::follow(analysis, &mut report, pulse)?;
+    pulse.go_on()?;
     report.check_finite()?;
     Ok(report)
 }
@@ -93,8 +93,8 @@ impl Attempted {
 }
 
 impl<'a> Question<'a> {
-    fn new(analysis: &'a Analysis) -> Self {
-        let certificate = Certificate::new(analysis);
+    fn new(analysis: &'a Analysis, pulse: &'a Pulse<'a>) -> Result<Self, AnalysisError> {
+        let certificate = Certificate::new(analysis, pulse)?;
         let (fixed, scaled) = (total(&analysis.fixed), total(&analysis.scaled));
         let balance = if fixed > 0.0 && scaled > 0.0 { fixed / scaled } else { 1.0 };
         let sign = if analysis.direction == Direction::Increase { 1.0 } else { -1.0 };
@@ -107,46 +107,44 @@ impl<'a> Question<'a> {
             Aim::Collapse | Aim::Settlement(_) => certificate.start(settled, sign, cap),
             Aim::Safety { .. } => certificate.full_load(settled, cap),
         };
-        let thrust = any_fixed(analysis).then(|| certificate.theorem.thrust_range(0.0)).flatten();
+        let thrust = any_fixed(analysis).then(|| certificate.theorem.thrust_range(0.0, &|| pulse.beat())).flatten();
+        pulse.check()?;
         let thrust_range = thrust.map(|[lowest, highest]| ThrustRange { lowest, highest });
         let weight = fixed + scaled * start.abs();
-        let crushing = certificate.crushing(analysis.stone.compressive_strength);
-        let reached = Cell::new(start);
-        Question { analysis, certificate, thrust_range, crushing, sign, start, cap, weight, reached }
+        let crushing = certificate.crushing(analysis.stone.compressive_strength, pulse)?;
+        Ok(Question { analysis, pulse, certificate, thrust_range, crushing, sign, start, cap, weight })
     }
 
-    fn attempt(&self, attempt: Attempt, watch: &mut dyn Watch) -> Result<Attempted, AnalysisError> {
+    fn attempt(&self, attempt: Attempt) -> Result<Attempted, AnalysisError> {
         let analysis = self.analysis;
-        let model = discretise(analysis, attempt.seed)?;
+        let model = discretise(analysis, attempt.seed, self.pulse)?;
         let fixed = disturbed(&model, self.start, attempt);
-        let mut progress = |tracer: &Tracer, load_factor: f64| {
-            self.reached.set(load_factor);
-            watch.on_step(&LoadStep { load_factor, events: tracer.events() }).map_break(|_| ())
-        };
+        let mut progress = |tracer: &Tracer, load_factor: f64| self.pulse.step(load_factor, tracer.events());
         let mut report = self.blank(&model);
         report.notes = self.mesh_notes(&model);
         let (mut tracer, end) =
             stand(&model, &fixed, self.start, self.weight, &mut |t| progress(t, self.start * t.parameter()));
         report.cost.add(&tracer, Cost::default());
         match end {
-            End::Stopped => return Err(self.stopped(&tracer)),
+            End::Stopped => return Err(self.pulse.stopped()),
             End::Reached if self.certificate.stands_at(self.start) => {}
             End::Reached => return Ok(Attempted { report, doubt: Some(Doubt::StandsOutside) }),
-            End::Mechanism => return Ok(self.fallen(report, &model, &tracer)),
+            End::Mechanism => return self.fallen(report, &model, &tracer),
             End::Rising | End::Lost => return Ok(Attempted { report, doubt: Some(Doubt::NotLoaded) }),
         }
-        report.at_start = Some(snapshot(&model, self.start, tracer.displacements()));
+        report.at_start = Some(snapshot(&model, self.start, tracer.displacements())?);
         if nothing_grows(&model, total(&analysis.scaled)) {
             report.outcome = Outcome::NeverCollapses;
-            report.fields_at_rest(analysis, &model, tracer.displacements());
+            report.fields_at_rest(analysis, &model, tracer.displacements())?;
             if !matches!(analysis.aim, Aim::Settlement(_)) {
                 report.notes.push(NOTHING_GROWS.into());
             }
             return Ok(Attempted { report, doubt: None });
         }
-        let mut back = tracer.clone();
+        let both_ways = analysis.aim == Aim::Collapse && !self.certificate.stands_at(0.0);
+        let back = both_ways.then(|| tracer.clone());
         let mut doubt = self.leg(&mut report, &model, &mut tracer, &fixed, self.sign, &mut progress)?;
-        if analysis.aim == Aim::Collapse && !self.certificate.stands_at(0.0) {
+        if let Some(mut back) = back {
             report.outcome = Outcome::StandsInWindow;
             let mut other = self.blank(&model);
             doubt = doubt.or(self.leg(&mut other, &model, &mut back, &fixed, -self.sign, &mut progress)?);
@@ -170,18 +168,18 @@ impl<'a> Question<'a> {
         let before = Cost::of(tracer);
         let leg = follow(tracer, fixed, self.cap, &mut recorder, progress);
         report.cost.add(tracer, before);
-        report.at_unit_load = recorder.at(1.0).map(|d| snapshot(model, 1.0, d));
+        report.at_unit_load = recorder.at(1.0).map(|d| snapshot(model, 1.0, d)).transpose()?;
         if let Some(crushing) = &mut report.crushing {
             crushing.elastic = Some(recorder.first_yield());
         }
         let residual = tracer.worst_residual();
         let mut peak_load = None;
         let (end, turned_back) = match leg {
-            Leg::Stopped => return Err(self.stopped(tracer)),
+            Leg::Stopped => return Err(self.pulse.stopped()),
             Leg::TooManySteps => return Err(AnalysisError::TooManySteps { most: MOST_STEPS }),
             Leg::Lost => return Ok(Some(Doubt::Lost)),
             Leg::Endless => {
-                report.add_fields(analysis, model, &recorder, None);
+                report.add_fields(analysis, model, &recorder, None)?;
                 report.history = recorder.history;
                 report.outcome = Outcome::NeverCollapses;
                 return Ok(self.certificate.endless(sign, self.cap));
@@ -192,6 +190,7 @@ impl<'a> Question<'a> {
             Leg::Peak(peak, fall) => {
                 let theorem = &self.certificate.theorem;
                 let (mut end, later) = ending::at_peak(analysis, model, theorem, &peak, &fall, sign, residual);
+                self.pulse.check()?;
                 report.notes.extend(later.then(|| LATER_MECHANISM.into()));
                 peak_load = Some(end.load_factor);
                 end.load_factor = self.read_off(end.load_factor, sign);
@@ -199,8 +198,8 @@ impl<'a> Question<'a> {
             }
         };
         let near = recorder.near(peak_load.unwrap_or(end.load_factor));
-        report.near_collapse = near.as_ref().map(|(factor, d)| snapshot(model, *factor, d));
-        report.add_fields(analysis, model, &recorder, near.as_ref());
+        report.near_collapse = near.as_ref().map(|(factor, d)| snapshot(model, *factor, d)).transpose()?;
+        report.add_fields(analysis, model, &recorder, near.as_ref())?;
         report.history = recorder.history;
         let doubt = self.conclude(report, end, sign, turned_back);
         Ok(doubt.or(self.certificate.standing_doubt(residual)))
@@ -233,11 +232,7 @@ impl<'a> Question<'a> {
     }
 
     /// The answer on moving geometry, where it is asked for and the arch stands at first order.
-    fn updated(
-        &self,
-        report: &mut CollapseReport,
-        watch: &mut dyn Watch,
-    ) -> Result<Option<UpdatedGeometry>, AnalysisError> {
+    fn updated(&self, report: &mut CollapseReport) -> Result<Option<UpdatedGeometry>, AnalysisError> {
         let stands = report.at_start.is_some() && report.outcome != Outcome::CannotTell;
         let settles = matches!(self.analysis.aim, Aim::Settlement(_));
         if self.analysis.geometry == Geometry::FirstOrder || !stands || settles {
@@ -247,21 +242,16 @@ impl<'a> Question<'a> {
         let as_much = weight / total(&self.analysis.scaled).max(f64::MIN_POSITIVE);
         let rise = report.end.as_ref().map_or(as_much, |end| (end.load_factor - start).abs());
         let course = Course { start, sign, cap, rise, weight };
-        updated::follow(self.analysis, course, &mut report.cost, watch).map(Some)
+        updated::follow(self.analysis, course, &mut report.cost, self.pulse).map(Some)
     }
 
     /// What becomes of a standing arch as its springings move.
-    fn settle(
-        &self,
-        report: &mut CollapseReport,
-        movements: [SpringingMovement; 2],
-        watch: &mut dyn Watch,
-    ) -> Result<(), AnalysisError> {
+    fn settle(&self, report: &mut CollapseReport, movements: [SpringingMovement; 2]) -> Result<(), AnalysisError> {
         safety::crushed_at_start(report);
         if report.at_start.is_none() || report.outcome == Outcome::CannotTell {
             return Ok(());
         }
-        report.settlement = settlement::follow(self.analysis, movements, self.weight, &mut report.cost, watch)?;
+        report.settlement = settlement::follow(self.analysis, movements, self.weight, &mut report.cost, self.pulse)?;
         if report.outcome != Outcome::Crushes {
             let settlement = report.settlement.as_ref();
             report.outcome = match settlement.map(|s| s.updated.as_ref().unwrap_or(&s.first_order).end) {
@@ -274,19 +264,20 @@ impl<'a> Question<'a> {
     }
 
     /// The arch did not stand under its loads at the start.
-    fn fallen(&self, mut report: CollapseReport, model: &Model, tracer: &Tracer) -> Attempted {
+    fn fallen(&self, mut report: CollapseReport, model: &Model, tracer: &Tracer) -> Result<Attempted, AnalysisError> {
         // Without fixed loads the smallest load factor is one too many.
         let load_factor = if any_fixed(self.analysis) { self.start } else { 0.0 };
         let fall = ending::at_fall(self.analysis, model, tracer, self.start, load_factor);
         let power = motion::power(self.analysis, &fall.mechanism, self.start);
-        let doubt =
-            self.certificate.fallen(self.start, !loaded(self.analysis)[1], !fall.mechanism.slides.is_empty(), power);
+        let (loose, slides) = (!loaded(self.analysis)[1], !fall.mechanism.slides.is_empty());
+        let doubt = self.certificate.fallen(self.start, loose, slides, power, self.pulse);
+        self.pulse.check()?;
         let doubt = doubt.or(self.certificate.standing_doubt(fall.residual));
         let safety = matches!(self.analysis.aim, Aim::Safety { .. });
         report.notes.extend(self.certificate.out_of_reach(self.start, safety, any_fixed(self.analysis)));
         report.outcome = Outcome::FallsAsBuilt;
         report.end = Some(fall);
-        Attempted { report, doubt }
+        Ok(Attempted { report, doubt })
     }
 
     fn mesh_notes(&self, model: &Model) -> Vec<String> {
@@ -294,10 +285,6 @@ impl<'a> Question<'a> {
         let several = self.analysis.mesh.subblocks.iter().any(|&subblocks| subblocks != [1, 1]);
         let cohesive = |joint: &Joint| matches!(joint.law, JointLaw::Dry { cohesion, .. } if cohesion > 0.0);
         mesh_notes(slenderness, several, self.analysis.arch.joints.iter().any(cohesive))
-    }
-
-    fn stopped(&self, tracer: &Tracer) -> AnalysisError {
-        AnalysisError::Stopped { load_factor: self.reached.get(), events: tracer.events() }
     }
 
     fn blank(&self, model: &Model) -> CollapseReport {

@@ -29,9 +29,8 @@ struct Seen {
 ///
 /// Between two points of the path stresses are linear, and the equivalent stress of Tresca is a convex function of them;
 /// so it is largest at one of the two, and passes the strength at most once on the way up.
-#[derive(Debug)]
 pub(super) struct Yielding<'a> {
-    model: &'a Model,
+    model: &'a Model<'a>,
     strength: f64,
     /// Stress of every subblock at the last point, three numbers each, voussoir by voussoir; and at this one.
     before: Vec<Vec<f64>>,
@@ -42,7 +41,7 @@ pub(super) struct Yielding<'a> {
 }
 
 impl<'a> Yielding<'a> {
-    pub(super) fn new(model: &'a Model, strength: f64) -> Self {
+    pub(super) fn new(model: &'a Model<'a>, strength: f64) -> Self {
         let empty = vec![Vec::new(); model.voussoirs];
         let (seen, answer) = (Seen::default(), Seen::default());
         Yielding { model, strength, before: empty.clone(), now: empty, seen, answer }
@@ -75,6 +74,10 @@ impl<'a> Yielding<'a> {
         // Share of the way from the last point, or the stress, with voussoir and subblock.
         let (mut crossing, mut largest) = ((f64::INFINITY, 0, 0), (f64::NEG_INFINITY, 0, 0));
         for voussoir in 0..model.voussoirs {
+            // The path is stopped at the end of this event.
+            if model.pulse.heart.work(model.work_of_stresses(voussoir)).is_err() {
+                return;
+            }
             let here = &mut self.now[voussoir];
             model.chain.stresses_in_frame(model.first_voussoir + voussoir, &now.1, &loads, here);
             for (subblock, stress) in here.chunks_exact(3).enumerate() {

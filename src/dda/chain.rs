@@ -9,9 +9,15 @@ use super::block::V6;
 use super::condense::{Condensed, Node};
 use super::contact::{Contact, ContactForce, State};
 use super::factor::Tridiagonal;
+use super::heart::{Heart, Stopped};
 use super::macroblock::Macroblock;
 use crate::geometry::{Vec2, cross, perpendicular};
 use nalgebra::{DMatrix, DVector, SMatrix};
+
+/// Work of putting a force on a subblock, in multiplications; and of solving for the inside of a body, over the number of
+/// entries of its response to the nodes.
+const PUSHED: usize = 1000;
+const SOLVED: usize = 4;
 
 /// A body of the chain: where its frame is, and which condensed macroblock it is a copy of.
 #[derive(Debug, Clone, PartialEq)]
@@ -202,29 +208,40 @@ impl Chain {
     }
 
     /// Condenses forces on subblocks onto the nodes.
-    pub fn loads(&self, pushes: impl IntoIterator<Item = Push>) -> Loads {
+    ///
+    /// # Errors
+    /// When stopped.
+    pub fn loads(&self, pushes: impl IntoIterator<Item = Push>, heart: &Heart) -> Result<Loads, Stopped> {
         let mut loads = Loads { on_nodes: Vec::new(), mean: Vec::new(), stress: Vec::new() };
-        for (body, load) in self.bodies.iter().zip(self.on_blocks(pushes)) {
+        for (body, load) in self.bodies.iter().zip(self.on_blocks(pushes, heart)?) {
             let kind = &self.kinds[body.kind];
             loads.on_nodes.extend(kind.condensed.on_nodes(&load).iter());
             let inner = kind.condensed.inner(&load);
             let mean = &kind.mean * &inner;
             loads.mean.push([mean[0], mean[1], mean[2]]);
             loads.stress.push(stresses(&kind.stress, inner.as_slice()).as_slice().to_vec());
+            heart.work(SOLVED * kind.condensed.response().len())?;
         }
-        loads
+        Ok(loads)
     }
 
     /// What forces are worth on the nodes with every one turned by -90 degrees, N/m: what bodies that turn see of them.
-    pub fn turned_loads(&self, pushes: impl IntoIterator<Item = Push>) -> Vec<f64> {
+    ///
+    /// # Errors
+    /// When stopped.
+    pub fn turned_loads(&self, pushes: impl IntoIterator<Item = Push>, heart: &Heart) -> Result<Vec<f64>, Stopped> {
         let turned = pushes.into_iter().map(|push| Push { force: -perpendicular(push.force), ..push });
-        let on_nodes =
-            |(body, load): (&Body, DVector<f64>)| self.kinds[body.kind].condensed.on_nodes(&load).as_slice().to_vec();
-        self.bodies.iter().zip(self.on_blocks(turned)).flat_map(on_nodes).collect()
+        let mut loads = Vec::new();
+        for (body, load) in self.bodies.iter().zip(self.on_blocks(turned, heart)?) {
+            let condensed = &self.kinds[body.kind].condensed;
+            loads.extend(condensed.on_nodes(&load).iter());
+            heart.work(condensed.response().len())?;
+        }
+        Ok(loads)
     }
 
     /// Generalised loads on the subblocks of every body, in its frame.
-    fn on_blocks(&self, pushes: impl IntoIterator<Item = Push>) -> Vec<DVector<f64>> {
+    fn on_blocks(&self, pushes: impl IntoIterator<Item = Push>, heart: &Heart) -> Result<Vec<DVector<f64>>, Stopped> {
         let zeros = |b: &Body| DVector::zeros(6 * self.kinds[b.kind].macroblock.blocks().len());
         let mut on_blocks: Vec<DVector<f64>> = self.bodies.iter().map(zeros).collect();
         for push in pushes {
@@ -233,8 +250,9 @@ impl Chain {
             let load: V6 = block.load(body.turned(push.at - body.origin), body.turned(push.force));
             let mut place = on_blocks[push.body].fixed_rows_mut::<6>(6 * push.subblock);
             place += load;
+            heart.work(PUSHED)?;
         }
-        on_blocks
+        Ok(on_blocks)
     }
 
     /// Mean motion of body `i` for node displacements (or velocities) `d` and what loads, each times its factor, add

@@ -7,13 +7,15 @@
 //! macroblock answers to forces at its nodes exactly as the whole one does.
 
 use super::block::V6;
+use super::heart::{Heart, Stopped};
 use super::macroblock::Macroblock;
 use crate::geometry::Vec2;
 use faer::linalg::solvers::{Llt, Solve};
-use faer::sparse::linalg::solvers::Llt as SparseLlt;
-use faer::sparse::{SparseColMat, Triplet};
+use faer::sparse::linalg::solvers::{Llt as SparseLlt, SymbolicLlt};
+use faer::sparse::{SparseColMat, SymbolicSparseColMat, Triplet};
 use faer::{Mat, Side};
 use nalgebra::{DMatrix, DVector};
+use std::ops::Range;
 
 /// A node on a face, tied to the subblocks there.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,12 +54,32 @@ pub struct Condensed {
 #[error("a block is held by fewer than two contact points")]
 pub struct Loose;
 
+/// Why a chain was not built.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum Unbuilt {
+    /// A body is not held.
+    #[error(transparent)]
+    Loose(#[from] Loose),
+    /// Asked to stop.
+    #[error(transparent)]
+    Stopped(#[from] Stopped),
+}
+
+/// So many columns at least, and less than twice as many, are solved for, or multiplied, between two heartbeats. The last
+/// bits of the answer are those of all columns at once, which those of fewer than a dozen are not: unit test.
+const AT_ONCE: usize = 16;
+/// Work of adding a block of stiffness, of sorting an entry into its place, and of solving for an entry of a column, in
+/// multiplications.
+const ADDED: usize = 200;
+const SORTED: usize = 50;
+const SOLVED: usize = 50;
+
 impl Condensed {
     /// Condenses `body` onto `nodes`, both seen from one frame.
     ///
     /// # Errors
-    /// When the nodes leave the body a rigid motion.
-    pub fn new(body: &Macroblock, nodes: &[Node]) -> Result<Self, Loose> {
+    /// When the nodes leave the body a rigid motion, or when stopped.
+    pub fn new(body: &Macroblock, nodes: &[Node], heart: &Heart) -> Result<Self, Unbuilt> {
         let (unknowns, columns) = (6 * body.blocks().len(), 2 * nodes.len());
         let mut ties = DMatrix::zeros(unknowns, columns);
         for (i, node) in nodes.iter().enumerate() {
@@ -69,10 +91,11 @@ impl Condensed {
                 }
             }
         }
+        heart.beat()?;
         let links: Vec<f64> = nodes.iter().flat_map(|node| node.link).collect();
-        let factors = factor(body, &held(body, &ties, &links)).ok_or(Loose)?;
-        let response = solve(&factors, &ties);
-        let raw = DMatrix::from_diagonal(&DVector::from_vec(links)) - ties.transpose() * &response;
+        let factors = factor(body, &held(body, &ties, &links), heart)?.ok_or(Loose)?;
+        let response = solve(&factors, &ties, heart)?;
+        let raw = DMatrix::from_diagonal(&DVector::from_vec(links)) - product(&ties.transpose(), &response, heart)?;
         let rigid = rigid_motions(body, nodes);
         let q = &rigid[0];
         // Rounding in the elimination must not take away equilibrium: a rigid motion costs no force at all.
@@ -93,7 +116,7 @@ impl Condensed {
 
     /// Displacements of the subblocks under `load` with the nodes held.
     pub fn inner(&self, load: &DVector<f64>) -> DVector<f64> {
-        solve(&self.factors, &DMatrix::from_column_slice(load.len(), 1, load.as_slice())).column(0).into_owned()
+        solve_one(&self.factors, load)
     }
 
     /// The forces on the nodes that stand for `load`.
@@ -109,12 +132,15 @@ impl Condensed {
 /// Displacements of the subblocks of a free body under a load in equilibrium, with no motion of the first subblock.
 ///
 /// `load`: generalised loads of all subblocks, 6 n_subblocks.
-pub fn free_response(body: &Macroblock, load: &DVector<f64>) -> Option<DVector<f64>> {
+/// None where the body's stiffness does not hold.
+///
+/// # Errors
+/// When stopped.
+pub fn free_response(body: &Macroblock, load: &DVector<f64>, heart: &Heart) -> Result<Option<DVector<f64>>, Stopped> {
     let modulus = body.blocks()[0].youngs_modulus();
     // Three springs on three rigid motions: statically determinate, so that a load in equilibrium does not feel them.
     let springs: Vec<Triplet<usize, usize, f64>> = (0..3).map(|i| Triplet::new(i, i, modulus)).collect();
-    let factors = factor(body, &springs)?;
-    Some(solve(&factors, &DMatrix::from_column_slice(load.len(), 1, load.as_slice())).column(0).into_owned())
+    Ok(factor(body, &springs, heart)?.map(|factors| solve_one(&factors, load)))
 }
 
 /// Stiffness of the links on the subblocks: T' k T with T k = `ties`.
@@ -130,30 +156,115 @@ fn held(body: &Macroblock, ties: &DMatrix<f64>, links: &[f64]) -> Vec<Triplet<us
     triplets
 }
 
-fn factor(body: &Macroblock, more: &[Triplet<usize, usize, f64>]) -> Option<Factors> {
+fn factor(body: &Macroblock, more: &[Triplet<usize, usize, f64>], heart: &Heart) -> Result<Option<Factors>, Stopped> {
     let n = 6 * body.blocks().len();
     let mut triplets = more.to_vec();
     body.stiffness(|i, j, block| {
         for a in 0..6 {
             triplets.extend((0..6).map(|b| Triplet::new(6 * i + a, 6 * j + b, block[(a, b)])));
         }
+        // Where this says to stop, the next beat does too.
+        let _ = heart.work(ADDED);
     });
     if n == 6 {
         let mut dense = Mat::<f64>::zeros(n, n);
         triplets.iter().for_each(|t| dense[(t.row, t.col)] += t.val);
-        return dense.llt(Side::Lower).ok().map(Factors::Dense);
+        return Ok(dense.llt(Side::Lower).ok().map(Factors::Dense));
     }
-    let sparse = SparseColMat::try_new_from_triplets(n, n, &triplets).ok()?;
-    sparse.sp_cholesky(Side::Lower).ok().map(Factors::Sparse)
+    heart.beat()?;
+    let sparse = assemble(n, &triplets, heart)?;
+    drop(triplets);
+    heart.beat()?;
+    let Ok(order) = SymbolicLlt::try_new(sparse.symbolic(), Side::Lower) else { return Ok(None) };
+    heart.beat()?;
+    let factors = SparseLlt::try_new_with_symbolic(order, sparse.as_ref(), Side::Lower);
+    heart.beat()?;
+    Ok(factors.ok().map(Factors::Sparse))
 }
 
-fn solve(factors: &Factors, right: &DMatrix<f64>) -> DMatrix<f64> {
-    let right = Mat::from_fn(right.nrows(), right.ncols(), |i, j| right[(i, j)]);
-    let x = match factors {
-        Factors::Dense(factors) => factors.solve(&right),
-        Factors::Sparse(factors) => factors.solve(&right),
-    };
-    DMatrix::from_fn(x.nrows(), x.ncols(), |i, j| x[(i, j)])
+/// The square matrix of `n` rows that these are the entries of, column by column. It is what faer makes of them, which adds
+/// up those of one place in the same order, but would do so in one go.
+fn assemble(
+    n: usize,
+    triplets: &[Triplet<usize, usize, f64>],
+    heart: &Heart,
+) -> Result<SparseColMat<usize, f64>, Stopped> {
+    let mut end = vec![0; n];
+    triplets.iter().for_each(|t| end[t.col] += 1);
+    let mut all = 0;
+    for end in &mut end {
+        (all, *end) = (all + *end, all);
+    }
+    heart.beat()?;
+    let mut order = vec![0; all];
+    for (i, t) in triplets.iter().enumerate() {
+        order[end[t.col]] = i;
+        end[t.col] += 1;
+    }
+    heart.beat()?;
+    let (mut columns, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
+    let mut start = 0;
+    for end in end {
+        let column = &mut order[start..end];
+        column.sort_unstable_by_key(|&i| triplets[i].row);
+        let mut last = None;
+        for &Triplet { row, val, .. } in column.iter().map(|&i| &triplets[i]) {
+            match values.last_mut() {
+                Some(sum) if last == Some(row) => *sum += val,
+                _ => {
+                    rows.push(row);
+                    values.push(val);
+                }
+            }
+            last = Some(row);
+        }
+        columns.push(rows.len());
+        heart.work(SORTED * (end - start))?;
+        start = end;
+    }
+    Ok(SparseColMat::new(SymbolicSparseColMat::new_checked(n, n, columns, None, rows), values))
+}
+
+/// K^-1 `right`, some columns at a time.
+fn solve(factors: &Factors, right: &DMatrix<f64>, heart: &Heart) -> Result<DMatrix<f64>, Stopped> {
+    let (rows, columns) = right.shape();
+    let mut all = DMatrix::zeros(rows, columns);
+    for part in parts(columns) {
+        let some = solve_some(factors, &Mat::from_fn(rows, part.len(), |i, j| right[(i, part.start + j)]));
+        for (j, column) in part.clone().enumerate() {
+            all.column_mut(column).copy_from_slice(some.col_as_slice(j));
+        }
+        heart.work(SOLVED * rows * part.len())?;
+    }
+    Ok(all)
+}
+
+fn solve_one(factors: &Factors, right: &DVector<f64>) -> DVector<f64> {
+    let x = solve_some(factors, &Mat::from_fn(right.len(), 1, |i, _| right[i]));
+    DVector::from_fn(right.len(), |i, _| x[(i, 0)])
+}
+
+fn solve_some(factors: &Factors, right: &Mat<f64>) -> Mat<f64> {
+    match factors {
+        Factors::Dense(factors) => factors.solve(right),
+        Factors::Sparse(factors) => factors.solve(right),
+    }
+}
+
+/// The product of two matrices, some columns at a time.
+fn product(a: &DMatrix<f64>, b: &DMatrix<f64>, heart: &Heart) -> Result<DMatrix<f64>, Stopped> {
+    let mut all = DMatrix::zeros(a.nrows(), b.ncols());
+    for part in parts(b.ncols()) {
+        all.columns_mut(part.start, part.len()).gemm(1.0, a, &b.columns(part.start, part.len()), 0.0);
+        heart.work(a.nrows() * a.ncols() * part.len())?;
+    }
+    Ok(all)
+}
+
+/// Columns in parts of which none is small.
+fn parts(columns: usize) -> impl Iterator<Item = Range<usize>> {
+    let count = (columns / AT_ONCE).max(1);
+    (0..count).map(move |i| i * columns / count..(i + 1) * columns / count)
 }
 
 /// The three rigid motions as displacements of the nodes (orthonormal) and of the subblocks.
@@ -189,4 +300,60 @@ fn orthonormal(mut a: DMatrix<f64>, mut b: DMatrix<f64>) -> [DMatrix<f64>; 2] {
         b.column_mut(k).unscale_mut(norm);
     }
     [a, b]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A diagonally dominant matrix of `blocks` blocks of six unknowns, each tied to the next and to one some way off, and a
+    /// right-hand side.
+    fn system(blocks: usize, columns: usize) -> (Vec<Triplet<usize, usize, f64>>, DMatrix<f64>) {
+        let number = |i: usize, j: usize| ((i * 31 + j * 17) as f64 * 0.754_877_666).fract() - 0.5;
+        let far = (blocks as f64).sqrt() as usize;
+        let mut triplets = Vec::new();
+        for (b, c) in (0..blocks).flat_map(|b| [(b, b), (b, b + 1), (b, b + far)]).filter(|&(_, c)| c < blocks) {
+            for (i, j) in (0..6).flat_map(|i| (0..6).map(move |j| (6 * b + i, 6 * c + j))).filter(|(i, j)| i < j) {
+                triplets.extend([Triplet::new(i, j, number(i, j)), Triplet::new(j, i, number(i, j))]);
+            }
+        }
+        triplets.extend((0..6 * blocks).map(|i| Triplet::new(i, i, 30.0)));
+        let right = |i: usize, j: usize| if (7 * i + 13 * j) % 97 < 3 { number(j, i) } else { 0.0 };
+        (triplets, DMatrix::from_fn(6 * blocks, columns, right))
+    }
+
+    #[test]
+    fn entries_of_one_place_are_added_up_as_the_solver_would() {
+        let (mut triplets, _) = system(100, 1);
+        // Many to a place, in no order.
+        let more = |i: usize| Triplet::new(i * 7 % 600, i * i % 11, (i as f64 * 0.754_877_666).fract());
+        triplets.extend((0..5000).map(more));
+        let ours = assemble(600, &triplets, &Heart::unwatched()).unwrap();
+        let theirs = SparseColMat::try_new_from_triplets(600, 600, &triplets).unwrap();
+        assert_eq!(ours.col_ptr(), theirs.col_ptr());
+        assert_eq!(ours.row_idx(), theirs.row_idx());
+        assert!(ours.val().iter().zip(theirs.val()).all(|(a, b)| a.to_bits() == b.to_bits()));
+    }
+
+    #[test]
+    fn a_part_of_the_columns_at_a_time_gives_the_same_to_the_last_bit() {
+        let heart = Heart::unwatched();
+        let bits = |m: &DMatrix<f64>| m.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+        for (blocks, columns) in [(1, 16), (1, 31), (1, 100), (16, 32), (100, 63), (400, 47), (400, 100), (576, 200)] {
+            let (triplets, right) = system(blocks, columns);
+            let n = 6 * blocks;
+            let sparse = assemble(n, &triplets, &heart).unwrap();
+            let factors = match blocks {
+                1 => Factors::Dense(sparse.to_dense().llt(Side::Lower).unwrap()),
+                _ => Factors::Sparse(sparse.sp_cholesky(Side::Lower).unwrap()),
+            };
+            let whole = solve_some(&factors, &Mat::from_fn(n, columns, |i, j| right[(i, j)]));
+            let whole = DMatrix::from_fn(n, columns, |i, j| whole[(i, j)]);
+            let parts = solve(&factors, &right, &heart).unwrap();
+            assert!(bits(&parts) == bits(&whole), "{blocks} blocks, {columns} columns");
+            let transposed = right.transpose();
+            let product = product(&transposed, &parts, &heart).unwrap();
+            assert!(bits(&product) == bits(&(transposed * parts)), "{blocks} blocks, {columns} columns");
+        }
+    }
 }

@@ -3,9 +3,14 @@
 //! The matrix is eliminated from both ends towards the block row that changed last (a twisted factorisation), so that
 //! the next change costs only the rows between the two. Blocks may differ in size.
 
+use super::heart::{Heart, Stopped};
 use super::panels::{Panels, subtract_applied, subtract_product};
 use super::pivot::Pivot;
 use std::ops::Range;
+
+/// Work of eliminating a block row, over the cube of its unknowns; and of solving for it, over their square.
+const ELIMINATED: usize = 3;
+const SOLVED: usize = 3;
 
 /// A block tridiagonal matrix.
 #[derive(Debug, Clone, Default)]
@@ -45,6 +50,12 @@ impl Tridiagonal {
         copy(self.diagonal.get_mut(i + 1), left..all, left..all);
         copy(self.upper.get_mut(i), 0..left, left..all);
         copy(self.lower.get_mut(i), left..all, 0..left);
+    }
+
+    /// The same again; zero from where it was stopped.
+    pub fn copied(&self, heart: &Heart) -> Self {
+        let [diagonal, upper, lower] = [&self.diagonal, &self.upper, &self.lower].map(|panels| panels.copied(heart));
+        Tridiagonal { start: self.start.clone(), diagonal, upper, lower }
     }
 
     /// Number of block rows.
@@ -125,22 +136,29 @@ impl Sweep {
     }
 
     /// Eliminates rows up to `count`, with the kept right-hand side `b`.
-    fn extend(&mut self, k: &Tridiagonal, b: &[f64], count: usize) {
+    fn extend(&mut self, k: &Tridiagonal, b: &[f64], count: usize, heart: &Heart) -> Result<(), Stopped> {
+        for i in self.current..count {
+            self.eliminate(k, b, i);
+            heart.work(ELIMINATED * k.range(self.place(i)).len().pow(3))?;
+        }
+        Ok(())
+    }
+
+    /// Eliminates row `i`, those before being eliminated.
+    fn eliminate(&mut self, k: &Tridiagonal, b: &[f64], i: usize) {
         let (mut schur, mut work) = (std::mem::take(&mut self.schur), std::mem::take(&mut self.work));
         let mut forward = std::mem::take(&mut self.forward);
-        for i in self.current..count {
-            let place = self.place(i);
-            schur.clear();
-            schur.extend_from_slice(k.diagonal.get(place));
-            self.reduce(k, i, &mut schur);
-            let next = self.next(k, i);
-            self.ahead.get_mut(place).copy_from_slice(next);
-            self.pivots[place].factor(&schur, self.ahead.get_mut(place), &mut work);
-            self.ratio[i] = self.pivots[place].ratio.min(if i > 0 { self.ratio[i - 1] } else { f64::INFINITY });
-            self.forward_row(k, b, i, &mut forward, &mut work);
-        }
+        let place = self.place(i);
+        schur.clear();
+        schur.extend_from_slice(k.diagonal.get(place));
+        self.reduce(k, i, &mut schur);
+        let next = self.next(k, i);
+        self.ahead.get_mut(place).copy_from_slice(next);
+        self.pivots[place].factor(&schur, self.ahead.get_mut(place), &mut work);
+        self.ratio[i] = self.pivots[place].ratio.min(if i > 0 { self.ratio[i - 1] } else { f64::INFINITY });
+        self.forward_row(k, b, i, &mut forward, &mut work);
         (self.schur, self.work, self.forward) = (schur, work, forward);
-        self.current = self.current.max(count);
+        self.current = i + 1;
     }
 
     /// Forward substitution of row `i` of the right-hand side `b`.
@@ -213,12 +231,15 @@ impl Factor {
 
     /// Factors what is not current and solves K x = b. `b` may differ from that of the last call only in rows that were
     /// invalidated since.
-    pub fn update(&mut self, k: &Tridiagonal, b: &[f64], x: &mut [f64]) {
+    ///
+    /// # Errors
+    /// When stopped: what is done by then is kept.
+    pub fn update(&mut self, k: &Tridiagonal, b: &[f64], x: &mut [f64], heart: &Heart) -> Result<(), Stopped> {
         let (m, beyond) = (self.meeting, k.rows() - 1 - self.meeting);
         self.eliminated +=
             1 + m.saturating_sub(self.from_left.current) + beyond.saturating_sub(self.from_right.current);
-        self.from_left.extend(k, b, m);
-        self.from_right.extend(k, b, beyond);
+        self.from_left.extend(k, b, m, heart)?;
+        self.from_right.extend(k, b, beyond, heart)?;
         self.schur.clear();
         self.schur.extend_from_slice(k.diagonal.get(m));
         self.from_left.reduce(k, m, &mut self.schur);
@@ -227,10 +248,16 @@ impl Factor {
         self.middle.factor(&self.schur, &mut [], &mut self.work);
         let forward = [&self.from_left.forward, &self.from_right.forward].map(Vec::as_slice);
         Self::finish([&self.from_left, &self.from_right], &self.middle, k, b, forward, m, x);
+        Ok(())
     }
 
     /// Solves K x = b for another right-hand side.
-    pub fn solve(&self, k: &Tridiagonal, b: &[f64], x: &mut [f64]) {
+    ///
+    /// # Errors
+    /// When stopped.
+    pub fn solve(&self, k: &Tridiagonal, b: &[f64], x: &mut [f64], heart: &Heart) -> Result<(), Stopped> {
+        // Where a factorisation was stopped there are no factors.
+        heart.check()?;
         let (m, beyond) = (self.meeting, k.rows() - 1 - self.meeting);
         let mut work = Vec::new();
         let sweeps = [&self.from_left, &self.from_right];
@@ -238,9 +265,11 @@ impl Factor {
         for ((sweep, count), forward) in sweeps.into_iter().zip([m, beyond]).zip(&mut forward) {
             for i in 0..count {
                 sweep.forward_row(k, b, i, forward, &mut work);
+                heart.work(SOLVED * k.range(sweep.place(i)).len().pow(2))?;
             }
         }
         Self::finish(sweeps, &self.middle, k, b, forward.each_ref().map(Vec::as_slice), m, x);
+        Ok(())
     }
 
     /// Solves the middle row and substitutes back to both ends.

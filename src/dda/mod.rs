@@ -18,6 +18,7 @@ mod condense;
 mod contact;
 mod factor;
 pub mod falling;
+mod heart;
 mod macroblock;
 mod moving;
 mod panels;
@@ -26,7 +27,8 @@ mod trace;
 
 pub use block::{Block, Elasticity, V6};
 pub use chain::{Chain, ChainBuilder, Loads, MeanMotion, Push, Touch};
-pub use condense::{Condensed, Loose, Node, free_response};
+pub use condense::{Condensed, Loose, Node, Unbuilt, free_response};
 pub use contact::{Contact, ContactForce, Law, State, Zone};
+pub use heart::{Heart, Stopped};
 pub use macroblock::{Bond, Macroblock, Seam};
 pub use trace::{Drive, End, Movement, Patience, Peak, Tracer, covering};

@@ -12,6 +12,7 @@ mod turn;
 use super::chain::{Chain, MeanMotion};
 use super::contact::force_change;
 use super::factor::Tridiagonal;
+use super::heart::{Heart, Stopped};
 use super::trace::Drive;
 use crate::geometry::Vec2;
 use body::{Corotated, NodeLoads, Pose};
@@ -20,6 +21,9 @@ pub(super) use interface::{Bearing, Stiffness};
 pub(super) use turn::Turn;
 pub(super) use turn::quarter;
 use turn::{cross, quarter_of};
+
+/// Work of renewing a body's stiffness, over the square of its unknowns.
+const LINEARISED: usize = 10;
 
 /// Where all bodies and interfaces of a chain are.
 #[derive(Debug, Clone)]
@@ -51,14 +55,14 @@ pub(super) struct Velocity<'d> {
 
 impl Placed {
     /// The chain in its reference position.
-    pub fn new(chain: &Chain) -> Self {
+    pub fn new(chain: &Chain, heart: &Heart) -> Self {
         let corotated: Vec<Corotated> = (0..chain.kinds()).map(|kind| Corotated::new(chain.kind_nodes(kind))).collect();
         let still = vec![0.0; chain.node_unknowns()];
         Placed {
             poses: (0..chain.bodies()).map(|i| corotated[chain.kind_of(i)].at_rest()).collect(),
             frames: (0..chain.interfaces()).map(|k| frame(chain, k, &still, 0.0)).collect(),
             corotated,
-            bodies: chain.elastic().clone(),
+            bodies: chain.elastic().copied(heart),
             load_rate: still.clone(),
             loads: [still.clone(), still],
             dense: Vec::new(),
@@ -66,7 +70,18 @@ impl Placed {
     }
 
     /// Moves everything to node displacements `d` with the drive at `parameter`; fills `gaps`.
-    pub fn place(&mut self, chain: &Chain, drive: &Drive, parameter: f64, d: &[f64], gaps: &mut [[f64; 2]]) {
+    ///
+    /// # Errors
+    /// When stopped.
+    pub fn place(
+        &mut self,
+        chain: &Chain,
+        drive: &Drive,
+        parameter: f64,
+        d: &[f64],
+        gaps: &mut [[f64; 2]],
+        heart: &Heart,
+    ) -> Result<(), Stopped> {
         let parts = [[&drive.base, &drive.rate], [&drive.turned[0], &drive.turned[1]]];
         for (load, [base, rate]) in self.loads.iter_mut().zip(parts) {
             let sum = base.iter().zip(rate).map(|(base, rate)| base + rate * parameter);
@@ -76,6 +91,7 @@ impl Placed {
             let (kind, nodes) = (chain.kind_of(i), chain.nodes_of(i));
             let [straight, turned] = self.loads.each_ref().map(|load| &load[nodes.clone()]);
             self.corotated[kind].pose(chain.stiffness_of(i), &d[nodes], NodeLoads { straight, turned }, pose);
+            heart.work(chain.stiffness_of(i).len())?;
         }
         for k in 0..chain.interfaces() {
             let ground = chain.ground_at(k).map(|end| &drive.ground[end]);
@@ -85,6 +101,7 @@ impl Placed {
                 gaps[p] = self.frames[k].gap(plus(chain.gap(p, d), chain.ground_gap(p, moved)));
             }
         }
+        Ok(())
     }
 
     /// Adds loads less elastic forces of all bodies, and what contacts with these gaps and forces put on them, to the
@@ -103,7 +120,10 @@ impl Placed {
     }
 
     /// Renews the stiffness of all bodies where they are now, and what their loads grow by with the parameter.
-    pub fn linearise(&mut self, chain: &Chain, drive: &Drive) {
+    ///
+    /// # Errors
+    /// When stopped.
+    pub fn linearise(&mut self, chain: &Chain, drive: &Drive, heart: &Heart) -> Result<(), Stopped> {
         for (i, pose) in self.poses.iter().enumerate() {
             let (nodes, corotated) = (chain.nodes_of(i), &self.corotated[chain.kind_of(i)]);
             let n = nodes.len();
@@ -112,7 +132,9 @@ impl Placed {
             self.bodies.set_pair(2 * i, |i, j| self.dense[i * n + j]);
             let rate = NodeLoads { straight: &drive.rate[nodes.clone()], turned: &drive.turned[1][nodes.clone()] };
             corotated.load_rate(pose, rate, &mut self.load_rate[nodes]);
+            heart.work(LINEARISED * n * n)?;
         }
+        Ok(())
     }
 
     /// Stiffness of interface `k` with its points bearing like this.

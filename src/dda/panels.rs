@@ -1,5 +1,12 @@
 //! Small dense matrices of differing shapes, one after the other in memory, and what is done with them.
 
+use super::heart::Heart;
+
+/// Entries that are copied between two heartbeats.
+const AT_ONCE: usize = 1 << 18;
+/// Work of copying an entry to memory that is new, in multiplications.
+const COPIED: usize = 4;
+
 /// Matrices stored row by row, one after the other.
 #[derive(Debug, Clone, Default)]
 pub struct Panels {
@@ -18,6 +25,18 @@ impl Panels {
             start.push(end);
         }
         Panels { start, entries: vec![0.0; end] }
+    }
+
+    /// The same again; zero from where it was stopped. Where there are many, the memory takes its time.
+    pub fn copied(&self, heart: &Heart) -> Self {
+        let mut entries = vec![0.0; self.entries.len()];
+        for (into, from) in entries.chunks_mut(AT_ONCE).zip(self.entries.chunks(AT_ONCE)) {
+            into.copy_from_slice(from);
+            if heart.work(COPIED * from.len()).is_err() {
+                break;
+            }
+        }
+        Panels { start: self.start.clone(), entries }
     }
 
     /// Matrix `i`, row by row.

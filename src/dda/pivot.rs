@@ -16,9 +16,9 @@ pub(super) struct Pivot {
 }
 
 impl Pivot {
-    /// For a block of `n` rows.
+    /// For a block of `n` rows, which takes its memory when it is factored.
     pub(super) fn new(n: usize) -> Self {
-        Pivot { n, rows: vec![0.0; n * n], order: (0..n).collect(), ratio: f64::INFINITY }
+        Pivot { n, rows: Vec::new(), order: Vec::new(), ratio: f64::INFINITY }
     }
 
     /// Factors `a` and solves a X = b for all columns of `b` in the same sweep; `b` becomes X. `work` is scratch.
@@ -44,6 +44,8 @@ impl Pivot {
             work.extend_from_slice(&b[i * columns..(i + 1) * columns]);
         }
         let rows = &mut work[..n * width];
+        self.rows.resize(n * n, 0.0);
+        self.order.resize(n, 0);
         self.order.iter_mut().enumerate().for_each(|(i, place)| *place = i);
         let scale = a.iter().fold(f64::MIN_POSITIVE / f64::EPSILON, |scale, x| scale.max(x.abs()));
         let (mut smallest, mut largest) = (f64::INFINITY, 0f64);

@@ -17,6 +17,7 @@ pub use moving::Patience;
 use super::chain::Chain;
 use super::contact::{Moving, State, zone};
 use super::factor::{Factor, Tridiagonal};
+use super::heart::Heart;
 use super::moving::{Placed, Velocity};
 use std::ops::ControlFlow;
 
@@ -69,9 +70,11 @@ const MOST_ZERO_STEPS: [usize; 2] = [60, 4];
 const MOST_EVENTS: [usize; 2] = [200, 20];
 
 /// Follows the load path of a chain.
-#[derive(Debug, Clone)]
+#[derive(Clone)]
 pub struct Tracer<'a> {
     chain: &'a Chain,
+    /// Beats in long work between events.
+    heart: &'a Heart<'a>,
     drive: Drive,
     /// Extent of the chain and scale of its loads.
     size: f64,
@@ -122,10 +125,13 @@ impl<'a> Tracer<'a> {
     ///
     /// `size` is the chain's extent in m, `load_scale` a load in N/m (its weight) that residuals are measured against.
     /// The drive must be in equilibrium there: `base` balances the offset's contact forces (see [`covering`]).
-    pub fn new(chain: &'a Chain, drive: Drive, size: f64, load_scale: f64) -> Self {
+    ///
+    /// `heart` is asked between the calls of what sees a path go by, wherever it takes long from one to the next.
+    pub fn new(chain: &'a Chain, drive: Drive, size: f64, load_scale: f64, heart: &'a Heart<'a>) -> Self {
         let n = chain.elastic().start[chain.elastic().rows()];
         let mut tracer = Tracer {
             chain,
+            heart,
             drive,
             size,
             load_scale,
@@ -138,7 +144,7 @@ impl<'a> Tracer<'a> {
             dip: None,
             fallen: false,
             settling: vec![[0.0; 2]; chain.contacts().len()],
-            matrix: chain.elastic().clone(),
+            matrix: chain.elastic().copied(heart),
             load_rate: vec![0.0; n],
             load_rate_scale: 0.0,
             factor: Factor::new(chain.elastic()),
@@ -178,6 +184,17 @@ impl<'a> Tracer<'a> {
     /// Traces until the parameter reaches `target` or the path ends. `see` is called at the start and after every event.
     /// A target that is not ahead of the current parameter is [`End::Lost`].
     pub fn trace(&mut self, target: f64, see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>) -> End {
+        let end = self.trace_straight(target, see);
+        self.unless_stopped(end)
+    }
+
+    /// An end that is none where the heart stands still.
+    fn unless_stopped(&self, end: End) -> End {
+        if self.heart.check().is_ok() { end } else { End::Stopped }
+    }
+
+    /// Traces on the reference geometry, along straight lines.
+    fn trace_straight(&mut self, target: f64, see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>) -> End {
         let far = FAR * self.size;
         let most = |[base, each]: [usize; 2]| base + each * self.states.len();
         let (most_zero_steps, most_events) = (most(MOST_ZERO_STEPS), self.events + most(MOST_EVENTS));
@@ -244,7 +261,9 @@ impl<'a> Tracer<'a> {
 
     /// Solves for the tangent of the path, its largest entry 1 m.
     fn solve_tangent(&mut self) {
-        self.factor.update(&self.matrix, &self.load_rate, &mut self.direction);
+        if self.factor.update(&self.matrix, &self.load_rate, &mut self.direction, self.heart).is_err() {
+            return;
+        }
         self.factorisations += 1;
         let largest = self.direction.iter().map(|d| d.abs()).fold(0.0, f64::max);
         self.rate = if largest > 0.0 { 1.0 / largest } else { 1.0 };

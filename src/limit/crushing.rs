@@ -5,7 +5,7 @@
 //! two parabolas a joint, which bound a convex set. Tangents of them are added to the linear programme of the rigid
 //! arch until its answer lies on or within every parabola (cutting planes, Kelley 1960).
 
-use super::linear_program::{Inequality, Optimum, Row, maximise};
+use super::linear_program::{Beat, Inequality, Optimum, Row, maximise};
 use super::{StaticTheorem, Unsolved};
 use crate::arch::JointLaw;
 
@@ -75,8 +75,8 @@ impl StaticTheorem {
     /// Limit window with dry joints of compressive strength `strength`, Pa; None where nothing is in equilibrium.
     ///
     /// # Errors
-    /// When rounding kept the cutting planes from an answer, or the strength is not positive.
-    pub fn crushing_window(&self, strength: f64) -> Result<Option<CrushingWindow>, Unsolved> {
+    /// When rounding, or `beat`, kept the cutting planes from an answer, or the strength is not positive.
+    pub fn crushing_window(&self, strength: f64, beat: Beat) -> Result<Option<CrushingWindow>, Unsolved> {
         if strength.is_nan() || strength <= 0.0 {
             return Err(Unsolved);
         }
@@ -86,7 +86,7 @@ impl StaticTheorem {
         let mut window = CrushingWindow { ends: [0.0; 2], joints: [Vec::new(), Vec::new()] };
         for (end, sign) in [-1.0, 1.0].into_iter().enumerate() {
             let objective = Row::new(0.0, 0.0, 0.0, sign);
-            match cut_until_inside(objective, &mut inequalities, &sections)? {
+            match cut_until_inside(objective, &mut inequalities, &sections, beat)? {
                 Optimum::At(value, point) => {
                     window.ends[end] = sign * value * self.factor;
                     window.joints[end] = self.crushed(&sections, &point);
@@ -127,10 +127,11 @@ fn cut_until_inside(
     objective: Row,
     inequalities: &mut Vec<Inequality>,
     sections: &[Section],
+    beat: Beat,
 ) -> Result<Optimum, Unsolved> {
     let mut nearly = None;
     for _ in 0..MOST_ROUNDS {
-        let optimum = maximise(objective, inequalities);
+        let optimum = maximise(objective, inequalities, beat);
         let point = match optimum {
             Optimum::At(_, point) | Optimum::Unbounded(point) => point,
             Optimum::Infeasible => return Ok(optimum),

@@ -1,6 +1,7 @@
 //! Linear programs with a handful of unknowns and very many inequalities, solved exactly by the dual simplex method.
 
 use nalgebra::{SMatrix, SVector};
+use std::ops::ControlFlow;
 
 /// Unknowns of every program here: three redundants and the load factor.
 pub const UNKNOWNS: usize = 4;
@@ -26,7 +27,7 @@ pub enum Optimum {
     Unbounded(Row),
     /// No point satisfies all inequalities.
     Infeasible,
-    /// Rounding kept the method from an answer.
+    /// Rounding kept the method from an answer, or who asked for it no longer wants one.
     Lost,
 }
 
@@ -38,18 +39,29 @@ const TOLERANCE: f64 = 1e-12;
 /// Far above what the method needs (about ten pivots); reached only if rounding defeats the tie rule.
 const MOST_PIVOTS: usize = 10_000;
 
+/// Asked at every pivot whether to go on. Where it breaks, what is returned is no answer.
+pub type Beat<'b> = &'b dyn Fn() -> ControlFlow<()>;
+
+/// Always goes on.
+pub fn unwatched() -> ControlFlow<()> {
+    ControlFlow::Continue(())
+}
+
 /// Maximises `objective . x` over all `inequalities`, whose rows must have unit length.
 ///
 /// Dual simplex from a corner of a large box: of the constraints in the basis one leaves for the most violated one,
 /// until none is violated. Ties are broken lexicographically, as if the objective were perturbed by
 /// (e, e^2, e^3, e^4), so that the method cannot cycle (Dantzig, Orden and Wolfe 1955).
-pub fn maximise(objective: Row, inequalities: &[Inequality]) -> Optimum {
+pub fn maximise(objective: Row, inequalities: &[Inequality], beat: Beat) -> Optimum {
     let bound = |i: usize, sign: f64| Inequality { row: Row::ith(i, -sign), constant: BOX };
     // At the starting corner every unknown is at the bound its (perturbed) objective pushes it to.
     let mut basis: [Inequality; UNKNOWNS] = std::array::from_fn(|i| bound(i, corner_sign(objective[i])));
     let mut from_box = [true; UNKNOWNS];
     let walls: Vec<Inequality> = (0..UNKNOWNS).flat_map(|i| [bound(i, 1.0), bound(i, -1.0)]).collect();
     for _ in 0..MOST_PIVOTS {
+        if beat().is_break() {
+            return Optimum::Lost;
+        }
         let rows = Basis::from_fn(|i, j| basis[i].row[j]);
         let Some(inverse) = rows.try_inverse() else { return Optimum::Lost };
         let point = -inverse * Row::from_fn(|i, _| basis[i].constant);
@@ -127,7 +139,7 @@ mod tests {
     fn finds_the_corner_of_a_simplex() {
         let mut rows: Vec<_> = (0..UNKNOWNS).map(|i| Inequality { row: Row::ith(i, 1.0), constant: 0.0 }).collect();
         rows.push(half_space([-1.0, -2.0, -3.0, -4.0], 12.0));
-        let Optimum::At(value, point) = maximise(Row::from([1.0, 1.0, 1.0, 1.0]), &rows) else { panic!() };
+        let Optimum::At(value, point) = maximise(Row::from([1.0, 1.0, 1.0, 1.0]), &rows, &unwatched) else { panic!() };
         assert!((value - 12.0).abs() < 1e-12 && (point[0] - 12.0).abs() < 1e-12);
     }
 
@@ -135,10 +147,10 @@ mod tests {
     fn tells_empty_and_unbounded_sets() {
         let x_between =
             |low: f64, high: f64| [half_space([1.0, 0.0, 0.0, 0.0], -low), half_space([-1.0, 0.0, 0.0, 0.0], high)];
-        assert_eq!(maximise(Row::ith(3, 1.0), &x_between(2.0, 1.0)), Optimum::Infeasible);
-        assert!(matches!(maximise(Row::ith(3, 1.0), &x_between(1.0, 2.0)), Optimum::Unbounded(_)));
+        assert_eq!(maximise(Row::ith(3, 1.0), &x_between(2.0, 1.0), &unwatched), Optimum::Infeasible);
+        assert!(matches!(maximise(Row::ith(3, 1.0), &x_between(1.0, 2.0), &unwatched), Optimum::Unbounded(_)));
         assert!(
-            matches!(maximise(Row::ith(0, -1.0), &x_between(1.0, 2.0)), Optimum::At(v, _) if (v + 1.0).abs() < 1e-12)
+            matches!(maximise(Row::ith(0, -1.0), &x_between(1.0, 2.0), &unwatched), Optimum::At(v, _) if (v + 1.0).abs() < 1e-12)
         );
     }
 
@@ -151,7 +163,7 @@ mod tests {
                 half_space([a.cos(), a.sin(), (1.7 * a).cos(), -1.0], 1.0)
             })
             .collect();
-        let Optimum::At(value, _) = maximise(Row::ith(3, 1.0), &rows) else { panic!() };
+        let Optimum::At(value, _) = maximise(Row::ith(3, 1.0), &rows, &unwatched) else { panic!() };
         assert!((value - 1.0).abs() < 1e-12);
     }
 }

@@ -9,4 +9,5 @@ mod linear_program;
 mod static_theorem;
 
 pub use crushing::CrushingWindow;
+pub use linear_program::{Beat, unwatched};
 pub use static_theorem::{Condition, Equilibrium, Resultant, StaticTheorem, Unsolved};

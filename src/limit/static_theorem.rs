@@ -1,6 +1,6 @@
 //! The static theorem of one arch in four unknowns.
 
-use super::linear_program::{Inequality, Optimum, Row, UNKNOWNS, maximise};
+use super::linear_program::{Beat, Inequality, Optimum, Row, UNKNOWNS, maximise};
 use crate::arch::{Arch, Joint, JointLaw, PointForce};
 use crate::geometry::{Vec2, cross};
 use nalgebra::{DMatrix, DVector};
@@ -117,9 +117,9 @@ impl StaticTheorem {
     /// Lowest and highest load factor in equilibrium, infinite where unbounded; None when there is none at all.
     ///
     /// # Errors
-    /// When rounding kept the linear programme from an answer.
-    pub fn window(&self) -> Result<Option<[f64; 2]>, Unsolved> {
-        let end = |sign: f64| match maximise(Row::new(0.0, 0.0, 0.0, sign), &self.inequalities) {
+    /// When rounding, or `beat`, kept the linear programme from an answer.
+    pub fn window(&self, beat: Beat) -> Result<Option<[f64; 2]>, Unsolved> {
+        let end = |sign: f64| match maximise(Row::new(0.0, 0.0, 0.0, sign), &self.inequalities, beat) {
             Optimum::At(value, _) => Ok(Some(sign * value * self.factor)),
             Optimum::Unbounded(_) => Ok(Some(sign * f64::INFINITY)),
             Optimum::Infeasible => Ok(None),
@@ -129,10 +129,10 @@ impl StaticTheorem {
     }
 
     /// True where an equilibrium at load factor `at` violates no condition by more than `slack`, a share of the loads.
-    pub fn nearly_stands(&self, at: f64, slack: f64) -> bool {
+    pub fn nearly_stands(&self, at: f64, slack: f64, beat: Beat) -> bool {
         let mut relaxed = self.pinned(at);
         relaxed.iter_mut().for_each(|inequality| inequality.constant += slack);
-        matches!(maximise(Row::new(1.0, 0.0, 0.0, 0.0), &relaxed), Optimum::At(..) | Optimum::Unbounded(_))
+        matches!(maximise(Row::new(1.0, 0.0, 0.0, 0.0), &relaxed, beat), Optimum::At(..) | Optimum::Unbounded(_))
     }
 
     /// The inequalities with the load factor held at `at`.
@@ -145,9 +145,9 @@ impl StaticTheorem {
     }
 
     /// Least and greatest horizontal thrust of the left springing at load factor `at`, N/m; None when nothing stands.
-    pub fn thrust_range(&self, at: f64) -> Option<[f64; 2]> {
+    pub fn thrust_range(&self, at: f64, beat: Beat) -> Option<[f64; 2]> {
         let inequalities = self.pinned(at);
-        let end = |sign: f64| match maximise(Row::new(sign, 0.0, 0.0, 0.0), &inequalities) {
+        let end = |sign: f64| match maximise(Row::new(sign, 0.0, 0.0, 0.0), &inequalities, beat) {
             Optimum::At(value, _) => Some(sign * value * self.force),
             Optimum::Unbounded(_) => Some(sign * f64::INFINITY),
             Optimum::Infeasible | Optimum::Lost => None,

@@ -3,7 +3,7 @@
 use crate::mesh::{Mesh, STONE};
 use nalgebra::{DMatrix, DVector};
 use std::ops::ControlFlow;
-use voussoir::dda::{Bond, Chain, ChainBuilder, Drive, End, Law, Loads, Push, Touch, Tracer};
+use voussoir::dda::{Bond, Chain, ChainBuilder, Drive, End, Heart, Law, Loads, Push, Touch, Tracer};
 use voussoir::geometry::Vec2;
 
 const PENALTY: f64 = 1e10;
@@ -56,17 +56,18 @@ pub fn bonded(stones: &[Mesh], faces: &[[Vec2; 2]], smooth: Option<usize>) -> Gl
         touches.iter().filter(|t| t.0 == k).for_each(|t| builder.contact(t.1));
         builder.next_interface();
     }
-    Glued { stones: stones.to_vec(), chain: builder.finish().unwrap(), touches }
+    Glued { stones: stones.to_vec(), chain: builder.finish(&Heart::unwatched()).unwrap(), touches }
 }
 
 impl Glued {
     /// The chain's own answer to forces on subblocks.
     pub fn solve(&self, pushes: &[Push]) -> Solved<'_> {
-        let loads = self.chain.loads(pushes.iter().copied());
+        let heart = Heart::unwatched();
+        let loads = self.chain.loads(pushes.iter().copied(), &heart).unwrap();
         let scale = pushes.iter().map(|p| p.force.norm()).sum();
         let base = vec![0.0; loads.on_nodes.len()];
         let drive = Drive { base, rate: loads.on_nodes.clone(), ..Drive::default() };
-        let mut tracer = Tracer::new(&self.chain, drive, 10.0, scale);
+        let mut tracer = Tracer::new(&self.chain, drive, 10.0, scale, &heart);
         assert_eq!(tracer.trace(1.0, &mut |_| ControlFlow::Continue(())), End::Reached);
         Solved { glued: self, displacements: tracer.displacements().to_vec(), loads }
     }

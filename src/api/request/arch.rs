@@ -25,6 +25,7 @@ pub struct ArchRequest {
     /// Lengths of the voussoirs along the profile in any common unit, left to right; equal by default. Not with
     /// `surveyed`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(min_items = 2, max_items = 2001)]
     pub relative_lengths: Option<Vec<f64>>,
     /// Areas and centroids of the true circular sectors instead of straight-sided blocks; for circular arcs of
     /// constant thickness with normal joints. Pressures still act on the straight sides.
@@ -64,7 +65,7 @@ pub enum ProfileRequest {
 pub struct Circular {
     /// Radius, m; with `opening_angle_deg`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schema(exclusive_minimum = 0.0)]
+    #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub radius_m: Option<f64>,
     /// Full opening angle, degrees: 180 for a semicircle.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -72,11 +73,11 @@ pub struct Circular {
     pub opening_angle_deg: Option<f64>,
     /// Span, m; with `rise_m`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schema(exclusive_minimum = 0.0)]
+    #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub span_m: Option<f64>,
     /// Rise, m.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schema(exclusive_minimum = 0.0)]
+    #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub rise_m: Option<f64>,
 }
 
@@ -85,19 +86,19 @@ pub struct Circular {
 pub struct Pointed {
     /// Radius of both arcs, m; with `centre_offset_m`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schema(exclusive_minimum = 0.0)]
+    #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub radius_m: Option<f64>,
     /// Distance of the centre of the left arc from mid-span, to the right, m; less than the radius.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schema(minimum = 0.0)]
+    #[schema(minimum = 0.0, exclusive_maximum = 1e5)]
     pub centre_offset_m: Option<f64>,
     /// Span, m; with `rise_m`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schema(exclusive_minimum = 0.0)]
+    #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub span_m: Option<f64>,
     /// Rise, m; at least half the span.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schema(exclusive_minimum = 0.0)]
+    #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub rise_m: Option<f64>,
 }
 
@@ -105,10 +106,10 @@ pub struct Pointed {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Elliptical {
     /// Span, m.
-    #[schema(exclusive_minimum = 0.0)]
+    #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub span_m: f64,
     /// Rise, m.
-    #[schema(exclusive_minimum = 0.0)]
+    #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub rise_m: f64,
 }
 
@@ -117,7 +118,7 @@ pub struct Elliptical {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct MultiCentre {
     /// The arcs of the left half, from the springing upwards.
-    #[schema(min_items = 1)]
+    #[schema(min_items = 1, max_items = 2001)]
     pub arcs: Vec<ArcRequest>,
 }
 
@@ -125,10 +126,10 @@ pub struct MultiCentre {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct ArcRequest {
     /// Radius, m.
-    #[schema(exclusive_minimum = 0.0)]
+    #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub radius_m: f64,
     /// Angle, degrees.
-    #[schema(exclusive_minimum = 0.0)]
+    #[schema(exclusive_minimum = 0.0, exclusive_maximum = 180.0)]
     pub angle_deg: f64,
 }
 
@@ -136,10 +137,10 @@ pub struct ArcRequest {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Surveyed {
     /// Intrados end [x, y] of every joint, m.
-    #[schema(min_items = 3)]
+    #[schema(min_items = 3, max_items = 2002)]
     pub intrados_m: Vec<[f64; 2]>,
     /// Extrados end [x, y] of every joint, m.
-    #[schema(min_items = 3)]
+    #[schema(min_items = 3, max_items = 2002)]
     pub extrados_m: Vec<[f64; 2]>,
 }
 
@@ -170,10 +171,10 @@ pub enum ThicknessRequest {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct LinearThickness {
     /// At the crown, m.
-    #[schema(exclusive_minimum = 0.0)]
+    #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub crown_m: f64,
     /// At the springings, m.
-    #[schema(exclusive_minimum = 0.0)]
+    #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub springing_m: f64,
 }
 
@@ -181,9 +182,10 @@ pub struct LinearThickness {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct ExtradosCircle {
     /// Radius, m.
-    #[schema(exclusive_minimum = 0.0)]
+    #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub radius_m: f64,
     /// Height of the centre above the springing level, m; usually negative.
+    #[schema(minimum = -1e5, maximum = 1e5)]
     pub centre_y_m: f64,
 }
 
@@ -209,7 +211,7 @@ pub struct Rays {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct AbutmentsRequest {
     /// Height, normal to the springing joint, m.
-    #[schema(exclusive_minimum = 0.0)]
+    #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub height_m: f64,
 }
 

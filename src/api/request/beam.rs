@@ -32,12 +32,13 @@ impl BeamRequest {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct CurvedBeamRequest {
     /// Inner radius, m.
-    #[schema(exclusive_minimum = 0.0)]
+    #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub inner_radius_m: f64,
     /// Outer radius, m; 1.001 to 1000 times the inner one.
-    #[schema(exclusive_minimum = 0.0)]
+    #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub outer_radius_m: f64,
-    /// Resultant of the tractions at its ends, N per metre of depth.
+    /// Resultant of the tractions at its ends, N per metre of depth; not 0.
+    #[schema(minimum = -1e15, maximum = 1e15)]
     pub end_shear_n_per_m: f64,
     /// Subblocks are true sectors; false: they have straight sides.
     #[serde(default = "CurvedBeamRequest::default_sides")]

@@ -11,8 +11,9 @@ pub struct LoadEntry {
     /// False: it stays as it is. True: the load factor multiplies it.
     #[serde(default)]
     pub scaled: bool,
-    /// A factor of its own.
+    /// A factor of its own; not 0.
     #[serde(default = "one")]
+    #[schema(minimum = -1e12, maximum = 1e12)]
     pub coefficient: f64,
     /// True: the coefficient is multiplied by the abscissa of the safety curve that `analysis` asks for.
     #[serde(default)]
@@ -52,19 +53,20 @@ pub struct SelfWeight {}
 pub struct FillPressure {
     /// Height H of the top of the fill above y = 0, m. Left out: an embankment only.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(minimum = -1e5, maximum = 1e5)]
     pub fill_height_m: Option<f64>,
     /// Density of the fill, kg/m3.
-    #[schema(minimum = 0.0)]
+    #[schema(minimum = 0.0, exclusive_maximum = 1e5)]
     pub fill_density_kg_m3: f64,
     /// Thickness of the embankment on top of the fill, m.
-    #[schema(minimum = 0.0)]
+    #[schema(minimum = 0.0, exclusive_maximum = 1e5)]
     pub embankment_thickness_m: f64,
     /// Density of the embankment, kg/m3.
-    #[schema(minimum = 0.0)]
+    #[schema(minimum = 0.0, exclusive_maximum = 1e5)]
     pub embankment_density_kg_m3: f64,
-    /// Ratio K of horizontal to vertical pressure; left out: 1 - sin of the fill's friction angle.
+    /// Ratio K of horizontal to vertical pressure, a pure number; left out: 1 - sin of the fill's friction angle.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schema(minimum = 0.0)]
+    #[schema(minimum = 0.0, exclusive_maximum = 1e12)]
     pub lateral_ratio: Option<f64>,
     /// Friction angle of the fill, degrees.
     #[schema(minimum = 0.0, exclusive_maximum = 90.0)]
@@ -89,7 +91,7 @@ impl Default for FillPressure {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct LateralPressure {
     /// Bands of height; where bands overlap they add up.
-    #[schema(min_items = 1)]
+    #[schema(min_items = 1, max_items = 1000)]
     pub bands: Vec<PressureBand>,
 }
 
@@ -97,23 +99,29 @@ pub struct LateralPressure {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct PressureBand {
     /// Lower end, m.
+    #[schema(minimum = -1e5, maximum = 1e5)]
     pub from_m: f64,
-    /// Upper end, m.
+    /// Upper end, m; above the lower one.
+    #[schema(minimum = -1e5, maximum = 1e5)]
     pub to_m: f64,
     /// Pressure, Pa, towards the arch positive.
+    #[schema(minimum = -1e15, maximum = 1e15)]
     pub pressure_pa: f64,
 }
 
 /// A vertical force on the extrados, at an abscissa or in the middle of a voussoir.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct PointLoad {
-    /// Force per metre of depth, N/m, downwards positive.
+    /// Force per metre of depth, N/m, downwards positive; not 0.
+    #[schema(minimum = -1e15, maximum = 1e15)]
     pub force_n_per_m: f64,
     /// Abscissa, m; over a joint, its two voussoirs take half each. Either this or `voussoir`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(minimum = -1e5, maximum = 1e5)]
     pub x_m: Option<f64>,
     /// Number of a voussoir, from 0 on the left: the middle of its extrados side.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(maximum = 2000)]
     pub voussoir: Option<usize>,
 }
 
@@ -122,11 +130,13 @@ pub struct PointLoad {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct PatchLoad {
     /// Abscissa of the middle, m.
+    #[schema(minimum = -1e5, maximum = 1e5)]
     pub centre_x_m: f64,
     /// Plan width, m.
-    #[schema(exclusive_minimum = 0.0)]
+    #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub width_m: f64,
-    /// Total force per metre of depth, N/m, downwards positive.
+    /// Total force per metre of depth, N/m, downwards positive; not 0.
+    #[schema(minimum = -1e15, maximum = 1e15)]
     pub force_n_per_m: f64,
 }
 
@@ -135,8 +145,10 @@ pub struct PatchLoad {
 pub struct BodyAcceleration {
     /// To the right, multiples of g.
     #[serde(default)]
+    #[schema(minimum = -1e12, maximum = 1e12)]
     pub x_g: f64,
     /// Upwards, multiples of g.
     #[serde(default)]
+    #[schema(minimum = -1e12, maximum = 1e12)]
     pub y_g: f64,
 }

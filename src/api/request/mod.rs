@@ -47,12 +47,13 @@ pub struct AnalysisRequest {
     pub stone: StoneRequest,
     /// Joints that differ from the rest.
     #[serde(default)]
+    #[schema(max_items = 2002)]
     pub joint_overrides: Vec<JointOverride>,
     /// How the voussoirs are cut into subblocks.
     #[serde(default)]
     pub mesh: MeshRequest,
     /// Loads, fixed and scaled by the load factor. Without a scaled one, only whether the arch stands is asked.
-    #[schema(min_items = 1)]
+    #[schema(min_items = 1, max_items = 1000)]
     pub loads: Vec<LoadEntry>,
     /// What is asked.
     #[serde(default)]
@@ -91,14 +92,14 @@ pub struct StoneRequest {
     #[schema(minimum = 0.0, exclusive_maximum = 90.0)]
     pub friction_angle_deg: f64,
     /// Cohesion of the joints, Pa.
-    #[schema(minimum = 0.0)]
+    #[schema(minimum = 0.0, exclusive_maximum = 1e15)]
     pub cohesion_pa: f64,
     /// Compressive strength, Pa (10 MPa is 1e7), from 1e3 to 1e30.
     #[schema(minimum = 1e3, maximum = 1e30)]
     pub compressive_strength_pa: f64,
     /// Plane stress or plane strain inside the stones.
     pub plane: PlaneRequest,
-    /// Contact penalty as a multiple of Young's modulus.
+    /// Contact penalty as a multiple of Young's modulus, a pure number.
     #[schema(minimum = 0.01, exclusive_maximum = 100.0)]
     pub penalty_ratio: f64,
 }
@@ -134,6 +135,7 @@ pub enum PlaneRequest {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct JointOverride {
     /// Which joint, from 0 at the left springing.
+    #[schema(maximum = 2001)]
     pub joint: usize,
     /// Friction angle, degrees.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -141,7 +143,7 @@ pub struct JointOverride {
     pub friction_angle_deg: Option<f64>,
     /// Cohesion, Pa.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schema(minimum = 0.0)]
+    #[schema(minimum = 0.0, exclusive_maximum = 1e15)]
     pub cohesion_pa: Option<f64>,
 }
 
@@ -153,13 +155,13 @@ pub struct LoadFactorRequest {
     pub direction: DirectionRequest,
     /// Largest absolute load factor to try.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schema(exclusive_minimum = 0.0)]
+    #[schema(exclusive_minimum = 0.0, maximum = 1e12)]
     pub cap: Option<f64>,
     /// Unit of the intensity, such as `kN/m` or `m`: a label only.
     #[schema(max_length = 200)]
     pub unit: String,
     /// Intensity at load factor 1.
-    #[schema(exclusive_minimum = 0.0)]
+    #[schema(exclusive_minimum = 0.0, maximum = 1e12)]
     pub intensity_per_unit: f64,
 }
 
@@ -198,16 +200,16 @@ pub enum MethodRequest {
 /// Steps and hinge criterion of section 4.2 of the paper.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct FixedSteps {
-    /// Step of the load factor.
-    #[schema(exclusive_minimum = 0.0)]
+    /// Step of the load factor, a pure number.
+    #[schema(exclusive_minimum = 0.0, maximum = 1e12)]
     pub step: f64,
     /// Opening beyond which a joint counts as a hinge, m.
     #[serde(default = "FixedSteps::default_opening")]
-    #[schema(exclusive_minimum = 0.0)]
+    #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub opening_m: f64,
-    /// How many hinges make a collapse.
+    /// How many hinges make a collapse; at most the number of joints.
     #[serde(default = "FixedSteps::default_hinges")]
-    #[schema(minimum = 1)]
+    #[schema(minimum = 1, maximum = 2002)]
     pub hinges: usize,
 }
 

@@ -36,8 +36,10 @@ pub struct SettlementRequest {
 #[serde(default)]
 pub struct MovementRequest {
     /// Away from the arch, m; negative towards it.
+    #[schema(minimum = -1e5, maximum = 1e5)]
     pub outwards_m: f64,
     /// Downwards, m; negative upwards.
+    #[schema(minimum = -1e5, maximum = 1e5)]
     pub downwards_m: f64,
     /// About the middle of the springing joint, degrees; positive opens the joint's intrados.
     #[schema(minimum = -90.0, maximum = 90.0)]

@@ -2,7 +2,7 @@
 
 use super::MAX_LENGTH_M;
 use super::profile::profile;
-use crate::api::fault::Faults;
+use crate::api::fault::{Faults, Shown};
 use crate::api::request::{
     ArchRequest, ExtradosCircle, JointsRequest, LineRequest, ProfileRequest, SpringingJoints, Surveyed,
     ThicknessRequest,
@@ -10,6 +10,7 @@ use crate::api::request::{
 use crate::arch::profile::Profile;
 use crate::arch::ring::{JointEnds, JointLines, Line, Ring, Thickness, stations};
 use crate::arch::{Arch, ArchFault, JointLaw, MAX_VOUSSOIRS, straight_voussoirs};
+use crate::collapse::Digits;
 use crate::geometry::Vec2;
 
 /// Most faults of single stones that are listed.
@@ -104,19 +105,25 @@ fn surveyed_ends(request: &ArchRequest, surveyed: &Surveyed, faults: &mut Faults
     let (intrados, extrados) = (&surveyed.intrados_m, &surveyed.extrados_m);
     let detail =
         format!("{} intrados points but {} extrados points: give one pair per joint", intrados.len(), extrados.len());
-    faults.require(intrados.len() == extrados.len(), format!("{here}/extrados_m"), detail);
-    let detail =
-        format!("{} joints: an arch needs 3 to {} (2 to {MAX_VOUSSOIRS} voussoirs)", intrados.len(), MAX_VOUSSOIRS + 1);
-    faults.require((3..=MAX_VOUSSOIRS + 1).contains(&intrados.len()), format!("{here}/intrados_m"), detail);
+    let mut listed = true;
     for (name, points) in [("intrados_m", intrados), ("extrados_m", extrados)] {
-        let far = |value: &f64| value.abs() > MAX_LENGTH_M;
-        let bad = points.iter().enumerate().filter(|(_, point)| point.iter().any(far)).take(MAX_STONE_FAULTS);
-        for (k, _) in bad {
-            faults.add(format!("{here}/{name}/{k}"), format!("coordinates are in m and reach at most {MAX_LENGTH_M}"));
+        let here = format!("{here}/{name}");
+        listed &= faults.listing(&here, points.len(), 3..=MAX_VOUSSOIRS + 1, "joints");
+        let far = |point: &&[f64; 2]| point.iter().any(|value| value.abs() > MAX_LENGTH_M);
+        for (k, point) in points.iter().enumerate().filter(|(_, point)| far(point)).take(MAX_STONE_FAULTS) {
+            check_point(&format!("{here}/{k}"), *point, faults);
         }
     }
+    faults.require(!listed || intrados.len() == extrados.len(), format!("{here}/extrados_m"), detail);
     let pair = |(a, b): (&[f64; 2], &[f64; 2])| [Vec2::from(*a), Vec2::from(*b)];
     (faults.len() == before).then(|| intrados.iter().zip(extrados).map(pair).collect())
+}
+
+/// Whether a point, in m, lies as near as any of an arch.
+fn check_point(here: &str, point: [f64; 2], faults: &mut Faults) {
+    for (i, coordinate) in point.into_iter().enumerate() {
+        faults.either_way(format!("{here}/{i}"), coordinate, MAX_LENGTH_M);
+    }
 }
 
 /// The ring of an arch that is not surveyed, or faults.
@@ -128,9 +135,7 @@ pub fn ring(request: &ArchRequest, faults: &mut Faults) -> Option<Ring> {
     let lengths = lengths(request, faults);
     let joints = match &request.joints {
         Some(JointsRequest::Rays(rays)) => {
-            let near = rays.centre_m.iter().all(|value| value.abs() <= MAX_LENGTH_M);
-            let detail = format!("coordinates are in m and reach at most {MAX_LENGTH_M}");
-            faults.require(near, "/arch/joints/rays/centre_m", detail);
+            check_point("/arch/joints/rays/centre_m", rays.centre_m, faults);
             JointLines::Rays(Vec2::from(rays.centre_m))
         }
         _ => JointLines::Normal,
@@ -154,27 +159,28 @@ pub fn ring(request: &ArchRequest, faults: &mut Faults) -> Option<Ring> {
 
 fn lengths(request: &ArchRequest, faults: &mut Faults) -> Option<Vec<f64>> {
     let before = faults.len();
+    let listed = request.relative_lengths.as_ref().is_none_or(|lengths| check_lengths(lengths, faults));
     let Some(n) = request.voussoirs else {
         faults.add("/arch/voussoirs", "the number of voussoirs is missing: add it");
         return None;
     };
-    let detail = format!("{n} voussoirs: an arch needs 2 to {MAX_VOUSSOIRS}");
-    if !faults.require((2..=MAX_VOUSSOIRS).contains(&n), "/arch/voussoirs", detail) {
+    if !faults.counted("/arch/voussoirs", n, 2..=MAX_VOUSSOIRS, "numbers of voussoirs") {
         return None;
     }
-    let Some(lengths) = &request.relative_lengths else { return (faults.len() == before).then(|| vec![1.0; n]) };
-    let here = "/arch/relative_lengths";
+    let Some(lengths) = &request.relative_lengths else { return Some(vec![1.0; n]) };
     let detail = format!("{} lengths for {n} voussoirs: give one each", lengths.len());
-    faults.require(lengths.len() == n, here, detail);
-    for (i, &length) in lengths.iter().enumerate().filter(|(_, length)| **length <= 0.0).take(MAX_STONE_FAULTS) {
-        faults.add(format!("{here}/{i}"), format!("{length} is not positive: a voussoir has a length"));
-    }
-    faults.require(
-        lengths.iter().all(|&length| length <= MAX_LENGTH_M),
-        here,
-        format!("lengths reach at most {MAX_LENGTH_M}"),
-    );
+    faults.require(!listed || lengths.len() == n, "/arch/relative_lengths", detail);
     (faults.len() == before).then(|| lengths.clone())
+}
+
+/// Whether they are lengths of voussoirs; says whether there are as many as an arch may have.
+fn check_lengths(lengths: &[f64], faults: &mut Faults) -> bool {
+    let here = "/arch/relative_lengths";
+    let wrong = |length: &f64| *length <= 0.0 || *length > MAX_LENGTH_M;
+    for (i, &length) in lengths.iter().enumerate().filter(|(_, length)| wrong(length)).take(MAX_STONE_FAULTS) {
+        faults.within(format!("{here}/{i}"), length, 0.0, MAX_LENGTH_M);
+    }
+    faults.listing(here, lengths.len(), 2..=MAX_VOUSSOIRS, "lengths")
 }
 
 fn thickness(
@@ -205,7 +211,9 @@ fn thickness(
     let (thinnest, least) = (crown.min(springing), profile.map_or(f64::INFINITY, Profile::least_radius));
     let fits = line != LineRequest::Axis || 0.5 * thinnest < least;
     let detail = format!(
-        "half of {thinnest} m is not less than the least radius of the axis, {least:.6} m: make the arch thinner"
+        "half of {} m is not less than the least radius of the axis, {} m: make the arch thinner",
+        Shown(thinnest),
+        Digits(least)
     );
     faults.require(fits, pointer, detail).then_some(Thickness::Linear { crown, springing })
 }
@@ -213,8 +221,7 @@ fn thickness(
 fn extrados_circle(circle: &ExtradosCircle, line: LineRequest, faults: &mut Faults) -> Option<Thickness> {
     let here = "/arch/thickness/extrados_circle";
     let radius = faults.within(format!("{here}/radius_m"), circle.radius_m, 0.0, MAX_LENGTH_M);
-    let near = circle.centre_y_m.abs() <= MAX_LENGTH_M;
-    faults.require(near, format!("{here}/centre_y_m"), format!("a height in m, at most {MAX_LENGTH_M}"));
+    let near = faults.either_way(format!("{here}/centre_y_m"), circle.centre_y_m, MAX_LENGTH_M);
     let on_intrados = line == LineRequest::Intrados;
     let detail = "with an extrados circle the profile has to be the intrados: set line to `intrados`";
     faults.require(on_intrados, "/arch/line", detail);

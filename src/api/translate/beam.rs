@@ -1,7 +1,7 @@
 //! The curved beam of a request.
 
 use super::{MAX_FORCE_N_PER_M, MAX_LENGTH_M, check_text, mesh, stone};
-use crate::api::fault::Faults;
+use crate::api::fault::{Faults, Shown};
 use crate::api::request::{BeamRequest, Subblocks, SubblocksRequest};
 use crate::collapse::CurvedBeam;
 
@@ -13,14 +13,23 @@ pub fn beam(request: &BeamRequest, faults: &mut Faults) -> Option<CurvedBeam> {
     check_text("/name", request.name.as_deref().unwrap_or(""), faults);
     let (here, beam) = ("/curved_beam", &request.curved_beam);
     let (inner, outer, shear) = (beam.inner_radius_m, beam.outer_radius_m, beam.end_shear_n_per_m);
-    if faults.within(format!("{here}/inner_radius_m"), inner, 0.0, MAX_LENGTH_M) {
-        let most = (RATIO[1] * inner).min(MAX_LENGTH_M);
-        faults.within(format!("{here}/outer_radius_m"), outer, RATIO[0] * inner, most);
-    }
-    let detail =
-        format!("{shear} is out of range: it lies between -{MAX_FORCE_N_PER_M} and {MAX_FORCE_N_PER_M} and is not 0");
-    let loaded = shear != 0.0 && shear.abs() <= MAX_FORCE_N_PER_M;
-    faults.require(loaded, format!("{here}/end_shear_n_per_m"), detail);
+    let inner_fits = faults.within(format!("{here}/inner_radius_m"), inner, 0.0, MAX_LENGTH_M);
+    let outer_fits = faults.within(format!("{here}/outer_radius_m"), outer, 0.0, MAX_LENGTH_M);
+    let [least, most] = RATIO.map(|ratio| ratio * inner);
+    let thick = outer > least && outer <= most;
+    let detail = format!(
+        "{} is no outer radius for this inner one: it must be greater than {} and at most {}",
+        Shown(outer),
+        Shown(least),
+        Shown(most)
+    );
+    faults.require(!(inner_fits && outer_fits) || thick, format!("{here}/outer_radius_m"), detail);
+    faults.either_way(format!("{here}/end_shear_n_per_m"), shear, MAX_FORCE_N_PER_M);
+    faults.require(
+        shear != 0.0,
+        format!("{here}/end_shear_n_per_m"),
+        "the end shear is the load: give one that is not 0",
+    );
     let stone = stone::stone(&request.stone, faults);
     let Subblocks { radial, along } = subblocks(request, faults)?;
     Some(CurvedBeam {

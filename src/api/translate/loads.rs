@@ -1,10 +1,10 @@
 //! The loads of a request as forces on voussoirs.
 
 use super::{MAX_DENSITY_KG_M3, MAX_FACTOR, MAX_FORCE_N_PER_M, MAX_LENGTH_M, MAX_STRESS_PA, friction_angle};
-use crate::api::fault::Faults;
+use crate::api::fault::{Faults, Shown};
 use crate::api::request::{FillPressure, LateralPressure, LoadEntry, LoadRequest, PatchLoad, PointLoad};
 use crate::arch::load::{Band, Fill, Load, LoadFault, Place};
-use crate::arch::{Arch, GRAVITY, PointForce};
+use crate::arch::{Arch, GRAVITY, MAX_VOUSSOIRS, PointForce};
 use crate::geometry::Vec2;
 
 /// Most loads of one request.
@@ -42,7 +42,7 @@ pub fn loads(
         "there is nothing to carry: list at least one load, such as self_weight",
     );
     if entries.len() > MAX_LOADS {
-        faults.add("/loads", format!("{} loads: list at most {MAX_LOADS}", entries.len()));
+        faults.listing("/loads", entries.len(), 1..=MAX_LOADS, "loads");
         return (fixed, scaled);
     }
     let forces = forces_per_voussoir_of(entries) * pieces.iter().sum::<usize>();
@@ -127,28 +127,20 @@ fn check(here: &str, entry: &LoadEntry, faults: &mut Faults) {
         LoadRequest::PatchLoad(patch) => check_patch(&format!("{here}/patch_load"), patch, faults),
         LoadRequest::BodyAcceleration(body) => {
             for (name, value) in [("x_g", body.x_g), ("y_g", body.y_g)] {
-                at_most(&format!("{here}/body_acceleration/{name}"), value, MAX_FACTOR, faults);
+                faults.either_way(format!("{here}/body_acceleration/{name}"), value, MAX_FACTOR);
             }
         }
     }
 }
 
-fn at_most(pointer: &str, value: f64, most: f64, faults: &mut Faults) {
-    faults.require(
-        value.abs() <= most,
-        pointer,
-        format!("{value} is out of range: it lies between -{most} and {most}"),
-    );
-}
-
 fn not_zero(pointer: &str, value: f64, most: f64, faults: &mut Faults) {
-    at_most(pointer, value, most, faults);
+    faults.either_way(pointer, value, most);
     faults.require(value != 0.0, pointer, "0 makes this load vanish: give another number or leave the load out");
 }
 
 fn check_fill(here: &str, fill: &FillPressure, faults: &mut Faults) {
     if let Some(height) = fill.fill_height_m {
-        at_most(&format!("{here}/fill_height_m"), height, MAX_LENGTH_M, faults);
+        faults.either_way(format!("{here}/fill_height_m"), height, MAX_LENGTH_M);
     }
     let thickness = fill.embankment_thickness_m;
     let some = fill.fill_height_m.is_some() || thickness > 0.0;
@@ -164,29 +156,33 @@ fn check_fill(here: &str, fill: &FillPressure, faults: &mut Faults) {
 
 fn check_lateral(here: &str, lateral: &LateralPressure, faults: &mut Faults) {
     let bands = &lateral.bands;
-    let count = (1..=MAX_LOADS).contains(&bands.len());
-    if !faults.require(count, format!("{here}/bands"), format!("{} bands: list 1 to {MAX_LOADS}", bands.len())) {
+    if !faults.listing(format!("{here}/bands"), bands.len(), 1..=MAX_LOADS, "bands") {
         return;
     }
     for (i, band) in bands.iter().enumerate() {
         let here = format!("{here}/bands/{i}");
-        at_most(&format!("{here}/from_m"), band.from_m, MAX_LENGTH_M, faults);
-        at_most(&format!("{here}/pressure_pa"), band.pressure_pa, MAX_STRESS_PA, faults);
-        let detail = format!(
-            "a band goes upwards: to_m must be greater than from_m = {} and at most {MAX_LENGTH_M}",
-            band.from_m
-        );
-        faults.require(band.to_m > band.from_m && band.to_m <= MAX_LENGTH_M, format!("{here}/to_m"), detail);
+        let from = faults.either_way(format!("{here}/from_m"), band.from_m, MAX_LENGTH_M);
+        let to = faults.either_way(format!("{here}/to_m"), band.to_m, MAX_LENGTH_M);
+        faults.either_way(format!("{here}/pressure_pa"), band.pressure_pa, MAX_STRESS_PA);
+        let detail = format!("a band goes upwards: to_m must be greater than from_m, {}", Shown(band.from_m));
+        faults.require(!(from && to) || band.to_m > band.from_m, format!("{here}/to_m"), detail);
     }
 }
 
 fn check_point(here: &str, point: &PointLoad, faults: &mut Faults) {
     not_zero(&format!("{here}/force_n_per_m"), point.force_n_per_m, MAX_FORCE_N_PER_M, faults);
+    if let Some(x) = point.x_m {
+        faults.either_way(format!("{here}/x_m"), x, MAX_LENGTH_M);
+    }
+    if let Some(voussoir) = point.voussoir {
+        faults.counted(format!("{here}/voussoir"), voussoir, 0..=MAX_VOUSSOIRS - 1, "voussoirs");
+    }
     let one = point.x_m.is_some() != point.voussoir.is_some();
     faults.require(one, here, "give either x_m or voussoir, not both and not neither");
 }
 
 fn check_patch(here: &str, patch: &PatchLoad, faults: &mut Faults) {
     not_zero(&format!("{here}/force_n_per_m"), patch.force_n_per_m, MAX_FORCE_N_PER_M, faults);
+    faults.either_way(format!("{here}/centre_x_m"), patch.centre_x_m, MAX_LENGTH_M);
     faults.within(format!("{here}/width_m"), patch.width_m, 0.0, MAX_LENGTH_M);
 }

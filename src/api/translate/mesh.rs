@@ -6,7 +6,7 @@ use crate::api::request::{
     MAX_FIELDS, MAX_SUBBLOCKS, MAX_SUBBLOCKS_EACH_WAY, MeshRequest, ReportRequest, SeamsRequest, StressFieldRequest,
     Subblocks, SubblocksRequest,
 };
-use crate::arch::{Arch, Sides};
+use crate::arch::{Arch, MAX_VOUSSOIRS, Sides};
 use crate::collapse::{FieldAt, Seams};
 
 /// Most subblocks in all stress fields of one answer together.
@@ -34,7 +34,9 @@ pub fn subblocks(
         }
         SubblocksRequest::PerVoussoir(list) => {
             let detail = format!("{} entries for {} voussoirs: give one each", list.len(), voussoirs.unwrap_or(0));
-            faults.require(voussoirs.is_none_or(|count| count == list.len()), PER_VOUSSOIR, detail);
+            if faults.listing(PER_VOUSSOIR, list.len(), 2..=MAX_VOUSSOIRS, "entries") {
+                faults.require(voussoirs.is_none_or(|count| count == list.len()), PER_VOUSSOIR, detail);
+            }
             for (k, each) in list.iter().enumerate() {
                 if faults.len() < before + MAX_VOUSSOIR_FAULTS {
                     check(&format!("{PER_VOUSSOIR}/{k}"), *each, faults);
@@ -60,8 +62,7 @@ pub fn total<'a>(subblocks: impl Iterator<Item = &'a [usize; 2]>) -> usize {
 /// Whether a voussoir, or the curved beam, can be cut like this.
 pub fn check(here: &str, subblocks: Subblocks, faults: &mut Faults) {
     for (name, count) in [("radial", subblocks.radial), ("along", subblocks.along)] {
-        let detail = format!("{count} subblocks: give 1 to {MAX_SUBBLOCKS_EACH_WAY} in this direction");
-        faults.require((1..=MAX_SUBBLOCKS_EACH_WAY).contains(&count), format!("{here}/{name}"), detail);
+        faults.counted(format!("{here}/{name}"), count, 1..=MAX_SUBBLOCKS_EACH_WAY, "subblocks in this direction");
     }
 }
 
@@ -83,8 +84,7 @@ fn check_sides(request: &MeshRequest, arch: &Arch, subblocks: &[[usize; 2]], fau
 /// Where stress fields of so many subblocks are wanted.
 pub fn fields(request: &ReportRequest, subblocks: usize, faults: &mut Faults) -> Vec<FieldAt> {
     let (here, count) = ("/report/stress_fields", request.stress_fields.len());
-    let detail = format!("{count} stress fields: ask for at most {MAX_FIELDS}");
-    if !faults.require(count <= MAX_FIELDS, here, detail) {
+    if !faults.listing(here, count, 0..=MAX_FIELDS, "stress fields") {
         return Vec::new();
     }
     let total = count * subblocks;
@@ -94,8 +94,7 @@ pub fn fields(request: &ReportRequest, subblocks: usize, faults: &mut Faults) ->
     faults.require(total <= MAX_FIELD_SUBBLOCKS, here, detail);
     for (i, field) in request.stress_fields.iter().enumerate() {
         if let StressFieldRequest::LoadFactor(factor) = field {
-            let detail = format!("{factor} is out of range: a load factor lies between -{MAX_FACTOR} and {MAX_FACTOR}");
-            faults.require(factor.abs() <= MAX_FACTOR, format!("{here}/{i}/load_factor"), detail);
+            faults.either_way(format!("{here}/{i}/load_factor"), *factor, MAX_FACTOR);
         }
     }
     request.stress_fields.iter().map(|&field| field.into()).collect()

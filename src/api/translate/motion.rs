@@ -13,8 +13,7 @@ pub fn motion(request: &AnalysisRequest, voussoirs: usize, faults: &mut Faults) 
     let detail = "only an analysis of collapse shows a motion: leave it out, or set analysis to `collapse`";
     faults.require(request.analysis == AimRequest::Collapse, "/motion", detail);
     let frames = asked.most_frames;
-    let detail = format!("{frames} frames: give 1 to {MAX_MOTION_FRAMES}");
-    if faults.require((1..=MAX_MOTION_FRAMES).contains(&frames), "/motion/most_frames", detail) {
+    if faults.counted("/motion/most_frames", frames, 1..=MAX_MOTION_FRAMES, "frames") {
         let places = frames * voussoirs;
         let detail = format!("frames times voussoirs come to {places}: keep to {MAX_PLACES} by fewer frames");
         faults.require(places <= MAX_PLACES, "/motion/most_frames", detail);

@@ -1,7 +1,7 @@
 //! The profile line of a request.
 
 use super::MAX_LENGTH_M;
-use crate::api::fault::Faults;
+use crate::api::fault::{Faults, Shown};
 use crate::api::request::{Circular, MultiCentre, Pointed, ProfileRequest};
 use crate::arch::MAX_VOUSSOIRS;
 use crate::arch::profile::Profile;
@@ -17,7 +17,7 @@ pub fn profile(request: &ProfileRequest, faults: &mut Faults) -> Option<Profile>
             let rise = faults.within(format!("{here}/rise_m"), ellipse.rise_m, 0.0, MAX_LENGTH_M);
             let ratio = 2.0 * ellipse.rise_m / ellipse.span_m;
             let measurable = !(span && rise) || (0.01..=100.0).contains(&ratio);
-            let detail = format!("the rise is {ratio} times half the span: it must be 0.01 to 100 times");
+            let detail = format!("the rise is {} times half the span: it must be 0.01 to 100 times", Shown(ratio));
             faults.require(measurable, format!("{here}/rise_m"), detail);
             (span && rise && measurable).then(|| Profile::elliptical(ellipse.span_m, ellipse.rise_m))
         }
@@ -45,51 +45,59 @@ fn either<'a>(
     }
 }
 
+/// Whether the sizes that are given, in m, keep within their bounds.
+fn sizes<const N: usize>(here: &str, given: [(&str, Option<f64>); N], faults: &mut Faults) -> bool {
+    let before = faults.len();
+    for (name, size) in given {
+        if let Some(size) = size {
+            faults.within(format!("{here}/{name}"), size, 0.0, MAX_LENGTH_M);
+        }
+    }
+    faults.len() == before
+}
+
 fn circular_profile(circular: &Circular, faults: &mut Faults) -> Option<Profile> {
     let here = "/arch/profile/circular";
     let by_radius = [("radius_m", circular.radius_m), ("opening_angle_deg", circular.opening_angle_deg)];
     let by_span = [("span_m", circular.span_m), ("rise_m", circular.rise_m)];
-    let (which, [(a, x), (b, y)]) = either(here, [by_radius, by_span], faults)?;
-    let first = faults.within(format!("{here}/{a}"), x, 0.0, MAX_LENGTH_M);
-    if which == 0 {
-        let detail = format!("{y} is out of range: the full opening angle is greater than 0 and less than 360 degrees");
-        let second = faults.require(y > 0.0 && y < 360.0, format!("{here}/{b}"), detail);
-        return (first && second).then(|| Profile::circular(x, y.to_radians()));
-    }
-    let second = faults.within(format!("{here}/{b}"), y, 0.0, MAX_LENGTH_M);
-    (first && second).then(|| Profile::circular_by_span(x, y))
+    let sized = sizes(here, [by_radius[0], by_span[0], by_span[1]], faults);
+    let opens = |angle: f64| faults.inside(format!("{here}/opening_angle_deg"), angle, 0.0, 360.0);
+    let opens = circular.opening_angle_deg.is_none_or(opens);
+    let (which, [(_, x), (_, y)]) = either(here, [by_radius, by_span], faults)?;
+    let profile = || if which == 0 { Profile::circular(x, y.to_radians()) } else { Profile::circular_by_span(x, y) };
+    (sized && opens).then(profile)
 }
 
 fn pointed_profile(pointed: &Pointed, faults: &mut Faults) -> Option<Profile> {
     let here = "/arch/profile/pointed";
     let by_radius = [("radius_m", pointed.radius_m), ("centre_offset_m", pointed.centre_offset_m)];
     let by_span = [("span_m", pointed.span_m), ("rise_m", pointed.rise_m)];
-    let (which, [(a, x), (b, y)]) = either(here, [by_radius, by_span], faults)?;
-    if !faults.within(format!("{here}/{a}"), x, 0.0, MAX_LENGTH_M) {
+    let sized = sizes(here, [by_radius[0], by_span[0], by_span[1]], faults);
+    let offset = |offset: f64| faults.from_to(format!("{here}/centre_offset_m"), offset, 0.0, MAX_LENGTH_M);
+    let placed = pointed.centre_offset_m.is_none_or(offset);
+    let (which, [(_, x), (b, y)]) = either(here, [by_radius, by_span], faults)?;
+    if !(sized && placed) {
         return None;
     }
-    let second = format!("{here}/{b}");
+    let (x_m, second) = (Shown(x), format!("{here}/{b}"));
     if which == 0 {
-        let detail =
-            format!("{y} is out of range: the centres lie at least 0 and less than the radius, {x} m, from mid-span");
-        return faults.require(y >= 0.0 && y < x, second, detail).then(|| Profile::pointed(x, y));
+        let detail = format!("{} is too far: the centres lie less than the radius, {x_m} m, from mid-span", Shown(y));
+        return faults.require(y < x, second, detail).then(|| Profile::pointed(x, y));
     }
-    let detail = format!("{y} is out of range: a pointed arch rises at least half its span, {} m", 0.5 * x);
-    let rises = faults.require(y >= 0.5 * x && y <= MAX_LENGTH_M, second, detail);
-    rises.then(|| Profile::pointed_by_span(x, y))
+    let detail = format!("{} is too low: a pointed arch rises at least half its span of {x_m} m", Shown(y));
+    faults.require(y >= 0.5 * x, second, detail).then(|| Profile::pointed_by_span(x, y))
 }
 
 fn multi_centre_profile(oval: &MultiCentre, faults: &mut Faults) -> Option<Profile> {
     let (here, before) = ("/arch/profile/multi_centre/arcs", faults.len());
     let arcs = &oval.arcs;
-    let count = format!("{} arcs: give 1 to {MAX_VOUSSOIRS}", arcs.len());
-    faults.require((1..=MAX_VOUSSOIRS).contains(&arcs.len()), here, count);
+    faults.listing(here, arcs.len(), 1..=MAX_VOUSSOIRS, "arcs");
     for (i, arc) in arcs.iter().enumerate() {
         faults.within(format!("{here}/{i}/radius_m"), arc.radius_m, 0.0, MAX_LENGTH_M);
-        faults.within(format!("{here}/{i}/angle_deg"), arc.angle_deg, 0.0, 180.0);
+        faults.inside(format!("{here}/{i}/angle_deg"), arc.angle_deg, 0.0, 180.0);
     }
     let sum: f64 = arcs.iter().map(|arc| arc.angle_deg).sum();
-    let detail = format!("the angles add up to {sum} degrees: half an arch turns by less than 180");
+    let detail = format!("the angles add up to {} degrees: half an arch turns by less than 180", Shown(sum));
     faults.require(faults.len() > before || sum < 180.0, here, detail);
     let pairs: Vec<_> = arcs.iter().map(|arc| (arc.radius_m, arc.angle_deg.to_radians())).collect();
     (faults.len() == before).then(|| Profile::multi_centre(&pairs))

@@ -2,10 +2,9 @@
 
 use super::site::Site;
 use super::{MAX_FACTOR, check_text, loads, mesh};
-use crate::api::fault::{Fault, Faults, lies_under};
+use crate::api::fault::{Fault, Faults, Shown, lies_under};
 use crate::api::request::{
     AimRequest, AnalysisRequest, CrushingRequest, CurveRequest, DirectionRequest, LoadEntry, MAX_ABSCISSAE,
-    MethodRequest,
 };
 use crate::collapse::{Aim, CrushingKind, CurvePoint};
 use std::collections::BTreeSet;
@@ -27,11 +26,11 @@ pub fn check(request: &AnalysisRequest, faults: &mut Faults) {
     let detail = "in a safety analysis loads grow: set direction to `increase`";
     let increases = request.load_factor.direction == DirectionRequest::Increase;
     faults.require(increases, "/load_factor/direction", detail);
-    let detail = "a safety analysis follows the path exactly: set method to `event_path`";
-    faults.require(request.method == MethodRequest::EventPath, "/method", detail);
     if let Some(cap) = request.load_factor.cap.filter(|&cap| cap > 0.0 && cap <= 1.0) {
-        let detail =
-            format!("{cap} is too low: a safety analysis goes on from load factor 1, so give more or leave it out");
+        let detail = format!(
+            "{} is too low: a safety analysis goes on from load factor 1, so give more or leave it out",
+            Shown(cap)
+        );
         faults.add("/load_factor/cap", detail);
     }
 }
@@ -68,8 +67,11 @@ pub fn points(site: &Site<'_>, curve: &CurveRequest, faults: &mut Faults) -> Opt
         let analysis = site.analysis(&at(entries, abscissa), &mut here);
         for Fault { pointer, detail } in here.into_vec() {
             if seen.insert(pointer.clone()) {
-                let detail =
-                    if depends(entries, &pointer) { format!("at abscissa {abscissa}: {detail}") } else { detail };
+                let detail = if depends(entries, &pointer) {
+                    format!("at abscissa {}: {detail}", Shown(abscissa))
+                } else {
+                    detail
+                };
                 faults.add(pointer, detail);
             }
         }
@@ -96,16 +98,18 @@ fn depends(entries: &[LoadEntry], pointer: &str) -> bool {
 
 fn check_abscissae(curve: &CurveRequest, faults: &mut Faults) -> bool {
     let (before, abscissae) = (faults.len(), &curve.abscissae);
-    let detail = format!("{} abscissae: give 1 to {MAX_ABSCISSAE}", abscissae.len());
-    if !faults.require((1..=MAX_ABSCISSAE).contains(&abscissae.len()), ABSCISSAE, detail) {
+    if !faults.listing(ABSCISSAE, abscissae.len(), 1..=MAX_ABSCISSAE, "abscissae") {
         return false;
     }
     for (i, &abscissa) in abscissae.iter().enumerate() {
         let pointer = format!("{ABSCISSAE}/{i}");
         let earlier = i.checked_sub(1).map_or(0.0, |i| abscissae[i]);
         if faults.within(&pointer, abscissa, 0.0, MAX_FACTOR) {
-            let detail =
-                format!("{abscissa} follows on {earlier}: list the abscissae from lowest to highest, each once");
+            let detail = format!(
+                "{} follows on {}: list the abscissae from lowest to highest, each once",
+                Shown(abscissa),
+                Shown(earlier)
+            );
             faults.require(abscissa > earlier, pointer, detail);
         }
     }

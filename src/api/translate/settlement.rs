@@ -1,9 +1,10 @@
 //! Movements of springings.
 
+use super::MAX_LENGTH_M;
 use super::site::Site;
-use crate::api::fault::Faults;
-use crate::api::request::{AnalysisRequest, MethodRequest, MovementRequest, SettlementRequest};
-use crate::collapse::SpringingMovement;
+use crate::api::fault::{Faults, Shown};
+use crate::api::request::{AnalysisRequest, DirectionRequest, MovementRequest, ReportRequest, SettlementRequest};
+use crate::collapse::{Digits, SpringingMovement};
 
 /// Whether a movement of springings can be followed.
 pub fn check(request: &AnalysisRequest, settlement: &SettlementRequest, site: &Site<'_>, faults: &mut Faults) {
@@ -21,21 +22,31 @@ pub fn check(request: &AnalysisRequest, settlement: &SettlementRequest, site: &S
         let detail = "while springings move no load grows: set scaled to false, or leave the load out";
         faults.add(format!("/loads/{i}/scaled"), detail);
     }
-    let detail = "a movement is followed exactly: set method to `event_path`";
-    faults.require(request.method == MethodRequest::EventPath, "/method", detail);
+    check_idle(request, faults);
     let detail = "a movement shows no stress fields: leave them out";
     faults.require(request.report.stress_fields.is_empty(), "/report/stress_fields", detail);
 }
 
+/// What means something only where loads grow keeps its default.
+fn check_idle(request: &AnalysisRequest, faults: &mut Faults) {
+    let (factor, usual) = (&request.load_factor, ReportRequest::default());
+    let detail = "while springings move no load grows: leave this out";
+    faults.require(factor.direction == DirectionRequest::Increase, "/load_factor/direction", detail);
+    faults.require(factor.cap.is_none(), "/load_factor/cap", detail);
+    let detail = "a movement of springings shows nothing on the way to collapse: leave this out";
+    let same = request.report.share_of_collapse == usual.share_of_collapse;
+    faults.require(same, "/report/share_of_collapse", detail);
+}
+
 fn check_movement(here: &str, movement: MovementRequest, size: Option<f64>, faults: &mut Faults) {
     let most = size.unwrap_or(f64::INFINITY);
+    let largest = Digits(most);
     for (name, by) in [("outwards_m", movement.outwards_m), ("downwards_m", movement.downwards_m)] {
-        let detail = format!("{by} is out of range: keep within {most:.6} m, the size of the arch, either way");
-        faults.require(by.abs() <= most, format!("{here}/{name}"), detail);
+        let pointer = format!("{here}/{name}");
+        let detail = format!("{} is too far: keep within {largest} m, the size of the arch, either way", Shown(by));
+        let _ = faults.either_way(&pointer, by, MAX_LENGTH_M) && faults.require(by.abs() <= most, pointer, detail);
     }
-    let turned = movement.rotation_deg;
-    let detail = format!("{turned} is out of range: keep within 90 degrees either way");
-    faults.require(turned.abs() <= 90.0, format!("{here}/rotation_deg"), detail);
+    faults.either_way(format!("{here}/rotation_deg"), movement.rotation_deg, 90.0);
 }
 
 impl From<MovementRequest> for SpringingMovement {

@@ -3,8 +3,8 @@
 use super::stone::{check_overrides, joint_law, override_joints, stone};
 use super::{MAX_FACTOR, MAX_LENGTH_M, arch, check_text, half, loads, mesh, motion};
 use crate::api::fault::Faults;
-use crate::api::request::{AnalysisRequest, DirectionRequest, GeometryRequest, LoadEntry, MethodRequest};
-use crate::arch::{Arch, PointForce, Stone};
+use crate::api::request::{AimRequest, AnalysisRequest, DirectionRequest, GeometryRequest, LoadEntry, MethodRequest};
+use crate::arch::{Arch, MAX_VOUSSOIRS, PointForce, Stone};
 use crate::collapse::{Analysis, Direction, FieldAt, Geometry, Mesh, Method, MotionAsked};
 use crate::geometry::Vec2;
 
@@ -50,12 +50,8 @@ impl<'a> Site<'a> {
         let joints = arch.as_ref().map_or(usize::MAX, |arch| arch.joints.len());
         let method = method(&request.method, joints, faults);
         check_load_factor(request, faults);
-        let exact = request.geometry == GeometryRequest::FirstOrder || request.method == MethodRequest::EventPath;
-        let detail = "a path on moving geometry is followed exactly: set method to `event_path`";
-        faults.require(exact, "/method", detail);
-        let share = request.report.share_of_collapse;
-        let detail = format!("{share} is out of range: it must lie between 0 and 1, both excluded, such as 0.999");
-        faults.require(share > 0.0 && share < 1.0, "/report/share_of_collapse", detail);
+        check_method(request, faults);
+        faults.inside("/report/share_of_collapse", request.report.share_of_collapse, 0.0, 1.0);
         let pieces = mesh::total(subblocks.iter().take(analysed.unwrap_or(0)));
         let fields = mesh::fields(&request.report, pieces, faults);
         let motion = motion::motion(request, analysed.unwrap_or(0), faults);
@@ -140,6 +136,18 @@ fn check_load_factor(request: &AnalysisRequest, faults: &mut Faults) {
     faults.within("/load_factor/intensity_per_unit", factor.intensity_per_unit, 0.0, MAX_FACTOR);
 }
 
+/// What cannot be followed in fixed steps.
+fn check_method(request: &AnalysisRequest, faults: &mut Faults) {
+    let what = match (&request.analysis, request.geometry) {
+        (AimRequest::Safety(_), _) => "a safety analysis",
+        (AimRequest::Settlement(_), _) => "a movement of springings",
+        (AimRequest::Collapse, GeometryRequest::Updated) => "a path on moving geometry",
+        (AimRequest::Collapse, GeometryRequest::FirstOrder) => return,
+    };
+    let detail = format!("{what} is followed exactly: set method to `event_path`");
+    faults.require(request.method == MethodRequest::EventPath, "/method", detail);
+}
+
 fn method(request: &MethodRequest, joints: usize, faults: &mut Faults) -> Method {
     match request {
         MethodRequest::EventPath => Method::EventPath,
@@ -147,8 +155,10 @@ fn method(request: &MethodRequest, joints: usize, faults: &mut Faults) -> Method
             let here = "/method/fixed_steps";
             faults.within(format!("{here}/step"), steps.step, 0.0, MAX_FACTOR);
             faults.within(format!("{here}/opening_m"), steps.opening_m, 0.0, MAX_LENGTH_M);
-            let detail = format!("{} is out of range: at least 1 and at most the number of joints", steps.hinges);
-            faults.require((1..=joints).contains(&steps.hinges), format!("{here}/hinges"), detail);
+            let (pointer, hinges) = (format!("{here}/hinges"), steps.hinges);
+            let detail = format!("{hinges} hinges are more than the {joints} joints of the arch: give fewer");
+            let _ = faults.counted(&pointer, hinges, 1..=MAX_VOUSSOIRS + 1, "hinges")
+                && faults.require(hinges <= joints, pointer, detail);
             Method::FixedSteps { step: steps.step, opening: steps.opening_m, hinges: steps.hinges }
         }
     }

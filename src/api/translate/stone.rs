@@ -3,7 +3,7 @@
 use super::{MAX_DENSITY_KG_M3, MAX_STRESS_PA};
 use crate::api::fault::{Faults, child};
 use crate::api::request::{AnalysisRequest, PlaneRequest, SpringingJoints, StoneRequest};
-use crate::arch::{Arch, JointLaw, Stone};
+use crate::arch::{Arch, JointLaw, MAX_VOUSSOIRS, Stone};
 use crate::collapse::PlaneModel;
 
 /// The stone in SI.
@@ -11,14 +11,13 @@ pub fn stone(request: &StoneRequest, faults: &mut Faults) -> Stone {
     let weighs = faults.within("/stone/density_kg_m3", request.density_kg_m3, 0.0, MAX_DENSITY_KG_M3);
     faults.from_to("/stone/youngs_modulus_pa", request.youngs_modulus_pa, YOUNGS_MODULUS_PA[0], YOUNGS_MODULUS_PA[1]);
     let nu = request.poissons_ratio;
-    let detail = format!("{nu} is out of range: Poisson's ratio must lie between -1 and 0.5, both excluded");
-    faults.require(nu > -1.0 && nu < 0.5, "/stone/poissons_ratio", detail);
+    faults.inside("/stone/poissons_ratio", nu, -1.0, 0.5);
     friction_angle("/stone/friction_angle_deg", request.friction_angle_deg, faults);
     faults.from_to("/stone/cohesion_pa", request.cohesion_pa, 0.0, MAX_STRESS_PA);
     let strength = request.compressive_strength_pa;
-    let detail = format!("{strength} is out of range: the strength is in Pa, from 1e3 to 1e30, and 10 MPa is 1e7");
-    let range = STRENGTH_PA[0]..=STRENGTH_PA[1];
-    faults.require(range.contains(&strength), "/stone/compressive_strength_pa", detail);
+    let strong = (STRENGTH_PA[0]..=STRENGTH_PA[1]).contains(&strength);
+    let rule = "the strength is in Pa, from 1e3 to 1e30, and 10 MPa is 1e7";
+    faults.in_range(strong, "/stone/compressive_strength_pa", strength, rule);
     faults.from_to("/stone/penalty_ratio", request.penalty_ratio, PENALTY_RATIO[0], PENALTY_RATIO[1]);
     Stone {
         // A wrong density is one fault, not one for every load that it makes vanish.
@@ -52,6 +51,7 @@ pub fn joint_law(stone: &Stone) -> JointLaw {
 
 /// Whether the overrides fit the arch.
 pub fn check_overrides(request: &AnalysisRequest, arch: Option<&Arch>, faults: &mut Faults) {
+    faults.listing("/joint_overrides", request.joint_overrides.len(), 0..=MAX_VOUSSOIRS + 1, "overrides");
     let mut seen = std::collections::BTreeSet::new();
     for (i, item) in request.joint_overrides.iter().enumerate() {
         let here = child("/joint_overrides", &i.to_string());
@@ -59,7 +59,8 @@ pub fn check_overrides(request: &AnalysisRequest, arch: Option<&Arch>, faults: &
         if !seen.insert(item.joint) {
             faults.add(&joint, format!("joint {} is overridden twice: keep one", item.joint));
         }
-        if let Some(last) = arch.map(|arch| arch.joints.len() - 1) {
+        let numbered = faults.counted(&joint, item.joint, 0..=MAX_VOUSSOIRS, "joints");
+        if let Some(last) = arch.map(|arch| arch.joints.len() - 1).filter(|_| numbered) {
             let detail = format!("there is no joint {}; joints run from 0 to {last}", item.joint);
             faults.require(item.joint <= last, &joint, detail);
             let glued = request.arch.springing_joints == SpringingJoints::Bonded && [0, last].contains(&item.joint);

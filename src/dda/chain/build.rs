@@ -1,15 +1,20 @@
 //! Building a chain: contact points, and stones of one shape condensed once.
 
 use super::{Body, Chain, Kind, Site, stresses};
-use crate::dda::condense::{Condensed, Loose, Node};
+use crate::dda::condense::{Condensed, Loose, Node, Unbuilt};
 use crate::dda::contact::{Contact, Law};
 use crate::dda::factor::Tridiagonal;
+use crate::dda::heart::{Heart, Stopped};
 use crate::dda::macroblock::Macroblock;
 use crate::geometry::{Vec2, cross, perpendicular};
 use nalgebra::DMatrix;
 
 /// Coordinates that differ by this share of the farthest from the origin differ by rounding: some operations' worth.
 const ROUNDING: f64 = 256.0 * f64::EPSILON;
+/// Work of seeing a subblock from another frame, or of comparing a body with a kind, in multiplications.
+const WORK: usize = 300;
+/// Work of setting an entry of the stiffness.
+const SET: usize = 8;
 
 /// A contact point as it is built.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,8 +63,8 @@ impl ChainBuilder {
     /// The chain; interfaces not reached stay free.
     ///
     /// # Errors
-    /// When a body is not held by two contact points at least.
-    pub fn finish(mut self) -> Result<Chain, Loose> {
+    /// When a body is not held by two contact points at least, or when stopped.
+    pub fn finish(mut self, heart: &Heart) -> Result<Chain, Unbuilt> {
         let n = self.macroblocks.len();
         self.touches.resize(n + 1, Vec::new());
         let mut kinds: Vec<Kind> = Vec::new();
@@ -69,18 +74,20 @@ impl ChainBuilder {
             let (origin, x_axis) = nodes.first().map(|n| (n.at, n.axes[0])).ok_or(Loose)?;
             let (seen, nodes) = (macroblock.seen_from(origin, x_axis), seen_nodes(&nodes, origin, x_axis));
             let rounding = ROUNDING * (origin.amax() + extent(&nodes));
+            // A kind is compared, or a new one made.
+            heart.work(WORK * (1 + kinds.len() + seen.blocks().len()))?;
             let same = |kind: &Kind| alike(kind, &seen, &nodes, rounding);
             let kind = match kinds.iter().rposition(same) {
                 Some(kind) => kind,
                 None => {
-                    kinds.push(Kind::new(seen, nodes)?);
+                    kinds.push(Kind::new(seen, nodes, heart)?);
                     kinds.len() - 1
                 }
             };
             bodies.push(Body { origin, x_axis, kind });
         }
         let sizes: Vec<usize> = (0..2 * n).map(|face| 2 * self.touches[face.div_ceil(2)].len()).collect();
-        let elastic = elastic(&sizes, bodies.iter().map(|b| &kinds[b.kind].condensed));
+        let elastic = elastic(&sizes, bodies.iter().map(|b| &kinds[b.kind].condensed), heart)?;
         let mut first = vec![0];
         self.touches.iter().for_each(|t| first.push(first[first.len() - 1] + t.len()));
         let interface = self.touches.iter().enumerate().flat_map(|(k, t)| vec![k; t.len()]).collect();
@@ -95,8 +102,8 @@ impl ChainBuilder {
 }
 
 impl Kind {
-    fn new(macroblock: Macroblock, nodes: Vec<Node>) -> Result<Self, Loose> {
-        let condensed = Condensed::new(&macroblock, &nodes)?;
+    fn new(macroblock: Macroblock, nodes: Vec<Node>, heart: &Heart) -> Result<Self, Unbuilt> {
+        let condensed = Condensed::new(&macroblock, &nodes, heart)?;
         let area: f64 = macroblock.blocks().iter().map(|b| b.area()).sum();
         let mean = DMatrix::from_fn(3, 6 * macroblock.blocks().len(), |i, j| {
             let block = &macroblock.blocks()[j / 6];
@@ -143,10 +150,15 @@ fn alike(kind: &Kind, body: &Macroblock, nodes: &[Node], rounding: f64) -> bool 
 }
 
 /// Elastic stiffness between the faces of all bodies.
-fn elastic<'c>(sizes: &[usize], bodies: impl Iterator<Item = &'c Condensed>) -> Tridiagonal {
+fn elastic<'c>(
+    sizes: &[usize],
+    bodies: impl Iterator<Item = &'c Condensed>,
+    heart: &Heart,
+) -> Result<Tridiagonal, Stopped> {
     let mut k = Tridiagonal::zeros(sizes);
     for (i, condensed) in bodies.enumerate() {
         k.set_pair(2 * i, |i, j| condensed.stiffness()[(i, j)]);
+        heart.work(SET * condensed.stiffness().len())?;
     }
-    k
+    Ok(k)
 }

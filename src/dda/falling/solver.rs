@@ -15,10 +15,13 @@
 
 use super::pair::{Contact, Pair, Targets};
 use super::tridiagonal::Tridiagonal;
+use crate::dda::heart::Heart;
 use nalgebra::{Matrix3, Vector3};
 
 /// Iterations after which a step has failed; ten to twenty are usual.
 const MOST_ITERATIONS: usize = 80;
+/// Work of one iteration over the number of contacts, in multiplications.
+const ITERATED: usize = 1000;
 /// Mean product of force and distance left at the end.
 const CLOSED: f64 = 1e-10;
 /// Largest residual left at the end.
@@ -85,15 +88,16 @@ impl Problem {
     /// Makes the step.
     ///
     /// # Errors
-    /// When the iteration converges from none of its starts.
-    pub(super) fn solve(&self) -> Result<Solution, Unsolved> {
-        STARTS.iter().find_map(|&start| self.solve_from(start).ok()).ok_or(Unsolved)
+    /// When the iteration converges from none of its starts, or where the heart stands still.
+    pub(super) fn solve(&self, heart: &Heart) -> Result<Solution, Unsolved> {
+        STARTS.iter().find_map(|&start| self.solve_from(start, heart).ok()).ok_or(Unsolved)
     }
 
-    fn solve_from(&self, start: [f64; 2]) -> Result<Solution, Unsolved> {
+    fn solve_from(&self, start: [f64; 2], heart: &Heart) -> Result<Solution, Unsolved> {
         let mut increments = vec![Vector3::zeros(); self.load.len()];
         let mut pairs: Vec<Pair> = self.contacts.iter().map(|contact| contact.start(start)).collect();
         for _ in 0..MOST_ITERATIONS {
+            heart.work(ITERATED * self.contacts.len()).map_err(|_| Unsolved)?;
             let unbalanced = self.unbalanced(&increments, &pairs);
             let apart: Vec<[f64; 2]> =
                 self.contacts.iter().zip(&pairs).map(|(c, p)| c.residuals(p, &increments)).collect();
@@ -211,7 +215,9 @@ mod tests {
             guess: 0.0,
         };
         let load = vec![Vector3::new(load[0], -load[1], 0.0)];
-        Problem { resistance: vec![Vector3::repeat(2.0)], load, contacts: vec![contact] }.solve().unwrap()
+        Problem { resistance: vec![Vector3::repeat(2.0)], load, contacts: vec![contact] }
+            .solve(&Heart::unwatched())
+            .unwrap()
     }
 
     #[test]

@@ -3,6 +3,7 @@ use super::interface::{Bearing, Frame, Stiffness};
 use super::turn::Turn;
 use crate::dda::block::{Block, Elasticity};
 use crate::dda::condense::{Condensed, Node};
+use crate::dda::heart::Heart;
 use crate::geometry::{Region, Vec2, perpendicular};
 use nalgebra::DMatrix;
 
@@ -16,7 +17,7 @@ fn body() -> (Corotated, DMatrix<f64>, Vec<Node>) {
     let nodes: Vec<Node> = faces.into_iter().flat_map(|(angle, points)| points.map(|at| node(angle, at))).collect();
     let region = Region { area: 1.1, centroid: Vec2::new(0.5, 0.55) };
     let elasticity = Elasticity { youngs_modulus: 1e3, poissons_ratio: 0.2, plane_strain: false };
-    let condensed = Condensed::new(&Block::new(region, elasticity).into(), &nodes).unwrap();
+    let condensed = Condensed::new(&Block::new(region, elasticity).into(), &nodes, &Heart::unwatched()).unwrap();
     (Corotated::new(&nodes), condensed.stiffness().clone(), nodes)
 }
 

@@ -69,7 +69,9 @@ impl Tracer<'_> {
                 self.renew_tangent();
             }
             last = error;
-            self.factor.solve(&self.matrix, &self.residual, &mut correction);
+            if self.factor.solve(&self.matrix, &self.residual, &mut correction, self.heart).is_err() {
+                return false;
+            }
             let along = match hold {
                 Hold::Parameter => 0.0,
                 Hold::Fastest(c) => -correction[c] / self.direction[c],

@@ -2,13 +2,16 @@
 
 use super::Tracer;
 use crate::dda::contact::State;
-use crate::dda::moving::Bearing;
+use crate::dda::heart::Stopped;
+use crate::dda::moving::{Bearing, Placed};
 use crate::dda::panels::subtract_applied;
 
 /// Equilibrium residual, as a share of the load scale, above which the displacements are corrected; and above which
 /// the path is given up.
 const CORRECT: f64 = 1e-11;
 const GIVE_UP: f64 = 1e-6;
+/// Work of renewing an entry of the matrix's diagonal and those beside it, in multiplications.
+const RENEWED: usize = 8;
 
 impl Tracer<'_> {
     /// Measures the equilibrium residual of every node, corrects the displacements where it matters; false when
@@ -17,7 +20,9 @@ impl Tracer<'_> {
         let mut worst = self.find_residual();
         if worst > CORRECT && !self.is_mechanism() {
             let mut corrections = vec![0.0; self.residual.len()];
-            self.factor.solve(&self.matrix, &self.residual, &mut corrections);
+            if self.factor.solve(&self.matrix, &self.residual, &mut corrections, self.heart).is_err() {
+                return false;
+            }
             for (d, correction) in self.displacements.iter_mut().zip(&corrections) {
                 *d += correction;
             }
@@ -27,27 +32,37 @@ impl Tracer<'_> {
         worst < GIVE_UP
     }
 
-    /// Fills `residual` with load minus resistance of every node; returns the largest entry over the load scale.
+    /// Fills `residual` with load minus resistance of every node; returns the largest entry over the load scale, which is
+    /// infinite where the heart stands still.
     pub(super) fn find_residual(&mut self) -> f64 {
-        match self.moving.take() {
+        let found = match self.moving.take() {
             None => self.find_first_order_residual(),
             Some(mut moving) => {
-                let chain = self.chain;
-                moving.place(chain, &self.drive, self.parameter, &self.displacements, &mut self.gaps);
-                self.residual.fill(0.0);
-                for p in 0..self.states.len() {
-                    self.forces[p] = self.force_of(p);
-                }
-                moving.add_residual(chain, &self.gaps, &self.forces, &mut self.residual);
+                let found = self.find_moving_residual(&mut moving);
                 self.moving = Some(moving);
+                found
             }
+        };
+        if found.is_err() {
+            return f64::INFINITY;
         }
         // `max` passes over NaN, which must not pass for equilibrium.
         let entries = self.residual.iter().map(|r| if r.is_finite() { r.abs() } else { f64::INFINITY });
         entries.fold(0.0, f64::max) / self.load_scale
     }
 
-    fn find_first_order_residual(&mut self) {
+    fn find_moving_residual(&mut self, moving: &mut Placed) -> Result<(), Stopped> {
+        let chain = self.chain;
+        moving.place(chain, &self.drive, self.parameter, &self.displacements, &mut self.gaps, self.heart)?;
+        self.residual.fill(0.0);
+        for p in 0..self.states.len() {
+            self.forces[p] = self.force_of(p);
+        }
+        moving.add_residual(chain, &self.gaps, &self.forces, &mut self.residual);
+        Ok(())
+    }
+
+    fn find_first_order_residual(&mut self) -> Result<(), Stopped> {
         for (i, r) in self.residual.iter_mut().enumerate() {
             *r = self.drive.base[i] + self.drive.rate[i] * self.parameter;
         }
@@ -61,6 +76,7 @@ impl Tracer<'_> {
             } else {
                 subtract_applied(elastic.lower.get(face - 1), &d[elastic.range(face - 1)], &mut residual[here]);
             }
+            self.heart.work(2 * elastic.diagonal.get(face).len())?;
         }
         for p in 0..self.states.len() {
             let ([gap, slip], settling) = (self.chain.gap(p, &self.displacements), self.settling[p]);
@@ -69,6 +85,7 @@ impl Tracer<'_> {
             let force = self.force_of(p);
             self.chain.push(p, force, &mut self.residual);
         }
+        Ok(())
     }
 
     /// Change of gap and slip of contact `p` per unit of the parameter, the nodes staying where they are (first order).
@@ -92,6 +109,11 @@ impl Tracer<'_> {
     pub(super) fn reassemble_all(&mut self) {
         for k in 0..self.chain.interfaces() {
             self.reassemble(k);
+            let faces = self.chain.faces(k).into_iter().flatten();
+            let done: usize = faces.map(|face| self.matrix.diagonal.get(face).len()).sum();
+            if self.heart.work(RENEWED * done).is_err() {
+                return;
+            }
         }
         self.load_rate_scale = self.load_rate.iter().map(|load| load.abs()).fold(0.0, f64::max);
     }

@@ -59,7 +59,13 @@ impl Tracer<'_> {
     /// Takes a path that stands at first order over to the moving geometry, with `drive` at `parameter`: the forces that
     /// are out of balance there are let go step by step.
     pub fn move_on(&mut self, drive: Drive, parameter: f64, see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>) -> End {
-        (self.drive, self.parameter, self.moving) = (drive.clone(), parameter, Some(Placed::new(self.chain)));
+        let end = self.let_go(drive, parameter, see);
+        self.unless_stopped(end)
+    }
+
+    fn let_go(&mut self, drive: Drive, parameter: f64, see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>) -> End {
+        (self.drive, self.parameter, self.moving) =
+            (drive.clone(), parameter, Some(Placed::new(self.chain, self.heart)));
         // Gaps on moving geometry differ from those at first order, and so may states.
         self.find_residual();
         for p in (0..self.states.len()).filter(|&p| self.beyond(p).is_some()).collect::<Vec<_>>() {
@@ -115,7 +121,8 @@ impl Tracer<'_> {
 
     fn trace_one_way(&mut self, way: Way, see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>) -> End {
         (self.dip, self.peak, self.fallen) = (None, None, false);
-        match self.walk(way, see) {
+        let end = self.walk(way, see);
+        match self.unless_stopped(end) {
             End::Lost if self.fallen => End::Mechanism,
             end => end,
         }
@@ -259,7 +266,9 @@ impl Tracer<'_> {
     /// Renews the stiffness of bodies and interfaces where they are now.
     fn linearise(&mut self) {
         if let Some(moving) = &mut self.moving {
-            moving.linearise(self.chain, &self.drive);
+            if moving.linearise(self.chain, &self.drive, self.heart).is_err() {
+                return;
+            }
             for i in 0..self.chain.bodies() {
                 self.matrix.upper.get_mut(2 * i).copy_from_slice(moving.bodies.upper.get(2 * i));
                 self.matrix.lower.get_mut(2 * i).copy_from_slice(moving.bodies.lower.get(2 * i));

@@ -2,6 +2,7 @@ use super::super::static_theorem::tests::{arch, loads};
 use super::*;
 use crate::arch::{Arch, Joint, PointForce, Sides, Voussoir};
 use crate::geometry::{Region, Vec2};
+use crate::limit::unwatched;
 
 /// Strength at which nothing crushes, Pa.
 const HARD: f64 = 1e30;
@@ -16,7 +17,7 @@ fn column(off: f64, strength: f64) -> CrushingWindow {
     let voussoirs = vec![Voussoir { region: Region::polygon(&corners), sides: Sides::Straight }];
     let arch = Arch { voussoirs, joints, abutments: [None, None], half: false, angle_centre: Vec2::zeros() };
     let load = PointForce { voussoir: 0, at: Vec2::new(off, 0.5), force: Vec2::new(0.0, -1.0), spread: false };
-    StaticTheorem::new(&arch, &[], &[load]).crushing_window(strength).unwrap().unwrap()
+    StaticTheorem::new(&arch, &[], &[load]).crushing_window(strength, &unwatched).unwrap().unwrap()
 }
 
 /// Joints below and above bear N and n, P = N - n. Both on their parabolas, e P = t (N + n) / 2 - (N^2 + n^2) / 2 f,
@@ -38,14 +39,14 @@ fn a_column_carries_its_strength_times_what_is_left_of_its_joints() {
 fn a_hard_stone_leaves_the_plain_window() {
     let mut arch = arch();
     let [fixed, scaled] = loads(&arch);
-    let hard = |theorem: &StaticTheorem| theorem.crushing_window(HARD).unwrap().map(|window| window.ends);
+    let hard = |theorem: &StaticTheorem| theorem.crushing_window(HARD, &unwatched).unwrap().map(|window| window.ends);
     let upwards: Vec<_> = fixed.iter().map(|f| PointForce { force: -f.force * 10.0, ..*f }).collect();
     for (fixed, scaled) in [(&fixed, &scaled), (&fixed, &fixed), (&scaled, &fixed), (&upwards, &vec![])] {
         let theorem = StaticTheorem::new(&arch, fixed, scaled);
-        assert_eq!(hard(&theorem), theorem.window().unwrap());
+        assert_eq!(hard(&theorem), theorem.window(&unwatched).unwrap());
     }
     arch.joints.iter_mut().for_each(|joint| joint.law = JointLaw::Bonded);
-    let bonded = StaticTheorem::new(&arch, &fixed, &scaled).crushing_window(1.0).unwrap().unwrap();
+    let bonded = StaticTheorem::new(&arch, &fixed, &scaled).crushing_window(1.0, &unwatched).unwrap().unwrap();
     assert_eq!(bonded.ends, [f64::NEG_INFINITY, f64::INFINITY]);
     assert!(bonded.joints.iter().all(Vec::is_empty));
 }
@@ -55,8 +56,8 @@ fn a_stronger_stone_bears_more() {
     let arch = arch();
     let [fixed, scaled] = loads(&arch);
     let theorem = StaticTheorem::new(&arch, &fixed, &scaled);
-    let [low, high] = theorem.window().unwrap().unwrap();
-    let windows: Vec<_> = (0..60).map(|k| theorem.crushing_window(1.2f64.powi(k)).unwrap()).collect();
+    let [low, high] = theorem.window(&unwatched).unwrap().unwrap();
+    let windows: Vec<_> = (0..60).map(|k| theorem.crushing_window(1.2f64.powi(k), &unwatched).unwrap()).collect();
     assert!(windows[0].is_none());
     let found: Vec<_> = windows.iter().skip_while(|window| window.is_none()).collect();
     assert!(found.len() > 40 && found.iter().all(|window| window.is_some()));
@@ -73,8 +74,8 @@ fn crushed_joints_leave_just_the_length_they_need() {
     let arch = arch();
     let [fixed, _] = loads(&arch);
     let theorem = StaticTheorem::new(&arch, &fixed, &fixed);
-    let window = theorem.crushing_window(500.0).unwrap().unwrap();
-    assert_eq!(theorem.window().unwrap().unwrap()[1], f64::INFINITY);
+    let window = theorem.crushing_window(500.0, &unwatched).unwrap().unwrap();
+    assert_eq!(theorem.window(&unwatched).unwrap().unwrap()[1], f64::INFINITY);
     assert!(window.ends[1].is_finite() && window.joints[1].len() >= 2, "{window:?}");
 }
 
@@ -84,7 +85,10 @@ fn a_strength_that_is_none_is_refused() {
     let [fixed, scaled] = loads(&arch);
     let theorem = StaticTheorem::new(&arch, &fixed, &scaled);
     for strength in [0.0, -1.0, f64::NAN] {
-        assert_eq!(theorem.crushing_window(strength), Err(Unsolved));
+        assert_eq!(theorem.crushing_window(strength, &unwatched), Err(Unsolved));
     }
-    assert_eq!(theorem.crushing_window(f64::INFINITY).unwrap().unwrap().ends, theorem.window().unwrap().unwrap());
+    assert_eq!(
+        theorem.crushing_window(f64::INFINITY, &unwatched).unwrap().unwrap().ends,
+        theorem.window(&unwatched).unwrap().unwrap()
+    );
 }

@@ -1,0 +1,121 @@
+//! Good requests that together have something of everything.
+
+use serde_json::{Value, json};
+
+/// `request` with the value at `pointer` replaced or, where its parent is an object, added.
+pub fn with(mut request: Value, pointer: &str, value: Value) -> Value {
+    let Some((parent, key)) = pointer.rsplit_once('/') else { return value };
+    match request.pointer_mut(parent).unwrap_or_else(|| panic!("no {parent}")) {
+        Value::Object(object) => drop(object.insert(key.to_owned(), value)),
+        Value::Array(list) => list[key.parse::<usize>().unwrap()] = value,
+        other => panic!("{other} has no members"),
+    }
+    request
+}
+
+/// `request` without the value at `pointer`.
+pub fn without(mut request: Value, pointer: &str) -> Value {
+    let (parent, key) = pointer.rsplit_once('/').unwrap();
+    match request.pointer_mut(parent).unwrap() {
+        Value::Object(object) => drop(object.remove(key)),
+        Value::Array(list) => drop(list.remove(key.parse().unwrap())),
+        other => panic!("{other} has no members"),
+    }
+    request
+}
+
+fn arch() -> Value {
+    json!({
+        "name": "all of it",
+        "arch": {
+            "profile": {"circular": {"radius_m": 4.0, "opening_angle_deg": 150}},
+            "line": "axis", "thickness": {"constant_m": 0.6}, "voussoirs": 12, "joints": "normal",
+            "relative_lengths": [1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1], "curved_sides": false,
+            "abutments": {"height_m": 1.0}, "springing_joints": "dry", "half": false
+        },
+        "stone": {
+            "density_kg_m3": 2000, "youngs_modulus_pa": 2e9, "poissons_ratio": 0.2, "friction_angle_deg": 35,
+            "cohesion_pa": 10, "compressive_strength_pa": 2e7, "plane": "strain", "penalty_ratio": 5
+        },
+        "joint_overrides": [{"joint": 6, "friction_angle_deg": 20, "cohesion_pa": 5}],
+        "mesh": {"subblocks": {"uniform": {"radial": 2, "along": 3}}, "seams": "split"},
+        "loads": [
+            {"load": {"self_weight": {}}, "scaled": false, "coefficient": 1.5, "per_abscissa": false},
+            {"load": {"fill_pressure": {
+                "fill_height_m": 8.0, "fill_density_kg_m3": 1500, "embankment_thickness_m": 0.5,
+                "embankment_density_kg_m3": 1700, "lateral_ratio": 0.4, "fill_friction_angle_deg": 25
+            }}},
+            {"load": {"point_load": {"force_n_per_m": 1000, "x_m": -1}}, "scaled": true},
+            {"load": {"point_load": {"force_n_per_m": 1000, "voussoir": 5}}},
+            {"load": {"patch_load": {"centre_x_m": 1, "width_m": 1, "force_n_per_m": 1000}}},
+            {"load": {"lateral_pressure": {"bands": [{"from_m": 0, "to_m": 1, "pressure_pa": 100}]}}},
+            {"load": {"body_acceleration": {"x_g": 0.1, "y_g": 0.1}}}
+        ],
+        "analysis": "collapse",
+        "load_factor": {"direction": "increase", "cap": 1000, "unit": "kN", "intensity_per_unit": 1},
+        "method": {"fixed_steps": {"step": 1, "opening_m": 0.01, "hinges": 3}},
+        "geometry": "first_order",
+        "report": {"share_of_collapse": 0.99, "stress_fields": [{"load_factor": 2}, "unit_load", "near_collapse"]},
+        "motion": {"most_frames": 10, "share_of_span": 0.1}
+    })
+}
+
+fn safety() -> Value {
+    let curve = json!({"abscissae": [1, 2], "unit": "m"});
+    let request = with(arch(), "/analysis", json!({"safety": {"crushing": "elastic", "curve": curve}}));
+    let request = with(with(request, "/method", json!("event_path")), "/report/stress_fields", json!([]));
+    without(with(request, "/loads/0/per_abscissa", json!(true)), "/motion")
+}
+
+fn settlement() -> Value {
+    let movement = json!({"outwards_m": 0.01, "downwards_m": 0.01, "rotation_deg": 1});
+    let request = with(arch(), "/analysis", json!({"settlement": {"left": movement, "right": movement}}));
+    let request = ["/report", "/motion", "/method", "/load_factor"].into_iter().fold(request, without);
+    with(request, "/loads/2/scaled", json!(false))
+}
+
+fn surveyed() -> Value {
+    let intrados = json!([[-1, 0], [0, 1], [1, 0]]);
+    let extrados = json!([[-2, 0], [0, 2], [2, 0]]);
+    json!({
+        "arch": {"profile": {"surveyed": {"intrados_m": intrados, "extrados_m": extrados}}},
+        "loads": [{"load": {"self_weight": {}}}]
+    })
+}
+
+fn beam() -> Value {
+    json!({
+        "name": "a beam",
+        "curved_beam": {
+            "inner_radius_m": 0.5, "outer_radius_m": 0.7, "end_shear_n_per_m": 2500, "curved_sides": true
+        },
+        "stone": arch()["stone"].take(),
+        "mesh": {"subblocks": {"uniform": {"radial": 3, "along": 4}}, "seams": "corners"}
+    })
+}
+
+/// All of them. The curved beam takes no `per_voussoir`, so that no good request has all the schema allows it.
+pub fn bodies() -> Vec<Value> {
+    let change = |changes: &[(&str, Value)]| {
+        changes.iter().fold(arch(), |request, (pointer, value)| with(request, pointer, value.clone()))
+    };
+    let oval = json!({"multi_centre": {"arcs": [{"radius_m": 3, "angle_deg": 40}, {"radius_m": 6, "angle_deg": 50}]}});
+    let circle = json!({"extrados_circle": {"radius_m": 5, "centre_y_m": -0.1}});
+    let each: Vec<_> = (1..=12).map(|k| json!({"radial": k, "along": 1})).collect();
+    vec![
+        arch(),
+        change(&[("/arch/profile", json!({"circular": {"span_m": 8, "rise_m": 3}}))]),
+        change(&[("/arch/profile", json!({"pointed": {"radius_m": 5, "centre_offset_m": 1}}))]),
+        change(&[("/arch/profile", json!({"pointed": {"span_m": 8, "rise_m": 4.5}}))]),
+        change(&[("/arch/profile", json!({"elliptical": {"span_m": 8, "rise_m": 3}}))]),
+        change(&[("/arch/profile", oval)]),
+        change(&[("/arch/thickness", json!({"linear": {"crown_m": 0.6, "springing_m": 0.8}}))]),
+        change(&[("/arch/thickness", circle), ("/arch/line", json!("intrados"))]),
+        change(&[("/arch/joints", json!({"rays": {"centre_m": [0, -0.5]}}))]),
+        change(&[("/mesh/subblocks", json!({"per_voussoir": each}))]),
+        safety(),
+        settlement(),
+        surveyed(),
+        beam(),
+    ]
+}
