@@ -1,12 +1,12 @@
 //! Connections as the open internet has them.
 
 use super::hostile::{
-    half_closed, in_sequence, pipelined, refusals, rest, running, slow_body, slow_heads, stream, vanish,
+    deaf, half_closed, in_sequence, pipelined, refusals, rest, running, slow_body, slow_heads, stream, vanish,
 };
 use super::process::{Voussoir, solve};
 use super::report::{Report, milliseconds};
 use super::requests::{arch, endless, fine};
-use std::thread::scope;
+use std::thread::{scope, sleep};
 use std::time::{Duration, Instant};
 
 const SECOND: Duration = Duration::from_secs(1);
@@ -17,6 +17,7 @@ pub fn run(part: usize, report: &mut Report) {
     let before = service.open_files();
     slow(&service, part, report);
     halves(&service, report);
+    unread(&service, part, report);
     gone(&service, part, report);
     sequence(&service, 10_000 / part, report);
     for (what, status, as_problem, answer) in refusals(&service, 65_536) {
@@ -29,7 +30,7 @@ pub fn run(part: usize, report: &mut Report) {
         }
     }
     report.promise(pipelined(&service) == Some([200, 404]), "two requests at once are answered in turn");
-    std::thread::sleep(3 * SECOND);
+    sleep(3 * SECOND);
     report.figure("files open before and after", format_args!("{before}, {}", service.open_files()));
     report.promise(service.open_files() <= before + 8, "no connection is left open");
     report.quiet(&service.troubles());
@@ -59,6 +60,22 @@ fn halves(service: &Voussoir, report: &mut Report) {
     report.promise(path.is_some(), "half-closed: a submission that waits is answered");
     let results = path.and_then(|path| half_closed(service, "GET", &format!("{path}/results"), "", ""));
     report.promise(results.is_some_and(|answer| answer.body == solve(&body)), "half-closed: whole results");
+}
+
+/// Clients that ask and never read are hung up on.
+fn unread(service: &Voussoir, part: usize, report: &mut Report) {
+    let mut client = service.client();
+    let path = client.submit(&fine(2, 24));
+    client.ended(&path);
+    let before = service.open_files();
+    let clients: Vec<_> = (0..50 / part.min(10)).map(|_| deaf(service, &format!("{path}/results"), 500)).collect();
+    let clock = Instant::now();
+    while service.open_files() > before && clock.elapsed() < 20 * SECOND {
+        sleep(SECOND / 20);
+    }
+    report.promise(service.open_files() <= before, "clients that never read are hung up on");
+    report.figure("   after, s", format_args!("{:.2}", clock.elapsed().as_secs_f64()));
+    drop(clients);
 }
 
 /// Clients that go in the middle of an answer or of a stream.

@@ -65,6 +65,15 @@ pub fn vanish(service: &Voussoir, path: &str) -> std::io::Result<()> {
     stream.read_exact(&mut [0; 64])
 }
 
+/// Asks so often at once that the answers fill every buffer on the way, and reads none of them.
+pub fn deaf(service: &Voussoir, path: &str, times: usize) -> TcpStream {
+    let mut stream = connect(service.address).unwrap();
+    stream.set_write_timeout(Some(Duration::from_millis(50))).unwrap();
+    // It may stop listening before all is asked.
+    let _ = stream.write_all(&request("GET", path, "", b"").repeat(times));
+    stream
+}
+
 /// A stream of events, open and its first bytes read.
 pub fn stream(service: &Voussoir, path: &str) -> BufReader<TcpStream> {
     let mut stream = connect(service.address).unwrap();
