@@ -45,7 +45,8 @@ fn run(options: &Serve) -> io::Result<()> {
     let handle = Handle::new();
     let ending = runtime.spawn(end(service.clone(), handle.clone(), Duration::from_secs(options.grace)));
     runtime.block_on(async {
-        let mut server = axum_server::from_tcp(listener)?.acceptor(Patient(request_time)).handle(handle);
+        let server = axum_server::from_tcp(listener)?.acceptor(Patient(request_time));
+        let mut server = server.handle(handle).http1_only();
         be_patient(server.http_builder(), request_time);
         server.serve(api::router(service).into_make_service_with_connect_info::<SocketAddr>()).await?;
         ending.await.map_err(io::Error::other)
@@ -56,9 +57,9 @@ fn run(options: &Serve) -> io::Result<()> {
     Ok(())
 }
 
-/// So patient and no more with a request's head; a client that has said all it will may still read the answer.
+/// So patient and no more with a request's head; a client that has said all it will may still read the answer. The server
+/// itself has to know that it speaks HTTP/1 only, or it waits for a first byte without end.
 fn be_patient(builder: &mut Builder<TokioExecutor>, request_time: Duration) {
-    *builder = builder.clone().http1_only();
     builder.http1().timer(TokioTimer::new()).header_read_timeout(request_time).half_close(true);
 }
 
