@@ -99,13 +99,14 @@ impl Driver<'_> {
     /// Dismisses a job after a random time, one in ten while it waits.
     fn round(&mut self) {
         sleep(Duration::from_secs_f64(self.dice.decades(0.001, 1.0)));
+        // In this order, so that no job is in both lists.
+        let running = listed(&mut self.client, "running");
         let waiting = listed(&mut self.client, "accepted");
         if self.dice.chance(0.1) {
             let victim = self.dice.below(waiting.len());
             self.dismiss(&waiting[victim]);
             return;
         }
-        let running = listed(&mut self.client, "running");
         let (Some(next), false) = (waiting.last(), running.is_empty()) else { return };
         let victim = &running[self.dice.below(running.len())];
         let fine = self.client.get(&format!("{victim}/request")).json()["mesh"]["subblocks"]["uniform"]["radial"] == 48;
