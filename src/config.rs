@@ -3,9 +3,11 @@
 use axum::http::HeaderValue;
 use clap::builder::RangedU64ValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::io;
 use std::path::PathBuf;
 use std::thread::available_parallelism;
 use std::time::Duration;
+use tracing_subscriber::filter::LevelFilter;
 use voussoir::api::request::MAX_SUBBLOCKS;
 use voussoir::api::{self, Settings, Tokens};
 use voussoir::arch::MAX_VOUSSOIRS;
@@ -64,7 +66,7 @@ pub struct Serve {
     #[arg(long, env = "VOUSSOIR_LOG_FORMAT", value_enum, default_value_t = LogFormat::Text)]
     pub log_format: LogFormat,
     /// What is logged, as level or as list of target=level
-    #[arg(long, env = "VOUSSOIR_LOG", default_value = "info")]
+    #[arg(long, env = "VOUSSOIR_LOG", default_value = "info", value_parser = directives)]
     pub log: String,
 }
 
@@ -122,8 +124,11 @@ pub struct Requests {
     /// Event streams open at once; beyond it 503
     #[arg(long, env = "VOUSSOIR_EVENT_STREAMS", default_value_t = 100, value_parser = count(0, 100_000))]
     pub event_streams: u64,
+    /// Bytes of answers on their way at once, large ones and those to slow clients; beyond it 503
+    #[arg(long, env = "VOUSSOIR_ANSWER_BYTES", default_value_t = 1 << 28, value_parser = count(1 << 20, 1 << 40))]
+    pub answer_bytes: u64,
     /// Bearer token that opens the service, may be given several times or as a list with commas; open to all without
-    #[arg(long = "token", env = "VOUSSOIR_TOKENS", value_delimiter = ',', hide_env_values = true, value_parser = token)]
+    #[arg(long = "token", env = "VOUSSOIR_TOKENS", value_delimiter = ',', hide_env_values = true)]
     pub tokens: Vec<String>,
     /// Origin whose pages may ask (CORS), such as https://example.org, may be given several times or as a list
     #[arg(long = "cors-origin", env = "VOUSSOIR_CORS_ORIGINS", value_delimiter = ',', value_parser = origin)]
@@ -171,19 +176,26 @@ impl Serve {
     }
 
     /// How the interface behaves.
-    pub fn settings(&self) -> Settings {
+    ///
+    /// # Errors
+    /// When some token cannot be one. Told here and not by the parser of the command line, which quotes what it refuses.
+    pub fn settings(&self) -> io::Result<Settings> {
         let requests = &self.requests;
-        Settings {
+        if !requests.tokens.iter().all(|token| is_token(token)) {
+            return Err(io::Error::other("a --token is made of letters, digits and -._~+/= and is not empty"));
+        }
+        Ok(Settings {
             limits: api::Limits {
                 body: size(requests.body_limit),
                 request_time: Duration::from_secs(requests.request_time),
                 voussoirs: size(self.work.voussoirs),
                 subblocks: size(self.work.subblocks),
                 streams: size(requests.event_streams),
+                outgoing: size(requests.answer_bytes),
             },
             tokens: Tokens::new(requests.tokens.iter().map(String::as_str)),
             origins: requests.origins.clone(),
-        }
+        })
     }
 }
 
@@ -196,12 +208,18 @@ fn count(least: u64, most: u64) -> RangedU64ValueParser {
     clap::value_parser!(u64).range(least..=most)
 }
 
-/// A token that an authorization header can carry (`b64token` of RFC 6750).
-fn token(text: &str) -> Result<String, String> {
-    let fits = |byte: u8| byte.is_ascii_alphanumeric() || b"-._~+/=".contains(&byte);
-    match !text.is_empty() && text.bytes().all(fits) {
+/// True for what an authorization header can carry (`b64token` of RFC 6750).
+fn is_token(text: &str) -> bool {
+    !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_alphanumeric() || b"-._~+/=".contains(&byte))
+}
+
+/// Levels, alone or each for a target. A bare word that is no level would be taken for a target, and silence the rest.
+fn directives(text: &str) -> Result<String, String> {
+    let is_level = |word: &str| !word.is_empty() && word.parse::<LevelFilter>().is_ok();
+    let fits = |part: &str| part.rsplit_once('=').map_or_else(|| is_level(part), |(_, level)| is_level(level));
+    match text.split(',').all(|part| fits(part.trim())) {
         true => Ok(text.to_owned()),
-        false => Err("a token is made of letters, digits and -._~+/=".to_owned()),
+        false => Err("give off, error, warn, info, debug or trace, or a list of target=level".to_owned()),
     }
 }
 

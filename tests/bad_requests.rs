@@ -74,6 +74,9 @@ fn one_wrong_value_is_pointed_at_and_nothing_else() {
     let table: Vec<(String, Value)> = vec![
         ("/name".into(), json!("x".repeat(201))),
         ("/name".into(), json!(7)),
+        ("/name".into(), json!("two\nlines")),
+        ("/name".into(), json!("\u{1b}]0;title\u{7}")),
+        ("/load_factor/unit".into(), json!("kN\u{7f}")),
         (p("radius_m"), json!(0)),
         (p("radius_m"), json!(-4)),
         (p("radius_m"), json!("4 m")),

@@ -93,6 +93,17 @@ fn serve_is_healthy_until_told_to_stop() {
     assert_eq!(fed(&["health", "--bind", &address], "").status.code(), Some(1));
 }
 
+#[test]
+fn settings_that_cannot_be_are_refused_without_being_quoted() {
+    let secret = fed(&["serve", "--bind", "127.0.0.1:0", "--token", "s3cr3t value"], "");
+    let told = String::from_utf8(secret.stderr).unwrap();
+    assert!(!secret.status.success() && told.contains("--token") && !told.contains("s3cr3t"), "{told}");
+    for log in ["warning", "", "voussoir=loud"] {
+        let output = fed(&["serve", "--bind", "127.0.0.1:0", "--log", log], "");
+        assert_eq!(output.status.code(), Some(2), "{log}");
+    }
+}
+
 fn case(name: &str) -> String {
     format!("{}/cases/{name}", env!("CARGO_MANIFEST_DIR"))
 }

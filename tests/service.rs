@@ -49,6 +49,55 @@ fn a_submission_may_wait_for_the_end() {
 }
 
 #[test]
+fn those_who_wait_learn_the_end_of_a_job_that_is_forgotten_at_once() {
+    let server = Server::with(Limits { kept: 1, ..limits(2, 1000) }, settings());
+    scope(|scope| {
+        for _ in 0..8 {
+            scope.spawn(|| {
+                for _ in 0..10 {
+                    let answer = post(&server, "prefer: wait=20\r\n", &request()).json();
+                    assert_eq!(answer["status"], "successful");
+                    assert!(answer["finished"].is_string());
+                }
+            });
+        }
+    });
+}
+
+#[test]
+fn a_status_has_the_name_of_its_request() {
+    let server = Server::start(1, 10);
+    let mut named = request();
+    named["name"] = json!("Ponte \"Alto\" \u{e9}");
+    let path = done(&server, &named);
+    assert_eq!(server.get(&path).json()["name"], named["name"]);
+    assert_eq!(server.get("/v1/jobs").json()["jobs"][0]["name"], named["name"]);
+}
+
+#[test]
+fn progress_counts_the_events_of_all_paths() {
+    let server = Server::start(1, 10);
+    let mut moving = request();
+    moving["geometry"] = json!("updated");
+    moving["stone"]["youngs_modulus_pa"] = json!(1e10);
+    let path = done(&server, &moving);
+    let told = server.get(&path).json()["progress"]["events"].as_u64().unwrap();
+    let counted = server.get(&format!("{path}/results")).json()["cost"]["events"].as_u64().unwrap();
+    assert_eq!(told, counted);
+}
+
+#[test]
+fn an_answer_larger_than_its_room_is_still_given() {
+    let outgoing = api::Limits { outgoing: 1024, ..settings().limits };
+    let server = Server::with(limits(1, 10), Settings { limits: outgoing, ..settings() });
+    let path = done(&server, &stressed());
+    // One answer is larger than the room and takes all of it, and gives it back.
+    for _ in 0..3 {
+        assert_eq!(server.get(&format!("{path}/results")).status, 200);
+    }
+}
+
+#[test]
 fn a_key_makes_a_submission_safe_to_repeat() {
     let server = Server::start(1, 10);
     let key = "idempotency-key: 7f3a-1\r\n";
@@ -59,7 +108,7 @@ fn a_key_makes_a_submission_safe_to_repeat() {
     assert_eq!(first.header("location"), second.header("location"));
     let other = post(&server, key, &beam()).problem(422);
     assert_eq!(other["type"], kinds::KEY_TAKEN.uri);
-    for bad in ["", "two words", &"k".repeat(201), "\u{e9}"] {
+    for bad in ["", "two words", &"k".repeat(201), "\u{e9}", "twice\r\nidempotency-key: twice"] {
         let problem = post(&server, &format!("idempotency-key: {bad}\r\n"), &request()).problem(400);
         assert_eq!(problem["type"], kinds::BAD_HEADER.uri);
     }
@@ -122,6 +171,9 @@ fn a_poller_is_told_what_is_new_only() {
     let known = format!("if-none-match: \"other\", {}\r\n", results.header("etag").unwrap());
     assert_eq!(server.call("GET", &format!("{waiting}/results"), &known, b"").status, 304);
     assert_eq!(server.call("GET", &format!("{waiting}/results?f=text"), &known, b"").status, 200, "another format");
+    for part in ["results/fields/7", "results/nothing"] {
+        server.call("GET", &format!("{waiting}/{part}"), "if-none-match: *\r\n", b"").problem(404);
+    }
 }
 
 /// All events of a stream, each as (event, id, data).
@@ -162,6 +214,7 @@ fn a_stream_tells_what_happens_and_resumes() {
     let rest = events(&server, &path, &back(&told[1].1));
     assert_eq!(rest.iter().map(|(name, ..)| name.as_str()).collect::<Vec<_>>(), ["end"], "the rest of what it missed");
     assert_eq!(events(&server, &path, &back("from another service")).len(), 1, "an unknown id is none");
+    assert_eq!(events(&server, &path, &back("successful-3")).len(), 1, "nor is one that cannot have been seen");
 }
 
 #[test]
@@ -233,6 +286,7 @@ fn results_come_in_parts_and_formats() {
         ("/fields/unit_load", "*/*", 404),
         ("/fields/7", "*/*", 404),
         ("/fields/", "*/*", 404),
+        ("?f=json&f=text", "*/*", 400),
     ] {
         part(rest, accept).problem(status);
     }
@@ -311,6 +365,7 @@ fn a_request_is_looked_over_and_not_queued() {
     validate(&json!([])).problem(422);
     server.call("POST", "/v1/validate", JSON, b"{").problem(400);
     server.call("POST", "/v1/validate", "", b"{}").problem(415);
+    server.call("POST", "/v1/validate", &format!("{JSON}content-encoding: gzip\r\n"), b"{}").problem(415);
     assert!(server.get("/v1/jobs").json()["jobs"].as_array().unwrap().is_empty());
 }
 

@@ -6,6 +6,7 @@ use axum::body::Bytes;
 use axum::extract::{FromRequest, Request};
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::IntoResponse;
+use headers::{ContentLength, HeaderMapExt};
 use serde::de::IgnoredAny;
 use std::num::NonZeroUsize;
 use std::sync::Arc;
@@ -22,7 +23,15 @@ impl FromRequest<Service> for JsonBody {
         if !is_json(request.headers()) {
             return Err(Problem::unsupported_media_type());
         }
+        if request.headers().contains_key(header::CONTENT_ENCODING) {
+            return Err(Problem::encoded());
+        }
         let limits = &service.limits;
+        // Told before the body is sent, to clients that ask whether they may.
+        let length = request.headers().typed_get::<ContentLength>();
+        if length.is_some_and(|length| length.0 > limits.body as u64) {
+            return Err(Problem::too_long(limits.body));
+        }
         let body = tokio::time::timeout(limits.request_time, Bytes::from_request(request, service)).await;
         let body = body.map_err(|_| Problem::too_slow(limits.request_time))?;
         let body = body.map_err(|rejection| match rejection.into_response().status() {

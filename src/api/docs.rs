@@ -16,7 +16,7 @@ const POLICY: HeaderValue = HeaderValue::from_static(
 
 /// `/docs` and what its page needs.
 pub(super) fn router<S: Clone + Send + Sync + 'static>() -> Router<S> {
-    let browser = SwaggerUi::new("/docs").config(Config::from("/openapi.json"));
+    let browser = SwaggerUi::new("/docs").config(Config::from("/openapi.json").validator_url("none"));
     Router::from(browser).layer(from_fn(finish))
 }
 

@@ -19,9 +19,10 @@ impl Version {
         Version(tag.parse().unwrap_or_else(|_| unreachable!("{tag}")))
     }
 
-    /// "Not modified", where the client says that it has this version.
+    /// "Not modified", where the client says that it has this version. Any version at all (`*`) is none in particular: what
+    /// is asked for may not be there.
     pub(super) fn known(&self, headers: &HeaderMap) -> Option<Response> {
-        let asked = headers.typed_get::<IfNoneMatch>()?;
+        let asked = headers.typed_get::<IfNoneMatch>().filter(|asked| *asked != IfNoneMatch::any())?;
         (!asked.precondition_passes(&self.0)).then(|| self.mark(StatusCode::NOT_MODIFIED.into_response()))
     }
 

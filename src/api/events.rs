@@ -8,7 +8,7 @@ use super::jobs::{JobPath, find};
 use super::problem::{Problem, kinds};
 use super::request::Request;
 use super::status::{JobStatus, ProgressBody, word};
-use crate::jobs::{Job, JobId, JobStore, Status};
+use crate::jobs::{Job, JobStore, Stand, Status};
 use axum::http::{HeaderMap, HeaderName, StatusCode};
 use axum::response::sse::{Event, KeepAlive, Sse};
 use axum::response::{IntoResponse, Response};
@@ -23,8 +23,8 @@ use utoipa::ToSchema;
 /// How often a running analysis is looked at.
 const LOOK: Duration = Duration::from_millis(200);
 
-/// How often a quiet stream shows that it is alive.
-const ALIVE: Duration = Duration::from_secs(10);
+/// How often a quiet stream shows that it is alive, and so learns whether its client is.
+const ALIVE: Duration = Duration::from_secs(2);
 
 const LAST_EVENT_ID: HeaderName = HeaderName::from_static("last-event-id");
 
@@ -51,7 +51,8 @@ type AppState = axum::extract::State<Service>;
 pub(super) async fn events(state: AppState, path: JobPath, headers: HeaderMap) -> Result<Response, Problem> {
     let job = find(&state, path.0)?;
     let seen = headers.get(LAST_EVENT_ID).and_then(|id| Seen::read(id.to_str().ok()?));
-    if seen.is_some_and(|seen| seen.status.is_final()) {
+    let ended = seen.filter(|seen| seen.status.is_final());
+    if ended.is_some_and(|seen| seen.status == job.status()) {
         return Ok(StatusCode::NO_CONTENT.into_response());
     }
     if state.stopping.is_cancelled() {
@@ -61,9 +62,10 @@ pub(super) async fn events(state: AppState, path: JobPath, headers: HeaderMap) -
     let permit = state.streams.clone().try_acquire_owned().map_err(full)?;
     let follower = Follower {
         jobs: state.jobs.clone(),
-        id: job.id,
-        changes: job.progress.status(),
-        seen,
+        changes: job.progress.stand(),
+        job,
+        // An end that has not come is that of another job.
+        seen: seen.filter(|_| ended.is_none()),
         stopping: state.stopping.clone(),
         _permit: permit,
     };
@@ -117,22 +119,23 @@ impl Seen {
 /// One client that follows one job.
 struct Follower {
     jobs: Arc<JobStore<Request>>,
-    id: JobId,
-    changes: Receiver<Status>,
+    job: Job<Request>,
+    changes: Receiver<Stand>,
     seen: Option<Seen>,
     stopping: CancellationToken,
     _permit: OwnedSemaphorePermit,
 }
 
 impl Follower {
-    /// The next event; none after the end, when the job is forgotten or the service stops.
+    /// The next event; none after the end, or when the service stops.
     async fn next(&mut self) -> Option<Result<Event, axum::Error>> {
         if self.seen.is_some_and(|seen| seen.status.is_final()) {
             return None;
         }
         loop {
             self.changes.borrow_and_update();
-            let job = self.jobs.get(self.id)?;
+            // One that the store has forgotten has ended, and its own stand says how.
+            let job = self.jobs.get(self.job.id).unwrap_or_else(|| self.job.now());
             let now = Seen::of(&job);
             if let Some(event) = self.told(&job, now) {
                 self.seen = Some(now);

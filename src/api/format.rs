@@ -1,8 +1,7 @@
 //! In which format something is given, by the header `accept` or, before it, by the query parameter `f`.
 
 use super::problem::{Problem, kinds};
-use axum::http::HeaderMap;
-use headers::HeaderMapExt;
+use axum::http::{HeaderMap, header};
 use headers_accept::Accept;
 use mediatype::MediaType;
 
@@ -61,18 +60,33 @@ impl Format {
             return found.ok_or_else(|| Problem::of(kinds::BAD_QUERY, detail()));
         }
         let first = offered.first().copied().ok_or_else(Problem::internal)?;
-        // A header that cannot be read asks for nothing.
-        let Some(accept) = headers.typed_get::<Accept>() else { return Ok(first) };
+        // A header that is empty or cannot be read asks for nothing.
+        let Some(accept) = accepted(headers).parse::<Accept>().ok().filter(|accept| accept.media_types().count() > 0)
+        else {
+            return Ok(first);
+        };
         let types: Vec<_> = offered.iter().filter_map(|format| MediaType::parse(format.media_type()).ok()).collect();
         let best = accept.negotiate(&types).and_then(|best| types.iter().position(|one| one == best));
         best.and_then(|place| offered.get(place).copied()).ok_or_else(|| Problem::not_acceptable(&names()))
     }
 }
 
+/// The media ranges of `accept` with their weights; other parameters do not tell our formats apart.
+fn accepted(headers: &HeaderMap) -> String {
+    let lines = headers.get_all(header::ACCEPT).iter().filter_map(|value| value.to_str().ok());
+    let range = |range: &str| {
+        let mut parts = range.split(';').map(str::trim);
+        let essence = parts.next().unwrap_or_default().to_owned();
+        let weight = parts.find(|part| part.starts_with("q=") || part.starts_with("Q="));
+        weight.map_or(essence.clone(), |weight| format!("{essence};{}", weight.to_ascii_lowercase()))
+    };
+    lines.flat_map(|line| line.split(',')).map(range).collect::<Vec<_>>().join(",")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use axum::http::{HeaderValue, header};
+    use axum::http::HeaderValue;
 
     #[test]
     fn the_query_goes_first_then_the_header() {
@@ -85,6 +99,9 @@ mod tests {
         assert_eq!(choose(None, "text/csv"), Some(Format::Csv));
         assert_eq!(choose(None, "text/csv;q=0.5, application/json;q=0.1"), Some(Format::Csv));
         assert_eq!(choose(None, "text/*"), Some(Format::Csv));
+        assert_eq!(choose(None, "text/csv; header=present"), Some(Format::Csv));
+        assert_eq!(choose(None, "application/json; charset=utf-8;q=0.1, text/csv;q=0"), Some(Format::Json));
+        assert_eq!(choose(None, ""), Some(Format::Json));
         assert_eq!(choose(None, "image/png"), None);
         assert_eq!(choose(Some("csv"), "application/json"), Some(Format::Csv));
         assert_eq!(choose(Some("vtu"), "*/*"), None);

@@ -50,11 +50,10 @@ pub(super) async fn list(
     state: AppState,
     query: Result<Query<ListQuery>, QueryRejection>,
 ) -> Result<Json<JobList>, Problem> {
-    let bad = |detail: String| Problem::of(kinds::BAD_QUERY, detail);
-    let Query(query) = query.map_err(|rejection| bad(rejection.body_text()))?;
+    let Query(query) = query.map_err(|rejection| query_fault(&rejection))?;
     let limit = query.limit.unwrap_or(LISTED);
     if !(1..=MOST_LISTED).contains(&limit) {
-        return Err(bad(format!("limit must lie between 1 and {MOST_LISTED}")));
+        return Err(Problem::of(kinds::BAD_QUERY, format!("limit must lie between 1 and {MOST_LISTED}")));
     }
     // One more than asked for tells whether there is a next page.
     let mut jobs = state.jobs.list(query.status.map(Into::into), query.cursor, limit + 1);
@@ -106,8 +105,8 @@ pub(super) async fn show(state: AppState, path: JobPath, headers: HeaderMap) -> 
     )
 )]
 pub(super) async fn request(state: AppState, path: JobPath) -> Result<Response, Problem> {
-    let job = find(&state, path.0)?;
-    let body = line(&*job.request).map_err(|_| Problem::internal())?;
+    let request = find(&state, path.0)?.request;
+    let body = state.aside.run(move || line(&*request).map_err(|_| Problem::internal())).await?;
     Ok(([(header::CONTENT_TYPE, "application/json")], body).into_response())
 }
 
@@ -141,6 +140,12 @@ impl<S: Send + Sync> FromRequestParts<S> for JobPath {
         let id = path.0.into_iter().find(|(name, _)| name == "id").ok_or_else(|| not_found(parts))?.1;
         JobId::try_parse(&id).map(JobPath).map_err(|_| Problem::no_such_job(&id))
     }
+}
+
+/// What is wrong with a query.
+pub(super) fn query_fault(rejection: &QueryRejection) -> Problem {
+    let text = rejection.body_text();
+    Problem::of(kinds::BAD_QUERY, text.strip_prefix("Failed to deserialize query string: ").unwrap_or(&text))
 }
 
 /// The job of this name.

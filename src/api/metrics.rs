@@ -68,6 +68,9 @@ impl Default for Metrics {
             streams: Gauge::default(),
         };
         registry.register("http_requests", "Requests answered", metrics.requests.clone());
+        for status in [Status::Successful, Status::Failed, Status::Dismissed] {
+            drop(metrics.jobs.get_or_create(&Outcome { outcome: word(status) }));
+        }
         registry.register("jobs", "Jobs that have ended", metrics.jobs.clone());
         let (seconds, events) = (metrics.seconds.clone(), metrics.events.clone());
         registry.register_with_unit("analysis", "Time a worker spent on a job", Unit::Seconds, seconds);

@@ -10,7 +10,7 @@ pub(super) fn history(history: &HistoryColumns) -> csv::Result<Vec<u8>> {
     let names = ["load_factor", "intensity", "crown_x_m", "crown_y_m", "largest_m"];
     let columns =
         [&history.load_factor, &history.intensity, &history.crown_x_m, &history.crown_y_m, &history.largest_m];
-    let rows = (0..history.load_factor.len()).map(|row| columns.map(|column| column[row]));
+    let rows = (0..history.load_factor.len()).map(|row| columns.map(|column| text(column[row])));
     table(&names.map(str::to_owned), rows)
 }
 
@@ -24,21 +24,27 @@ pub(super) fn field(field: &StressFieldBody) -> csv::Result<Vec<u8>> {
     names.extend((0..4).flat_map(|corner| ["x", "y"].map(|axis| format!("corner_{corner}_{axis}_m"))));
     names.extend(["sigma_x_pa", "sigma_y_pa", "tau_xy_pa", "sigma_1_pa", "sigma_2_pa", "tresca_pa"].map(str::to_owned));
     let row = |i: usize| {
-        let places = [all.voussoir[i], all.radial[i], all.along[i]].map(|count| count as f64);
+        let places = [all.voussoir[i], all.radial[i], all.along[i]].map(|count| count.to_string());
         let corners = all.corners_x_m[i].into_iter().zip(all.corners_y_m[i]).flat_map(|(x, y)| [x, y]);
         let stresses = [&all.sigma_x_pa, &all.sigma_y_pa, &all.tau_xy_pa, &all.sigma_1_pa, &all.sigma_2_pa];
-        let numbers = places.into_iter().chain([all.centre_x_m[i], all.centre_y_m[i]]).chain(corners);
-        numbers.chain(stresses.map(|column| column[i])).chain([all.tresca_pa[i]]).collect::<Vec<f64>>()
+        let numbers = [all.centre_x_m[i], all.centre_y_m[i]].into_iter().chain(corners);
+        let numbers = numbers.chain(stresses.map(|column| column[i])).chain([all.tresca_pa[i]]);
+        places.into_iter().chain(numbers.map(text)).collect::<Vec<_>>()
     };
     table(&names, (0..all.voussoir.len()).map(row))
 }
 
-/// Names and rows as comma-separated values; every number as short as it can be and still be read back the same.
-fn table<Row: IntoIterator<Item = f64>>(names: &[String], rows: impl Iterator<Item = Row>) -> csv::Result<Vec<u8>> {
+/// A number as short as it can be and still be read back the same.
+fn text(number: f64) -> String {
+    format!("{number:?}")
+}
+
+/// Names and rows as comma-separated values.
+fn table<Row: IntoIterator<Item = String>>(names: &[String], rows: impl Iterator<Item = Row>) -> csv::Result<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(names)?;
     for row in rows {
-        writer.write_record(row.into_iter().map(|number| number.to_string()))?;
+        writer.write_record(row)?;
     }
     writer.into_inner().map_err(|error| error.into_error().into())
 }

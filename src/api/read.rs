@@ -1,9 +1,9 @@
 //! JSON to a request, with everything that is wrong in its structure.
 
 use super::fault::{Fault, Faults, child, lies_under, listed};
+use super::plain_words::in_plain_words;
 use super::request::{AnalysisRequest, BeamRequest, JointsRequest, LineRequest, ProfileRequest, Request};
-use super::wording::in_plain_words;
-use super::{kinds, translate, tree};
+use super::{shape, translate, tree};
 use crate::collapse::{Analysis, Question};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -72,7 +72,7 @@ fn read_structure(body: &[u8]) -> (Option<Request>, Faults) {
         Ok(parsed) => parsed,
         Err(error) => {
             // serde_json's message ends with line and column.
-            faults.add("", format!("the body is not valid JSON: {error}"));
+            faults.add("", format!("the body cannot be read as JSON: {error}"));
             return (None, faults);
         }
     };
@@ -128,7 +128,7 @@ fn read_tree<R: DeserializeOwned + Serialize>(
             Ok((request, unknown)) => {
                 let stands_in = |pointer: &String| mended.iter().any(|place| lies_under(pointer, place));
                 let read = serde_json::to_value(&request).unwrap_or_default();
-                for fault in kinds::mistaken(&tree, &read).into_iter().filter(|fault| !stands_in(&fault.pointer)) {
+                for fault in shape::mistaken(&tree, &read).into_iter().filter(|fault| !stands_in(&fault.pointer)) {
                     faults.add(fault.pointer, fault.detail);
                 }
                 for pointer in unknown.into_iter().filter(|pointer| !stands_in(pointer)) {
@@ -148,6 +148,7 @@ fn read_tree<R: DeserializeOwned + Serialize>(
             }
         }
     }
+    faults.add("", "and perhaps more: mend these first");
     None
 }
 
@@ -178,7 +179,7 @@ fn list_around<R: DeserializeOwned>(tree: &Value, pointer: &str) -> Option<Fault
             fault.pointer == place && !fault.detail.contains("missing") && fault.detail.contains("expected")
         });
         if !belongs {
-            return Some(kinds::list_for_object(place.to_owned()));
+            return Some(shape::list_for_object(place.to_owned()));
         }
     }
     None

@@ -3,7 +3,8 @@
 use super::body::Aside;
 use super::etag::Version;
 use super::format::Format;
-use super::jobs::{JobPath, find};
+use super::jobs::{JobPath, find, query_fault};
+use super::outgoing::Outgoing;
 use super::problem::{Problem, kinds};
 use super::request::{Request, StressFieldRequest};
 use super::response::{HistoryColumns, JobResult, StressFieldBody, line};
@@ -37,6 +38,7 @@ struct FormatQuery {
 pub(super) struct Asked {
     job: Finished,
     aside: Aside,
+    outgoing: Outgoing,
     f: Option<String>,
     headers: HeaderMap,
 }
@@ -53,7 +55,7 @@ impl FromRequestParts<Service> for Asked {
     async fn from_request_parts(parts: &mut Parts, service: &Service) -> Result<Self, Problem> {
         let JobPath(id) = JobPath::from_request_parts(parts, service).await?;
         let query: Result<Query<FormatQuery>, QueryRejection> = Query::from_request_parts(parts, service).await;
-        let Query(FormatQuery { f }) = query.map_err(|bad| Problem::of(kinds::BAD_QUERY, bad.body_text()))?;
+        let Query(FormatQuery { f }) = query.map_err(|bad| query_fault(&bad))?;
         let job = find(service, id)?;
         let answer = match &job.state {
             State::Accepted | State::Running => return Err(Problem::result_not_ready(id)),
@@ -61,8 +63,8 @@ impl FromRequestParts<Service> for Asked {
             State::Failed(failure) => return Err(failure.into()),
             State::Successful(answer) => answer.clone(),
         };
-        let (job, aside) = (Finished { job, answer }, service.aside.clone());
-        Ok(Asked { job, aside, f, headers: parts.headers.clone() })
+        let (aside, outgoing) = (service.aside.clone(), service.outgoing.clone());
+        Ok(Asked { job: Finished { job, answer }, aside, outgoing, f, headers: parts.headers.clone() })
     }
 }
 
@@ -74,14 +76,14 @@ impl Asked {
         offered: &[Format],
         write: impl FnOnce(&Finished, Format) -> Result<Vec<u8>, Problem> + Send + 'static,
     ) -> Result<Response, Problem> {
-        let Asked { job, aside, f, headers } = self;
+        let Asked { job, aside, outgoing, f, headers } = self;
         let format = Format::choose(f.as_deref(), &headers, offered)?;
         let version = Version::of((job.job.id, part, format));
         let mut response = match version.known(&headers) {
             Some(response) => response,
             None => {
-                let body = aside.run(move || write(&job, format)).await?;
-                version.mark(([(header::CONTENT_TYPE, format.content_type())], body))
+                let answer = aside.run(move || write(&job, format)).await?;
+                version.mark(([(header::CONTENT_TYPE, format.content_type())], outgoing.body(answer)?))
             }
         };
         response.headers_mut().append(header::VARY, HeaderValue::from_static("accept"));

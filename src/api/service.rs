@@ -4,6 +4,7 @@ use super::body::Aside;
 use super::layers::Tokens;
 use super::limits::Limits;
 use super::metrics::Metrics;
+use super::outgoing::Outgoing;
 use super::request::Request;
 use super::response::{JobResult, weight};
 use super::translate;
@@ -42,6 +43,7 @@ pub struct Service {
     pub(super) metrics: Metrics,
     pub(super) streams: Arc<Semaphore>,
     pub(super) aside: Aside,
+    pub(super) outgoing: Outgoing,
 }
 
 impl Service {
@@ -57,8 +59,8 @@ impl Service {
         let Settings { limits, tokens, origins } = settings;
         let streams = Arc::new(Semaphore::new(limits.streams));
         let (jobs, stopping) = (Arc::new(jobs), CancellationToken::new());
-        let aside = Aside::default();
-        Ok(Service { jobs, stopping, limits, tokens, origins, metrics, streams, aside })
+        let (aside, outgoing) = (Aside::default(), Outgoing::new(limits.outgoing));
+        Ok(Service { jobs, stopping, limits, tokens, origins, metrics, streams, aside, outgoing })
     }
 }
 

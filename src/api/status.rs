@@ -1,6 +1,7 @@
 //! The status body of a job, after the statusInfo of OGC API - Processes, in snake_case.
 
 use super::problem::Problem;
+use super::request::Request;
 use super::timestamp::rfc3339;
 use crate::collapse::LoadStep;
 use crate::jobs::{Job, JobId, State, Status};
@@ -59,6 +60,8 @@ pub struct JobStatus {
     /// Its name, a UUID of version 7.
     #[schema(format = "uuid")]
     job_id: String,
+    /// What the request calls itself.
+    name: Option<String>,
     /// Always `process`.
     #[serde(rename = "type")]
     #[schema(example = "process")]
@@ -128,10 +131,11 @@ impl Links {
     }
 }
 
-impl<R> From<&Job<R>> for JobStatus {
-    fn from(job: &Job<R>) -> Self {
+impl From<&Job<Request>> for JobStatus {
+    fn from(job: &Job<Request>) -> Self {
         JobStatus {
             job_id: job.id.to_string(),
+            name: job.request.name().map(str::to_owned),
             kind: "process",
             status: job.status().into(),
             created: rfc3339(job.created.wall),

@@ -74,9 +74,9 @@ pub(super) async fn submit(
 
 /// The job when it has ended, or as it stands after `wait`.
 async fn waited_for(state: &Service, job: Job<Request>, wait: Duration) -> Job<Request> {
-    // Timed out or ended, what counts is how the job stands then; it may be forgotten already.
+    // Timed out or ended, what counts is how the job stands then; the store may have forgotten it already.
     let _ = tokio::time::timeout(wait, job.progress.ended()).await;
-    state.jobs.get(job.id).unwrap_or(job)
+    state.jobs.get(job.id).unwrap_or_else(|| job.now())
 }
 
 /// A request that would be accepted.
@@ -120,10 +120,13 @@ async fn read_within(state: &Service, body: Bytes) -> Result<(Request, usize), P
 }
 
 fn idempotency_key(headers: &HeaderMap) -> Result<Option<&str>, Problem> {
-    let Some(value) = headers.get(IDEMPOTENCY_KEY) else { return Ok(None) };
-    let key = value.to_str().unwrap_or_default();
+    let mut values = headers.get_all(IDEMPOTENCY_KEY).iter();
+    let Some(value) = values.next() else { return Ok(None) };
+    let key = value.to_str().ok().filter(|_| values.next().is_none()).unwrap_or_default();
     let plain = (1..=LONGEST_KEY).contains(&key.len()) && key.bytes().all(|byte| byte.is_ascii_graphic());
-    let detail = format!("idempotency-key has to be 1 to {LONGEST_KEY} printable ASCII characters without blanks");
+    let detail = format!(
+        "idempotency-key has to be given once, as 1 to {LONGEST_KEY} printable ASCII characters without blanks"
+    );
     if plain { Ok(Some(key)) } else { Err(Problem::of(kinds::BAD_HEADER, detail)) }
 }
 

@@ -34,7 +34,7 @@ pub fn serve(options: &Serve) -> ExitCode {
 }
 
 fn run(options: &Serve) -> io::Result<()> {
-    let (limits, settings) = (options.job_limits(), options.settings());
+    let (limits, settings) = (options.job_limits(), options.settings()?);
     let request_time = settings.limits.request_time;
     let listener = TcpListener::bind(&options.address.bind)?;
     listener.set_nonblocking(true)?;
@@ -80,14 +80,23 @@ impl<S> Accept<TcpStream, S> for Patient {
 }
 
 /// Once told to stop: accepts no more jobs and ends event streams, lets jobs end within `grace` while everyone can still
-/// ask for them, cancels the rest, and then lets the last answers out.
+/// ask for them, or until told a second time, cancels the rest, and then lets the last answers out.
 async fn end(service: Service, handle: Handle<SocketAddr>, grace: Duration) {
     asked_to_stop().await;
     tracing::info!("stopping");
     service.jobs.close();
     service.stopping.cancel();
+    let jobs = service.jobs.clone();
     #[allow(clippy::disallowed_methods, reason = "waits for the workers, which takes a thread but no core")]
-    let idle = tokio::task::spawn_blocking(move || service.jobs.shutdown(grace)).await;
+    let mut idle = tokio::task::spawn_blocking(move || jobs.shutdown(grace));
+    let idle = tokio::select! {
+        idle = &mut idle => idle,
+        () = asked_to_stop() => {
+            tracing::info!("stopping at once");
+            service.jobs.cancel_all();
+            idle.await
+        }
+    };
     if !matches!(idle, Ok(true)) {
         tracing::warn!("an analysis would not stop");
     }

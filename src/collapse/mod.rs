@@ -238,7 +238,7 @@ pub struct CurvedBeam {
 pub struct LoadStep {
     /// Load factor now.
     pub load_factor: f64,
-    /// Contact events so far.
+    /// Contact events so far, on all paths of the analysis together.
     pub events: usize,
 }
 

@@ -8,6 +8,8 @@ use std::ops::ControlFlow;
 /// Tells the watch of every step, and of the same step again at every heartbeat until the next.
 pub(super) struct Pulse<'w> {
     last: &'w Cell<LoadStep>,
+    /// Events of the paths before this one, and of this one so far.
+    events: Cell<[usize; 2]>,
     /// Beats in long work between steps.
     pub heart: Heart<'w>,
 }
@@ -22,17 +24,21 @@ pub(super) fn watched<T>(
 ) -> Result<T, AnalysisError> {
     let (watch, last) = (RefCell::new(watch), Cell::new(LoadStep { load_factor: 0.0, events: 0 }));
     let ask = || watch.borrow_mut().on_step(&last.get()).map_break(|_| ());
-    let pulse = Pulse { last: &last, heart: Heart::new(&ask) };
+    let pulse = Pulse { last: &last, events: Cell::default(), heart: Heart::new(&ask) };
     let result = run(&pulse);
     pulse.check()?;
     result
 }
 
 impl Pulse<'_> {
-    /// A step of a path; breaks where the watch asks to stop.
+    /// A step of a path, with its events so far; breaks where the watch asks to stop. A path with fewer events than were told
+    /// last is another one, so that the watch sees those of all paths together.
     pub(super) fn step(&self, load_factor: f64, events: usize) -> ControlFlow<()> {
         if self.heart.check().is_ok() {
-            self.last.set(LoadStep { load_factor, events });
+            let [before, latest] = self.events.get();
+            let before = if events < latest { before + latest } else { before };
+            self.events.set([before, events]);
+            self.last.set(LoadStep { load_factor, events: before + events });
         }
         self.beat()
     }

@@ -45,6 +45,19 @@ pub enum State {
     Dismissed,
 }
 
+impl State {
+    /// In one word.
+    pub fn status(&self) -> Status {
+        match self {
+            State::Accepted => Status::Accepted,
+            State::Running => Status::Running,
+            State::Successful(_) => Status::Successful,
+            State::Failed(_) => Status::Failed,
+            State::Dismissed => Status::Dismissed,
+        }
+    }
+}
+
 /// What a worker makes of a request.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Product {
@@ -98,6 +111,17 @@ impl Moment {
     }
 }
 
+/// How a job stands: what changes of it.
+#[derive(Debug, Clone)]
+pub struct Stand {
+    /// Where it stands.
+    pub state: State,
+    /// When a worker took it.
+    pub started: Option<Moment>,
+    /// When it reached a final state.
+    pub finished: Option<Moment>,
+}
+
 /// A job as it stood when the store was asked; cheap to copy.
 #[derive(Debug)]
 pub struct Job<R> {
@@ -149,18 +173,19 @@ impl<R> Job<R> {
             Status::Running => self.started = Some(now),
             _ => self.finished = Some(now),
         }
-        self.progress.tell(status);
+        let Job { state, started, finished, .. } = &*self;
+        self.progress.tell(Stand { state: state.clone(), started: *started, finished: *finished });
+    }
+
+    /// The job as it stands now, also where the store has forgotten it.
+    pub fn now(&self) -> Self {
+        let Stand { state, started, finished } = self.progress.stand().borrow().clone();
+        Job { state, started, finished, position: None, ..self.clone() }
     }
 
     /// The state in one word.
     pub fn status(&self) -> Status {
-        match self.state {
-            State::Accepted => Status::Accepted,
-            State::Running => Status::Running,
-            State::Successful(_) => Status::Successful,
-            State::Failed(_) => Status::Failed,
-            State::Dismissed => Status::Dismissed,
-        }
+        self.state.status()
     }
 
     /// Time a worker spent on it, once it has ended.

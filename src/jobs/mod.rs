@@ -9,7 +9,7 @@ mod store;
 mod table;
 mod worker;
 
-pub use job::{Failure, Job, JobId, Moment, Product, State, Status};
+pub use job::{Failure, Job, JobId, Moment, Product, Stand, State, Status};
 pub use progress::Progress;
 pub use store::{Analyse, Dismissal, Ended, JobStore};
 pub use table::{Load, Refusal, Submission};

@@ -1,6 +1,6 @@
 //! How far a job has come, and the wish to stop it: what its worker and everyone else share.
 
-use super::job::Status;
+use super::job::{Stand, State};
 use crate::collapse::{LoadStep, Stop, Watch};
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
@@ -13,17 +13,17 @@ pub struct Progress {
     load_factor: AtomicU64,
     events: AtomicUsize,
     stop: AtomicBool,
-    status: watch::Sender<Status>,
+    stand: watch::Sender<Stand>,
 }
 
 impl Default for Progress {
     fn default() -> Self {
-        let status = watch::Sender::new(Status::Accepted);
+        let stand = watch::Sender::new(Stand { state: State::Accepted, started: None, finished: None });
         Progress {
             load_factor: AtomicU64::default(),
             events: AtomicUsize::default(),
             stop: AtomicBool::default(),
-            status,
+            stand,
         }
     }
 }
@@ -37,15 +37,15 @@ impl Progress {
         events.checked_sub(1).map(|events| LoadStep { load_factor, events })
     }
 
-    /// The status and whatever becomes of it.
-    pub fn status(&self) -> watch::Receiver<Status> {
-        self.status.subscribe()
+    /// How the job stands, and whatever becomes of it.
+    pub fn stand(&self) -> watch::Receiver<Stand> {
+        self.stand.subscribe()
     }
 
     /// Returns when the job has reached a final state.
     pub async fn ended(&self) {
         // The sender lives as long as `self`, so there is always an answer.
-        let _ = self.status().wait_for(|status| status.is_final()).await;
+        let _ = self.stand().wait_for(|stand| stand.state.status().is_final()).await;
     }
 
     /// Asks the analysis to stop at its next step.
@@ -54,8 +54,8 @@ impl Progress {
     }
 
     /// Lets those who wait know where the job stands.
-    pub(super) fn tell(&self, status: Status) {
-        self.status.send_replace(status);
+    pub(super) fn tell(&self, stand: Stand) {
+        self.stand.send_replace(stand);
     }
 }
 

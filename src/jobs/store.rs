@@ -154,12 +154,7 @@ impl<R> JobStore<R> {
         }
         self.close();
         if !self.wait_until_idle(grace) {
-            for id in self.shared.books(|table| table.active()) {
-                if let Some(job) = self.shared.books(|table| table.cancel(id)) {
-                    (self.shared.ended)(&job);
-                }
-            }
-            self.shared.work.notify_all();
+            self.cancel_all();
         }
         let idle = self.wait_until_idle(LAST_STEP);
         if idle {
@@ -170,6 +165,17 @@ impl<R> JobStore<R> {
         }
         *over = Some(idle);
         idle
+    }
+
+    /// Cancels every job that has not ended.
+    pub fn cancel_all(&self) {
+        for id in self.shared.books(|table| table.active()) {
+            if let Some(job) = self.shared.books(|table| table.cancel(id)) {
+                (self.shared.ended)(&job);
+            }
+        }
+        self.shared.work.notify_all();
+        self.shared.back.notify_all();
     }
 
     fn wait_until_idle(&self, patience: Duration) -> bool {

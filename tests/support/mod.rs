@@ -99,6 +99,7 @@ pub fn settings() -> Settings {
         voussoirs: 200,
         subblocks: 1000,
         streams: 3,
+        outgoing: 1 << 20,
     };
     Settings { limits, tokens: Tokens::default(), origins: vec![] }
 }

@@ -29,6 +29,12 @@ use tracing::field::Empty;
 /// A page from here loads nothing, and nothing may frame it; the API browser brings a policy of its own.
 const POLICY: HeaderValue = HeaderValue::from_static("default-src 'none'; frame-ancestors 'none'");
 
+/// Longest path and request id in the log, characters.
+const LONGEST_LOGGED: usize = 200;
+
+/// Unless an answer says otherwise, whoever keeps it has to ask whether it still holds.
+const ASK_AGAIN: HeaderValue = HeaderValue::from_static("no-cache");
+
 /// Shuts `router` to those without a token.
 pub(super) fn guard(router: Router<Service>, tokens: Tokens) -> Router<Service> {
     router.route_layer(from_fn_with_state(tokens, auth::admit))
@@ -47,6 +53,7 @@ pub(super) fn wrap(router: Router, service: &Service) -> Router {
         .layer(option_layer((!service.origins.is_empty()).then(|| cors(&service.origins))))
         .layer(from_fn_with_state(service.clone(), count))
         .layer(SetResponseHeaderLayer::if_not_present(header::CONTENT_SECURITY_POLICY, POLICY))
+        .layer(SetResponseHeaderLayer::if_not_present(header::CACHE_CONTROL, ASK_AGAIN))
         .layer(SetResponseHeaderLayer::overriding(header::X_CONTENT_TYPE_OPTIONS, no_sniffing))
         .layer(trace)
         .layer(PropagateRequestIdLayer::x_request_id())
@@ -87,7 +94,7 @@ async fn count(State(service): State<Service>, request: Request<Body>, next: Nex
 }
 
 async fn no_such_path(uri: Uri) -> Problem {
-    Problem::no_such_path(uri.path())
+    Problem::no_such_path(cut(uri.path()))
 }
 
 async fn method_not_allowed() -> Problem {
@@ -100,11 +107,21 @@ fn panicked(_: Box<dyn Any + Send + 'static>) -> Response {
 }
 
 fn span(request: &Request<Body>) -> Span {
-    let id = request.extensions().get::<RequestId>().and_then(|id| id.header_value().to_str().ok());
-    let (method, path) = (request.method(), request.uri().path());
+    let id = request.extensions().get::<RequestId>().and_then(|id| id.header_value().to_str().ok()).map(cut);
+    let (method, path) = (request.method(), cut(request.uri().path()));
     tracing::info_span!("request", %method, path, request.id = id, job.id = Empty)
 }
 
 fn log(response: &Response, latency: Duration, _: &Span) {
-    tracing::info!(status = response.status().as_u16(), ms = latency.as_secs_f64() * 1e3, "answered");
+    let (status, ms) = (response.status().as_u16(), latency.as_secs_f64() * 1e3);
+    match response.status().is_server_error() {
+        true => tracing::warn!(status, ms, "answered"),
+        false => tracing::info!(status, ms, "answered"),
+    }
+}
+
+/// The beginning of what a client sent, short enough for a line.
+fn cut(text: &str) -> &str {
+    let end = text.char_indices().nth(LONGEST_LOGGED).map_or(text.len(), |(end, _)| end);
+    &text[..end]
 }

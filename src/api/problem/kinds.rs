@@ -71,6 +71,9 @@ pub const QUEUE_FULL: Kind =
 /// The jobs that have not ended fill the memory.
 pub const MEMORY_FULL: Kind =
     kind("urn:voussoir:problem:memory-full", StatusCode::SERVICE_UNAVAILABLE, "The memory for jobs is full");
+/// The answers on their way fill the memory.
+pub const ANSWERS_FULL: Kind =
+    kind("urn:voussoir:problem:answers-full", StatusCode::SERVICE_UNAVAILABLE, "Too many answers are on their way");
 /// As many event streams are open as may.
 pub const STREAMS_FULL: Kind =
     kind("urn:voussoir:problem:streams-full", StatusCode::SERVICE_UNAVAILABLE, "Too many event streams are open");
@@ -79,7 +82,7 @@ pub const SHUTTING_DOWN: Kind =
     kind("urn:voussoir:problem:shutting-down", StatusCode::SERVICE_UNAVAILABLE, "The service is shutting down");
 
 /// All of them, as the README lists them.
-pub const KINDS: [Kind; 17] = [
+pub const KINDS: [Kind; 18] = [
     INVALID_REQUEST,
     NOT_JSON,
     BAD_QUERY,
@@ -95,6 +98,7 @@ pub const KINDS: [Kind; 17] = [
     CLIENT_QUEUE_FULL,
     QUEUE_FULL,
     MEMORY_FULL,
+    ANSWERS_FULL,
     STREAMS_FULL,
     SHUTTING_DOWN,
 ];

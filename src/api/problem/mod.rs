@@ -59,6 +59,12 @@ impl Problem {
         Problem::plain(StatusCode::UNSUPPORTED_MEDIA_TYPE, detail)
     }
 
+    /// The body is compressed.
+    pub fn encoded() -> Self {
+        let detail = "send the body as it is, without content-encoding";
+        Problem::plain(StatusCode::UNSUPPORTED_MEDIA_TYPE, detail)
+    }
+
     /// The body is too long.
     pub fn too_long(limit: usize) -> Self {
         Problem::plain(StatusCode::PAYLOAD_TOO_LARGE, format!("the body may have at most {limit} bytes"))
@@ -122,7 +128,7 @@ impl Problem {
     }
 
     /// True where trying again later may help.
-    fn passes(&self) -> bool {
+    fn invites_retry(&self) -> bool {
         matches!(self.status, 429 | 503) || self.kind == kinds::RESULT_NOT_READY.uri
     }
 }
@@ -158,7 +164,7 @@ impl IntoResponse for Problem {
         let mut response = (status, [(header::CONTENT_TYPE, MEDIA_TYPE)], body).into_response();
         let headers = response.headers_mut();
         headers.insert(header::CACHE_CONTROL, HeaderValue::from_static("no-store"));
-        if self.passes() {
+        if self.invites_retry() {
             headers.insert(header::RETRY_AFTER, HeaderValue::from(RETRY_AFTER));
         }
         if status == StatusCode::UNAUTHORIZED {

@@ -9,7 +9,7 @@ use utoipa::ToSchema;
 pub struct BeamRequest {
     /// A name to find it again, up to 200 characters.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schema(max_length = 200)]
+    #[schema(max_length = 200, pattern = "^[^\\x00-\\x1f\\x7f]*$")]
     pub name: Option<String>,
     /// The beam.
     pub curved_beam: CurvedBeamRequest,

@@ -33,12 +33,22 @@ pub enum Request {
     CurvedBeam(Box<BeamRequest>),
 }
 
+impl Request {
+    /// What the request calls itself.
+    pub fn name(&self) -> Option<&str> {
+        match self {
+            Request::Arch(request) => request.name.as_deref(),
+            Request::CurvedBeam(request) => request.name.as_deref(),
+        }
+    }
+}
+
 /// One question: when does this arch fall, or how safe is it?
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct AnalysisRequest {
     /// A name to find it again, up to 200 characters.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schema(max_length = 200)]
+    #[schema(max_length = 200, pattern = "^[^\\x00-\\x1f\\x7f]*$")]
     pub name: Option<String>,
     /// The arch. Springing level y = 0, mid-span x = 0.
     pub arch: ArchRequest,
@@ -158,7 +168,7 @@ pub struct LoadFactorRequest {
     #[schema(exclusive_minimum = 0.0, maximum = 1e12)]
     pub cap: Option<f64>,
     /// Unit of the intensity, such as `kN/m` or `m`: a label only.
-    #[schema(max_length = 200)]
+    #[schema(max_length = 200, pattern = "^[^\\x00-\\x1f\\x7f]*$")]
     pub unit: String,
     /// Intensity at load factor 1.
     #[schema(exclusive_minimum = 0.0, maximum = 1e12)]

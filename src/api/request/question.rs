@@ -89,7 +89,7 @@ pub struct CurveRequest {
     pub abscissae: Vec<f64>,
     /// Their unit: a label only.
     #[serde(default = "CurveRequest::no_unit")]
-    #[schema(max_length = 200)]
+    #[schema(max_length = 200, pattern = "^[^\\x00-\\x1f\\x7f]*$")]
     pub unit: String,
 }
 

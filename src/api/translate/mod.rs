@@ -65,8 +65,10 @@ fn arch_question(request: &AnalysisRequest, faults: &mut Faults) -> Option<Quest
     }
 }
 
-/// Whether a text is short enough.
+/// Whether a text is short enough and stands on one line.
 fn check_text(pointer: &str, text: &str, faults: &mut Faults) {
     let detail = format!("this text is too long: shorten it to {MAX_TEXT} characters");
     faults.require(text.chars().count() <= MAX_TEXT, pointer, detail);
+    let detail = "this text has a line break or another control character: leave it out";
+    faults.require(!text.chars().any(|c| c.is_ascii_control()), pointer, detail);
 }
