@@ -1,5 +1,5 @@
 //! The real program with clients that are slow, rude or gone, and told to stop: what `tests/load` does at length.
-#![cfg(feature = "server")]
+#![cfg(all(feature = "server", unix))]
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test stops at the first surprise")]
 #![allow(clippy::disallowed_methods, reason = "tests wait for jobs by looking again")]
 #![allow(dead_code, reason = "tests/load uses the rest")]
