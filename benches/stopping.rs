@@ -13,6 +13,10 @@
     reason = "a benchmark prints and may panic"
 )]
 
+#[path = "../tests/common/semicircle.rs"]
+mod semicircle;
+
+use semicircle::{mesh, semicircle};
 use serde_json::{Value, json};
 use std::backtrace::Backtrace;
 use std::ops::ControlFlow;
@@ -99,29 +103,6 @@ fn run(question: &Question, watch: &mut dyn Watch) -> String {
     }
 }
 
-/// A request about a semicircle of so many voussoirs under its weight and a load at the quarter point, with `more`.
-fn semicircle(voussoirs: usize, more: Value) -> Value {
-    let mut request = json!({
-        "arch": {
-            "profile": {"circular": {"radius_m": 10.0, "opening_angle_deg": 180.0}},
-            "thickness": {"constant_m": 1.5},
-            "voussoirs": voussoirs,
-        },
-        "loads": [
-            {"load": {"self_weight": {}}},
-            {"load": {"point_load": {"force_n_per_m": 1000.0, "x_m": -5.0}}, "scaled": true},
-        ],
-    });
-    for (name, value) in more.as_object().unwrap() {
-        request[name] = value.clone();
-    }
-    request
-}
-
-fn mesh(radial: usize, along: usize) -> Value {
-    json!({"subblocks": {"uniform": {"radial": radial, "along": along}}})
-}
-
 /// Stones of `count` kinds of mesh in turn: joints then have the contact points of both sides.
 fn mixed(voussoirs: usize, along: usize) -> Value {
     let each: Vec<Value> = (0..voussoirs).map(|k| json!({"radial": 47 + k % 2, "along": along})).collect();
@@ -136,14 +117,14 @@ fn settlement(outwards: f64) -> (Value, Value) {
 
 fn settling(voussoirs: usize, more: Value) -> Value {
     let (analysis, loads) = settlement(0.2);
-    let mut request = semicircle(voussoirs, more);
+    let mut request = semicircle(voussoirs, &more);
     (request["analysis"], request["loads"]) = (analysis, loads);
     request
 }
 
 fn curve(voussoirs: usize, points: usize, more: Value) -> Value {
     let abscissae: Vec<f64> = (1..=points).map(|i| 0.1 + i as f64 / points as f64).collect();
-    let mut request = semicircle(voussoirs, more);
+    let mut request = semicircle(voussoirs, &more);
     request["analysis"] = json!({"safety": {"crushing": "plastic_section", "curve": {"abscissae": abscissae}}});
     request["loads"][1]["per_abscissa"] = json!(true);
     request
@@ -156,19 +137,19 @@ fn requests() -> Vec<(&'static str, Value)> {
     let motion = |frames: usize| json!({"most_frames": frames, "share_of_span": 1.0});
     vec![
         ("beam, 48 x 48", json!({"curved_beam": beam, "mesh": mesh(48, 48)})),
-        ("mesh, 43 voussoirs of 48 x 48", semicircle(43, json!({"mesh": mesh(48, 48)}))),
-        ("mesh, 43 of 47 and 48 x 48 in turn", semicircle(43, json!({"mesh": mixed(43, 48)}))),
-        ("mesh, 2001 of 48 x 1", semicircle(2001, json!({"mesh": mesh(48, 1)}))),
-        ("fields, 43 of 48 x 48", semicircle(43, json!({"mesh": mesh(48, 48), "report": {"stress_fields": fields}}))),
-        ("fields, 2001 of 7 x 7", semicircle(2001, json!({"mesh": mesh(7, 7), "report": {"stress_fields": fields}}))),
-        ("path, 2001", semicircle(2001, json!({}))),
-        ("crushing, 2001 of weak stone", semicircle(2001, json!({"stone": {"compressive_strength_pa": 2e6}}))),
-        ("updated, 2001", semicircle(2001, json!({"geometry": "updated"}))),
-        ("updated, 43 of 48 x 48", semicircle(43, json!({"geometry": "updated", "mesh": mesh(48, 48)}))),
+        ("mesh, 43 voussoirs of 48 x 48", semicircle(43, &json!({"mesh": mesh(48, 48)}))),
+        ("mesh, 43 of 47 and 48 x 48 in turn", semicircle(43, &json!({"mesh": mixed(43, 48)}))),
+        ("mesh, 2001 of 48 x 1", semicircle(2001, &json!({"mesh": mesh(48, 1)}))),
+        ("fields, 43 of 48 x 48", semicircle(43, &json!({"mesh": mesh(48, 48), "report": {"stress_fields": fields}}))),
+        ("fields, 2001 of 7 x 7", semicircle(2001, &json!({"mesh": mesh(7, 7), "report": {"stress_fields": fields}}))),
+        ("path, 2001", semicircle(2001, &json!({}))),
+        ("crushing, 2001 of weak stone", semicircle(2001, &json!({"stone": {"compressive_strength_pa": 2e6}}))),
+        ("updated, 2001", semicircle(2001, &json!({"geometry": "updated"}))),
+        ("updated, 43 of 48 x 48", semicircle(43, &json!({"geometry": "updated", "mesh": mesh(48, 48)}))),
         ("settlement, 2001, updated", settling(2001, json!({"geometry": "updated"}))),
         ("settlement, 43 of 48 x 48, updated", settling(43, json!({"geometry": "updated", "mesh": mesh(48, 48)}))),
-        ("motion, 20 for 3000 frames", semicircle(20, json!({"motion": motion(3000)}))),
-        ("motion, 2000 for 30 frames", semicircle(2000, json!({"motion": motion(30)}))),
+        ("motion, 20 for 3000 frames", semicircle(20, &json!({"motion": motion(3000)}))),
+        ("motion, 2000 for 30 frames", semicircle(2000, &json!({"motion": motion(30)}))),
         ("curve, 500 abscissae, 499", curve(499, 500, json!({}))),
         ("curve, 10 abscissae, 43 of 48 x 48", curve(43, 10, json!({"mesh": mesh(48, 48)}))),
     ]

@@ -2,6 +2,10 @@
 #![cfg(feature = "server")]
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
+#[path = "common/places.rs"]
+mod places;
+
+use places::places;
 use proptest::prelude::*;
 use serde_json::{Value, json};
 use voussoir::api::fault::Fault;
@@ -513,16 +517,6 @@ fn any_json() -> impl Strategy<Value = Value> {
                 .prop_map(|members| Value::Object(members.into_iter().collect())),
         ]
     })
-}
-
-/// Pointers to all values of a tree.
-fn places(tree: &Value, here: &str, all: &mut Vec<String>) {
-    all.push(here.to_owned());
-    match tree {
-        Value::Object(object) => object.iter().for_each(|(key, value)| places(value, &format!("{here}/{key}"), all)),
-        Value::Array(list) => list.iter().enumerate().for_each(|(i, value)| places(value, &format!("{here}/{i}"), all)),
-        _ => {}
-    }
 }
 
 proptest! {

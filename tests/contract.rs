@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may panic, and says its counts")]
 
 use bodies::{bodies, with, without};
+use places::places;
 use schema::{Leaf, document, is, leaves, validator};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
@@ -14,6 +15,8 @@ use voussoir::api::read::{read, read_question};
 mod bodies;
 #[path = "common/folders.rs"]
 mod folders;
+#[path = "common/places.rs"]
+mod places;
 #[path = "contract/schema.rs"]
 mod schema;
 
@@ -169,16 +172,6 @@ fn units_of_numbers_are_said() {
         if let Some((_, unit)) = units.iter().find(|(ending, _)| leaf.path.ends_with(ending)) {
             assert!(description.contains(unit), "{}: {description}", leaf.path);
         }
-    }
-}
-
-/// Pointers to all values of a tree.
-fn places(tree: &Value, here: &str, all: &mut Vec<String>) {
-    all.push(here.to_owned());
-    match tree {
-        Value::Object(object) => object.iter().for_each(|(key, value)| places(value, &format!("{here}/{key}"), all)),
-        Value::Array(list) => list.iter().enumerate().for_each(|(i, value)| places(value, &format!("{here}/{i}"), all)),
-        _ => {}
     }
 }
 

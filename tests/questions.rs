@@ -2,6 +2,10 @@
 #![cfg(feature = "server")]
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
+#[path = "common/places.rs"]
+mod places;
+
+use places::places;
 use proptest::prelude::*;
 use serde_json::{Value, json};
 use voussoir::api::fault::Fault;
@@ -400,16 +404,6 @@ fn the_bodies_in_the_readme_are_good() {
             body["arch"] = curve()["arch"].take();
         }
         question(&body);
-    }
-}
-
-/// Pointers to all values of a tree.
-fn places(tree: &Value, here: &str, all: &mut Vec<String>) {
-    all.push(here.to_owned());
-    match tree {
-        Value::Object(object) => object.iter().for_each(|(key, value)| places(value, &format!("{here}/{key}"), all)),
-        Value::Array(list) => list.iter().enumerate().for_each(|(i, value)| places(value, &format!("{here}/{i}"), all)),
-        _ => {}
     }
 }
 

@@ -2,6 +2,10 @@
 //! kind of request, and never again once it has said no. Times are measured in `benches/stopping.rs`.
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test stops at the first surprise")]
 
+#[path = "common/semicircle.rs"]
+mod semicircle;
+
+use semicircle::{mesh, semicircle};
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
 use std::ops::Range;
@@ -47,29 +51,6 @@ fn stops_anywhere(request: &Value) -> Vec<LoadStep> {
 /// How often the same step was told again.
 fn again(told: &[LoadStep]) -> usize {
     told.windows(2).filter(|two| two[0] == two[1]).count()
-}
-
-/// A semicircle of so many voussoirs under its weight and a load at the quarter point, with `more`.
-fn semicircle(voussoirs: usize, more: &Value) -> Value {
-    let mut request = json!({
-        "arch": {
-            "profile": {"circular": {"radius_m": 10.0, "opening_angle_deg": 180.0}},
-            "thickness": {"constant_m": 1.5},
-            "voussoirs": voussoirs,
-        },
-        "loads": [
-            {"load": {"self_weight": {}}},
-            {"load": {"point_load": {"force_n_per_m": 1000.0, "x_m": -5.0}}, "scaled": true},
-        ],
-    });
-    for (name, value) in more.as_object().unwrap() {
-        request[name] = value.clone();
-    }
-    request
-}
-
-fn mesh(radial: usize, along: usize) -> Value {
-    json!({"subblocks": {"uniform": {"radial": radial, "along": along}}})
 }
 
 #[test]
