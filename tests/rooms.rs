@@ -49,7 +49,7 @@ const TABLE: [(&str, &[&str], &[&str]); 8] = [
 ];
 
 /// Crates that some room may not use; an outside crate is one of these.
-const CRATES: [&str; 31] = [
+const CRATES: [&str; 32] = [
     "axum",
     "axum_server",
     "clap",
@@ -61,6 +61,7 @@ const CRATES: [&str; 31] = [
     "headers_accept",
     "hyper_util",
     "mediatype",
+    "mimalloc",
     "nalgebra",
     "prometheus_client",
     "rayon",
