@@ -158,7 +158,9 @@ fn held(body: &Macroblock, ties: &DMatrix<f64>, links: &[f64]) -> Vec<Triplet<us
 
 fn factor(body: &Macroblock, more: &[Triplet<usize, usize, f64>], heart: &Heart) -> Result<Option<Factors>, Stopped> {
     let n = 6 * body.blocks().len();
-    let mut triplets = more.to_vec();
+    // All at once: to grow would be to copy a hundred megabytes, in one go.
+    let mut triplets = Vec::with_capacity(more.len() + 36 * body.stiffness_count());
+    triplets.extend_from_slice(more);
     body.stiffness(|i, j, block| {
         for a in 0..6 {
             triplets.extend((0..6).map(|b| Triplet::new(6 * i + a, 6 * j + b, block[(a, b)])));
