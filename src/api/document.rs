@@ -21,7 +21,7 @@ const NONE: [&str; 0] = [];
 type Common = (&'static str, &'static str, fn(&str) -> bool);
 
 /// Problems that many operations share; an operation's own words for a code go before these.
-const COMMON: [Common; 7] = [
+const COMMON: [Common; 8] = [
     ("400", "The query cannot be read", |path| path.contains("/results") || path == "/v1/jobs"),
     ("401", "No token, or another one; only where the service has tokens", is_guarded),
     ("404", "No such job, result not ready, or no such part", |path| path.contains("{id}")),
@@ -29,6 +29,7 @@ const COMMON: [Common; 7] = [
     ("410", "The job was dismissed", |path| path.contains("/results")),
     ("422", "The analysis failed", |path| path.contains("/results")),
     ("500", "A defect of the program", |_| true),
+    ("503", "Too many answers are on their way", |path| path.contains("/results")),
 ];
 
 /// Problems of operations with a body.
