@@ -77,13 +77,21 @@ fn report() -> CollapseReport {
         history: vec![],
         motion: None,
         other_motion: None,
+        plan: None,
         cost: Cost::default(),
         notes: vec![],
     }
 }
 
 fn beam() -> BeamReport {
-    BeamReport { field: field(1.0), exact: vec![9.0, 8.0], error: 0.0125, energy: [2.0, 2.5], unknowns: 294 }
+    BeamReport {
+        field: field(1.0),
+        exact: vec![9.0, 8.0],
+        error: 0.0125,
+        energy: [2.0, 2.5],
+        unknowns: 294,
+        plan: None,
+    }
 }
 
 /// What `/results` serves.

@@ -14,8 +14,9 @@ use utoipa::openapi::{OpenApi, RefOr, Schema};
 const BODY: &str = "Request";
 
 /// Ready requests, by name.
-const EXAMPLES: [(&str, &str); 7] = [
+const EXAMPLES: [(&str, &str); 8] = [
     ("first-arch", include_str!("../../cases/first-arch/request.json")),
+    ("to-an-accuracy", include_str!("../../cases/accuracy/request.json")),
     ("half-arch", include_str!("../../cases/half-arch/request.json")),
     ("buried-arch", include_str!("../../cases/paper/table-2/17-joints/request.json")),
     ("motion-after-collapse", include_str!("../../cases/paper/figure-8/request.json")),

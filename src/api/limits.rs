@@ -37,8 +37,14 @@ impl Limits {
         let detail = format!("{voussoirs} voussoirs: this service takes at most {most}; use fewer");
         faults.require(voussoirs <= most, place, detail);
         let most = self.subblocks;
-        let detail = format!("{subblocks} subblocks in all: this service takes at most {most}; use a coarser mesh");
-        faults.require(subblocks <= most, "/mesh/subblocks", detail);
+        let (place, remedy) = match request {
+            Request::Arch(request) if request.accuracy.is_some_and(|accuracy| accuracy.stress.is_some()) => {
+                ("/accuracy/subblocks", "allow fewer")
+            }
+            _ => ("/mesh/subblocks", "use a coarser mesh"),
+        };
+        let detail = format!("{subblocks} subblocks in all: this service takes at most {most}; {remedy}");
+        faults.require(subblocks <= most, place, detail);
         faults.into_vec()
     }
 }
@@ -46,8 +52,9 @@ impl Limits {
 /// Voussoirs and subblocks of one analysis; all points of a curve have the same.
 fn size(question: &Question) -> (usize, usize) {
     let of = |analysis: &Analysis| {
-        let subblocks = analysis.mesh.subblocks.iter().map(|[radial, along]| radial * along).sum();
-        (analysis.arch.voussoirs.len(), subblocks)
+        let given = || analysis.mesh.subblocks.iter().map(|[radial, along]| radial * along).sum();
+        let refined = analysis.accuracy.filter(|accuracy| accuracy.stress.is_some());
+        (analysis.arch.voussoirs.len(), refined.map_or_else(given, |accuracy| accuracy.most_subblocks))
     };
     match question {
         Question::One(analysis) => of(analysis),

@@ -2,7 +2,9 @@
 
 use super::fault::{Fault, Faults, child, lies_under, listed};
 use super::plain_words::in_plain_words;
-use super::request::{AnalysisRequest, BeamRequest, JointsRequest, LineRequest, ProfileRequest, Request};
+use super::request::{
+    AnalysisRequest, BeamRequest, JointsRequest, LineRequest, ProfileRequest, Request, StressFieldRequest,
+};
 use super::{shape, translate, tree};
 use crate::collapse::{Analysis, Question};
 use serde::Serialize;
@@ -299,6 +301,10 @@ fn with_defaults(mut request: AnalysisRequest) -> AnalysisRequest {
     if !matches!(arch.profile, ProfileRequest::Surveyed(_)) {
         arch.line.get_or_insert(LineRequest::default());
         arch.joints.get_or_insert(JointsRequest::default());
+    }
+    let stress = request.accuracy.is_some_and(|accuracy| accuracy.stress.is_some());
+    if stress && request.report.stress_fields.is_empty() {
+        request.report.stress_fields.push(StressFieldRequest::UnitLoad);
     }
     request
 }

@@ -5,6 +5,7 @@ mod beam;
 mod columns;
 mod falling;
 mod mechanism;
+mod plan;
 mod result;
 mod safety;
 mod settlement;
@@ -18,6 +19,7 @@ pub use falling::{
     FrameColumns, MotionBody, MotionContactColumns, MotionEndWord, OpenHingeColumns, PlaceColumns, SlidColumns,
 };
 pub use mechanism::{Collapse, End, HingeBody, SlideBody};
+pub use plan::{BeamPlanBody, EstimateBody, MeshBody, PlanBody, SubblockCounts};
 pub use result::JobResult;
 pub use safety::{CurvePointBody, ReachBody, SafetyBody, SafetyCurveResult};
 pub use settlement::{DisplacementColumns, SettlementBody, SettlementColumns, SettlementEndWord, SettlementPathBody};
@@ -91,6 +93,8 @@ pub struct AnalysisResult {
     pub other_motion: Option<MotionBody>,
     /// The path, event by event.
     pub history: HistoryColumns,
+    /// What was modelled, and how accurate it is, where `accuracy` is asked for.
+    pub plan: Option<PlanBody>,
     /// Counts of the work done; the same on any machine.
     pub cost: CostBody,
     /// What to know before using the numbers.
@@ -155,6 +159,9 @@ impl AnalysisResult {
             Some(end) => (Some(end.collapse), end.hinges, end.slides, Some(end.thrust_line), Some(end.velocities)),
             None => (None, Vec::new(), Vec::new(), None, None),
         };
+        let plan = report.plan.as_ref().map(PlanBody::from);
+        let refined = plan.as_ref().filter(|plan| plan.stress.is_some());
+        let mesh = refined.map_or_else(|| mesh_in_words(&request.mesh), PlanBody::mesh_in_words);
         AnalysisResult {
             outcome: report.outcome.into(),
             method: (&request.method).into(),
@@ -175,13 +182,14 @@ impl AnalysisResult {
             at_unit_load: report.at_unit_load.as_ref().map(snapshot),
             at_start: report.at_start.as_ref().map(snapshot),
             stress_fields: report.stress_fields.iter().map(|field| StressFieldBody::new(field, &scale)).collect(),
-            crushing: report.crushing.as_ref().map(|crushing| CrushingBody::new(crushing, &request.mesh, &scale)),
+            crushing: report.crushing.as_ref().map(|crushing| CrushingBody::new(crushing, &mesh, &scale)),
             updated_geometry: report.updated.as_ref().map(|updated| UpdatedBody::new(updated, report, &scale)),
             settlement: report.settlement.as_ref().map(Into::into),
             safety: report.safety.as_ref().map(Into::into),
             motion: report.motion.as_ref().map(|motion| MotionBody::new(motion, &scale)),
             other_motion: report.other_motion.as_ref().map(|motion| MotionBody::new(motion, &scale)),
             history: HistoryColumns::new(&report.history, &scale),
+            plan,
             cost: report.cost.into(),
             notes: report.notes.clone(),
             request: request.clone(),

@@ -31,12 +31,12 @@ impl Arch {
     /// The left half of a symmetric arch.
     ///
     /// A crown joint rests on a frictionless wall. A keystone is cut in two on the axis, and the cut on a mirror plane;
-    /// `curved` is its left half with the ends of the cut, needed where its sides are arcs.
+    /// `curved` is its left half with the ends of the cut, needed where its sides are of more than one arc.
     pub fn left_half(&self, curved: Option<(Voussoir, JointEnds)>) -> Arch {
         let n = self.voussoirs.len() / 2;
         let (mut joints, mut voussoirs) = (self.joints[..=n].to_vec(), self.voussoirs[..n].to_vec());
         if self.keystone().is_some() {
-            let (stone, [intrados, extrados]) = curved.unwrap_or_else(|| self.straight_half(n));
+            let (stone, [intrados, extrados]) = curved.unwrap_or_else(|| self.half_of(n));
             joints.push(Joint { intrados, extrados, law: JointLaw::Mirror });
             voussoirs.push(stone);
         } else {
@@ -45,12 +45,18 @@ impl Arch {
         Arch { voussoirs, joints, abutments: [self.abutments[0], None], half: true, angle_centre: self.angle_centre }
     }
 
-    /// Left half of a straight-sided stone on the axis, and the ends of the cut.
-    fn straight_half(&self, k: usize) -> (Voussoir, JointEnds) {
-        let [a, b, c, d] = self.corners(k);
-        let cut = [0.5 * (a + b), 0.5 * (d + c)].map(|end| Vec2::new(self.axis(), end.y));
-        let region = Region::polygon(&[a, cut[0], cut[1], d]);
-        (Voussoir { region, sides: Sides::Straight }, cut)
+    /// Left half of a stone on the axis whose sides are straight or arcs about a point of the axis, and the ends of the cut.
+    fn half_of(&self, k: usize) -> (Voussoir, JointEnds) {
+        let ([a, b, c, d], sides) = (self.corners(k), self.voussoirs[k].sides);
+        let on_axis = |y: f64| Vec2::new(self.axis(), y);
+        let Sides::Arcs { centre } = sides else {
+            let cut = [0.5 * (a + b), 0.5 * (d + c)].map(|end| on_axis(end.y));
+            return (Voussoir { region: Region::polygon(&[a, cut[0], cut[1], d]), sides }, cut);
+        };
+        let cut = [a, d].map(|end| on_axis(centre.y + (end - centre).norm()));
+        let segments = [Region::segment(centre, a, cut[0]), Region::segment(centre, cut[1], d)];
+        let region = segments.into_iter().fold(Region::polygon(&[a, cut[0], cut[1], d]), Region::join);
+        (Voussoir { region, sides }, cut)
     }
 
     /// Of symmetric `forces` on the whole of an arch, what its left half `half` carries.

@@ -15,6 +15,12 @@ const STIFFNESS_SCATTER: f64 = 1e-4;
 /// links (one towards the ground, two between stones) make up the joint's own.
 const LINK: f64 = 4.0;
 
+/// Stiffness of the crown joint of half an arch over that of others: its stone moves half as far towards the mirror plane as
+/// the two towards each other.
+const CROWN_JOINT: f64 = 2.0;
+/// The same of the cut through a keystone, where there is no joint: its compliance, a hundredth of a joint's, is not seen.
+const CUT_STONE: f64 = 100.0;
+
 /// Work of cutting out a subblock with its seams, in multiplications.
 const CUT: usize = 2000;
 /// Work of finding a subblock's shape, in multiplications.
@@ -85,7 +91,13 @@ pub(super) fn discretise<'p>(analysis: &Analysis, seed: u64, pulse: &'p Pulse<'p
     let mut builder = ChainBuilder::new(macroblocks);
     let mut softest = f64::INFINITY;
     for (k, joint) in joints.iter().enumerate() {
-        for touch in touches(joint, k.checked_sub(1).map(|k| &bodies[k]), bodies.get(k), penalty, &mut scatter) {
+        let stiffer = match joint.law {
+            JointLaw::Mirror => CUT_STONE,
+            _ if arch.half && k + 1 == joints.len() => CROWN_JOINT,
+            _ => 1.0,
+        };
+        let sides = [k.checked_sub(1).map(|k| &bodies[k]), bodies.get(k)];
+        for touch in touches(joint, sides, stiffer * penalty, &mut scatter) {
             softest = softest.min(touch.stiffness[0]);
             builder.contact(touch);
         }
@@ -96,7 +108,7 @@ pub(super) fn discretise<'p>(analysis: &Analysis, seed: u64, pulse: &'p Pulse<'p
         Unbuilt::Stopped(_) => pulse.stopped(),
     })?;
     let first_voussoir = usize::from(left.is_some());
-    let around = |k: usize| places(k.checked_sub(1).map(|k| &bodies[k]), bodies.get(k));
+    let around = |k: usize| places(joints[k].law, k.checked_sub(1).map(|k| &bodies[k]), bodies.get(k));
     let on_subblocks = |force: &PointForce| pushes(force, first_voussoir, &grids);
     let (heart, stopped) = (&pulse.heart, |_: Stopped| pulse.stopped());
     let straight = |forces: &[PointForce]| chain.loads(forces.iter().flat_map(on_subblocks), heart).map_err(stopped);
@@ -150,20 +162,20 @@ fn grids(analysis: &Analysis) -> Vec<Grid> {
 /// each with the share of the joint that is nearest to it.
 fn touches<'a>(
     joint: &'a Joint,
-    before: Option<&'a Grid>,
-    after: Option<&'a Grid>,
+    [before, after]: [Option<&'a Grid>; 2],
     penalty: f64,
     scatter: &'a mut Scatter,
 ) -> impl Iterator<Item = Touch> + 'a {
     let links = before.into_iter().chain(after).count() as f64;
     let contact = 1.0 / (1.0 - links / LINK);
-    let places = places(before, after);
+    let places = places(joint.law, before, after);
     // A mirror plane holds across and lets slide along.
     let along = if joint.law == JointLaw::Mirror { 0.0 } else { 1.0 };
     (0..places.len()).map(move |j| {
         let eta = places[j];
-        let sides = [eta - places[j.saturating_sub(1)], places[(j + 1).min(places.len() - 1)] - eta];
-        let share = 0.5 * (sides[0] + sides[1]);
+        let below = if j == 0 { eta } else { 0.5 * (eta - places[j - 1]) };
+        let above = if j + 1 == places.len() { 1.0 - eta } else { 0.5 * (places[j + 1] - eta) };
+        let (sides, share) = ([below, above], below + above);
         // Two corners alone have the penalty each.
         let stiffness = 2.0 * penalty * share;
         let nobody = [(0, 0.0); 2];
@@ -182,8 +194,12 @@ fn touches<'a>(
 /// Places of the contact points of a joint between two bodies, from 0 at the intrados to 1 at the extrados.
 ///
 /// Those of both sides: points of the finer side alone would put their forces off the middle of the coarser side's
-/// subblocks.
-fn places(before: Option<&Grid>, after: Option<&Grid>) -> Vec<f64> {
+/// subblocks. A cut through a stone is held as a seam is, in the middle of its subblocks: points at their corners would lock in
+/// bending.
+fn places(law: JointLaw, before: Option<&Grid>, after: Option<&Grid>) -> Vec<f64> {
+    if let Some(grid) = before.filter(|grid| law == JointLaw::Mirror && grid.radial > 1) {
+        return (0..grid.radial).map(|i| (i as f64 + 0.5) / grid.radial as f64).collect();
+    }
     let ends = |grid: &Grid| (0..=grid.radial).map(|j| j as f64 / grid.radial as f64).collect::<Vec<_>>();
     let mut places: Vec<f64> = before.into_iter().chain(after).flat_map(ends).collect();
     places.sort_by(f64::total_cmp);
@@ -303,6 +319,7 @@ mod tests {
             geometry: Geometry::FirstOrder,
             share: 0.999,
             mesh: Mesh { subblocks: vec![subblocks; n], seams: Seams::Split },
+            accuracy: None,
             fields: Vec::new(),
             motion: None,
         }

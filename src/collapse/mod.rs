@@ -10,6 +10,7 @@ mod grid;
 mod mechanism;
 mod motion;
 mod path;
+mod plan;
 mod pulse;
 mod record;
 pub mod report;
@@ -22,6 +23,7 @@ mod verdict;
 mod yielding;
 
 pub use digits::Digits;
+pub use plan::LOAD_PIECES;
 pub use report::*;
 
 use crate::arch::{Arch, PointForce, Stone};
@@ -137,6 +139,18 @@ pub enum FieldAt {
     NearCollapse,
 }
 
+/// How accurate an answer has to be. The model is then the least that is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Accuracy {
+    /// Largest error of the collapse load factor, as a share of it.
+    pub collapse_intensity: Option<f64>,
+    /// Largest error of the stress fields asked for, as a share, in the norm of eq. (5) of the paper: that of the equivalent
+    /// stress, by area. Loads have to come in [`LOAD_PIECES`].
+    pub stress: Option<f64>,
+    /// Most subblocks of the model.
+    pub most_subblocks: usize,
+}
+
 /// How far an arch is followed after it has begun to fall.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MotionAsked {
@@ -204,8 +218,11 @@ pub struct Analysis {
     pub geometry: Geometry,
     /// At which share of the way to collapse displacements and contact forces are reported, in (0, 1).
     pub share: f64,
-    /// How the voussoirs are cut into subblocks.
+    /// How the voussoirs are cut into subblocks; how many, where `accuracy` does not find out.
     pub mesh: Mesh,
+    /// How accurate the answer has to be, if that decides on the mesh. On the reference geometry only, and while the springings
+    /// stay.
+    pub accuracy: Option<Accuracy>,
     /// Where stress fields are reported.
     pub fields: Vec<FieldAt>,
     /// How far the arch is followed after it has begun to fall, where it is.
@@ -225,8 +242,10 @@ pub struct CurvedBeam {
     pub stone: Stone,
     /// Plane stress or plane strain.
     pub plane: PlaneModel,
-    /// Subblocks in radial and circumferential direction.
+    /// Subblocks in radial and circumferential direction; where `accuracy` does not find out.
     pub subblocks: [usize; 2],
+    /// Largest error e_N of eq. (5), as a share, if that decides on the mesh.
+    pub accuracy: Option<f64>,
     /// What holds them together.
     pub seams: Seams,
     /// True sectors, or subblocks with straight sides.
@@ -298,11 +317,13 @@ pub enum AnalysisError {
 /// # Errors
 /// When stopped by `watch`, or when a result is not finite.
 pub fn answer(question: &Question, watch: &mut dyn Watch) -> Result<Answer, AnalysisError> {
-    watched(watch, |pulse| match question {
+    let answer = watched(watch, |pulse| match question {
         Question::One(analysis) => verdict::run(analysis, pulse).map(|report| Answer::One(Box::new(report))),
         Question::Curve(points) => safety::curve(points, pulse).map(Answer::Curve),
-        Question::CurvedBeam(beam) => beam::solve(beam, pulse).map(Answer::CurvedBeam),
-    })
+        Question::CurvedBeam(beam) => plan::beam(beam, pulse).map(Answer::CurvedBeam),
+    })?;
+    answer.check_finite()?;
+    Ok(answer)
 }
 
 /// Runs the analysis: limit window, then the load path from where it says the arch stands, then the comparison.
@@ -310,5 +331,7 @@ pub fn answer(question: &Question, watch: &mut dyn Watch) -> Result<Answer, Anal
 /// # Errors
 /// When stopped by `watch`, or when a result is not finite.
 pub fn run(analysis: &Analysis, watch: &mut dyn Watch) -> Result<CollapseReport, AnalysisError> {
-    watched(watch, |pulse| verdict::run(analysis, pulse))
+    let report = watched(watch, |pulse| verdict::run(analysis, pulse))?;
+    report.check_finite()?;
+    Ok(report)
 }

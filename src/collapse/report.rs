@@ -1,12 +1,14 @@
 //! What an analysis says: plain data, SI units, radians.
 
 mod falling;
+mod plan;
 mod settlement;
 mod strength;
 mod updated;
 
 pub use crate::arch::Face;
 pub use falling::*;
+pub use plan::*;
 pub use settlement::*;
 pub use strength::*;
 pub use updated::*;
@@ -233,6 +235,8 @@ pub struct CollapseReport {
     pub motion: Option<FallingMotion>,
     /// How it moves on from `other_end`, where asked.
     pub other_motion: Option<FallingMotion>,
+    /// What was modelled, where an accuracy was asked for.
+    pub plan: Option<Plan>,
     /// Counts.
     pub cost: Cost,
     /// What an engineer should know before using the numbers: why intensity and window differ, what was not reached.

@@ -8,7 +8,7 @@ use super::record::{MOST_STEPS, Recorder, snapshot};
 use super::updated::{self, Course};
 use super::{
     Aim, Analysis, AnalysisError, CollapseReport, Cost, Crushing, Direction, Geometry, LimitWindow, Method, Outcome,
-    PathEnd, SettlementEnd, SpringingMovement, ThrustRange, UpdatedGeometry, ending, falling, motion, safety,
+    PathEnd, SettlementEnd, SpringingMovement, ThrustRange, UpdatedGeometry, ending, falling, motion, plan, safety,
     settlement,
 };
 use crate::arch::{Joint, JointLaw};
@@ -49,21 +49,10 @@ type Progress<'w> = dyn FnMut(&Tracer, f64) -> ControlFlow<()> + 'w;
 
 pub(super) fn run(analysis: &Analysis, pulse: &Pulse) -> Result<CollapseReport, AnalysisError> {
     let question = Question::new(analysis, pulse)?;
-    let mut attempted = question.attempt(Attempt::number(0))?;
-    for i in 1..ATTEMPTS {
-        if attempted.doubt.is_none() {
-            break;
-        }
-        let next = question.attempt(Attempt::number(i))?;
-        attempted = attempted.or_better(next);
-    }
-    let Attempted { mut report, doubt } = attempted;
-    if let Some(doubt) = doubt {
-        if doubt.is_contradiction() {
-            report.outcome = Outcome::CannotTell;
-        }
-        report.notes.push(doubt.to_string());
-    }
+    let mut report = match analysis.accuracy {
+        Some(accuracy) => plan::solve(analysis, accuracy, pulse)?,
+        None => question.solve()?,
+    };
     report.settle_fields(analysis);
     let unbent = analysis.mesh.subblocks.iter().any(|[radial, _]| *radial == 1);
     if analysis.geometry == Geometry::Updated && unbent && report.at_start.is_some() {
@@ -77,8 +66,12 @@ pub(super) fn run(analysis: &Analysis, pulse: &Pulse) -> Result<CollapseReport, 
     }
     falling::follow(analysis, &mut report, pulse)?;
     pulse.go_on()?;
-    report.check_finite()?;
     Ok(report)
+}
+
+/// Limit window and load path on the mesh given; what follows from them is left to [`run`].
+pub(super) fn solve(analysis: &Analysis, pulse: &Pulse) -> Result<CollapseReport, AnalysisError> {
+    Question::new(analysis, pulse)?.solve()
 }
 
 impl Attempted {
@@ -113,6 +106,26 @@ impl<'a> Question<'a> {
         let weight = fixed + scaled * start.abs();
         let crushing = certificate.crushing(analysis.stone.compressive_strength, pulse)?;
         Ok(Question { analysis, pulse, certificate, thrust_range, crushing, sign, start, cap, weight })
+    }
+
+    /// The answer of the first attempt that is not in doubt, or of the one least so.
+    fn solve(&self) -> Result<CollapseReport, AnalysisError> {
+        let mut attempted = self.attempt(Attempt::number(0))?;
+        for i in 1..ATTEMPTS {
+            if attempted.doubt.is_none() {
+                break;
+            }
+            let next = self.attempt(Attempt::number(i))?;
+            attempted = attempted.or_better(next);
+        }
+        let Attempted { mut report, doubt } = attempted;
+        if let Some(doubt) = doubt {
+            if doubt.is_contradiction() {
+                report.outcome = Outcome::CannotTell;
+            }
+            report.notes.push(doubt.to_string());
+        }
+        Ok(report)
     }
 
     fn attempt(&self, attempt: Attempt) -> Result<Attempted, AnalysisError> {
@@ -309,6 +322,7 @@ impl<'a> Question<'a> {
             history: Vec::new(),
             motion: None,
             other_motion: None,
+            plan: None,
             cost: Cost { unknowns: model.chain.unknowns(), ..Cost::default() },
             notes: Vec::new(),
         }

@@ -67,6 +67,12 @@ fn safety() -> Value {
     without(with(request, "/loads/0/per_abscissa", json!(true)), "/motion")
 }
 
+fn accurate() -> Value {
+    let accuracy = json!({"collapse_intensity": 1e-3, "stress": 0.5, "subblocks": 1000});
+    let request = ["/mesh", "/motion", "/method"].into_iter().fold(arch(), without);
+    with(request, "/accuracy", accuracy)
+}
+
 fn settlement() -> Value {
     let movement = json!({"outwards_m": 0.01, "downwards_m": 0.01, "rotation_deg": 1});
     let request = with(arch(), "/analysis", json!({"settlement": {"left": movement, "right": movement}}));
@@ -94,6 +100,10 @@ fn beam() -> Value {
     })
 }
 
+fn accurate_beam() -> Value {
+    with(without(beam(), "/mesh"), "/accuracy", json!({"stress": 0.1}))
+}
+
 /// All of them. The curved beam takes no `per_voussoir`, so that no good request has all the schema allows it.
 pub fn bodies() -> Vec<Value> {
     let change = |changes: &[(&str, Value)]| {
@@ -114,8 +124,10 @@ pub fn bodies() -> Vec<Value> {
         change(&[("/arch/joints", json!({"rays": {"centre_m": [0, -0.5]}}))]),
         change(&[("/mesh/subblocks", json!({"per_voussoir": each}))]),
         safety(),
+        accurate(),
         settlement(),
         surveyed(),
         beam(),
+        accurate_beam(),
     ]
 }

@@ -11,7 +11,8 @@ fn beam(ring: Ring, n: usize, seams: Seams, curved_sides: bool) -> BeamReport {
     let stone = Stone { youngs_modulus: 1e9, poissons_ratio: 0.25, ..Stone::default() };
     let [inner_radius, outer_radius] = ring.radii;
     let (shear, plane, subblocks) = (ring.shear, PlaneModel::Stress, [n, n]);
-    let beam = CurvedBeam { inner_radius, outer_radius, shear, stone, plane, subblocks, seams, curved_sides };
+    let beam =
+        CurvedBeam { inner_radius, outer_radius, shear, stone, plane, subblocks, accuracy: None, seams, curved_sides };
     match answer(&Question::CurvedBeam(beam), &mut Unwatched).unwrap() {
         Answer::CurvedBeam(report) => report,
         other => panic!("{other:?}"),

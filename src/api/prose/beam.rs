@@ -1,5 +1,6 @@
 //! The curved beam as a person reads it.
 
+use super::plan::error as error_of;
 use super::summary::bare;
 use super::wording;
 use crate::api::request::{CurvedBeamRequest, SeamsRequest};
@@ -19,15 +20,22 @@ pub fn summary(result: &BeamResult, wall_time: Duration) -> String {
     let seams = if request.mesh.seams == SeamsRequest::Split { "split springs" } else { "corner springs" };
     let off = 100.0 * (result.energy_j_per_m / result.exact_energy_j_per_m - 1.0);
     let energy = [result.energy_j_per_m, result.exact_energy_j_per_m].map(Digits);
+    let mesh = match &result.plan {
+        Some(plan) => format!("{} x {} subblocks (radial x along), found", plan.radial, plan.along),
+        None => mesh_in_words(&request.mesh),
+    };
     let mut table = bare();
     table.add_rows([
         ["beam", &format!("a quarter ring from {} to {} m, {sides}", Digits(inner), Digits(outer))],
         ["end shear", &format!("{} N per metre of depth", Digits(shear))],
-        ["mesh", &format!("{}, {seams}", mesh_in_words(&request.mesh))],
+        ["mesh", &format!("{mesh}, {seams}")],
         ["error", &format!("{error} % (e_N of eq. (5) of the paper)")],
         ["energy", &format!("{} J/m; exact: {} J/m, so it is off by {off:.3} %", energy[0], energy[1])],
         ["cost", &format!("{} unknowns", result.unknowns)],
         ["time", &format!("{:.3} ms", wall_time.as_secs_f64() * 1e3)],
     ]);
+    if let Some(plan) = &result.plan {
+        table.add_row(["estimate", &format!("{} (from two meshes, not from the exact stress)", error_of(plan.stress))]);
+    }
     format!("{name}{}\n\n{}\n", wording::wrapped(&headline), table.trim_fmt())
 }

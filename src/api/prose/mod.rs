@@ -4,6 +4,7 @@ mod beam;
 mod curve;
 mod figure;
 mod moving;
+mod plan;
 mod safety;
 mod summary;
 mod wording;

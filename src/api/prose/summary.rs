@@ -1,7 +1,7 @@
 //! The answer as a person reads it.
 
 use super::wording::{self, Limit, word};
-use super::{moving, safety};
+use super::{moving, plan, safety};
 use crate::api::response::{AnalysisResult, HingeBody, OutcomeWord, SlideBody};
 use crate::collapse::Digits;
 use comfy_table::{Table, presets};
@@ -36,6 +36,9 @@ pub fn summary(result: &AnalysisResult, wall_time: Duration) -> String {
             paragraph(&mut text, &wording::motion(name, motion, wording::unit(result)));
         }
     }
+    for why in result.plan.iter().flat_map(|plan| &plan.why) {
+        paragraph(&mut text, &format!("Model: {why}"));
+    }
     for note in result.notes.iter().chain(of_safety.filter(|note| !result.notes.contains(note))) {
         paragraph(&mut text, &format!("Note: {note}"));
     }
@@ -54,6 +57,9 @@ fn facts(result: &AnalysisResult, wall_time: Duration) -> Table {
     fact("arch", wording::arch(&result.request.arch));
     if let Some(mesh) = safety::mesh(&result.request.mesh) {
         fact("mesh", mesh);
+    }
+    for (name, value) in result.plan.iter().flat_map(plan::facts) {
+        fact(name, value);
     }
     fact("fixed loads", wording::loads(&result.request.loads, false));
     fact("scaled loads", wording::loads(&result.request.loads, true));

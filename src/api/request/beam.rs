@@ -19,10 +19,14 @@ pub struct BeamRequest {
     /// Its subblocks, `uniform` only; 7 x 7 by default.
     #[serde(default = "BeamRequest::default_mesh")]
     pub mesh: MeshRequest,
+    /// How accurate the stress has to be, instead of a mesh: e_N of eq. (5).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub accuracy: Option<BeamAccuracy>,
 }
 
 impl BeamRequest {
-    fn default_mesh() -> MeshRequest {
+    /// 7 x 7 subblocks.
+    pub fn default_mesh() -> MeshRequest {
         let subblocks = SubblocksRequest::Uniform(Subblocks { radial: 7, along: 7 });
         MeshRequest { subblocks, ..MeshRequest::default() }
     }
@@ -49,4 +53,13 @@ impl CurvedBeamRequest {
     fn default_sides() -> bool {
         true
     }
+}
+
+/// Asks for an accuracy instead of a mesh: the least mesh that is estimated to reach it is found, and `plan` in the answer says
+/// which. The exact stress has no part in that.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct BeamAccuracy {
+    /// Largest error e_N of eq. (5) of the paper, as a share.
+    #[schema(exclusive_minimum = 0.0, maximum = 1.0)]
+    pub stress: f64,
 }

@@ -1,6 +1,7 @@
 //! The body of a request: one arch, its stone, its loads, and what is asked; or a curved beam. Lengths in m, other
 //! units in the names.
 
+mod accuracy;
 mod arch;
 mod beam;
 mod loads;
@@ -8,6 +9,7 @@ mod mesh;
 mod motion;
 mod question;
 
+pub use accuracy::*;
 pub use arch::*;
 pub use beam::*;
 pub use loads::*;
@@ -62,6 +64,9 @@ pub struct AnalysisRequest {
     /// How the voussoirs are cut into subblocks.
     #[serde(default)]
     pub mesh: MeshRequest,
+    /// How accurate the answer has to be, instead of a mesh.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub accuracy: Option<AccuracyRequest>,
     /// Loads, fixed and scaled by the load factor. Without a scaled one, only whether the arch stands is asked.
     #[schema(min_items = 1, max_items = 1000)]
     pub loads: Vec<LoadEntry>,

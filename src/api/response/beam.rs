@@ -1,5 +1,6 @@
 //! The curved beam, solved.
 
+use super::plan::BeamPlanBody;
 use super::stress::SubblockColumns;
 use crate::api::request::BeamRequest;
 use crate::collapse::BeamReport;
@@ -21,6 +22,8 @@ pub struct BeamResult {
     pub subblocks: SubblockColumns,
     /// Equivalent stress at the subblocks' centres in the theory of elasticity.
     pub exact_tresca_pa: Vec<f64>,
+    /// The mesh that was picked, where `accuracy` is asked for.
+    pub plan: Option<BeamPlanBody>,
     /// The request, defaults filled in.
     pub request: BeamRequest,
 }
@@ -36,6 +39,7 @@ impl BeamResult {
             unknowns: report.unknowns,
             subblocks: SubblockColumns::new(&report.field.subblocks),
             exact_tresca_pa: report.exact.clone(),
+            plan: report.plan.as_ref().map(Into::into),
             request: request.clone(),
         }
     }

@@ -91,7 +91,8 @@ pub struct CrushingBody {
 }
 
 impl CrushingBody {
-    pub(super) fn new(crushing: &Crushing, mesh: &MeshRequest, scale: &Scale<'_>) -> Self {
+    /// `mesh`: in words.
+    pub(super) fn new(crushing: &Crushing, mesh: &str, scale: &Scale<'_>) -> Self {
         CrushingBody {
             strength_pa: crushing.strength,
             elastic: crushing.elastic.as_ref().map(|elastic| ElasticCrushingBody::new(elastic, mesh, scale)),
@@ -116,11 +117,10 @@ pub struct ElasticCrushingBody {
 }
 
 impl ElasticCrushingBody {
-    fn new(elastic: &ElasticCrushing, mesh: &MeshRequest, scale: &Scale<'_>) -> Self {
+    fn new(elastic: &ElasticCrushing, mesh: &str, scale: &Scale<'_>) -> Self {
         let note = format!(
-            "First yield depends on the mesh, here {}: stress is constant in a subblock, so a finer mesh comes closer \
-             to the peaks at pressed corners and yields at a lower load.",
-            mesh_in_words(mesh)
+            "First yield depends on the mesh, here {mesh}: stress is constant in a subblock, so a finer mesh comes closer \
+             to the peaks at pressed corners and yields at a lower load."
         );
         ElasticCrushingBody {
             load_factor: elastic.load_factor,
@@ -134,20 +134,26 @@ impl ElasticCrushingBody {
 
 /// A mesh as `4 x 8 subblocks (radial x along)`.
 pub fn mesh_in_words(mesh: &MeshRequest) -> String {
-    let (count, by) = match &mesh.subblocks {
-        SubblocksRequest::Uniform(each) => (format!("{} x {}", each.radial, each.along), ""),
+    match &mesh.subblocks {
+        SubblocksRequest::Uniform(each) => format!("{} x {} subblocks (radial x along)", each.radial, each.along),
         SubblocksRequest::PerVoussoir(list) => {
-            let range = |counts: Vec<usize>| match (counts.iter().min(), counts.iter().max()) {
-                (Some(least), Some(most)) if least != most => format!("{least} to {most}"),
-                (Some(same), _) => same.to_string(),
-                _ => "0".to_owned(),
-            };
-            let radial = range(list.iter().map(|each| each.radial).collect());
-            let along = range(list.iter().map(|each| each.along).collect());
-            (format!("{radial} x {along}"), ", by voussoir")
+            counts_in_words(list.iter().map(|each| each.radial), list.iter().map(|each| each.along))
         }
+    }
+}
+
+/// The same where every voussoir has its own numbers, radial and along.
+pub fn counts_in_words(
+    radial: impl Iterator<Item = usize> + Clone,
+    along: impl Iterator<Item = usize> + Clone,
+) -> String {
+    let range = |least: Option<usize>, most: Option<usize>| match (least, most) {
+        (Some(least), Some(most)) if least != most => format!("{least} to {most}"),
+        (least, _) => least.unwrap_or(0).to_string(),
     };
-    format!("{count} subblocks (radial x along){by}")
+    let radial = range(radial.clone().min(), radial.max());
+    let along = range(along.clone().min(), along.max());
+    format!("{radial} x {along} subblocks (radial x along), by voussoir")
 }
 
 /// One subblock under stress.

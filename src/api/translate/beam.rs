@@ -2,7 +2,7 @@
 
 use super::{MAX_FORCE_N_PER_M, MAX_LENGTH_M, check_text, mesh, stone};
 use crate::api::fault::{Faults, Shown};
-use crate::api::request::{BeamRequest, Subblocks, SubblocksRequest};
+use crate::api::request::{BeamRequest, SeamsRequest, Subblocks, SubblocksRequest};
 use crate::collapse::CurvedBeam;
 
 /// Ratio of the radii for which the closed form keeps its digits.
@@ -31,6 +31,15 @@ pub fn beam(request: &BeamRequest, faults: &mut Faults) -> Option<CurvedBeam> {
         "the end shear is the load: give one that is not 0",
     );
     let stone = stone::stone(&request.stone, faults);
+    let accuracy = request.accuracy.map(|accuracy| accuracy.stress);
+    if let Some(stress) = accuracy {
+        faults.within("/accuracy/stress", stress, 0.0, 1.0);
+        let detail = "accuracy.stress finds the mesh itself: leave the subblocks out, or accuracy";
+        let own = request.mesh.subblocks == BeamRequest::default_mesh().subblocks;
+        faults.require(own, "/mesh/subblocks", detail);
+        let detail = "stress converges with split seams only: set seams to `split`, or leave accuracy out";
+        faults.require(request.mesh.seams == SeamsRequest::Split, "/mesh/seams", detail);
+    }
     let Subblocks { radial, along } = subblocks(request, faults)?;
     Some(CurvedBeam {
         inner_radius: inner,
@@ -39,6 +48,7 @@ pub fn beam(request: &BeamRequest, faults: &mut Faults) -> Option<CurvedBeam> {
         stone,
         plane: request.stone.plane.into(),
         subblocks: [radial, along],
+        accuracy,
         seams: request.mesh.seams.into(),
         curved_sides: beam.curved_sides,
     })

@@ -1,5 +1,6 @@
 //! A request in SI, or everything that is wrong with it.
 
+mod accuracy;
 mod arch;
 mod beam;
 mod half;

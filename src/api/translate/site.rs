@@ -1,11 +1,11 @@
 //! What all analyses of one request share.
 
 use super::stone::{check_overrides, joint_law, override_joints, stone};
-use super::{MAX_FACTOR, MAX_LENGTH_M, arch, check_text, half, loads, mesh, motion};
+use super::{MAX_FACTOR, MAX_LENGTH_M, accuracy, arch, check_text, half, loads, mesh, motion};
 use crate::api::fault::Faults;
 use crate::api::request::{AimRequest, AnalysisRequest, DirectionRequest, GeometryRequest, LoadEntry, MethodRequest};
 use crate::arch::{Arch, MAX_VOUSSOIRS, PointForce, Stone};
-use crate::collapse::{Analysis, Direction, FieldAt, Geometry, Mesh, Method, MotionAsked};
+use crate::collapse::{Accuracy, Analysis, Direction, FieldAt, Geometry, LOAD_PIECES, Mesh, Method, MotionAsked};
 use crate::geometry::Vec2;
 
 /// Everything of a request but its loads.
@@ -22,6 +22,7 @@ pub struct Site<'a> {
     /// The voussoir that is cut in half.
     cut: Option<usize>,
     method: Method,
+    accuracy: Option<Accuracy>,
     fields: Vec<FieldAt>,
     motion: Option<MotionAsked>,
 }
@@ -52,14 +53,20 @@ impl<'a> Site<'a> {
         check_load_factor(request, faults);
         check_method(request, faults);
         faults.inside("/report/share_of_collapse", request.report.share_of_collapse, 0.0, 1.0);
+        let accuracy = accuracy::accuracy(request, faults);
         let pieces = mesh::total(subblocks.iter().take(analysed.unwrap_or(0)));
+        let refined = accuracy.filter(|accuracy| accuracy.stress.is_some());
+        let pieces = refined.map_or(pieces, |accuracy| accuracy.most_subblocks);
         let fields = mesh::fields(&request.report, pieces, faults);
         let motion = motion::motion(request, analysed.unwrap_or(0), faults);
-        Site { request, stone, whole, arch, subblocks, cut, method, fields, motion }
+        Site { request, stone, whole, arch, subblocks, cut, method, accuracy, fields, motion }
     }
 
     /// Into how many pieces the extrados side of every voussoir of the whole arch is cut.
     pub fn pieces(&self) -> Vec<usize> {
+        if self.accuracy.is_some_and(|accuracy| accuracy.stress.is_some()) {
+            return vec![LOAD_PIECES; self.subblocks.len()];
+        }
         let whole = |k: usize| if self.cut == Some(k) { 2 } else { 1 };
         self.subblocks.iter().enumerate().map(|(k, [_, along])| whole(k) * along).collect()
     }
@@ -102,6 +109,7 @@ impl<'a> Site<'a> {
             geometry: request.geometry.into(),
             share: request.report.share_of_collapse,
             mesh: Mesh { subblocks: self.subblocks().to_vec(), seams: request.mesh.seams.into() },
+            accuracy: self.accuracy,
             fields: self.fields.clone(),
             motion: self.motion,
             aim: (&request.analysis).into(),

@@ -1,6 +1,6 @@
 //! Stress, crushing and safety in an answer, and the curved beam's.
 
-use super::{LimitWindow, Mode};
+use super::{BeamPlan, LimitWindow, Mode};
 use crate::geometry::Vec2;
 
 /// State of stress in one subblock, constant in it.
@@ -158,4 +158,6 @@ pub struct BeamReport {
     pub energy: [f64; 2],
     /// Displacement unknowns.
     pub unknowns: usize,
+    /// What was modelled, where an accuracy was asked for.
+    pub plan: Option<BeamPlan>,
 }

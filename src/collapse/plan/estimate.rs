@@ -1,0 +1,118 @@
+//! The error of a stress field, by comparing it with the field on a coarser mesh.
+//!
+//! The two meshes nest, so that every subblock of the coarser is made up of whole ones of the finer. What the coarser
+//! says of it is held against the mean over these: stress in a subblock is a mean, and means can be compared exactly.
+
+use crate::collapse::{StressField, SubblockStress};
+use crate::geometry::Region;
+
+/// What two fields say of one voussoir: squares, integrated over its area, Pa2 m2.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Difference {
+    /// Of the difference of the equivalent stress, eq. (4) of the paper.
+    pub apart: f64,
+    /// Of the equivalent stress itself.
+    pub whole: f64,
+}
+
+/// Compares the fields of two nested meshes, voussoir by voussoir.
+pub(super) fn differences(coarse: &StressField, fine: &StressField, voussoirs: usize) -> Vec<Difference> {
+    let [coarse, fine] = [coarse, fine].map(|field| by_voussoir(field, voussoirs));
+    coarse.iter().zip(&fine).map(|(coarse, fine)| difference(coarse, fine)).collect()
+}
+
+fn by_voussoir(field: &StressField, voussoirs: usize) -> Vec<&[SubblockStress]> {
+    let start = |voussoir: usize| field.subblocks.partition_point(|subblock| subblock.voussoir < voussoir);
+    (0..voussoirs).map(|voussoir| &field.subblocks[start(voussoir)..start(voussoir + 1)]).collect()
+}
+
+fn difference(coarse: &[SubblockStress], fine: &[SubblockStress]) -> Difference {
+    let [counts, finer] =
+        [coarse, fine].map(|subblocks| subblocks.last().map_or([1, 1], |last| last.place.map(|i| i + 1)));
+    // Area and stress times area of what fills each coarse subblock.
+    let mut sums = vec![(0.0, [0.0; 3]); coarse.len()];
+    for subblock in fine {
+        let [i, j] = [0, 1].map(|way| subblock.place[way] * counts[way] / finer[way]);
+        let (area, stress) = &mut sums[j * counts[0] + i];
+        let here = area_of(subblock);
+        *area += here;
+        (0..3).for_each(|c| stress[c] += here * subblock.stress[c]);
+    }
+    let mut difference = Difference::default();
+    for (subblock, (area, stress)) in coarse.iter().zip(sums) {
+        let equivalent = SubblockStress { stress: stress.map(|s| s / area), ..*subblock }.tresca();
+        difference.apart += area * (equivalent - subblock.tresca()).powi(2);
+        difference.whole += area * equivalent * equivalent;
+    }
+    difference
+}
+
+fn area_of(subblock: &SubblockStress) -> f64 {
+    Region::polygon(&subblock.corners).area
+}
+
+/// Slowest and fastest convergence that an estimate counts on, as exponents of the subblocks' size.
+pub(super) type Orders = [f64; 2];
+
+/// What is known of the error of one field in one voussoir.
+#[derive(Debug, Clone, Copy)]
+struct Error {
+    /// Root of the squared change, integrated over the voussoir, when it was last refined, Pa m.
+    change: Option<f64>,
+    /// Order in which it converges.
+    order: f64,
+    /// Root of the squared error, integrated over the voussoir, Pa m.
+    error: f64,
+}
+
+/// Estimated errors of one field.
+#[derive(Debug, Clone)]
+pub(super) struct FieldErrors {
+    voussoirs: Vec<Error>,
+    orders: Orders,
+    /// Root of the squared equivalent stress, integrated over all voussoirs, Pa m.
+    norm: f64,
+}
+
+impl FieldErrors {
+    /// Nothing is known.
+    pub(super) fn new(voussoirs: usize, orders: Orders) -> Self {
+        FieldErrors {
+            voussoirs: vec![Error { change: None, order: orders[0], error: 0.0 }; voussoirs],
+            orders,
+            norm: 0.0,
+        }
+    }
+
+    /// Takes in what changed from one mesh to the next, on which the voussoirs that are `refined` have finer subblocks.
+    ///
+    /// Of a voussoir whose change falls by 2^p from one halving of its subblocks to the next, all changes still to come make
+    /// up change / (2^p - 1) (Richardson). The order p is taken from the last two changes; from one alone, it is the slowest.
+    pub(super) fn take(&mut self, differences: &[Difference], refined: &[bool]) {
+        self.norm = differences.iter().map(|difference| difference.whole).sum::<f64>().sqrt();
+        for ((known, difference), refined) in self.voussoirs.iter_mut().zip(differences).zip(refined) {
+            let change = difference.apart.sqrt();
+            if !refined {
+                // It moved with its neighbours, and was off by that much at least.
+                known.error = known.error.max(change);
+                continue;
+            }
+            if let Some(before) = known.change {
+                // Equal changes, zero ones too, have no order.
+                let order = (before / change).log2();
+                known.order = if order.is_nan() { self.orders[0] } else { order.clamp(self.orders[0], self.orders[1]) };
+            }
+            (known.change, known.error) = (Some(change), change / (known.order.exp2() - 1.0));
+        }
+    }
+
+    /// Squared error of every voussoir as a share of the squared norm; after `halvings` more of its subblocks.
+    pub(super) fn shares<'a>(&'a self, halvings: &'a [usize]) -> impl Iterator<Item = f64> + 'a {
+        let norm = self.norm;
+        let share = move |(known, &halvings): (&Error, &usize)| {
+            let error = known.error * (-known.order * halvings as f64).exp2();
+            if error > 0.0 { (error / norm).powi(2) } else { 0.0 }
+        };
+        self.voussoirs.iter().zip(halvings).map(share)
+    }
+}

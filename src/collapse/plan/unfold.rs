@@ -1,0 +1,97 @@
+//! From the answer for the left half of a symmetric arch to that for the whole.
+//!
+//! What the mesh has no part in (collapse, limit windows) is taken from the whole arch; displacements, forces and stresses of
+//! the right half are the mirror image of those of the left.
+
+use super::super::{
+    BlockState, CollapseReport, ContactForce, Crushing, HistoryPoint, Snapshot, StressField, SubblockStress,
+};
+use crate::arch::Arch;
+use crate::geometry::{Vec2, mirrored};
+
+/// Subblocks of every voussoir of the whole arch.
+pub(super) fn subblocks(arch: &Arch, half: &[[usize; 2]]) -> Vec<[usize; 2]> {
+    let mut left = half.to_vec();
+    if let Some(k) = arch.keystone() {
+        left[k][1] *= 2;
+    }
+    (0..arch.voussoirs.len()).map(|k| left[k.min(arch.voussoirs.len() - 1 - k)]).collect()
+}
+
+/// The answer for the whole `arch`: `rigid`, but for what depends on the mesh, which `half` has.
+pub(super) fn whole(arch: &Arch, half: CollapseReport, rigid: &CollapseReport) -> CollapseReport {
+    let snapshot = |snapshot: Option<Snapshot>| snapshot.map(|left| unfolded(arch, &left));
+    let mut notes = rigid.notes.clone();
+    notes.extend(half.notes.into_iter().filter(|note| !rigid.notes.contains(note)));
+    let elastic = half.crushing.and_then(|crushing| crushing.elastic);
+    CollapseReport {
+        near_collapse: snapshot(half.near_collapse),
+        at_unit_load: snapshot(half.at_unit_load),
+        at_start: snapshot(half.at_start),
+        stress_fields: half.stress_fields.iter().map(|field| unfolded_field(arch, field)).collect(),
+        crushing: rigid.crushing.clone().map(|crushing| Crushing { elastic, ..crushing }),
+        history: half.history.into_iter().map(on_axis).collect(),
+        cost: half.cost,
+        notes,
+        ..rigid.clone()
+    }
+}
+
+/// The crown of a symmetric arch stays on the axis.
+fn on_axis(point: HistoryPoint) -> HistoryPoint {
+    HistoryPoint { crown: Vec2::new(0.0, point.crown.y), ..point }
+}
+
+fn unfolded(arch: &Arch, left: &Snapshot) -> Snapshot {
+    let (n, keystone) = (arch.voussoirs.len(), arch.keystone());
+    let block = |k: usize| match (keystone == Some(k), k < n.div_ceil(2)) {
+        (true, _) => mean(left.blocks[k]),
+        (_, true) => left.blocks[k],
+        _ => mirror_image(left.blocks[n - 1 - k]),
+    };
+    let joint = |k: usize| left.contacts.iter().filter(move |contact| contact.joint == k);
+    let crown = |k: usize| keystone.is_none() && 2 * k == n;
+    let contact = |k: usize, contact: &ContactForce| match (crown(k), 2 * k > n) {
+        // The wall stands for the other stone, which moves away from it as far.
+        (true, _) => ContactForce { gap: 2.0 * contact.gap, ..*contact },
+        (_, true) => ContactForce { joint: k, tangential: -contact.tangential, ..*contact },
+        _ => *contact,
+    };
+    let contacts = (0..=n).flat_map(|k| joint(k.min(n - k)).map(move |c| contact(k, c)));
+    Snapshot { load_factor: left.load_factor, blocks: (0..n).map(block).collect(), contacts: contacts.collect() }
+}
+
+fn mirror_image(block: BlockState) -> BlockState {
+    let [x, y, tau] = block.stress;
+    BlockState { displacement: mirrored(block.displacement, 0.0), rotation: -block.rotation, stress: [x, y, -tau] }
+}
+
+/// Of a stone on the axis whose left half is in this state.
+fn mean(block: BlockState) -> BlockState {
+    let [x, y, _] = block.stress;
+    BlockState { displacement: Vec2::new(0.0, block.displacement.y), rotation: 0.0, stress: [x, y, 0.0] }
+}
+
+fn unfolded_field(arch: &Arch, left: &StressField) -> StressField {
+    let (n, axis) = (arch.voussoirs.len(), arch.axis());
+    let along = |k: usize| left.subblocks.iter().filter(|s| s.voussoir == k).map(|s| s.place[1] + 1).max().unwrap_or(0);
+    let mut subblocks = left.subblocks.clone();
+    for k in (0..n.div_ceil(2)).rev() {
+        let cells: Vec<&SubblockStress> = left.subblocks.iter().filter(|s| s.voussoir == k).collect();
+        let (count, whole) = (along(k), if arch.keystone() == Some(k) { 2 * along(k) } else { along(k) });
+        let radial = cells.len() / count.max(1);
+        let columns = (0..count).rev().flat_map(|j| &cells[j * radial..(j + 1) * radial]);
+        subblocks.extend(columns.map(|subblock| SubblockStress {
+            voussoir: n - 1 - k,
+            place: [subblock.place[0], whole - 1 - subblock.place[1]],
+            ..mirror_image_of(subblock, axis)
+        }));
+    }
+    StressField { load_factor: left.load_factor, subblocks }
+}
+
+/// A subblock on the other side, its corners counter-clockwise from the intrados end at the joint before again.
+fn mirror_image_of(subblock: &SubblockStress, axis: f64) -> SubblockStress {
+    let ([a, b, c, d], [x, y, tau]) = (subblock.corners.map(|corner| mirrored(corner, axis)), subblock.stress);
+    SubblockStress { centre: mirrored(subblock.centre, axis), corners: [b, a, d, c], stress: [x, y, -tau], ..*subblock }
+}

@@ -1,0 +1,53 @@
+//! What was modelled to answer as accurately as asked, and why.
+
+/// The model that was picked.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plan {
+    /// Whether only the left half of the symmetric arch was modelled for the stress; the answer is that of the whole.
+    pub half: bool,
+    /// Subblocks of every voussoir of the whole arch, radial and along; a keystone that was cut in two counts both halves.
+    pub subblocks: Vec<[usize; 2]>,
+    /// Accuracy of the collapse load factor, where asked.
+    pub collapse_intensity: Option<Estimate>,
+    /// Accuracy of the stress fields, where asked.
+    pub stress: Option<Estimate>,
+    /// Share by which the load factor of first yield changed with the last mesh, where it was found on two.
+    pub first_yield: Option<f64>,
+    /// The meshes that were tried, coarsest first.
+    pub meshes: Vec<MeshTried>,
+    /// What was decided, in sentences.
+    pub why: Vec<String>,
+}
+
+/// An accuracy asked for, and what was had.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Estimate {
+    /// Largest error allowed, as a share.
+    pub asked: f64,
+    /// Error that the answer is estimated to have, as a share; None where it is not known.
+    pub estimate: Option<f64>,
+    /// Whether the answer is as accurate as asked, or has nothing that could be inaccurate.
+    pub met: bool,
+}
+
+/// One mesh on the way to the last.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeshTried {
+    /// Subblocks modelled.
+    pub subblocks: usize,
+    /// Contact points modelled.
+    pub contact_points: usize,
+    /// Estimated error of the stress; None for the first, which is compared with nothing.
+    pub stress: Option<f64>,
+}
+
+/// The mesh that was picked for the curved beam.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BeamPlan {
+    /// Subblocks, radial and along.
+    pub subblocks: [usize; 2],
+    /// Accuracy of the stress.
+    pub stress: Estimate,
+    /// The meshes that were tried, coarsest first.
+    pub meshes: Vec<MeshTried>,
+}
