@@ -15,30 +15,30 @@ const ROOM: f64 = 1.25;
 /// Name; events, factorisations and block rows eliminated when last looked at.
 const COUNTS: [(&str, [usize; 3]); 21] = [
     ("first-arch", [53, 55, 1108]),
-    ("half-arch", [0, 0, 0]),
+    ("half-arch", [15, 16, 175]),
     ("lateral-7", [31, 33, 267]),
-    ("paper/figure-6", [0, 0, 0]),
-    ("paper/figure-7/17-joints", [0, 0, 0]),
-    ("paper/figure-7/27-joints", [0, 0, 0]),
-    ("paper/figure-8", [0, 0, 0]),
+    ("paper/figure-6", [37, 39, 360]),
+    ("paper/figure-7/17-joints", [58, 60, 959]),
+    ("paper/figure-7/27-joints", [70, 72, 1947]),
+    ("paper/figure-8", [67, 69, 904]),
     ("paper/figure-11", [64, 66, 1072]),
-    ("paper/figure-12/lower-limit", [0, 0, 0]),
-    ("paper/figure-12/upper-limit", [0, 0, 0]),
-    ("paper/table-2/9-joints", [0, 0, 0]),
-    ("paper/table-2/17-joints", [0, 0, 0]),
+    ("paper/figure-12/lower-limit", [66, 69, 1114]),
+    ("paper/figure-12/upper-limit", [66, 69, 1114]),
+    ("paper/table-2/9-joints", [37, 39, 360]),
+    ("paper/table-2/17-joints", [58, 60, 959]),
     ("paper/table-2/27-joints", [70, 72, 1947]),
-    ("paper/table-2/61-joints", [0, 0, 0]),
+    ("paper/table-2/61-joints", [132, 134, 7874]),
     ("paper/table-2/201-joints", [88, 90, 14931]),
-    ("paper/table-3/lower-limit", [0, 0, 0]),
-    ("paper/table-3/upper-limit", [0, 0, 0]),
+    ("paper/table-3/lower-limit", [66, 69, 1114]),
+    ("paper/table-3/upper-limit", [66, 69, 1114]),
     ("paper/table-4", [68, 71, 1126]),
     ("pointed", [29, 30, 1056]),
-    ("settlement", [0, 0, 0]),
+    ("settlement", [66, 69, 1602]),
     ("sliding-arch", [71, 73, 1176]),
 ];
 
 /// The same for semicircles under a load at the quarter point: voussoirs, and subblocks each way in each of them.
-const SEMICIRCLES: [(usize, usize, [usize; 3]); 2] = [(201, 1, [0, 0, 0]), (27, 4, [0, 0, 0])];
+const SEMICIRCLES: [(usize, usize, [usize; 3]); 2] = [(201, 1, [228, 230, 19518]), (27, 4, [174, 176, 3655])];
 
 /// What `solve --json` prints, and what it cost.
 fn solve(name: &str) -> (Vec<u8>, Cost) {
@@ -111,8 +111,9 @@ fn a_case_costs_no_more_than_it_did() {
     assert!(dear.is_empty(), "{}", dear.join("\n"));
 }
 
-/// Joints of the right half hold whatever happens: all events are in the left one. Twice as many stones on the right make
-/// the two whole factorisations dearer, at the start of each path, and nothing else.
+/// Joints of the right half hold whatever happens: all events are in the left one. Eight times as many stones on the right
+/// make the start of each path dearer, where the whole chain is factored from one end and then, up to the first event, from
+/// the other; and nothing else.
 #[test]
 fn an_event_costs_nothing_in_a_part_of_the_arch_that_no_event_touches() {
     let left = 20;
@@ -123,13 +124,10 @@ fn an_event_costs_nothing_in_a_part_of_the_arch_that_no_event_touches() {
     };
     let (few, many) = (of(40), of(320));
     println!("40 stones to the right: {few:?}; 320: {many:?}");
-    assert!(few.events >= 20, "too few events to tell");
     let more_rows = 2 * (320 - 40);
     let whole = few.factorisations - few.events;
-    let beyond = many.block_rows as f64 - (whole * more_rows) as f64;
-    assert!(
-        beyond <= ROOM * few.block_rows as f64,
-        "{beyond} block rows besides whole ones, {} before",
-        few.block_rows
-    );
+    let allowed = ROOM * few.block_rows as f64 + (2 * whole * more_rows) as f64;
+    assert!(many.block_rows as f64 <= allowed, "{} block rows, {allowed} at most", many.block_rows);
+    // A pass over the right half at every third event would show.
+    assert!(few.events / 3 > 2 * whole, "too few events to tell");
 }

@@ -11,7 +11,7 @@ use super::contact::{Contact, ContactForce, State};
 use super::factor::Tridiagonal;
 use super::heart::{Heart, Stopped};
 use super::macroblock::Macroblock;
-use super::panels::dot;
+use super::panels::add_applied_columns;
 use crate::geometry::{Vec2, cross, perpendicular};
 use nalgebra::{DMatrix, DVector, SMatrix};
 
@@ -36,10 +36,10 @@ struct Kind {
     condensed: Condensed,
     /// Area-weighted mean displacement and rotation of the subblocks per unit of their unknowns, 3 x 6 n_subblocks.
     mean: DMatrix<f64>,
-    /// The same per displacement of the nodes, 2 n_nodes x 3: a column for each.
+    /// The same per displacement of the nodes.
     mean_of_nodes: DMatrix<f64>,
-    /// Stress of every subblock per unit of its unknowns, 3 x 6 each, and per displacement of the nodes, 2 n_nodes x
-    /// 3 n_subblocks; none where that would be too much to keep.
+    /// Stress of every subblock per unit of its unknowns, 3 x 6 each, and per displacement of the nodes, 3 n_subblocks x
+    /// 2 n_nodes; none where that would be too much to keep.
     stress: Vec<SMatrix<f64, 3, 6>>,
     stress_of_nodes: Option<DMatrix<f64>>,
 }
@@ -260,9 +260,11 @@ impl Chain {
     /// between the nodes.
     pub fn mean_motion(&self, i: usize, d: &[f64], loads: &[(&Loads, f64)]) -> MeanMotion {
         let body = &self.bodies[i];
-        let (of_nodes, d) = (&self.kinds[body.kind].mean_of_nodes, &d[self.nodes_of(i)]);
-        let loaded = |c: usize| loads.iter().map(|(loads, factor)| loads.mean[i][c] * factor).sum::<f64>();
-        let mean = [0, 1, 2].map(|c| dot(of_nodes.column(c).as_slice(), d) + loaded(c));
+        let mut mean = [0.0; 3];
+        add_applied_columns(self.kinds[body.kind].mean_of_nodes.as_slice(), &d[self.nodes_of(i)], &mut mean);
+        for (loads, factor) in loads {
+            mean.iter_mut().zip(loads.mean[i]).for_each(|(sum, of_load)| *sum += of_load * factor);
+        }
         MeanMotion { displacement: body.turned_back(Vec2::new(mean[0], mean[1])), rotation: mean[2] }
     }
 
@@ -271,7 +273,10 @@ impl Chain {
         let (kind, d) = (&self.kinds[self.bodies[i].kind], &d[self.nodes_of(i)]);
         into.clear();
         match &kind.stress_of_nodes {
-            Some(of_nodes) => into.extend(of_nodes.as_slice().chunks_exact(d.len()).map(|stress| dot(stress, d))),
+            Some(of_nodes) => {
+                into.resize(of_nodes.nrows(), 0.0);
+                add_applied_columns(of_nodes.as_slice(), d, into);
+            }
             None => into.extend(&stresses(&kind.stress, kind.condensed.displaced(d).as_slice())),
         }
         for (loads, factor) in loads {

@@ -98,6 +98,7 @@ impl Condensed {
         mut see: impl FnMut(usize, &[f64]),
     ) -> Result<Self, Unbuilt> {
         let ties: Vec<Tie> = nodes.iter().flat_map(|node| [0, 1].map(|axis| Tie::new(body, node, axis))).collect();
+        heart.beat()?;
         let links = |add: &mut dyn FnMut(usize, usize, &M6)| ties.iter().for_each(|tie| tie.stiffness(add));
         let factors = factor(body, links, heart)?.ok_or(Loose)?;
         let (unknowns, columns) = (6 * body.blocks().len(), ties.len());
@@ -171,7 +172,10 @@ impl Tie {
 
     /// Work of the loads in displacements of the subblocks, per unit.
     fn work(&self, x: &[f64]) -> f64 {
-        self.loads.iter().map(|(i, load)| load.dot(&V6::from_column_slice(&x[6 * i..6 * i + 6]))).sum()
+        // Fused, with one rounding for each product and sum: copies of a stone share what rounding leaves of S, and over
+        // hundreds of them it adds up.
+        let terms = self.loads.iter().flat_map(|(i, load)| load.iter().zip(&x[6 * i..6 * i + 6]));
+        terms.fold(0.0, |sum, (load, x)| load.mul_add(*x, sum))
     }
 }
 
@@ -244,6 +248,7 @@ fn assemble(
         }
         heart.work(PLACED * below.len())?;
     }
+    heart.beat()?;
     let mut values = vec![0.0; count];
     all(&mut |i, j, block| {
         if let Ok(place) = below[j].binary_search(&i) {

@@ -115,13 +115,13 @@ impl Kind {
         });
         let stress: Vec<_> = blocks.iter().map(|b| b.stress_matrix()).collect();
         let columns = 2 * nodes.len();
-        let mut mean_of_nodes = DMatrix::zeros(columns, 3);
+        let mut mean_of_nodes = DMatrix::zeros(3, columns);
         let kept = Some(3 * blocks.len()).filter(|rows| rows * columns <= MOST_KEPT);
-        let mut stress_of_nodes = kept.map(|rows| DMatrix::zeros(columns, rows));
+        let mut stress_of_nodes = kept.map(|rows| DMatrix::zeros(rows, columns));
         let condensed = Condensed::new(&macroblock, &nodes, heart, |j, d| {
-            mean_of_nodes.set_row(j, &(&mean * DVectorView::from_slice(d, d.len())).transpose());
+            mean_of_nodes.set_column(j, &(&mean * DVectorView::from_slice(d, d.len())));
             if let Some(of_nodes) = &mut stress_of_nodes {
-                of_nodes.set_row(j, &stresses(&stress, d).transpose());
+                of_nodes.set_column(j, &stresses(&stress, d));
             }
         })?;
         Ok(Kind { macroblock, nodes, condensed, mean, mean_of_nodes, stress, stress_of_nodes })
