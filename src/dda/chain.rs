@@ -11,6 +11,7 @@ use super::contact::{Contact, ContactForce, State};
 use super::factor::Tridiagonal;
 use super::heart::{Heart, Stopped};
 use super::macroblock::Macroblock;
+use super::panels::add_applied_columns;
 use crate::geometry::{Vec2, cross, perpendicular};
 use nalgebra::{DMatrix, DVector, SMatrix};
 
@@ -38,9 +39,9 @@ struct Kind {
     /// The same per displacement of the nodes.
     mean_of_nodes: DMatrix<f64>,
     /// Stress of every subblock per unit of its unknowns, 3 x 6 each, and per displacement of the nodes, 3 n_subblocks x
-    /// 2 n_nodes.
+    /// 2 n_nodes; none where that would be too much to keep.
     stress: Vec<SMatrix<f64, 3, 6>>,
-    stress_of_nodes: DMatrix<f64>,
+    stress_of_nodes: Option<DMatrix<f64>>,
 }
 
 /// Where a contact point is, and its normal.
@@ -215,12 +216,12 @@ impl Chain {
         let mut loads = Loads { on_nodes: Vec::new(), mean: Vec::new(), stress: Vec::new() };
         for (body, load) in self.bodies.iter().zip(self.on_blocks(pushes, heart)?) {
             let kind = &self.kinds[body.kind];
-            loads.on_nodes.extend(kind.condensed.on_nodes(&load).iter());
             let inner = kind.condensed.inner(&load);
+            loads.on_nodes.extend(kind.condensed.on_nodes(&load, &inner).iter());
             let mean = &kind.mean * &inner;
             loads.mean.push([mean[0], mean[1], mean[2]]);
             loads.stress.push(stresses(&kind.stress, inner.as_slice()).as_slice().to_vec());
-            heart.work(SOLVED * kind.condensed.response().len())?;
+            heart.work(SOLVED * load.len() * 2 * kind.nodes.len())?;
         }
         Ok(loads)
     }
@@ -233,9 +234,9 @@ impl Chain {
         let turned = pushes.into_iter().map(|push| Push { force: -perpendicular(push.force), ..push });
         let mut loads = Vec::new();
         for (body, load) in self.bodies.iter().zip(self.on_blocks(turned, heart)?) {
-            let condensed = &self.kinds[body.kind].condensed;
-            loads.extend(condensed.on_nodes(&load).iter());
-            heart.work(condensed.response().len())?;
+            let kind = &self.kinds[body.kind];
+            loads.extend(kind.condensed.on_nodes(&load, &kind.condensed.inner(&load)).iter());
+            heart.work(SOLVED * load.len() * 2 * kind.nodes.len())?;
         }
         Ok(loads)
     }
@@ -259,22 +260,28 @@ impl Chain {
     /// between the nodes.
     pub fn mean_motion(&self, i: usize, d: &[f64], loads: &[(&Loads, f64)]) -> MeanMotion {
         let body = &self.bodies[i];
-        let of_nodes = &self.kinds[body.kind].mean_of_nodes;
         let mut mean = [0.0; 3];
-        let mut add = |column: &[f64], x: f64| mean.iter_mut().zip(column).for_each(|(sum, share)| *sum += share * x);
-        of_nodes.column_iter().zip(&d[self.nodes_of(i)]).for_each(|(column, &x)| add(column.as_slice(), x));
-        loads.iter().for_each(|(loads, factor)| add(&loads.mean[i], *factor));
+        add_applied_columns(self.kinds[body.kind].mean_of_nodes.as_slice(), &d[self.nodes_of(i)], &mut mean);
+        for (loads, factor) in loads {
+            mean.iter_mut().zip(loads.mean[i]).for_each(|(sum, of_load)| *sum += of_load * factor);
+        }
         MeanMotion { displacement: body.turned_back(Vec2::new(mean[0], mean[1])), rotation: mean[2] }
     }
 
     /// Stress (sigma_x, sigma_y, tau_xy) in every subblock of body `i`, three numbers each in the body's own frame, Pa.
     pub fn stresses_in_frame(&self, i: usize, d: &[f64], loads: &[(&Loads, f64)], into: &mut Vec<f64>) {
-        let of_nodes = &self.kinds[self.bodies[i].kind].stress_of_nodes;
+        let (kind, d) = (&self.kinds[self.bodies[i].kind], &d[self.nodes_of(i)]);
         into.clear();
-        into.resize(of_nodes.nrows(), 0.0);
-        let mut add = |column: &[f64], x: f64| into.iter_mut().zip(column).for_each(|(sum, share)| *sum += share * x);
-        of_nodes.column_iter().zip(&d[self.nodes_of(i)]).for_each(|(column, &x)| add(column.as_slice(), x));
-        loads.iter().for_each(|(loads, factor)| add(&loads.stress[i], *factor));
+        match &kind.stress_of_nodes {
+            Some(of_nodes) => {
+                into.resize(of_nodes.nrows(), 0.0);
+                add_applied_columns(of_nodes.as_slice(), d, into);
+            }
+            None => into.extend(&stresses(&kind.stress, kind.condensed.displaced(d).as_slice())),
+        }
+        for (loads, factor) in loads {
+            into.iter_mut().zip(&loads.stress[i]).for_each(|(sum, stress)| *sum += stress * factor);
+        }
     }
 
     /// Stress (sigma_x, sigma_y, tau_xy) in every subblock of body `i`, Pa, for node displacements `d` under loads, each

@@ -6,13 +6,13 @@
 //! `X = K^-1 X0`, and on the nodes act `S p - X' F`, with `S = links - X0' X` (Guyan 1965). Nothing is lost: the condensed
 //! macroblock answers to forces at its nodes exactly as the whole one does.
 
-use super::block::V6;
+use super::block::{M6, V6};
 use super::heart::{Heart, Stopped};
 use super::macroblock::Macroblock;
 use crate::geometry::Vec2;
 use faer::linalg::solvers::{Llt, Solve};
 use faer::sparse::linalg::solvers::{Llt as SparseLlt, SymbolicLlt};
-use faer::sparse::{SparseColMat, SymbolicSparseColMat, Triplet};
+use faer::sparse::{SparseColMat, SymbolicSparseColMat};
 use faer::{Mat, Side};
 use nalgebra::{DMatrix, DVector};
 use std::ops::Range;
@@ -40,8 +40,10 @@ enum Factors {
 /// A macroblock condensed onto its nodes, in its own frame.
 #[derive(Debug, Clone)]
 pub struct Condensed {
-    /// X: displacements of the subblocks per displacement of the nodes, 6 n_subblocks x 2 n_nodes.
-    response: DMatrix<f64>,
+    /// Unknowns of the subblocks.
+    unknowns: usize,
+    /// X0, one column for each of the nodes' displacements.
+    ties: Vec<Tie>,
     /// S: forces on the nodes per displacement of the nodes, 2 n_nodes x 2 n_nodes, N/m2.
     stiffness: DMatrix<f64>,
     /// Rigid motions of the nodes, orthonormal columns, and the same motions of the subblocks.
@@ -65,43 +67,61 @@ pub enum Unbuilt {
     Stopped(#[from] Stopped),
 }
 
-/// So many columns at least, and less than twice as many, are solved for, or multiplied, between two heartbeats. The last
-/// bits of the answer are those of all columns at once, which those of fewer than a dozen are not: unit test.
+/// Displacement of a node along one of its axes.
+#[derive(Debug, Clone)]
+struct Tie {
+    /// Stiffness of the link along it, N/m2.
+    link: f64,
+    /// Loads on the subblocks per unit of it.
+    loads: Vec<(usize, V6)>,
+}
+
+/// So many columns of X at least, and less than twice as many, are solved for at a time: X as a whole is the largest thing
+/// there is, and nobody needs it.
 const AT_ONCE: usize = 16;
-/// Work of adding a block of stiffness, of sorting an entry into its place, and of solving for an entry of a column, in
+/// Work of adding a block of stiffness, of setting one into its place, and of solving for an entry of a column, in
 /// multiplications.
 const ADDED: usize = 200;
-const SORTED: usize = 50;
+const PLACED: usize = 36;
 const SOLVED: usize = 50;
 
 impl Condensed {
-    /// Condenses `body` onto `nodes`, both seen from one frame.
+    /// Condenses `body` onto `nodes`, both seen from one frame. `see(j, x)` is shown every column of X, the displacements of
+    /// the subblocks for displacement `j` of the nodes, which is not kept.
     ///
     /// # Errors
     /// When the nodes leave the body a rigid motion, or when stopped.
-    pub fn new(body: &Macroblock, nodes: &[Node], heart: &Heart) -> Result<Self, Unbuilt> {
-        let (unknowns, columns) = (6 * body.blocks().len(), 2 * nodes.len());
-        let mut ties = DMatrix::zeros(unknowns, columns);
-        for (i, node) in nodes.iter().enumerate() {
-            for (c, (axis, link)) in node.axes.into_iter().zip(node.link).enumerate() {
-                for (block, share) in node.holds {
-                    let row = body.blocks()[block].displacement_row(node.at, axis) * (link * share);
-                    let mut place = ties.fixed_view_mut::<6, 1>(6 * block, 2 * i + c);
-                    place += row;
-                }
-            }
-        }
+    pub fn new(
+        body: &Macroblock,
+        nodes: &[Node],
+        heart: &Heart,
+        mut see: impl FnMut(usize, &[f64]),
+    ) -> Result<Self, Unbuilt> {
+        let ties: Vec<Tie> = nodes.iter().flat_map(|node| [0, 1].map(|axis| Tie::new(body, node, axis))).collect();
         heart.beat()?;
-        let links: Vec<f64> = nodes.iter().flat_map(|node| node.link).collect();
-        let factors = factor(body, &held(body, &ties, &links), heart)?.ok_or(Loose)?;
-        let response = solve(&factors, &ties, heart)?;
-        let raw = DMatrix::from_diagonal(&DVector::from_vec(links)) - product(&ties.transpose(), &response, heart)?;
+        let links = |add: &mut dyn FnMut(usize, usize, &M6)| ties.iter().for_each(|tie| tie.stiffness(add));
+        let factors = factor(body, links, heart)?.ok_or(Loose)?;
+        let (unknowns, columns) = (6 * body.blocks().len(), ties.len());
+        let mut raw = DMatrix::from_diagonal(&DVector::from_iterator(columns, ties.iter().map(|tie| tie.link)));
+        for part in parts(columns) {
+            let mut right = Mat::zeros(unknowns, part.len());
+            for (j, tie) in ties[part.clone()].iter().enumerate() {
+                tie.loads.iter().for_each(|(i, load)| (0..6).for_each(|a| right[(6 * i + a, j)] = load[a]));
+            }
+            let x = solve(&factors, &right);
+            for (j, column) in part.clone().enumerate() {
+                let x = x.col_as_slice(j);
+                raw.column_mut(column).iter_mut().zip(&ties).for_each(|(entry, tie)| *entry -= tie.work(x));
+                see(column, x);
+            }
+            heart.work(SOLVED * unknowns * part.len())?;
+        }
         let rigid = rigid_motions(body, nodes);
         let q = &rigid[0];
         // Rounding in the elimination must not take away equilibrium: a rigid motion costs no force at all.
         let still = DMatrix::identity(columns, columns) - q * q.transpose();
         let stiffness = &still * (0.5 * (&raw + raw.transpose())) * &still;
-        Ok(Condensed { response, stiffness, rigid, factors })
+        Ok(Condensed { unknowns, ties, stiffness, rigid, factors })
     }
 
     /// Stiffness S on the nodes, N/m2.
@@ -109,23 +129,53 @@ impl Condensed {
         &self.stiffness
     }
 
-    /// Displacements X of the subblocks per displacement of the nodes.
-    pub fn response(&self) -> &DMatrix<f64> {
-        &self.response
-    }
-
     /// Displacements of the subblocks under `load` with the nodes held.
     pub fn inner(&self, load: &DVector<f64>) -> DVector<f64> {
         solve_one(&self.factors, load)
     }
 
-    /// The forces on the nodes that stand for `load`.
-    pub fn on_nodes(&self, load: &DVector<f64>) -> DVector<f64> {
-        let mut on_nodes = self.response.tr_mul(load);
+    /// Displacements X p of the subblocks for displacements p of the nodes.
+    pub fn displaced(&self, p: &[f64]) -> DVector<f64> {
+        let mut load = DVector::zeros(self.unknowns);
+        for (tie, p) in self.ties.iter().zip(p) {
+            tie.loads.iter().for_each(|(i, each)| load.fixed_rows_mut::<6>(6 * i).axpy(*p, each, 1.0));
+        }
+        self.inner(&load)
+    }
+
+    /// The forces on the nodes that stand for `load`, which displaces the subblocks by `inner` with the nodes held: those
+    /// that hold them.
+    pub fn on_nodes(&self, load: &DVector<f64>, inner: &DVector<f64>) -> DVector<f64> {
+        let held = self.ties.iter().map(|tie| tie.work(inner.as_slice()));
+        let mut on_nodes = DVector::from_iterator(self.ties.len(), held);
         let [of_nodes, of_blocks] = &self.rigid;
         let missing = of_blocks.tr_mul(load) - of_nodes.tr_mul(&on_nodes);
         on_nodes += of_nodes * missing;
         on_nodes
+    }
+}
+
+impl Tie {
+    fn new(body: &Macroblock, node: &Node, axis: usize) -> Self {
+        let (along, link) = (node.axes[axis], node.link[axis]);
+        let held = node.holds.into_iter().filter(|(_, share)| *share != 0.0);
+        let load = |(i, share): (usize, f64)| (i, body.blocks()[i].displacement_row(node.at, along) * (link * share));
+        Tie { link, loads: held.map(load).collect() }
+    }
+
+    /// Adds the link's stiffness on the subblocks.
+    fn stiffness(&self, add: &mut dyn FnMut(usize, usize, &M6)) {
+        for (i, a) in self.loads.iter().filter(|_| self.link > 0.0) {
+            self.loads.iter().for_each(|(j, b)| add(*i, *j, &(a * b.transpose() / self.link)));
+        }
+    }
+
+    /// Work of the loads in displacements of the subblocks, per unit.
+    fn work(&self, x: &[f64]) -> f64 {
+        // Fused, with one rounding for each product and sum: copies of a stone share what rounding leaves of S, and over
+        // hundreds of them it adds up.
+        let terms = self.loads.iter().flat_map(|(i, load)| load.iter().zip(&x[6 * i..6 * i + 6]));
+        terms.fold(0.0, |sum, (load, x)| load.mul_add(*x, sum))
     }
 }
 
@@ -139,43 +189,32 @@ impl Condensed {
 pub fn free_response(body: &Macroblock, load: &DVector<f64>, heart: &Heart) -> Result<Option<DVector<f64>>, Stopped> {
     let modulus = body.blocks()[0].youngs_modulus();
     // Three springs on three rigid motions: statically determinate, so that a load in equilibrium does not feel them.
-    let springs: Vec<Triplet<usize, usize, f64>> = (0..3).map(|i| Triplet::new(i, i, modulus)).collect();
-    Ok(factor(body, &springs, heart)?.map(|factors| solve_one(&factors, load)))
+    let springs = M6::from_diagonal(&V6::from([modulus, modulus, modulus, 0.0, 0.0, 0.0]));
+    let factors = factor(body, |add| add(0, 0, &springs), heart)?;
+    Ok(factors.map(|factors| solve_one(&factors, load)))
 }
 
-/// Stiffness of the links on the subblocks: T' k T with T k = `ties`.
-fn held(body: &Macroblock, ties: &DMatrix<f64>, links: &[f64]) -> Vec<Triplet<usize, usize, f64>> {
-    let mut triplets = Vec::new();
-    for (c, &link) in links.iter().enumerate() {
-        let column = ties.column(c);
-        let rows: Vec<usize> = (0..6 * body.blocks().len()).filter(|&i| column[i] != 0.0).collect();
-        for &i in rows.iter().filter(|_| link > 0.0) {
-            triplets.extend(rows.iter().map(|&j| Triplet::new(i, j, column[i] * column[j] / link)));
-        }
-    }
-    triplets
-}
-
-fn factor(body: &Macroblock, more: &[Triplet<usize, usize, f64>], heart: &Heart) -> Result<Option<Factors>, Stopped> {
-    let n = 6 * body.blocks().len();
-    // All at once: to grow would be to copy a hundred megabytes, in one go.
-    let mut triplets = Vec::with_capacity(more.len() + 36 * body.stiffness_count());
-    triplets.extend_from_slice(more);
-    body.stiffness(|i, j, block| {
-        for a in 0..6 {
-            triplets.extend((0..6).map(|b| Triplet::new(6 * i + a, 6 * j + b, block[(a, b)])));
-        }
-        // Where this says to stop, the next beat does too.
-        let _ = heart.work(ADDED);
-    });
-    if n == 6 {
-        let mut dense = Mat::<f64>::zeros(n, n);
-        triplets.iter().for_each(|t| dense[(t.row, t.col)] += t.val);
-        return Ok(dense.llt(Side::Lower).ok().map(Factors::Dense));
+/// Factors the stiffness of a body to which `more(add)` adds.
+fn factor(
+    body: &Macroblock,
+    more: impl Fn(&mut dyn FnMut(usize, usize, &M6)),
+    heart: &Heart,
+) -> Result<Option<Factors>, Stopped> {
+    let all = |add: &mut dyn FnMut(usize, usize, &M6)| {
+        more(&mut *add);
+        body.stiffness(|i, j, block| {
+            add(i, j, block);
+            // Where this says to stop, the next beat does too.
+            let _ = heart.work(ADDED);
+        });
+    };
+    if body.blocks().len() == 1 {
+        let mut sum = M6::zeros();
+        all(&mut |_, _, block| sum += block);
+        return Ok(Mat::from_fn(6, 6, |i, j| sum[(i, j)]).llt(Side::Lower).ok().map(Factors::Dense));
     }
     heart.beat()?;
-    let sparse = assemble(n, &triplets, heart)?;
-    drop(triplets);
+    let sparse = assemble(body.blocks().len(), all, heart)?;
     heart.beat()?;
     let Ok(order) = SymbolicLlt::try_new(sparse.symbolic(), Side::Lower) else { return Ok(None) };
     heart.beat()?;
@@ -184,83 +223,57 @@ fn factor(body: &Macroblock, more: &[Triplet<usize, usize, f64>], heart: &Heart)
     Ok(factors.ok().map(Factors::Sparse))
 }
 
-/// The square matrix of `n` rows that these are the entries of, column by column. It is what faer makes of them, which adds
-/// up those of one place in the same order, but would do so in one go.
+/// The blocks on and below the diagonal of a symmetric matrix of 6 x 6 blocks, column by column: the sum of what `all(add)`
+/// adds, twice over. First it is seen which blocks there are, for the list of all that is added is several times as long.
 fn assemble(
-    n: usize,
-    triplets: &[Triplet<usize, usize, f64>],
+    blocks: usize,
+    all: impl Fn(&mut dyn FnMut(usize, usize, &M6)),
     heart: &Heart,
 ) -> Result<SparseColMat<usize, f64>, Stopped> {
-    let mut end = vec![0; n];
-    triplets.iter().for_each(|t| end[t.col] += 1);
-    let mut all = 0;
-    for end in &mut end {
-        (all, *end) = (all + *end, all);
+    let mut below = vec![Vec::new(); blocks];
+    all(&mut |i, j, _| {
+        if i >= j && !below[j].contains(&i) {
+            below[j].push(i);
+        }
+    });
+    heart.beat()?;
+    let count = 36 * below.iter().map(Vec::len).sum::<usize>();
+    let (mut start, mut ends, mut rows) = (Vec::with_capacity(blocks), vec![0], Vec::with_capacity(count));
+    for below in &mut below {
+        below.sort_unstable();
+        start.push(rows.len());
+        for _ in 0..6 {
+            rows.extend(below.iter().flat_map(|i| 6 * i..6 * i + 6));
+            ends.push(rows.len());
+        }
+        heart.work(PLACED * below.len())?;
     }
     heart.beat()?;
-    let mut order = vec![0; all];
-    for (i, t) in triplets.iter().enumerate() {
-        order[end[t.col]] = i;
-        end[t.col] += 1;
-    }
-    heart.beat()?;
-    let (mut columns, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
-    let mut start = 0;
-    for end in end {
-        let column = &mut order[start..end];
-        column.sort_unstable_by_key(|&i| triplets[i].row);
-        let mut last = None;
-        for &Triplet { row, val, .. } in column.iter().map(|&i| &triplets[i]) {
-            match values.last_mut() {
-                Some(sum) if last == Some(row) => *sum += val,
-                _ => {
-                    rows.push(row);
-                    values.push(val);
-                }
+    let mut values = vec![0.0; count];
+    all(&mut |i, j, block| {
+        if let Ok(place) = below[j].binary_search(&i) {
+            for (b, column) in block.column_iter().enumerate() {
+                let first = start[j] + 6 * (b * below[j].len() + place);
+                values[first..first + 6].iter_mut().zip(&column).for_each(|(sum, x)| *sum += x);
             }
-            last = Some(row);
         }
-        columns.push(rows.len());
-        heart.work(SORTED * (end - start))?;
-        start = end;
-    }
-    Ok(SparseColMat::new(SymbolicSparseColMat::new_checked(n, n, columns, None, rows), values))
-}
-
-/// K^-1 `right`, some columns at a time.
-fn solve(factors: &Factors, right: &DMatrix<f64>, heart: &Heart) -> Result<DMatrix<f64>, Stopped> {
-    let (rows, columns) = right.shape();
-    let mut all = DMatrix::zeros(rows, columns);
-    for part in parts(columns) {
-        let some = solve_some(factors, &Mat::from_fn(rows, part.len(), |i, j| right[(i, part.start + j)]));
-        for (j, column) in part.clone().enumerate() {
-            all.column_mut(column).copy_from_slice(some.col_as_slice(j));
-        }
-        heart.work(SOLVED * rows * part.len())?;
-    }
-    Ok(all)
+    });
+    heart.beat()?;
+    let pattern = SymbolicSparseColMat::new_checked(6 * blocks, 6 * blocks, ends, None, rows);
+    Ok(SparseColMat::new(pattern, values))
 }
 
 fn solve_one(factors: &Factors, right: &DVector<f64>) -> DVector<f64> {
-    let x = solve_some(factors, &Mat::from_fn(right.len(), 1, |i, _| right[i]));
+    let x = solve(factors, &Mat::from_fn(right.len(), 1, |i, _| right[i]));
     DVector::from_fn(right.len(), |i, _| x[(i, 0)])
 }
 
-fn solve_some(factors: &Factors, right: &Mat<f64>) -> Mat<f64> {
+/// K^-1 `right`.
+fn solve(factors: &Factors, right: &Mat<f64>) -> Mat<f64> {
     match factors {
         Factors::Dense(factors) => factors.solve(right),
         Factors::Sparse(factors) => factors.solve(right),
     }
-}
-
-/// The product of two matrices, some columns at a time.
-fn product(a: &DMatrix<f64>, b: &DMatrix<f64>, heart: &Heart) -> Result<DMatrix<f64>, Stopped> {
-    let mut all = DMatrix::zeros(a.nrows(), b.ncols());
-    for part in parts(b.ncols()) {
-        all.columns_mut(part.start, part.len()).gemm(1.0, a, &b.columns(part.start, part.len()), 0.0);
-        heart.work(a.nrows() * a.ncols() * part.len())?;
-    }
-    Ok(all)
 }
 
 /// Columns in parts of which none is small.
@@ -305,57 +318,4 @@ fn orthonormal(mut a: DMatrix<f64>, mut b: DMatrix<f64>) -> [DMatrix<f64>; 2] {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A diagonally dominant matrix of `blocks` blocks of six unknowns, each tied to the next and to one some way off, and a
-    /// right-hand side.
-    fn system(blocks: usize, columns: usize) -> (Vec<Triplet<usize, usize, f64>>, DMatrix<f64>) {
-        let number = |i: usize, j: usize| ((i * 31 + j * 17) as f64 * 0.754_877_666).fract() - 0.5;
-        let far = (blocks as f64).sqrt() as usize;
-        let mut triplets = Vec::new();
-        for (b, c) in (0..blocks).flat_map(|b| [(b, b), (b, b + 1), (b, b + far)]).filter(|&(_, c)| c < blocks) {
-            for (i, j) in (0..6).flat_map(|i| (0..6).map(move |j| (6 * b + i, 6 * c + j))).filter(|(i, j)| i < j) {
-                triplets.extend([Triplet::new(i, j, number(i, j)), Triplet::new(j, i, number(i, j))]);
-            }
-        }
-        triplets.extend((0..6 * blocks).map(|i| Triplet::new(i, i, 30.0)));
-        let right = |i: usize, j: usize| if (7 * i + 13 * j) % 97 < 3 { number(j, i) } else { 0.0 };
-        (triplets, DMatrix::from_fn(6 * blocks, columns, right))
-    }
-
-    #[test]
-    fn entries_of_one_place_are_added_up_as_the_solver_would() {
-        let (mut triplets, _) = system(100, 1);
-        // Many to a place, in no order.
-        let more = |i: usize| Triplet::new(i * 7 % 600, i * i % 11, (i as f64 * 0.754_877_666).fract());
-        triplets.extend((0..5000).map(more));
-        let ours = assemble(600, &triplets, &Heart::unwatched()).unwrap();
-        let theirs = SparseColMat::try_new_from_triplets(600, 600, &triplets).unwrap();
-        assert_eq!(ours.col_ptr(), theirs.col_ptr());
-        assert_eq!(ours.row_idx(), theirs.row_idx());
-        assert!(ours.val().iter().zip(theirs.val()).all(|(a, b)| a.to_bits() == b.to_bits()));
-    }
-
-    #[test]
-    fn a_part_of_the_columns_at_a_time_gives_the_same_to_the_last_bit() {
-        let heart = Heart::unwatched();
-        let bits = |m: &DMatrix<f64>| m.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
-        for (blocks, columns) in [(1, 16), (1, 31), (1, 100), (16, 32), (100, 63), (400, 47), (400, 100), (576, 200)] {
-            let (triplets, right) = system(blocks, columns);
-            let n = 6 * blocks;
-            let sparse = assemble(n, &triplets, &heart).unwrap();
-            let factors = match blocks {
-                1 => Factors::Dense(sparse.to_dense().llt(Side::Lower).unwrap()),
-                _ => Factors::Sparse(sparse.sp_cholesky(Side::Lower).unwrap()),
-            };
-            let whole = solve_some(&factors, &Mat::from_fn(n, columns, |i, j| right[(i, j)]));
-            let whole = DMatrix::from_fn(n, columns, |i, j| whole[(i, j)]);
-            let parts = solve(&factors, &right, &heart).unwrap();
-            assert!(bits(&parts) == bits(&whole), "{blocks} blocks, {columns} columns");
-            let transposed = right.transpose();
-            let product = product(&transposed, &parts, &heart).unwrap();
-            assert!(bits(&product) == bits(&(transposed * parts)), "{blocks} blocks, {columns} columns");
-        }
-    }
-}
+mod tests;

@@ -2,6 +2,12 @@
 //!
 //! The matrix is eliminated from both ends towards the block row that changed last (a twisted factorisation), so that
 //! the next change costs only the rows between the two. Blocks may differ in size.
+//!
+//! Keeping the factors over several changes instead, each a change of low rank (Sherman and Morrison 1950, Woodbury 1950),
+//! was measured on chains of 61 to 2001 bodies with sixteen contacts changed between two factorisations. With two contact
+//! points a joint, a change takes 0.9 to 1.15 times as long and residuals grow from 1e-12 to 6e-10; with 9, 17 and 49 points
+//! it takes 0.52, 0.39 and 0.34 times as long. Only fine meshes would gain, and pivots of the small system are no pivots of the
+//! matrix, by which a mechanism is known.
 
 use super::heart::{Heart, Stopped};
 use super::panels::{Panels, subtract_applied, subtract_product};

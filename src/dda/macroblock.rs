@@ -142,11 +142,6 @@ impl Macroblock {
         self.cogs(add);
     }
 
-    /// How many blocks [`stiffness`](Self::stiffness) adds.
-    pub(super) fn stiffness_count(&self) -> usize {
-        self.blocks.len() + 16 * (self.seams.len() + self.corners.len())
-    }
-
     /// Adds what keeps the subblocks around inner corners from turning like cogs: on the alternating sum of their rotations.
     fn cogs(&self, mut add: impl FnMut(usize, usize, &M6)) {
         for corner in &self.corners {

@@ -54,7 +54,8 @@ impl Panels {
 #[inline(always)]
 fn subtract_product_of(a: &[f64], b: &[f64], out: &mut [f64], inner: usize, columns: usize) {
     for (row, into) in a.chunks_exact(inner).zip(out.chunks_exact_mut(columns)) {
-        for (&l, other) in row.iter().zip(b.chunks_exact(columns)) {
+        // What ties two bodies at their joint is zero but for the 2 x 2 blocks of its contact points.
+        for (&l, other) in row.iter().zip(b.chunks_exact(columns)).filter(|(l, _)| inner == 4 || **l != 0.0) {
             for (entry, x) in into.iter_mut().zip(other) {
                 *entry -= l * x;
             }
@@ -85,6 +86,22 @@ pub fn subtract_applied(a: &[f64], x: &[f64], y: &mut [f64]) {
 fn subtract_applied_of(a: &[f64], x: &[f64], y: &mut [f64], n: usize) {
     for (row, entry) in a.chunks_exact(n).zip(y) {
         *entry -= dot(&row[..n], &x[..n]);
+    }
+}
+
+/// y += a x, for `a` stored column by column: four columns at a time, so that y is read and written a fourth as often.
+pub fn add_applied_columns(a: &[f64], x: &[f64], y: &mut [f64]) {
+    let rows = y.len().max(1);
+    let by_four = x.len() / 4 * 4;
+    for (columns, x) in a.chunks_exact(4 * rows).zip(x.chunks_exact(4)) {
+        let (left, right) = columns.split_at(2 * rows);
+        let (pairs, more) = (left[..rows].iter().zip(&left[rows..]), right[..rows].iter().zip(&right[rows..]));
+        for ((sum, (a, b)), (c, d)) in y.iter_mut().zip(pairs).zip(more) {
+            *sum += a * x[0] + b * x[1] + c * x[2] + d * x[3];
+        }
+    }
+    for (column, x) in a[by_four * rows..].chunks_exact(rows).zip(&x[by_four..]) {
+        y.iter_mut().zip(column).for_each(|(sum, a)| *sum += a * x);
     }
 }
 

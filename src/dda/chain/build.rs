@@ -7,12 +7,15 @@ use crate::dda::factor::Tridiagonal;
 use crate::dda::heart::{Heart, Stopped};
 use crate::dda::macroblock::Macroblock;
 use crate::geometry::{Vec2, cross, perpendicular};
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVectorView};
 
 /// Coordinates that differ by this share of the farthest from the origin differ by rounding: some operations' worth.
 const ROUNDING: f64 = 256.0 * f64::EPSILON;
 /// Work of seeing a subblock from another frame, or of comparing a body with a kind, in multiplications.
 const WORK: usize = 300;
+/// Most entries of a kind's stress by its nodes that are kept, 32 MB. Where there are more, solving for the subblocks each
+/// time, with factors that are there anyway, takes hardly longer.
+const MOST_KEPT: usize = 1 << 22;
 /// Work of setting an entry of the stiffness.
 const SET: usize = 8;
 
@@ -103,18 +106,24 @@ impl ChainBuilder {
 
 impl Kind {
     fn new(macroblock: Macroblock, nodes: Vec<Node>, heart: &Heart) -> Result<Self, Unbuilt> {
-        let condensed = Condensed::new(&macroblock, &nodes, heart)?;
-        let area: f64 = macroblock.blocks().iter().map(|b| b.area()).sum();
-        let mean = DMatrix::from_fn(3, 6 * macroblock.blocks().len(), |i, j| {
-            let block = &macroblock.blocks()[j / 6];
+        let blocks = macroblock.blocks();
+        let area: f64 = blocks.iter().map(|b| b.area()).sum();
+        let mean = DMatrix::from_fn(3, 6 * blocks.len(), |i, j| {
+            let block = &blocks[j / 6];
             let weight = block.area() / area / if i == 2 { block.size() } else { 1.0 };
             if j % 6 == i { weight } else { 0.0 }
         });
-        let mean_of_nodes = &mean * condensed.response();
-        let stress: Vec<_> = macroblock.blocks().iter().map(|b| b.stress_matrix()).collect();
-        let stress_of_nodes = DMatrix::from_columns(
-            &condensed.response().column_iter().map(|d| stresses(&stress, d.as_slice())).collect::<Vec<_>>(),
-        );
+        let stress: Vec<_> = blocks.iter().map(|b| b.stress_matrix()).collect();
+        let columns = 2 * nodes.len();
+        let mut mean_of_nodes = DMatrix::zeros(3, columns);
+        let kept = Some(3 * blocks.len()).filter(|rows| rows * columns <= MOST_KEPT);
+        let mut stress_of_nodes = kept.map(|rows| DMatrix::zeros(rows, columns));
+        let condensed = Condensed::new(&macroblock, &nodes, heart, |j, d| {
+            mean_of_nodes.set_column(j, &(&mean * DVectorView::from_slice(d, d.len())));
+            if let Some(of_nodes) = &mut stress_of_nodes {
+                of_nodes.set_column(j, &stresses(&stress, d));
+            }
+        })?;
         Ok(Kind { macroblock, nodes, condensed, mean, mean_of_nodes, stress, stress_of_nodes })
     }
 }

@@ -2,6 +2,7 @@
 
 use super::{Chain, MeanMotion, Node};
 use crate::dda::moving::Turn;
+use crate::dda::panels::add_applied_columns;
 use crate::geometry::{Vec2, perpendicular};
 use nalgebra::DMatrix;
 use std::ops::Range;
@@ -81,8 +82,8 @@ impl Chain {
         let blocks = kind.macroblock.blocks();
         let area: f64 = blocks.iter().map(|b| b.area()).sum();
         let middle = blocks.iter().map(|b| b.centroid() * (b.area() / area)).sum::<Vec2>();
-        let column = |j: usize| kind.mean_of_nodes.column(j) * elastic[j];
-        let mean = (0..elastic.len()).map(column).fold(nalgebra::Vector3::zeros(), |sum, share| sum + share);
+        let mut mean = [0.0; 3];
+        add_applied_columns(kind.mean_of_nodes.as_slice(), elastic, &mut mean);
         let (turned, moved) = (turn.shift((middle - centre).into()), turn.pair([mean[0], mean[1]]));
         let displacement = Vec2::from(shift) + Vec2::from(turned) + Vec2::from(moved);
         MeanMotion { displacement: body.turned_back(displacement), rotation: turn.angle() + mean[2] }

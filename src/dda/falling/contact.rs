@@ -107,13 +107,14 @@ fn directions([from, to]: [Vec2; 2]) -> (Vec2, Vec2) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dda::falling::block;
 
     fn square(x: f64, y: f64) -> Corners {
         [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(u, v)| Vec2::new(x + u, y + v))
     }
 
     fn turned(corners: Corners, centre: Vec2, angle: f64) -> Corners {
-        corners.map(|c| centre + super::super::block::turned(c - centre, angle))
+        corners.map(|c| centre + block::turned(c - centre, angle))
     }
 
     #[test]

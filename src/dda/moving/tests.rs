@@ -17,7 +17,8 @@ fn body() -> (Corotated, DMatrix<f64>, Vec<Node>) {
     let nodes: Vec<Node> = faces.into_iter().flat_map(|(angle, points)| points.map(|at| node(angle, at))).collect();
     let region = Region { area: 1.1, centroid: Vec2::new(0.5, 0.55) };
     let elasticity = Elasticity { youngs_modulus: 1e3, poissons_ratio: 0.2, plane_strain: false };
-    let condensed = Condensed::new(&Block::new(region, elasticity).into(), &nodes, &Heart::unwatched()).unwrap();
+    let condensed =
+        Condensed::new(&Block::new(region, elasticity).into(), &nodes, &Heart::unwatched(), |_, _| {}).unwrap();
     (Corotated::new(&nodes), condensed.stiffness().clone(), nodes)
 }
 

@@ -1,0 +1,197 @@
+//! How the work of an analysis grows: events, factorisations, block rows, time and memory by number of voussoirs and by
+//! number of subblocks, and the exponents of that growth.
+//!
+//! `cargo bench --bench growth`, about half an hour; names of families such as `-- quarter beam` run those alone. Every row has a
+//! process of its own, so that its memory is its own: the most the process ever had (VmHWM of Linux). Time is the processor's
+//! (Linux's schedstat), which other programs on the machine do not lengthen much; the median of up to five runs.
+//!
+//! | family | what |
+//! |---|---|
+//! | `quarter`, `crown` | a semicircle with dry joints under a point load, to collapse, one subblock a voussoir |
+//! | `fine` | the same with more and more subblocks in 61 voussoirs |
+//! | `alike` | the elastic field of 61 equal voussoirs with bonded joints under their weight |
+//! | `unlike` | the same with every voussoir of another length: no stone's stiffness serves for another |
+//! | `many` | as `unlike`, 2001 voussoirs |
+//! | `beam` | the curved beam, one body |
+#![allow(missing_docs, clippy::unwrap_used, clippy::print_stdout, clippy::disallowed_methods, reason = "a benchmark")]
+
+use serde_json::{Value, json};
+use std::process::Command;
+use std::time::Instant;
+use voussoir::api::read::read_analysis;
+use voussoir::arch::JointLaw;
+use voussoir::collapse::{Analysis, Answer, Cost, CurvedBeam, FieldAt, PlaneModel, Question, Seams, Unwatched, answer};
+
+/// Most runs of a row, and seconds after which no other is begun.
+const RUNS: usize = 5;
+const LONG_S: f64 = 2.0;
+/// Seconds that analyses of one run take together at least: the system counts a process's time in steps of some milliseconds.
+const SHORT_S: f64 = 0.05;
+
+/// Families of rows: voussoirs, and subblocks each way in each of them.
+const FAMILIES: [(&str, &[(usize, usize)]); 7] = [
+    ("quarter", &COLLAPSES),
+    ("crown", &COLLAPSES),
+    ("fine", &[(61, 1), (61, 2), (61, 4), (61, 8), (61, 16)]),
+    ("alike", &[(61, 1), (61, 2), (61, 4), (61, 8), (61, 16), (61, 32), (61, 64), (61, 128)]),
+    ("unlike", &[(61, 1), (61, 2), (61, 4), (61, 8), (61, 16), (61, 32), (61, 64), (61, 128)]),
+    ("many", &[(2001, 1), (2001, 2), (2001, 4), (2001, 8), (2001, 16), (2001, 22)]),
+    ("beam", &[(1, 1), (1, 10), (1, 32), (1, 100), (1, 320)]),
+];
+const COLLAPSES: [(usize, usize); 7] = [(9, 1), (27, 1), (61, 1), (201, 1), (601, 1), (1001, 1), (2001, 1)];
+
+/// What a row has measured.
+struct Measured {
+    subblocks: f64,
+    seconds: f64,
+    mebibytes: f64,
+}
+
+fn main() {
+    // Cargo passes `--bench` on.
+    let arguments: Vec<String> = std::env::args().skip(1).filter(|word| word != "--bench").collect();
+    if let [word, family, voussoirs, each_way] = &arguments[..]
+        && word == "row"
+    {
+        return row(family, voussoirs.parse().unwrap(), each_way.parse().unwrap());
+    }
+    for (family, rows) in FAMILIES {
+        if arguments.is_empty() || arguments.iter().any(|word| word == family) {
+            table(family, rows);
+        }
+    }
+}
+
+/// Runs the rows of a family, each in a process of its own, and prints them with their exponents.
+fn table(family: &str, rows: &[(usize, usize)]) {
+    println!("\n{family}");
+    println!("{}", heading());
+    let mut all = Vec::new();
+    for &(voussoirs, each_way) in rows {
+        let this = std::env::current_exe().unwrap();
+        let output = Command::new(this).args(["row", family, &voussoirs.to_string(), &each_way.to_string()]).output();
+        let printed = String::from_utf8(output.unwrap().stdout).unwrap();
+        let numbers: Vec<f64> = printed.split_whitespace().skip(2).map(|word| word.parse().unwrap()).collect();
+        print!("{printed}");
+        match numbers[..] {
+            [.., seconds, mebibytes] => {
+                all.push(Measured { subblocks: (voussoirs * each_way * each_way) as f64, seconds, mebibytes });
+            }
+            _ => println!("{voussoirs:>9} {each_way:>5}² did not end well"),
+        }
+    }
+    let of = |measure: fn(&Measured) -> f64| all.iter().map(|m| (m.subblocks, measure(m))).collect::<Vec<_>>();
+    for (what, points) in [("time", of(|m| m.seconds)), ("memory", of(|m| m.mebibytes))] {
+        let last = &points[points.len().saturating_sub(2)..];
+        println!("{what:<7} grows as subblocks^{:.2}; between the last two ^{:.2}", exponent(&points), exponent(last));
+    }
+}
+
+fn heading() -> String {
+    let [voussoirs, each, events, factorisations] = ["voussoirs", "each", "events", "factorisations"];
+    format!("{voussoirs:>9} {each:>6} {events:>7} {factorisations:>14} {:>10} {:>9} {:>9}", "block rows", "s", "MiB")
+}
+
+/// One row: measured here, printed on one line.
+fn row(family: &str, voussoirs: usize, each_way: usize) {
+    let question = match family {
+        "quarter" | "fine" => collapse(voussoirs, each_way, -0.5),
+        "crown" => collapse(voussoirs, each_way, 0.0),
+        "alike" => elastic(voussoirs, each_way, &vec![1.0; voussoirs]),
+        "beam" => beam(each_way),
+        _ => elastic(voussoirs, each_way, &(0..voussoirs).map(|i| 1.0 + 1e-4 * i as f64).collect::<Vec<_>>()),
+    };
+    let mut cost = Cost::default();
+    let mut seconds = Vec::new();
+    let (begun, mut batch) = (Instant::now(), 1);
+    while seconds.is_empty() || seconds.len() < RUNS && begun.elapsed().as_secs_f64() < LONG_S {
+        let start = processor_seconds();
+        for _ in 0..batch {
+            cost = match answer(&question, &mut Unwatched).unwrap() {
+                Answer::One(report) => report.cost,
+                _ => Cost::default(),
+            };
+        }
+        let each = (processor_seconds() - start) / f64::from(batch);
+        // What is over before the system's clock has moved is run again, more often.
+        if each * f64::from(batch) < SHORT_S && begun.elapsed().as_secs_f64() < LONG_S {
+            batch *= 2;
+        } else {
+            seconds.push(each);
+        }
+    }
+    seconds.sort_by(f64::total_cmp);
+    let Cost { events, factorisations, block_rows, .. } = cost;
+    let (median, peak) = (seconds[seconds.len() / 2], peak_mebibytes());
+    println!(
+        "{voussoirs:>9} {each_way:>5}² {events:>7} {factorisations:>14} {block_rows:>10} {median:>9.4} {peak:>9.1}"
+    );
+}
+
+/// Time this thread has had on a processor, s.
+fn processor_seconds() -> f64 {
+    let nanoseconds = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
+    nanoseconds.split_whitespace().next().and_then(|word| word.parse::<f64>().ok()).map_or(f64::NAN, |ns| 1e-9 * ns)
+}
+
+/// Most memory this process has had, MiB.
+fn peak_mebibytes() -> f64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let kibibytes = line.and_then(|line| line.trim().trim_end_matches(" kB").parse::<f64>().ok());
+    kibibytes.map_or(f64::NAN, |kibibytes| kibibytes / 1024.0)
+}
+
+/// Exponent of a power law through these points, by least squares of the logarithms.
+fn exponent(points: &[(f64, f64)]) -> f64 {
+    let logs: Vec<(f64, f64)> = points.iter().map(|(x, y)| (x.ln(), y.ln())).collect();
+    let mean = |of: &dyn Fn(&(f64, f64)) -> f64| logs.iter().map(of).sum::<f64>() / logs.len() as f64;
+    let (x, y) = (mean(&|p| p.0), mean(&|p| p.1));
+    mean(&|p| (p.0 - x) * (p.1 - y)) / mean(&|p| (p.0 - x).powi(2))
+}
+
+/// A semicircle of t/R = 0.15 under its weight and a point load at `x` times the radius.
+fn semicircle(lengths: &[f64], x: f64) -> Analysis {
+    let request: Value = json!({
+        "arch": {
+            "profile": {"circular": {"radius_m": 10.0, "opening_angle_deg": 180.0}},
+            "thickness": {"constant_m": 1.5},
+            "voussoirs": lengths.len(),
+            "relative_lengths": lengths,
+        },
+        "loads": [
+            {"load": {"self_weight": {}}},
+            {"load": {"point_load": {"force_n_per_m": 1000.0, "x_m": 10.0 * x}}, "scaled": true},
+        ],
+    });
+    read_analysis(request.to_string().as_bytes()).unwrap().1
+}
+
+fn collapse(voussoirs: usize, each_way: usize, x: f64) -> Question {
+    let mut analysis = semicircle(&vec![1.0; voussoirs], x);
+    analysis.mesh.subblocks = vec![[each_way; 2]; voussoirs];
+    Question::One(Box::new(analysis))
+}
+
+/// Stress in every subblock under the weight alone.
+fn elastic(voussoirs: usize, each_way: usize, lengths: &[f64]) -> Question {
+    let mut analysis = semicircle(lengths, -0.5);
+    analysis.arch.joints.iter_mut().for_each(|joint| joint.law = JointLaw::Bonded);
+    analysis.mesh.subblocks = vec![[each_way; 2]; voussoirs];
+    analysis.fields = vec![FieldAt::LoadFactor(0.0)];
+    Question::One(Box::new(analysis))
+}
+
+/// The curved beam of section 3.3 of the paper.
+fn beam(each_way: usize) -> Question {
+    Question::CurvedBeam(CurvedBeam {
+        inner_radius: 1.0,
+        outer_radius: 2.0,
+        shear: 1000.0,
+        stone: semicircle(&[1.0; 3], 0.0).stone,
+        plane: PlaneModel::Stress,
+        subblocks: [each_way; 2],
+        seams: Seams::Split,
+        curved_sides: true,
+    })
+}
