@@ -9,8 +9,8 @@ use super::with_mesh;
 /// How stress converges next to joints that open, and to forces on points (measured: 0.3 next to a hinge, 1.1 elsewhere).
 const ORDERS: Orders = [0.6, 1.0];
 
-/// Of the square of the error allowed, what voussoirs that stay as they are may use up.
-const KEPT: f64 = 0.5;
+/// Error that a mesh aims at, over the error asked: an estimate may come out a little larger than it was foreseen.
+const AIM: f64 = 0.9;
 
 /// Where even the finest mesh is expected to miss the error asked by this factor, none finer is tried.
 const OUT_OF_REACH: f64 = 2.0;
@@ -155,24 +155,34 @@ impl Refinement {
         self.errors.iter().map(|field| field.shares(halvings).sum::<f64>().sqrt()).fold(0.0, f64::max)
     }
 
-    /// Voussoirs to refine: all but those that together use up little of the error allowed.
+    /// Voussoirs to refine: those that promise the most for the subblocks they take, until as accurate as asked, or half as far
+    /// off (in squares) where that is a long way.
     fn marked(&self, asked: f64) -> Vec<bool> {
-        let none = vec![0; self.levels.len()];
-        let mut shares = vec![0.0f64; none.len()];
-        for field in &self.errors {
-            shares.iter_mut().zip(field.shares(&none)).for_each(|(share, here)| *share = share.max(here));
-        }
-        let mut order: Vec<usize> = (0..shares.len()).collect();
-        order.sort_by(|&a, &b| shares[a].total_cmp(&shares[b]));
-        let (mut marked, mut kept) = (vec![true; shares.len()], 0.0);
+        let [now, then] = [0, 1].map(|halvings| self.shares(&vec![halvings; self.levels.len()]));
+        let [before, after] = [&self.levels, &self.raised(&vec![true; now.len()])].map(|levels| self.subblocks(levels));
+        let worth = |k: usize| (now[k] - then[k]) / (total(&after[k..=k]) - total(&before[k..=k])) as f64;
+        let mut order: Vec<usize> = (0..now.len()).filter(|&k| after[k] != before[k]).collect();
+        order.sort_by(|&a, &b| worth(b).total_cmp(&worth(a)));
+        let mut left: f64 = now.iter().sum();
+        let goal = (AIM * asked).powi(2).max(0.5 * left);
+        let mut marked = vec![false; now.len()];
         for k in order {
-            kept += shares[k];
-            if kept > KEPT * asked * asked {
+            if left <= goal {
                 break;
             }
-            marked[k] = false;
+            marked[k] = true;
+            left -= now[k] - then[k];
         }
         marked
+    }
+
+    /// Squared error of every voussoir as a share of the squared stress, the largest of all fields.
+    fn shares(&self, halvings: &[usize]) -> Vec<f64> {
+        let mut shares = vec![0.0f64; self.levels.len()];
+        for field in &self.errors {
+            shares.iter_mut().zip(field.shares(halvings)).for_each(|(share, here)| *share = share.max(here));
+        }
+        shares
     }
 
     fn note(&mut self, stress: Option<f64>) {
