@@ -1,5 +1,6 @@
 //! Reports as pictures and files. Draws only: nothing here runs an analysis.
 
 mod canvas;
+pub mod chart;
 pub mod figure;
 pub mod vtu;

@@ -1,0 +1,190 @@
+//! Runs every model on every scene and takes the time.
+
+use super::models::{self, BASE, Model, Way, mesh};
+use super::scenes::{CollapseScene, Scenes, StressScene};
+use super::stress::Stresses;
+use super::table::{Kind, Row};
+use serde_json::Value;
+use std::time::Instant;
+use voussoir::api::read::read_question;
+use voussoir::collapse::{self, Analysis, Answer, CollapseReport, Outcome, Question, Unwatched, UpdatedEnd};
+use voussoir::limit::{StaticTheorem, unwatched};
+
+/// A run is repeated until so much time has gone by, s...
+const ENOUGH_TIME: f64 = 0.5;
+/// ... or so many times, an odd number.
+const MOST_REPETITIONS: usize = 51;
+/// Runs shorter than this, s, are repeated at least
+const SHORT: f64 = 1.0;
+/// so often.
+const LEAST_REPETITIONS: usize = 3;
+
+/// What a model answers: a number and its error, or why there is none.
+type Found = Result<(Option<f64>, f64), String>;
+
+/// Runs the models that `chosen` names, or all; the base always.
+///
+/// # Errors
+/// When a scene cannot be read or its reference not be computed.
+pub fn run(scenes: &Scenes, chosen: &[String], told: &mut dyn FnMut(&Row)) -> Result<Vec<Row>, String> {
+    let wanted = |model: &Model| chosen.is_empty() || model.name == BASE || chosen.contains(&model.name);
+    let mut rows = Vec::new();
+    for scene in &scenes.collapse {
+        let models = models::collapse(scene.step).into_iter().filter(wanted);
+        let one = |model: &Model| on_collapse(scene, model);
+        measure(Kind::Collapse, &scene.name, models, one, &mut rows, told)?;
+    }
+    for scene in &scenes.stress {
+        let mut reference = None;
+        let one = |model: &Model| on_stress(scene, model, &mut reference);
+        measure(Kind::Stress, &scene.name, models::stress().into_iter().filter(wanted), one, &mut rows, told)?;
+    }
+    Ok(rows)
+}
+
+/// All models on one scene.
+fn measure(
+    chart: Kind,
+    scene: &str,
+    models: impl Iterator<Item = Model>,
+    mut one: impl FnMut(&Model) -> Result<(Found, Timed), String>,
+    rows: &mut Vec<Row>,
+    told: &mut dyn FnMut(&Row),
+) -> Result<(), String> {
+    let mut base = None;
+    for model in models {
+        let (found, timed) = one(&model).map_err(|error| format!("{scene}, {}: {error}", model.name))?;
+        let base_seconds = *base.get_or_insert(timed.seconds);
+        let (intensity, error, why) = match found {
+            Ok((intensity, error)) => (intensity, Some(error), String::new()),
+            Err(why) => (None, None, format!("{why}; ")),
+        };
+        let row = Row {
+            chart,
+            scene: scene.to_owned(),
+            family: model.family.to_owned(),
+            model: model.name,
+            intensity,
+            error,
+            seconds: timed.seconds,
+            base_seconds,
+            time_ratio: timed.seconds / base_seconds,
+            note: format!("{why}median of {}", timed.repetitions),
+        };
+        told(&row);
+        rows.push(row);
+    }
+    Ok(())
+}
+
+/// How long something took.
+struct Timed {
+    /// Median, s.
+    seconds: f64,
+    repetitions: usize,
+}
+
+/// What `run` gives, and its time.
+fn timed<T>(run: impl Fn() -> T) -> (T, Timed) {
+    let clocked = || {
+        let clock = Instant::now();
+        let result = run();
+        (result, clock.elapsed().as_secs_f64())
+    };
+    let (result, first) = clocked();
+    let mut times = vec![first];
+    let (mut total, least) = (first, if first < SHORT { LEAST_REPETITIONS } else { 1 });
+    while times.len() < least || (total < ENOUGH_TIME && times.len() < MOST_REPETITIONS) {
+        let (_, seconds) = clocked();
+        total += seconds;
+        times.push(seconds);
+    }
+    times.sort_by(f64::total_cmp);
+    (result, Timed { seconds: times[times.len() / 2], repetitions: times.len() })
+}
+
+/// The scene's request with a model's fields, translated.
+fn question(request: &Value, fields: &Value) -> Result<Question, String> {
+    let mut request = request.clone();
+    for (name, value) in fields.as_object().into_iter().flatten() {
+        request[name] = value.clone();
+    }
+    let read = read_question(request.to_string().as_bytes());
+    read.map(|(_, question)| question).map_err(|faults| format!("{faults:?}"))
+}
+
+fn analysis(request: &Value, fields: &Value) -> Result<Analysis, String> {
+    match question(request, fields)? {
+        Question::One(analysis) => Ok(*analysis),
+        _ => Err("no single arch".to_owned()),
+    }
+}
+
+fn on_collapse(scene: &CollapseScene, model: &Model) -> Result<(Found, Timed), String> {
+    let (intensity, timed) = match &model.way {
+        Way::LimitWindow => {
+            let Analysis { arch, fixed, scaled, .. } = analysis(&scene.request, &Value::Null)?;
+            let (window, time) = timed(|| StaticTheorem::new(&arch, &fixed, &scaled).window(&unwatched));
+            let highest = window.ok().flatten().map(|[_, highest]| highest);
+            (highest.ok_or_else(|| "no window".to_owned()), time)
+        }
+        Way::Analysis(fields) => {
+            let analysis = analysis(&scene.request, fields)?;
+            let (report, time) = timed(|| collapse::run(&analysis, &mut Unwatched));
+            (report.map_err(|error| error.to_string()).and_then(|report| first_order(&report)), time)
+        }
+        Way::Updated(fields) => {
+            let analysis = analysis(&scene.request, fields)?;
+            let (report, time) = timed(|| collapse::run(&analysis, &mut Unwatched));
+            (report.map_err(|error| error.to_string()).and_then(|report| on_moving_geometry(&report)), time)
+        }
+    };
+    Ok((intensity.map(|intensity| (Some(intensity), scene.error(intensity))), timed))
+}
+
+/// Collapse intensity; the scenes call load factor 1 intensity 1.
+fn first_order(report: &CollapseReport) -> Result<f64, String> {
+    match (&report.end, report.outcome) {
+        (Some(end), Outcome::Collapse) => Ok(end.load_factor),
+        (_, outcome) => Err(format!("{outcome:?}: {}", report.notes.join(" "))),
+    }
+}
+
+fn on_moving_geometry(report: &CollapseReport) -> Result<f64, String> {
+    match &report.updated {
+        Some(updated) if updated.end == UpdatedEnd::Collapse => updated.load_factor.ok_or_else(|| "no load".to_owned()),
+        Some(updated) => Err(format!("{:?}", updated.end)),
+        None => Err("not followed".to_owned()),
+    }
+}
+
+/// The reference of an arch is computed when it is first needed, and kept.
+fn on_stress(
+    scene: &StressScene,
+    model: &Model,
+    reference: &mut Option<Stresses>,
+) -> Result<(Found, Timed), String> {
+    let Way::Analysis(fields) = &model.way else { return Err("gives no stress".to_owned()) };
+    let question = question(&scene.request, fields)?;
+    let (answer, timed) = timed(|| collapse::answer(&question, &mut Unwatched));
+    let found = match answer {
+        Ok(Answer::CurvedBeam(beam)) => Ok(beam.error),
+        Ok(Answer::One(report)) => match Stresses::new(&report) {
+            Some(stresses) => Ok(stresses.error(fine(scene, reference)?)),
+            None => Err(format!("{:?}: {}", report.outcome, report.notes.join(" "))),
+        },
+        Ok(_) => return Err("no stress asked for".to_owned()),
+        Err(error) => Err(error.to_string()),
+    };
+    Ok((found.map(|error| (None, error)), timed))
+}
+
+/// The stresses of the finest mesh there is.
+fn fine<'r>(scene: &StressScene, reference: &'r mut Option<Stresses>) -> Result<&'r Stresses, String> {
+    if reference.is_none() {
+        let analysis = analysis(&scene.request, &mesh(super::stress::REFERENCE, "split"))?;
+        let report = collapse::run(&analysis, &mut Unwatched).map_err(|error| error.to_string())?;
+        *reference = Stresses::new(&report);
+    }
+    reference.as_ref().ok_or_else(|| "the reference gives no stresses".to_owned())
+}
