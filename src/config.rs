@@ -59,9 +59,12 @@ pub struct Chart {
     /// Rows of other programs on the same scenes, as benches/peers writes them, to be shown as well
     #[arg(long, value_name = "FILE.csv")]
     pub peers: Option<PathBuf>,
-    /// Only these models, as named in chart.csv; may be given several times. That with one subblock a stone always runs
-    #[arg(long, value_name = "MODEL")]
-    pub only: Vec<String>,
+    /// Only this scene, as named in chart.csv; may be given several times
+    #[arg(long = "scene", value_name = "SCENE")]
+    pub scenes: Vec<String>,
+    /// Only this model, as named in chart.csv, and that with one subblock a stone; may be given several times
+    #[arg(long = "model", value_name = "MODEL")]
+    pub models: Vec<String>,
 }
 
 /// Options of `serve`.

@@ -35,10 +35,12 @@ TOOLS = {
 }
 
 
-def base_seconds(program):
+def base_seconds(program, names):
     """Our own analysis with one subblock a stone: its time by scene."""
     with tempfile.TemporaryDirectory() as place:
-        subprocess.run([program, "chart", "--out", place, "--only", "1 x 1"], check=True, capture_output=True)
+        chosen = [word for name in names for word in ("--scene", name)]
+        words = [program, "chart", "--out", place, "--model", "1 x 1", *chosen]
+        subprocess.run(words, check=True, capture_output=True)
         rows = csv.DictReader((Path(place) / "chart.csv").read_text().splitlines())
         return {row["scene"]: float(row["seconds"]) for row in rows if row["model"] == "1 x 1"}
 
@@ -104,7 +106,7 @@ def main():
                 print(scene, tool, setting, told, file=sys.stderr, flush=True)
                 if told is not None:
                     found.append((tool, setting, scene, told))
-    base = base_seconds(options.voussoir)
+    base = base_seconds(options.voussoir, options.scenes)
     with options.out.open("w", newline="") as file:
         table = csv.DictWriter(file, COLUMNS)
         table.writeheader()

@@ -9,6 +9,7 @@ mod table;
 
 use super::{complain, fail};
 use crate::config::Chart;
+use run::Chosen;
 use std::fs;
 use std::process::ExitCode;
 use table::{Kind, Row};
@@ -30,7 +31,8 @@ fn measure_and_write(options: &Chart) -> Result<(), String> {
     let at = |name: &str| options.out.join(name);
     let cannot = |error: &dyn std::fmt::Display| format!("cannot write into {}: {error}", options.out.display());
     fs::create_dir_all(&options.out).map_err(|error| cannot(&error))?;
-    let mut rows = run::run(&scenes, &options.only, &mut tell)?;
+    let chosen = Chosen { scenes: &options.scenes, models: &options.models };
+    let mut rows = run::run(&scenes, chosen, &mut tell)?;
     rows.extend(peers);
     table::write(&at("chart.csv"), &rows).map_err(|error| cannot(&error))?;
     for (kind, file) in [(Kind::Collapse, "collapse.svg"), (Kind::Stress, "stress.svg")] {

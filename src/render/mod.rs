@@ -2,5 +2,7 @@
 
 mod canvas;
 pub mod chart;
+#[cfg(test)]
+mod checks;
 pub mod figure;
 pub mod vtu;

@@ -60,11 +60,7 @@ pub fn mesh(n: usize, seams: &str) -> Value {
 
 /// Uniform meshes with either kind of seams; one subblock has none.
 fn meshes() -> Vec<Model> {
-    let split = |n| Model {
-        family: "split seams",
-        name: format!("{n} x {n}"),
-        way: Way::Analysis(mesh(n, "split")),
-    };
+    let split = |n| Model { family: "split seams", name: format!("{n} x {n}"), way: Way::Analysis(mesh(n, "split")) };
     let corners = |n| Model {
         family: "corner seams",
         name: format!("{n} x {n}, corner seams"),

@@ -22,24 +22,59 @@ const LEAST_REPETITIONS: usize = 3;
 /// What a model answers: a number and its error, or why there is none.
 type Found = Result<(Option<f64>, f64), String>;
 
-/// Runs the models that `chosen` names, or all; the base always.
+/// Runs the chosen models on the chosen scenes, or all where none is chosen; the base always.
 ///
 /// # Errors
-/// When a scene cannot be read or its reference not be computed.
-pub fn run(scenes: &Scenes, chosen: &[String], told: &mut dyn FnMut(&Row)) -> Result<Vec<Row>, String> {
-    let wanted = |model: &Model| chosen.is_empty() || model.name == BASE || chosen.contains(&model.name);
+/// When a scene or a model has no such name, or a reference cannot be computed.
+pub fn run(scenes: &Scenes, chosen: Chosen<'_>, told: &mut dyn FnMut(&Row)) -> Result<Vec<Row>, String> {
+    chosen.check(scenes)?;
+    let models =
+        |all: Vec<Model>| all.into_iter().filter(|model| model.name == BASE || chosen.takes_model(&model.name));
     let mut rows = Vec::new();
-    for scene in &scenes.collapse {
-        let models = models::collapse(scene.step).into_iter().filter(wanted);
+    for scene in scenes.collapse.iter().filter(|scene| chosen.takes_scene(&scene.name)) {
         let one = |model: &Model| on_collapse(scene, model);
-        measure(Kind::Collapse, &scene.name, models, one, &mut rows, told)?;
+        measure(Kind::Collapse, &scene.name, models(models::collapse(scene.step)), one, &mut rows, told)?;
     }
-    for scene in &scenes.stress {
+    for scene in scenes.stress.iter().filter(|scene| chosen.takes_scene(&scene.name)) {
         let mut reference = None;
         let one = |model: &Model| on_stress(scene, model, &mut reference);
-        measure(Kind::Stress, &scene.name, models::stress().into_iter().filter(wanted), one, &mut rows, told)?;
+        measure(Kind::Stress, &scene.name, models(models::stress()), one, &mut rows, told)?;
     }
     Ok(rows)
+}
+
+/// Names of scenes and of models that are to run; all where there is none.
+#[derive(Debug, Clone, Copy)]
+pub struct Chosen<'a> {
+    /// Of scenes.
+    pub scenes: &'a [String],
+    /// Of models.
+    pub models: &'a [String],
+}
+
+impl Chosen<'_> {
+    fn takes_scene(&self, name: &str) -> bool {
+        self.scenes.is_empty() || self.scenes.iter().any(|chosen| chosen == name)
+    }
+
+    fn takes_model(&self, name: &str) -> bool {
+        self.models.is_empty() || self.models.iter().any(|chosen| chosen == name)
+    }
+
+    /// Whether there is something of every name.
+    fn check(&self, scenes: &Scenes) -> Result<(), String> {
+        let names = scenes.collapse.iter().map(|s| &s.name).chain(scenes.stress.iter().map(|s| &s.name));
+        let names: Vec<&String> = names.collect();
+        if let Some(name) = self.scenes.iter().find(|name| !names.contains(name)) {
+            return Err(format!("there is no scene {name:?}, only {names:?}"));
+        }
+        let steps = scenes.collapse.iter().find_map(|scene| scene.step);
+        let names: Vec<String> = models::collapse(steps).into_iter().map(|model| model.name).collect();
+        match self.models.iter().find(|name| !names.contains(name)) {
+            Some(name) => Err(format!("there is no model {name:?}, only {names:?}")),
+            None => Ok(()),
+        }
+    }
 }
 
 /// All models on one scene.
@@ -159,11 +194,7 @@ fn on_moving_geometry(report: &CollapseReport) -> Result<f64, String> {
 }
 
 /// The reference of an arch is computed when it is first needed, and kept.
-fn on_stress(
-    scene: &StressScene,
-    model: &Model,
-    reference: &mut Option<Stresses>,
-) -> Result<(Found, Timed), String> {
+fn on_stress(scene: &StressScene, model: &Model, reference: &mut Option<Stresses>) -> Result<(Found, Timed), String> {
     let Way::Analysis(fields) = &model.way else { return Err("gives no stress".to_owned()) };
     let question = question(&scene.request, fields)?;
     let (answer, timed) = timed(|| collapse::answer(&question, &mut Unwatched));
