@@ -1,5 +1,6 @@
 //! `voussoir chart`: speed against accuracy, measured on a fixed set of scenes.
 
+mod clock;
 mod models;
 mod picture;
 mod run;

@@ -1,23 +1,14 @@
 //! Runs every model on every scene and takes the time.
 
+use super::clock::{Timed, timed};
 use super::models::{self, BASE, Model, Way, mesh};
 use super::scenes::{CollapseScene, Scenes, StressScene};
 use super::stress::Stresses;
 use super::table::{Kind, Row};
 use serde_json::Value;
-use std::time::Instant;
 use voussoir::api::read::read_question;
 use voussoir::collapse::{self, Analysis, Answer, CollapseReport, Outcome, Question, Unwatched, UpdatedEnd};
 use voussoir::limit::{StaticTheorem, unwatched};
-
-/// A run is repeated until so much time has gone by, s...
-const ENOUGH_TIME: f64 = 0.5;
-/// ... or so many times, an odd number.
-const MOST_REPETITIONS: usize = 51;
-/// Runs shorter than this, s, are repeated at least
-const SHORT: f64 = 1.0;
-/// so often.
-const LEAST_REPETITIONS: usize = 3;
 
 /// What a model answers: a number and its error, or why there is none.
 type Found = Result<(Option<f64>, f64), String>;
@@ -104,38 +95,12 @@ fn measure(
             seconds: timed.seconds,
             base_seconds,
             time_ratio: timed.seconds / base_seconds,
-            note: format!("{why}median of {}", timed.repetitions),
+            note: format!("{why}mean of {}", timed.repetitions),
         };
         told(&row);
         rows.push(row);
     }
     Ok(())
-}
-
-/// How long something took.
-struct Timed {
-    /// Median, s.
-    seconds: f64,
-    repetitions: usize,
-}
-
-/// What `run` gives, and its time.
-fn timed<T>(run: impl Fn() -> T) -> (T, Timed) {
-    let clocked = || {
-        let clock = Instant::now();
-        let result = run();
-        (result, clock.elapsed().as_secs_f64())
-    };
-    let (result, first) = clocked();
-    let mut times = vec![first];
-    let (mut total, least) = (first, if first < SHORT { LEAST_REPETITIONS } else { 1 });
-    while times.len() < least || (total < ENOUGH_TIME && times.len() < MOST_REPETITIONS) {
-        let (_, seconds) = clocked();
-        total += seconds;
-        times.push(seconds);
-    }
-    times.sort_by(f64::total_cmp);
-    (result, Timed { seconds: times[times.len() / 2], repetitions: times.len() })
 }
 
 /// The scene's request with a model's fields, translated.
