@@ -30,7 +30,7 @@ COLUMNS = ["chart", "scene", "family", "model", "intensity", "error", "seconds",
 TOOLS = {
     "HiGHS": ["dual simplex", "interior point"],
     "RBE": ["tension below 1e-2", "tension below 1e-3", "tension below 1e-4"],
-    "CRA": ["d 1e-3, eps 1e-4", "d 1e-2, eps 1e-3", "d 1e-1, eps 1e-2"],
+    "CRA": ["d 1e-3, eps 1e-4", "d 1e-2, eps 1e-3"],
     "LMGC90": ["step 2 ms", "step 1 ms", "step 2 ms, moment as given"],
 }
 

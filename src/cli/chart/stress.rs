@@ -87,6 +87,40 @@ fn square([x, y, tau]: [f64; 3]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use voussoir::geometry::Vec2;
+
+    /// Two stones of 1 m x 1 m cut into n x m, their stresses given by the place of a subblock's middle.
+    fn stones([radial, along]: [usize; 2], stress: impl Fn(f64, f64) -> [f64; 3]) -> Stresses {
+        let cell = |voussoir: usize, i: usize, j: usize| {
+            let at = |i: f64, j: f64| Vec2::new(voussoir as f64 + j / along as f64, i / radial as f64);
+            let (i0, j0) = (i as f64, j as f64);
+            let corners = [at(i0, j0), at(i0, j0 + 1.0), at(i0 + 1.0, j0 + 1.0), at(i0 + 1.0, j0)];
+            let centre = at(i0 + 0.5, j0 + 0.5);
+            SubblockStress { voussoir, place: [i, j], centre, corners, stress: stress(centre.x, centre.y) }
+        };
+        let places = (0..2).flat_map(|k| (0..along).flat_map(move |j| (0..radial).map(move |i| (k, i, j))));
+        let subblocks = places.map(|(k, i, j)| cell(k, i, j)).collect();
+        Stresses { subblocks, meshes: (0..2).map(|k| (k, [radial, along])).collect() }
+    }
+
+    #[test]
+    fn the_means_of_a_linear_field_are_its_values_in_the_middle() {
+        let field = |x: f64, y: f64| [2.0 + x - 3.0 * y, 1.0 - x, y];
+        let fine = stones([12, 12], field);
+        for mesh in [[1, 1], [3, 2], [12, 12], [5, 7]] {
+            assert!(stones(mesh, field).error(&fine) < 1e-14, "{mesh:?}");
+        }
+    }
+
+    #[test]
+    fn the_error_is_the_share_that_is_wrong() {
+        let right = |_: f64, _: f64| [3.0, 0.0, 0.0];
+        let fine = stones([6, 6], right);
+        assert!((stones([2, 3], |_, _| [3.3, 0.0, 0.0]).error(&fine) - 0.1).abs() < 1e-14);
+        // Shear counts twice; one of the two stones is wrong.
+        let sheared = stones([2, 3], |x, _| [3.0, 0.0, if x > 1.0 { 0.3 } else { 0.0 }]);
+        assert!((sheared.error(&fine) - 0.1).abs() < 1e-14);
+    }
 
     #[test]
     fn parts_share_a_length() {
