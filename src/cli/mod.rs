@@ -1,5 +1,6 @@
 //! The verbs.
 
+pub mod chart;
 pub mod health;
 pub mod serve;
 pub mod solve;

@@ -28,6 +28,11 @@ pub fn number(value: f64) -> String {
     if text == "-0.00" { "0.00".to_owned() } else { text }
 }
 
+/// Places as the value of a `points` attribute.
+fn listed(places: &[Vec2]) -> String {
+    places.iter().map(|p| format!("{},{}", number(p.x), number(p.y))).collect::<Vec<_>>().join(" ")
+}
+
 /// Text with the five characters escaped that XML reserves; control characters become spaces.
 pub fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
@@ -54,6 +59,11 @@ impl Canvas {
         Canvas { scale, middle: 0.5 * (low.x + high.x), top: high.y, head, height, body: String::new() }
     }
 
+    /// A sheet of this height (pixels) for what is placed in pixels alone.
+    pub fn blank(height: f64) -> Self {
+        Canvas { scale: 1.0, middle: 0.5 * WIDTH, top: 0.0, head: 0.0, height, body: String::new() }
+    }
+
     /// Height of the sheet, pixels.
     pub fn height(&self) -> f64 {
         self.height
@@ -69,23 +79,29 @@ impl Canvas {
         Vec2::new(0.5 * WIDTH + (point.x - self.middle) * self.scale, self.head + (self.top - point.y) * self.scale)
     }
 
-    fn points(&self, points: &[Vec2]) -> String {
-        let place = |p: &Vec2| {
-            let p = self.place(*p);
-            format!("{},{}", number(p.x), number(p.y))
-        };
-        points.iter().map(place).collect::<Vec<_>>().join(" ")
+    fn places(&self, points: &[Vec2]) -> Vec<Vec2> {
+        points.iter().map(|p| self.place(*p)).collect()
     }
 
     /// A closed shape through points in metres.
     pub fn polygon(&mut self, class: &str, points: &[Vec2]) {
-        let points = self.points(points);
-        let _ = writeln!(self.body, r#"<polygon class="{class}" points="{points}"/>"#);
+        self.shape(class, &self.places(points));
     }
 
     /// An open line through points in metres.
     pub fn polyline(&mut self, class: &str, points: &[Vec2]) {
-        let points = self.points(points);
+        self.path(class, &self.places(points));
+    }
+
+    /// A closed shape through places in pixels.
+    pub fn shape(&mut self, class: &str, places: &[Vec2]) {
+        let points = listed(places);
+        let _ = writeln!(self.body, r#"<polygon class="{class}" points="{points}"/>"#);
+    }
+
+    /// An open line through places in pixels.
+    pub fn path(&mut self, class: &str, places: &[Vec2]) {
+        let points = listed(places);
         let _ = writeln!(self.body, r#"<polyline class="{class}" points="{points}"/>"#);
     }
 

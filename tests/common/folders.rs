@@ -2,14 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
-/// All cases below a folder, sorted: each a folder with a `request.json`, every other one holds cases only.
+/// All cases below a folder, sorted: each a folder with a `request.json`, every other one holds cases only. The chart of speed
+/// against accuracy is none.
 pub fn folders(below: &Path) -> Vec<PathBuf> {
     let mut inside: Vec<PathBuf> = std::fs::read_dir(below).unwrap().map(|entry| entry.unwrap().path()).collect();
     inside.sort();
     if inside.iter().any(|path| path.ends_with("request.json")) {
         return vec![below.to_path_buf()];
     }
-    inside.retain(|path| path.file_name().is_some_and(|name| name != "README.md"));
+    inside.retain(|path| !path.ends_with("README.md") && !path.ends_with("chart"));
     inside.iter().for_each(|path| assert!(path.is_dir(), "{} belongs to no case", path.display()));
     inside.iter().flat_map(|folder| folders(folder)).collect()
 }

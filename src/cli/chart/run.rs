@@ -1,0 +1,186 @@
+//! Runs every model on every scene and takes the time.
+
+use super::clock::{Timed, timed};
+use super::models::{self, BASE, Model, Way, mesh};
+use super::scenes::{CollapseScene, Scenes, StressScene};
+use super::stress::Stresses;
+use super::table::{Kind, Row};
+use serde_json::Value;
+use voussoir::api::read::read_question;
+use voussoir::collapse::{self, Analysis, Answer, CollapseReport, Outcome, Question, Unwatched, UpdatedEnd};
+use voussoir::limit::{StaticTheorem, unwatched};
+
+/// What a model answers: a number and its error, or why there is none.
+type Found = Result<(Option<f64>, f64), String>;
+
+/// Runs the chosen models on the chosen scenes, or all where none is chosen; the base always.
+///
+/// # Errors
+/// When a scene or a model has no such name, or a reference cannot be computed.
+pub fn run(scenes: &Scenes, chosen: Chosen<'_>, told: &mut dyn FnMut(&Row)) -> Result<Vec<Row>, String> {
+    chosen.check(scenes)?;
+    let models =
+        |all: Vec<Model>| all.into_iter().filter(|model| model.name == BASE || chosen.takes_model(&model.name));
+    let mut rows = Vec::new();
+    for scene in scenes.collapse.iter().filter(|scene| chosen.takes_scene(&scene.name)) {
+        let one = |model: &Model| on_collapse(scene, model);
+        measure(Kind::Collapse, &scene.name, models(models::collapse(scene.step)), one, &mut rows, told)?;
+    }
+    for scene in scenes.stress.iter().filter(|scene| chosen.takes_scene(&scene.name)) {
+        let mut reference = None;
+        let one = |model: &Model| on_stress(scene, model, &mut reference);
+        measure(Kind::Stress, &scene.name, models(models::stress()), one, &mut rows, told)?;
+    }
+    Ok(rows)
+}
+
+/// Names of scenes and of models that are to run; all where there is none.
+#[derive(Debug, Clone, Copy)]
+pub struct Chosen<'a> {
+    /// Of scenes.
+    pub scenes: &'a [String],
+    /// Of models.
+    pub models: &'a [String],
+}
+
+impl Chosen<'_> {
+    fn takes_scene(&self, name: &str) -> bool {
+        self.scenes.is_empty() || self.scenes.iter().any(|chosen| chosen == name)
+    }
+
+    fn takes_model(&self, name: &str) -> bool {
+        self.models.is_empty() || self.models.iter().any(|chosen| chosen == name)
+    }
+
+    /// Whether there is something of every name.
+    fn check(&self, scenes: &Scenes) -> Result<(), String> {
+        let names = scenes.collapse.iter().map(|s| &s.name).chain(scenes.stress.iter().map(|s| &s.name));
+        let names: Vec<&String> = names.collect();
+        if let Some(name) = self.scenes.iter().find(|name| !names.contains(name)) {
+            return Err(format!("there is no scene {name:?}, only {names:?}"));
+        }
+        let steps = scenes.collapse.iter().find_map(|scene| scene.step);
+        let names: Vec<String> = models::collapse(steps).into_iter().map(|model| model.name).collect();
+        match self.models.iter().find(|name| !names.contains(name)) {
+            Some(name) => Err(format!("there is no model {name:?}, only {names:?}")),
+            None => Ok(()),
+        }
+    }
+}
+
+/// All models on one scene.
+fn measure(
+    chart: Kind,
+    scene: &str,
+    models: impl Iterator<Item = Model>,
+    mut one: impl FnMut(&Model) -> Result<(Found, Timed), String>,
+    rows: &mut Vec<Row>,
+    told: &mut dyn FnMut(&Row),
+) -> Result<(), String> {
+    let mut base = None;
+    for model in models {
+        let (found, timed) = one(&model).map_err(|error| format!("{scene}, {}: {error}", model.name))?;
+        let base_seconds = *base.get_or_insert(timed.seconds);
+        let (intensity, error, why) = match found {
+            Ok((intensity, error)) => (intensity, Some(error), String::new()),
+            Err(why) => (None, None, format!("{why}; ")),
+        };
+        let row = Row {
+            chart,
+            scene: scene.to_owned(),
+            family: model.family.to_owned(),
+            model: model.name,
+            intensity,
+            error,
+            seconds: timed.seconds,
+            base_seconds,
+            time_ratio: timed.seconds / base_seconds,
+            note: format!("{why}mean of {}", timed.repetitions),
+        };
+        told(&row);
+        rows.push(row);
+    }
+    Ok(())
+}
+
+/// The scene's request with a model's fields, translated.
+fn question(request: &Value, fields: &Value) -> Result<Question, String> {
+    let mut request = request.clone();
+    for (name, value) in fields.as_object().into_iter().flatten() {
+        request[name] = value.clone();
+    }
+    let read = read_question(request.to_string().as_bytes());
+    read.map(|(_, question)| question).map_err(|faults| format!("{faults:?}"))
+}
+
+fn analysis(request: &Value, fields: &Value) -> Result<Analysis, String> {
+    match question(request, fields)? {
+        Question::One(analysis) => Ok(*analysis),
+        _ => Err("no single arch".to_owned()),
+    }
+}
+
+fn on_collapse(scene: &CollapseScene, model: &Model) -> Result<(Found, Timed), String> {
+    let (intensity, timed) = match &model.way {
+        Way::LimitWindow => {
+            let Analysis { arch, fixed, scaled, .. } = analysis(&scene.request, &Value::Null)?;
+            let (window, time) = timed(|| StaticTheorem::new(&arch, &fixed, &scaled).window(&unwatched));
+            let highest = window.ok().flatten().map(|[_, highest]| highest);
+            (highest.ok_or_else(|| "no window".to_owned()), time)
+        }
+        Way::Analysis(fields) => {
+            let analysis = analysis(&scene.request, fields)?;
+            let (report, time) = timed(|| collapse::run(&analysis, &mut Unwatched));
+            (report.map_err(|error| error.to_string()).and_then(|report| first_order(&report)), time)
+        }
+        Way::Updated(fields) => {
+            let analysis = analysis(&scene.request, fields)?;
+            let (report, time) = timed(|| collapse::run(&analysis, &mut Unwatched));
+            (report.map_err(|error| error.to_string()).and_then(|report| on_moving_geometry(&report)), time)
+        }
+    };
+    Ok((intensity.map(|intensity| (Some(intensity), scene.error(intensity))), timed))
+}
+
+/// Collapse intensity; the scenes call load factor 1 intensity 1.
+fn first_order(report: &CollapseReport) -> Result<f64, String> {
+    match (&report.end, report.outcome) {
+        (Some(end), Outcome::Collapse) => Ok(end.load_factor),
+        (_, outcome) => Err(format!("{outcome:?}: {}", report.notes.join(" "))),
+    }
+}
+
+fn on_moving_geometry(report: &CollapseReport) -> Result<f64, String> {
+    match &report.updated {
+        Some(updated) if updated.end == UpdatedEnd::Collapse => updated.load_factor.ok_or_else(|| "no load".to_owned()),
+        Some(updated) => Err(format!("{:?}", updated.end)),
+        None => Err("not followed".to_owned()),
+    }
+}
+
+/// The reference of an arch is computed when it is first needed, and kept.
+fn on_stress(scene: &StressScene, model: &Model, reference: &mut Option<Stresses>) -> Result<(Found, Timed), String> {
+    let Way::Analysis(fields) = &model.way else { return Err("gives no stress".to_owned()) };
+    let question = question(&scene.request, fields)?;
+    let (answer, timed) = timed(|| collapse::answer(&question, &mut Unwatched));
+    let found = match answer {
+        Ok(Answer::CurvedBeam(beam)) => Ok(beam.error),
+        Ok(Answer::One(report)) => match Stresses::new(&report) {
+            Some(stresses) => Ok(stresses.error(fine(scene, reference)?)),
+            None => Err(format!("{:?}: {}", report.outcome, report.notes.join(" "))),
+        },
+        Ok(_) => return Err("no stress asked for".to_owned()),
+        Err(error) => Err(error.to_string()),
+    };
+    Ok((found.map(|error| (None, error)), timed))
+}
+
+/// The stresses of the finest mesh there is.
+fn fine<'r>(scene: &StressScene, reference: &'r mut Option<Stresses>) -> Result<&'r Stresses, String> {
+    if reference.is_none() {
+        let analysis = analysis(&scene.request, &mesh(super::stress::REFERENCE, "split"))?;
+        let report = collapse::run(&analysis, &mut Unwatched).map_err(|error| error.to_string())?;
+        *reference = Stresses::new(&report);
+    }
+    reference.as_ref().ok_or_else(|| "the reference gives no stresses".to_owned())
+}
