@@ -190,7 +190,7 @@ pub fn statics_fault(problem: &Problem, end: &PathEnd) -> f64 {
     }
     for block in 0..at.seams.len() - 1 {
         let (below, above) = (&at.seams[block], &at.seams[block + 1]);
-        let size = distance(below.intrados, below.extrados).max(distance(above.intrados, above.extrados));
+        let size = distance(below.intrados, above.extrados).max(distance(below.extrados, above.intrados));
         let about = below.intrados;
         let mut sum = [0.0; 3];
         let mut add = |point: [f64; 2], force: [f64; 2], sign: f64| {

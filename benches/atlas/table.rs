@@ -109,7 +109,14 @@ pub fn summary(map: &Map, rows: &[Row], refused: usize, seconds: f64) -> String 
 fn all_methods(rows: &[&Row]) -> String {
     let mut text = line("event path", counts(rows.iter().map(|row| &row.ours.mark)));
     for (i, (name, _)) in METHODS.iter().enumerate() {
-        text += &line(name, counts(rows.iter().filter_map(|row| row.theirs[i].as_ref()).map(|theirs| &theirs.mark)));
+        let theirs: Vec<_> = rows.iter().filter_map(|row| row.theirs[i].as_ref()).collect();
+        text += &line(name, counts(theirs.iter().map(|theirs| &theirs.mark)));
+        let alone = theirs.iter().filter(|theirs| theirs.alone).count();
+        text += &format!(
+            "  {:<22} bears the loads at the start from the unstressed arch in {alone} of {}\n",
+            "",
+            theirs.len()
+        );
     }
     text
 }

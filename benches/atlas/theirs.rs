@@ -1,6 +1,6 @@
 //! The classic methods on one scene.
 
-use super::classic::{Elastic, Found, Loading, METHODS, Model};
+use super::classic::{Elastic, Found, Loading, METHODS, Model, bear_alone};
 use super::judge::{Mark, Truth};
 use super::ours::Ours;
 use std::time::Instant;
@@ -10,14 +10,17 @@ use voussoir::collapse::{Aim, Analysis, Direction};
 const CLOSE: [f64; 2] = [0.01, 0.03];
 /// Most voussoirs that the classic methods are run on.
 const MOST: usize = 101;
-/// Steps from the start to the limit: the exact load, which a user does not know, sets the step.
-const STEPS: f64 = 50.0;
+/// Steps from the start to the limit: the exact load, which a user does not know, sets the step. No whole number, so that no
+/// step ends on it.
+const STEPS: f64 = 50.3;
 
 /// What a classic method made of a scene.
 #[derive(Debug, Clone)]
 pub struct Theirs {
     pub mark: Mark,
     pub found: Found,
+    /// It bears the loads at the start from the unstressed arch.
+    pub alone: bool,
     pub seconds: f64,
 }
 
@@ -37,13 +40,15 @@ pub fn theirs(analysis: &Analysis, truth: &Truth, ours: &Ours) -> Vec<Option<The
     let penalty = analysis.penalty_ratio * stone.youngs_modulus;
     let elastic = Elastic { youngs_modulus: stone.youngs_modulus, poissons_ratio: stone.poissons_ratio, penalty };
     let model = Model::new(&truth.problem, elastic);
+    let [open_close, newton] = bear_alone(&model, loading);
     METHODS
         .iter()
-        .map(|(_, method)| {
+        .zip([open_close, newton, true])
+        .map(|((_, method), alone)| {
             let start = Instant::now();
             let found = method(&model, loading);
             let seconds = start.elapsed().as_secs_f64();
-            Some(Theirs { mark: judge(&found, truth, ours, sign), found, seconds })
+            Some(Theirs { mark: judge(&found, truth, ours, sign), found, alone, seconds })
         })
         .collect()
 }

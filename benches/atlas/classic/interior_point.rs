@@ -5,7 +5,7 @@
 //! and contact forces f, A f + b >= 0 with the rows friction N +- T + cohesion >= 0 and N >= 0. It has a solution exactly where
 //! limit analysis finds equilibrium; without one the residual of equilibrium stays.
 
-use super::march::largest;
+use super::march::{State, largest};
 use super::model::{Contact, Law, Model};
 use super::{Found, Loading};
 
@@ -17,9 +17,9 @@ const INSIDE: f64 = 0.995;
 /// Load factors this close, as a share, are the same.
 const BISECTED: f64 = 1e-4;
 
-/// Whether the arch stands.
+/// The greatest load factor at which the arch stands.
 pub fn bisect(model: &Model, loading: Loading) -> Found {
-    if !stands(model, loading.start) {
+    if equilibrium(model, loading.start).is_none() {
         return Found::FallsAsBuilt;
     }
     if model.weight(1.0) == model.weight(0.0) {
@@ -31,7 +31,7 @@ pub fn bisect(model: &Model, loading: Loading) -> Found {
         if (next - loading.start).abs() > (loading.most - loading.start).abs() {
             return Found::Stands;
         }
-        if !stands(model, next) {
+        if equilibrium(model, next).is_none() {
             break next;
         }
         (good, step) = (next, 2.0 * step);
@@ -39,7 +39,7 @@ pub fn bisect(model: &Model, loading: Loading) -> Found {
     let mut bad = bad;
     while (bad - good).abs() > BISECTED * bad.abs().max(good.abs()) {
         let middle = 0.5 * (good + bad);
-        *if stands(model, middle) { &mut good } else { &mut bad } = middle;
+        *if equilibrium(model, middle).is_some() { &mut good } else { &mut bad } = middle;
     }
     Found::FallsAt(good)
 }
@@ -71,7 +71,8 @@ struct Point {
     dual: Vec<f64>,
 }
 
-fn stands(model: &Model, factor: f64) -> bool {
+/// Displacements in equilibrium at a load factor, and anchors with which the contacts carry their shear there.
+pub fn equilibrium(model: &Model, factor: f64) -> Option<State> {
     let (weight, loads) = (model.weight(factor), model.loads(1.0, factor));
     let length = weight / model.penalty;
     let mut d = vec![0.0; model.unknowns()];
@@ -80,22 +81,28 @@ fn stands(model: &Model, factor: f64) -> bool {
         let residuals = Residuals::of(model, &points, &d, &loads);
         let gap = complementarity(&points);
         if residuals.largest(weight, length) < CONVERGED && gap < CONVERGED * weight * length {
-            return true;
+            return Some(anchored(model, &points, d));
         }
-        let Some(predicted) = direction(model, &points, &residuals, &|_, _| 0.0) else { return false };
+        let predicted = direction(model, &points, &residuals, &|_, _| 0.0)?;
         let reach = predicted.reach(&points);
         let after: f64 = predicted.complementarity(&points, reach);
         let target = (after / gap.max(f64::MIN_POSITIVE)).powi(3) * gap;
         let bend = |i: usize, k: usize| target - predicted.slack[i][k] * predicted.dual[i][k];
-        let Some(step) = direction(model, &points, &residuals, &bend) else { return false };
+        let step = direction(model, &points, &residuals, &bend)?;
         let reach = (INSIDE * step.reach(&points)).min(1.0);
         step.go(&mut points, &mut d, reach);
         // Displacements without bound are the certificate that there is no equilibrium.
         if largest(&d) > 1e12 * length {
-            return false;
+            return None;
         }
     }
-    false
+    None
+}
+
+fn anchored(model: &Model, points: &[Point], d: Vec<f64>) -> State {
+    let anchor = |(contact, point): (&Contact, &Point)| model.opening(contact, &d)[1] + point.force[1] / model.penalty;
+    let anchors = model.contacts.iter().zip(points).map(anchor).collect();
+    State { d, anchors }
 }
 
 fn start(contact: &Contact, weight: f64, length: f64) -> Point {

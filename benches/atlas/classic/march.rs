@@ -5,7 +5,7 @@
 //! every "gave up" would be a wrong load.
 
 use super::model::{Contact, Law, Model};
-use super::{Found, Loading};
+use super::{Found, Loading, interior_point};
 
 /// Steps in which the loads at the start come on.
 const STARTING: usize = 10;
@@ -28,19 +28,34 @@ pub struct Stuck {
 /// Finds equilibrium under loads of this size from a state.
 pub type Corrector = fn(&Model, &State, &[f64], f64) -> Result<State, Stuck>;
 
-/// Brings the loads on, then steps the load factor.
-pub fn march(model: &Model, loading: Loading, correct: Corrector) -> Found {
+/// Brings the loads on from the unstressed arch.
+pub fn ramp(model: &Model, factor: f64, correct: Corrector) -> Result<State, Stuck> {
     let mut state = State { d: vec![0.0; model.unknowns()], anchors: vec![0.0; model.contacts.len()] };
-    let weight = model.weight(loading.start);
-    let on = |s: f64| (model.loads(s, loading.start), weight);
+    let weight = model.weight(factor);
     for i in 0..STARTING {
         let [from, to] = [i, i + 1].map(|i| i as f64 / STARTING as f64);
-        match advance(model, &mut state, [from, to], correct, &on) {
-            Ok(()) => {}
-            Err((_, Stuck { moves_away: true })) => return Found::FallsAsBuilt,
-            Err(_) => return Found::GaveUp,
-        }
+        let loads = |s: f64| (model.loads(s, factor), weight);
+        advance(model, &mut state, [from, to], correct, &loads).map_err(|(_, stuck)| stuck)?;
     }
+    Ok(state)
+}
+
+/// Equilibrium at the start: from the unstressed arch or, where that fails, from the equilibrium of the interior point, a help
+/// without which these methods seldom get further.
+fn set_out(model: &Model, factor: f64, correct: Corrector) -> Result<State, Stuck> {
+    ramp(model, factor, correct).or_else(|stuck| {
+        let guess = interior_point::equilibrium(model, factor).ok_or(stuck)?;
+        correct(model, &guess, &model.loads(1.0, factor), model.weight(factor))
+    })
+}
+
+/// Brings the loads on, then steps the load factor.
+pub fn march(model: &Model, loading: Loading, correct: Corrector) -> Found {
+    let mut state = match set_out(model, loading.start, correct) {
+        Ok(state) => commit(model, state),
+        Err(Stuck { moves_away: true }) => return Found::FallsAsBuilt,
+        Err(_) => return Found::GaveUp,
+    };
     if model.weight(1.0) == model.weight(0.0) {
         return Found::Stands;
     }

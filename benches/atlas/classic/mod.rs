@@ -9,7 +9,7 @@ mod open_close;
 
 pub use model::{Elastic, Model};
 
-use march::march;
+use march::{Corrector, march};
 
 /// What is asked: the load factor goes from `start`, where the arch is known to stand (a help that a user does not have),
 /// in steps of `step` (signed) until `most`.
@@ -39,3 +39,8 @@ pub const METHODS: [(&str, fn(&Model, Loading) -> Found); 3] = [
     ("Newton, line search", |model, loading| march(model, loading, newton::correct)),
     ("interior point", interior_point::bisect),
 ];
+
+/// Whether the first two bear the loads at the start from the unstressed arch, without the interior point's help.
+pub fn bear_alone(model: &Model, loading: Loading) -> [bool; 2] {
+    [open_close::correct, newton::correct].map(|correct: Corrector| march::ramp(model, loading.start, correct).is_ok())
+}

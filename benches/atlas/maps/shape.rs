@@ -12,13 +12,13 @@ const ROUGH: f64 = 75.0;
 /// Numbers of stones.
 const NUMBERS: [f64; 14] = [3.0, 4.0, 5.0, 7.0, 9.0, 15.0, 27.0, 51.0, 101.0, 201.0, 401.0, 701.0, 1201.0, 2001.0];
 
-/// Least thickness over radius at which a semicircle stands under its weight, by the oracle.
+/// Least thickness over radius at which a semicircle stands under its weight, by the oracle; a hundredth where any would do.
 fn least_thickness(voussoirs: usize) -> f64 {
     let stands = |ratio: f64| {
         let request = ask(semicircle(voussoirs, ratio), ROUGH, None, true);
         door::problem(&door::analysis(&request).expect("an arch")).stands()
     };
-    let (mut thin, mut thick) = (1e-3, 0.5);
+    let (mut thin, mut thick) = (0.01, 0.5);
     for _ in 0..36 {
         let middle = 0.5 * (thin + thick);
         *if stands(middle) { &mut thick } else { &mut thin } = middle;
