@@ -64,6 +64,15 @@ impl Truth {
         Truth { give, window, floor: SMALL * balance, balance, problem }
     }
 
+    /// The truth of a scene of which it is known whether it stands.
+    pub fn known(self, stands: Option<bool>) -> Truth {
+        match stands {
+            None => self,
+            Some(true) => Truth { give: Some(-1.0), window: Some([f64::NEG_INFINITY, f64::INFINITY]), ..self },
+            Some(false) => Truth { give: Some(1.0), window: None, ..self },
+        }
+    }
+
     /// True where the oracle gave up, or standing and falling are too close to tell.
     pub fn undecided(&self) -> bool {
         self.give.is_none_or(|give| give.abs() <= BALANCE && !self.problem.fixed.is_empty())
@@ -89,6 +98,12 @@ impl Truth {
         self.window.map_or(f64::NEG_INFINITY, |[low, high]| (-low).min(high))
     }
 
+    /// True where nothing stands but what no load factor between 0 and the cap reaches, or no load at all.
+    fn out_of_reach(&self, cap: f64) -> bool {
+        let Some([low, high]) = self.window else { return false };
+        low >= cap || high <= -cap || (self.problem.fixed.is_empty() && low.abs().max(high.abs()) <= self.floor)
+    }
+
     /// Judges our answer.
     pub fn judge(&self, analysis: &Analysis, report: &CollapseReport) -> Mark {
         if report.outcome == Outcome::CannotTell {
@@ -105,20 +120,13 @@ impl Truth {
 
     fn fault(&self, analysis: &Analysis, report: &CollapseReport) -> Option<String> {
         let sign = if analysis.direction == Direction::Increase { 1.0 } else { -1.0 };
-        let (inside, slides) = (self.inside(), report.end.as_ref().is_some_and(slides));
-        let limit = self.limit(sign);
         let fits = match report.outcome {
             Outcome::FallsAsBuilt => {
-                self.falls()
-                    || slides
-                    || limit.is_some_and(|limit| {
-                        limit.abs() > report.cap
-                            || self.window.is_some_and(|[low, high]| low.abs().min(high.abs()) >= report.cap)
-                    })
+                self.falls() || report.end.as_ref().is_some_and(slides) || self.out_of_reach(report.cap)
             }
-            Outcome::NeverCollapses => limit.is_some_and(|limit| sign * limit >= report.cap * (1.0 - EQUAL)),
-            Outcome::Collapse => inside >= -self.floor,
-            Outcome::StandsInWindow => inside <= self.floor && !self.falls(),
+            Outcome::NeverCollapses => self.limit(sign).is_some_and(|limit| sign * limit >= report.cap * (1.0 - EQUAL)),
+            Outcome::Collapse => self.inside() >= -self.floor,
+            Outcome::StandsInWindow => self.inside() <= self.floor && !self.falls(),
             _ => false,
         };
         if !fits {

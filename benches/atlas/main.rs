@@ -80,7 +80,7 @@ fn sweep(map: &Map, classic: bool) -> (Vec<Row>, usize) {
             refused += 1;
             continue;
         };
-        let truth = Truth::of(common::door::problem(&analysis));
+        let truth = Truth::of(common::door::problem(&analysis)).known(scene.stands);
         let ours = ours(scene, &analysis, &truth);
         let theirs = if classic { theirs(&analysis, &truth, &ours) } else { vec![None; classic::METHODS.len()] };
         rows.push(Row { scene: scene.clone(), voussoirs: analysis.arch.voussoirs.len(), truth, ours, theirs });
@@ -102,7 +102,7 @@ fn look(names: &[String]) {
     for scene in map.scenes.iter().filter(|s| s.at == at && variant.iter().all(|v| v == s.variant)) {
         println!("{}, penalty {}\n{}", scene.variant, scene.penalty_ratio, scene.request);
         let analysis = scene.analysis().expect("an arch");
-        let truth = Truth::of(common::door::problem(&analysis));
+        let truth = Truth::of(common::door::problem(&analysis)).known(scene.stands);
         let ours = ours(scene, &analysis, &truth);
         println!(
             "give {:?}, window {:?}\n{ours:#?}\n{:#?}",

@@ -3,6 +3,7 @@
 use super::judge::{EQUAL, Mark, Truth, slides};
 use super::maps::Scene;
 use super::moving;
+use crate::common::door;
 use crate::common::verify::said;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
@@ -69,11 +70,13 @@ pub fn ours(scene: &Scene, analysis: &Analysis, truth: &Truth) -> Ours {
     ours.motion_fault = Some(truth.motion_fault(analysis, end));
     let others = PENALTIES.iter().filter(|ratio| **ratio != scene.penalty_ratio);
     let stiff = others.map(|&penalty_ratio| Analysis { penalty_ratio, ..analysis.clone() });
+    let stiff: Vec<(Analysis, Truth)> = stiff.map(|other| (other, truth.clone())).collect();
     let seeds = SEEDS.iter().map(|share| rougher(analysis, 1.0 + share));
+    let seeds = seeds.map(|other| (other.clone(), Truth::of(door::problem(&other))));
     let mut interval = [end.load_factor; 2];
-    for other in stiff.chain(seeds).collect::<Vec<_>>() {
+    for (other, truth) in stiff.into_iter().chain(seeds) {
         let before = ours.clone();
-        let again = ours.one(&other, truth);
+        let again = ours.one(&other, &truth);
         let found = again.and_then(|report| report.end).map(|end| end.load_factor);
         if let Some(found) = found.filter(|_| ours.mark == Mark::Right || ours.mark == Mark::Open) {
             interval = [interval[0].min(found), interval[1].max(found)];

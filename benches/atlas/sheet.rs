@@ -13,7 +13,7 @@ const GAP: f64 = 14.0;
 const LEFT: f64 = 62.0;
 const TOP: f64 = 92.0;
 /// From one row to the next.
-const ROW: f64 = PANEL[1] + 66.0;
+const ROW: f64 = PANEL[1] + 46.0;
 
 /// Fill of a cell: colours that are told apart by eyes of any kind (Okabe & Ito 2008); marks tell them apart without colour.
 const FILLS: [(&str, &str); 5] = [
@@ -161,9 +161,11 @@ fn ticks(count: usize) -> Vec<usize> {
 
 fn shown(value: f64) -> String {
     let size = value.abs();
-    if value != 0.0 && !(1e-2..1e4).contains(&size) {
-        format!("{value:.0e}")
-    } else {
+    if value == value.round() && size < 1e4 {
+        format!("{value}")
+    } else if (1e-2..1e3).contains(&size) {
         format!("{}", (value * 1e4).round() / 1e4)
+    } else {
+        format!("{value:.0e}")
     }
 }

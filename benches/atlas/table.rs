@@ -24,8 +24,8 @@ fn number(value: Option<f64>) -> String {
 
 /// One line a scene.
 pub fn csv(map: &Map, rows: &[Row]) -> String {
-    let mut text = format!("{},{},variant,voussoirs,lowest,highest,", map.axes[0].label, map.axes[1].label)
-        .replace("Young's", "Young");
+    let [x, y] = [0, 1].map(|i| map.axes[i].label.replace(", ", " in "));
+    let mut text = format!("{x},{y},variant,voussoirs,lowest,highest,");
     text += "outcome,load factor,slides,not a full solution by,least over penalties and seeds,greatest,seconds,events,mark,why";
     for (name, _) in METHODS {
         text += &format!(",{name},its load factor,its seconds", name = name.replace(',', ""));
@@ -111,12 +111,14 @@ fn all_methods(rows: &[&Row]) -> String {
     for (i, (name, _)) in METHODS.iter().enumerate() {
         let theirs: Vec<_> = rows.iter().filter_map(|row| row.theirs[i].as_ref()).collect();
         text += &line(name, counts(theirs.iter().map(|theirs| &theirs.mark)));
-        let alone = theirs.iter().filter(|theirs| theirs.alone).count();
-        text += &format!(
-            "  {:<22} bears the loads at the start from the unstressed arch in {alone} of {}\n",
-            "",
-            theirs.len()
-        );
+        if i < 2 {
+            let alone = theirs.iter().filter(|theirs| theirs.alone).count();
+            text += &format!(
+                "  {:<22} bears the loads at the start from the unstressed arch in {alone} of {}\n",
+                "",
+                theirs.len()
+            );
+        }
     }
     text
 }

@@ -28,7 +28,7 @@ pub enum End {
     Reached,
     /// The chain moves on without any further change: a mechanism.
     Mechanism,
-    /// The parameter rises to the value asked for without any further change, and the chain moves so far with it that its
+    /// The parameter rises, for all that can be told to the value asked for, and the chain moves so far with it that its
     /// displacements mean nothing.
     Rising,
     /// The caller asked to stop.
@@ -62,7 +62,8 @@ const SINGULAR: f64 = 1e-13;
 const SOFT: f64 = 1e-6;
 /// In a mechanism, gap rates below this are rounding (the direction's largest entry is 1).
 const STILL: f64 = 1e-7;
-/// A mechanism that meets no new contact within so many chain sizes goes on for ever.
+/// A chain that moves by so many sizes while its load gains less than `SOFT` for each goes on for ever; and equilibrium that is
+/// lost to rounding so far away is none that it could reach.
 const FAR: f64 = 100.0;
 /// So many steps of length zero in a row, and as many more per contact, mean that ties do not resolve.
 const MOST_ZERO_STEPS: [usize; 2] = [60, 4];
@@ -118,6 +119,13 @@ struct Event {
     step: f64,
     contact: usize,
     next: State,
+}
+
+/// How far the chain has moved, m, since its load last gained worth telling, at this parameter.
+#[derive(Debug, Clone, Copy)]
+struct Drift {
+    from: f64,
+    moved: f64,
 }
 
 impl<'a> Tracer<'a> {
@@ -198,7 +206,7 @@ impl<'a> Tracer<'a> {
         let far = FAR * self.size;
         let most = |[base, each]: [usize; 2]| base + each * self.states.len();
         let (most_zero_steps, most_events) = (most(MOST_ZERO_STEPS), self.events + most(MOST_EVENTS));
-        let (mut zero_steps, mut barred) = (0, None);
+        let (mut zero_steps, mut barred, mut drift) = (0, None, Drift { from: self.parameter, moved: 0.0 });
         self.solve_tangent();
         if self.rate < 0.0 {
             self.turn_round();
@@ -211,9 +219,10 @@ impl<'a> Tracer<'a> {
             if see(self).is_break() {
                 return End::Stopped;
             }
-            let rises = self.rate > 0.0 && !self.is_mechanism();
-            // A load that rises may bend a soft chain far; only a chain that moves freely goes on for ever.
-            let event = self.nearest_event(barred).filter(|event| rises || event.step <= far);
+            let event = self.nearest_event(barred);
+            let drifts = event.is_some_and(|event| self.drifts(drift, event.step));
+            let rises = self.rate > 0.0 && !self.is_mechanism() && !drifts;
+            let event = event.filter(|_| !drifts);
             let to_target = (target - self.parameter) / self.rate;
             if rises && event.is_none_or(|event| to_target <= event.step) {
                 if to_target > far {
@@ -223,15 +232,38 @@ impl<'a> Tracer<'a> {
                 self.parameter = target;
                 return if self.keep_equilibrium() { End::Reached } else { End::Lost };
             }
-            let Some(event) = event else { return End::Mechanism };
+            let Some(event) = event else {
+                self.note_peak(true);
+                return End::Mechanism;
+            };
             zero_steps = if event.step > 0.0 { 0 } else { zero_steps + 1 };
             barred = Some((event.contact, self.states[event.contact]));
             self.advance(event.step);
+            drift.moved += event.step;
+            if self.gained(drift.from) > SOFT * FAR * self.load_scale {
+                drift = Drift { from: self.parameter, moved: 0.0 };
+            }
             self.cross(event);
-            if zero_steps > most_zero_steps || self.events > most_events || !self.keep_equilibrium() {
+            if zero_steps > most_zero_steps || self.events > most_events {
                 return End::Lost;
             }
+            if !self.keep_equilibrium() {
+                let moved = self.displacements.iter().fold(0.0, |most: f64, d| most.max(d.abs()));
+                let rises = self.rate > 0.0 && !self.is_mechanism();
+                return if rises && moved > far { End::Rising } else { End::Lost };
+            }
         }
+    }
+
+    /// Load gained since the parameter was `from`, N/m.
+    fn gained(&self, from: f64) -> f64 {
+        (self.parameter - from) * self.load_rate_scale
+    }
+
+    /// Whether a further step only moves the chain on.
+    fn drifts(&self, drift: Drift, step: f64) -> bool {
+        let gained = self.gained(drift.from) + step * self.rate * self.load_rate_scale;
+        drift.moved + step > FAR * self.size && gained <= SOFT * FAR * self.load_scale
     }
 
     fn advance(&mut self, step: f64) {

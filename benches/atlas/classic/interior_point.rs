@@ -74,7 +74,7 @@ struct Point {
 /// Displacements in equilibrium at a load factor, and anchors with which the contacts carry their shear there.
 pub fn equilibrium(model: &Model, factor: f64) -> Option<State> {
     let (weight, loads) = (model.weight(factor), model.loads(1.0, factor));
-    let length = weight / model.penalty;
+    let length = weight * model.compliance;
     let mut d = vec![0.0; model.unknowns()];
     let mut points: Vec<Point> = model.contacts.iter().map(|contact| start(contact, weight, length)).collect();
     for _ in 0..ITERATIONS {

@@ -41,6 +41,8 @@ pub struct Contact {
 pub struct Model {
     pub contacts: Vec<Contact>,
     pub penalty: f64,
+    /// Displacement of stone and contact under a unit of load, roughly, m2/N.
+    pub compliance: f64,
     /// Elastic stiffness of every block: of its three strains.
     strains: Vec<[[f64; 3]; 3]>,
     fixed: Vec<f64>,
@@ -113,6 +115,7 @@ impl Model {
         let sum = |pushes: &[Push]| pushes.iter().map(|p| p.force[0].hypot(p.force[1])).sum();
         Model {
             penalty: elastic.penalty,
+            compliance: 1.0 / elastic.penalty + 1.0 / elastic.youngs_modulus,
             strains: strains.collect(),
             fixed: loads(&problem.fixed),
             scaled: loads(&problem.scaled),

@@ -11,7 +11,13 @@ const CONVERGED: f64 = 1e-9;
 /// Added to the diagonal, share of its largest entry: a stone held by nothing for a moment must not end the iteration.
 const SHIFT: f64 = 1e-10;
 
+/// With the line search and, where it gets stuck, once more with full steps.
 pub fn correct(model: &Model, from: &State, loads: &[f64], weight: f64) -> Result<State, Stuck> {
+    iterate(model, from, loads, weight, BACKTRACKS)
+        .or_else(|stuck| iterate(model, from, loads, weight, 0).map_err(|_| stuck))
+}
+
+fn iterate(model: &Model, from: &State, loads: &[f64], weight: f64, backtracks: usize) -> Result<State, Stuck> {
     let mut state = from.clone();
     let mut moves_away = false;
     let squares = |r: &[f64]| r.iter().map(|x| x * x).sum::<f64>();
@@ -25,15 +31,15 @@ pub fn correct(model: &Model, from: &State, loads: &[f64], weight: f64) -> Resul
         let Some(step) = matrix.solve(left.clone()) else { return Err(Stuck { moves_away: true }) };
         moves_away = largest(&step) > model.size;
         let (before, mut length) = (squares(&left), 1.0);
-        for trial in 0..=BACKTRACKS {
+        for trial in 0..=backtracks {
             let d = state.d.iter().zip(&step).map(|(d, s)| d + length * s).collect();
             let next = State { d, anchors: state.anchors.clone() };
             let found = residual(model, &next, loads);
-            if squares(&found) <= (1.0 - 2e-4 * length) * before {
+            if backtracks == 0 || squares(&found) <= (1.0 - 2e-4 * length) * before {
                 (state, left) = (next, found);
                 break;
             }
-            if trial == BACKTRACKS {
+            if trial == backtracks {
                 return Err(Stuck { moves_away });
             }
             length *= 0.5;

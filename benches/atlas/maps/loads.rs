@@ -21,13 +21,15 @@ pub fn window() -> Map {
     let axes = [axis("k: load = limit (1 -+ 10^-k)", nearness()), axis("place of the load, m", places)];
     let limits: Vec<[f64; 2]> = places.iter().map(|&x| ends(&on(x, 1e4))).collect();
     let title = "fixed loads at the window's ends, 21 stones, t/R 0.15";
-    Map::of("window", title, axes, &["down", "up"], |near, x, variant| {
+    let mut map = Map::of("window", title, axes, &["down", "up"], |near, x, variant| {
         let place = places.iter().position(|place| *place == x)?;
         let limit = limits[place][usize::from(variant == "down")];
         let mut request = on(x, 1e4 * limit * next_to_one(near));
         request["loads"][1]["scaled"] = json!(false);
         limit.is_finite().then_some(request)
-    })
+    });
+    map.scenes.iter_mut().for_each(|scene| scene.stands = Some(map.axes[0].values[scene.at[0]] < 0.0));
+    map
 }
 
 /// The arch of `window` under its weight and a scaled load at an abscissa.
@@ -87,11 +89,13 @@ pub fn never() -> Map {
 pub fn units() -> Map {
     let lengths = [1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0, 1000.0];
     let axes = [axis("span, m", lengths), axis("Young's modulus, Pa", decades(5, 13, 1))];
-    let title = "from 1 mm to 1 km, 15 stones, t/R 0.15";
+    let title = "from 1 mm to 1 km, 15 stones, thickness 0.075 of the span";
     let variants = ["weight", "weightless, haunch", "weightless, lateral", "weight, light load"];
     Map::of("units", title, axes, &variants, |span, modulus, variant| {
         let mut arch = semicircle(15, 0.15);
-        arch["profile"] = json!({"circular": {"span_m": span, "rise_m": 0.5 * span}});
+        // The line of a force alone is straight: a flat arch holds it, a semicircle does not.
+        let rise = if variant == "weightless, haunch" { 0.05 } else { 0.5 };
+        arch["profile"] = json!({"circular": {"span_m": span, "rise_m": rise * span}});
         arch["thickness"] = json!({"constant_m": 0.075 * span});
         let kind = if variant.ends_with("lateral") { "lateral" } else { "haunch" };
         let mut force = load(kind, 15);

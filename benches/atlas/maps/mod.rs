@@ -23,6 +23,8 @@ pub struct Scene {
     pub request: Value,
     /// Penalty over Young's modulus, also beyond what a request may ask for.
     pub penalty_ratio: f64,
+    /// Whether it stands, where that is known closer than the oracle can tell: loads set to so many times their limit.
+    pub stands: Option<bool>,
 }
 
 impl Scene {
@@ -85,7 +87,7 @@ impl Map {
             for (j, &y) in axes[1].values.iter().enumerate() {
                 for &variant in variants {
                     let Some(request) = request(x, y, variant) else { continue };
-                    scenes.push(Scene { at: [i, j], variant, request, penalty_ratio: 10.0 });
+                    scenes.push(Scene { at: [i, j], variant, request, penalty_ratio: 10.0, stands: None });
                 }
             }
         }
