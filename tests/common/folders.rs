@@ -9,7 +9,8 @@ pub fn folders(below: &Path) -> Vec<PathBuf> {
     if inside.iter().any(|path| path.ends_with("request.json")) {
         return vec![below.to_path_buf()];
     }
-    inside.retain(|path| path.file_name().is_some_and(|name| name != "README.md"));
+    // Beside cases there may be a text about them and a picture.
+    inside.retain(|path| path.extension().is_none_or(|kind| kind != "md" && kind != "svg"));
     inside.iter().for_each(|path| assert!(path.is_dir(), "{} belongs to no case", path.display()));
     inside.iter().flat_map(|folder| folders(folder)).collect()
 }
