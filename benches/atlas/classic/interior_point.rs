@@ -9,7 +9,7 @@ use super::march::{State, largest};
 use super::model::{Contact, Law, Model};
 use super::{Found, Loading};
 
-const ITERATIONS: usize = 80;
+const ITERATIONS: usize = 40;
 /// Residuals and complementarity, share of the loads.
 const CONVERGED: f64 = 1e-8;
 /// Share of the way to the border that a step may go.

@@ -10,7 +10,7 @@ use super::{Found, Loading, interior_point};
 /// Steps in which the loads at the start come on.
 const STARTING: usize = 10;
 /// A step is halved so many times.
-const HALVINGS: usize = 10;
+const HALVINGS: usize = 7;
 
 /// Displacements, and the slip at which every contact carries no shear.
 #[derive(Debug, Clone)]

@@ -4,8 +4,8 @@
 use super::march::{State, Stuck, force, largest, residual};
 use super::model::{Law, Model};
 
-const ITERATIONS: usize = 60;
-const BACKTRACKS: usize = 25;
+const ITERATIONS: usize = 25;
+const BACKTRACKS: usize = 12;
 /// Largest residual, share of the loads.
 const CONVERGED: f64 = 1e-9;
 /// Added to the diagonal, share of its largest entry: a stone held by nothing for a moment must not end the iteration.

@@ -6,7 +6,7 @@ use super::march::{State, Stuck, largest, residual};
 use super::model::{Contact, Law, Model};
 
 /// Shi stops after six iterations and takes a smaller step; more do no harm here.
-const ITERATIONS: usize = 40;
+const ITERATIONS: usize = 20;
 const CONVERGED: f64 = 1e-9;
 /// As in Newton's method; statics lacks the inertia that keeps Shi's matrix regular.
 const SHIFT: f64 = 1e-10;
