@@ -6,6 +6,7 @@
 //! one that goes on crossing, so rises and falls of the load factor, and momentary mechanisms, pass by themselves.
 
 mod correct;
+mod drift;
 mod drive;
 mod equilibrium;
 mod moving;
@@ -19,6 +20,7 @@ use super::contact::{Moving, State, zone};
 use super::factor::{Factor, Tridiagonal};
 use super::heart::Heart;
 use super::moving::{Placed, Velocity};
+use drift::Drift;
 use std::ops::ControlFlow;
 
 /// How a trace ended.
@@ -121,13 +123,6 @@ struct Event {
     next: State,
 }
 
-/// How far the chain has moved, m, since its load last gained worth telling, at this parameter.
-#[derive(Debug, Clone, Copy)]
-struct Drift {
-    from: f64,
-    moved: f64,
-}
-
 impl<'a> Tracer<'a> {
     /// A tracer at parameter 0 with zero displacements, every contact closed and stuck.
     ///
@@ -206,7 +201,7 @@ impl<'a> Tracer<'a> {
         let far = FAR * self.size;
         let most = |[base, each]: [usize; 2]| base + each * self.states.len();
         let (most_zero_steps, most_events) = (most(MOST_ZERO_STEPS), self.events + most(MOST_EVENTS));
-        let (mut zero_steps, mut barred, mut drift) = (0, None, Drift { from: self.parameter, moved: 0.0 });
+        let (mut zero_steps, mut barred, mut drift) = (0, None, Drift::at(self.parameter));
         self.solve_tangent();
         if self.rate < 0.0 {
             self.turn_round();
@@ -239,10 +234,7 @@ impl<'a> Tracer<'a> {
             zero_steps = if event.step > 0.0 { 0 } else { zero_steps + 1 };
             barred = Some((event.contact, self.states[event.contact]));
             self.advance(event.step);
-            drift.moved += event.step;
-            if self.gained(drift.from) > SOFT * FAR * self.load_scale {
-                drift = Drift { from: self.parameter, moved: 0.0 };
-            }
+            drift = self.drifted(drift, event.step);
             self.cross(event);
             if zero_steps > most_zero_steps || self.events > most_events {
                 return End::Lost;
@@ -253,17 +245,6 @@ impl<'a> Tracer<'a> {
                 return if rises && moved > far { End::Rising } else { End::Lost };
             }
         }
-    }
-
-    /// Load gained since the parameter was `from`, N/m.
-    fn gained(&self, from: f64) -> f64 {
-        (self.parameter - from) * self.load_rate_scale
-    }
-
-    /// Whether a further step only moves the chain on.
-    fn drifts(&self, drift: Drift, step: f64) -> bool {
-        let gained = self.gained(drift.from) + step * self.rate * self.load_rate_scale;
-        drift.moved + step > FAR * self.size && gained <= SOFT * FAR * self.load_scale
     }
 
     fn advance(&mut self, step: f64) {
