@@ -33,8 +33,11 @@ pub enum Found {
     GaveUp,
 }
 
+/// What a method is.
+pub type Method = fn(&Model, Loading) -> Found;
+
 /// The methods by name.
-pub const METHODS: [(&str, fn(&Model, Loading) -> Found); 3] = [
+pub const METHODS: [(&str, Method); 3] = [
     ("open-close iteration", |model, loading| march(model, loading, open_close::correct)),
     ("Newton, line search", |model, loading| march(model, loading, newton::correct)),
     ("interior point", interior_point::bisect),

@@ -55,8 +55,11 @@ pub struct Map {
     pub scenes: Vec<Scene>,
 }
 
-/// All maps, each as a function that builds it: some look for least thicknesses first, which takes a while.
-pub const MAPS: [(&str, fn() -> Map); 14] = [
+/// Builds a map: some look for least thicknesses first, which takes a while.
+pub type Build = fn() -> Map;
+
+/// All maps by name.
+pub const MAPS: [(&str, Build); 14] = [
     ("penalty", friction::penalty),
     ("thickness", shape::thickness),
     ("number", shape::number),
