@@ -25,6 +25,9 @@ pub enum Mark {
     Right,
     Wrong(String),
     GaveUp(String),
+    /// Joints slide: at most the oracle's load and in equilibrium, but no full solution by so much (see
+    /// [`Truth::motion_fault`]), so that nothing proves the load.
+    Unproven(f64),
     /// The oracle cannot tell either: too close between standing and falling.
     Open,
 }
@@ -101,7 +104,13 @@ impl Truth {
     /// True where nothing stands but what no load factor between 0 and the cap reaches, or no load at all.
     fn out_of_reach(&self, cap: f64) -> bool {
         let Some([low, high]) = self.window else { return false };
-        low >= cap || high <= -cap || (self.problem.fixed.is_empty() && low.abs().max(high.abs()) <= self.floor)
+        low >= cap || high <= -cap || self.bears_nothing()
+    }
+
+    /// True where stones without weight bear no scaled load at all.
+    pub fn bears_nothing(&self) -> bool {
+        let none = |[low, high]: [f64; 2]| low.abs().max(high.abs()) <= self.floor;
+        self.problem.fixed.is_empty() && self.window.is_some_and(none)
     }
 
     /// Judges our answer.
@@ -114,7 +123,17 @@ impl Truth {
         }
         match self.fault(analysis, report) {
             Some(words) => Mark::Wrong(words),
-            None => Mark::Right,
+            None => self.proven(analysis, report),
+        }
+    }
+
+    /// Where joints slide, whether the answer is a full solution.
+    fn proven(&self, analysis: &Analysis, report: &CollapseReport) -> Mark {
+        let falls = matches!(report.outcome, Outcome::Collapse | Outcome::StandsInWindow);
+        let end = report.end.as_ref().filter(|end| falls && slides(end));
+        match end.map(|end| self.motion_fault(analysis, end)) {
+            Some(fault) if fault.is_nan() || fault > HOLDS => Mark::Unproven(fault),
+            _ => Mark::Right,
         }
     }
 

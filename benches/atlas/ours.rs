@@ -78,7 +78,7 @@ pub fn ours(scene: &Scene, analysis: &Analysis, truth: &Truth) -> Ours {
         let before = ours.clone();
         let again = ours.one(&other, &truth);
         let found = again.and_then(|report| report.end).map(|end| end.load_factor);
-        if let Some(found) = found.filter(|_| ours.mark == Mark::Right || ours.mark == Mark::Open) {
+        if let Some(found) = found.filter(|_| !matches!(ours.mark, Mark::Wrong(_) | Mark::GaveUp(_))) {
             interval = [interval[0].min(found), interval[1].max(found)];
         }
         // What the scene itself gets stays; a wrong number anywhere is a wrong number.

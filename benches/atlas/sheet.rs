@@ -16,10 +16,11 @@ const TOP: f64 = 92.0;
 const ROW: f64 = PANEL[1] + 46.0;
 
 /// Fill of a cell: colours that are told apart by eyes of any kind (Okabe & Ito 2008); marks tell them apart without colour.
-const FILLS: [(&str, &str); 5] = [
+const FILLS: [(&str, &str); 6] = [
     ("right", "#56B4E9"),
     ("oracle cannot tell", "#DDDDDD"),
     ("gave up, says so", "#F0E442"),
+    ("slides, not proven", "#CC79A7"),
     ("wrong", "#D55E00"),
     ("not run", "#FFFFFF"),
 ];
@@ -30,12 +31,13 @@ fn worst<'a>(marks: impl Iterator<Item = Option<&'a Mark>>) -> usize {
         Some(Mark::Right) => 0,
         Some(Mark::Open) => 1,
         Some(Mark::GaveUp(_)) => 2,
-        Some(Mark::Wrong(_)) => 3,
-        None => 4,
+        Some(Mark::Unproven(_)) => 3,
+        Some(Mark::Wrong(_)) => 4,
+        None => 5,
     };
     let ranks: Vec<usize> = marks.map(rank).collect();
     // Not run counts only where nothing was.
-    ranks.iter().copied().filter(|rank| *rank < 4).max().unwrap_or(4)
+    ranks.iter().copied().filter(|rank| *rank < 5).max().unwrap_or(5)
 }
 
 pub fn svg(all: &[(Map, Vec<Row>)]) -> String {
@@ -67,7 +69,7 @@ fn left(column: usize) -> f64 {
 
 fn legend(svg: &mut String) {
     for (i, (name, fill)) in FILLS.iter().enumerate() {
-        let (x, y) = (LEFT + 130.0 * i as f64, 36.0);
+        let (x, y) = (LEFT + 135.0 * i as f64, 36.0);
         let _ = writeln!(svg, "<rect x=\"{x}\" y=\"{y}\" width=\"14\" height=\"14\" fill=\"{fill}\" stroke=\"#888\"/>");
         let path = mark(i, [x, y, 14.0, 14.0]);
         let _ = writeln!(
@@ -78,11 +80,12 @@ fn legend(svg: &mut String) {
     }
 }
 
-/// What marks a cell beside its colour: a cross where wrong, a dash where given up.
+/// What marks a cell beside its colour: a cross where wrong, a dash where given up, an upright where not proven.
 fn mark(rank: usize, [x, y, w, h]: [f64; 4]) -> String {
     let at = |a: f64, b: f64| format!("{:.1} {:.1}", x + a * w, y + b * h);
     match rank {
-        3 => format!("M{}L{}M{}L{}", at(0.2, 0.2), at(0.8, 0.8), at(0.2, 0.8), at(0.8, 0.2)),
+        4 => format!("M{}L{}M{}L{}", at(0.2, 0.2), at(0.8, 0.8), at(0.2, 0.8), at(0.8, 0.2)),
+        3 => format!("M{}L{}", at(0.5, 0.2), at(0.5, 0.8)),
         2 => format!("M{}L{}", at(0.25, 0.5), at(0.75, 0.5)),
         _ => String::new(),
     }
@@ -139,7 +142,7 @@ fn panel(svg: &mut String, map: &Map, rows: &[Row], column: usize, [x, y]: [f64;
         svg,
         "<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" fill=\"none\" stroke=\"#888\"/>"
     );
-    if fills[..4].iter().all(String::is_empty) {
+    if fills[..5].iter().all(String::is_empty) {
         let _ = writeln!(svg, "<text x=\"{}\" y=\"{}\" fill=\"#666\">not run</text>", x + 8.0, y + 18.0);
     }
     for i in ticks(nx) {

@@ -14,6 +14,7 @@ pub fn words(mark: &Mark) -> (&'static str, &str) {
         Mark::Right => ("right", ""),
         Mark::Wrong(why) => ("wrong", why),
         Mark::GaveUp(why) => ("gave up", why),
+        Mark::Unproven(_) => ("unproven", ""),
         Mark::Open => ("open", ""),
     }
 }
@@ -69,23 +70,26 @@ pub fn csv(map: &Map, rows: &[Row]) -> String {
     text + "\n"
 }
 
-/// Counts of right, wrong, gave up and open.
-fn counts<'a>(marks: impl Iterator<Item = &'a Mark>) -> [usize; 4] {
-    let mut counts = [0; 4];
+/// Counts of right, wrong, gave up, unproven and open.
+fn counts<'a>(marks: impl Iterator<Item = &'a Mark>) -> [usize; 5] {
+    let mut counts = [0; 5];
     for mark in marks {
         let place = match mark {
             Mark::Right => 0,
             Mark::Wrong(_) => 1,
             Mark::GaveUp(_) => 2,
-            Mark::Open => 3,
+            Mark::Unproven(_) => 3,
+            Mark::Open => 4,
         };
         counts[place] += 1;
     }
     counts
 }
 
-fn line(name: &str, [right, wrong, gave_up, open]: [usize; 4]) -> String {
-    format!("  {name:<22} {right:>6} right {wrong:>6} wrong {gave_up:>6} gave up {open:>5} open\n")
+fn line(name: &str, [right, wrong, gave_up, unproven, open]: [usize; 5]) -> String {
+    format!(
+        "  {name:<22} {right:>6} right {wrong:>6} wrong {gave_up:>6} gave up {unproven:>4} unproven {open:>4} open\n"
+    )
 }
 
 /// A map in a paragraph, with everything that went wrong with ours.

@@ -63,6 +63,7 @@ fn loading(truth: &Truth, sign: f64) -> Loading {
     let limit = if sign > 0.0 { high } else { low };
     let start = match [low, high] {
         // Nothing presses the joints of weightless stones at 0.
+        _ if truth.bears_nothing() => sign * truth.balance,
         _ if weightless && limit.is_finite() => 0.5 * limit,
         _ if weightless => sign * truth.balance,
         _ if low <= 0.0 && high >= 0.0 => 0.0,
@@ -71,7 +72,7 @@ fn loading(truth: &Truth, sign: f64) -> Loading {
         _ => 2.0 * high,
     };
     let way = limit - start;
-    let (step, most) = if way.is_finite() && way != 0.0 {
+    let (step, most) = if way.is_finite() && way != 0.0 && !truth.bears_nothing() {
         (way / STEPS, start + 2.0 * way)
     } else {
         (sign * far / STEPS, start + sign * far)
@@ -87,6 +88,7 @@ fn judge(found: &Found, truth: &Truth, ours: &Ours, sign: f64) -> Mark {
         (Found::GaveUp, _) => Mark::GaveUp("no convergence".into()),
         _ if truth.undecided() => Mark::Open,
         (Found::FallsAsBuilt, None) => Mark::Right,
+        (Found::FallsAsBuilt, _) if truth.bears_nothing() => Mark::Right,
         (Found::FallsAsBuilt, _) if fell_by_sliding(ours) => Mark::Right,
         (Found::FallsAsBuilt, Some(_)) => wrong("falls as built"),
         (_, None) => wrong("stands"),
