@@ -190,6 +190,7 @@ fn beam(each_way: usize) -> Question {
         shear: 1000.0,
         stone: semicircle(&[1.0; 3], 0.0).stone,
         plane: PlaneModel::Stress,
+        accuracy: None,
         subblocks: [each_way; 2],
         seams: Seams::Split,
         curved_sides: true,

@@ -3,6 +3,7 @@
 use super::path::total;
 use super::pulse::Pulse;
 use super::{Analysis, AnalysisError, Crushing, Digits, LimitWindow, Method, PathEnd, PlasticCrushing};
+use crate::arch::JointLaw;
 use crate::limit::{CrushingWindow, StaticTheorem};
 
 /// Path and window agree when their load factors differ by less than this share.
@@ -17,6 +18,8 @@ const SMALL: f64 = 1e-6;
 pub(super) const UNBALANCED: f64 = 1e-8;
 /// Equilibria this close, as a share of the loads, may be lost to rounding where stones carry no load.
 const MARGIN: f64 = 1e-9;
+/// Friction this close to its bound, as a share of it, is at its bound.
+const AT_BOUND: f64 = 1e-6;
 /// Loads that do less work than this in a mechanism do not drive it.
 const NO_WORK: f64 = 1e-9;
 
@@ -64,6 +67,12 @@ pub(super) enum Doubt {
         Digits(*.0)
     )]
     TurnedBack(f64),
+    #[error(
+        "The load path turns back at load factor {} and ends in sliding joints that are not at the limit of their friction there, \
+         while limit analysis never lets the arch fall.",
+        Digits(*.0)
+    )]
+    Stray(f64),
     #[error("The load path passes the limit window (load factor {} against {}).", Digits(*.path), Digits(*.limit))]
     Above { path: f64, limit: f64 },
     #[error(
@@ -175,9 +184,21 @@ impl Certificate {
             Ok(None)
         } else if end.mechanism.slides.is_empty() {
             Err(Doubt::Short { path, limit })
+        } else if limit.is_infinite() && !self.slides_at_its_limits(end) {
+            Err(Doubt::Stray(path))
         } else {
             Ok(Some(sliding_note(path, limit)))
         }
+    }
+
+    /// Whether friction is at its bound, and opposes the sliding, in every joint that slides in the mechanism.
+    fn slides_at_its_limits(&self, end: &PathEnd) -> bool {
+        end.mechanism.slides.iter().all(|slide| {
+            let (joint, thrust) = (self.theorem.joint(slide.joint), &end.thrust_line[slide.joint]);
+            let JointLaw::Dry { friction, cohesion } = joint.law else { return true };
+            let bound = friction * thrust.normal + cohesion * joint.length();
+            bound + slide.rate.signum() * thrust.shear <= AT_BOUND * bound
+        })
     }
 
     /// A window that the path could not start in: the cap, or the full loads of a safety analysis, lie before it.

@@ -3,7 +3,7 @@
 use super::discretise::Model;
 use super::mechanism;
 use super::motion::{Motion, motion_at};
-use super::path::Fall;
+use super::path::{Fall, total};
 use super::{Analysis, PathEnd, Thrust};
 use crate::arch::{Arch, JointLaw, PointForce};
 use crate::dda::{Peak, State, Tracer, Zone};
@@ -42,7 +42,7 @@ pub(super) fn at_peak(
         Some(equilibrium) => theorem.resultants(equilibrium),
         None => carried(model, &peak.displacements),
     };
-    let driving: Vec<PointForce> = analysis.scaled.iter().map(|f| PointForce { force: f.force * sign, ..*f }).collect();
+    let driving = driving(analysis, peak.parameter, sign);
     let slipping: Vec<Option<f64>> = (0..arch.joints.len()).map(|k| sliding_shear(model, k, peak)).collect();
     let at_limits = mechanism::from_statics(arch, &forces, &slipping, &driving, POLISHED, &model.pulse.heart);
     let later = at_limits.is_none();
@@ -51,6 +51,17 @@ pub(super) fn at_peak(
     });
     let load_factor = polished.map_or(peak.parameter, |e| e.load_factor);
     (PathEnd { load_factor, residual, mechanism, thrust_line: thrust_line(arch, &forces) }, later)
+}
+
+/// Loads that do positive work in the mechanism at a load factor: the scaled ones or, as the works of both cancel there, the
+/// fixed ones reversed where they are the smaller. Far out the work of the scaled loads is all cancellation.
+fn driving(analysis: &Analysis, load_factor: f64, sign: f64) -> Vec<PointForce> {
+    let by_fixed = total(&analysis.fixed) > 0.0 && load_factor.abs() * total(&analysis.scaled) > total(&analysis.fixed);
+    let (loads, share) = match by_fixed {
+        true => (&analysis.fixed, -sign * load_factor.signum()),
+        false => (&analysis.scaled, sign),
+    };
+    loads.iter().map(|f| PointForce { force: f.force * share, ..*f }).collect()
 }
 
 /// The mechanism in which an arch falls that never stood, its loads being those at load factor `start`.

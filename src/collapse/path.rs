@@ -91,7 +91,11 @@ pub(super) fn stand<'a>(
     let preload = target.len() as f64 * largest(&target) / model.softest;
     let drive = covering(&model.chain, &target, preload);
     let mut tracer = Tracer::new(&model.chain, drive, model.size, load_scale, &model.pulse.heart);
-    let end = tracer.trace(1.0, see);
+    let end = match tracer.trace(1.0, see) {
+        // Stones that have to move by many times the arch's size until they are held have fallen.
+        End::Rising => End::Mechanism,
+        end => end,
+    };
     (tracer, end)
 }
 

@@ -6,6 +6,7 @@
 //! one that goes on crossing, so rises and falls of the load factor, and momentary mechanisms, pass by themselves.
 
 mod correct;
+mod drift;
 mod drive;
 mod equilibrium;
 mod moving;
@@ -19,6 +20,7 @@ use super::contact::{Moving, State, zone};
 use super::factor::{Factor, Tridiagonal};
 use super::heart::Heart;
 use super::moving::{Placed, Velocity};
+use drift::Drift;
 use std::ops::ControlFlow;
 
 /// How a trace ended.
@@ -28,7 +30,7 @@ pub enum End {
     Reached,
     /// The chain moves on without any further change: a mechanism.
     Mechanism,
-    /// The parameter rises to the value asked for without any further change, and the chain moves so far with it that its
+    /// The parameter rises, for all that can be told to the value asked for, and the chain moves so far with it that its
     /// displacements mean nothing.
     Rising,
     /// The caller asked to stop.
@@ -62,7 +64,8 @@ const SINGULAR: f64 = 1e-13;
 const SOFT: f64 = 1e-6;
 /// In a mechanism, gap rates below this are rounding (the direction's largest entry is 1).
 const STILL: f64 = 1e-7;
-/// A mechanism that meets no new contact within so many chain sizes goes on for ever.
+/// A chain that moves by so many sizes while its load gains less than `SOFT` for each goes on for ever; and equilibrium that is
+/// lost to rounding so far away is none that it could reach.
 const FAR: f64 = 100.0;
 /// So many steps of length zero in a row, and as many more per contact, mean that ties do not resolve.
 const MOST_ZERO_STEPS: [usize; 2] = [60, 4];
@@ -198,7 +201,7 @@ impl<'a> Tracer<'a> {
         let far = FAR * self.size;
         let most = |[base, each]: [usize; 2]| base + each * self.states.len();
         let (most_zero_steps, most_events) = (most(MOST_ZERO_STEPS), self.events + most(MOST_EVENTS));
-        let (mut zero_steps, mut barred) = (0, None);
+        let (mut zero_steps, mut barred, mut drift) = (0, None, Drift::at(self.parameter));
         self.solve_tangent();
         if self.rate < 0.0 {
             self.turn_round();
@@ -211,9 +214,10 @@ impl<'a> Tracer<'a> {
             if see(self).is_break() {
                 return End::Stopped;
             }
-            let rises = self.rate > 0.0 && !self.is_mechanism();
-            // A load that rises may bend a soft chain far; only a chain that moves freely goes on for ever.
-            let event = self.nearest_event(barred).filter(|event| rises || event.step <= far);
+            let event = self.nearest_event(barred);
+            let drifts = event.is_some_and(|event| self.drifts(drift, event.step));
+            let rises = self.rate > 0.0 && !self.is_mechanism() && !drifts;
+            let event = event.filter(|_| !drifts);
             let to_target = (target - self.parameter) / self.rate;
             if rises && event.is_none_or(|event| to_target <= event.step) {
                 if to_target > far {
@@ -223,13 +227,22 @@ impl<'a> Tracer<'a> {
                 self.parameter = target;
                 return if self.keep_equilibrium() { End::Reached } else { End::Lost };
             }
-            let Some(event) = event else { return End::Mechanism };
+            let Some(event) = event else {
+                self.note_peak(true);
+                return End::Mechanism;
+            };
             zero_steps = if event.step > 0.0 { 0 } else { zero_steps + 1 };
             barred = Some((event.contact, self.states[event.contact]));
             self.advance(event.step);
+            drift = self.drifted(drift, event.step);
             self.cross(event);
-            if zero_steps > most_zero_steps || self.events > most_events || !self.keep_equilibrium() {
+            if zero_steps > most_zero_steps || self.events > most_events {
                 return End::Lost;
+            }
+            if !self.keep_equilibrium() {
+                let moved = self.displacements.iter().fold(0.0, |most: f64, d| most.max(d.abs()));
+                let rises = self.rate > 0.0 && !self.is_mechanism();
+                return if rises && moved > far { End::Rising } else { End::Lost };
             }
         }
     }

@@ -92,6 +92,11 @@ impl StaticTheorem {
         theorem
     }
 
+    /// Joint `k` of the arch.
+    pub fn joint(&self, k: usize) -> &Joint {
+        &self.joints[k]
+    }
+
     fn add_inequalities(&mut self, k: usize) {
         let [intrados, extrados, shear] = self.forces[k];
         let capacity = |friction: f64, adhesion: f64, sign: f64| {

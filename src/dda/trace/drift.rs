@@ -1,0 +1,38 @@
+//! Chains that move on and on while their load hardly gains.
+
+use super::{FAR, SOFT, Tracer};
+
+/// How far the chain has moved, m, since its load last gained worth telling, and the parameter then.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Drift {
+    from: f64,
+    moved: f64,
+}
+
+impl Drift {
+    /// At a parameter, nothing moved yet.
+    pub(super) fn at(parameter: f64) -> Self {
+        Drift { from: parameter, moved: 0.0 }
+    }
+}
+
+impl Tracer<'_> {
+    /// Whether a further step only moves the chain on.
+    pub(super) fn drifts(&self, drift: Drift, step: f64) -> bool {
+        let gained = self.parameter + step * self.rate - drift.from;
+        drift.moved + step > FAR * self.size && !self.worth_telling(gained)
+    }
+
+    /// The drift after a step that the chain has made.
+    pub(super) fn drifted(&self, drift: Drift, step: f64) -> Drift {
+        match self.worth_telling(self.parameter - drift.from) {
+            true => Drift::at(self.parameter),
+            false => Drift { moved: drift.moved + step, ..drift },
+        }
+    }
+
+    /// Whether a gain of the parameter is what a chain that moves far has to gain.
+    fn worth_telling(&self, gained: f64) -> bool {
+        gained * self.load_rate_scale > SOFT * FAR * self.load_scale
+    }
+}
