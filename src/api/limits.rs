@@ -1,7 +1,7 @@
 //! How much one request may ask for.
 
 use super::fault::{Fault, Faults};
-use super::request::{ProfileRequest, Request};
+use super::request::{MAX_SUBBLOCKS_EACH_WAY, ProfileRequest, Request};
 use crate::collapse::{Analysis, Question};
 use std::time::Duration;
 
@@ -59,6 +59,7 @@ fn size(question: &Question) -> (usize, usize) {
     match question {
         Question::One(analysis) => of(analysis),
         Question::Curve(points) => points.first().map_or((0, 0), |point| of(&point.analysis)),
+        Question::CurvedBeam(beam) if beam.accuracy.is_some() => (1, MAX_SUBBLOCKS_EACH_WAY.pow(2)),
         Question::CurvedBeam(beam) => (1, beam.subblocks.iter().product()),
     }
 }

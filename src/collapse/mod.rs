@@ -145,7 +145,7 @@ pub struct Accuracy {
     /// Largest error of the collapse load factor, as a share of it.
     pub collapse_intensity: Option<f64>,
     /// Largest error of the stress fields asked for, as a share, in the norm of eq. (5) of the paper: that of the equivalent
-    /// stress, by area. Loads have to come in [`LOAD_PIECES`].
+    /// stress, by area. Loads have to come in [`LOAD_PIECES`], and no stone may have a side of more than one arc.
     pub stress: Option<f64>,
     /// Most subblocks of the model.
     pub most_subblocks: usize,

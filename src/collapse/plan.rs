@@ -16,7 +16,7 @@ pub use mesh::LOAD_PIECES;
 
 use super::pulse::Pulse;
 use super::{Accuracy, Analysis, AnalysisError, CollapseReport, Estimate, FieldAt, Outcome, PathEnd, Plan, verdict};
-use crate::arch::{Sides, is_symmetric};
+use crate::arch::is_symmetric;
 use refine::Refined;
 
 /// Velocities of a mechanism, as a share of the largest, that differ by less are the same.
@@ -45,6 +45,12 @@ pub(super) fn solve(analysis: &Analysis, accuracy: Accuracy, pulse: &Pulse) -> R
         return Ok(CollapseReport { plan: Some(plan), ..rigid });
     }
     let half = half_of(analysis, &rigid);
+    let fewest = refine::fewest(half.as_ref().unwrap_or(analysis));
+    if fewest > accuracy.most_subblocks {
+        let most = accuracy.most_subblocks;
+        plan.why.push(format!("The coarsest mesh that bends would have {fewest} subblocks, and {most} are allowed."));
+        return Ok(CollapseReport { plan: Some(plan), ..rigid });
+    }
     plan.half = half.is_some();
     plan.why.push(why_half(analysis, plan.half));
     let Refined { report, subblocks, stress, first_yield, meshes, why } =
@@ -110,9 +116,8 @@ fn why_rigid(report: &CollapseReport) -> String {
 fn half_of(analysis: &Analysis, rigid: &CollapseReport) -> Option<Analysis> {
     let (arch, axis) = (&analysis.arch, analysis.arch.axis());
     let symmetric = |forces: &[_]| is_symmetric(forces, arch.voussoirs.len(), axis);
-    let cut = arch.keystone().is_none_or(|k| arch.voussoirs[k].sides != Sides::Compound);
     let ends = rigid.end.iter().chain(&rigid.other_end);
-    let whole = !arch.half && cut && arch.asymmetry().is_none();
+    let whole = !arch.half && arch.asymmetry().is_none();
     if !(whole && symmetric(&analysis.fixed) && symmetric(&analysis.scaled) && { ends }.all(falls_evenly)) {
         return None;
     }

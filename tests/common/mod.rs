@@ -4,6 +4,7 @@
 pub mod dice;
 pub mod door;
 pub mod falling;
+pub mod field;
 pub mod folders;
 pub mod masonry;
 pub mod motion;

@@ -5,10 +5,11 @@ use crate::api::request::{
     AccuracyRequest, AimRequest, AnalysisRequest, GeometryRequest, MAX_SUBBLOCKS, MethodRequest, SeamsRequest,
     SubblocksRequest,
 };
+use crate::arch::{Arch, Sides};
 use crate::collapse::Accuracy;
 
 /// The accuracy asked for, where one is.
-pub fn accuracy(request: &AnalysisRequest, faults: &mut Faults) -> Option<Accuracy> {
+pub fn accuracy(request: &AnalysisRequest, arch: Option<&Arch>, faults: &mut Faults) -> Option<Accuracy> {
     let asked = request.accuracy.as_ref()?;
     let accuracy = checked(asked, faults);
     let detail = "an accuracy is reached by steps no one chooses: set method to `event_path`";
@@ -24,6 +25,13 @@ pub fn accuracy(request: &AnalysisRequest, faults: &mut Faults) -> Option<Accura
         faults.require(own, "/mesh/subblocks", detail);
         let detail = "stress converges with split seams only: set seams to `split`, or leave accuracy.stress out";
         faults.require(request.mesh.seams == SeamsRequest::Split, "/mesh/seams", detail);
+        if let Some(k) = arch.and_then(|arch| arch.voussoirs.iter().position(|stone| stone.sides == Sides::Compound)) {
+            let detail = format!(
+                "a curved side of voussoir {k} is of more than one arc, which cannot be cut into subblocks: place joints \
+                 where the arcs meet, set curved_sides to false, or leave accuracy.stress out"
+            );
+            faults.add("/accuracy/stress", detail);
+        }
         let curve = matches!(&request.analysis, AimRequest::Safety(safety) if safety.curve.is_some());
         let detail = "a curve shows no stress: leave accuracy.stress out and name a mesh";
         faults.require(!curve, "/accuracy/stress", detail);

@@ -53,7 +53,7 @@ impl<'a> Site<'a> {
         check_load_factor(request, faults);
         check_method(request, faults);
         faults.inside("/report/share_of_collapse", request.report.share_of_collapse, 0.0, 1.0);
-        let accuracy = accuracy::accuracy(request, faults);
+        let accuracy = accuracy::accuracy(request, whole.as_ref(), faults);
         let pieces = mesh::total(subblocks.iter().take(analysed.unwrap_or(0)));
         let refined = accuracy.filter(|accuracy| accuracy.stress.is_some());
         let pieces = refined.map_or(pieces, |accuracy| accuracy.most_subblocks);

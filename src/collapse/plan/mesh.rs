@@ -1,6 +1,6 @@
 //! Meshes of one voussoir that nest, from coarse to fine, of subblocks that are about square.
 
-use crate::arch::{Arch, JointLaw, Sides};
+use crate::arch::{Arch, JointLaw};
 
 /// Into how many pieces the loads on the extrados side of every voussoir have to be cut for any of these meshes: their
 /// numbers along divide it.
@@ -18,11 +18,8 @@ const ASPECT: f64 = 1.5;
 const SHORTER: f64 = 0.7;
 
 /// Subblocks, radial and along, of ever finer meshes of voussoir `k`: each has whole subblocks of the next in every one of
-/// its own. A side of more than one arc cannot be cut.
+/// its own.
 pub(super) fn ladder(arch: &Arch, k: usize) -> Vec<[usize; 2]> {
-    if arch.voussoirs[k].sides == Sides::Compound {
-        return vec![[1, 1]];
-    }
     let [before, after] = [&arch.joints[k], &arch.joints[k + 1]];
     let along = 0.5 * ((after.intrados - before.intrados).norm() + (after.extrados - before.extrados).norm());
     // A stone that is cut in two on the axis has half of the pieces.

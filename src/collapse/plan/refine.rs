@@ -40,6 +40,11 @@ struct Refinement {
     meshes: Vec<MeshTried>,
 }
 
+/// Subblocks of the coarsest mesh that bends.
+pub(super) fn fewest(analysis: &Analysis) -> usize {
+    (0..analysis.arch.voussoirs.len()).map(|k| total(&ladder(&analysis.arch, k)[..1])).sum()
+}
+
 /// Solves on ever finer meshes until the stress fields are as accurate as asked.
 pub(super) fn solve(
     analysis: &Analysis,

@@ -1,0 +1,184 @@
+//! What an accuracy saves: for every case of `cases/`, the mesh that is found for an accuracy of the stress beside the coarsest
+//! uniform mesh that is as accurate.
+//!
+//! `cargo bench --bench saving -- [accuracy ...]`, by default 0.1 and 0.05. An arch's field is half-way to collapse, its exact stress
+//! that of 24 subblocks across and as many along as make them square; the curved beam's is that of the theory of elasticity.
+//! Accuracies are those had, not estimated ones. Uniform meshes are of n x n subblocks in every voussoir of the whole arch.
+#![allow(clippy::print_stdout, clippy::disallowed_methods, clippy::unwrap_used, missing_docs)]
+
+#[path = "../tests/common/mod.rs"]
+mod common;
+
+use common::field::error;
+use common::folders::{cases, folders, name};
+use serde_json::{Value, json};
+use std::time::Instant;
+use voussoir::api::read::read_question;
+use voussoir::collapse::{
+    Accuracy, Analysis, Answer, BeamReport, CollapseReport, CurvedBeam, FieldAt, Question, StressField, Unwatched,
+    answer, run,
+};
+
+/// Subblocks across of the mesh that stands for the exact stress.
+const FINE: usize = 24;
+/// Uniform meshes that are tried.
+const UNIFORM: [usize; 12] = [1, 2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16];
+/// Arches with more voussoirs take long to be found exactly.
+const MOST_VOUSSOIRS: usize = 61;
+
+/// A mesh and what came of it.
+#[derive(Clone, Copy)]
+struct Tried {
+    subblocks: usize,
+    error: f64,
+    seconds: f64,
+}
+
+fn main() {
+    let numbers = std::env::args().skip(1).filter_map(|argument| argument.parse::<f64>().ok()).collect::<Vec<_>>();
+    let accuracies = if numbers.is_empty() { vec![0.1, 0.05] } else { numbers };
+    println!("case, voussoirs | asked, estimated, had | found: subblocks, s | uniform: subblocks, s | times fewer");
+    let mut ratios = vec![Vec::new(); accuracies.len()];
+    for folder in folders(&cases()) {
+        let request: Value = serde_json::from_slice(&std::fs::read(folder.join("request.json")).unwrap()).unwrap();
+        let case = name(&folder);
+        let scene = match question(request) {
+            Some(Question::One(analysis)) => Arch::new(*analysis).map(Scene::Arch),
+            Some(Question::CurvedBeam(beam)) => Some(Scene::Beam(beam)),
+            _ => None,
+        };
+        let Some(scene) = scene else { continue };
+        let uniform: Vec<Tried> = UNIFORM.iter().filter_map(|&n| scene.uniform(n)).collect();
+        for (&asked, ratios) in accuracies.iter().zip(&mut ratios) {
+            let Some((found, estimate)) = scene.found(asked) else { continue };
+            let same = uniform.iter().find(|uniform| uniform.error <= found.error);
+            let beside = same.map_or("none so accurate".into(), |u| format!("{:>6} {:>8.4}", u.subblocks, u.seconds));
+            let ratio = same.map(|uniform| uniform.subblocks as f64 / found.subblocks as f64);
+            println!(
+                "{case:<44} {:>3} | {asked:<5} {estimate:.4} {:.4} | {:>6} {:>8.4} | {beside} | {}",
+                scene.voussoirs(),
+                found.error,
+                found.subblocks,
+                found.seconds,
+                ratio.map_or("more".into(), |ratio| format!("{ratio:.2}"))
+            );
+            ratios.push(ratio.unwrap_or(f64::INFINITY));
+        }
+    }
+    for (asked, mut ratios) in accuracies.into_iter().zip(ratios) {
+        ratios.sort_by(f64::total_cmp);
+        println!(
+            "accuracy {asked}: median {:.2} times fewer subblocks, {} cases",
+            ratios[ratios.len() / 2],
+            ratios.len()
+        );
+    }
+}
+
+/// What a case asks, without its mesh and what does not go with an accuracy; none where it asks for no stress that could be had.
+fn question(mut request: Value) -> Option<Question> {
+    let body = request.as_object_mut().unwrap();
+    ["mesh", "motion", "geometry", "method", "report", "accuracy"].iter().for_each(|field| drop(body.remove(*field)));
+    let settles = body.get("analysis").is_some_and(|analysis| analysis.get("settlement").is_some());
+    if !settles {
+        let subblocks = 100_000;
+        body.insert("accuracy".into(), json!({"stress": 0.5, "subblocks": subblocks}));
+        if body.contains_key("curved_beam") {
+            body["accuracy"] = json!({"stress": 0.5});
+        }
+    }
+    read_question(request.to_string().as_bytes()).ok().map(|(_, question)| question)
+}
+
+enum Scene {
+    Arch(Arch),
+    Beam(CurvedBeam),
+}
+
+impl Scene {
+    fn voussoirs(&self) -> usize {
+        if let Scene::Arch(arch) = self { arch.analysis.arch.voussoirs.len() } else { 1 }
+    }
+
+    fn uniform(&self, n: usize) -> Option<Tried> {
+        match self {
+            Scene::Arch(arch) => {
+                let (report, seconds) = arch.on_mesh(vec![[n, n]; self.voussoirs()]);
+                let error = error(report.stress_fields.first()?, &arch.exact);
+                Some(Tried { subblocks: n * n * self.voussoirs(), error, seconds })
+            }
+            Scene::Beam(beam) => {
+                let (report, seconds) = solve(&CurvedBeam { subblocks: [n, n], accuracy: None, ..*beam });
+                Some(Tried { subblocks: n * n, error: report.error, seconds })
+            }
+        }
+    }
+
+    /// The mesh found, and the error it is estimated to have.
+    fn found(&self, asked: f64) -> Option<(Tried, f64)> {
+        match self {
+            Scene::Arch(arch) => arch.found(asked),
+            Scene::Beam(beam) => {
+                let (report, seconds) = solve(&CurvedBeam { accuracy: Some(asked), ..*beam });
+                let plan = report.plan?;
+                let subblocks = plan.meshes.last()?.subblocks;
+                Some((Tried { subblocks, error: report.error, seconds }, plan.stress.estimate?))
+            }
+        }
+    }
+}
+
+fn solve(beam: &CurvedBeam) -> (BeamReport, f64) {
+    let start = Instant::now();
+    match answer(&Question::CurvedBeam(*beam), &mut Unwatched) {
+        Ok(Answer::CurvedBeam(report)) => (report, start.elapsed().as_secs_f64()),
+        other => panic!("{other:?}"),
+    }
+}
+
+struct Arch {
+    analysis: Analysis,
+    exact: StressField,
+}
+
+impl Arch {
+    /// The arch half-way to collapse; none where it has no stress there.
+    fn new(analysis: Analysis) -> Option<Self> {
+        let voussoirs = analysis.arch.voussoirs.len();
+        let mut analysis = Analysis { accuracy: None, fields: Vec::new(), ..analysis };
+        let rigid = run(&analysis, &mut Unwatched).ok()?;
+        let collapse = rigid.end.as_ref().map_or(2.0, |end| end.load_factor);
+        let at = 0.5 * (rigid.start + collapse);
+        if rigid.at_start.is_none() || voussoirs > MOST_VOUSSOIRS {
+            return None;
+        }
+        analysis.fields = vec![FieldAt::LoadFactor(at)];
+        let square = |k: usize| {
+            let [before, after] = [&analysis.arch.joints[k], &analysis.arch.joints[k + 1]];
+            let along = (after.middle() - before.middle()).norm() / (0.5 * (before.length() + after.length()));
+            [FINE, (along * FINE as f64).round().clamp(1.0, 48.0) as usize]
+        };
+        let fine: Vec<_> = (0..voussoirs).map(square).collect();
+        let up_to_there = Analysis { cap: Some(1.0001 * at.abs().max(rigid.start.abs())), ..analysis.clone() };
+        let exact = Arch { analysis: up_to_there, exact: StressField { load_factor: at, subblocks: Vec::new() } };
+        let exact = exact.on_mesh(fine).0.stress_fields.into_iter().next()?;
+        Some(Arch { analysis, exact })
+    }
+
+    fn on_mesh(&self, subblocks: Vec<[usize; 2]>) -> (CollapseReport, f64) {
+        let mut analysis = self.analysis.clone();
+        analysis.mesh.subblocks = subblocks;
+        let start = Instant::now();
+        (run(&analysis, &mut Unwatched).unwrap(), start.elapsed().as_secs_f64())
+    }
+
+    fn found(&self, asked: f64) -> Option<(Tried, f64)> {
+        let accuracy = Accuracy { collapse_intensity: None, stress: Some(asked), most_subblocks: 20_000 };
+        let analysis = Analysis { accuracy: Some(accuracy), ..self.analysis.clone() };
+        let start = Instant::now();
+        let report = run(&analysis, &mut Unwatched).unwrap();
+        let (seconds, plan) = (start.elapsed().as_secs_f64(), report.plan?);
+        let (subblocks, error) = (plan.meshes.last()?.subblocks, error(report.stress_fields.first()?, &self.exact));
+        Some((Tried { subblocks, error, seconds }, plan.stress?.estimate?))
+    }
+}
