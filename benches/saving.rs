@@ -130,7 +130,7 @@ impl Scene {
 
 fn solve(beam: &CurvedBeam) -> (BeamReport, f64) {
     let start = Instant::now();
-    match answer(&Question::CurvedBeam(*beam), &mut Unwatched) {
+    match answer(&Question::CurvedBeam(beam.clone()), &mut Unwatched) {
         Ok(Answer::CurvedBeam(report)) => (report, start.elapsed().as_secs_f64()),
         other => panic!("{other:?}"),
     }
