@@ -59,8 +59,8 @@ pub(super) type Orders = [f64; 2];
 struct Error {
     /// Root of the squared change, integrated over the voussoir, when it was last refined, Pa m.
     change: Option<f64>,
-    /// Order in which it converges.
-    order: f64,
+    /// Order in which it converges, once two changes have told.
+    order: Option<f64>,
     /// Root of the squared error, integrated over the voussoir, Pa m.
     error: f64,
 }
@@ -77,11 +77,7 @@ pub(super) struct FieldErrors {
 impl FieldErrors {
     /// Nothing is known.
     pub(super) fn new(voussoirs: usize, orders: Orders) -> Self {
-        FieldErrors {
-            voussoirs: vec![Error { change: None, order: orders[0], error: 0.0 }; voussoirs],
-            orders,
-            norm: 0.0,
-        }
+        FieldErrors { voussoirs: vec![Error { change: None, order: None, error: 0.0 }; voussoirs], orders, norm: 0.0 }
     }
 
     /// Takes in what changed from one mesh to the next, on which the voussoirs that are `refined` have finer subblocks.
@@ -97,20 +93,20 @@ impl FieldErrors {
                 known.error = known.error.max(change);
                 continue;
             }
-            if let Some(before) = known.change {
-                // Equal changes, zero ones too, have no order.
-                let order = (before / change).log2();
-                known.order = if order.is_nan() { self.orders[0] } else { order.clamp(self.orders[0], self.orders[1]) };
-            }
-            (known.change, known.error) = (Some(change), change / (known.order.exp2() - 1.0));
+            let [slowest, fastest] = self.orders;
+            // Equal changes, zero ones too, have no order.
+            let order = known.change.map(|before| (before / change).log2()).filter(|order| !order.is_nan());
+            known.order = order.map(|order| order.clamp(slowest, fastest));
+            (known.change, known.error) = (Some(change), change / (known.order.unwrap_or(slowest).exp2() - 1.0));
         }
     }
 
-    /// Squared error of every voussoir as a share of the squared norm; after `halvings` more of its subblocks.
+    /// Squared error of every voussoir as a share of the squared norm; after `halvings` more of its subblocks, hoping for the best
+    /// where no order is known.
     pub(super) fn shares<'a>(&'a self, halvings: &'a [usize]) -> impl Iterator<Item = f64> + 'a {
-        let norm = self.norm;
+        let (norm, fastest) = (self.norm, self.orders[1]);
         let share = move |(known, &halvings): (&Error, &usize)| {
-            let error = known.error * (-known.order * halvings as f64).exp2();
+            let error = known.error * (-known.order.unwrap_or(fastest) * halvings as f64).exp2();
             if error > 0.0 { (error / norm).powi(2) } else { 0.0 }
         };
         self.voussoirs.iter().zip(halvings).map(share)
