@@ -41,6 +41,9 @@ impl Limits {
             Request::Arch(request) if request.accuracy.is_some_and(|accuracy| accuracy.stress.is_some()) => {
                 ("/accuracy/subblocks", "allow fewer")
             }
+            Request::CurvedBeam(request) if request.accuracy.is_some() => {
+                ("/accuracy", "leave accuracy out and name a mesh")
+            }
             _ => ("/mesh/subblocks", "use a coarser mesh"),
         };
         let detail = format!("{subblocks} subblocks in all: this service takes at most {most}; {remedy}");

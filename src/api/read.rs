@@ -3,7 +3,7 @@
 use super::fault::{Fault, Faults, child, lies_under, listed};
 use super::plain_words::in_plain_words;
 use super::request::{
-    AnalysisRequest, BeamRequest, JointsRequest, LineRequest, ProfileRequest, Request, StressFieldRequest,
+    AimRequest, AnalysisRequest, BeamRequest, JointsRequest, LineRequest, ProfileRequest, Request, StressFieldRequest,
 };
 use super::{shape, translate, tree};
 use crate::collapse::{Analysis, Question};
@@ -303,7 +303,12 @@ fn with_defaults(mut request: AnalysisRequest) -> AnalysisRequest {
         arch.joints.get_or_insert(JointsRequest::default());
     }
     let stress = request.accuracy.is_some_and(|accuracy| accuracy.stress.is_some());
-    if stress && request.report.stress_fields.is_empty() {
+    let one_path = match &request.analysis {
+        AimRequest::Collapse => true,
+        AimRequest::Safety(safety) => safety.curve.is_none(),
+        AimRequest::Settlement(_) => false,
+    };
+    if stress && one_path && request.report.stress_fields.is_empty() {
         request.report.stress_fields.push(StressFieldRequest::UnitLoad);
     }
     request

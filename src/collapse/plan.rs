@@ -15,77 +15,97 @@ pub(super) use beam::solve as beam;
 pub use mesh::LOAD_PIECES;
 
 use super::pulse::Pulse;
-use super::{Accuracy, Analysis, AnalysisError, CollapseReport, Estimate, FieldAt, Outcome, PathEnd, Plan, verdict};
+use super::{Accuracy, Analysis, AnalysisError, CollapseReport, Direction, Estimate, Outcome, PathEnd, Plan, verdict};
 use crate::arch::is_symmetric;
-use refine::Refined;
 
 /// Velocities of a mechanism, as a share of the largest, that differ by less are the same.
 const SAME_VELOCITY: f64 = 1e-6;
 
-/// The answer to the accuracy asked, but for what does not depend on the mesh.
+/// The answer to the accuracy asked, but for what follows from path and limit window.
 pub(super) fn solve(analysis: &Analysis, accuracy: Accuracy, pulse: &Pulse) -> Result<CollapseReport, AnalysisError> {
-    let ones = vec![[1, 1]; analysis.arch.voussoirs.len()];
-    let rigid = verdict::solve(&with_mesh(analysis, ones.clone(), Vec::new()), pulse)?;
+    let voussoirs = analysis.arch.voussoirs.len();
+    let given = if accuracy.stress.is_some() { vec![[1, 1]; voussoirs] } else { analysis.mesh.subblocks.clone() };
+    let rigid = verdict::solve(&with_mesh(analysis, given.clone()), pulse)?;
     let mut plan = Plan {
         half: false,
-        subblocks: ones,
-        collapse_intensity: accuracy.collapse_intensity.map(|asked| intensity(&rigid, asked)),
-        stress: None,
+        subblocks: given,
+        collapse_intensity: None,
+        stress: accuracy.stress.map(|asked| Estimate { asked, estimate: None, met: false }),
         first_yield: None,
         meshes: Vec::new(),
-        why: vec![why_rigid(&rigid)],
+        why: vec![why_load(&rigid)],
     };
-    let Some(asked) = accuracy.stress else {
-        plan.why.push("No stress is asked for: one subblock per voussoir.".into());
-        return Ok(CollapseReport { plan: Some(plan), ..rigid });
+    let mut report = match accuracy.stress {
+        Some(asked) => refined(analysis, accuracy.most_subblocks, asked, rigid, &mut plan, pulse)?,
+        None => {
+            plan.why.push("No accuracy of the stress is asked for: the mesh is the request's own.".into());
+            rigid
+        }
     };
-    plan.stress = Some(Estimate { asked, estimate: None, met: false });
-    if rigid.at_start.is_none() || rigid.outcome == Outcome::CannotTell {
-        plan.why.push("No load is known under which it stands, so there is no stress to be found.".into());
-        return Ok(CollapseReport { plan: Some(plan), ..rigid });
-    }
-    let half = half_of(analysis, &rigid);
-    let fewest = refine::fewest(half.as_ref().unwrap_or(analysis));
-    if fewest > accuracy.most_subblocks {
-        let most = accuracy.most_subblocks;
-        plan.why.push(format!("The coarsest mesh that bends would have {fewest} subblocks, and {most} are allowed."));
-        return Ok(CollapseReport { plan: Some(plan), ..rigid });
-    }
-    plan.half = half.is_some();
-    plan.why.push(why_half(analysis, plan.half));
-    let Refined { report, subblocks, stress, first_yield, meshes, why } =
-        refine::solve(half.as_ref().unwrap_or(analysis), accuracy, asked, pulse)?;
-    let mut report = match half {
-        Some(_) => unfold::whole(&analysis.arch, report, &rigid),
-        None => report,
-    };
-    report.cost.join(rigid.cost);
-    plan.subblocks = if plan.half { unfold::subblocks(&analysis.arch, &subblocks) } else { subblocks };
-    (plan.stress, plan.first_yield, plan.meshes) = (Some(stress), first_yield, meshes);
-    plan.why.push(why);
+    plan.collapse_intensity = accuracy.collapse_intensity.map(|asked| intensity(&report, analysis.direction, asked));
     report.plan = Some(plan);
     Ok(report)
 }
 
+/// The answer on the least mesh whose stress is accurate enough; `rigid` where there is none.
+fn refined(
+    analysis: &Analysis,
+    most: usize,
+    asked: f64,
+    rigid: CollapseReport,
+    plan: &mut Plan,
+    pulse: &Pulse,
+) -> Result<CollapseReport, AnalysisError> {
+    let half = half_of(analysis, &rigid);
+    let fewest = refine::fewest(half.as_ref().unwrap_or(analysis));
+    let why_none = if rigid.at_start.is_none() || rigid.outcome == Outcome::CannotTell {
+        Some("No load is known under which it stands, so there is no stress to be found.".into())
+    } else if rigid.stress_fields.is_empty() {
+        Some("The load path passes none of the stress fields asked for.".into())
+    } else {
+        (fewest > most)
+            .then(|| format!("The coarsest mesh that bends would have {fewest} subblocks, and {most} are allowed."))
+    };
+    if let Some(why) = why_none {
+        plan.why.push(why);
+        return Ok(rigid);
+    }
+    plan.why.push(why_half(analysis, half.is_some()));
+    let Some(mut found) = refine::solve(half.as_ref().unwrap_or(analysis), most, asked, pulse)? else {
+        plan.why.push("On the coarsest mesh that bends the load path could not be followed.".into());
+        return Ok(rigid);
+    };
+    found.report.cost.join(rigid.cost);
+    plan.why.push(found.why);
+    (plan.stress, plan.first_yield, plan.meshes) = (Some(found.stress), found.first_yield, found.meshes);
+    (plan.half, plan.subblocks) = match half {
+        Some(_) => (true, unfold::subblocks(&analysis.arch, &found.subblocks)),
+        None => (false, found.subblocks),
+    };
+    Ok(if plan.half { unfold::whole(&analysis.arch, found.report, &rigid) } else { found.report })
+}
+
 /// The same question on another mesh.
-fn with_mesh(analysis: &Analysis, subblocks: Vec<[usize; 2]>, fields: Vec<FieldAt>) -> Analysis {
-    let mut analysis = Analysis { fields, accuracy: None, ..analysis.clone() };
+fn with_mesh(analysis: &Analysis, subblocks: Vec<[usize; 2]>) -> Analysis {
+    let mut analysis = Analysis { accuracy: None, ..analysis.clone() };
     analysis.mesh.subblocks = subblocks;
     analysis
 }
 
 /// How well the collapse load is known: path and limit window come to it from two sides. Where joints slide, all that is
 /// known is that limit analysis allows no more.
-fn intensity(report: &CollapseReport, asked: f64) -> Estimate {
-    let apart = |end: &PathEnd| {
+fn intensity(report: &CollapseReport, direction: Direction, asked: f64) -> Estimate {
+    let apart = |end: &PathEnd, increases: bool| {
         let window = report.limit_window?;
-        let off = |limit: f64| match (limit - end.load_factor).abs() {
-            0.0 => 0.0,
-            apart => apart / limit.abs().max(end.load_factor.abs()),
-        };
-        Some(off(window.lowest).min(off(window.highest)))
+        let limit = if increases { window.highest } else { window.lowest };
+        match (limit - end.load_factor).abs() {
+            0.0 => Some(0.0),
+            apart => Some(apart / limit.abs().max(end.load_factor.abs())).filter(|_| limit.is_finite()),
+        }
     };
-    let ends: Option<Vec<f64>> = report.end.iter().chain(&report.other_end).map(apart).collect();
+    let increases = direction == Direction::Increase;
+    let ends = report.end.iter().map(|end| apart(end, increases));
+    let ends: Option<Vec<f64>> = ends.chain(report.other_end.iter().map(|end| apart(end, !increases))).collect();
     let worst = ends.and_then(|ends| ends.into_iter().reduce(f64::max));
     match report.outcome {
         Outcome::CannotTell => Estimate { asked, estimate: None, met: false },
@@ -97,7 +117,7 @@ fn intensity(report: &CollapseReport, asked: f64) -> Estimate {
     }
 }
 
-fn why_rigid(report: &CollapseReport) -> String {
+fn why_load(report: &CollapseReport) -> String {
     let slides = report.end.iter().chain(&report.other_end).any(|end| !end.mechanism.slides.is_empty());
     match report.outcome {
         Outcome::FallsAsBuilt => "Limit analysis finds no equilibrium that the arch could be loaded from: nothing to refine.",
@@ -105,7 +125,7 @@ fn why_rigid(report: &CollapseReport) -> String {
         Outcome::CannotTell => "Path and limit analysis do not agree, which no mesh would mend.",
         _ if slides => {
             "Joints slide at collapse: the load depends on their stiffness and on the order of loading, and limit analysis \
-             bounds it from above only. Its distance to that bound stands for the error; no mesh makes it smaller."
+             bounds it from above at best. Its distance to that bound stands for the error; no mesh makes it smaller."
         }
         _ => "The collapse load of stones that do not slide does not depend on the mesh: path and limit window give it.",
     }

@@ -129,6 +129,8 @@ impl CollapseReport {
         self.motion.iter().chain(&self.other_motion).try_for_each(FallingMotion::check_finite)?;
         let plan = self.plan.iter().flat_map(|plan| [plan.collapse_intensity, plan.stress]);
         finite("estimated errors", plan.flatten().filter_map(|estimate| estimate.estimate))?;
+        let meshes = self.plan.iter().flat_map(|plan| &plan.meshes);
+        finite("estimated errors", meshes.filter_map(|mesh| mesh.stress))?;
         finite("history", self.history.iter().flat_map(|h| [h.load_factor, h.crown.x, h.crown.y, h.largest]))
     }
 }
@@ -173,6 +175,8 @@ impl Answer {
             Answer::Curve(points) => points.iter().try_for_each(SafetyPoint::check_finite),
             Answer::CurvedBeam(report) => {
                 report.field.check_finite()?;
+                let meshes = report.plan.iter().flat_map(|plan| &plan.meshes);
+                finite("estimated errors", meshes.filter_map(|mesh| mesh.stress))?;
                 finite("curved beam", report.exact.iter().chain(&report.energy).copied().chain([report.error]))
             }
         }

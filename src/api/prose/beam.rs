@@ -35,7 +35,8 @@ pub fn summary(result: &BeamResult, wall_time: Duration) -> String {
         ["time", &format!("{:.3} ms", wall_time.as_secs_f64() * 1e3)],
     ]);
     if let Some(plan) = &result.plan {
-        table.add_row(["estimate", &format!("{} (from two meshes, not from the exact stress)", error_of(plan.stress))]);
+        table
+            .add_row(["estimated", &format!("{} (from two meshes, not from the exact stress)", error_of(plan.stress))]);
     }
     format!("{name}{}\n\n{}\n", wording::wrapped(&headline), table.trim_fmt())
 }

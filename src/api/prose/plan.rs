@@ -21,7 +21,7 @@ pub fn error(estimate: EstimateBody) -> String {
     match (estimate.estimate, estimate.met) {
         (Some(error), true) => format!("estimated at {}; asked: {asked}", percent(error)),
         (Some(error), false) => format!("estimated at {}, MORE than the {asked} asked for", percent(error)),
-        (None, true) => format!("none; asked: {asked}"),
+        (None, true) => format!("no load to be off; asked: {asked}"),
         (None, false) => format!("NOT KNOWN; asked: {asked}"),
     }
 }

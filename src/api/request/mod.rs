@@ -64,7 +64,7 @@ pub struct AnalysisRequest {
     /// How the voussoirs are cut into subblocks.
     #[serde(default)]
     pub mesh: MeshRequest,
-    /// How accurate the answer has to be, instead of a mesh.
+    /// How accurate the answer has to be.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub accuracy: Option<AccuracyRequest>,
     /// Loads, fixed and scaled by the load factor. Without a scaled one, only whether the arch stands is asked.

@@ -58,8 +58,8 @@ pub struct EstimateBody {
 pub struct MeshBody {
     /// Subblocks modelled.
     pub subblocks: usize,
-    /// Contact points modelled.
-    pub contact_points: usize,
+    /// Contact points modelled; null for the curved beam, which has no joints.
+    pub contact_points: Option<usize>,
     /// Estimated error of the stress, as a share; null for the first mesh, which has none to be compared with.
     pub stress_estimate: Option<f64>,
 }

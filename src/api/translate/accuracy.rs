@@ -17,6 +17,8 @@ pub fn accuracy(request: &AnalysisRequest, arch: Option<&Arch>, faults: &mut Fau
     let detail = "on moving geometry the answer depends on the mesh by an error that is not estimated: leave accuracy out \
                   and name a mesh, or set geometry to `first_order`";
     faults.require(request.geometry == GeometryRequest::FirstOrder, "/geometry", detail);
+    let curve = matches!(&request.analysis, AimRequest::Safety(safety) if safety.curve.is_some());
+    faults.require(!curve, "/accuracy", "a curve does not tell how accurate its points are: leave accuracy out");
     let settles = matches!(request.analysis, AimRequest::Settlement(_));
     faults.require(!settles, "/accuracy", "the error of a settlement is not estimated: leave accuracy out");
     if asked.stress.is_some() {
@@ -32,9 +34,6 @@ pub fn accuracy(request: &AnalysisRequest, arch: Option<&Arch>, faults: &mut Fau
             );
             faults.add("/accuracy/stress", detail);
         }
-        let curve = matches!(&request.analysis, AimRequest::Safety(safety) if safety.curve.is_some());
-        let detail = "a curve shows no stress: leave accuracy.stress out and name a mesh";
-        faults.require(!curve, "/accuracy/stress", detail);
     }
     Some(accuracy)
 }

@@ -12,13 +12,14 @@ const SERIES: [usize; 2] = [2, 3];
 
 /// Length of the subblocks over their height: along the beam stress follows a sine, which few of them show.
 const ASPECT: f64 = 3.0;
-/// Most subblocks along over those across: a long beam would else use up all there may be in its first meshes.
+/// Most subblocks along over those across: a long beam would else use up all there may be in its first meshes. At least there are as
+/// many, so that both are halved from mesh to mesh.
 const MOST_COLUMNS: f64 = 3.0;
 
 /// Its stress is smooth.
 const ORDERS: Orders = [1.0, 2.0];
 
-/// No load comes in pieces: any number along goes.
+/// No load comes in pieces: a multiple of all numbers along that come up.
 const PIECES: usize = 3 << 8;
 
 /// A series of meshes, each halving the subblocks of the one before.
@@ -32,7 +33,7 @@ impl Series {
     fn take(&mut self, fine: &StressField) -> Option<f64> {
         let coarse = self.coarse.replace(fine.clone())?;
         self.errors.take(&differences(&coarse, fine, 1), &[true]);
-        Some(self.errors.shares(&[0]).sum::<f64>().sqrt() + off_centre(fine))
+        Some(self.errors.shares(0).sum::<f64>().sqrt() + off_centre(fine))
     }
 }
 
@@ -58,7 +59,7 @@ fn off_centre(field: &StressField) -> f64 {
 pub(in super::super) fn solve(beam: &CurvedBeam, pulse: &Pulse) -> Result<BeamReport, AnalysisError> {
     let Some(asked) = beam.accuracy else { return beam::solve(beam, pulse) };
     let length = FRAC_PI_4 * (beam.inner_radius + beam.outer_radius) / (beam.outer_radius - beam.inner_radius);
-    let columns = (length / ASPECT).min(MOST_COLUMNS);
+    let columns = (length / ASPECT).clamp(1.0, MOST_COLUMNS);
     let mut meshes: Vec<(usize, [usize; 2])> = Vec::new();
     for (which, first) in SERIES.into_iter().enumerate() {
         meshes.extend(rungs(first, columns, PIECES).into_iter().map(|mesh| (which, mesh)));
@@ -69,7 +70,7 @@ pub(in super::super) fn solve(beam: &CurvedBeam, pulse: &Pulse) -> Result<BeamRe
     for (which, subblocks) in meshes {
         let report = beam::solve(&CurvedBeam { subblocks, ..*beam }, pulse)?;
         let estimate = series[which].take(&report.field);
-        tried.push(MeshTried { subblocks: subblocks[0] * subblocks[1], contact_points: 0, stress: estimate });
+        tried.push(MeshTried { subblocks: subblocks[0] * subblocks[1], contact_points: None, stress: estimate });
         last = Some((subblocks, report, estimate));
         if estimate.is_some_and(|estimate| estimate <= asked) {
             break;

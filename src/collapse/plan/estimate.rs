@@ -103,12 +103,11 @@ impl FieldErrors {
 
     /// Squared error of every voussoir as a share of the squared norm; after `halvings` more of its subblocks, hoping for the best
     /// where no order is known.
-    pub(super) fn shares<'a>(&'a self, halvings: &'a [usize]) -> impl Iterator<Item = f64> + 'a {
+    pub(super) fn shares(&self, halvings: i32) -> impl Iterator<Item = f64> + '_ {
         let (norm, fastest) = (self.norm, self.orders[1]);
-        let share = move |(known, &halvings): (&Error, &usize)| {
-            let error = known.error * (-known.order.unwrap_or(fastest) * halvings as f64).exp2();
+        self.voussoirs.iter().map(move |known| {
+            let error = known.error * (-known.order.unwrap_or(fastest) * f64::from(halvings)).exp2();
             if error > 0.0 { (error / norm).powi(2) } else { 0.0 }
-        };
-        self.voussoirs.iter().zip(halvings).map(share)
+        })
     }
 }

@@ -49,7 +49,8 @@ fn unfolded(arch: &Arch, left: &Snapshot) -> Snapshot {
         (_, true) => left.blocks[k],
         _ => mirror_image(left.blocks[n - 1 - k]),
     };
-    let joint = |k: usize| left.contacts.iter().filter(move |contact| contact.joint == k);
+    let start = |joint: usize| left.contacts.partition_point(|contact| contact.joint < joint);
+    let joint = |k: usize| left.contacts[start(k)..start(k + 1)].iter();
     let crown = |k: usize| keystone.is_none() && 2 * k == n;
     let contact = |k: usize, contact: &ContactForce| match (crown(k), 2 * k > n) {
         // The wall stands for the other stone, which moves away from it as far.
@@ -74,13 +75,13 @@ fn mean(block: BlockState) -> BlockState {
 
 fn unfolded_field(arch: &Arch, left: &StressField) -> StressField {
     let (n, axis) = (arch.voussoirs.len(), arch.axis());
-    let along = |k: usize| left.subblocks.iter().filter(|s| s.voussoir == k).map(|s| s.place[1] + 1).max().unwrap_or(0);
+    let start = |voussoir: usize| left.subblocks.partition_point(|subblock| subblock.voussoir < voussoir);
     let mut subblocks = left.subblocks.clone();
     for k in (0..n.div_ceil(2)).rev() {
-        let cells: Vec<&SubblockStress> = left.subblocks.iter().filter(|s| s.voussoir == k).collect();
-        let (count, whole) = (along(k), if arch.keystone() == Some(k) { 2 * along(k) } else { along(k) });
-        let radial = cells.len() / count.max(1);
-        let columns = (0..count).rev().flat_map(|j| &cells[j * radial..(j + 1) * radial]);
+        let cells = &left.subblocks[start(k)..start(k + 1)];
+        let [radial, along] = cells.last().map_or([1, 1], |last| last.place.map(|i| i + 1));
+        let whole = if arch.keystone() == Some(k) { 2 * along } else { along };
+        let columns = cells.chunks(radial).rev().flatten();
         subblocks.extend(columns.map(|subblock| SubblockStress {
             voussoir: n - 1 - k,
             place: [subblock.place[0], whole - 1 - subblock.place[1]],

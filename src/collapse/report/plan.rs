@@ -35,8 +35,8 @@ pub struct Estimate {
 pub struct MeshTried {
     /// Subblocks modelled.
     pub subblocks: usize,
-    /// Contact points modelled.
-    pub contact_points: usize,
+    /// Contact points modelled; none where there are no joints.
+    pub contact_points: Option<usize>,
     /// Estimated error of the stress; None for the first, which is compared with nothing.
     pub stress: Option<f64>,
 }
