@@ -8,9 +8,10 @@ use voussoir::render::chart::{Chart, Point, Series, svg};
 const EXACT: f64 = 1e-9;
 
 /// Families in the order of their marks (see `render::chart`), and their names in the legend.
-const FAMILIES: [(&str, usize, &str); 9] = [
+const FAMILIES: [(&str, usize, &str); 10] = [
     ("split seams", 0, "n x n subblocks"),
     ("corner seams", 1, "n x n, corner seams"),
+    ("adaptive", 2, "mesh chosen for an error asked"),
     ("moving geometry", 3, "moving geometry, E = 1 GPa"),
     ("load steps", 4, "fixed load steps, as in the paper"),
     ("limit window", 5, "limit window alone"),
@@ -72,7 +73,8 @@ fn caption(kind: Kind, rows: &[&Row]) -> String {
         ),
         Kind::Stress => (
             "Stress: error against time",
-            "Curved beams against the theory of elasticity, an arch at unit load against 48 x 48 subblocks a stone.",
+            "Curved beams against the theory of elasticity at centroids of subblocks; an arch at unit load against 48 x 48\n\
+             subblocks a stone, of which those in a coarser subblock count with their mean.",
         ),
     };
     format!(

@@ -60,7 +60,8 @@ impl Chosen<'_> {
             return Err(format!("there is no scene {name:?}, only {names:?}"));
         }
         let steps = scenes.collapse.iter().find_map(|scene| scene.step);
-        let names: Vec<String> = models::collapse(steps).into_iter().map(|model| model.name).collect();
+        let all = models::collapse(steps).into_iter().chain(models::stress());
+        let names: Vec<String> = all.map(|model| model.name).collect();
         match self.models.iter().find(|name| !names.contains(name)) {
             Some(name) => Err(format!("there is no model {name:?}, only {names:?}")),
             None => Ok(()),
