@@ -7,7 +7,8 @@
     target/release/voussoir chart --out cases/chart --peers peers.csv
 
 Times are CPU seconds of the process, imports and (HiGHS, compas_cra) the making of geometry left out; those of `voussoir`
-are of its analysis alone, measured at the end of this run. A search for the load counts all its trials.
+are of its analysis alone, measured at the end of this run. A search for the load counts all its trials. All of it takes
+half an hour of CPU, which `--jobs` spreads over several cores.
 """
 
 import argparse
