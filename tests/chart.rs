@@ -51,7 +51,8 @@ fn the_verb_runs_chosen_models_on_chosen_scenes() {
         command.args(["chart", "--out", place.to_str().unwrap()]).args(more).output().unwrap()
     };
     let scene = ["--scene", "27 voussoirs, crown load", "--scene", "curved beam, true sectors"];
-    let output = chart(&[&scene[..], &["--model", "limit window", "--model", "4 x 4"]].concat());
+    let output =
+        chart(&[&scene[..], &["--model", "limit window", "--model", "4 x 4", "--model", "asked 0.1"]].concat());
     let read = |name: &str| std::fs::read_to_string(place.join(name)).unwrap();
     let (table, pictures) = (read("chart.csv"), [read("collapse.svg"), read("stress.svg")]);
     let again =
@@ -60,7 +61,7 @@ fn the_verb_runs_chosen_models_on_chosen_scenes() {
     std::fs::remove_dir_all(&place).unwrap();
     assert!(output.status.success() && again.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let models: Vec<_> = table.lines().skip(1).map(|line| line.split(',').rev().nth(6).unwrap().to_owned()).collect();
-    assert_eq!(models, ["1 x 1", "4 x 4", "limit window", "1 x 1", "4 x 4"], "{table}");
+    assert_eq!(models, ["1 x 1", "4 x 4", "limit window", "1 x 1", "4 x 4", "asked 0.1"], "{table}");
     assert_eq!(both.lines().count(), 1 + 2 + models.len(), "{both}");
     assert!(
         pictures

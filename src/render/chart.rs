@@ -14,10 +14,12 @@ const LEFT: f64 = 92.0;
 const RIGHT: f64 = WIDTH - 36.0;
 /// Height of the field of decades, pixels.
 const DEPTH: f64 = 400.0;
-/// Height of each of the two margins, for failed and for exact runs, pixels.
+/// Height of a margin, for failed or for exact runs, pixels.
 const MARGIN: f64 = 34.0;
 /// Radius of the mark of a model, and of a single run of it, pixels.
 const RADII: [f64; 2] = [6.5, 3.6];
+/// Half the width of the frontier, pixels.
+const LINE: f64 = 1.0;
 /// Corners of the marks and the turn of the first from the right, share of a full turn. The second six are hollow.
 const SHAPES: [(usize, f64); 6] = [(20, 0.0), (4, 0.125), (4, 0.0), (3, 0.25), (3, 0.75), (6, 0.0)];
 
@@ -85,6 +87,8 @@ struct Field {
     up: Axis,
     exact: f64,
     top: f64,
+    /// Heights of the margins for failed and for exact runs; 0 where there are none.
+    margins: [f64; 2],
 }
 
 /// Draws the chart.
@@ -113,23 +117,28 @@ impl Field {
     fn new(chart: &Chart, top: f64) -> Self {
         let points = || chart.series.iter().flat_map(|series| &series.points);
         let errors = points().filter_map(|point| point.error).filter(|&error| error >= chart.exact);
-        let upper = top + MARGIN;
+        let margin = |there: bool| if there { MARGIN } else { 0.0 };
+        let failed = points().any(|point| point.error.is_none());
+        let exact = points().any(|point| point.error.is_some_and(|error| error < chart.exact));
+        let margins = [margin(failed), margin(exact)];
+        let upper = top + margins[0];
         Field {
             across: Axis::around(points().map(|point| point.time), [LEFT + 12.0, RIGHT - 12.0]),
             up: Axis::around(errors, [upper + DEPTH - 6.0, upper + 6.0]),
             exact: chart.exact,
             top,
+            margins,
         }
     }
 
     fn bottom(&self) -> f64 {
-        self.top + DEPTH + 2.0 * MARGIN
+        self.top + DEPTH + self.margins[0] + self.margins[1]
     }
 
     fn place(&self, time: f64, error: Option<f64>) -> Vec2 {
         let y = match error {
-            None => self.top + 0.5 * MARGIN,
-            Some(error) if error < self.exact => self.bottom() - 0.5 * MARGIN,
+            None => self.top + 0.5 * self.margins[0],
+            Some(error) if error < self.exact => self.bottom() - 0.5 * self.margins[1],
             Some(error) => self.up.place(error),
         };
         Vec2::new(self.across.place(time), y)
@@ -138,8 +147,14 @@ impl Field {
 
 fn draw_field(canvas: &mut Canvas, field: &Field, chart: &Chart) {
     let (width, bottom) = (RIGHT - LEFT, field.bottom());
-    for y in [field.top, bottom - MARGIN] {
-        canvas.rectangle("margin", Vec2::new(LEFT, y), Vec2::new(width, MARGIN));
+    let [failed, exact] = field.margins;
+    let below = format!("below {:e}", field.exact);
+    for (error, height, words) in [(None, failed, "no answer"), (Some(0.0), exact, below.as_str())] {
+        if height > 0.0 {
+            let middle = field.place(1.0, error).y;
+            canvas.rectangle("margin", Vec2::new(LEFT, middle - 0.5 * height), Vec2::new(width, height));
+            canvas.text("before", Vec2::new(LEFT - 10.0, middle + 4.5), words);
+        }
     }
     for (x, words) in field.across.ticks() {
         canvas.line("grid", Vec2::new(x, field.top), Vec2::new(x, bottom));
@@ -150,10 +165,6 @@ fn draw_field(canvas: &mut Canvas, field: &Field, chart: &Chart) {
         canvas.text("before", Vec2::new(LEFT - 10.0, y + 4.5), &words);
     }
     canvas.rectangle("frame", Vec2::new(LEFT, field.top), Vec2::new(width, bottom - field.top));
-    let below = format!("below {:e}", field.exact);
-    for (y, words) in [(field.top, "no answer"), (bottom - MARGIN, below.as_str())] {
-        canvas.text("before", Vec2::new(LEFT - 10.0, y + 0.5 * MARGIN + 4.5), words);
-    }
     canvas.text("small", Vec2::new(40.0, field.top - 14.0), chart.error);
     canvas.text("centred", Vec2::new(0.5 * (LEFT + RIGHT), bottom + 44.0), chart.time);
 }
@@ -166,9 +177,12 @@ fn draw_marks(canvas: &mut Canvas, field: &Field, chart: &Chart) {
             for point in series.points.iter().filter(|point| point.label.is_some() == models) {
                 let at = field.place(point.time, point.error);
                 draw_mark(canvas, series.mark, at, models);
-                labels.keep_clear(at, RADII[usize::from(!models)]);
+                labels.keep_clear([at, at], RADII[usize::from(!models)]);
             }
         }
+    }
+    for ends in frontier_line(field, chart).windows(2) {
+        labels.keep_clear([ends[0], ends[1]], LINE);
     }
     let efficient = frontier(&models(chart, field));
     let mut named: Vec<&Point> =

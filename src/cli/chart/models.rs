@@ -7,6 +7,11 @@ const UNIFORM: [usize; 5] = [1, 2, 4, 8, 16];
 /// Meshes on moving geometry.
 const UPDATED: [usize; 2] = [1, 4];
 
+/// Error of the collapse intensity that the program is asked to keep.
+const INTENSITY: f64 = 1e-6;
+/// Errors of the stress that it is asked to keep.
+const STRESS: [f64; 7] = [0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001];
+
 /// Name of the model in whose time all others are measured.
 pub const BASE: &str = "1 x 1";
 
@@ -41,6 +46,7 @@ pub fn collapse(step: Option<f64>) -> Vec<Model> {
         fields["geometry"] = json!("updated");
         Model { family: "moving geometry", name: format!("{n} x {n}, moving geometry"), way: Way::Updated(fields) }
     }));
+    models.push(accuracy("collapse_intensity", INTENSITY));
     models.extend(step.map(|step| {
         let fields = json!({"method": {"fixed_steps": {"step": step}}});
         Model { family: "load steps", name: format!("steps of {step} kN"), way: Way::Analysis(fields) }
@@ -50,7 +56,13 @@ pub fn collapse(step: Option<f64>) -> Vec<Model> {
 
 /// Models of a scene whose stresses are sought; the base comes first.
 pub fn stress() -> Vec<Model> {
-    meshes()
+    meshes().into_iter().chain(STRESS.map(|error| accuracy("stress", error))).collect()
+}
+
+/// A mesh of the program's own choice that keeps an error of what is sought.
+fn accuracy(of: &str, error: f64) -> Model {
+    let way = Way::Analysis(json!({"accuracy": {of: error}}));
+    Model { family: "adaptive", name: format!("asked {error}"), way }
 }
 
 /// Fields of a request that cut every voussoir into `n` by `n`.

@@ -10,8 +10,18 @@ use voussoir::api::read::read_question;
 use voussoir::collapse::{self, Analysis, Answer, CollapseReport, Outcome, Question, Unwatched, UpdatedEnd};
 use voussoir::limit::{StaticTheorem, unwatched};
 
-/// What a model answers: a number and its error, or why there is none.
-type Found = Result<(Option<f64>, f64), String>;
+/// What a model answers, or why it does not.
+type Found = Result<Measured, String>;
+
+/// An answer held against what is known.
+struct Measured {
+    /// Collapse intensity in the scene's unit, if that is sought.
+    intensity: Option<f64>,
+    /// Its relative error, or that of the stress.
+    error: f64,
+    /// Whether the program itself says that the accuracy asked is not met.
+    unmet: bool,
+}
 
 /// Runs the chosen models on the chosen scenes, or all where none is chosen; the base always.
 ///
@@ -60,7 +70,8 @@ impl Chosen<'_> {
             return Err(format!("there is no scene {name:?}, only {names:?}"));
         }
         let steps = scenes.collapse.iter().find_map(|scene| scene.step);
-        let names: Vec<String> = models::collapse(steps).into_iter().map(|model| model.name).collect();
+        let all = models::collapse(steps).into_iter().chain(models::stress());
+        let names: Vec<String> = all.map(|model| model.name).collect();
         match self.models.iter().find(|name| !names.contains(name)) {
             Some(name) => Err(format!("there is no model {name:?}, only {names:?}")),
             None => Ok(()),
@@ -81,21 +92,23 @@ fn measure(
     for model in models {
         let (found, timed) = one(&model).map_err(|error| format!("{scene}, {}: {error}", model.name))?;
         let base_seconds = *base.get_or_insert(timed.seconds);
-        let (intensity, error, why) = match found {
-            Ok((intensity, error)) => (intensity, Some(error), String::new()),
-            Err(why) => (None, None, format!("{why}; ")),
+        let remark = match &found {
+            Ok(measured) if measured.unmet => "says it is not met; ".to_owned(),
+            Ok(_) => String::new(),
+            Err(why) => format!("{why}; "),
         };
+        let found = found.ok();
         let row = Row {
             chart,
             scene: scene.to_owned(),
             family: model.family.to_owned(),
             model: model.name,
-            intensity,
-            error,
+            intensity: found.as_ref().and_then(|measured| measured.intensity),
+            error: found.map(|measured| measured.error),
             seconds: timed.seconds,
             base_seconds,
             time_ratio: timed.seconds / base_seconds,
-            note: format!("{why}mean of {}", timed.repetitions),
+            note: format!("{remark}mean of {}", timed.repetitions),
         };
         told(&row);
         rows.push(row);
@@ -121,12 +134,12 @@ fn analysis(request: &Value, fields: &Value) -> Result<Analysis, String> {
 }
 
 fn on_collapse(scene: &CollapseScene, model: &Model) -> Result<(Found, Timed), String> {
-    let (intensity, timed) = match &model.way {
+    let (found, timed) = match &model.way {
         Way::LimitWindow => {
             let Analysis { arch, fixed, scaled, .. } = analysis(&scene.request, &Value::Null)?;
             let (window, time) = timed(|| StaticTheorem::new(&arch, &fixed, &scaled).window(&unwatched));
             let highest = window.ok().flatten().map(|[_, highest]| highest);
-            (highest.ok_or_else(|| "no window".to_owned()), time)
+            (highest.map(|highest| (highest, false)).ok_or_else(|| "no window".to_owned()), time)
         }
         Way::Analysis(fields) => {
             let analysis = analysis(&scene.request, fields)?;
@@ -139,23 +152,31 @@ fn on_collapse(scene: &CollapseScene, model: &Model) -> Result<(Found, Timed), S
             (report.map_err(|error| error.to_string()).and_then(|report| on_moving_geometry(&report)), time)
         }
     };
-    Ok((intensity.map(|intensity| (Some(intensity), scene.error(intensity))), timed))
+    let measured = |(intensity, unmet)| Measured { intensity: Some(intensity), error: scene.error(intensity), unmet };
+    Ok((found.map(measured), timed))
 }
 
-/// Collapse intensity; the scenes call load factor 1 intensity 1.
-fn first_order(report: &CollapseReport) -> Result<f64, String> {
+/// Whether an accuracy was asked for and, as the report says, not met.
+fn unmet(report: &CollapseReport) -> bool {
+    let mut estimates = report.plan.iter().flat_map(|plan| [plan.collapse_intensity, plan.stress]).flatten();
+    estimates.any(|estimate| !estimate.met)
+}
+
+/// Collapse intensity (the scenes call load factor 1 intensity 1), and whether it is not as accurate as asked.
+fn first_order(report: &CollapseReport) -> Result<(f64, bool), String> {
     match (&report.end, report.outcome) {
-        (Some(end), Outcome::Collapse) => Ok(end.load_factor),
+        (Some(end), Outcome::Collapse) => Ok((end.load_factor, unmet(report))),
         (_, outcome) => Err(format!("{outcome:?}: {}", report.notes.join(" "))),
     }
 }
 
-fn on_moving_geometry(report: &CollapseReport) -> Result<f64, String> {
-    match &report.updated {
+fn on_moving_geometry(report: &CollapseReport) -> Result<(f64, bool), String> {
+    let load = match &report.updated {
         Some(updated) if updated.end == UpdatedEnd::Collapse => updated.load_factor.ok_or_else(|| "no load".to_owned()),
         Some(updated) => Err(format!("{:?}", updated.end)),
         None => Err("not followed".to_owned()),
-    }
+    };
+    load.map(|load| (load, false))
 }
 
 /// The reference of an arch is computed when it is first needed, and kept.
@@ -164,15 +185,15 @@ fn on_stress(scene: &StressScene, model: &Model, reference: &mut Option<Stresses
     let question = question(&scene.request, fields)?;
     let (answer, timed) = timed(|| collapse::answer(&question, &mut Unwatched));
     let found = match answer {
-        Ok(Answer::CurvedBeam(beam)) => Ok(beam.error),
+        Ok(Answer::CurvedBeam(beam)) => Ok((beam.error, beam.plan.is_some_and(|plan| !plan.stress.met))),
         Ok(Answer::One(report)) => match Stresses::new(&report) {
-            Some(stresses) => Ok(stresses.error(fine(scene, reference)?)),
+            Some(stresses) => Ok((stresses.error(fine(scene, reference)?), unmet(&report))),
             None => Err(format!("{:?}: {}", report.outcome, report.notes.join(" "))),
         },
         Ok(_) => return Err("no stress asked for".to_owned()),
         Err(error) => Err(error.to_string()),
     };
-    Ok((found.map(|error| (None, error)), timed))
+    Ok((found.map(|(error, unmet)| Measured { intensity: None, error, unmet }), timed))
 }
 
 /// The stresses of the finest mesh there is.

@@ -5,7 +5,7 @@ use voussoir::collapse::{CollapseReport, SubblockStress};
 use voussoir::geometry::Region;
 
 /// Subblocks each way of the mesh that the others are held against: the finest that a request may ask for, and divided by all
-/// of theirs.
+/// uniform ones of theirs.
 pub const REFERENCE: usize = 48;
 
 /// Stresses in every subblock of an arch.
@@ -90,36 +90,51 @@ mod tests {
     use voussoir::geometry::Vec2;
 
     /// Two stones of 1 m x 1 m cut into n x m, their stresses given by the place of a subblock's middle.
-    fn stones([radial, along]: [usize; 2], stress: impl Fn(f64, f64) -> [f64; 3]) -> Stresses {
+    fn stones(meshes: [[usize; 2]; 2], stress: impl Fn(f64, f64) -> [f64; 3]) -> Stresses {
         let cell = |voussoir: usize, i: usize, j: usize| {
+            let [radial, along] = meshes[voussoir];
             let at = |i: f64, j: f64| Vec2::new(voussoir as f64 + j / along as f64, i / radial as f64);
             let (i0, j0) = (i as f64, j as f64);
             let corners = [at(i0, j0), at(i0, j0 + 1.0), at(i0 + 1.0, j0 + 1.0), at(i0 + 1.0, j0)];
             let centre = at(i0 + 0.5, j0 + 0.5);
             SubblockStress { voussoir, place: [i, j], centre, corners, stress: stress(centre.x, centre.y) }
         };
-        let places = (0..2).flat_map(|k| (0..along).flat_map(move |j| (0..radial).map(move |i| (k, i, j))));
+        let places = meshes
+            .iter()
+            .enumerate()
+            .flat_map(|(k, &[radial, along])| (0..along).flat_map(move |j| (0..radial).map(move |i| (k, i, j))));
         let subblocks = places.map(|(k, i, j)| cell(k, i, j)).collect();
-        Stresses { subblocks, meshes: (0..2).map(|k| (k, [radial, along])).collect() }
+        Stresses { subblocks, meshes: meshes.into_iter().enumerate().collect() }
     }
 
     #[test]
     fn the_means_of_a_linear_field_are_its_values_in_the_middle() {
         let field = |x: f64, y: f64| [2.0 + x - 3.0 * y, 1.0 - x, y];
-        let fine = stones([12, 12], field);
-        // Where the coarse mesh divides the fine one; a fine subblock that lies in two coarse ones counts in both with its own mean.
-        for mesh in [[1, 1], [3, 2], [12, 12], [4, 6]] {
-            assert!(stones(mesh, field).error(&fine) < 1e-14, "{mesh:?}");
+        let fine = stones([[12, 12]; 2], field);
+        // Where the coarse mesh divides the fine one.
+        for meshes in [[[1, 1]; 2], [[3, 2]; 2], [[12, 12]; 2], [[4, 6], [1, 3]]] {
+            assert!(stones(meshes, field).error(&fine) < 1e-14, "{meshes:?}");
         }
+    }
+
+    #[test]
+    fn a_fine_subblock_in_two_coarse_ones_counts_in_both() {
+        // Three thirds of a length with 1, 2 and 6: its halves have (1 + 2 / 2) / 1.5 and (2 / 2 + 6) / 1.5.
+        let three = |x: f64| [1.0, 2.0, 6.0][(3.0 * x.fract()) as usize];
+        let two = |x: f64| [4.0 / 3.0, 14.0 / 3.0][(2.0 * x.fract()) as usize];
+        let across = stones([[3, 1], [3, 3]], |_, y| [three(y), 0.0, 0.0]);
+        assert!(stones([[2, 1], [2, 2]], |_, y| [two(y), 0.0, 0.0]).error(&across) < 1e-14);
+        let along = stones([[1, 3], [3, 3]], |x, _| [three(x), 0.0, 0.0]);
+        assert!(stones([[1, 2], [2, 2]], |x, _| [two(x), 0.0, 0.0]).error(&along) < 1e-14);
     }
 
     #[test]
     fn the_error_is_the_share_that_is_wrong() {
         let right = |_: f64, _: f64| [3.0, 0.0, 0.0];
-        let fine = stones([6, 6], right);
-        assert!((stones([2, 3], |_, _| [3.3, 0.0, 0.0]).error(&fine) - 0.1).abs() < 1e-14);
+        let fine = stones([[6, 6]; 2], right);
+        assert!((stones([[2, 3]; 2], |_, _| [3.3, 0.0, 0.0]).error(&fine) - 0.1).abs() < 1e-14);
         // Shear counts twice; one of the two stones is wrong.
-        let sheared = stones([2, 3], |x, _| [3.0, 0.0, if x > 1.0 { 0.3 } else { 0.0 }]);
+        let sheared = stones([[2, 3]; 2], |x, _| [3.0, 0.0, if x > 1.0 { 0.3 } else { 0.0 }]);
         assert!((sheared.error(&fine) - 0.1).abs() < 1e-14);
     }
 

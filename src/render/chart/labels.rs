@@ -24,9 +24,9 @@ impl Labels {
         Labels { whole: [Vec2::new(left, top), Vec2::new(right, bottom)], taken: Vec::new() }
     }
 
-    /// Keeps words off a mark.
-    pub fn keep_clear(&mut self, at: Vec2, radius: f64) {
-        self.taken.push([at - Vec2::repeat(radius), at + Vec2::repeat(radius)]);
+    /// Keeps words off a mark, or off a line along an axis, between two ends and so far around them.
+    pub fn keep_clear(&mut self, [from, to]: [Vec2; 2], radius: f64) {
+        self.taken.push([from.inf(&to) - Vec2::repeat(radius), from.sup(&to) + Vec2::repeat(radius)]);
     }
 
     /// Where these words can start (baseline) beside a mark: right of it, left, above or below. None where all is taken.

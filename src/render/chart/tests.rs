@@ -68,6 +68,18 @@ fn failed_and_exact_runs_lie_in_their_margins() {
 }
 
 #[test]
+fn there_is_no_margin_without_such_runs() {
+    let mut chart = example();
+    for series in &mut chart.series {
+        series.points.retain(|point| point.error.is_some_and(|error| error > 1e-9));
+    }
+    let field = Field::new(&chart, 100.0);
+    assert_eq!((field.margins, field.bottom()), ([0.0, 0.0], 100.0 + DEPTH));
+    let svg = svg(&chart);
+    assert!(!svg.contains("no answer") && !svg.contains("below"));
+}
+
+#[test]
 fn the_document_is_well_formed_and_every_mark_on_it() {
     let svg = svg(&example());
     well_formed(&svg);
@@ -80,6 +92,14 @@ fn the_document_is_well_formed_and_every_mark_on_it() {
         let [x, y]: [f64; 2] = [x, y].map(|number| number.parse().unwrap());
         assert!((LEFT - 60.0..=RIGHT).contains(&x) && (100.0..height).contains(&y), "{x} {y}");
     }
+}
+
+#[test]
+fn names_stand_off_a_line() {
+    let mut labels = Labels::new([0.0, 400.0], [0.0, 100.0]);
+    let mark = Vec2::new(200.0, 50.0);
+    labels.keep_clear([Vec2::new(400.0, 50.0), mark], 1.0);
+    assert!(labels.find_room(mark, 5.0, "ten letters").unwrap().x + text_width("ten letters", 12.0) < mark.x);
 }
 
 #[test]
