@@ -195,7 +195,7 @@ impl<'a> Question<'a> {
                 report.add_fields(analysis, model, &recorder, None)?;
                 report.history = recorder.history;
                 report.outcome = Outcome::NeverCollapses;
-                return Ok(self.certificate.endless(sign, self.cap));
+                return Ok(self.certificate.endless(sign, self.cap).or(self.certificate.standing_doubt(residual)));
             }
             Leg::Criterion(at) => {
                 (ending::at_criterion(analysis, model, recorder.displacements(), at, residual), false)

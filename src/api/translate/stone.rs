@@ -18,7 +18,10 @@ pub fn stone(request: &StoneRequest, faults: &mut Faults) -> Stone {
     let strong = (STRENGTH_PA[0]..=STRENGTH_PA[1]).contains(&strength);
     let rule = "the strength is in Pa, from 1e3 to 1e30, and 10 MPa is 1e7";
     faults.in_range(strong, "/stone/compressive_strength_pa", strength, rule);
-    faults.from_to("/stone/penalty_ratio", request.penalty_ratio, PENALTY_RATIO[0], PENALTY_RATIO[1]);
+    let [softest, stiffest] = PENALTY_RATIO;
+    let ratio = request.penalty_ratio;
+    let rule = format!("it must be from {softest} to {stiffest}");
+    faults.in_range((softest..=stiffest).contains(&ratio), "/stone/penalty_ratio", ratio, &rule);
     Stone {
         // A wrong density is one fault, not one for every load that it makes vanish.
         density: if weighs { request.density_kg_m3 } else { Stone::default().density },
