@@ -1,7 +1,8 @@
 //! From the limit window and the load path to one answer, or to saying that we cannot tell.
 
-use super::certificate::{Certificate, Doubt, LATER_MECHANISM, any_fixed, loaded, mesh_notes};
+use super::certificate::{Certificate, LATER_MECHANISM, any_fixed, loaded, mesh_notes};
 use super::discretise::{Model, discretise};
+use super::doubt::Doubt;
 use super::path::{ATTEMPTS, Attempt, Leg, disturbed, follow, nothing_grows, stand, total};
 use super::pulse::Pulse;
 use super::record::{MOST_STEPS, Recorder, snapshot};
@@ -11,7 +12,6 @@ use super::{
     PathEnd, SettlementEnd, SpringingMovement, ThrustRange, UpdatedGeometry, ending, falling, motion, plan, safety,
     settlement,
 };
-use crate::arch::{Joint, JointLaw};
 use crate::dda::{End, Tracer};
 use std::ops::ControlFlow;
 
@@ -296,8 +296,7 @@ impl<'a> Question<'a> {
     fn mesh_notes(&self, model: &Model) -> Vec<String> {
         let slenderness = model.grids.iter().map(|grid| grid.slenderness()).fold(1.0, f64::max);
         let several = self.analysis.mesh.subblocks.iter().any(|&subblocks| subblocks != [1, 1]);
-        let cohesive = |joint: &Joint| matches!(joint.law, JointLaw::Dry { cohesion, .. } if cohesion > 0.0);
-        mesh_notes(slenderness, several, self.analysis.arch.joints.iter().any(cohesive))
+        mesh_notes(slenderness, several, self.certificate.cohesive)
     }
 
     fn blank(&self, model: &Model) -> CollapseReport {
