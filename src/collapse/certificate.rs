@@ -4,13 +4,16 @@ use super::doubt::Doubt;
 use super::path::total;
 use super::pulse::Pulse;
 use super::{Analysis, AnalysisError, Crushing, Digits, LimitWindow, Method, PathEnd, PlasticCrushing};
-use crate::arch::{Joint, JointLaw};
+use crate::arch::JointLaw;
 use crate::limit::{CrushingWindow, StaticTheorem};
 
 /// Path and window agree when their load factors differ by less than this share.
 const AGREES: f64 = 1e-7;
 /// The path may pass the window by this share before it is disbelieved.
 const ABOVE: f64 = 1e-6;
+/// A path that ends short of the window by more than this share has its sliding joints at the limit of their friction
+/// (measured: 0.11 at most where they are not, as the load falls before the arch can move freely).
+const STRAY: f64 = 0.5;
 /// An end of the window this close to 0, measured in loads as large as the fixed ones, is 0 and rounding.
 const ZERO: f64 = 1e-12;
 /// Load factors below this share of the one at which scaled loads equal the fixed ones are compared absolutely.
@@ -34,8 +37,6 @@ pub(super) struct Certificate {
     pub solved: bool,
     /// True where some load does not grow.
     any_fixed: bool,
-    /// True where some joint has cohesion, which it loses as it opens.
-    pub cohesive: bool,
 }
 
 impl Certificate {
@@ -45,9 +46,7 @@ impl Certificate {
         let window = theorem.window(&|| pulse.beat());
         pulse.check()?;
         let solved = window.is_ok();
-        let holds = |joint: &Joint| matches!(joint.law, JointLaw::Dry { cohesion, .. } if cohesion > 0.0);
-        let cohesive = analysis.arch.joints.iter().any(holds);
-        let mut certificate = Certificate { theorem, window: None, solved, any_fixed: any_fixed(analysis), cohesive };
+        let mut certificate = Certificate { theorem, window: None, solved, any_fixed: any_fixed(analysis) };
         certificate.window = window.ok().and_then(|window| certificate.tidy(window));
         Ok(certificate)
     }
@@ -135,8 +134,7 @@ impl Certificate {
             Ok(None)
         } else if end.mechanism.slides.is_empty() {
             Err(Doubt::Short { path, limit })
-        } else if (limit.is_infinite() || !self.cohesive) && !self.slides_at_its_limits(end) {
-            // Cohesion that is lost as joints open lets a load fall before the arch can move freely.
+        } else if short > STRAY && !self.slides_at_its_limits(end) {
             Err(Doubt::Stray { path, limit })
         } else {
             Ok(Some(sliding_note(path, limit)))

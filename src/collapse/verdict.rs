@@ -12,6 +12,7 @@ use super::{
     PathEnd, SettlementEnd, SpringingMovement, ThrustRange, UpdatedGeometry, ending, falling, motion, plan, safety,
     settlement,
 };
+use crate::arch::{Joint, JointLaw};
 use crate::dda::{End, Tracer};
 use std::ops::ControlFlow;
 
@@ -296,7 +297,8 @@ impl<'a> Question<'a> {
     fn mesh_notes(&self, model: &Model) -> Vec<String> {
         let slenderness = model.grids.iter().map(|grid| grid.slenderness()).fold(1.0, f64::max);
         let several = self.analysis.mesh.subblocks.iter().any(|&subblocks| subblocks != [1, 1]);
-        mesh_notes(slenderness, several, self.certificate.cohesive)
+        let cohesive = |joint: &Joint| matches!(joint.law, JointLaw::Dry { cohesion, .. } if cohesion > 0.0);
+        mesh_notes(slenderness, several, self.analysis.arch.joints.iter().any(cohesive))
     }
 
     fn blank(&self, model: &Model) -> CollapseReport {
