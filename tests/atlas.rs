@@ -99,3 +99,13 @@ fn a_path_that_strays_into_sliding_is_no_collapse() {
     let found = at("tilt", [0.3, 60.0], "crown");
     assert!(matches!(found.mark, Mark::Right | Mark::GaveUp(_)), "{found:?}");
 }
+
+/// Beside contacts a thousand times stiffer than the stone and more, rounding of their stiffness passes for resistance of a
+/// mechanism.
+#[test]
+fn contacts_far_stiffer_than_the_stone_do_not_hide_a_mechanism() {
+    for penalty in [3.0, 3.5, 5.0, 5.5] {
+        let found = at("penalty", [10f64.powf(penalty), 21.0], "haunch");
+        assert_eq!((&found.mark, found.outcome), (&Mark::Right, Some(Outcome::Collapse)), "1e{penalty}");
+    }
+}

@@ -115,6 +115,8 @@ fn one_wrong_value_is_pointed_at_and_nothing_else() {
         ("/stone/cohesion_pa".into(), json!(-1)),
         ("/stone/compressive_strength_pa".into(), json!(0)),
         ("/stone/penalty_ratio".into(), json!(0)),
+        ("/stone/penalty_ratio".into(), json!(0.0099)),
+        ("/stone/penalty_ratio".into(), json!(100.1)),
         ("/stone/plane".into(), json!("elastic")),
         ("/stone/density".into(), json!(2300)),
         ("/joint_overrides/0/joint".into(), json!(13)),
@@ -174,6 +176,15 @@ fn one_wrong_value_is_pointed_at_and_nothing_else() {
         let faults = faults(&request);
         assert_eq!(pointers(&faults), [pointer.as_str()], "{value}: {faults:?}");
         assert!(faults[0].detail.len() > 20, "{faults:?}");
+    }
+}
+
+#[test]
+fn the_ends_of_the_range_of_penalties_are_in_it() {
+    for ratio in [0.01, 100.0] {
+        let mut request = good();
+        set(&mut request, "/stone/penalty_ratio", json!(ratio));
+        assert!(read_analysis(request.to_string().as_bytes()).is_ok(), "{ratio}");
     }
 }
 

@@ -4,6 +4,7 @@ mod beam;
 mod certificate;
 mod digits;
 mod discretise;
+mod doubt;
 mod ending;
 mod falling;
 mod grid;

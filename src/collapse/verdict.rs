@@ -1,7 +1,8 @@
 //! From the limit window and the load path to one answer, or to saying that we cannot tell.
 
-use super::certificate::{Certificate, Doubt, LATER_MECHANISM, any_fixed, loaded, mesh_notes};
+use super::certificate::{Certificate, LATER_MECHANISM, any_fixed, loaded, mesh_notes};
 use super::discretise::{Model, discretise};
+use super::doubt::Doubt;
 use super::path::{ATTEMPTS, Attempt, Leg, disturbed, follow, nothing_grows, stand, total};
 use super::pulse::Pulse;
 use super::record::{MOST_STEPS, Recorder, snapshot};
@@ -195,7 +196,7 @@ impl<'a> Question<'a> {
                 report.add_fields(analysis, model, &recorder, None)?;
                 report.history = recorder.history;
                 report.outcome = Outcome::NeverCollapses;
-                return Ok(self.certificate.endless(sign, self.cap));
+                return Ok(self.certificate.endless(sign, self.cap).or(self.certificate.standing_doubt(residual)));
             }
             Leg::Criterion(at) => {
                 (ending::at_criterion(analysis, model, recorder.displacements(), at, residual), false)

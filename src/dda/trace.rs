@@ -62,6 +62,9 @@ const SINGULAR: f64 = 1e-13;
 /// stable chains take on 1e4 times their load). Elimination that pivots inside the blocks only may blur a singular
 /// pivot to 1e-10; this it does not blur.
 const SOFT: f64 = 1e-6;
+/// So is one in which the load gains, per movement, less than this share of the stiffest contact's stiffness for every contact:
+/// rounding of the stiffness gains as much (measured: rounding up to 5e-16, stable chains 1e-12 and more).
+const BLURRED: f64 = 16.0 * f64::EPSILON;
 /// In a mechanism, gap rates below this are rounding (the direction's largest entry is 1).
 const STILL: f64 = 1e-7;
 /// A chain that moves by so many sizes while its load gains less than `SOFT` for each goes on for ever; and equilibrium that is
@@ -82,6 +85,8 @@ pub struct Tracer<'a> {
     /// Extent of the chain and scale of its loads.
     size: f64,
     load_scale: f64,
+    /// Greatest normal stiffness of a contact, N/m2.
+    stiffest: f64,
     states: Vec<State>,
     displacements: Vec<f64>,
     parameter: f64,
@@ -138,6 +143,7 @@ impl<'a> Tracer<'a> {
             drive,
             size,
             load_scale,
+            stiffest: chain.contacts().iter().map(|c| c.stiffness[0]).fold(0.0, f64::max),
             states: chain.contacts().iter().map(|c| c.pressed_state()).collect(),
             displacements: vec![0.0; n],
             parameter: 0.0,
@@ -350,7 +356,10 @@ impl<'a> Tracer<'a> {
     /// True where the present contact state leaves the chain free to move.
     pub fn is_mechanism(&self) -> bool {
         let gained = self.rate.abs() * self.size * self.load_rate_scale;
-        self.factor.pivot_ratio() < SINGULAR || gained < SOFT * self.load_scale
+        // Moving geometry stiffens a chain by its loads, however stiff its contacts are.
+        let contacts = if self.moving.is_none() { self.states.len() } else { 0 };
+        let blurred = BLURRED * contacts as f64 * self.stiffest * self.size;
+        self.factor.pivot_ratio() < SINGULAR || gained < blurred.max(SOFT * self.load_scale)
     }
 }
 

@@ -115,7 +115,7 @@ pub struct StoneRequest {
     /// Plane stress or plane strain inside the stones.
     pub plane: PlaneRequest,
     /// Contact penalty as a multiple of Young's modulus, a pure number.
-    #[schema(minimum = 0.01, exclusive_maximum = 100.0)]
+    #[schema(minimum = 0.01, maximum = 100.0)]
     pub penalty_ratio: f64,
 }
 

@@ -16,7 +16,8 @@ pub struct Collapse {
     pub unit: String,
     /// Load factor at collapse.
     pub load_factor: f64,
-    /// Largest equilibrium residual of any stone at any event, as a share of the arch's weight.
+    /// Largest equilibrium residual of any stone at any event, as a share of the arch's weight, or of the
+    /// largest load at a point where that is more.
     pub residual: f64,
     /// Lowest and highest intensity of the static theorem, null where unbounded; null where nothing stands.
     pub limit_window: Option<[Option<f64>; 2]>,

@@ -98,10 +98,9 @@ impl Tracer<'_> {
 
     /// What rounding of the displacements may leave of the residual, as a share of the load scale.
     pub(super) fn rounding(&self) -> f64 {
-        let stiffest = self.chain.contacts().iter().map(|c| c.stiffness[0]).fold(0.0, f64::max);
         // A correction that runs away is no rounding.
         let moved = self.displacements.iter().fold(0.0, |most: f64, d| most.max(d.abs())).min(self.size);
-        8.0 * f64::EPSILON * stiffest * moved / self.load_scale
+        8.0 * f64::EPSILON * self.stiffest * moved / self.load_scale
     }
 
     /// How far a contact is from a border, and how fast it goes there along the direction, or along other velocities of

@@ -28,8 +28,15 @@ impl Tracer<'_> {
             }
             worst = self.find_residual();
         }
-        self.worst_residual = self.worst_residual.max(worst);
+        self.worst_residual = self.worst_residual.max(worst / self.loads_grown());
         worst < GIVE_UP
+    }
+
+    /// How many times the load scale the largest load on a node is, at least 1: far out on a path the rounding of loads that
+    /// have grown a million times is no loss of equilibrium.
+    fn loads_grown(&self) -> f64 {
+        let loads = self.drive.base.iter().zip(&self.drive.rate).map(|(base, rate)| base + rate * self.parameter);
+        loads.fold(self.load_scale, |most, load| most.max(load.abs())) / self.load_scale
     }
 
     /// Fills `residual` with load minus resistance of every node; returns the largest entry over the load scale, which is
