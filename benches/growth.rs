@@ -193,5 +193,6 @@ fn beam(each_way: usize) -> Question {
         subblocks: [each_way; 2],
         seams: Seams::Split,
         curved_sides: true,
+        accuracy: None,
     })
 }
