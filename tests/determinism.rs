@@ -21,7 +21,7 @@ const COUNTS: [(&str, [usize; 3]); 21] = [
     ("paper/figure-7/17-joints", [58, 60, 959]),
     ("paper/figure-7/27-joints", [70, 72, 1947]),
     ("paper/figure-8", [67, 69, 905]),
-    ("paper/figure-11", [64, 66, 1072]),
+    ("paper/figure-11", [60, 6, 120]),
     ("paper/figure-12/lower-limit", [66, 69, 1114]),
     ("paper/figure-12/upper-limit", [66, 69, 1114]),
     ("paper/table-2/9-joints", [37, 39, 360]),
@@ -37,8 +37,9 @@ const COUNTS: [(&str, [usize; 3]); 21] = [
     ("sliding-arch", [71, 73, 1176]),
 ];
 
-/// The same for semicircles under a load at the quarter point: voussoirs, and subblocks each way in each of them.
-const SEMICIRCLES: [(usize, usize, [usize; 3]); 2] = [(201, 1, [228, 230, 19518]), (27, 4, [174, 176, 3655])];
+/// The same for semicircles under a load at the quarter point: voussoirs, and subblocks each way in each of them. With more
+/// than two contact points a joint most events are followed without a factorisation.
+const SEMICIRCLES: [(usize, usize, [usize; 3]); 2] = [(201, 1, [228, 230, 19518]), (27, 4, [174, 11, 449])];
 
 /// What `solve --json` prints, and what it cost.
 fn solve(name: &str) -> (Vec<u8>, Cost) {

@@ -3,11 +3,7 @@
 //! The matrix is eliminated from both ends towards the block row that changed last (a twisted factorisation), so that
 //! the next change costs only the rows between the two. Blocks may differ in size.
 //!
-//! Keeping the factors over several changes instead, each a change of low rank (Sherman and Morrison 1950, Woodbury 1950),
-//! was measured on chains of 61 to 2001 bodies with sixteen contacts changed between two factorisations. With two contact
-//! points a joint, a change takes 0.9 to 1.15 times as long and residuals grow from 1e-12 to 6e-10; with 9, 17 and 49 points
-//! it takes 0.52, 0.39 and 0.34 times as long. Only fine meshes would gain, and pivots of the small system are no pivots of the
-//! matrix, by which a mechanism is known.
+//! Where block rows are large, the tracer goes on with these factors over several changes, see [`super::trace`].
 
 use super::heart::{Heart, Stopped};
 use super::panels::{Panels, subtract_applied, subtract_product};
@@ -269,7 +265,9 @@ impl Factor {
         let sweeps = [&self.from_left, &self.from_right];
         let mut forward = [vec![0.0; b.len()], vec![0.0; b.len()]];
         for ((sweep, count), forward) in sweeps.into_iter().zip([m, beyond]).zip(&mut forward) {
-            for i in 0..count {
+            // Rows before the first load stay zero.
+            let idle = (0..count).take_while(|&i| b[k.range(sweep.place(i))].iter().all(|load| *load == 0.0)).count();
+            for i in idle..count {
                 sweep.forward_row(k, b, i, forward, &mut work);
                 heart.work(SOLVED * k.range(sweep.place(i)).len().pow(2))?;
             }
@@ -303,6 +301,11 @@ impl Factor {
         let of = |sweep: &Sweep, count: usize| if count > 0 { sweep.ratio[count - 1] } else { f64::INFINITY };
         let n = self.from_left.pivots.len();
         self.middle.ratio.min(of(&self.from_left, self.meeting)).min(of(&self.from_right, n - 1 - self.meeting))
+    }
+
+    /// Row at which the two sweeps met last.
+    pub fn meeting(&self) -> usize {
+        self.meeting
     }
 
     /// Block rows eliminated so far: the work done.

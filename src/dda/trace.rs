@@ -11,6 +11,7 @@ mod drive;
 mod equilibrium;
 mod moving;
 mod seen;
+mod tangent;
 
 pub use drive::{Drive, Movement, covering};
 pub use moving::Patience;
@@ -22,6 +23,7 @@ use super::heart::Heart;
 use super::moving::{Placed, Velocity};
 use drift::Drift;
 use std::ops::ControlFlow;
+use tangent::Updates;
 
 /// How a trace ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -103,9 +105,11 @@ pub struct Tracer<'a> {
     /// Gap and slip that the moving ground gives every contact per unit of the parameter, first order.
     settling: Vec<[f64; 2]>,
 
+    /// Tangent stiffness, load rate and their factors, without the changes that `updates` follows.
     matrix: Tridiagonal,
     load_rate: Vec<f64>,
     factor: Factor,
+    updates: Updates,
     /// Largest entry of the drive's load rate.
     load_rate_scale: f64,
     /// Scratch: gaps and gap rates of all contacts, tangent direction.
@@ -157,6 +161,7 @@ impl<'a> Tracer<'a> {
             load_rate: vec![0.0; n],
             load_rate_scale: 0.0,
             factor: Factor::new(chain.elastic()),
+            updates: Updates::default(),
             gaps: vec![[0.0; 2]; chain.contacts().len()],
             rates: vec![[0.0; 2]; chain.contacts().len()],
             forces: vec![[0.0; 2]; chain.contacts().len()],
@@ -264,9 +269,8 @@ impl<'a> Tracer<'a> {
     fn cross(&mut self, event: Event) {
         let before = self.states[event.contact];
         self.states[event.contact] = event.next;
-        self.reassemble(self.chain.interface_of(event.contact));
         self.events += 1;
-        self.solve_tangent();
+        self.follow_change(event.contact, before);
         let mut crossing = 0.0;
         self.ways_out(event.contact, before, |value, next| {
             if next == event.next || before == State::Open {
@@ -276,18 +280,6 @@ impl<'a> Tracer<'a> {
         if crossing > 0.0 {
             self.turn_round();
         }
-    }
-
-    /// Solves for the tangent of the path, its largest entry 1 m.
-    fn solve_tangent(&mut self) {
-        if self.factor.update(&self.matrix, &self.load_rate, &mut self.direction, self.heart).is_err() {
-            return;
-        }
-        self.factorisations += 1;
-        let largest = self.direction.iter().map(|d| d.abs()).fold(0.0, f64::max);
-        self.rate = if largest > 0.0 { 1.0 / largest } else { 1.0 };
-        self.direction.iter_mut().for_each(|d| *d *= self.rate);
-        self.find_rates();
     }
 
     /// Rates of gap and slip along the direction.

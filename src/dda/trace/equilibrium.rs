@@ -23,6 +23,7 @@ impl Tracer<'_> {
             if self.factor.solve(&self.matrix, &self.residual, &mut corrections, self.heart).is_err() {
                 return false;
             }
+            self.updates.apply(self.chain, &self.states, |_| [0.0; 2], &mut corrections);
             for (d, correction) in self.displacements.iter_mut().zip(&corrections) {
                 *d += correction;
             }
