@@ -15,7 +15,12 @@
 //! | `beam` | the curved beam, one body |
 #![allow(missing_docs, clippy::unwrap_used, clippy::print_stdout, clippy::disallowed_methods, reason = "a benchmark")]
 
-use serde_json::{Value, json};
+#[path = "../tests/common/semicircle.rs"]
+#[allow(dead_code, reason = "only the arch is wanted")]
+mod semicircle;
+
+use semicircle::semicircle;
+use serde_json::json;
 use std::process::Command;
 use std::time::Instant;
 use voussoir::api::read::read_analysis;
@@ -150,32 +155,23 @@ fn exponent(points: &[(f64, f64)]) -> f64 {
     mean(&|p| (p.0 - x) * (p.1 - y)) / mean(&|p| (p.0 - x).powi(2))
 }
 
-/// A semicircle of t/R = 0.15 under its weight and a point load at `x` times the radius.
-fn semicircle(lengths: &[f64], x: f64) -> Analysis {
-    let request: Value = json!({
-        "arch": {
-            "profile": {"circular": {"radius_m": 10.0, "opening_angle_deg": 180.0}},
-            "thickness": {"constant_m": 1.5},
-            "voussoirs": lengths.len(),
-            "relative_lengths": lengths,
-        },
-        "loads": [
-            {"load": {"self_weight": {}}},
-            {"load": {"point_load": {"force_n_per_m": 1000.0, "x_m": 10.0 * x}}, "scaled": true},
-        ],
-    });
+/// A semicircle of stones of these lengths under its weight and a point load at `x` times the radius.
+fn arch(lengths: &[f64], x: f64) -> Analysis {
+    let mut request = semicircle(lengths.len(), &json!({}));
+    request["arch"]["relative_lengths"] = json!(lengths);
+    request["loads"][1]["load"]["point_load"]["x_m"] = json!(10.0 * x);
     read_analysis(request.to_string().as_bytes()).unwrap().1
 }
 
 fn collapse(voussoirs: usize, each_way: usize, x: f64) -> Question {
-    let mut analysis = semicircle(&vec![1.0; voussoirs], x);
+    let mut analysis = arch(&vec![1.0; voussoirs], x);
     analysis.mesh.subblocks = vec![[each_way; 2]; voussoirs];
     Question::One(Box::new(analysis))
 }
 
 /// Stress in every subblock under the weight alone.
 fn elastic(voussoirs: usize, each_way: usize, lengths: &[f64]) -> Question {
-    let mut analysis = semicircle(lengths, -0.5);
+    let mut analysis = arch(lengths, -0.5);
     analysis.arch.joints.iter_mut().for_each(|joint| joint.law = JointLaw::Bonded);
     analysis.mesh.subblocks = vec![[each_way; 2]; voussoirs];
     analysis.fields = vec![FieldAt::LoadFactor(0.0)];
@@ -188,7 +184,7 @@ fn beam(each_way: usize) -> Question {
         inner_radius: 1.0,
         outer_radius: 2.0,
         shear: 1000.0,
-        stone: semicircle(&[1.0; 3], 0.0).stone,
+        stone: arch(&[1.0; 3], 0.0).stone,
         plane: PlaneModel::Stress,
         accuracy: None,
         subblocks: [each_way; 2],

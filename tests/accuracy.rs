@@ -23,7 +23,7 @@ fn with(mut request: Value, name: &str, value: Value) -> Value {
 /// Where no joint slides a load is exact; where some do, the answer says how far it may be off, or that this is not known.
 #[test]
 fn collapse_loads_are_as_accurate_as_asked() {
-    let (mut compared, mut unmet, mut missed) = (0, 0, Vec::new());
+    let (mut compared, mut unmet, mut boundless, mut missed) = (0, 0, 0, Vec::new());
     for seed in 0..ARCHES {
         let asked = Dice::new(seed).decades(1e-7, 1e-2);
         let request = with(random_arch::request(seed), "accuracy", json!({"collapse_intensity": asked}));
@@ -35,6 +35,11 @@ fn collapse_loads_are_as_accurate_as_asked() {
         let problem = door::problem(&analysis);
         let Some((lowest, highest)) = problem.window() else { continue };
         let limit = if end.load_factor > report.start { highest } else { lowest };
+        if limit.is_infinite() {
+            assert!(estimate.estimate.is_none() && !estimate.met, "seed {seed}: {estimate:?}");
+            boundless += 1;
+            continue;
+        }
         let error = (end.load_factor / limit - 1.0).abs();
         compared += 1;
         unmet += usize::from(!estimate.met);
@@ -44,7 +49,9 @@ fn collapse_loads_are_as_accurate_as_asked() {
         // Sliding alone may keep a load from being known.
         assert!(estimate.met || !end.mechanism.slides.is_empty(), "seed {seed}: {estimate:?}");
     }
-    println!("{compared} of {ARCHES} arches compared with the oracle, {unmet} said to be less accurate than asked");
+    println!(
+        "{compared} of {ARCHES} arches compared with the oracle, {unmet} said to be less accurate than asked; {boundless} that nothing bounds"
+    );
     assert!(missed.is_empty(), "{}", missed.join("\n"));
     assert!(compared >= 100 && unmet < compared / 2);
 }

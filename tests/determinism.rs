@@ -2,6 +2,11 @@
 //! ceiling, which is a performance test that noise cannot touch.
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may panic")]
 
+#[path = "common/semicircle.rs"]
+#[allow(dead_code, reason = "only the arch is wanted")]
+mod semicircle;
+
+use semicircle::semicircle;
 use serde_json::json;
 use std::path::Path;
 use voussoir::api::read::read_analysis;
@@ -68,20 +73,10 @@ fn the_same_request_gives_the_same_bytes_on_four_threads_at_once() {
     });
 }
 
-/// A semicircle of t/R = 0.15 of stones of these lengths, under its weight and a point load over the quarter point.
-fn semicircle(lengths: &[f64]) -> Analysis {
-    let request = json!({
-        "arch": {
-            "profile": {"circular": {"radius_m": 10.0, "opening_angle_deg": 180.0}},
-            "thickness": {"constant_m": 1.5},
-            "voussoirs": lengths.len(),
-            "relative_lengths": lengths,
-        },
-        "loads": [
-            {"load": {"self_weight": {}}},
-            {"load": {"point_load": {"force_n_per_m": 1000.0, "x_m": -5.0}}, "scaled": true},
-        ],
-    });
+/// A semicircle of stones of these lengths, under its weight and a point load over the quarter point.
+fn arch(lengths: &[f64]) -> Analysis {
+    let mut request = semicircle(lengths.len(), &json!({}));
+    request["arch"]["relative_lengths"] = json!(lengths);
     read_analysis(request.to_string().as_bytes()).unwrap().1
 }
 
@@ -105,7 +100,7 @@ fn a_case_costs_no_more_than_it_did() {
         dear.extend(dearer(name, before, solve(name).1));
     }
     for (voussoirs, each_way, before) in SEMICIRCLES {
-        let mut analysis = semicircle(&vec![1.0; voussoirs]);
+        let mut analysis = arch(&vec![1.0; voussoirs]);
         analysis.mesh.subblocks = vec![[each_way; 2]; voussoirs];
         dear.extend(dearer(&format!("semicircle {voussoirs} {each_way}"), before, cost(&analysis)));
     }
@@ -119,7 +114,7 @@ fn a_case_costs_no_more_than_it_did() {
 fn an_event_costs_nothing_in_a_part_of_the_arch_that_no_event_touches() {
     let left = 20;
     let of = |right: usize| {
-        let mut analysis = semicircle(&[vec![1.0; left], vec![left as f64 / right as f64; right]].concat());
+        let mut analysis = arch(&[vec![1.0; left], vec![left as f64 / right as f64; right]].concat());
         analysis.arch.joints[left + 1..].iter_mut().for_each(|joint| joint.law = JointLaw::Bonded);
         cost(&analysis)
     };

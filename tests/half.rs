@@ -16,7 +16,7 @@ use serde_json::{Value, json};
 /// Load factors, intensities and thrusts of half and whole agree to this share (issue: equal to 1e-6).
 const SAME: f64 = 1e-6;
 /// Random symmetric arches, from seed 0.
-const ARCHES: u64 = 240;
+const ARCHES: u64 = 270;
 
 /// Prints how far half and whole are apart, and fails where that is more than `SAME`.
 ///
@@ -75,5 +75,5 @@ fn random_symmetric_arches_have_their_halves() {
     judge("random, joint at the crown", &pairs[0]);
     judge("random, keystone", &pairs[1]);
     // The set must go on asking real questions.
-    assert!(pairs.iter().all(|pairs| pairs.iter().filter(|(_, pair)| pair.falls).count() >= 50));
+    assert!(pairs.iter().all(|pairs| pairs.iter().filter(|(_, pair)| pair.falls).count() >= 60));
 }

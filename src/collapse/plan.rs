@@ -15,20 +15,27 @@ pub(super) use beam::solve as beam;
 pub use mesh::LOAD_PIECES;
 
 use super::pulse::Pulse;
-use super::{Accuracy, Analysis, AnalysisError, CollapseReport, Direction, Estimate, Outcome, PathEnd, Plan, verdict};
+use super::{Accuracy, Analysis, AnalysisError, CollapseReport, Direction, Estimate, Outcome, PathEnd, Plan};
 use crate::arch::is_symmetric;
+
+/// Why there is no stress to refine.
+const NO_LOAD: &str = "No load is known under which it stands, so there is no stress to be found.";
+const NO_FIELD: &str = "The load path passes none of the stress fields asked for.";
 
 /// Velocities of a mechanism, as a share of the largest, that differ by less are the same.
 const SAME_VELOCITY: f64 = 1e-6;
 
-/// The answer to the accuracy asked, but for what follows from path and limit window.
-pub(super) fn solve(analysis: &Analysis, accuracy: Accuracy, pulse: &Pulse) -> Result<CollapseReport, AnalysisError> {
-    let voussoirs = analysis.arch.voussoirs.len();
-    let given = if accuracy.stress.is_some() { vec![[1, 1]; voussoirs] } else { analysis.mesh.subblocks.clone() };
-    let rigid = verdict::solve(&with_mesh(analysis, given.clone()), pulse)?;
+/// The answer to the accuracy asked, but for what follows from path and limit window. `rigid` is that on the mesh given, where
+/// stress is asked for one subblock per voussoir.
+pub(super) fn refined(
+    analysis: &Analysis,
+    accuracy: Accuracy,
+    rigid: CollapseReport,
+    pulse: &Pulse,
+) -> Result<CollapseReport, AnalysisError> {
     let mut plan = Plan {
         half: false,
-        subblocks: given,
+        subblocks: analysis.mesh.subblocks.clone(),
         collapse_intensity: None,
         stress: accuracy.stress.map(|asked| Estimate { asked, estimate: None, met: false }),
         first_yield: None,
@@ -36,7 +43,7 @@ pub(super) fn solve(analysis: &Analysis, accuracy: Accuracy, pulse: &Pulse) -> R
         why: vec![why_load(&rigid)],
     };
     let mut report = match accuracy.stress {
-        Some(asked) => refined(analysis, accuracy.most_subblocks, asked, rigid, &mut plan, pulse)?,
+        Some(asked) => on_finer_meshes(analysis, accuracy.most_subblocks, asked, rigid, &mut plan, pulse)?,
         None => {
             plan.why.push("No accuracy of the stress is asked for: the mesh is the request's own.".into());
             rigid
@@ -48,7 +55,7 @@ pub(super) fn solve(analysis: &Analysis, accuracy: Accuracy, pulse: &Pulse) -> R
 }
 
 /// The answer on the least mesh whose stress is accurate enough; `rigid` where there is none.
-fn refined(
+fn on_finer_meshes(
     analysis: &Analysis,
     most: usize,
     asked: f64,
@@ -56,27 +63,21 @@ fn refined(
     plan: &mut Plan,
     pulse: &Pulse,
 ) -> Result<CollapseReport, AnalysisError> {
-    let half = half_of(analysis, &rigid);
-    let fewest = refine::fewest(half.as_ref().unwrap_or(analysis));
-    let why_none = if rigid.at_start.is_none() || rigid.outcome == Outcome::CannotTell {
-        Some("No load is known under which it stands, so there is no stress to be found.".into())
-    } else if rigid.stress_fields.is_empty() {
-        Some("The load path passes none of the stress fields asked for.".into())
-    } else {
-        (fewest > most)
-            .then(|| format!("The coarsest mesh that bends would have {fewest} subblocks, and {most} are allowed."))
-    };
-    if let Some(why) = why_none {
-        plan.why.push(why);
+    let stands = rigid.at_start.is_some() && rigid.outcome != Outcome::CannotTell;
+    if !stands || rigid.stress_fields.is_empty() {
+        plan.why.push(if stands { NO_FIELD } else { NO_LOAD }.into());
         return Ok(rigid);
     }
-    plan.why.push(why_half(analysis, half.is_some()));
-    let Some(mut found) = refine::solve(half.as_ref().unwrap_or(analysis), most, asked, pulse)? else {
-        plan.why.push("On the coarsest mesh that bends the load path could not be followed.".into());
-        return Ok(rigid);
+    let half = half_of(analysis, &rigid);
+    let mut found = match refine::solve(half.as_ref().unwrap_or(analysis), most, asked, pulse)? {
+        Ok(found) => found,
+        Err(why) => {
+            plan.why.push(why);
+            return Ok(rigid);
+        }
     };
     found.report.cost.join(rigid.cost);
-    plan.why.push(found.why);
+    plan.why.extend([why_half(analysis, half.is_some()), found.why]);
     (plan.stress, plan.first_yield, plan.meshes) = (Some(found.stress), found.first_yield, found.meshes);
     (plan.half, plan.subblocks) = match half {
         Some(_) => (true, unfold::subblocks(&analysis.arch, &found.subblocks)),
@@ -142,8 +143,7 @@ fn half_of(analysis: &Analysis, rigid: &CollapseReport) -> Option<Analysis> {
         return None;
     }
     let half = arch.left_half(None);
-    let loads = [&analysis.fixed, &analysis.scaled].map(|forces| arch.on_left_half(&half, forces));
-    let [fixed, scaled] = loads;
+    let [fixed, scaled] = [&analysis.fixed, &analysis.scaled].map(|forces| arch.on_left_half(&half, forces));
     Some(Analysis { arch: half, fixed, scaled, ..analysis.clone() })
 }
 

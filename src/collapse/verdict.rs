@@ -50,10 +50,10 @@ type Progress<'w> = dyn FnMut(&Tracer, f64) -> ControlFlow<()> + 'w;
 
 pub(super) fn run(analysis: &Analysis, pulse: &Pulse) -> Result<CollapseReport, AnalysisError> {
     let question = Question::new(analysis, pulse)?;
-    let mut report = match analysis.accuracy {
-        Some(accuracy) => plan::solve(analysis, accuracy, pulse)?,
-        None => question.solve()?,
-    };
+    let mut report = question.solve()?;
+    if let Some(accuracy) = analysis.accuracy {
+        report = plan::refined(analysis, accuracy, report, pulse)?;
+    }
     report.settle_fields(analysis);
     let unbent = analysis.mesh.subblocks.iter().any(|[radial, _]| *radial == 1);
     if analysis.geometry == Geometry::Updated && unbent && report.at_start.is_some() {

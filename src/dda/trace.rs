@@ -9,6 +9,7 @@ mod correct;
 mod drift;
 mod drive;
 mod equilibrium;
+mod event;
 mod moving;
 mod seen;
 mod tangent;
@@ -17,11 +18,12 @@ pub use drive::{Drive, Movement, covering};
 pub use moving::Patience;
 
 use super::chain::Chain;
-use super::contact::{Moving, State, zone};
+use super::contact::State;
 use super::factor::{Factor, Tridiagonal};
 use super::heart::Heart;
 use super::moving::{Placed, Velocity};
 use drift::Drift;
+use event::Event;
 use std::ops::ControlFlow;
 use tangent::Updates;
 
@@ -67,8 +69,6 @@ const SOFT: f64 = 1e-6;
 /// So is one in which the load gains, per movement, less than this share of the stiffest contact's stiffness for every contact:
 /// rounding of the stiffness gains as much (measured: rounding up to 5e-16, stable chains 1e-12 and more).
 const BLURRED: f64 = 16.0 * f64::EPSILON;
-/// In a mechanism, gap rates below this are rounding (the direction's largest entry is 1).
-const STILL: f64 = 1e-7;
 /// A chain that moves by so many sizes while its load gains less than `SOFT` for each goes on for ever; and equilibrium that is
 /// lost to rounding so far away is none that it could reach.
 const FAR: f64 = 100.0;
@@ -122,14 +122,6 @@ pub struct Tracer<'a> {
     events: usize,
     factorisations: usize,
     worst_residual: f64,
-}
-
-/// The next change of state on the path.
-#[derive(Debug, Clone, Copy)]
-struct Event {
-    step: f64,
-    contact: usize,
-    next: State,
 }
 
 impl<'a> Tracer<'a> {
@@ -304,32 +296,6 @@ impl<'a> Tracer<'a> {
         self.rate = -self.rate;
     }
 
-    /// Calls `see(value, next)` for every way out of `state` at contact `p`, along the current direction.
-    fn ways_out(&self, p: usize, state: State, see: impl FnMut(Moving, State)) {
-        let ([gap, slip], [gap_rate, slip_rate]) = (self.gaps[p], self.rates[p]);
-        self.chain.contacts()[p].ways_out(state, [gap, gap_rate], [slip, slip_rate], see);
-    }
-
-    fn nearest_event(&self, barred: Option<(usize, State)>) -> Option<Event> {
-        let still = if self.moving.is_none() && self.is_mechanism() { STILL } else { 0.0 };
-        let mut nearest: Option<Event> = None;
-        for (p, &state) in self.states.iter().enumerate() {
-            let stiffness = self.chain.contacts()[p].stiffness[0];
-            self.ways_out(p, state, |[value, change], next| {
-                let back = barred.is_some_and(|(contact, old)| contact == p && (next == old || state == State::Open));
-                // Rates of gaps are measured against 1, rates of forces against the penalty.
-                let threshold = if is_gap(state, next) { still } else { still * stiffness };
-                if change < -threshold && !back {
-                    let step = (value / -change).max(0.0);
-                    if nearest.is_none_or(|event| step < event.step) {
-                        nearest = Some(Event { step, contact: p, next });
-                    }
-                }
-            });
-        }
-        nearest
-    }
-
     /// Keeps the present point where the path turns down here, and was never higher.
     fn note_peak(&mut self, turns_down: bool) {
         let highest = self.peak.as_ref().is_none_or(|peak| self.parameter >= peak.parameter);
@@ -353,9 +319,4 @@ impl<'a> Tracer<'a> {
         let blurred = BLURRED * contacts as f64 * self.stiffest * self.size;
         self.factor.pivot_ratio() < SINGULAR || gained < blurred.max(SOFT * self.load_scale)
     }
-}
-
-/// True where the border between two states is a gap, not a force.
-fn is_gap(from: State, to: State) -> bool {
-    matches!((from, to), (State::Open, _) | (_, State::Open)) || zone(from) != zone(to)
 }

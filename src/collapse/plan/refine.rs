@@ -37,28 +37,30 @@ struct Refinement {
     meshes: Vec<MeshTried>,
 }
 
-/// Subblocks of the coarsest mesh that bends.
-pub(super) fn fewest(analysis: &Analysis) -> usize {
-    (0..analysis.arch.voussoirs.len()).map(|k| total(&ladder(&analysis.arch, k)[..1])).sum()
-}
-
-/// Solves on ever finer meshes until the stress fields are as accurate as asked; none where the first cannot be solved.
+/// Solves on ever finer meshes until the stress fields are as accurate as asked; where there is not even a first, says why.
 pub(super) fn solve(
     analysis: &Analysis,
     most: usize,
     asked: f64,
     pulse: &Pulse,
-) -> Result<Option<Refined>, AnalysisError> {
-    let mut mesh = Refinement::coarsest(analysis, pulse)?;
-    if mesh.report.outcome == Outcome::CannotTell || mesh.errors.is_empty() {
-        return Ok(None);
+) -> Result<Result<Refined, String>, AnalysisError> {
+    let ladders: Vec<_> = (0..analysis.arch.voussoirs.len()).map(|k| ladder(&analysis.arch, k)).collect();
+    let coarsest: Vec<_> = ladders.iter().map(|ladder| ladder[0]).collect();
+    let fewest = total(&coarsest);
+    if fewest > most {
+        return Ok(Err(format!("The coarsest mesh that bends would have {fewest} subblocks, and {most} are allowed.")));
     }
+    let report = verdict::solve(&with_mesh(analysis, coarsest), pulse)?;
+    if report.outcome == Outcome::CannotTell || report.stress_fields.is_empty() {
+        return Ok(Err("On the coarsest mesh that bends the load path could not be followed.".into()));
+    }
+    let mut mesh = Refinement::new(ladders, report);
     let mut levels = mesh.raised(&vec![true; mesh.levels.len()]);
     let why = loop {
         if let Some(why) = mesh.last_before(&levels, most) {
             break why;
         }
-        let report = mesh.solve(&levels, analysis, pulse)?;
+        let report = verdict::solve(&with_mesh(analysis, mesh.subblocks(&levels)), pulse)?;
         if report.outcome == Outcome::CannotTell || report.stress_fields.len() != mesh.errors.len() {
             break "On the next mesh the load path could not be followed to the same fields.".into();
         }
@@ -71,35 +73,21 @@ pub(super) fn solve(
     let estimate = mesh.meshes.last().and_then(|tried| tried.stress);
     let stress = Estimate { asked, estimate, met: estimate.is_some_and(|estimate| estimate <= asked) };
     let subblocks = mesh.subblocks(&mesh.levels);
-    Ok(Some(Refined {
-        report: mesh.report,
-        subblocks,
-        stress,
-        first_yield: mesh.first_yield,
-        meshes: mesh.meshes,
-        why,
-    }))
+    Ok(Ok(Refined { report: mesh.report, subblocks, stress, first_yield: mesh.first_yield, meshes: mesh.meshes, why }))
 }
 
 impl Refinement {
-    /// The coarsest mesh that bends.
-    fn coarsest(analysis: &Analysis, pulse: &Pulse) -> Result<Self, AnalysisError> {
-        let ladders: Vec<_> = (0..analysis.arch.voussoirs.len()).map(|k| ladder(&analysis.arch, k)).collect();
-        let (levels, voussoirs) = (vec![0; ladders.len()], ladders.len());
-        let subblocks = ladders.iter().map(|ladder| ladder[0]).collect();
-        let report = verdict::solve(&with_mesh(analysis, subblocks), pulse)?;
-        let errors = vec![FieldErrors::new(voussoirs, ORDERS); report.stress_fields.len()];
+    /// The coarsest mesh.
+    fn new(ladders: Vec<Vec<[usize; 2]>>, report: CollapseReport) -> Self {
+        let errors = vec![FieldErrors::new(ladders.len(), ORDERS); report.stress_fields.len()];
+        let levels = vec![0; ladders.len()];
         let mut mesh = Refinement { ladders, levels, report, errors, first_yield: None, meshes: Vec::new() };
         mesh.note(None);
-        Ok(mesh)
+        mesh
     }
 
     fn subblocks(&self, levels: &[usize]) -> Vec<[usize; 2]> {
         self.ladders.iter().zip(levels).map(|(ladder, &level)| ladder[level]).collect()
-    }
-
-    fn solve(&self, levels: &[usize], analysis: &Analysis, pulse: &Pulse) -> Result<CollapseReport, AnalysisError> {
-        verdict::solve(&with_mesh(analysis, self.subblocks(levels)), pulse)
     }
 
     /// Levels with those that are marked one higher, where there is a higher one.

@@ -1,6 +1,7 @@
 //! One step on moving geometry: along the tangent, then back to equilibrium with one quantity held.
 
-use super::{Event, Tracer, is_gap};
+use super::Tracer;
+use super::event::{Event, is_gap};
 use crate::dda::contact::State;
 use crate::dda::moving::Velocity;
 

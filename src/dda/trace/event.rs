@@ -1,0 +1,49 @@
+//! Where the path next crosses the border between two contact states.
+
+use super::Tracer;
+use crate::dda::contact::{Moving, State, zone};
+
+/// In a mechanism, gap rates below this are rounding (the direction's largest entry is 1).
+const STILL: f64 = 1e-7;
+
+/// The next change of state on the path.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Event {
+    pub step: f64,
+    pub contact: usize,
+    pub next: State,
+}
+
+impl Tracer<'_> {
+    /// Calls `see(value, next)` for every way out of `state` at contact `p`, along the current direction.
+    pub(super) fn ways_out(&self, p: usize, state: State, see: impl FnMut(Moving, State)) {
+        let ([gap, slip], [gap_rate, slip_rate]) = (self.gaps[p], self.rates[p]);
+        self.chain.contacts()[p].ways_out(state, [gap, gap_rate], [slip, slip_rate], see);
+    }
+
+    /// The next change of state along the current direction, but the one that is barred.
+    pub(super) fn nearest_event(&self, barred: Option<(usize, State)>) -> Option<Event> {
+        let still = if self.moving.is_none() && self.is_mechanism() { STILL } else { 0.0 };
+        let mut nearest: Option<Event> = None;
+        for (p, &state) in self.states.iter().enumerate() {
+            let stiffness = self.chain.contacts()[p].stiffness[0];
+            self.ways_out(p, state, |[value, change], next| {
+                let back = barred.is_some_and(|(contact, old)| contact == p && (next == old || state == State::Open));
+                // Rates of gaps are measured against 1, rates of forces against the penalty.
+                let threshold = if is_gap(state, next) { still } else { still * stiffness };
+                if change < -threshold && !back {
+                    let step = (value / -change).max(0.0);
+                    if nearest.is_none_or(|event| step < event.step) {
+                        nearest = Some(Event { step, contact: p, next });
+                    }
+                }
+            });
+        }
+        nearest
+    }
+}
+
+/// True where the border between two states is a gap, not a force.
+pub(super) fn is_gap(from: State, to: State) -> bool {
+    matches!((from, to), (State::Open, _) | (_, State::Open)) || zone(from) != zone(to)
+}
