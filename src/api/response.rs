@@ -18,7 +18,7 @@ pub use columns::{BlockColumns, ContactColumns, HistoryColumns, SnapshotBody, Th
 pub use falling::{
     FrameColumns, MotionBody, MotionContactColumns, MotionEndWord, OpenHingeColumns, PlaceColumns, SlidColumns,
 };
-pub use mechanism::{Collapse, End, HingeBody, SlideBody};
+pub use mechanism::{Collapse, End, HingeBody, RangeBody, SlideBody};
 pub use plan::{BeamPlanBody, EstimateBody, MeshBody, PlanBody, SubblockCounts};
 pub use result::JobResult;
 pub use safety::{CurvePointBody, ReachBody, SafetyBody, SafetyCurveResult};

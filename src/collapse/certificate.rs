@@ -3,7 +3,7 @@
 use super::doubt::Doubt;
 use super::path::total;
 use super::pulse::Pulse;
-use super::{Analysis, AnalysisError, Crushing, Digits, LimitWindow, Method, PathEnd, PlasticCrushing};
+use super::{Analysis, AnalysisError, Crushing, Digits, LimitWindow, LoadRange, PathEnd, PlasticCrushing};
 use crate::arch::JointLaw;
 use crate::limit::{CrushingWindow, StaticTheorem};
 
@@ -69,7 +69,7 @@ impl Certificate {
     }
 
     /// The window's end in the direction of `sign`.
-    fn end(&self, sign: f64) -> Option<f64> {
+    pub(super) fn end(&self, sign: f64) -> Option<f64> {
         self.window.map(|[low, high]| if sign > 0.0 { high } else { low })
     }
 
@@ -120,24 +120,21 @@ impl Certificate {
         }
     }
 
-    /// Holds the end of a path against the window: a doubt, or a note where sliding explains the difference.
-    pub(super) fn compare(&self, method: Method, end: &PathEnd, sign: f64) -> Result<Option<String>, Doubt> {
-        let (path, limit) = (end.load_factor, self.end(sign).unwrap_or(0.0));
-        if let Method::FixedSteps { step, .. } = method {
-            return Ok(Some(fixed_steps_note(step, limit)));
-        }
+    /// Holds the end of a path against the window: a doubt, or whether it ends short of it, as sliding explains.
+    pub(super) fn compare(&self, end: &PathEnd, sign: f64) -> Result<bool, Doubt> {
+        let (path, limit) = (end.on_path(), self.end(sign).unwrap_or(0.0));
         let scale = limit.abs().max(path.abs()).max(SMALL * self.theorem.load_factor_scale());
         let short = if limit.is_finite() { sign * (limit - path) / scale } else { f64::INFINITY };
         if short < -ABOVE {
             Err(Doubt::Above { path, limit })
         } else if short <= AGREES {
-            Ok(None)
+            Ok(false)
         } else if end.mechanism.slides.is_empty() {
             Err(Doubt::Short { path, limit })
         } else if short > STRAY && !self.slides_at_its_limits(end) {
             Err(Doubt::Stray { path, limit })
         } else {
-            Ok(Some(sliding_note(path, limit)))
+            Ok(true)
         }
     }
 
@@ -234,17 +231,34 @@ pub(super) fn mesh_notes(slenderness: f64, several: bool, cohesive: bool) -> Vec
     notes
 }
 
-fn sliding_note(path: f64, limit: f64) -> String {
+/// Note on a load that is not one number.
+pub(super) fn range_note(range: &LoadRange) -> String {
+    let LoadRange { least, greatest, path, mechanisms_tried } = *range;
+    let [least_shown, greatest_shown, path_shown] = [least, greatest, path].map(Digits);
+    if (greatest - least).abs() <= AGREES * greatest.abs().max(least.abs()) {
+        return format!(
+            "Joints slide. Load factor {least_shown} is the only one found at which the arch falls: limit analysis, which lets \
+             sliding joints dilate (associated friction), allows no more, and of {mechanisms_tried} mechanisms without \
+             dilation none is in equilibrium at less."
+        );
+    }
+    let bound = if greatest.is_finite() {
+        format!(
+            "{greatest_shown} is the end of the limit window, which lets sliding joints dilate (associated friction)"
+        )
+    } else {
+        "limit analysis, which lets sliding joints dilate (associated friction), sets no bound".into()
+    };
     format!(
-        "Joints slide without dilating: the arch falls at load factor {path}, although limit analysis, which lets \
-         sliding joints dilate (associated friction), allows {limit}. Where joints slide the answer also depends on \
-         their stiffness and on the order of loading. Of the two use {path}, which leaves the arch less room.",
-        path = Digits(path),
-        limit = Digits(limit)
+        "Joints slide without dilating, so the load at which the arch falls is not one number: it depends on the stiffness of \
+         the joints and the order of loading. Load factor {least_shown} is the least found at which a mechanism without \
+         dilation is in equilibrium ({mechanisms_tried} mechanisms were tried); {bound}. This load path ended at {path_shown}. \
+         Use {least_shown}."
     )
 }
 
-fn fixed_steps_note(step: f64, limit: f64) -> String {
+/// Note on a load read off at whole steps.
+pub(super) fn fixed_steps_note(step: f64, limit: f64) -> String {
     format!(
         "Read off at whole steps of {} by the opening of joints (section 4.2 of the paper), for comparison only: the \
          load given is the first step at which the criterion was met or no equilibrium was left, up to a step above \

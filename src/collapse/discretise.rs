@@ -97,7 +97,8 @@ pub(super) fn discretise<'p>(analysis: &Analysis, seed: u64, pulse: &'p Pulse<'p
             _ => 1.0,
         };
         let sides = [k.checked_sub(1).map(|k| &bodies[k]), bodies.get(k)];
-        for touch in touches(joint, sides, stiffer * penalty, &mut scatter) {
+        let stiffness = [1.0, analysis.shear_penalty_ratio].map(|ratio| stiffer * penalty * ratio);
+        for touch in touches(joint, sides, stiffness, &mut scatter) {
             softest = softest.min(touch.stiffness[0]);
             builder.contact(touch);
         }
@@ -163,27 +164,28 @@ fn grids(analysis: &Analysis) -> Vec<Grid> {
 fn touches<'a>(
     joint: &'a Joint,
     [before, after]: [Option<&'a Grid>; 2],
-    penalty: f64,
+    penalty: [f64; 2],
     scatter: &'a mut Scatter,
 ) -> impl Iterator<Item = Touch> + 'a {
     let links = before.into_iter().chain(after).count() as f64;
     let contact = 1.0 / (1.0 - links / LINK);
     let places = places(joint.law, before, after);
     // A mirror plane holds across and lets slide along.
-    let along = if joint.law == JointLaw::Mirror { 0.0 } else { 1.0 };
+    let held = [1.0, if joint.law == JointLaw::Mirror { 0.0 } else { 1.0 }];
     (0..places.len()).map(move |j| {
         let eta = places[j];
         let below = if j == 0 { eta } else { 0.5 * (eta - places[j - 1]) };
         let above = if j + 1 == places.len() { 1.0 - eta } else { 0.5 * (places[j + 1] - eta) };
         let (sides, share) = ([below, above], below + above);
         // Two corners alone have the penalty each.
-        let stiffness = 2.0 * penalty * share;
+        let stiffness = penalty.map(|penalty| 2.0 * penalty * share);
+        let scattered = |way: usize, by: f64| held[way] * contact * stiffness[way] * (1.0 + STIFFNESS_SCATTER * by);
         let nobody = [(0, 0.0); 2];
         Touch {
             at: joint.intrados + (joint.extrados - joint.intrados) * eta,
             normal: joint.normal(),
-            stiffness: [1.0, along].map(|by| by * contact * stiffness * (1.0 + STIFFNESS_SCATTER * scatter.next())),
-            link: [LINK * stiffness; 2],
+            stiffness: [scattered(0, scatter.next()), scattered(1, scatter.next())],
+            link: stiffness.map(|stiffness| LINK * stiffness),
             law: law(joint, share),
             before: before.map_or(nobody, |g| g.on_joint(true, eta, sides)),
             after: after.map_or(nobody, |g| g.on_joint(false, eta, sides)),

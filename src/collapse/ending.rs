@@ -1,7 +1,7 @@
 //! One end of a load path: its load polished on the unperturbed statics, its mechanism and its thrust line.
 
 use super::discretise::Model;
-use super::mechanism;
+use super::mechanism::{self, Released};
 use super::motion::{Motion, motion_at};
 use super::path::{Fall, total};
 use super::{Analysis, PathEnd, Thrust};
@@ -10,7 +10,7 @@ use crate::dda::{Peak, State, Tracer, Zone};
 use crate::limit::{Condition, Resultant, StaticTheorem};
 
 /// Polishing undoes a disturbance of about 1e-9 of the loads; a larger change means that other conditions were solved.
-const POLISH: f64 = 1e-6;
+pub(super) const POLISH: f64 = 1e-6;
 /// A polished equilibrium may violate no condition of the static theorem by more than this share of the loads.
 const ADMISSIBLE: f64 = 1e-8;
 /// Share of a joint's force below which a corner's is none. Polished forces are good to about 1e-12, and next to a hinge
@@ -19,10 +19,17 @@ const POLISHED: f64 = 1e-8;
 /// The same where forces carry the disturbance of an attempt.
 const AS_BUILT: f64 = 1e-6;
 
+/// The end of a path, and what is at its limits there.
+pub(super) struct Ending {
+    pub end: PathEnd,
+    /// Joints at their limits need not make a mechanism where they slide: the load then falls before the arch can move
+    /// freely, and the mechanism is the direction in which the path ends.
+    pub later: bool,
+    /// Joints at their limits together: those that move, those at the peak, and those where the path was left.
+    pub at_limits: Vec<Vec<Released>>,
+}
+
 /// Reads the collapse off the peak of the path. `sign` is the direction of the load factor.
-///
-/// Joints at their limits need not make a mechanism where they slide: the load then falls before the arch can move
-/// freely, the mechanism is the direction in which the path ends, and the second value is true.
 pub(super) fn at_peak(
     analysis: &Analysis,
     model: &Model,
@@ -31,7 +38,7 @@ pub(super) fn at_peak(
     fall: &Fall,
     sign: f64,
     residual: f64,
-) -> (PathEnd, bool) {
+) -> Ending {
     let arch = &analysis.arch;
     let conditions = conditions(model, arch, peak);
     let polished = theorem.solve(&conditions).filter(|e| {
@@ -44,13 +51,20 @@ pub(super) fn at_peak(
     };
     let driving = driving(analysis, peak.parameter, sign);
     let slipping: Vec<Option<f64>> = (0..arch.joints.len()).map(|k| sliding_shear(model, k, peak)).collect();
-    let at_limits = mechanism::from_statics(arch, &forces, &slipping, &driving, POLISHED, &model.pulse.heart);
-    let later = at_limits.is_none();
-    let mechanism = at_limits.unwrap_or_else(|| {
+    let found = mechanism::from_statics(arch, &forces, &slipping, &driving, POLISHED, &model.pulse.heart);
+    let later = found.is_none();
+    let mechanism = found.unwrap_or_else(|| {
         from_direction(model, arch, if fall.turned_back { &peak.direction } else { &fall.direction })
     });
+    let left = resultants(model, |p| fall.forces[p]);
+    let at_limits = vec![
+        mechanism::released(&mechanism),
+        mechanism::all_releases(arch, &forces, &slipping, if polished.is_some() { POLISHED } else { AS_BUILT }),
+        mechanism::all_releases(arch, &left, &vec![None; left.len()], AS_BUILT),
+    ];
     let load_factor = polished.map_or(peak.parameter, |e| e.load_factor);
-    (PathEnd { load_factor, residual, mechanism, thrust_line: thrust_line(arch, &forces) }, later)
+    let end = PathEnd { load_factor, range: None, residual, mechanism, thrust_line: thrust_line(arch, &forces) };
+    Ending { end, later, at_limits }
 }
 
 /// Loads that do positive work in the mechanism at a load factor: the scaled ones or, as the works of both cancel there, the
@@ -78,7 +92,7 @@ pub(super) fn at_fall(analysis: &Analysis, model: &Model, tracer: &Tracer, start
     let (carried, heart) = (resultants(model, |p| forces[p]), &model.pulse.heart);
     let smallest = mechanism::from_statics(arch, &carried, &none, &driving, AS_BUILT, heart);
     let mechanism = smallest.filter(|m| along_path.slides.is_empty() && m.slides.is_empty()).unwrap_or(along_path);
-    PathEnd { load_factor, residual: tracer.worst_residual(), mechanism, thrust_line: Vec::new() }
+    PathEnd { load_factor, range: None, residual: tracer.worst_residual(), mechanism, thrust_line: Vec::new() }
 }
 
 /// The motion at a load at which the fixed-steps criterion was met: the displacements themselves.
@@ -91,7 +105,7 @@ pub(super) fn at_criterion(
 ) -> PathEnd {
     let mechanism = from_direction(model, &analysis.arch, displacements);
     let thrust_line = thrust_line(&analysis.arch, &carried(model, displacements));
-    PathEnd { load_factor, residual, mechanism, thrust_line }
+    PathEnd { load_factor, range: None, residual, mechanism, thrust_line }
 }
 
 /// How an arch goes on in the direction of its path: joints that are open at one end turn about the other, be it further
@@ -220,7 +234,7 @@ fn resultants(model: &Model, force: impl Fn(usize) -> [f64; 2]) -> Vec<Resultant
     (0..=model.voussoirs).map(joint).collect()
 }
 
-fn thrust_line(arch: &Arch, resultants: &[Resultant]) -> Vec<Thrust> {
+pub(super) fn thrust_line(arch: &Arch, resultants: &[Resultant]) -> Vec<Thrust> {
     arch.joints
         .iter()
         .zip(resultants)

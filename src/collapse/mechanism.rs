@@ -6,7 +6,7 @@ use super::{Face, Hinge, Mechanism, Mode, Slide};
 use crate::arch::{Arch, Joint, JointLaw, PointForce};
 use crate::dda::Heart;
 use crate::geometry::{Vec2, cross};
-use crate::limit::Resultant;
+use crate::limit::{Release, Resultant, releases};
 
 /// Releases slower than this share of the fastest do not move.
 const MOVES: f64 = 1e-6;
@@ -16,14 +16,8 @@ const ELASTIC: f64 = 1e-5;
 /// hundredth or more of the fastest.
 const MOVING_ELASTIC: f64 = 3e-4;
 
-/// A relative motion that a joint at its limit allows, of unit rate.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Release {
-    /// Rotation about the end on this face.
-    Rotation(Face),
-    /// Sliding of the stone after the joint, +1 towards the extrados, -1 towards the intrados.
-    Sliding(f64),
-}
+/// A joint and a motion that it allows.
+pub(super) type Released = (usize, Release);
 
 /// Finds the mechanism of an arch whose joints carry `resultants` at collapse: of all motions that open and slide only
 /// joints at their limits, and in which the `driving` loads do work, the smallest (so that a symmetric arch under
@@ -40,49 +34,48 @@ pub(super) fn from_statics(
     at_limit: f64,
     heart: &Heart,
 ) -> Option<Mechanism> {
-    let releases: Vec<(usize, Release)> =
-        resultants.iter().enumerate().flat_map(|(k, r)| joint_releases(arch, k, r, slipping[k], at_limit)).collect();
-    let motions: Vec<Motion> = releases.iter().map(|&(k, release)| relative_motion(arch, k, release)).collect();
-    let tails = tail_loads(arch, driving);
-    let total = driving.iter().map(|f| f.force.norm()).sum::<f64>();
-    let size = arch.joints.iter().map(|j| j.middle().norm()).fold(0.0, f64::max);
-    let columns: Vec<Column> = releases
-        .iter()
-        .zip(&motions)
-        .map(|(&(k, _), m)| {
-            let ([fx, fy, moment], closure) = (tails[k], m.velocity / size);
-            let power = (fx * m.velocity.x + fy * m.velocity.y + moment * m.spin) / (total * size);
-            Column::new(closure.x, closure.y, m.spin, power)
-        })
-        .collect();
-    let rates = smallest_motion(&columns, heart)?;
+    let releases = all_releases(arch, resultants, slipping, at_limit);
+    let rates = smallest_motion(&columns(arch, &releases, driving), heart)?;
     Some(describe(arch, &releases, &rates))
 }
 
-/// What a joint at its limits lets happen.
-fn joint_releases(arch: &Arch, k: usize, r: &Resultant, slipping: Option<f64>, at_limit: f64) -> Vec<(usize, Release)> {
-    let (friction, cohesion) = match arch.joints[k].law {
-        JointLaw::Dry { friction, cohesion } => (friction, cohesion),
-        JointLaw::Mirror => return [1.0, -1.0].map(|sign| (k, Release::Sliding(sign))).to_vec(),
-        JointLaw::Bonded => return Vec::new(),
-    };
-    let normal = r.normal();
-    let scale = at_limit * normal.abs().max(r.shear.abs());
-    let mut releases = Vec::new();
-    if r.extrados <= scale {
-        releases.push((k, Release::Rotation(Face::Intrados)));
-    }
-    if r.intrados <= scale {
-        releases.push((k, Release::Rotation(Face::Extrados)));
-    }
-    let capacity = friction * normal + cohesion * arch.joints[k].length();
-    for sign in [1.0, -1.0] {
-        // The shear on the stone after the joint opposes its sliding.
-        if capacity + sign * r.shear <= scale || slipping == Some(-sign) {
-            releases.push((k, Release::Sliding(sign)));
+/// What all joints at their limits let happen; see [`from_statics`].
+pub(super) fn all_releases(
+    arch: &Arch,
+    resultants: &[Resultant],
+    slipping: &[Option<f64>],
+    at_limit: f64,
+) -> Vec<Released> {
+    let of_joint = |(k, forces): (usize, &Resultant)| {
+        let mut found = releases(&arch.joints[k], forces, at_limit);
+        if let Some(sign) = slipping[k]
+            && !found.contains(&Release::Sliding(-sign))
+        {
+            found.push(Release::Sliding(-sign));
         }
-    }
-    releases
+        found.into_iter().map(move |release| (k, release))
+    };
+    resultants.iter().enumerate().flat_map(of_joint).collect()
+}
+
+/// The releases that a mechanism moves.
+pub(super) fn released(mechanism: &Mechanism) -> Vec<Released> {
+    let hinges = mechanism.hinges.iter().map(|hinge| (hinge.joint, Release::Rotation(hinge.face)));
+    hinges.chain(mechanism.slides.iter().map(|slide| (slide.joint, Release::Sliding(slide.rate.signum())))).collect()
+}
+
+/// What each release does to the closure of the chain, and its power under the `driving` loads.
+pub(super) fn columns(arch: &Arch, releases: &[Released], driving: &[PointForce]) -> Vec<Column> {
+    let tails = tail_loads(arch, driving);
+    let total = driving.iter().map(|f| f.force.norm()).sum::<f64>();
+    let size = arch.joints.iter().map(|j| j.middle().norm()).fold(0.0, f64::max);
+    let column = |&(k, release): &Released| {
+        let motion = relative_motion(arch, k, release);
+        let ([fx, fy, moment], closure) = (tails[k], motion.velocity / size);
+        let power = (fx * motion.velocity.x + fy * motion.velocity.y + moment * motion.spin) / (total * size);
+        Column::new(closure.x, closure.y, motion.spin, power)
+    };
+    releases.iter().map(column).collect()
 }
 
 /// Motion of everything after joint `k` relative to everything before it, for a release of unit rate.
@@ -109,7 +102,8 @@ fn tail_loads(arch: &Arch, loads: &[PointForce]) -> Vec<[f64; 3]> {
     tails
 }
 
-fn describe(arch: &Arch, releases: &[(usize, Release)], rates: &[f64]) -> Mechanism {
+/// The mechanism of these releases at their rates.
+pub(super) fn describe(arch: &Arch, releases: &[Released], rates: &[f64]) -> Mechanism {
     let fastest = rates.iter().copied().fold(0.0, f64::max);
     let joints = arch.joints.len();
     let (mut relative, mut openings, mut slid) =

@@ -17,6 +17,7 @@ mod record;
 pub mod report;
 mod safety;
 mod settlement;
+mod sliding;
 mod smallest_motion;
 mod tally;
 mod updated;
@@ -205,6 +206,8 @@ pub struct Analysis {
     pub plane: PlaneModel,
     /// Contact penalty as a multiple of Young's modulus (per metre of depth and contact point).
     pub penalty_ratio: f64,
+    /// Tangential contact penalty as a multiple of the normal one.
+    pub shear_penalty_ratio: f64,
     /// Loads that stay.
     pub fixed: Vec<PointForce>,
     /// Loads that the load factor multiplies.

@@ -177,6 +177,8 @@ pub(super) struct Fall {
     pub direction: Vec<f64>,
     /// True where it has run back past its start, and so ends in a mechanism of the other direction of loading.
     pub turned_back: bool,
+    /// Normal and tangential force of every contact where it was left, N/m.
+    pub forces: Vec<[f64; 2]>,
 }
 
 /// How a path that stood at its start ended.
@@ -232,7 +234,8 @@ pub(super) fn follow(
             let mut peak = peak.clone();
             peak.parameter *= sign;
             let turned_back = tracer.parameter() < sign * start;
-            Leg::Peak(peak, Fall { direction: tracer.direction().to_vec(), turned_back })
+            let (direction, forces) = (tracer.direction().to_vec(), tracer.contact_forces());
+            Leg::Peak(peak, Fall { direction, turned_back, forces })
         }),
     }
 }

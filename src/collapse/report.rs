@@ -146,11 +146,28 @@ pub struct LimitWindow {
     pub highest: f64,
 }
 
+/// From where to where the load at which an arch falls may lie, because its joints slide without dilating: then many load
+/// factors have a full solution (a mechanism whose forces are admissible), and stiffness and loading order pick one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LoadRange {
+    /// The least full solution found: the end nearest to the start of the path.
+    pub least: f64,
+    /// End of the limit window, which lets sliding joints dilate: no full solution lies beyond. Infinite where it has none.
+    pub greatest: f64,
+    /// Where the load path itself ended.
+    pub path: f64,
+    /// How many mechanisms were tried for the least.
+    pub mechanisms_tried: usize,
+}
+
 /// One end of the load path.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PathEnd {
-    /// Load factor at which the arch falls (first order), polished on the final static conditions.
+    /// Load factor at which the arch falls (first order), polished on the final static conditions; where joints slide, the
+    /// least of `range`. Mechanism and thrust line belong to it.
     pub load_factor: f64,
+    /// Where joints slide: between what the load lies.
+    pub range: Option<LoadRange>,
     /// Largest equilibrium residual of any block at any event, as a share of the arch's weight, or of the
     /// largest load at a point where that is more.
     pub residual: f64,
@@ -158,6 +175,13 @@ pub struct PathEnd {
     pub mechanism: Mechanism,
     /// Resultants per joint at collapse.
     pub thrust_line: Vec<Thrust>,
+}
+
+impl PathEnd {
+    /// Load factor at which the load path itself ended.
+    pub fn on_path(&self) -> f64 {
+        self.range.map_or(self.load_factor, |range| range.path)
+    }
 }
 
 /// How the arch falls.

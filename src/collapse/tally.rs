@@ -102,6 +102,7 @@ impl CollapseReport {
     pub(super) fn check_finite(&self) -> Result<(), AnalysisError> {
         for end in self.end.iter().chain(&self.other_end) {
             finite("collapse load", [end.load_factor, end.residual])?;
+            finite("range of the collapse load", end.range.iter().flat_map(|range| [range.least, range.path]))?;
             finite("mechanism", end.mechanism.velocities.iter().flatten().copied())?;
             let line = end.thrust_line.iter().flat_map(|t| [t.normal, t.shear, t.eccentricity, t.at.x, t.at.y]);
             finite("thrust line", line)?;

@@ -1,16 +1,17 @@
 //! From the limit window and the load path to one answer, or to saying that we cannot tell.
 
-use super::certificate::{Certificate, LATER_MECHANISM, any_fixed, loaded, mesh_notes};
+mod leg;
+
+use super::certificate::{Certificate, any_fixed, loaded, mesh_notes};
 use super::discretise::{Model, discretise};
 use super::doubt::Doubt;
-use super::path::{ATTEMPTS, Attempt, Leg, disturbed, follow, nothing_grows, stand, total};
+use super::path::{ATTEMPTS, Attempt, disturbed, nothing_grows, stand, total};
 use super::pulse::Pulse;
-use super::record::{MOST_STEPS, Recorder, snapshot};
+use super::record::snapshot;
 use super::updated::{self, Course};
 use super::{
-    Aim, Analysis, AnalysisError, CollapseReport, Cost, Crushing, Direction, Geometry, LimitWindow, Method, Outcome,
-    PathEnd, SettlementEnd, SpringingMovement, ThrustRange, UpdatedGeometry, ending, falling, motion, plan, safety,
-    settlement,
+    Aim, Analysis, AnalysisError, CollapseReport, Cost, Crushing, Direction, Geometry, LimitWindow, Outcome,
+    SettlementEnd, SpringingMovement, ThrustRange, UpdatedGeometry, ending, falling, motion, plan, safety, settlement,
 };
 use crate::arch::{Joint, JointLaw};
 use crate::dda::{End, Tracer};
@@ -167,84 +168,6 @@ impl<'a> Question<'a> {
         Ok(Attempted { report, doubt })
     }
 
-    /// Follows the path one way and writes down what was seen; returns a doubt where path and certificate disagree.
-    fn leg(
-        &self,
-        report: &mut CollapseReport,
-        model: &Model,
-        tracer: &mut Tracer,
-        fixed: &[f64],
-        sign: f64,
-        progress: &mut Progress,
-    ) -> Result<Option<Doubt>, AnalysisError> {
-        let analysis = self.analysis;
-        let mut recorder = Recorder::new(model, analysis, [self.start, sign]);
-        let before = Cost::of(tracer);
-        let leg = follow(tracer, fixed, self.cap, &mut recorder, progress);
-        report.cost.add(tracer, before);
-        report.at_unit_load = recorder.at(1.0).map(|d| snapshot(model, 1.0, d)).transpose()?;
-        if let Some(crushing) = &mut report.crushing {
-            crushing.elastic = Some(recorder.first_yield());
-        }
-        let residual = tracer.worst_residual();
-        let mut peak_load = None;
-        let (end, turned_back) = match leg {
-            Leg::Stopped => return Err(self.pulse.stopped()),
-            Leg::TooManySteps => return Err(AnalysisError::TooManySteps { most: MOST_STEPS }),
-            Leg::Lost => return Ok(Some(Doubt::Lost)),
-            Leg::Endless => {
-                report.add_fields(analysis, model, &recorder, None)?;
-                report.history = recorder.history;
-                report.outcome = Outcome::NeverCollapses;
-                return Ok(self.certificate.endless(sign, self.cap).or(self.certificate.standing_doubt(residual)));
-            }
-            Leg::Criterion(at) => {
-                (ending::at_criterion(analysis, model, recorder.displacements(), at, residual), false)
-            }
-            Leg::Peak(peak, fall) => {
-                let theorem = &self.certificate.theorem;
-                let (mut end, later) = ending::at_peak(analysis, model, theorem, &peak, &fall, sign, residual);
-                self.pulse.check()?;
-                report.notes.extend(later.then(|| LATER_MECHANISM.into()));
-                peak_load = Some(end.load_factor);
-                end.load_factor = self.read_off(end.load_factor, sign);
-                (end, fall.turned_back)
-            }
-        };
-        let near = recorder.near(peak_load.unwrap_or(end.load_factor));
-        report.near_collapse = near.as_ref().map(|(factor, d)| snapshot(model, *factor, d)).transpose()?;
-        report.add_fields(analysis, model, &recorder, near.as_ref())?;
-        report.history = recorder.history;
-        let doubt = self.conclude(report, end, sign, turned_back);
-        Ok(doubt.or(self.certificate.standing_doubt(residual)))
-    }
-
-    /// Writes down a collapse, held against the limit window.
-    fn conclude(&self, report: &mut CollapseReport, end: PathEnd, sign: f64, turned_back: bool) -> Option<Doubt> {
-        let (compared, reached) = (self.certificate.compare(self.analysis.method, &end, sign), end.load_factor);
-        report.outcome = Outcome::Collapse;
-        report.end = Some(end);
-        match compared {
-            Err(doubt) => Some(doubt),
-            Ok(note) => {
-                let doubt = (turned_back && note.is_some()).then_some(Doubt::TurnedBack(reached));
-                report.notes.extend(note);
-                doubt
-            }
-        }
-    }
-
-    /// The collapse load as the method reads it: exact, or the first whole step beyond.
-    fn read_off(&self, load_factor: f64, sign: f64) -> f64 {
-        match self.analysis.method {
-            Method::EventPath => load_factor,
-            Method::FixedSteps { step, .. } => {
-                let steps = ((load_factor - self.start).abs() / step).floor() + 1.0;
-                self.start + sign * steps * step
-            }
-        }
-    }
-
     /// The answer on moving geometry, where it is asked for and the arch stands at first order.
     fn updated(&self, report: &mut CollapseReport) -> Result<Option<UpdatedGeometry>, AnalysisError> {
         let stands = report.at_start.is_some() && report.outcome != Outcome::CannotTell;
@@ -254,7 +177,7 @@ impl<'a> Question<'a> {
         }
         let (start, sign, cap, weight) = (self.start, self.sign, self.cap, self.weight);
         let as_much = weight / total(&self.analysis.scaled).max(f64::MIN_POSITIVE);
-        let rise = report.end.as_ref().map_or(as_much, |end| (end.load_factor - start).abs());
+        let rise = report.end.as_ref().map_or(as_much, |end| (end.on_path() - start).abs());
         let course = Course { start, sign, cap, rise, weight };
         updated::follow(self.analysis, course, &mut report.cost, self.pulse).map(Some)
     }

@@ -53,48 +53,69 @@ pub fn unwatched() -> ControlFlow<()> {
 /// until none is violated. Ties are broken lexicographically, as if the objective were perturbed by
 /// (e, e^2, e^3, e^4), so that the method cannot cycle (Dantzig, Orden and Wolfe 1955).
 pub fn maximise(objective: Row, inequalities: &[Inequality], beat: Beat) -> Optimum {
+    solve(objective, inequalities, beat).0
+}
+
+/// Multipliers y >= 0 of the `inequalities` at the optimum, objective = - sum y row: the solution of the dual programme, at most
+/// four of them not zero. None unless there is an optimum.
+pub fn multipliers_at_optimum(objective: Row, inequalities: &[Inequality], beat: Beat) -> Option<Vec<f64>> {
+    let (Optimum::At(..), basis) = solve(objective, inequalities, beat) else { return None };
+    let inverse = Basis::from_fn(|i, j| basis[i].inequality.row[j]).try_inverse()?;
+    let mut all = vec![0.0; inequalities.len()];
+    for (active, multiplier) in basis.iter().zip(multipliers(&inverse, objective)) {
+        if let Some(place) = active.place {
+            all[place] = multiplier[0].max(0.0);
+        }
+    }
+    Some(all)
+}
+
+/// A constraint of the basis: which of the inequalities it is, none where it is a wall of the box.
+#[derive(Debug, Clone, Copy)]
+struct Active {
+    inequality: Inequality,
+    place: Option<usize>,
+}
+
+fn solve(objective: Row, inequalities: &[Inequality], beat: Beat) -> (Optimum, [Active; UNKNOWNS]) {
     let bound = |i: usize, sign: f64| Inequality { row: Row::ith(i, -sign), constant: BOX };
+    let wall = |i: usize, sign: f64| Active { inequality: bound(i, sign), place: None };
     // At the starting corner every unknown is at the bound its (perturbed) objective pushes it to.
-    let mut basis: [Inequality; UNKNOWNS] = std::array::from_fn(|i| bound(i, corner_sign(objective[i])));
-    let mut from_box = [true; UNKNOWNS];
+    let mut basis: [Active; UNKNOWNS] = std::array::from_fn(|i| wall(i, corner_sign(objective[i])));
     let walls: Vec<Inequality> = (0..UNKNOWNS).flat_map(|i| [bound(i, 1.0), bound(i, -1.0)]).collect();
     for _ in 0..MOST_PIVOTS {
         if beat().is_break() {
-            return Optimum::Lost;
+            return (Optimum::Lost, basis);
         }
-        let rows = Basis::from_fn(|i, j| basis[i].row[j]);
-        let Some(inverse) = rows.try_inverse() else { return Optimum::Lost };
-        let point = -inverse * Row::from_fn(|i, _| basis[i].constant);
-        let Some((entering, is_wall)) = most_violated(&point, inequalities, &walls) else {
-            return if from_box.iter().zip(multipliers(&inverse, objective)).any(|(&wall, y)| wall && y[0] > TOLERANCE) {
-                Optimum::Unbounded(point)
-            } else {
-                Optimum::At(objective.dot(&point), point)
-            };
+        let rows = Basis::from_fn(|i, j| basis[i].inequality.row[j]);
+        let Some(inverse) = rows.try_inverse() else { return (Optimum::Lost, basis) };
+        let point = -inverse * Row::from_fn(|i, _| basis[i].inequality.constant);
+        let dual = multipliers(&inverse, objective);
+        let Some(entering) = most_violated(&point, inequalities, &walls) else {
+            let at_wall = basis.iter().zip(dual).any(|(active, y)| active.place.is_none() && y[0] > TOLERANCE);
+            let optimum = if at_wall { Optimum::Unbounded(point) } else { Optimum::At(objective.dot(&point), point) };
+            return (optimum, basis);
         };
         // Weights with which the entering row is a combination of the rows in the basis.
-        let weights = inverse.transpose() * entering.row;
-        let dual = multipliers(&inverse, objective);
-        let Some(leaving) = leaving(&weights, &dual) else { return Optimum::Infeasible };
+        let weights = inverse.transpose() * entering.inequality.row;
+        let Some(leaving) = leaving(&weights, &dual) else { return (Optimum::Infeasible, basis) };
         basis[leaving] = entering;
-        from_box[leaving] = is_wall;
     }
-    Optimum::Lost
+    (Optimum::Lost, basis)
 }
 
-fn most_violated(point: &Row, inequalities: &[Inequality], walls: &[Inequality]) -> Option<(Inequality, bool)> {
+fn most_violated(point: &Row, inequalities: &[Inequality], walls: &[Inequality]) -> Option<Active> {
     let size = point.abs();
     let mut worst = (0.0, None);
-    for (list, is_wall) in [(inequalities, false), (walls, true)] {
-        for inequality in list {
-            let value = inequality.row.dot(point) + inequality.constant;
-            // A value that is no number is taken for a violation, which ends in `Lost`.
-            if value.is_nan() {
-                return Some((*inequality, is_wall));
-            }
-            if value < worst.0 && value < -TOLERANCE * (1.0 + inequality.row.abs().dot(&size)) {
-                worst = (value, Some((*inequality, is_wall)));
-            }
+    let all = inequalities.iter().enumerate().map(|(place, inequality)| (Some(place), inequality));
+    for (place, &inequality) in all.chain(walls.iter().map(|wall| (None, wall))) {
+        let value = inequality.row.dot(point) + inequality.constant;
+        // A value that is no number is taken for a violation, which ends in `Lost`.
+        if value.is_nan() {
+            return Some(Active { inequality, place });
+        }
+        if value < worst.0 && value < -TOLERANCE * (1.0 + inequality.row.abs().dot(&size)) {
+            worst = (value, Some(Active { inequality, place }));
         }
     }
     worst.1

@@ -6,8 +6,10 @@
 
 mod crushing;
 mod linear_program;
+mod non_dilating;
 mod static_theorem;
 
 pub use crushing::CrushingWindow;
-pub use linear_program::{Beat, unwatched};
+pub use linear_program::{Beat, Row, unwatched};
+pub use non_dilating::{Release, cheapest_motion, releases};
 pub use static_theorem::{Condition, Equilibrium, Resultant, StaticTheorem, Unsolved};

@@ -184,7 +184,7 @@ impl StaticTheorem {
         Some(self.equilibrium(Row::from_fn(|i, _| x[i])))
     }
 
-    fn equilibrium(&self, unknowns: Row) -> Equilibrium {
+    pub(super) fn equilibrium(&self, unknowns: Row) -> Equilibrium {
         Equilibrium { unknowns, load_factor: unknowns[3] * self.factor }
     }
 

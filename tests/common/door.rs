@@ -43,5 +43,5 @@ pub fn problem(analysis: &Analysis) -> Problem {
     }
     let push = |f: &PointForce| Push { block: f.voussoir, at: f.at.into(), force: f.force.into() };
     let pushes = |forces: &[PointForce]| forces.iter().map(push).collect();
-    Problem { seams, fixed: pushes(&analysis.fixed), scaled: pushes(&analysis.scaled), strength: None }
+    Problem { seams, fixed: pushes(&analysis.fixed), scaled: pushes(&analysis.scaled), ..Problem::default() }
 }

@@ -3,14 +3,18 @@
 
 pub mod dice;
 pub mod door;
+pub mod exhaustive;
 pub mod falling;
 pub mod field;
 pub mod folders;
+pub mod full_solution;
 pub mod masonry;
 pub mod motion;
 pub mod oracle;
 pub mod random_arch;
 pub mod random_profile;
+pub mod sliding;
+pub mod sliding_arch;
 pub mod table;
 pub mod verify;
 pub mod wire;

@@ -60,6 +60,17 @@ pub struct Problem {
     pub scaled: Vec<Push>,
     /// Compressive strength of every dry joint as a plastic section, none if it never crushes.
     pub strength: Option<f64>,
+    /// Joints that are held to their limits.
+    pub limits: Vec<(usize, Limit)>,
+}
+
+/// What a joint that moves without dilating is held to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Limit {
+    /// No force at the intrados (0) or at the extrados (1).
+    NoForce(usize),
+    /// Shear on the block after the joint at friction times normal force, with this sign.
+    Shear(f64),
 }
 
 /// What is sought.
@@ -108,7 +119,7 @@ impl Problem {
     pub fn at(&self, factor: f64) -> Problem {
         let mut fixed = self.fixed.clone();
         fixed.extend(self.scaled.iter().map(|p| Push { force: p.force.map(|f| f * factor), ..*p }));
-        Problem { seams: self.seams.clone(), fixed, scaled: Vec::new(), strength: self.strength }
+        Problem { fixed, scaled: Vec::new(), ..self.clone() }
     }
 
     /// How far the arch is from standing at some load factor, as a share of the sum of its fixed forces: the least tension (and

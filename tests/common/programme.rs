@@ -1,6 +1,6 @@
 //! The rows of the oracle's linear programme.
 
-use super::{Aim, Bond, Point, Problem, Push, distance, unit_vectors};
+use super::{Aim, Bond, Limit, Point, Problem, Push, distance, unit_vectors};
 
 /// Units in which the numbers are of order one.
 pub struct Scale {
@@ -39,6 +39,7 @@ impl Programme {
         let unknowns = 3 * joints + usize::from(scale.with_factor) + usize::from(scale.with_give);
         let mut programme = Programme { cost: vec![0.0; unknowns], ..Programme::default() };
         programme.equilibrium(problem, scale);
+        programme.limits(problem);
         programme.equations = programme.right.len();
         programme.conditions(problem, scale);
         programme.strengths(problem, scale);
@@ -93,6 +94,22 @@ impl Programme {
                 }
                 self.right.push(-fixed[row] / scale.force);
             }
+        }
+    }
+
+    /// Equations of the joints that are held to their limits; their cohesion is taken for none.
+    fn limits(&mut self, problem: &Problem) {
+        for &(joint, limit) in &problem.limits {
+            let Bond::Dry { friction, .. } = problem.seams[joint].bond else { continue };
+            match limit {
+                Limit::NoForce(corner) => self.entry(3 * joint + corner, 1.0),
+                Limit::Shear(sign) => {
+                    self.entry(3 * joint, -friction);
+                    self.entry(3 * joint + 1, -friction);
+                    self.entry(3 * joint + 2, sign);
+                }
+            }
+            self.right.push(0.0);
         }
     }
 

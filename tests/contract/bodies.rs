@@ -35,7 +35,8 @@ fn arch() -> Value {
         },
         "stone": {
             "density_kg_m3": 2000, "youngs_modulus_pa": 2e9, "poissons_ratio": 0.2, "friction_angle_deg": 35,
-            "cohesion_pa": 10, "compressive_strength_pa": 2e7, "plane": "strain", "penalty_ratio": 5
+            "cohesion_pa": 10, "compressive_strength_pa": 2e7, "plane": "strain", "penalty_ratio": 5,
+            "shear_penalty_ratio": 2
         },
         "joint_overrides": [{"joint": 6, "friction_angle_deg": 20, "cohesion_pa": 5}],
         "mesh": {"subblocks": {"uniform": {"radial": 2, "along": 3}}, "seams": "split"},

@@ -69,6 +69,7 @@ fn analysis_is_finite(analysis: &Analysis) -> bool {
         stone.cohesion,
         stone.compressive_strength,
         analysis.penalty_ratio,
+        analysis.shear_penalty_ratio,
         analysis.cap.unwrap_or(0.0),
         analysis.share,
     ];

@@ -96,6 +96,7 @@ fn collapse_facts(result: &AnalysisResult) -> Vec<(&'static str, String)> {
         if matches!(result.outcome, OutcomeWord::Collapse | OutcomeWord::CannotTell) {
             lines.push(("intensity", wording::intensity(result, collapse)));
             lines.push(("load factor", Digits(collapse.load_factor).to_string()));
+            lines.extend(wording::sliding_range(collapse, wording::unit(result)).map(|range| ("range", range)));
         }
         if result.outcome != OutcomeWord::StandsInWindow {
             lines.push(("mode", word(&collapse.mode)));

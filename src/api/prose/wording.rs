@@ -81,9 +81,23 @@ pub fn headline(result: &AnalysisResult) -> String {
 fn reached(result: &AnalysisResult, collapse: &Collapse) -> String {
     let at = intensity(result, collapse);
     let times = Digits(collapse.load_factor.abs());
+    let range = sliding_range(collapse, unit(result)).map(|range| format!(" ({range})")).unwrap_or_default();
     match collapse.load_factor < 0.0 {
-        false => format!("at {at}"),
-        true => format!("at {at}, that is with its scaled loads reversed and {times} times as large"),
+        false => format!("at {at}{range}"),
+        true => format!("at {at}{range}, that is with its scaled loads reversed and {times} times as large"),
+    }
+}
+
+/// From where to where the load may lie where joints slide, unless both ends are the same.
+pub fn sliding_range(collapse: &Collapse, unit: &str) -> Option<String> {
+    let range = collapse.range.as_ref()?;
+    let least = Digits(range.least);
+    match range.greatest {
+        Some(greatest) if Digits(greatest).to_string() == least.to_string() => None,
+        Some(greatest) => {
+            Some(format!("joints slide: the load may lie anywhere from {least} to {} {unit}", Digits(greatest)))
+        }
+        None => Some(format!("joints slide: the load may lie anywhere from {least} {unit} upwards")),
     }
 }
 

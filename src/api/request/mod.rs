@@ -117,6 +117,9 @@ pub struct StoneRequest {
     /// Contact penalty as a multiple of Young's modulus, a pure number.
     #[schema(minimum = 0.01, maximum = 100.0)]
     pub penalty_ratio: f64,
+    /// Tangential contact penalty as a multiple of the normal one, a pure number.
+    #[schema(minimum = 0.01, maximum = 100.0)]
+    pub shear_penalty_ratio: f64,
 }
 
 impl Default for StoneRequest {
@@ -132,6 +135,7 @@ impl Default for StoneRequest {
             compressive_strength_pa: stone.compressive_strength,
             plane: PlaneRequest::Stress,
             penalty_ratio: DEFAULT_PENALTY_RATIO,
+            shear_penalty_ratio: 1.0,
         }
     }
 }

@@ -3,19 +3,21 @@
 use super::columns::{ThrustColumns, VelocityColumns};
 use super::words::{FaceWord, GovernedBy, ModeWord};
 use super::{Scale, words};
-use crate::collapse::{Hinge, LimitWindow, PathEnd, Slide};
+use crate::collapse::{Hinge, LimitWindow, LoadRange, PathEnd, Slide};
 use serde::Serialize;
 use utoipa::ToSchema;
 
 /// The collapse in one object.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct Collapse {
-    /// Collapse intensity: `load_factor` times the request's intensity per unit of it.
+    /// Collapse intensity: `load_factor` times the request's intensity per unit of it; where joints slide, the least of `range`.
     pub intensity: f64,
     /// Its unit.
     pub unit: String,
     /// Load factor at collapse.
     pub load_factor: f64,
+    /// From where to where the collapse intensity may lie, because joints slide; null where none does.
+    pub range: Option<RangeBody>,
     /// Largest equilibrium residual of any stone at any event, as a share of the arch's weight, or of the
     /// largest load at a point where that is more.
     pub residual: f64,
@@ -25,6 +27,27 @@ pub struct Collapse {
     pub mode: ModeWord,
     /// What ends the load path.
     pub governed_by: GovernedBy,
+}
+
+/// From where to where the collapse intensity of an arch whose joints slide may lie, seen from the start of the load path.
+/// Joints that slide without dilating have many loads at which a mechanism is in equilibrium; stiffness of the joints and
+/// order of loading pick one.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub struct RangeBody {
+    /// Least intensity found at which a mechanism without dilation is in equilibrium. It governs.
+    pub least: f64,
+    /// End of the limit window, in which sliding joints dilate (associated friction): no more is possible. Null where unbounded.
+    pub greatest: Option<f64>,
+    /// Intensity at which this load path ended.
+    pub path: f64,
+    /// `least` as a load factor.
+    pub least_load_factor: f64,
+    /// `greatest` as a load factor.
+    pub greatest_load_factor: Option<f64>,
+    /// `path` as a load factor.
+    pub path_load_factor: f64,
+    /// How many mechanisms were tried for the least.
+    pub mechanisms_tried: usize,
 }
 
 /// A joint pressed at one face and opening at the other.
@@ -77,6 +100,7 @@ impl End {
                 intensity: scale.intensity(end.load_factor),
                 unit: scale.unit.to_owned(),
                 load_factor: end.load_factor,
+                range: end.range.as_ref().map(|range| RangeBody::new(range, scale)),
                 residual: end.residual,
                 limit_window: window.map(|window| scale.window(window)),
                 mode: end.mechanism.mode.into(),
@@ -86,6 +110,21 @@ impl End {
             slides: end.mechanism.slides.iter().map(SlideBody::from).collect(),
             thrust_line: ThrustColumns::new(&end.thrust_line),
             velocities: VelocityColumns::new(&end.mechanism.velocities),
+        }
+    }
+}
+
+impl RangeBody {
+    fn new(range: &LoadRange, scale: &Scale<'_>) -> Self {
+        let greatest = Some(range.greatest).filter(|greatest| greatest.is_finite());
+        RangeBody {
+            least: scale.intensity(range.least),
+            greatest: greatest.map(|greatest| scale.intensity(greatest)),
+            path: scale.intensity(range.path),
+            least_load_factor: range.least,
+            greatest_load_factor: greatest,
+            path_load_factor: range.path,
+            mechanisms_tried: range.mechanisms_tried,
         }
     }
 }

@@ -103,6 +103,7 @@ impl<'a> Site<'a> {
             stone: self.stone,
             plane: request.stone.plane.into(),
             penalty_ratio: request.stone.penalty_ratio,
+            shear_penalty_ratio: request.stone.shear_penalty_ratio,
             direction: request.load_factor.direction.into(),
             cap: request.load_factor.cap,
             method: self.method,

@@ -19,9 +19,12 @@ pub fn stone(request: &StoneRequest, faults: &mut Faults) -> Stone {
     let rule = "the strength is in Pa, from 1e3 to 1e30, and 10 MPa is 1e7";
     faults.in_range(strong, "/stone/compressive_strength_pa", strength, rule);
     let [softest, stiffest] = PENALTY_RATIO;
-    let ratio = request.penalty_ratio;
     let rule = format!("it must be from {softest} to {stiffest}");
-    faults.in_range((softest..=stiffest).contains(&ratio), "/stone/penalty_ratio", ratio, &rule);
+    for (name, ratio) in
+        [("penalty_ratio", request.penalty_ratio), ("shear_penalty_ratio", request.shear_penalty_ratio)]
+    {
+        faults.in_range((softest..=stiffest).contains(&ratio), format!("/stone/{name}"), ratio, &rule);
+    }
     Stone {
         // A wrong density is one fault, not one for every load that it makes vanish.
         density: if weighs { request.density_kg_m3 } else { Stone::default().density },

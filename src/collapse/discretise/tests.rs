@@ -24,6 +24,7 @@ fn semicircle(n: usize, subblocks: [usize; 2], curved: bool) -> Analysis {
         stone: Stone::default(),
         plane: PlaneModel::Stress,
         penalty_ratio: 10.0,
+        shear_penalty_ratio: 1.0,
         fixed: Vec::new(),
         scaled: Vec::new(),
         direction: Direction::Increase,

@@ -1,0 +1,135 @@
+//! One leg of a load path: followed to its end, and the end held against the limit window.
+
+use super::{Progress, Question};
+use crate::collapse::certificate::{LATER_MECHANISM, fixed_steps_note, range_note};
+use crate::collapse::discretise::Model;
+use crate::collapse::doubt::Doubt;
+use crate::collapse::ending::{self, Ending};
+use crate::collapse::path::{Leg, follow};
+use crate::collapse::record::{MOST_STEPS, Recorder, snapshot};
+use crate::collapse::sliding::{SAME, Search};
+use crate::collapse::{AnalysisError, CollapseReport, Cost, LoadRange, Method, Outcome};
+use crate::dda::Tracer;
+
+impl Question<'_> {
+    /// Follows the path one way and writes down what was seen; returns a doubt where path and certificate disagree.
+    pub(super) fn leg(
+        &self,
+        report: &mut CollapseReport,
+        model: &Model,
+        tracer: &mut Tracer,
+        fixed: &[f64],
+        sign: f64,
+        progress: &mut Progress,
+    ) -> Result<Option<Doubt>, AnalysisError> {
+        let analysis = self.analysis;
+        let mut recorder = Recorder::new(model, analysis, [self.start, sign]);
+        let before = Cost::of(tracer);
+        let leg = follow(tracer, fixed, self.cap, &mut recorder, progress);
+        report.cost.add(tracer, before);
+        report.at_unit_load = recorder.at(1.0).map(|d| snapshot(model, 1.0, d)).transpose()?;
+        if let Some(crushing) = &mut report.crushing {
+            crushing.elastic = Some(recorder.first_yield());
+        }
+        let residual = tracer.worst_residual();
+        let mut peak_load = None;
+        let (ending, turned_back) = match leg {
+            Leg::Stopped => return Err(self.pulse.stopped()),
+            Leg::TooManySteps => return Err(AnalysisError::TooManySteps { most: MOST_STEPS }),
+            Leg::Lost => return Ok(Some(Doubt::Lost)),
+            Leg::Endless => {
+                report.add_fields(analysis, model, &recorder, None)?;
+                report.history = recorder.history;
+                report.outcome = Outcome::NeverCollapses;
+                return Ok(self.certificate.endless(sign, self.cap).or(self.certificate.standing_doubt(residual)));
+            }
+            Leg::Criterion(at) => {
+                let end = ending::at_criterion(analysis, model, recorder.displacements(), at, residual);
+                (Ending { end, later: false, at_limits: Vec::new() }, false)
+            }
+            Leg::Peak(peak, fall) => {
+                let theorem = &self.certificate.theorem;
+                let mut ending = ending::at_peak(analysis, model, theorem, &peak, &fall, sign, residual);
+                self.pulse.check()?;
+                peak_load = Some(ending.end.load_factor);
+                ending.end.load_factor = self.read_off(ending.end.load_factor, sign);
+                (ending, fall.turned_back)
+            }
+        };
+        let near = recorder.near(peak_load.unwrap_or(ending.end.load_factor));
+        report.near_collapse = near.as_ref().map(|(factor, d)| snapshot(model, *factor, d)).transpose()?;
+        report.add_fields(analysis, model, &recorder, near.as_ref())?;
+        report.history = recorder.history;
+        let doubt = self.conclude(report, ending, sign, turned_back)?;
+        Ok(doubt.or(self.certificate.standing_doubt(residual)))
+    }
+
+    /// Writes down a collapse, held against the limit window.
+    fn conclude(
+        &self,
+        report: &mut CollapseReport,
+        mut ending: Ending,
+        sign: f64,
+        turned_back: bool,
+    ) -> Result<Option<Doubt>, AnalysisError> {
+        let path = ending.end.load_factor;
+        let doubt = match self.analysis.method {
+            Method::FixedSteps { step, .. } => {
+                report.notes.push(fixed_steps_note(step, self.certificate.end(sign).unwrap_or(0.0)));
+                None
+            }
+            Method::EventPath => {
+                self.take_least(&mut ending, sign)?;
+                match self.certificate.compare(&ending.end, sign) {
+                    Err(doubt) => Some(doubt),
+                    Ok(short) => (turned_back && short && ending.later).then_some(Doubt::TurnedBack(path)),
+                }
+            }
+        };
+        report.notes.extend(ending.later.then(|| LATER_MECHANISM.into()));
+        report.notes.extend(ending.end.range.as_ref().map(range_note));
+        report.outcome = Outcome::Collapse;
+        report.end = Some(ending.end);
+        Ok(doubt)
+    }
+
+    /// Where joints slide, takes the least load at which they let the arch fall for the end.
+    fn take_least(&self, ending: &mut Ending, sign: f64) -> Result<(), AnalysisError> {
+        let (analysis, theorem) = (self.analysis, &self.certificate.theorem);
+        let Ending { end, later, at_limits } = ending;
+        let (mut path, greatest) = (end.load_factor, self.certificate.end(sign).unwrap_or(0.0));
+        let search = Search { analysis, theorem, pulse: self.pulse, start: self.start, sign };
+        at_limits.extend(search.at_window_end(greatest));
+        let (found, mechanisms_tried) = search.least(at_limits);
+        self.pulse.check()?;
+        let slides = found.filter(|found| !found.mechanism.slides.is_empty());
+        if let Some(found) = slides.filter(|found| !search.is_beyond(found.load_factor, path, ending::POLISH)) {
+            // A path that nothing polished carries the disturbance of its attempt: what is as near is the same load.
+            if !search.is_beyond(path, found.load_factor, ending::POLISH) {
+                path = found.load_factor;
+            }
+            // The path's own mechanism is the smallest motion of its joints, where it has one at its peak.
+            if search.is_beyond(path, found.load_factor, SAME) || *later {
+                end.mechanism = found.mechanism;
+                end.thrust_line = ending::thrust_line(&analysis.arch, &found.forces);
+                *later = false;
+            }
+            end.load_factor = found.load_factor;
+        }
+        if !end.mechanism.slides.is_empty() {
+            end.range = Some(LoadRange { least: end.load_factor, greatest, path, mechanisms_tried });
+        }
+        Ok(())
+    }
+
+    /// The collapse load as the method reads it: exact, or the first whole step beyond.
+    fn read_off(&self, load_factor: f64, sign: f64) -> f64 {
+        match self.analysis.method {
+            Method::EventPath => load_factor,
+            Method::FixedSteps { step, .. } => {
+                let steps = ((load_factor - self.start).abs() / step).floor() + 1.0;
+                self.start + sign * steps * step
+            }
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! Mechanisms of sliding joints that do not dilate, and the loads at which their forces are admissible.
+//!
+//! Limit analysis lets a sliding joint open as it slides (associated friction); masonry does not. Without dilation a
+//! mechanism is a full solution wherever the joints that move are at their limits and all others are admissible: no force at
+//! the end that opens, shear at its bound against the motion. These are linear conditions on the four unknowns of the
+//! static theorem, and what they leave open is a whole range of load factors. Its least value is a linear programme.
+
+use super::linear_program::{Beat, Inequality, Optimum, Row, UNKNOWNS, maximise, multipliers_at_optimum};
+use super::static_theorem::{Equilibrium, Resultant, StaticTheorem, Unsolved};
+use crate::arch::{Face, Joint, JointLaw};
+
+/// Rates below this share of the fastest are none.
+const MOVES: f64 = 1e-9;
+
+/// A relative motion that a joint at its limit allows, of unit rate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Release {
+    /// Rotation about the end on this face, which opens the other.
+    Rotation(Face),
+    /// Sliding of the stone after the joint, +1 towards the extrados, -1 towards the intrados.
+    Sliding(f64),
+}
+
+/// What a joint that carries `forces` lets happen; `at_limit` is the share of its force below which a corner's is none, and
+/// within which its shear is at capacity.
+pub fn releases(joint: &Joint, forces: &Resultant, at_limit: f64) -> Vec<Release> {
+    let (friction, cohesion) = match joint.law {
+        JointLaw::Dry { friction, cohesion } => (friction, cohesion),
+        JointLaw::Mirror => return vec![Release::Sliding(1.0), Release::Sliding(-1.0)],
+        JointLaw::Bonded => return Vec::new(),
+    };
+    let normal = forces.normal();
+    let scale = at_limit * normal.abs().max(forces.shear.abs());
+    let capacity = friction * normal + cohesion * joint.length();
+    let corners = [(Face::Intrados, forces.extrados), (Face::Extrados, forces.intrados)];
+    let rotations = corners.into_iter().filter(|(_, force)| *force <= scale).map(|(face, _)| Release::Rotation(face));
+    // The shear on the stone after the joint opposes its sliding.
+    let slides = [1.0, -1.0].into_iter().filter(|sign| capacity + sign * forces.shear <= scale).map(Release::Sliding);
+    rotations.chain(slides).collect()
+}
+
+impl StaticTheorem {
+    /// The equilibrium of the smallest load factor from `start` on, in the direction of `sign`, at which the joints that
+    /// `moving` names are at those limits and every other is admissible; None where there is none.
+    ///
+    /// An end that opens carries nothing, and takes the joint's cohesion with it.
+    ///
+    /// # Errors
+    /// When rounding, or `beat`, kept the linear programme from an answer.
+    pub fn least_load(
+        &self,
+        moving: &[(usize, Release)],
+        start: f64,
+        sign: f64,
+        beat: Beat,
+    ) -> Result<Option<Equilibrium>, Unsolved> {
+        let mut inequalities = self.inequalities.clone();
+        for &(joint, release) in moving {
+            let turns =
+                |&(other, release): &(usize, Release)| other == joint && matches!(release, Release::Rotation(_));
+            self.add_limits(joint, release, moving.iter().any(turns), &mut inequalities);
+        }
+        inequalities.push(Inequality { row: Row::new(0.0, 0.0, 0.0, sign), constant: -sign * start / self.factor });
+        match maximise(Row::new(0.0, 0.0, 0.0, -sign), &inequalities, beat) {
+            Optimum::At(_, unknowns) => Ok(Some(self.equilibrium(unknowns))),
+            Optimum::Infeasible => Ok(None),
+            Optimum::Unbounded(_) | Optimum::Lost => Err(Unsolved),
+        }
+    }
+
+    /// What `joint` at the limit of `release` is held to; `turns`: some end of it opens.
+    fn add_limits(&self, joint: usize, release: Release, turns: bool, inequalities: &mut Vec<Inequality>) {
+        let JointLaw::Dry { friction, cohesion } = self.joints[joint].law else { return };
+        let [intrados, extrados, shear] = self.forces[joint];
+        let adhesion = if turns { 0.0 } else { cohesion * self.joints[joint].length() };
+        // Capacity left when the stone after the joint slides the way of `sign`, which the shear opposes.
+        let left = |sign: f64| {
+            let row = (intrados.0 + extrados.0) * friction + shear.0 * sign;
+            (row, (intrados.1 + extrados.1) * friction + shear.1 * sign + adhesion)
+        };
+        let mut hold = |(row, constant): (Row, f64), signs: &[f64]| {
+            let norm = row.norm();
+            inequalities
+                .extend(signs.iter().map(|s| Inequality { row: row * (s / norm), constant: constant * s / norm }));
+        };
+        match release {
+            Release::Rotation(face) => {
+                hold(if face == Face::Intrados { extrados } else { intrados }, &[-1.0]);
+                if cohesion > 0.0 {
+                    hold(left(1.0), &[1.0]);
+                    hold(left(-1.0), &[1.0]);
+                }
+            }
+            Release::Sliding(sign) => hold(left(sign), &[-1.0]),
+        }
+    }
+}
+
+/// Rates x >= 0 of least cost, the costs being positive, at which the `columns` (closure of the chain and power, per unit
+/// rate) add up to no gap and power 1: a corner of all such motions, with at most four rates that are not zero. None where
+/// there is no motion, or `beat` broke.
+///
+/// The dual asks for the largest y_4 with a . y <= cost for every column a: a programme in four unknowns again, whose
+/// multipliers are the rates.
+pub fn cheapest_motion(columns: &[Row], costs: &[f64], beat: Beat) -> Option<Vec<f64>> {
+    let size = |column: &Row| column.norm();
+    let half_space =
+        |(column, cost): (&Row, &f64)| Inequality { row: -column / size(column), constant: cost / size(column) };
+    let dual: Vec<Inequality> = columns.iter().zip(costs).map(half_space).collect();
+    let rates = multipliers_at_optimum(Row::ith(UNKNOWNS - 1, 1.0), &dual, beat)?;
+    let rates: Vec<f64> = rates.iter().zip(columns).map(|(rate, column)| rate / size(column)).collect();
+    let fastest = rates.iter().copied().fold(0.0, f64::max);
+    Some(rates.into_iter().map(|rate| if rate > MOVES * fastest { rate } else { 0.0 }).collect())
+}
