@@ -290,17 +290,4 @@ mod tests {
             None
         );
     }
-
-    #[test]
-    fn sliding_follows_the_shear() {
-        let arch = semicircle(4);
-        let mut all = resultants(4, &[]);
-        // Shear up to the limit at the two haunch joints, the middle stones being pushed down between them.
-        (all[1].shear, all[3].shear) = (1.4, -1.4);
-        (all[0].shear, all[4].shear) = (0.0, 0.0);
-        let slides = |r: &[Resultant], k: usize| joint_releases(&arch, k, &r[k], None, 1e-8);
-        assert_eq!(slides(&all, 1), vec![(1, Release::Sliding(-1.0))]);
-        assert_eq!(slides(&all, 3), vec![(3, Release::Sliding(1.0))]);
-        assert_eq!(slides(&all, 0), vec![]);
-    }
 }

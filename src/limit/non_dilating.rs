@@ -112,3 +112,6 @@ pub fn cheapest_motion(columns: &[Row], costs: &[f64], beat: Beat) -> Option<Vec
     let fastest = rates.iter().copied().fold(0.0, f64::max);
     Some(rates.into_iter().map(|rate| if rate > MOVES * fastest { rate } else { 0.0 }).collect())
 }
+
+#[cfg(test)]
+mod tests;

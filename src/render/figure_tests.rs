@@ -60,7 +60,8 @@ fn example(n: usize, hinges: [usize; 4], mirror: bool) -> (Arch, PathEnd) {
         slides: vec![Slide { joint: n, rate: 0.1 }],
         velocities: velocities.collect(),
     };
-    let end = PathEnd { load_factor: 1.0, residual: 0.0, mechanism, thrust_line: (0..=n).map(thrust).collect() };
+    let end =
+        PathEnd { load_factor: 1.0, range: None, residual: 0.0, mechanism, thrust_line: (0..=n).map(thrust).collect() };
     if mirror { mirrored(arch, end) } else { (arch, end) }
 }
 

@@ -1,0 +1,113 @@
+use super::super::linear_program::unwatched;
+use super::*;
+use crate::arch::{Arch, PointForce, Sides, Voussoir};
+use crate::geometry::{Region, Vec2};
+
+const FRICTION: f64 = 0.5;
+
+fn joint(x: f64, law: JointLaw) -> Joint {
+    Joint { intrados: Vec2::new(x, 0.0), extrados: Vec2::new(x, 1.0), law }
+}
+
+/// One stone of 1 m x 1 m between two upright walls: 100 N press it down, and scaled loads push it down.
+fn wedged(cohesion: f64) -> StaticTheorem {
+    let law = JointLaw::Dry { friction: FRICTION, cohesion };
+    let joints = vec![joint(0.0, law), joint(1.0, law)];
+    let corners = [joints[0].extrados, joints[0].intrados, joints[1].intrados, joints[1].extrados];
+    let voussoirs = vec![Voussoir { region: Region::polygon(&corners), sides: Sides::Straight }];
+    let arch = Arch { voussoirs, joints, abutments: [None, None], half: false, angle_centre: Vec2::zeros() };
+    let push = |force: f64| {
+        vec![PointForce { voussoir: 0, at: Vec2::new(0.5, 0.5), force: Vec2::new(0.0, -force), spread: false }]
+    };
+    StaticTheorem::new(&arch, &push(100.0), &push(1.0))
+}
+
+fn forces(intrados: f64, extrados: f64, shear: f64) -> Resultant {
+    Resultant { intrados, extrados, shear }
+}
+
+#[test]
+fn a_joint_at_its_limits_lets_go_what_it_can_no_longer_hold() {
+    use Release::{Rotation, Sliding};
+    let dry = joint(0.0, JointLaw::Dry { friction: FRICTION, cohesion: 10.0 });
+    let of = |joint: &Joint, n: [f64; 2], shear: f64| releases(joint, &forces(n[0], n[1], shear), 1e-9);
+    assert_eq!(of(&dry, [50.0, 50.0], 59.0), vec![]);
+    // The shear on the stone after the joint opposes its sliding.
+    assert_eq!(of(&dry, [50.0, 50.0], 60.0), vec![Sliding(-1.0)]);
+    assert_eq!(of(&dry, [50.0, 50.0], -60.0), vec![Sliding(1.0)]);
+    assert_eq!(of(&dry, [100.0, 0.0], 0.0), vec![Rotation(Face::Intrados)]);
+    assert_eq!(of(&dry, [0.0, 100.0], 60.0), vec![Rotation(Face::Extrados), Sliding(-1.0)]);
+    assert_eq!(of(&joint(0.0, JointLaw::Bonded), [0.0, 0.0], 0.0), vec![]);
+    assert_eq!(of(&joint(0.0, JointLaw::Mirror), [9.0, 9.0], 0.0).len(), 2);
+}
+
+/// A stone that slides down between two walls may be wedged as little as not at all: then only the cohesion of both joints
+/// holds it. Limit analysis, in which the slides push the walls apart, knows no end.
+#[test]
+fn the_least_load_of_a_stone_between_two_walls_is_that_without_thrust() {
+    for cohesion in [100.0, 150.0] {
+        let theorem = wedged(cohesion);
+        let [_, highest] = theorem.window(&unwatched).unwrap().unwrap();
+        assert_eq!(highest, f64::INFINITY);
+        // The stone after joint 0 goes down: towards the intrados; the wall after joint 1 stays, so that it goes up against it.
+        let moving = [(0, Release::Sliding(-1.0)), (1, Release::Sliding(1.0))];
+        let least = theorem.least_load(&moving, 0.0, 1.0, &unwatched).unwrap().unwrap();
+        assert!((least.load_factor - (2.0 * cohesion - 100.0)).abs() < 1e-9, "{least:?}");
+        let [left, right] = theorem.resultants(&least)[..] else { panic!() };
+        assert!((left.shear - cohesion).abs() < 1e-9 && (right.shear + cohesion).abs() < 1e-9);
+        // From a start beyond it, the start itself is the least: there the stone is wedged.
+        let later = theorem.least_load(&moving, 500.0, 1.0, &unwatched).unwrap().unwrap();
+        assert!((later.load_factor - 500.0).abs() < 1e-9);
+        // Sliding up has no admissible forces at a load that pushes down.
+        let up = [(0, Release::Sliding(1.0)), (1, Release::Sliding(-1.0))];
+        assert_eq!(theorem.least_load(&up, 0.0, 1.0, &unwatched).unwrap(), None);
+    }
+}
+
+#[test]
+fn an_end_that_opens_takes_the_cohesion_of_its_joint_with_it() {
+    let theorem = wedged(150.0);
+    // Both joints open at the extrados as the stone slides down: friction alone holds it.
+    let moving = [
+        (0, Release::Sliding(-1.0)),
+        (0, Release::Rotation(Face::Intrados)),
+        (1, Release::Sliding(1.0)),
+        (1, Release::Rotation(Face::Intrados)),
+    ];
+    let least = theorem.least_load(&moving, 0.0, 1.0, &unwatched).unwrap().unwrap();
+    for forces in theorem.resultants(&least) {
+        assert!(forces.extrados.abs() < 1e-9 && (forces.shear.abs() - FRICTION * forces.intrados).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn the_cheapest_motion_is_the_cheapest_of_all_corners() {
+    // Six releases, two more than a corner has: all corners are tried by solving for every four.
+    let columns: Vec<Row> =
+        [(1.0, 2.0, 0.3), (-1.0, 0.5, 0.6), (0.4, -1.5, -0.2), (-0.7, -0.8, 0.9), (1.3, 0.1, -0.5), (-0.9, 1.1, 0.7)]
+            .iter()
+            .enumerate()
+            .map(|(i, &(x, y, power))| Row::new(x, y, if i % 2 == 0 { 1.0 } else { -1.0 }, power))
+            .collect();
+    let target = Row::new(0.0, 0.0, 0.0, 1.0);
+    for costs in [[1.0; 6], [0.2, 1.0, 3.0, 0.5, 2.0, 0.1], [3.0, 0.1, 1.0, 1.0, 0.2, 2.0]] {
+        let cost = |rates: &[f64]| rates.iter().zip(&costs).map(|(rate, cost)| rate * cost).sum::<f64>();
+        let mut cheapest = f64::INFINITY;
+        for left_out in 0..6 {
+            for other in left_out + 1..6 {
+                let four: Vec<usize> = (0..6).filter(|&i| i != left_out && i != other).collect();
+                let matrix = nalgebra::Matrix4::from_fn(|i, j| columns[four[j]][i]);
+                let Some(rates) = matrix.lu().solve(&target).filter(|rates| rates.min() >= 0.0) else { continue };
+                let all: Vec<f64> =
+                    (0..6).map(|i| four.iter().position(|&k| k == i).map_or(0.0, |j| rates[j])).collect();
+                cheapest = cheapest.min(cost(&all));
+            }
+        }
+        let rates = cheapest_motion(&columns, &costs, &unwatched).unwrap();
+        let sum = columns.iter().zip(&rates).fold(Row::zeros(), |sum, (column, rate)| sum + column * *rate);
+        assert!((sum - target).norm() < 1e-9 && rates.iter().all(|&rate| rate >= 0.0));
+        assert!(rates.iter().filter(|&&rate| rate > 0.0).count() <= 4);
+        assert!((cost(&rates) - cheapest).abs() < 1e-9, "{rates:?}, cheapest {cheapest}");
+    }
+    assert_eq!(cheapest_motion(&columns[..2], &[1.0; 2], &unwatched), None);
+}
