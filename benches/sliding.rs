@@ -1,13 +1,14 @@
 //! Where joints slide: the least load found against every variant of the path, and against every mechanism of small arches.
 //!
-//! `cargo bench --bench sliding -- [count] [first seed]`, by default 1000 0; or `... -- look SEED` for a request.
+//! `cargo bench --bench sliding -- [count] [first seed] [any]`, by default 1000 0: arches of few stones and little friction, or
+//! arches of every kind; or `... -- look SEED` for a request.
 #![allow(clippy::print_stdout, clippy::disallowed_methods, missing_docs)]
 
 #[path = "../tests/common/mod.rs"]
 mod common;
 
 use common::sliding::{Checked, SAME, check};
-use common::sliding_arch;
+use common::{random_arch, sliding_arch};
 use std::time::Instant;
 
 fn main() {
@@ -16,10 +17,14 @@ fn main() {
     if arguments.first().is_some_and(|word| word == "look") {
         return println!("{}", sliding_arch::request(number(1, 0)));
     }
+    // Few stones and little friction; or arches of every kind.
+    let request =
+        if arguments.get(2).is_some_and(|word| word == "any") { random_arch::request } else { sliding_arch::request };
     let (count, first) = (number(0, 1000), number(1, 0));
     let start = Instant::now();
-    let all: Vec<(u64, Checked)> =
-        (first..first + count).flat_map(|seed| check(seed).into_iter().map(move |checked| (seed, checked))).collect();
+    let all: Vec<(u64, Checked)> = (first..first + count)
+        .flat_map(|seed| check(&request(seed)).into_iter().map(move |checked| (seed, checked)))
+        .collect();
     let of = |test: &dyn Fn(&Checked) -> bool| all.iter().filter(|(_, checked)| test(checked)).count();
     let slide = of(&|c| c.slides);
     let below = |a: f64, b: f64| (a - b).abs() > SAME * b.abs();

@@ -68,9 +68,9 @@ pub struct AnalysisResult {
     pub start_load_factor: f64,
     /// Largest absolute load factor that was tried.
     pub cap: f64,
-    /// Share of the way to collapse at which `near_collapse` was taken.
+    /// Share of the way to the end of the load path at which `near_collapse` was taken.
     pub share: f64,
-    /// The arch just before collapse.
+    /// The arch just before the end of the load path; where joints slide, that may lie beyond the collapse intensity.
     pub near_collapse: Option<SnapshotBody>,
     /// The arch at load factor 1, where the path passes it.
     pub at_unit_load: Option<SnapshotBody>,

@@ -238,8 +238,8 @@ pub(super) fn range_note(range: &LoadRange) -> String {
     if (greatest - least).abs() <= AGREES * greatest.abs().max(least.abs()) {
         return format!(
             "Joints slide. Load factor {least_shown} is the only one found at which the arch falls: limit analysis, which lets \
-             sliding joints dilate (associated friction), allows no more, and of {mechanisms_tried} mechanisms without \
-             dilation none is in equilibrium at less."
+             sliding joints dilate (associated friction), allows no more, and no mechanism without dilation was found in \
+             equilibrium at less ({mechanisms_tried} tried)."
         );
     }
     let bound = if greatest.is_finite() {
@@ -252,7 +252,7 @@ pub(super) fn range_note(range: &LoadRange) -> String {
     format!(
         "Joints slide without dilating, so the load at which the arch falls is not one number: it depends on the stiffness of \
          the joints and the order of loading. Load factor {least_shown} is the least found at which a mechanism without \
-         dilation is in equilibrium ({mechanisms_tried} mechanisms were tried); {bound}. This load path ended at {path_shown}. \
+         dilation is in equilibrium ({mechanisms_tried} tried); {bound}. This load path ended at {path_shown}. \
          Use {least_shown}."
     )
 }

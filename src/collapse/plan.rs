@@ -93,8 +93,8 @@ fn with_mesh(analysis: &Analysis, subblocks: Vec<[usize; 2]>) -> Analysis {
     analysis
 }
 
-/// How well the collapse load is known: path and limit window come to it from two sides. Where joints slide, all that is
-/// known is that limit analysis allows no more.
+/// How well the collapse load is known: path and limit window come to it from two sides; where joints slide, it is a range from
+/// the least found to the window's end.
 fn intensity(report: &CollapseReport, direction: Direction, asked: f64) -> Estimate {
     let apart = |end: &PathEnd, increases: bool| {
         let window = report.limit_window?;
@@ -125,8 +125,8 @@ fn why_load(report: &CollapseReport) -> String {
         Outcome::NeverCollapses => "Limit analysis finds equilibrium at any load in reach.",
         Outcome::CannotTell => "Path and limit analysis do not agree, which no mesh would mend.",
         _ if slides => {
-            "Joints slide at collapse: the load depends on their stiffness and on the order of loading, and limit analysis \
-             bounds it from above at best. Its distance to that bound stands for the error; no mesh makes it smaller."
+            "Joints slide at collapse: the load may be any from the least found to the end of the limit window. How far these are \
+             apart stands for the error; no mesh makes it smaller."
         }
         _ => "The collapse load of stones that do not slide does not depend on the mesh: path and limit window give it.",
     }

@@ -236,9 +236,9 @@ pub struct CollapseReport {
     pub start: f64,
     /// Largest absolute load factor that was tried.
     pub cap: f64,
-    /// Share of the way to collapse at which `near_collapse` was taken.
+    /// Share of the way to the end of the path at which `near_collapse` was taken.
     pub share: f64,
-    /// The arch just before collapse.
+    /// The arch just before the end of the path; where joints slide, that may lie beyond the collapse load.
     pub near_collapse: Option<Snapshot>,
     /// The arch at load factor 1, where the path passes it.
     pub at_unit_load: Option<Snapshot>,

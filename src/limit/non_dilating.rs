@@ -43,7 +43,8 @@ impl StaticTheorem {
     /// The equilibrium of the smallest load factor from `start` on, in the direction of `sign`, at which the joints that
     /// `moving` names are at those limits and every other is admissible; None where there is none.
     ///
-    /// An end that opens carries nothing, and takes the joint's cohesion with it.
+    /// An end that opens carries nothing. How much of its cohesion a joint that opens has left depends on where along it the
+    /// cohesion sits, so where it slides too, anything from none to all is admitted.
     ///
     /// # Errors
     /// When rounding, or `beat`, kept the linear programme from an answer.
@@ -72,27 +73,19 @@ impl StaticTheorem {
     fn add_limits(&self, joint: usize, release: Release, turns: bool, inequalities: &mut Vec<Inequality>) {
         let JointLaw::Dry { friction, cohesion } = self.joints[joint].law else { return };
         let [intrados, extrados, shear] = self.forces[joint];
-        let adhesion = if turns { 0.0 } else { cohesion * self.joints[joint].length() };
-        // Capacity left when the stone after the joint slides the way of `sign`, which the shear opposes.
-        let left = |sign: f64| {
-            let row = (intrados.0 + extrados.0) * friction + shear.0 * sign;
-            (row, (intrados.1 + extrados.1) * friction + shear.1 * sign + adhesion)
-        };
-        let mut hold = |(row, constant): (Row, f64), signs: &[f64]| {
-            let norm = row.norm();
-            inequalities
-                .extend(signs.iter().map(|s| Inequality { row: row * (s / norm), constant: constant * s / norm }));
-        };
-        match release {
-            Release::Rotation(face) => {
-                hold(if face == Face::Intrados { extrados } else { intrados }, &[-1.0]);
-                if cohesion > 0.0 {
-                    hold(left(1.0), &[1.0]);
-                    hold(left(-1.0), &[1.0]);
-                }
+        let (row, constant) = match release {
+            Release::Rotation(Face::Intrados) => extrados,
+            Release::Rotation(Face::Extrados) => intrados,
+            // Capacity left when the stone after the joint slides the way of `sign`, which the shear opposes.
+            Release::Sliding(sign) => {
+                let adhesion = if turns { 0.0 } else { cohesion * self.joints[joint].length() };
+                let row = (intrados.0 + extrados.0) * friction + shear.0 * sign;
+                (row, (intrados.1 + extrados.1) * friction + shear.1 * sign + adhesion)
             }
-            Release::Sliding(sign) => hold(left(sign), &[-1.0]),
-        }
+        };
+        // That none of them is negative is among the inequalities already.
+        let norm = row.norm();
+        inequalities.push(Inequality { row: -row / norm, constant: -constant / norm });
     }
 }
 

@@ -81,10 +81,12 @@ pub fn measure(problem: &Problem, centroids: &[Point], end: &PathEnd) -> Gap {
             let slip = rate[0] * along[0] + rate[1] * along[1];
             gap.entering = gap.entering.max(-opening);
             gap.opens_under_force = gap.opens_under_force.max(opening * force.max(0.0) / loads);
-            // What touches and slides is held back by all its friction. Cohesion may be lost where the other corner opens.
+            // What touches and slides is held back by all its friction, and by its cohesion unless the other corner opens.
             if force > 1e-9 * loads {
+                let opens = inner.min(outer) <= 1e-9 * loads;
                 let held = friction * (inner + outer) + slip.signum() * shear;
-                let held = if cohesion > 0.0 { held.max(0.0) } else { held };
+                let held = if opens { held } else { held + cohesion * length(problem, k) };
+                let held = if opens && cohesion > 0.0 { held.max(0.0) } else { held.abs() };
                 gap.slides_freely = gap.slides_freely.max(slip.abs() * held / loads);
             }
         }

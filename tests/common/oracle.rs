@@ -69,7 +69,7 @@ pub struct Problem {
 pub enum Limit {
     /// No force at the intrados (0) or at the extrados (1).
     NoForce(usize),
-    /// Shear on the block after the joint at friction times normal force, with this sign.
+    /// Shear on the block after the joint at its bound, with this sign.
     Shear(f64),
 }
 
@@ -115,6 +115,11 @@ impl Answer {
 }
 
 impl Problem {
+    /// Whether an end of a joint is held to carry nothing.
+    fn opens(&self, joint: usize) -> bool {
+        self.limits.iter().any(|(k, limit)| *k == joint && matches!(limit, Limit::NoForce(_)))
+    }
+
     /// The same arch under its fixed loads and `factor` times its scaled ones, all fixed now.
     pub fn at(&self, factor: f64) -> Problem {
         let mut fixed = self.fixed.clone();

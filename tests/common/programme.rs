@@ -39,7 +39,7 @@ impl Programme {
         let unknowns = 3 * joints + usize::from(scale.with_factor) + usize::from(scale.with_give);
         let mut programme = Programme { cost: vec![0.0; unknowns], ..Programme::default() };
         programme.equilibrium(problem, scale);
-        programme.limits(problem);
+        programme.limits(problem, scale);
         programme.equations = programme.right.len();
         programme.conditions(problem, scale);
         programme.strengths(problem, scale);
@@ -97,20 +97,30 @@ impl Programme {
         }
     }
 
-    /// Equations of the joints that are held to their limits; their cohesion is taken for none.
-    fn limits(&mut self, problem: &Problem) {
+    /// Equations of the joints that are held to their limits. A joint that opens and slides may have lost any part of its
+    /// cohesion: its lower bound on the shear is an inequality, see `conditions`.
+    fn limits(&mut self, problem: &Problem, scale: &Scale) {
         for &(joint, limit) in &problem.limits {
-            let Bond::Dry { friction, .. } = problem.seams[joint].bond else { continue };
             match limit {
-                Limit::NoForce(corner) => self.entry(3 * joint + corner, 1.0),
-                Limit::Shear(sign) => {
-                    self.entry(3 * joint, -friction);
-                    self.entry(3 * joint + 1, -friction);
-                    self.entry(3 * joint + 2, sign);
+                Limit::NoForce(corner) => {
+                    self.entry(3 * joint + corner, 1.0);
+                    self.right.push(0.0);
                 }
+                Limit::Shear(sign) if !problem.opens(joint) => self.shear(problem, scale, joint, sign),
+                Limit::Shear(_) => {}
             }
-            self.right.push(0.0);
         }
+    }
+
+    /// The shear of a joint less its friction, over (or equal to) its cohesion; none of that is left where it opens.
+    fn shear(&mut self, problem: &Problem, scale: &Scale, joint: usize, sign: f64) {
+        let seam = &problem.seams[joint];
+        let Bond::Dry { friction, cohesion } = seam.bond else { return };
+        self.entry(3 * joint, friction);
+        self.entry(3 * joint + 1, friction);
+        self.entry(3 * joint + 2, -sign);
+        let left = if problem.opens(joint) { 0.0 } else { cohesion };
+        self.right.push(-left * distance(seam.intrados, seam.extrados) / scale.force);
     }
 
     /// No tension at either corner and Coulomb's law, for every dry joint.
@@ -139,6 +149,13 @@ impl Programme {
                 self.entry(3 * joint + 2, sign);
                 self.give(scale);
                 self.right.push(strength);
+            }
+        }
+        for &(joint, limit) in &problem.limits {
+            if let Limit::Shear(sign) = limit
+                && problem.opens(joint)
+            {
+                self.shear(problem, scale, joint, sign);
             }
         }
         if scale.with_give {

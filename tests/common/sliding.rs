@@ -3,8 +3,9 @@
 
 use super::exhaustive;
 use super::full_solution::{self, Gap};
-use super::oracle::{Aim, Limit, Problem};
+use super::oracle::{Aim, Bond, Limit, Problem, Seam};
 use super::{door, sliding_arch};
+use serde_json::Value;
 use voussoir::arch::Face;
 use voussoir::collapse::{Analysis, CollapseReport, Direction, PathEnd, Unwatched, run};
 
@@ -45,10 +46,9 @@ fn answer(analysis: &Analysis) -> CollapseReport {
     run(analysis, &mut Unwatched).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Checks every end of the answer to a seed; none where the arch is refused, or does not fall.
-pub fn check(seed: u64) -> Vec<Checked> {
-    let request = sliding_arch::request(seed);
-    let Ok(analysis) = door::analysis(&request) else { return Vec::new() };
+/// Checks every end of the answer; none where the arch is refused, or does not fall.
+pub fn check(request: &Value) -> Vec<Checked> {
+    let Ok(analysis) = door::analysis(request) else { return Vec::new() };
     let report = answer(&analysis);
     let of_end = |(end, sign): (&PathEnd, f64)| Checked::new(&analysis, &report, end, sign);
     ends(&analysis, &report).into_iter().map(of_end).collect()
@@ -59,7 +59,8 @@ impl Checked {
         let problem = door::problem(analysis);
         let centroids: Vec<_> = analysis.arch.voussoirs.iter().map(|v| v.region.centroid.into()).collect();
         let window = report.limit_window.map_or([f64::NAN; 2], |window| [window.lowest, window.highest]);
-        let exhaustive = (centroids.len() <= EXHAUSTED).then(|| exhaustive::least(&problem, report.start, sign));
+        let exhaustive = (centroids.len() <= EXHAUSTED && problem.seams.iter().all(plain))
+            .then(|| exhaustive::least(&problem, report.start, sign));
         let mut checked = Checked {
             least: end.load_factor,
             greatest: if sign > 0.0 { window[1] } else { window[0] },
@@ -132,6 +133,11 @@ fn lowest_variant(analysis: &Analysis, end: &PathEnd, sign: f64) -> f64 {
         }
     }
     sign * lowest
+}
+
+/// A dry joint without cohesion.
+fn plain(seam: &Seam) -> bool {
+    matches!(seam.bond, Bond::Dry { cohesion: 0.0, .. })
 }
 
 /// Fixed over scaled loads: the size of a load factor that matters.

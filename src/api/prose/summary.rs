@@ -125,7 +125,9 @@ fn window_end(text: &mut String, name: &str, limit: Option<Limit<'_>>, result: &
     };
     let collapse = limit.collapse;
     let at = wording::intensity(result, collapse);
-    append(text, &format!("{name} end: {at}, {}", word(&collapse.mode)), hinges(limit.hinges));
+    let range =
+        wording::sliding_range(collapse, wording::unit(result)).map(|range| format!(" ({range})")).unwrap_or_default();
+    append(text, &format!("{name} end: {at}{range}, {}", word(&collapse.mode)), hinges(limit.hinges));
     append(text, &format!("Sliding joints at the {} end", name.to_lowercase()), slides(limit.slides));
 }
 
