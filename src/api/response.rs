@@ -1,6 +1,7 @@
 //! The answer on the wire. Angles in degrees, everything else in the unit its name ends with; rows of numbers stand in
 //! columns, one array per quantity. Nothing here depends on the clock: the same request gives the same bytes.
 
+mod assumptions;
 mod beam;
 mod columns;
 mod falling;
@@ -191,7 +192,7 @@ impl AnalysisResult {
             history: HistoryColumns::new(&report.history, &scale),
             plan,
             cost: report.cost.into(),
-            notes: report.notes.clone(),
+            notes: report.notes.iter().cloned().chain(assumptions::assumptions(request)).collect(),
             request: request.clone(),
         }
     }

@@ -1,7 +1,9 @@
 //! An answer in sentences.
 
 use super::{moving, safety};
-use crate::api::request::{ArchRequest, DirectionRequest, LoadEntry, LoadRequest, PointLoad, ProfileRequest};
+use crate::api::request::{
+    ArchRequest, DirectionRequest, FillPressure, LoadEntry, LoadRequest, PointLoad, ProfileRequest,
+};
 use crate::api::response::{AnalysisResult, Collapse, HingeBody, MethodWord, MotionBody, OutcomeWord, SlideBody};
 use crate::collapse::Digits;
 use serde::Serialize;
@@ -209,22 +211,25 @@ pub fn arch(arch: &ArchRequest) -> String {
     format!("{shape}, {count} voussoirs, {} joints{half}", count + 1)
 }
 
-/// Most loads listed.
+/// Most loads listed, beside fill, which always is.
 const LISTED: usize = 6;
 
 /// The fixed or the scaled loads, a line each.
 pub fn loads(entries: &[LoadEntry], scaled: bool) -> String {
-    let entries = entries.iter().filter(|entry| entry.scaled == scaled);
+    let entries: Vec<&LoadEntry> = entries.iter().filter(|entry| entry.scaled == scaled).collect();
+    let listed = |(i, entry): &(usize, &&LoadEntry)| *i < LISTED || matches!(entry.load, LoadRequest::FillPressure(_));
     let mut lines: Vec<String> = entries
-        .map(|entry| match (entry.coefficient == 1.0, entry.per_abscissa) {
+        .iter()
+        .enumerate()
+        .filter(listed)
+        .map(|(_, entry)| match (entry.coefficient == 1.0, entry.per_abscissa) {
             (true, false) => load(&entry.load),
             (false, false) => format!("{} times: {}", Digits(entry.coefficient), load(&entry.load)),
             (true, true) => format!("abscissa times: {}", load(&entry.load)),
             (false, true) => format!("{} times abscissa times: {}", Digits(entry.coefficient), load(&entry.load)),
         })
         .collect();
-    let more = lines.len().saturating_sub(LISTED);
-    lines.truncate(LISTED);
+    let more = entries.len() - lines.len();
     if more > 0 {
         lines.push(format!("and {more} more"));
     }
@@ -234,12 +239,7 @@ pub fn loads(entries: &[LoadEntry], scaled: bool) -> String {
 fn load(load: &LoadRequest) -> String {
     match load {
         LoadRequest::SelfWeight(_) => "self weight".to_owned(),
-        LoadRequest::FillPressure(fill) => {
-            let level = fill.fill_height_m.map(|height| format!("fill up to y = {} m", Digits(height)));
-            let above = format!("embankment of {} m", Digits(fill.embankment_thickness_m));
-            let above = (fill.embankment_thickness_m > 0.0).then_some(above);
-            level.into_iter().chain(above).collect::<Vec<_>>().join(" and ")
-        }
+        LoadRequest::FillPressure(pressure) => fill(pressure),
         LoadRequest::LateralPressure(lateral) => format!("lateral pressure, bands of height: {}", lateral.bands.len()),
         LoadRequest::PointLoad(point) => {
             format!("{} N per metre of depth {}", Digits(point.force_n_per_m), place(point))
@@ -252,6 +252,28 @@ fn load(load: &LoadRequest) -> String {
             format!("acceleration of {} g to the right, {} g upwards", Digits(body.x_g), Digits(body.y_g))
         }
     }
+}
+
+/// Fill with all that is assumed of it.
+fn fill(fill: &FillPressure) -> String {
+    let density = |density: f64| format!("{} kg/m3", Digits(density));
+    let level = fill.fill_height_m.map(|height| {
+        let density = density(fill.fill_density_kg_m3);
+        format!("fill of {density} up to y = {} m", Digits(height))
+    });
+    let above = (fill.embankment_thickness_m > 0.0).then(|| {
+        let (density, thickness) = (density(fill.embankment_density_kg_m3), Digits(fill.embankment_thickness_m));
+        let bare = if level.is_none() { " on the extrados" } else { "" };
+        format!("{thickness} m of embankment of {density}{bare}")
+    });
+    let what = level.into_iter().chain(above).collect::<Vec<_>>().join(" and ");
+    let ratio = Digits(fill.ratio());
+    let horizontal = match fill.fill_friction_angle_deg {
+        _ if fill.ratio() == 0.0 => "no horizontal pressure".to_owned(),
+        Some(angle) => format!("horizontal pressure {ratio} of the vertical (at rest, 1 - sin {} deg)", Digits(angle)),
+        None => format!("horizontal pressure {ratio} of the vertical (as given)"),
+    };
+    format!("{what}; {horizontal}")
 }
 
 fn place(point: &PointLoad) -> String {
