@@ -4,7 +4,9 @@ use super::{moving, safety};
 use crate::api::request::{
     ArchRequest, DirectionRequest, FillPressure, LoadEntry, LoadRequest, PointLoad, ProfileRequest,
 };
-use crate::api::response::{AnalysisResult, Collapse, HingeBody, MethodWord, MotionBody, OutcomeWord, SlideBody};
+use crate::api::response::{
+    AnalysisResult, Collapse, HingeBody, LiftOffBody, MethodWord, MotionBody, OutcomeWord, SlideBody,
+};
 use crate::collapse::Digits;
 use serde::Serialize;
 
@@ -17,16 +19,22 @@ pub struct Limit<'a> {
     pub collapse: &'a Collapse,
     pub hinges: &'a [HingeBody],
     pub slides: &'a [SlideBody],
+    pub lift_offs: &'a [LiftOffBody],
 }
 
 /// Lower and upper end of the path, each where there is one. The path runs both ways only in a window.
 pub fn limits(result: &AnalysisResult) -> [Option<Limit<'_>>; 2] {
-    let main =
-        result.collapse.as_ref().map(|collapse| Limit { collapse, hinges: &result.hinges, slides: &result.slides });
+    let main = result.collapse.as_ref().map(|collapse| Limit {
+        collapse,
+        hinges: &result.hinges,
+        slides: &result.slides,
+        lift_offs: &result.lift_offs,
+    });
     let other = result.other_end.as_ref().map(|end| Limit {
         collapse: &end.collapse,
         hinges: &end.hinges,
         slides: &end.slides,
+        lift_offs: &end.lift_offs,
     });
     if reversed(result) { [main, other] } else { [other, main] }
 }
@@ -56,6 +64,7 @@ pub fn headline(result: &AnalysisResult) -> String {
         return moving::headline(settlement);
     }
     let sentence = match (result.outcome, &result.collapse) {
+        (OutcomeWord::Collapse, Some(collapse)) if collapse.load_factor == 0.0 => at_once(result),
         (OutcomeWord::Collapse, Some(collapse)) => {
             let first = if result.updated_geometry.is_some() { " at first order" } else { "" };
             let moved = moving::before_the_start(result).unwrap_or_default();
@@ -63,9 +72,14 @@ pub fn headline(result: &AnalysisResult) -> String {
         }
         (OutcomeWord::StandsInWindow, _) => in_window(result) + &with_strength(result),
         (OutcomeWord::FallsAsBuilt, _) => falls(result).to_owned(),
+        (OutcomeWord::SlidesAsBuilt, _) => {
+            "The arch slides as its loads come on, although limit analysis finds equilibrium: whether it stands depends on \
+             how it was built."
+                .to_owned()
+        }
         (OutcomeWord::NeverCollapses, _) => stands(result) + &with_strength(result),
         (OutcomeWord::CannotTell, _) => {
-            "No answer: the load path and limit analysis do not agree. The notes say where.".to_owned()
+            "No answer: what was found cannot be trusted. The notes say why.".to_owned()
         }
         (OutcomeWord::Crushes, _) => {
             "The stone crushes before the scaled loads begin to act. The notes say how.".to_owned()
@@ -132,14 +146,25 @@ fn in_window(result: &AnalysisResult) -> String {
 }
 
 fn falls(result: &AnalysisResult) -> &'static str {
-    let has = |scaled: bool| result.request.loads.iter().any(|entry| entry.scaled == scaled);
-    match (has(false), has(true)) {
-        (true, false) => "The arch falls as built: it cannot carry its fixed loads.",
-        (true, true) => {
+    match (has(result, true), result.limit_window) {
+        (false, _) => "The arch falls as built: it cannot carry its fixed loads.",
+        (true, None) => {
             "The arch falls as built: it cannot carry its fixed loads, whatever the size of the scaled ones."
         }
-        (false, _) => "The arch falls at once: nothing is fixed, and it cannot carry the scaled loads at any size.",
+        (true, Some(_)) => "The arch falls under its fixed loads with the scaled ones of any size that was tried.",
     }
+}
+
+/// Whether there are scaled loads, or fixed ones.
+fn has(result: &AnalysisResult, scaled: bool) -> bool {
+    result.request.loads.iter().any(|entry| entry.scaled == scaled)
+}
+
+/// Of an arch that collapses at load factor 0.
+fn at_once(result: &AnalysisResult) -> String {
+    let without = if has(result, false) { "without its scaled loads" } else { "as long as there is no load" };
+    let act = if reversed(result) { "act reversed" } else { "act" };
+    format!("The arch collapses at {} {}: it stands {without}, and falls as soon as they {act}.", 0, unit(result))
 }
 
 fn stands(result: &AnalysisResult) -> String {
