@@ -160,6 +160,7 @@ fn oval(embankment: f64, patch: Option<f64>) -> Value {
     let density = if embankment > 1.9 { 1600.0 } else { 1760.0 };
     let fill = json!({"fill_pressure": {
         "fill_height_m": 8.2, "embankment_thickness_m": embankment, "embankment_density_kg_m3": density,
+        "lateral_ratio": 0.5,
     }});
     let mut loads = vec![json!({"load": {"self_weight": {}}}), json!({"load": fill, "scaled": true})];
     if let Some(force) = patch {

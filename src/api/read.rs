@@ -3,7 +3,8 @@
 use super::fault::{Fault, Faults, child, lies_under, listed};
 use super::plain_words::in_plain_words;
 use super::request::{
-    AimRequest, AnalysisRequest, BeamRequest, JointsRequest, LineRequest, ProfileRequest, Request, StressFieldRequest,
+    AimRequest, AnalysisRequest, BeamRequest, JointsRequest, LineRequest, LoadRequest, ProfileRequest, Request,
+    StressFieldRequest,
 };
 use super::{shape, translate, tree};
 use crate::collapse::{Analysis, Question};
@@ -301,6 +302,11 @@ fn with_defaults(mut request: AnalysisRequest) -> AnalysisRequest {
     if !matches!(arch.profile, ProfileRequest::Surveyed(_)) {
         arch.line.get_or_insert(LineRequest::default());
         arch.joints.get_or_insert(JointsRequest::default());
+    }
+    for entry in &mut request.loads {
+        if let LoadRequest::FillPressure(fill) = &mut entry.load {
+            fill.lateral_ratio = Some(fill.ratio());
+        }
     }
     let stress = request.accuracy.is_some_and(|accuracy| accuracy.stress.is_some());
     let one_path = match &request.analysis {

@@ -1,6 +1,7 @@
 //! The answer on the wire. Angles in degrees, everything else in the unit its name ends with; rows of numbers stand in
 //! columns, one array per quantity. Nothing here depends on the clock: the same request gives the same bytes.
 
+mod assumptions;
 mod beam;
 mod columns;
 mod falling;
@@ -18,7 +19,7 @@ pub use columns::{BlockColumns, ContactColumns, HistoryColumns, SnapshotBody, Th
 pub use falling::{
     FrameColumns, MotionBody, MotionContactColumns, MotionEndWord, OpenHingeColumns, PlaceColumns, SlidColumns,
 };
-pub use mechanism::{Collapse, End, HingeBody, RangeBody, SlideBody};
+pub use mechanism::{Collapse, End, HingeBody, LiftOffBody, RangeBody, SlideBody};
 pub use plan::{BeamPlanBody, EstimateBody, MeshBody, PlanBody, SubblockCounts};
 pub use result::JobResult;
 pub use safety::{CurvePointBody, ReachBody, SafetyBody, SafetyCurveResult};
@@ -58,6 +59,8 @@ pub struct AnalysisResult {
     pub hinges: Vec<HingeBody>,
     /// Sliding joints from left to right.
     pub slides: Vec<SlideBody>,
+    /// Joints that part altogether, from left to right.
+    pub lift_offs: Vec<LiftOffBody>,
     /// Resultant per joint at collapse; null where nothing collapses.
     pub thrust_line: Option<ThrustColumns>,
     /// Velocity of every voussoir in the mechanism; null where nothing collapses.
@@ -155,9 +158,11 @@ impl AnalysisResult {
         let window = report.limit_window;
         let snapshot = |snapshot| SnapshotBody::new(snapshot, &scale);
         let main = report.end.as_ref().map(|end| End::new(end, window, &scale));
-        let (collapse, hinges, slides, thrust_line, velocities) = match main {
-            Some(end) => (Some(end.collapse), end.hinges, end.slides, Some(end.thrust_line), Some(end.velocities)),
-            None => (None, Vec::new(), Vec::new(), None, None),
+        let joints = |end: &End| (end.hinges.clone(), end.slides.clone(), end.lift_offs.clone());
+        let (hinges, slides, lift_offs) = main.as_ref().map(joints).unwrap_or_default();
+        let (collapse, thrust_line, velocities) = match main {
+            Some(end) => (Some(end.collapse), Some(end.thrust_line), Some(end.velocities)),
+            None => (None, None, None),
         };
         let plan = report.plan.as_ref().map(PlanBody::from);
         let refined = plan.as_ref().filter(|plan| plan.stress.is_some());
@@ -172,6 +177,7 @@ impl AnalysisResult {
             thrust_range: report.thrust_range.map(Into::into),
             hinges,
             slides,
+            lift_offs,
             thrust_line,
             velocities,
             other_end: report.other_end.as_ref().map(|end| End::new(end, window, &scale)),
@@ -191,7 +197,7 @@ impl AnalysisResult {
             history: HistoryColumns::new(&report.history, &scale),
             plan,
             cost: report.cost.into(),
-            notes: report.notes.clone(),
+            notes: report.notes.iter().cloned().chain(assumptions::assumptions(request)).collect(),
             request: request.clone(),
         }
     }

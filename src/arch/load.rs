@@ -4,6 +4,8 @@
 //! `F_y = -integral q_v dx` with their signs (eq. (2) of the paper), so that both flanks are pushed inwards and an
 //! overhanging side is pushed up.
 
+mod columns;
+
 use super::{Arch, GRAVITY, PointForce};
 use crate::geometry::Vec2;
 
@@ -132,14 +134,18 @@ type Side = (usize, Vec2, Vec2);
 
 /// The extrados sides, each cut into equal pieces.
 fn cut_sides(arch: &Arch, pieces: &[usize]) -> Vec<Side> {
-    let mut sides = Vec::new();
-    for (k, &count) in pieces.iter().enumerate() {
+    let side = |k: usize| {
         let (a, b) = arch.extrados_side(k);
-        // The ends themselves, not what rounding makes of them.
-        let end = |i: usize| if i == count { b } else { a + (b - a) * (i as f64 / count as f64) };
-        sides.extend((0..count).map(|i| (k, end(i), end(i + 1))));
-    }
-    sides
+        (k, a, b)
+    };
+    pieces.iter().enumerate().flat_map(|(k, &count)| cut(side(k), count)).collect()
+}
+
+/// A side cut into equal pieces.
+fn cut((k, a, b): Side, count: usize) -> impl Iterator<Item = Side> {
+    // The ends themselves, not what rounding makes of them.
+    let end = move |i: usize| if i == count { b } else { a + (b - a) * (i as f64 / count as f64) };
+    (0..count).map(move |i| (k, end(i), end(i + 1)))
 }
 
 fn body_force(arch: &Arch, density: f64, acceleration: Vec2) -> Vec<PointForce> {
@@ -153,12 +159,18 @@ fn body_force(arch: &Arch, density: f64, acceleration: Vec2) -> Vec<PointForce> 
 }
 
 impl Fill {
-    fn on(&self, arch: &Arch, sides: &[Side]) -> Result<Vec<PointForce>, LoadFault> {
+    /// Whether the embankment has fill, or a level, under it everywhere.
+    fn fits(&self, arch: &Arch) -> Result<(), LoadFault> {
         let top = arch.joints.iter().map(|joint| joint.extrados.y).fold(f64::NEG_INFINITY, f64::max);
-        let level = self.height.unwrap_or(f64::NEG_INFINITY);
-        if self.height.is_some() && self.embankment > 0.0 && top > level {
-            return Err(LoadFault::ArchAboveFill { top });
+        match self.height {
+            Some(level) if self.embankment > 0.0 && top > level => Err(LoadFault::ArchAboveFill { top }),
+            _ => Ok(()),
         }
+    }
+
+    fn on(&self, arch: &Arch, sides: &[Side]) -> Result<Vec<PointForce>, LoadFault> {
+        self.fits(arch)?;
+        let level = self.height.unwrap_or(f64::NEG_INFINITY);
         let above = self.embankment * self.embankment_density * GRAVITY;
         let mut forces = Vec::new();
         for &(k, a, b) in sides {

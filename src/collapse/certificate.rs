@@ -16,6 +16,8 @@ const ABOVE: f64 = 1e-6;
 const STRAY: f64 = 0.5;
 /// An end of the window this close to 0, measured in loads as large as the fixed ones, is 0 and rounding.
 const ZERO: f64 = 1e-12;
+/// Share of the load factor at which scaled and fixed loads are equal at which an arch that falls beyond 0 is seen to fall.
+const SOON: f64 = 1e-3;
 /// Load factors below this share of the one at which scaled loads equal the fixed ones are compared absolutely.
 const SMALL: f64 = 1e-6;
 /// A path whose equilibrium residual, as a share of the loads, exceeds this is not trusted.
@@ -68,6 +70,11 @@ impl Certificate {
         self.window.is_some_and(|[low, high]| low <= load_factor && load_factor <= high)
     }
 
+    /// True where the arch stands at load factor 0, and at none beyond it in the direction of `sign`.
+    pub(super) fn ends_at_zero(&self, sign: f64) -> bool {
+        self.stands_at(0.0) && self.end(sign) == Some(0.0)
+    }
+
     /// The window's end in the direction of `sign`.
     pub(super) fn end(&self, sign: f64) -> Option<f64> {
         self.window.map(|[low, high]| if sign > 0.0 { high } else { low })
@@ -106,11 +113,14 @@ impl Certificate {
 
     /// `settled`: every stone carries a fixed load.
     fn natural_start(&self, settled: bool, sign: f64) -> f64 {
+        let scale = self.theorem.load_factor_scale();
         match self.window {
             // Nothing presses the joints of a stone without load, so 0 is no place to start from.
             Some([low, high]) if !settled && low <= 0.0 && high >= 0.0 => match self.end(sign) {
+                // It falls as soon as the load factor leaves 0.
+                Some(0.0) if self.any_fixed => sign * SOON * scale,
                 Some(end) if end.is_finite() && end != 0.0 => 0.5 * end,
-                _ => sign * self.theorem.load_factor_scale(),
+                _ => sign * scale,
             },
             None => 0.0,
             Some([low, high]) if low <= 0.0 && high >= 0.0 => 0.0,
@@ -140,21 +150,28 @@ impl Certificate {
 
     /// Whether friction is at its bound, and opposes the sliding, in every joint that slides in the mechanism.
     fn slides_at_its_limits(&self, end: &PathEnd) -> bool {
+        let largest = end.thrust_line.iter().map(|thrust| thrust.normal).fold(0.0, f64::max);
         end.mechanism.slides.iter().all(|slide| {
             let (joint, thrust) = (self.theorem.joint(slide.joint), &end.thrust_line[slide.joint]);
             let JointLaw::Dry { friction, cohesion } = joint.law else { return true };
             let bound = friction * thrust.normal + cohesion * joint.length();
-            bound + slide.rate.signum() * thrust.shear <= AT_BOUND * bound + MARGIN * thrust.normal
+            bound + slide.rate.signum() * thrust.shear <= AT_BOUND * bound + MARGIN * largest
         })
     }
 
     /// A window that the path could not start in: the cap, or the full loads of a safety analysis, lie before it.
-    pub(super) fn out_of_reach(&self, start: f64, safety: bool, any_fixed: bool) -> Option<String> {
-        let [low, high] = self.window.filter(|_| any_fixed && !self.stands_at(start))?;
-        let from = Digits(low);
-        let reach =
-            if high.is_finite() { format!("from {from} to {}", Digits(high)) } else { format!("from {from} upwards") };
-        let why = if safety { "the scaled loads in full are too little" } else { "beyond the cap on what is tried" };
+    pub(super) fn out_of_reach(&self, start: f64, safety: bool) -> Option<String> {
+        let [low, high] = self.window.filter(|_| !self.stands_at(start))?;
+        let reach = match [low, high].map(f64::is_finite) {
+            [true, true] => format!("from {} to {}", Digits(low), Digits(high)),
+            [true, false] => format!("from {} upwards", Digits(low)),
+            _ => format!("up to {}", Digits(high)),
+        };
+        let why = match safety {
+            false => "beyond the cap on what is tried",
+            true if low > start => "the scaled loads in full are too little",
+            true => "with its scaled loads reversed",
+        };
         Some(format!("It stands only at load factors {reach}: {why}."))
     }
 

@@ -5,6 +5,12 @@ use super::Digits;
 /// Why a path is not taken at its word.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(super) enum Doubt {
+    #[error(
+        "The arch is too slender for its load path to be followed: its thickest joint is {} m, {} of its \
+         size, and rounding would decide. Check the unit of its thickness.",
+        Digits(*.thickness), Digits(*.share)
+    )]
+    Slender { thickness: f64, share: f64 },
     #[error("The loads at the start could not be brought on.")]
     NotLoaded,
     #[error("The limit window could not be computed, so nothing certifies the load path.")]

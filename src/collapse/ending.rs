@@ -126,8 +126,10 @@ pub(super) fn at_rates(analysis: &Analysis, model: &Model, tracer: &Tracer) -> s
             [false, false] => [[i, slip_i], [e, slip_e]],
         }
     };
-    let rates: Vec<_> = (0..arch.joints.len()).map(rates).collect();
-    mechanism::from_rates(arch, &motions(model, arch, tracer.direction()), &rates)
+    let apart = |joint: usize| model.contacts(joint).all(|p| forces[p][0] <= 0.0);
+    let joints = || 0..arch.joints.len();
+    let (rates, apart): (Vec<_>, Vec<_>) = (joints().map(rates).collect(), joints().map(apart).collect());
+    mechanism::from_rates(arch, &motions(model, arch, tracer.direction()), &rates, &apart)
 }
 
 /// The thrust line of what the contacts carry now.

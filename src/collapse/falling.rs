@@ -30,7 +30,8 @@ type Loading = (f64, f64);
 /// Moves the arch on from the collapse in a report, and from the other end of a window too.
 pub(super) fn follow(analysis: &Analysis, report: &mut CollapseReport, pulse: &Pulse) -> Result<(), AnalysisError> {
     let Some(asked) = analysis.motion else { return Ok(()) };
-    let falls = matches!(report.outcome, Outcome::Collapse | Outcome::FallsAsBuilt | Outcome::StandsInWindow);
+    let as_built = matches!(report.outcome, Outcome::FallsAsBuilt | Outcome::SlidesAsBuilt);
+    let falls = as_built || matches!(report.outcome, Outcome::Collapse | Outcome::StandsInWindow);
     if !falls || (report.end.is_none() && report.other_end.is_none()) {
         return Ok(());
     }
@@ -60,8 +61,12 @@ pub(super) fn follow(analysis: &Analysis, report: &mut CollapseReport, pulse: &P
 /// Load factors to try: a little beyond collapse; and, where sliding joints let the arch fall below it, a little beyond the
 /// limit window, where no equilibrium is left.
 fn loadings(analysis: &Analysis, report: &CollapseReport, at: f64, sign: f64) -> Vec<Loading> {
-    if report.outcome == Outcome::FallsAsBuilt {
+    if matches!(report.outcome, Outcome::FallsAsBuilt | Outcome::SlidesAsBuilt) {
         return vec![(report.start, 0.0)];
+    }
+    if at == 0.0 && report.at_start.is_none() {
+        // It falls as soon as the load factor leaves 0: the path was tried from there.
+        return vec![(report.start, report.start)];
     }
     let total = |forces: &[crate::arch::PointForce]| forces.iter().map(|f| f.force.norm()).sum::<f64>();
     let small = SMALL * total(&analysis.fixed) / total(&analysis.scaled).max(f64::MIN_POSITIVE);

@@ -2,7 +2,7 @@
 
 use super::motion::Motion;
 use super::smallest_motion::{Column, smallest_motion};
-use super::{Face, Hinge, Mechanism, Mode, Slide};
+use super::{Face, Hinge, LiftOff, Mechanism, Mode, Slide};
 use crate::arch::{Arch, Joint, JointLaw, PointForce};
 use crate::dda::Heart;
 use crate::geometry::{Vec2, cross};
@@ -16,6 +16,12 @@ const ELASTIC: f64 = 1e-5;
 /// hundredth or more of the fastest.
 const MOVING_ELASTIC: f64 = 3e-4;
 
+/// A joint whose force is below this share of the largest, times the share below which a corner's is none, carries none.
+const NO_FORCE: f64 = 1e-3;
+/// A joint parts altogether where one end opens by at least this share of what the other opens by; less is elastic strain of a
+/// hinge.
+const PARTS: f64 = 1e-3;
+
 /// A joint and a motion that it allows.
 pub(super) type Released = (usize, Release);
 
@@ -25,7 +31,8 @@ pub(super) type Released = (usize, Release);
 ///
 /// `slipping` holds the sign of the shear where a joint is known to slide (a hinge that slides has only half of the
 /// joint's cohesion left, which the resultant alone does not tell). `at_limit` is the share of a joint's force below which
-/// a corner's is none, and within which its shear is at capacity. None, too, where the heart stands still.
+/// a corner's is none, and within which its shear is at capacity; a joint that carries next to nothing of what others do
+/// carries none. None, too, where the heart stands still.
 pub(super) fn from_statics(
     arch: &Arch,
     resultants: &[Resultant],
@@ -46,8 +53,9 @@ pub(super) fn all_releases(
     slipping: &[Option<f64>],
     at_limit: f64,
 ) -> Vec<Released> {
+    let none = NO_FORCE * at_limit * resultants.iter().map(Resultant::size).fold(0.0, f64::max);
     let of_joint = |(k, forces): (usize, &Resultant)| {
-        let mut found = releases(&arch.joints[k], forces, at_limit);
+        let mut found = releases(&arch.joints[k], forces, none.max(at_limit * forces.size()));
         if let Some(sign) = slipping[k]
             && !found.contains(&Release::Sliding(-sign))
         {
@@ -61,7 +69,10 @@ pub(super) fn all_releases(
 /// The releases that a mechanism moves.
 pub(super) fn released(mechanism: &Mechanism) -> Vec<Released> {
     let hinges = mechanism.hinges.iter().map(|hinge| (hinge.joint, Release::Rotation(hinge.face)));
-    hinges.chain(mechanism.slides.iter().map(|slide| (slide.joint, Release::Sliding(slide.rate.signum())))).collect()
+    let slides = mechanism.slides.iter().map(|slide| (slide.joint, Release::Sliding(slide.rate.signum())));
+    let both = |joint| [Face::Intrados, Face::Extrados].map(|face| (joint, Release::Rotation(face)));
+    let lift_offs = mechanism.lift_offs.iter().flat_map(|lift_off| both(lift_off.joint));
+    hinges.chain(slides).chain(lift_offs).collect()
 }
 
 /// What each release does to the closure of the chain, and its power under the `driving` loads.
@@ -122,7 +133,7 @@ pub(super) fn describe(arch: &Arch, releases: &[Released], rates: &[f64]) -> Mec
         motion = motion.plus(r, 1.0);
         motion
     });
-    assemble(arch, &along.collect::<Vec<_>>(), &openings, &slid)
+    assemble(arch, &along.collect::<Vec<_>>(), &openings, &slid, &vec![false; joints])
 }
 
 /// Reads a mechanism off velocities of the stones; for paths whose peak is not a mechanism of the joints at their limits.
@@ -136,38 +147,50 @@ pub(super) fn from_velocities(arch: &Arch, motions: &[Motion]) -> Mechanism {
         [joint.intrados, joint.extrados].map(|corner| rate(relative(k).at(corner)))
     };
     let rates: Vec<_> = arch.joints.iter().enumerate().map(corners).collect();
-    read_off(arch, motions, &rates, ELASTIC)
+    read_off(arch, motions, &rates, &vec![false; rates.len()], ELASTIC)
 }
 
-/// Reads a mechanism off the rates of gap and slip at the corners of every joint, intrados first.
-pub(super) fn from_rates(arch: &Arch, motions: &[Motion], rates: &[[[f64; 2]; 2]]) -> Mechanism {
-    read_off(arch, motions, rates, MOVING_ELASTIC)
+/// Reads a mechanism off the rates of gap and slip at the corners of every joint, intrados first; `apart`: whether it carries
+/// no force, being open at both ends.
+pub(super) fn from_rates(arch: &Arch, motions: &[Motion], rates: &[[[f64; 2]; 2]], apart: &[bool]) -> Mechanism {
+    read_off(arch, motions, rates, apart, MOVING_ELASTIC)
 }
 
 /// Elastic strain and rounding are no joint motion: below this share of the fastest corner nothing opens or slides.
-fn read_off(arch: &Arch, motions: &[Motion], rates: &[[[f64; 2]; 2]], elastic: f64) -> Mechanism {
+fn read_off(arch: &Arch, motions: &[Motion], rates: &[[[f64; 2]; 2]], apart: &[bool], elastic: f64) -> Mechanism {
     let corners = arch.joints.iter().skip(1).zip(motions);
     let speed = |(joint, m): (&Joint, &Motion)| m.at(joint.intrados).norm().max(m.at(joint.extrados).norm());
     let still = elastic * corners.map(speed).fold(0.0, f64::max);
     let moves = |rate: f64| if rate.abs() < still { 0.0 } else { rate };
-    let opening = |(joint, [[i, _], [e, _]]): (&Joint, &[[f64; 2]; 2])| {
+    let opening = |((joint, [[i, _], [e, _]]), &apart): ((&Joint, &[[f64; 2]; 2]), &bool)| {
         let (i, e) = (moves(*i) / joint.length(), moves(*e) / joint.length());
-        if i > e { [i, 0.0] } else { [0.0, e] }
+        match apart || i.min(e) > PARTS * i.max(e) {
+            true => [i, e],
+            false if i > e => [i.max(0.0), 0.0],
+            false => [0.0, e.max(0.0)],
+        }
     };
     let slide = |(joint, [[_, i], [_, e]]): (&Joint, &[[f64; 2]; 2])| match joint.law {
         JointLaw::Bonded => 0.0,
         _ => moves(0.5 * (i + e)),
     };
-    let openings: Vec<_> = arch.joints.iter().zip(rates).map(opening).collect();
+    let openings: Vec<_> = arch.joints.iter().zip(rates).zip(apart).map(opening).collect();
     let slid: Vec<_> = arch.joints.iter().zip(rates).map(slide).collect();
-    assemble(arch, motions, &openings, &slid)
+    assemble(arch, motions, &openings, &slid, apart)
 }
 
-fn assemble(arch: &Arch, motions: &[Motion], openings: &[[f64; 2]], slid: &[f64]) -> Mechanism {
-    let hinge_rate = openings.iter().flatten().copied().fold(0.0, f64::max);
+/// A mechanism from the motions of stones and joints: `openings` about the extrados and about the intrados, rad; `slid`, m.
+/// Joints that open about both, or are `apart`, lift off; along the joint they may slide as they do.
+fn assemble(arch: &Arch, motions: &[Motion], openings: &[[f64; 2]], slid: &[f64], apart: &[bool]) -> Mechanism {
+    let lifts = |k: usize| apart[k] || (openings[k][0] > 0.0 && openings[k][1] > 0.0);
+    let lifted = lift_offs(arch, openings, lifts);
+    let turning = || openings.iter().enumerate().filter(|&(k, o)| !lifts(k) && o[0] != o[1]);
+    let hinge_rate = turning().flat_map(|(_, o)| *o).fold(0.0, f64::max);
     let slide_rate = slid.iter().map(|s| s.abs()).fold(0.0, f64::max);
-    let scale = if hinge_rate > 0.0 { 1.0 / hinge_rate } else { 1.0 / slide_rate.max(f64::MIN_POSITIVE) };
-    let hinges = openings.iter().enumerate().filter(|(_, o)| o[0] != o[1]).map(|(joint, o)| {
+    let lift_rate = lifted.iter().map(|l| l.intrados.abs().max(l.extrados.abs())).fold(0.0, f64::max);
+    // A direction in which no joint moves keeps its own scale.
+    let scale = 1.0 / [hinge_rate, slide_rate, lift_rate].into_iter().find(|&rate| rate > 0.0).unwrap_or(1.0);
+    let hinges = turning().map(|(joint, o)| {
         // Open at the intrados, pressed at the extrados, and the other way round.
         let face = if o[0] > o[1] { Face::Extrados } else { Face::Intrados };
         let (angle_from_springing, angle_from_crown) = angles(arch, joint);
@@ -181,10 +204,22 @@ fn assemble(arch: &Arch, motions: &[Motion], openings: &[[f64; 2]], slid: &[f64]
         let velocity = m.at(v.region.centroid);
         [velocity.x, velocity.y, m.spin]
     });
-    let opening = openings.iter().zip(&arch.joints).map(|(o, j)| (o[0] - o[1]).abs() * scale * j.length());
+    let opening = turning().map(|(k, o)| (o[0] - o[1]).abs() * arch.joints[k].length()).fold(lift_rate, f64::max);
     let fastest_slide = slides.iter().map(|s| s.rate.abs()).fold(0.0, f64::max);
-    let mode = if fastest_slide > opening.fold(0.0, f64::max) { Mode::Sliding } else { crown_mode(arch, &motions) };
-    Mechanism { mode, hinges: hinges.collect(), slides, velocities: velocities.collect() }
+    let mode = if fastest_slide > opening * scale { Mode::Sliding } else { crown_mode(arch, &motions) };
+    let by = |l: LiftOff| LiftOff { intrados: l.intrados * scale, extrados: l.extrados * scale, ..l };
+    let lift_offs = lifted.into_iter().map(by).collect();
+    Mechanism { mode, hinges: hinges.collect(), slides, lift_offs, velocities: velocities.collect() }
+}
+
+/// The joints that lift off and move, with the rates at which their ends open, m.
+fn lift_offs(arch: &Arch, openings: &[[f64; 2]], lifts: impl Fn(usize) -> bool) -> Vec<LiftOff> {
+    let moving = openings.iter().enumerate().filter(|&(k, o)| lifts(k) && *o != [0.0; 2]);
+    let rates = |(joint, o): (usize, &[f64; 2])| {
+        let [intrados, extrados] = o.map(|rate| rate * arch.joints[joint].length());
+        LiftOff { joint, intrados, extrados }
+    };
+    moving.map(rates).collect()
 }
 
 /// Which way the crown goes.

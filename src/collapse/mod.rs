@@ -15,6 +15,7 @@ mod plan;
 mod pulse;
 mod record;
 pub mod report;
+mod rounding;
 mod safety;
 mod settlement;
 mod sliding;

@@ -122,6 +122,7 @@ fn why_load(report: &CollapseReport) -> String {
     let slides = report.end.iter().chain(&report.other_end).any(|end| !end.mechanism.slides.is_empty());
     match report.outcome {
         Outcome::FallsAsBuilt => "Limit analysis finds no equilibrium that the arch could be loaded from: nothing to refine.",
+        Outcome::SlidesAsBuilt => "The arch slides as its loads come on: nothing to refine.",
         Outcome::NeverCollapses => "Limit analysis finds equilibrium at any load in reach.",
         Outcome::CannotTell => "Path and limit analysis do not agree, which no mesh would mend.",
         _ if slides => {

@@ -18,10 +18,13 @@ use crate::geometry::Vec2;
 /// How the question was answered.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Outcome {
-    /// Stands at load factor 0 and collapses at a finite one.
+    /// Stands at load factor 0 and collapses at a finite one; at 0 itself where it falls as soon as the load factor leaves it.
     Collapse,
-    /// Does not stand under its fixed loads, at no load factor in reach.
+    /// Stands at no load factor in reach: limit analysis finds no equilibrium there.
     FallsAsBuilt,
+    /// Slides as its loads come on, although limit analysis, in which sliding joints dilate, finds equilibrium: whether it
+    /// stands depends on how it was built.
+    SlidesAsBuilt,
     /// Does not stand at load factor 0, but does between two others.
     StandsInWindow,
     /// Stands however far the load factor goes (up to the cap).
@@ -32,7 +35,7 @@ pub enum Outcome {
     FallsByMovement,
     /// The stone crushes: first, in a safety analysis; under the loads at the start of the path, in any other.
     Crushes,
-    /// The path and the certificate contradict each other, or the path could not be followed.
+    /// The path and the certificate contradict each other, or the path could not be followed; the notes say why.
     CannotTell,
 }
 
@@ -72,6 +75,18 @@ pub struct Slide {
     /// Sliding rate of the stone after the joint towards the extrados, relative to the one before it, in the
     /// mechanism's scale (m per rad of the largest hinge rotation; largest slide = 1 where no hinge turns).
     pub rate: f64,
+}
+
+/// A joint that parts altogether in the mechanism: it carries no force, and no point of it stays pressed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LiftOff {
+    /// Joint number.
+    pub joint: usize,
+    /// Rate at which its end on the intrados opens, in the mechanism's scale (m per rad of the largest hinge rotation; largest
+    /// slide = 1 where no hinge turns, largest opening = 1 where nothing slides either).
+    pub intrados: f64,
+    /// The same of its end on the extrados.
+    pub extrados: f64,
 }
 
 /// Resultant carried by one joint.
@@ -193,6 +208,8 @@ pub struct Mechanism {
     pub hinges: Vec<Hinge>,
     /// Sliding joints from left to right.
     pub slides: Vec<Slide>,
+    /// Joints that part altogether, from left to right.
+    pub lift_offs: Vec<LiftOff>,
     /// Velocity (u, v) and rotation rate of every voussoir in the mechanism, in the hinges' scale.
     pub velocities: Vec<[f64; 3]>,
 }
@@ -228,7 +245,7 @@ pub struct CollapseReport {
     pub limit_window: Option<LimitWindow>,
     /// Thrust range under the fixed loads, where they stand.
     pub thrust_range: Option<ThrustRange>,
-    /// The end of the path in the asked direction: collapse, or the mechanism of an arch that falls as built.
+    /// The end of the path in the asked direction: collapse, or the mechanism of an arch that falls or slides as built.
     pub end: Option<PathEnd>,
     /// The end of the path in the other direction, for an arch that stands in a window only.
     pub other_end: Option<PathEnd>,

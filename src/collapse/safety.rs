@@ -26,7 +26,7 @@ pub(super) fn curve(points: &[CurvePoint], pulse: &Pulse) -> Result<Vec<SafetyPo
         let report = verdict::run(&point.analysis, pulse)?;
         let safety =
             report.safety.map(|safety| SafetyPoint { abscissa: Some(point.abscissa), notes: report.notes, ..safety });
-        Ok(safety.unwrap_or_else(|| SafetyPoint::unknown(point.abscissa)))
+        Ok(safety.unwrap_or_else(|| SafetyPoint::unknown(Some(point.abscissa))))
     };
     points.iter().map(solve).collect()
 }
@@ -111,9 +111,9 @@ pub(super) fn crushed_at_start(report: &mut CollapseReport) {
 
 impl SafetyPoint {
     /// Nothing is known.
-    fn unknown(abscissa: f64) -> Self {
+    pub(super) fn unknown(abscissa: Option<f64>) -> Self {
         SafetyPoint {
-            abscissa: Some(abscissa),
+            abscissa,
             instability: Reach::Unknown,
             updated: None,
             elastic: Reach::Unknown,
@@ -139,7 +139,7 @@ fn instability(report: &CollapseReport) -> Reach {
                 Reach::DoesNotStand
             }
         }
-        (Outcome::FallsAsBuilt, _) => Reach::DoesNotStand,
+        (Outcome::FallsAsBuilt | Outcome::SlidesAsBuilt, _) => Reach::DoesNotStand,
         _ => Reach::Unknown,
     }
 }

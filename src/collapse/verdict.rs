@@ -11,7 +11,7 @@ use super::record::snapshot;
 use super::updated::{self, Course};
 use super::{
     Aim, Analysis, AnalysisError, CollapseReport, Cost, Crushing, Direction, Geometry, LimitWindow, Outcome,
-    SettlementEnd, SpringingMovement, ThrustRange, UpdatedGeometry, ending, falling, motion, plan, safety, settlement,
+    PathEnd, SettlementEnd, SpringingMovement, ThrustRange, UpdatedGeometry, ending, falling, motion, plan, rounding, safety, settlement,
 };
 use crate::arch::{Joint, JointLaw};
 use crate::dda::{End, Tracer};
@@ -19,6 +19,10 @@ use std::ops::ControlFlow;
 
 /// Note on an arch of which nothing is asked but whether it stands.
 const NOTHING_GROWS: &str = "Nothing grows with the load factor: the answer says only that the arch stands.";
+
+/// Note on an arch whose limit window ends where no scaled load acts.
+const ENDS_AT_ZERO: &str = "The arch stands at load factor 0 and at none beyond it in the direction asked. Hinges, slides and \
+     velocities are those in which it falls as soon as the load factor leaves 0.";
 
 /// By default the load factor is raised until the scaled loads are so many times the fixed ones.
 const DEFAULT_CAP: f64 = 1e6;
@@ -51,31 +55,14 @@ type Progress<'w> = dyn FnMut(&Tracer, f64) -> ControlFlow<()> + 'w;
 
 pub(super) fn run(analysis: &Analysis, pulse: &Pulse) -> Result<CollapseReport, AnalysisError> {
     let question = Question::new(analysis, pulse)?;
-    let mut report = question.solve()?;
-    if let Some(accuracy) = analysis.accuracy {
-        report = plan::refined(analysis, accuracy, report, pulse)?;
-    }
-    report.settle_fields(analysis);
-    let unbent = analysis.mesh.subblocks.iter().any(|[radial, _]| *radial == 1);
-    if analysis.geometry == Geometry::Updated && unbent && report.at_start.is_some() {
-        report.notes.push(updated::UNBENT.into());
-    }
-    report.updated = question.updated(&mut report)?;
-    match analysis.aim {
-        Aim::Collapse => safety::crushed_at_start(&mut report),
-        Aim::Safety { crushing } => safety::judge(&mut report, crushing),
-        Aim::Settlement(movements) => question.settle(&mut report, movements)?,
-    }
-    falling::follow(analysis, &mut report, pulse)?;
-    pulse.go_on()?;
-    Ok(report)
+    let report = question.answer()?;
+    Ok(report.or_cannot_tell(question.blank(0)))
 }
 
 /// Limit window and load path on the mesh given; what follows from them is left to [`run`].
 pub(super) fn solve(analysis: &Analysis, pulse: &Pulse) -> Result<CollapseReport, AnalysisError> {
     Question::new(analysis, pulse)?.solve()
 }
-
 impl Attempted {
     /// The less doubtful of two attempts, with the work of both.
     fn or_better(self, next: Attempted) -> Attempted {
@@ -110,16 +97,36 @@ impl<'a> Question<'a> {
         Ok(Question { analysis, pulse, certificate, thrust_range, crushing, sign, start, cap, weight })
     }
 
+    /// Limit window, load path and all that follows from them.
+    fn answer(&self) -> Result<CollapseReport, AnalysisError> {
+        let (analysis, pulse) = (self.analysis, self.pulse);
+        let mut report = self.solve()?;
+        if let Some(accuracy) = analysis.accuracy {
+            report = plan::refined(analysis, accuracy, report, pulse)?;
+        }
+        report.settle_fields(analysis);
+        let unbent = analysis.mesh.subblocks.iter().any(|[radial, _]| *radial == 1);
+        if analysis.geometry == Geometry::Updated && unbent && report.at_start.is_some() {
+            report.notes.push(updated::UNBENT.into());
+        }
+        report.updated = self.updated(&mut report)?;
+        match analysis.aim {
+            Aim::Collapse => safety::crushed_at_start(&mut report),
+            Aim::Safety { crushing } => safety::judge(&mut report, crushing),
+            Aim::Settlement(movements) => self.settle(&mut report, movements)?,
+        }
+        falling::follow(analysis, &mut report, pulse)?;
+        pulse.go_on()?;
+        Ok(report)
+    }
+
     /// The answer of the first attempt that is not in doubt, or of the one least so.
     fn solve(&self) -> Result<CollapseReport, AnalysisError> {
-        let mut attempted = self.attempt(Attempt::number(0))?;
-        for i in 1..ATTEMPTS {
-            if attempted.doubt.is_none() {
-                break;
-            }
-            let next = self.attempt(Attempt::number(i))?;
-            attempted = attempted.or_better(next);
-        }
+        let slender = rounding::too_slender(&self.analysis.arch);
+        let attempted = match slender {
+            Some(doubt) => Attempted { report: self.blank(0), doubt: Some(doubt) },
+            None => self.attempts()?,
+        };
         let Attempted { mut report, doubt } = attempted;
         if let Some(doubt) = doubt {
             if doubt.is_contradiction() {
@@ -130,12 +137,25 @@ impl<'a> Question<'a> {
         Ok(report)
     }
 
+    /// The first attempt that is not in doubt, or the one least so.
+    fn attempts(&self) -> Result<Attempted, AnalysisError> {
+        let mut attempted = self.attempt(Attempt::number(0))?;
+        for i in 1..ATTEMPTS {
+            if attempted.doubt.is_none() {
+                break;
+            }
+            let next = self.attempt(Attempt::number(i))?;
+            attempted = attempted.or_better(next);
+        }
+        Ok(attempted)
+    }
+
     fn attempt(&self, attempt: Attempt) -> Result<Attempted, AnalysisError> {
         let analysis = self.analysis;
         let model = discretise(analysis, attempt.seed, self.pulse)?;
         let fixed = disturbed(&model, self.start, attempt);
         let mut progress = |tracer: &Tracer, load_factor: f64| self.pulse.step(load_factor, tracer.events());
-        let mut report = self.blank(&model);
+        let mut report = self.blank(model.chain.unknowns());
         report.notes = self.mesh_notes(&model);
         let (mut tracer, end) =
             stand(&model, &fixed, self.start, self.weight, &mut |t| progress(t, self.start * t.parameter()));
@@ -161,7 +181,7 @@ impl<'a> Question<'a> {
         let mut doubt = self.leg(&mut report, &model, &mut tracer, &fixed, self.sign, &mut progress)?;
         if let Some(mut back) = back {
             report.outcome = Outcome::StandsInWindow;
-            let mut other = self.blank(&model);
+            let mut other = self.blank(model.chain.unknowns());
             doubt = doubt.or(self.leg(&mut other, &model, &mut back, &fixed, -self.sign, &mut progress)?);
             report.join_other_end(other);
         }
@@ -210,9 +230,16 @@ impl<'a> Question<'a> {
         let doubt = self.certificate.fallen(self.start, loose, slides, power, self.pulse);
         self.pulse.check()?;
         let doubt = doubt.or(self.certificate.standing_doubt(fall.residual));
+        if self.certificate.ends_at_zero(self.sign) {
+            report.outcome = Outcome::Collapse;
+            report.end = Some(PathEnd { load_factor: 0.0, ..fall });
+            report.notes.push(ENDS_AT_ZERO.into());
+            return Ok(Attempted { report, doubt });
+        }
         let safety = matches!(self.analysis.aim, Aim::Safety { .. });
-        report.notes.extend(self.certificate.out_of_reach(self.start, safety, any_fixed(self.analysis)));
-        report.outcome = Outcome::FallsAsBuilt;
+        report.notes.extend(self.certificate.out_of_reach(self.start, safety));
+        let slides = doubt == Some(Doubt::SlidesInside);
+        report.outcome = if slides { Outcome::SlidesAsBuilt } else { Outcome::FallsAsBuilt };
         report.end = Some(fall);
         Ok(Attempted { report, doubt })
     }
@@ -224,7 +251,8 @@ impl<'a> Question<'a> {
         mesh_notes(slenderness, several, self.analysis.arch.joints.iter().any(cohesive))
     }
 
-    fn blank(&self, model: &Model) -> CollapseReport {
+    /// A report of nothing but the limit window, on a model of so many `unknowns`.
+    fn blank(&self, unknowns: usize) -> CollapseReport {
         let window = self.certificate.window;
         CollapseReport {
             outcome: Outcome::CannotTell,
@@ -247,7 +275,7 @@ impl<'a> Question<'a> {
             motion: None,
             other_motion: None,
             plan: None,
-            cost: Cost { unknowns: model.chain.unknowns(), ..Cost::default() },
+            cost: Cost { unknowns, ..Cost::default() },
             notes: Vec::new(),
         }
     }

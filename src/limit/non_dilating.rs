@@ -21,21 +21,20 @@ pub enum Release {
     Sliding(f64),
 }
 
-/// What a joint that carries `forces` lets happen; `at_limit` is the share of its force below which a corner's is none, and
-/// within which its shear is at capacity.
-pub fn releases(joint: &Joint, forces: &Resultant, at_limit: f64) -> Vec<Release> {
+/// What a joint that carries `forces` lets happen; a corner's force up to `none`, N/m, is none, and shear as near to its capacity
+/// is at it.
+pub fn releases(joint: &Joint, forces: &Resultant, none: f64) -> Vec<Release> {
     let (friction, cohesion) = match joint.law {
         JointLaw::Dry { friction, cohesion } => (friction, cohesion),
         JointLaw::Mirror => return vec![Release::Sliding(1.0), Release::Sliding(-1.0)],
         JointLaw::Bonded => return Vec::new(),
     };
     let normal = forces.normal();
-    let scale = at_limit * normal.abs().max(forces.shear.abs());
     let capacity = friction * normal + cohesion * joint.length();
     let corners = [(Face::Intrados, forces.extrados), (Face::Extrados, forces.intrados)];
-    let rotations = corners.into_iter().filter(|(_, force)| *force <= scale).map(|(face, _)| Release::Rotation(face));
+    let rotations = corners.into_iter().filter(|(_, force)| *force <= none).map(|(face, _)| Release::Rotation(face));
     // The shear on the stone after the joint opposes its sliding.
-    let slides = [1.0, -1.0].into_iter().filter(|sign| capacity + sign * forces.shear <= scale).map(Release::Sliding);
+    let slides = [1.0, -1.0].into_iter().filter(|sign| capacity + sign * forces.shear <= none).map(Release::Sliding);
     rotations.chain(slides).collect()
 }
 

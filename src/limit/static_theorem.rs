@@ -24,6 +24,11 @@ impl Resultant {
     pub fn normal(&self) -> f64 {
         self.intrados + self.extrados
     }
+
+    /// The larger of normal force and shear, N/m.
+    pub fn size(&self) -> f64 {
+        self.normal().abs().max(self.shear.abs())
+    }
 }
 
 /// A linear condition on the forces of one joint: the weighted sum of them and of the constant vanishes.

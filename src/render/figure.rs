@@ -21,6 +21,7 @@ const STYLE: &str = "\
 .thrust{fill:none;stroke:#c8392b;stroke-width:2.2;stroke-linejoin:round;stroke-linecap:round}
 .hinge{fill:#fff;stroke:#1d1d1f;stroke-width:2.4}
 .slide{stroke:#b06a00;stroke-width:2.4;stroke-linecap:round}
+.parting{stroke:#1d1d1f;stroke-width:2.4;stroke-dasharray:3 4}
 .bar{stroke:#1d1d1f;stroke-width:1.6}
 text{font-family:Inter,'Helvetica Neue',Helvetica,Arial,sans-serif;fill:#1d1d1f}
 .title{font-size:19px;font-weight:600}
@@ -45,6 +46,7 @@ pub fn svg(arch: &Arch, end: &PathEnd, caption: &str) -> String {
         canvas.polygon("ghost", piece);
     }
     canvas.polyline("thrust", &thrust_line(arch, end));
+    draw_lift_offs(&mut canvas, arch, end);
     draw_slides(&mut canvas, arch, end);
     draw_hinges(&mut canvas, arch, end);
     for (i, line) in lines.iter().enumerate() {
@@ -80,7 +82,9 @@ fn moved_pieces(arch: &Arch, end: &PathEnd) -> Vec<Vec<Vec2>> {
     }
     let scale = MOVEMENT * plan_size(arch) / fastest;
     let breaks = |joint: usize| {
-        mechanism.hinges.iter().any(|h| h.joint == joint) || mechanism.slides.iter().any(|s| s.joint == joint)
+        mechanism.hinges.iter().any(|h| h.joint == joint)
+            || mechanism.slides.iter().any(|s| s.joint == joint)
+            || mechanism.lift_offs.iter().any(|l| l.joint == joint)
     };
     let mut pieces = Vec::new();
     let mut first = 0;
@@ -163,6 +167,17 @@ fn draw_hinges(canvas: &mut Canvas, arch: &Arch, end: &PathEnd) {
     }
 }
 
+/// Every joint that parts altogether, dashed.
+fn draw_lift_offs(canvas: &mut Canvas, arch: &Arch, end: &PathEnd) {
+    for lift_off in &end.mechanism.lift_offs {
+        let joint = &arch.joints[lift_off.joint];
+        let (from, to) = (canvas.place(joint.intrados), canvas.place(joint.extrados));
+        canvas.line("parting", from, to);
+        let label = to + 20.0 * (to - from).normalize() + Vec2::new(0.0, 5.0);
+        canvas.text("label", label, &lift_off.joint.to_string());
+    }
+}
+
 /// Two half arrows along every sliding joint: the stone after it goes with the one, the stone before with the other.
 fn draw_slides(canvas: &mut Canvas, arch: &Arch, end: &PathEnd) {
     for slide in &end.mechanism.slides {
@@ -204,6 +219,10 @@ fn draw_foot(canvas: &mut Canvas, end: &PathEnd) {
     if !end.thrust_line.is_empty() {
         let at = entry(canvas, "thrust line", 120.0);
         canvas.line("thrust", at - half, at + half);
+    }
+    if !end.mechanism.lift_offs.is_empty() {
+        let at = entry(canvas, "parting joint", 128.0);
+        canvas.line("parting", at - half, at + half);
     }
     if !end.mechanism.slides.is_empty() {
         let at = entry(canvas, "sliding joint", 132.0);

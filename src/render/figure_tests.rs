@@ -57,6 +57,7 @@ fn example(n: usize, hinges: [usize; 4], mirror: bool) -> (Arch, PathEnd) {
     let mechanism = Mechanism {
         mode: Mode::Sway,
         hinges: hinges.iter().enumerate().map(hinge).collect(),
+        lift_offs: Vec::new(),
         slides: vec![Slide { joint: n, rate: 0.1 }],
         velocities: velocities.collect(),
     };

@@ -103,9 +103,7 @@ fn fill(dice: &mut Dice, shape: &Shape) -> Value {
     if embankment {
         fill["embankment_thickness_m"] = json!(dice.between(0.2, 3.0));
     }
-    if dice.chance(0.4) {
-        fill["lateral_ratio"] = json!(dice.between(0.2, 1.0));
-    }
+    fill["lateral_ratio"] = json!(if dice.chance(0.4) { dice.between(0.2, 1.0) } else { 0.5 });
     json!({"fill_pressure": fill})
 }
 
@@ -150,7 +148,7 @@ fn live(dice: &mut Dice, shape: &Shape) -> Vec<Value> {
             json!({"body_acceleration": {"x_g": angle.cos(), "y_g": angle.sin()}})
         }
         15 => fill(dice, shape),
-        16 => json!({"fill_pressure": {"embankment_thickness_m": 1.0}}),
+        16 => json!({"fill_pressure": {"embankment_thickness_m": 1.0, "lateral_ratio": 0.5}}),
         17 => {
             let from = shape.top * dice.between(0.3, 0.5);
             let band = json!({"from_m": from, "to_m": from + shape.top * dice.between(0.2, 0.4), "pressure_pa": force});

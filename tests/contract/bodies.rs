@@ -44,7 +44,7 @@ fn arch() -> Value {
             {"load": {"self_weight": {}}, "scaled": false, "coefficient": 1.5, "per_abscissa": false},
             {"load": {"fill_pressure": {
                 "fill_height_m": 8.0, "fill_density_kg_m3": 1500, "embankment_thickness_m": 0.5,
-                "embankment_density_kg_m3": 1700, "lateral_ratio": 0.4, "fill_friction_angle_deg": 25
+                "embankment_density_kg_m3": 1700, "lateral_ratio": 0.5, "fill_friction_angle_deg": 30
             }}},
             {"load": {"point_load": {"force_n_per_m": 1000, "x_m": -1}}, "scaled": true},
             {"load": {"point_load": {"force_n_per_m": 1000, "voussoir": 5}}},

@@ -54,7 +54,10 @@ fn arch_takes_a_mesh(request: &Value) -> bool {
 }
 
 fn fill(dice: &mut Dice, top: f64) -> Value {
-    json!({"fill_pressure": {"fill_height_m": top * dice.between(1.3, 2.2), "embankment_thickness_m": dice.unit()}})
+    let height = top * dice.between(1.3, 2.2);
+    json!({"fill_pressure": {
+        "fill_height_m": height, "embankment_thickness_m": dice.unit(), "lateral_ratio": 0.5,
+    }})
 }
 
 /// A live load that is symmetric: alone, or as a pair.

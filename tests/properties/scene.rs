@@ -95,6 +95,11 @@ fn live(kind: usize, [a, b]: [f64; 2], count: usize, half_span: f64) -> Value {
     }
 }
 
+/// Fill that presses at rest.
+fn fill_up_to(height: f64) -> Value {
+    json!({"fill_pressure": {"fill_height_m": height, "lateral_ratio": 0.5}})
+}
+
 /// An arch under its weight, sometimes under fill, and one scaled load.
 pub fn scene(friction: [f64; 2]) -> impl Strategy<Value = Scene> {
     let arch = (profile(), 5..33usize, 0.12..0.24, prop::option::of(1.0..1.5), friction[0]..friction[1]);
@@ -103,7 +108,7 @@ pub fn scene(friction: [f64; 2]) -> impl Strategy<Value = Scene> {
         let [half_span, top] = size(&profile);
         let crown = share * half_span.min(top);
         let mut fixed = vec![json!({"load": {"self_weight": {}}})];
-        fixed.extend(fill.map(|h| json!({"load": {"fill_pressure": {"fill_height_m": (top + crown) * h}}})));
+        fixed.extend(fill.map(|h| json!({"load": fill_up_to((top + crown) * h)})));
         fixed.push(json!({"load": live(kind, [a, b], count, half_span), "scaled": true}));
         let springing = crown * swell.unwrap_or(1.0);
         Scene {
@@ -144,7 +149,7 @@ pub fn symmetric(friction: [f64; 2]) -> impl Strategy<Value = Scene> {
         let load = match kind {
             0 => json!({"point_load": {"force_n_per_m": 1000.0, "x_m": 0.0}}),
             1 => json!({"patch_load": {"centre_x_m": 0.0, "width_m": 0.3 * half_span, "force_n_per_m": 1000.0}}),
-            _ => json!({"fill_pressure": {"fill_height_m": 1.6 * top}}),
+            _ => fill_up_to(1.6 * top),
         };
         *scene.load(true) = json!({"load": load, "scaled": true});
         scene

@@ -89,8 +89,8 @@ fn velocity(solved: &Solved, end: &PathEnd, k: Option<usize>, at: Vec2) -> (Vec2
     }
 }
 
-/// How far the velocities of the stones are from what the hinges and slides say, joint by joint: the velocity of the
-/// stone after a joint relative to the one before it, at the hinge's face or at both ends, over the joint's length.
+/// How far the velocities of the stones are from what hinges, slides and joints that part say, joint by joint: the velocity of
+/// the stone after a joint relative to the one before it, at the hinge's face or at both ends, over the joint's length.
 pub fn inconsistency(solved: &Solved, end: &PathEnd) -> f64 {
     let arch = &solved.analysis.arch;
     let mut worst = 0f64;
@@ -98,6 +98,7 @@ pub fn inconsistency(solved: &Solved, end: &PathEnd) -> f64 {
         let wall = arch.half && k == arch.voussoirs.len();
         let hinge = end.mechanism.hinges.iter().find(|hinge| hinge.joint == k);
         let slide = end.mechanism.slides.iter().find(|slide| slide.joint == k).map_or(0.0, |slide| slide.rate);
+        let lift_off = end.mechanism.lift_offs.iter().find(|lift_off| lift_off.joint == k);
         let relative = |at: Vec2| {
             let (after, before) = (velocity(solved, end, Some(k), at), velocity(solved, end, k.checked_sub(1), at));
             (after.0 - before.0, after.1 - before.1)
@@ -106,9 +107,12 @@ pub fn inconsistency(solved: &Solved, end: &PathEnd) -> f64 {
         for face in faces {
             let (jump, spin) = relative(corner(joint, face));
             let along = if wall { 0.0 } else { jump.dot(&joint.tangent()) - slide };
-            worst = worst.max(jump.dot(&joint.normal()).abs() / joint.length()).max(along.abs() / joint.length());
+            let opens = lift_off.map_or(0.0, |l| if face == Face::Intrados { l.intrados } else { l.extrados });
+            let opening = jump.dot(&joint.normal()) - opens;
+            worst = worst.max(opening.abs() / joint.length()).max(along.abs() / joint.length());
             // Turning about the intrados opens the extrados: the stone after the joint turns clockwise.
             let turning = hinge.map_or(0.0, |h| if h.face == Face::Intrados { -h.rotation } else { h.rotation });
+            let spin = if lift_off.is_some() { turning } else { spin };
             worst = worst.max((spin - turning).abs());
         }
     }

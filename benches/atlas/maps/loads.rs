@@ -55,7 +55,7 @@ pub fn ties() -> Map {
         let first = match variant {
             "crown" => point(0.0),
             "pair" => point(5.0),
-            _ => json!({"fill_pressure": {"fill_height_m": 12.0}}),
+            _ => json!({"fill_pressure": {"fill_height_m": 12.0, "lateral_ratio": 0.5}}),
         };
         let mut request = ask(semicircle(number, 0.15), friction, Some(first), true);
         if variant == "pair" {

@@ -2,7 +2,7 @@
 
 use super::wording::{self, Limit, word};
 use super::{moving, plan, safety};
-use crate::api::response::{AnalysisResult, HingeBody, OutcomeWord, SlideBody};
+use crate::api::response::{AnalysisResult, HingeBody, LiftOffBody, OutcomeWord, SlideBody};
 use crate::collapse::Digits;
 use comfy_table::{Table, presets};
 use std::fmt::Write;
@@ -23,6 +23,7 @@ pub fn summary(result: &AnalysisResult, wall_time: Duration) -> String {
     } else {
         append(&mut text, "Hinges", hinges(&result.hinges));
         append(&mut text, "Sliding joints", slides(&result.slides));
+        append(&mut text, "Joints that part altogether", lift_offs(&result.lift_offs));
     }
     let at = if result.outcome == OutcomeWord::StandsInWindow {
         format!("the {}", wording::shown(result))
@@ -128,7 +129,9 @@ fn window_end(text: &mut String, name: &str, limit: Option<Limit<'_>>, result: &
     let range =
         wording::sliding_range(collapse, wording::unit(result)).map(|range| format!(" ({range})")).unwrap_or_default();
     append(text, &format!("{name} end: {at}{range}, {}", word(&collapse.mode)), hinges(limit.hinges));
-    append(text, &format!("Sliding joints at the {} end", name.to_lowercase()), slides(limit.slides));
+    let end = format!("at the {} end", name.to_lowercase());
+    append(text, &format!("Sliding joints {end}"), slides(limit.slides));
+    append(text, &format!("Joints that part altogether {end}"), lift_offs(limit.lift_offs));
 }
 
 fn hinges(hinges: &[HingeBody]) -> Option<Table> {
@@ -151,6 +154,15 @@ fn slides(slides: &[SlideBody]) -> Option<Table> {
     table.set_header(["joint", "rate"]);
     table.add_rows(slides.iter().map(|slide| [slide.joint.to_string(), format!("{:.4}", slide.rate)]));
     (!slides.is_empty()).then_some(table)
+}
+
+fn lift_offs(lift_offs: &[LiftOffBody]) -> Option<Table> {
+    let mut table = bare();
+    table.set_header(["joint", "opens at intrados", "opens at extrados"]);
+    table.add_rows(lift_offs.iter().map(|lift_off| {
+        [lift_off.joint.to_string(), format!("{:.4}", lift_off.intrados), format!("{:.4}", lift_off.extrados)]
+    }));
+    (!lift_offs.is_empty()).then_some(table)
 }
 
 /// What the first and the last joint carry where the path ends.

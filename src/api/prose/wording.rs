@@ -1,8 +1,12 @@
 //! An answer in sentences.
 
 use super::{moving, safety};
-use crate::api::request::{ArchRequest, DirectionRequest, LoadEntry, LoadRequest, PointLoad, ProfileRequest};
-use crate::api::response::{AnalysisResult, Collapse, HingeBody, MethodWord, MotionBody, OutcomeWord, SlideBody};
+use crate::api::request::{
+    ArchRequest, DirectionRequest, FillPressure, LoadEntry, LoadRequest, PointLoad, ProfileRequest,
+};
+use crate::api::response::{
+    AnalysisResult, Collapse, HingeBody, LiftOffBody, MethodWord, MotionBody, OutcomeWord, SlideBody,
+};
 use crate::collapse::Digits;
 use serde::Serialize;
 
@@ -15,16 +19,22 @@ pub struct Limit<'a> {
     pub collapse: &'a Collapse,
     pub hinges: &'a [HingeBody],
     pub slides: &'a [SlideBody],
+    pub lift_offs: &'a [LiftOffBody],
 }
 
 /// Lower and upper end of the path, each where there is one. The path runs both ways only in a window.
 pub fn limits(result: &AnalysisResult) -> [Option<Limit<'_>>; 2] {
-    let main =
-        result.collapse.as_ref().map(|collapse| Limit { collapse, hinges: &result.hinges, slides: &result.slides });
+    let main = result.collapse.as_ref().map(|collapse| Limit {
+        collapse,
+        hinges: &result.hinges,
+        slides: &result.slides,
+        lift_offs: &result.lift_offs,
+    });
     let other = result.other_end.as_ref().map(|end| Limit {
         collapse: &end.collapse,
         hinges: &end.hinges,
         slides: &end.slides,
+        lift_offs: &end.lift_offs,
     });
     if reversed(result) { [main, other] } else { [other, main] }
 }
@@ -54,6 +64,7 @@ pub fn headline(result: &AnalysisResult) -> String {
         return moving::headline(settlement);
     }
     let sentence = match (result.outcome, &result.collapse) {
+        (OutcomeWord::Collapse, Some(collapse)) if collapse.load_factor == 0.0 => at_once(result),
         (OutcomeWord::Collapse, Some(collapse)) => {
             let first = if result.updated_geometry.is_some() { " at first order" } else { "" };
             let moved = moving::before_the_start(result).unwrap_or_default();
@@ -62,9 +73,14 @@ pub fn headline(result: &AnalysisResult) -> String {
         }
         (OutcomeWord::StandsInWindow, _) => in_window(result) + &with_strength(result),
         (OutcomeWord::FallsAsBuilt, _) => falls(result).to_owned(),
+        (OutcomeWord::SlidesAsBuilt, _) => {
+            "The arch slides as its loads come on, although limit analysis finds equilibrium: whether it stands depends on \
+             how it was built."
+                .to_owned()
+        }
         (OutcomeWord::NeverCollapses, _) => stands(result) + &with_strength(result),
         (OutcomeWord::CannotTell, _) => {
-            "No answer: the load path and limit analysis do not agree. The notes say where.".to_owned()
+            "No answer: what was found cannot be trusted. The notes say why.".to_owned()
         }
         (OutcomeWord::Crushes, _) => {
             "The stone crushes before the scaled loads begin to act. The notes say how.".to_owned()
@@ -158,14 +174,25 @@ fn in_window(result: &AnalysisResult) -> String {
 }
 
 fn falls(result: &AnalysisResult) -> &'static str {
-    let has = |scaled: bool| result.request.loads.iter().any(|entry| entry.scaled == scaled);
-    match (has(false), has(true)) {
-        (true, false) => "The arch falls as built: it cannot carry its fixed loads.",
-        (true, true) => {
+    match (has(result, true), result.limit_window) {
+        (false, _) => "The arch falls as built: it cannot carry its fixed loads.",
+        (true, None) => {
             "The arch falls as built: it cannot carry its fixed loads, whatever the size of the scaled ones."
         }
-        (false, _) => "The arch falls at once: nothing is fixed, and it cannot carry the scaled loads at any size.",
+        (true, Some(_)) => "The arch falls under its fixed loads with the scaled ones of any size that was tried.",
     }
+}
+
+/// Whether there are scaled loads, or fixed ones.
+fn has(result: &AnalysisResult, scaled: bool) -> bool {
+    result.request.loads.iter().any(|entry| entry.scaled == scaled)
+}
+
+/// Of an arch that collapses at load factor 0.
+fn at_once(result: &AnalysisResult) -> String {
+    let without = if has(result, false) { "without its scaled loads" } else { "as long as there is no load" };
+    let act = if reversed(result) { "act reversed" } else { "act" };
+    format!("The arch collapses at {} {}: it stands {without}, and falls as soon as they {act}.", 0, unit(result))
 }
 
 fn stands(result: &AnalysisResult) -> String {
@@ -237,22 +264,25 @@ pub fn arch(arch: &ArchRequest) -> String {
     format!("{shape}, {count} voussoirs, {} joints{half}", count + 1)
 }
 
-/// Most loads listed.
+/// Most loads listed, beside fill, which always is.
 const LISTED: usize = 6;
 
 /// The fixed or the scaled loads, a line each.
 pub fn loads(entries: &[LoadEntry], scaled: bool) -> String {
-    let entries = entries.iter().filter(|entry| entry.scaled == scaled);
+    let entries: Vec<&LoadEntry> = entries.iter().filter(|entry| entry.scaled == scaled).collect();
+    let listed = |(i, entry): &(usize, &&LoadEntry)| *i < LISTED || matches!(entry.load, LoadRequest::FillPressure(_));
     let mut lines: Vec<String> = entries
-        .map(|entry| match (entry.coefficient == 1.0, entry.per_abscissa) {
+        .iter()
+        .enumerate()
+        .filter(listed)
+        .map(|(_, entry)| match (entry.coefficient == 1.0, entry.per_abscissa) {
             (true, false) => load(&entry.load),
             (false, false) => format!("{} times: {}", Digits(entry.coefficient), load(&entry.load)),
             (true, true) => format!("abscissa times: {}", load(&entry.load)),
             (false, true) => format!("{} times abscissa times: {}", Digits(entry.coefficient), load(&entry.load)),
         })
         .collect();
-    let more = lines.len().saturating_sub(LISTED);
-    lines.truncate(LISTED);
+    let more = entries.len() - lines.len();
     if more > 0 {
         lines.push(format!("and {more} more"));
     }
@@ -262,12 +292,7 @@ pub fn loads(entries: &[LoadEntry], scaled: bool) -> String {
 fn load(load: &LoadRequest) -> String {
     match load {
         LoadRequest::SelfWeight(_) => "self weight".to_owned(),
-        LoadRequest::FillPressure(fill) => {
-            let level = fill.fill_height_m.map(|height| format!("fill up to y = {} m", Digits(height)));
-            let above = format!("embankment of {} m", Digits(fill.embankment_thickness_m));
-            let above = (fill.embankment_thickness_m > 0.0).then_some(above);
-            level.into_iter().chain(above).collect::<Vec<_>>().join(" and ")
-        }
+        LoadRequest::FillPressure(pressure) => fill(pressure),
         LoadRequest::LateralPressure(lateral) => format!("lateral pressure, bands of height: {}", lateral.bands.len()),
         LoadRequest::PointLoad(point) => {
             format!("{} N per metre of depth {}", Digits(point.force_n_per_m), place(point))
@@ -280,6 +305,28 @@ fn load(load: &LoadRequest) -> String {
             format!("acceleration of {} g to the right, {} g upwards", Digits(body.x_g), Digits(body.y_g))
         }
     }
+}
+
+/// Fill with all that is assumed of it.
+fn fill(fill: &FillPressure) -> String {
+    let density = |density: f64| format!("{} kg/m3", Digits(density));
+    let level = fill.fill_height_m.map(|height| {
+        let density = density(fill.fill_density_kg_m3);
+        format!("fill of {density} up to y = {} m", Digits(height))
+    });
+    let above = (fill.embankment_thickness_m > 0.0).then(|| {
+        let (density, thickness) = (density(fill.embankment_density_kg_m3), Digits(fill.embankment_thickness_m));
+        let bare = if level.is_none() { " on the extrados" } else { "" };
+        format!("{thickness} m of embankment of {density}{bare}")
+    });
+    let what = level.into_iter().chain(above).collect::<Vec<_>>().join(" and ");
+    let ratio = Digits(fill.ratio());
+    let horizontal = match fill.fill_friction_angle_deg {
+        _ if fill.ratio() == 0.0 => "no horizontal pressure".to_owned(),
+        Some(angle) => format!("horizontal pressure {ratio} of the vertical (at rest, 1 - sin {} deg)", Digits(angle)),
+        None => format!("horizontal pressure {ratio} of the vertical (as given)"),
+    };
+    format!("{what}; {horizontal}")
 }
 
 fn place(point: &PointLoad) -> String {

@@ -38,7 +38,7 @@ pub enum LoadRequest {
     PointLoad(PointLoad),
     /// A vertical force spread over a plan width.
     PatchLoad(PatchLoad),
-    /// Every stone's mass times an acceleration.
+    /// The mass of stones and fill times an acceleration.
     BodyAcceleration(BodyAcceleration),
 }
 
@@ -46,8 +46,9 @@ pub enum LoadRequest {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct SelfWeight {}
 
-/// Pressure of fill and embankment, eq. (7) of the paper: `q_v = (H - y) g rho_f + h_e g rho_e` on the plan
-/// projection of the extrados, `q_h = K q_v` on its vertical projection, `K = 1 - sin phi_f`.
+/// Fill and embankment. They press, eq. (7) of the paper: `q_v = (H - y) g rho_f + h_e g rho_e` on the plan projection of
+/// the extrados and `q_h = K q_v` on its vertical projection. In a `body_acceleration` they push with their mass as well:
+/// the column over every part of the extrados that looks up, at half its height, carried by the stone below.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(default)]
 pub struct FillPressure {
@@ -64,17 +65,19 @@ pub struct FillPressure {
     /// Density of the embankment, kg/m3.
     #[schema(minimum = 0.0, exclusive_maximum = 1e5)]
     pub embankment_density_kg_m3: f64,
-    /// Ratio K of horizontal to vertical pressure, a pure number; left out: 1 - sin of the fill's friction angle.
+    /// Ratio K of horizontal to vertical pressure, a pure number. Left out: that of `fill_friction_angle_deg` or, without one
+    /// either, 0, no horizontal pressure.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(minimum = 0.0, exclusive_maximum = 1e12)]
     pub lateral_ratio: Option<f64>,
-    /// Friction angle of the fill, degrees.
+    /// Friction angle phi of fill that presses at rest, degrees: K = 1 - sin phi.
+    #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(minimum = 0.0, exclusive_maximum = 90.0)]
-    pub fill_friction_angle_deg: f64,
+    pub fill_friction_angle_deg: Option<f64>,
 }
 
 impl Default for FillPressure {
-    /// Gravel as in Table 1 of the paper.
+    /// Gravel as in Table 1 of the paper, without horizontal pressure.
     fn default() -> Self {
         FillPressure {
             fill_height_m: None,
@@ -82,8 +85,20 @@ impl Default for FillPressure {
             embankment_thickness_m: 0.0,
             embankment_density_kg_m3: 1600.0,
             lateral_ratio: None,
-            fill_friction_angle_deg: 30.0,
+            fill_friction_angle_deg: None,
         }
+    }
+}
+
+impl FillPressure {
+    /// Ratio of horizontal to vertical pressure at rest, of fill whose friction angle is given.
+    pub fn at_rest(&self) -> Option<f64> {
+        self.fill_friction_angle_deg.map(|angle| 1.0 - angle.to_radians().sin())
+    }
+
+    /// Ratio of horizontal to vertical pressure.
+    pub fn ratio(&self) -> f64 {
+        self.lateral_ratio.or(self.at_rest()).unwrap_or(0.0)
     }
 }
 
@@ -140,7 +155,7 @@ pub struct PatchLoad {
     pub force_n_per_m: f64,
 }
 
-/// Mass times acceleration on every stone.
+/// Mass times acceleration on every stone, and on what fill there is.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct BodyAcceleration {
     /// To the right, multiples of g.

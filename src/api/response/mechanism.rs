@@ -3,7 +3,7 @@
 use super::columns::{ThrustColumns, VelocityColumns};
 use super::words::{FaceWord, GovernedBy, ModeWord};
 use super::{Scale, words};
-use crate::collapse::{Hinge, LimitWindow, LoadRange, PathEnd, Slide};
+use crate::collapse::{Hinge, LiftOff, LimitWindow, LoadRange, PathEnd, Slide};
 use serde::Serialize;
 use utoipa::ToSchema;
 
@@ -77,6 +77,19 @@ pub struct SlideBody {
     pub rate: f64,
 }
 
+/// A joint that parts altogether in the mechanism: it carries no force, and no point of it stays pressed.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub struct LiftOffBody {
+    /// Joint number, from 0 at the left springing.
+    pub joint: usize,
+    /// Rate at which its end on the intrados opens (negative: closes), in the mechanism's scale: metres per radian of the
+    /// largest hinge rotation; where no hinge turns, the largest slide is 1, and where nothing slides either, the largest
+    /// opening.
+    pub intrados: f64,
+    /// The same of its end on the extrados.
+    pub extrados: f64,
+}
+
 /// One end of the load path.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct End {
@@ -87,6 +100,8 @@ pub struct End {
     pub hinges: Vec<HingeBody>,
     /// Sliding joints from left to right.
     pub slides: Vec<SlideBody>,
+    /// Joints that part altogether, from left to right.
+    pub lift_offs: Vec<LiftOffBody>,
     /// Resultant per joint.
     pub thrust_line: ThrustColumns,
     /// Velocity of every voussoir.
@@ -108,6 +123,7 @@ impl End {
             },
             hinges: end.mechanism.hinges.iter().map(HingeBody::from).collect(),
             slides: end.mechanism.slides.iter().map(SlideBody::from).collect(),
+            lift_offs: end.mechanism.lift_offs.iter().map(LiftOffBody::from).collect(),
             thrust_line: ThrustColumns::new(&end.thrust_line),
             velocities: VelocityColumns::new(&end.mechanism.velocities),
         }
@@ -140,6 +156,13 @@ impl From<&Hinge> for HingeBody {
             angle_from_crown_deg: hinge.angle_from_crown.to_degrees(),
             rotation: hinge.rotation,
         }
+    }
+}
+
+impl From<&LiftOff> for LiftOffBody {
+    fn from(lift_off: &LiftOff) -> Self {
+        let &LiftOff { joint, intrados, extrados } = lift_off;
+        LiftOffBody { joint, intrados, extrados }
     }
 }
 

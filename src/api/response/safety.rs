@@ -1,5 +1,6 @@
 //! Safety factors, at one point and along a curve.
 
+use super::assumptions::assumptions;
 use super::words::{CrushingWord, GovernsWord, ModeWord, ZoneWord};
 use crate::api::request::{AimRequest, AnalysisRequest, SafetyRequest};
 use crate::collapse::{Reach, SafetyPoint};
@@ -100,7 +101,11 @@ impl SafetyCurveResult {
     /// Puts the points in the request's words; none for a request that asks for no curve.
     pub fn new(request: &AnalysisRequest, points: &[SafetyPoint]) -> Option<Self> {
         let AimRequest::Safety(SafetyRequest { crushing, curve: Some(curve) }) = &request.analysis else { return None };
-        let body = |(point, &abscissa): (&SafetyPoint, &f64)| CurvePointBody { abscissa, safety: point.into() };
+        let body = |(point, &abscissa): (&SafetyPoint, &f64)| {
+            let mut safety = SafetyBody::from(point);
+            safety.notes.extend(assumptions(request));
+            CurvePointBody { abscissa, safety }
+        };
         Some(SafetyCurveResult {
             unit: curve.unit.clone(),
             crushing: (*crushing).into(),

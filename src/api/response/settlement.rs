@@ -1,7 +1,7 @@
 //! What the movement of springings does.
 
 use super::columns::{ThrustColumns, column};
-use super::mechanism::{HingeBody, SlideBody};
+use super::mechanism::{HingeBody, LiftOffBody, SlideBody};
 use super::words::ModeWord;
 use crate::collapse::{SettlementEnd, SettlementPath, SettlementPoint, SettlementReport};
 use serde::Serialize;
@@ -49,6 +49,8 @@ pub struct SettlementPathBody {
     pub hinges: Vec<HingeBody>,
     /// Joints that slide at the end.
     pub slides: Vec<SlideBody>,
+    /// Joints that part altogether at the end.
+    pub lift_offs: Vec<LiftOffBody>,
     /// Resultant per joint at the end, as places on the joints as built.
     pub thrust_line: ThrustColumns,
     /// Displacement of every voussoir at the end.
@@ -102,6 +104,7 @@ impl From<&SettlementPath> for SettlementPathBody {
             mode: path.mechanism.mode.into(),
             hinges: path.mechanism.hinges.iter().map(Into::into).collect(),
             slides: path.mechanism.slides.iter().map(Into::into).collect(),
+            lift_offs: path.mechanism.lift_offs.iter().map(Into::into).collect(),
             thrust_line: ThrustColumns::new(&path.thrust_line),
             displacements: DisplacementColumns {
                 x_m: column(&path.displacements, |row| row[0]),

@@ -1,7 +1,7 @@
 //! The answer on moving geometry.
 
 use super::Scale;
-use super::mechanism::{HingeBody, SlideBody};
+use super::mechanism::{HingeBody, LiftOffBody, SlideBody};
 use super::words::ModeWord;
 use crate::collapse::{CollapseReport, Outcome, UpdatedEnd, UpdatedGeometry};
 use serde::Serialize;
@@ -48,6 +48,8 @@ pub struct UpdatedBody {
     pub hinges: Vec<HingeBody>,
     /// Sliding joints as the arch begins to fall.
     pub slides: Vec<SlideBody>,
+    /// Joints that part altogether as the arch begins to fall.
+    pub lift_offs: Vec<LiftOffBody>,
     /// Intensity at which the arch first snaps into another shape: the path dips there by more than a hundredth of what it
     /// rose, then goes on rising; null where it does not.
     pub snap_intensity: Option<f64>,
@@ -72,6 +74,7 @@ impl UpdatedBody {
             mode: mechanism.map(|mechanism| mechanism.mode.into()),
             hinges: mechanism.map_or_else(Vec::new, |m| m.hinges.iter().map(Into::into).collect()),
             slides: mechanism.map_or_else(Vec::new, |m| m.slides.iter().map(Into::into).collect()),
+            lift_offs: mechanism.map_or_else(Vec::new, |m| m.lift_offs.iter().map(Into::into).collect()),
             snap_intensity: updated.snap.map(|at| scale.intensity(at)),
             residual: updated.residual,
         }

@@ -9,10 +9,13 @@ use utoipa::ToSchema;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum OutcomeWord {
-    /// Stands at load factor 0 and collapses at a finite one.
+    /// Stands at load factor 0 and collapses at a finite one; at 0 itself where it falls as soon as the load factor leaves it.
     Collapse,
-    /// Does not stand under its fixed loads.
+    /// Stands at no load factor in reach: limit analysis finds no equilibrium there.
     FallsAsBuilt,
+    /// Slides as its loads come on, although limit analysis, in which sliding joints dilate, finds equilibrium: whether it
+    /// stands depends on how it was built.
+    SlidesAsBuilt,
     /// Does not stand at load factor 0, but does between two others.
     StandsInWindow,
     /// Stands up to the cap.
@@ -24,7 +27,7 @@ pub enum OutcomeWord {
     /// The stone crushes before the arch falls: in a safety analysis that crushing governs; in any other, where its joints
     /// are crushed and its stones yield under the loads at the start of the path already.
     Crushes,
-    /// Path and certificate contradict each other, or the path could not be followed.
+    /// Path and certificate contradict each other, or the path could not be followed; `notes` say why.
     CannotTell,
 }
 
@@ -144,6 +147,7 @@ impl From<Outcome> for OutcomeWord {
         match outcome {
             Outcome::Collapse => OutcomeWord::Collapse,
             Outcome::FallsAsBuilt => OutcomeWord::FallsAsBuilt,
+            Outcome::SlidesAsBuilt => OutcomeWord::SlidesAsBuilt,
             Outcome::StandsInWindow => OutcomeWord::StandsInWindow,
             Outcome::NeverCollapses => OutcomeWord::NeverCollapses,
             Outcome::FollowsMovement => OutcomeWord::FollowsMovement,

@@ -1,10 +1,11 @@
 //! The loads of a request as forces on voussoirs.
 
-use super::{MAX_DENSITY_KG_M3, MAX_FACTOR, MAX_FORCE_N_PER_M, MAX_LENGTH_M, MAX_STRESS_PA, friction_angle};
+use super::{MAX_DENSITY_KG_M3, MAX_FACTOR, MAX_FORCE_N_PER_M, MAX_LENGTH_M, MAX_STRESS_PA, friction_angle, inertia};
 use crate::api::fault::{Faults, Shown};
 use crate::api::request::{FillPressure, LateralPressure, LoadEntry, LoadRequest, PatchLoad, PointLoad};
 use crate::arch::load::{Band, Fill, Load, LoadFault, Place};
 use crate::arch::{Arch, GRAVITY, MAX_VOUSSOIRS, PointForce};
+use crate::collapse::Digits;
 use crate::geometry::Vec2;
 
 /// Most loads of one request.
@@ -13,6 +14,9 @@ pub const MAX_LOADS: usize = 1000;
 /// Most forces that the loads of one request may put on its voussoirs: loads (a pressure counts once per band) times
 /// voussoirs times subblocks along each. Each is kept until the job has run.
 const MAX_FORCES: usize = 200_000;
+
+/// A `lateral_ratio` this close to that of the friction angle given with it is the same.
+const SAME_RATIO: f64 = 1e-3;
 
 /// How many forces a load may put on each voussoir.
 fn forces_per_voussoir(entry: &LoadEntry) -> usize {
@@ -24,18 +28,34 @@ fn forces_per_voussoir(entry: &LoadEntry) -> usize {
 
 /// How many forces these loads may put on each voussoir together.
 pub fn forces_per_voussoir_of(entries: &[LoadEntry]) -> usize {
-    entries.iter().map(forces_per_voussoir).sum()
+    entries.iter().map(forces_per_voussoir).sum::<usize>() + inertia::forces_per_voussoir(entries)
 }
 
-/// Fixed and scaled forces, on the whole arch where there is one, with its extrados sides cut into `pieces` each.
+/// Forces on voussoirs.
+#[derive(Default)]
+pub struct Forces {
+    /// Those that stay.
+    pub fixed: Vec<PointForce>,
+    /// Those that the load factor multiplies.
+    pub scaled: Vec<PointForce>,
+}
+
+impl Forces {
+    /// Those that stay, or those that are scaled.
+    pub fn of(&mut self, scaled: bool) -> &mut Vec<PointForce> {
+        if scaled { &mut self.scaled } else { &mut self.fixed }
+    }
+}
+
+/// The forces on the whole arch where there is one, with its extrados sides cut into `pieces` each.
 pub fn loads(
     entries: &[LoadEntry],
     arch: Option<&Arch>,
     pieces: &[usize],
     density: f64,
     faults: &mut Faults,
-) -> (Vec<PointForce>, Vec<PointForce>) {
-    let (mut fixed, mut scaled) = (Vec::new(), Vec::new());
+) -> Forces {
+    let mut all = Forces::default();
     faults.require(
         !entries.is_empty(),
         "/loads",
@@ -43,7 +63,7 @@ pub fn loads(
     );
     if entries.len() > MAX_LOADS {
         faults.listing("/loads", entries.len(), 1..=MAX_LOADS, "loads");
-        return (fixed, scaled);
+        return all;
     }
     let forces = forces_per_voussoir_of(entries) * pieces.iter().sum::<usize>();
     if forces > MAX_FORCES {
@@ -52,7 +72,7 @@ pub fn loads(
              loads or a coarser mesh"
         );
         faults.add("/loads", detail);
-        return (fixed, scaled);
+        return all;
     }
     for (i, entry) in entries.iter().enumerate() {
         let before = faults.len();
@@ -62,13 +82,17 @@ pub fn loads(
             Ok(forces) if forces.is_empty() => {
                 faults.add(format!("/loads/{i}"), "this load puts no force on the arch: correct it or leave it out");
             }
-            Ok(forces) => if entry.scaled { &mut scaled } else { &mut fixed }.extend(forces),
+            Ok(forces) => {
+                all.of(entry.scaled).extend(forces);
+                inertia::add(entries, entry, arch, pieces, &mut all);
+            }
             Err(fault) => {
                 faults.add(place(i, &entry.load, fault), format!("{fault}: correct it or leave the load out"));
             }
         }
     }
-    (fixed, scaled)
+    inertia::check(entries, faults);
+    all
 }
 
 /// Where a load that does not fit the arch is best mended.
@@ -87,13 +111,7 @@ fn place(i: usize, load: &LoadRequest, fault: LoadFault) -> String {
 pub fn load(request: &LoadRequest, density: f64) -> Load {
     match request {
         LoadRequest::SelfWeight(_) => Load::SelfWeight(density),
-        LoadRequest::FillPressure(fill) => Load::Fill(Fill {
-            height: fill.fill_height_m,
-            density: fill.fill_density_kg_m3,
-            embankment: fill.embankment_thickness_m,
-            embankment_density: fill.embankment_density_kg_m3,
-            lateral_ratio: fill.lateral_ratio.unwrap_or(1.0 - fill.fill_friction_angle_deg.to_radians().sin()),
-        }),
+        LoadRequest::FillPressure(fill) => Load::Fill(as_fill(fill)),
         LoadRequest::LateralPressure(lateral) => {
             let band = |band: &crate::api::request::PressureBand| Band {
                 from: band.from_m,
@@ -113,6 +131,17 @@ pub fn load(request: &LoadRequest, density: f64) -> Load {
             Load::Patch { force: patch.force_n_per_m, centre: patch.centre_x_m, width: patch.width_m }
         }
         LoadRequest::BodyAcceleration(body) => Load::BodyAcceleration(density, GRAVITY * Vec2::new(body.x_g, body.y_g)),
+    }
+}
+
+/// Fill in SI.
+pub fn as_fill(fill: &FillPressure) -> Fill {
+    Fill {
+        height: fill.fill_height_m,
+        density: fill.fill_density_kg_m3,
+        embankment: fill.embankment_thickness_m,
+        embankment_density: fill.embankment_density_kg_m3,
+        lateral_ratio: fill.ratio(),
     }
 }
 
@@ -148,10 +177,18 @@ fn check_fill(here: &str, fill: &FillPressure, faults: &mut Faults) {
     faults.from_to(format!("{here}/embankment_thickness_m"), thickness, 0.0, MAX_LENGTH_M);
     faults.from_to(format!("{here}/fill_density_kg_m3"), fill.fill_density_kg_m3, 0.0, MAX_DENSITY_KG_M3);
     faults.from_to(format!("{here}/embankment_density_kg_m3"), fill.embankment_density_kg_m3, 0.0, MAX_DENSITY_KG_M3);
-    friction_angle(&format!("{here}/fill_friction_angle_deg"), fill.fill_friction_angle_deg, faults);
-    if let Some(ratio) = fill.lateral_ratio {
-        faults.from_to(format!("{here}/lateral_ratio"), ratio, 0.0, MAX_FACTOR);
-    }
+    let angle = fill.fill_friction_angle_deg;
+    let angle_fits =
+        angle.is_none_or(|angle| friction_angle(&format!("{here}/fill_friction_angle_deg"), angle, faults));
+    let Some(ratio) = fill.lateral_ratio else { return };
+    let ratio_fits = faults.from_to(format!("{here}/lateral_ratio"), ratio, 0.0, MAX_FACTOR);
+    let at_rest = fill.at_rest().filter(|_| angle_fits && ratio_fits).unwrap_or(ratio);
+    let detail = format!(
+        "{} is not the ratio at rest of fill_friction_angle_deg, 1 - sin of it, {}: leave out one of the two",
+        Shown(ratio),
+        Digits(at_rest)
+    );
+    faults.require((ratio - at_rest).abs() <= SAME_RATIO, format!("{here}/lateral_ratio"), detail);
 }
 
 fn check_lateral(here: &str, lateral: &LateralPressure, faults: &mut Faults) {

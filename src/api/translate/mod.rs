@@ -4,6 +4,7 @@ mod accuracy;
 mod arch;
 mod beam;
 mod half;
+mod inertia;
 mod loads;
 mod mesh;
 mod motion;

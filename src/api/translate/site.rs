@@ -88,7 +88,7 @@ impl<'a> Site<'a> {
     /// The analysis under these loads; none where the arch cannot be built.
     pub fn analysis(&self, entries: &[LoadEntry], faults: &mut Faults) -> Option<Analysis> {
         let request = self.request;
-        let (fixed, scaled) = loads::loads(entries, self.whole.as_ref(), &self.pieces(), self.stone.density, faults);
+        let forces = loads::loads(entries, self.whole.as_ref(), &self.pieces(), self.stone.density, faults);
         if let Some(whole) = self.whole.as_ref().filter(|_| request.arch.half) {
             half::check_loads(request, entries, whole, faults);
         }
@@ -98,8 +98,8 @@ impl<'a> Site<'a> {
             None => forces,
         };
         Some(Analysis {
-            fixed: halve(fixed),
-            scaled: halve(scaled),
+            fixed: halve(forces.fixed),
+            scaled: halve(forces.scaled),
             stone: self.stone,
             plane: request.stone.plane.into(),
             penalty_ratio: request.stone.penalty_ratio,

@@ -46,8 +46,8 @@ const PENALTY_RATIO: [f64; 2] = [0.01, 100.0];
 const STRENGTH_PA: [f64; 2] = [1e3, 1e30];
 
 /// 0 <= phi < 90 degrees.
-pub fn friction_angle(pointer: &str, angle: f64, faults: &mut Faults) {
-    faults.from_to(pointer, angle, 0.0, 90.0);
+pub fn friction_angle(pointer: &str, angle: f64, faults: &mut Faults) -> bool {
+    faults.from_to(pointer, angle, 0.0, 90.0)
 }
 
 /// The law of the joints that are not overridden.

@@ -22,7 +22,8 @@ fn certificate(limit: f64) -> Certificate {
 fn slid(shear: f64, load_factor: f64) -> PathEnd {
     let thrust = |joint| Thrust { joint, normal: 100.0, shear, eccentricity: 0.0, at: Vec2::zeros() };
     let slides = vec![Slide { joint: 1, rate: -1.0 }];
-    let mechanism = Mechanism { mode: Mode::Sliding, hinges: Vec::new(), slides, velocities: Vec::new() };
+    let mechanism =
+        Mechanism { mode: Mode::Sliding, hinges: Vec::new(), slides, lift_offs: Vec::new(), velocities: Vec::new() };
     PathEnd { load_factor, range: None, residual: 0.0, mechanism, thrust_line: vec![thrust(0), thrust(1)] }
 }
 
