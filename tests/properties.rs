@@ -129,6 +129,9 @@ proptest! {
     /// All loads `c` times change nothing; the scaled ones alone divide the factor, the fixed ones alone multiply it.
     #[test]
     fn forces_scale(scene in scene(ROUGH), c in 0.2..5.0f64) {
+        // Fill that is shaken belongs to both: its coefficient multiplies its mass.
+        let fill = scene.request["loads"].to_string().contains("fill_pressure");
+        prop_assume!(!(fill && scene.kind() == "body_acceleration"));
         let solved = Solved::new(&scene.request);
         prop_assume!(solved.falls() && !solved.slides());
         for (fixed, scaled, expected) in [(c, c, 1.0), (1.0, c, 1.0 / c), (c, 1.0, c)] {

@@ -140,9 +140,8 @@ impl Truth {
     fn fault(&self, analysis: &Analysis, report: &CollapseReport) -> Option<String> {
         let sign = if analysis.direction == Direction::Increase { 1.0 } else { -1.0 };
         let fits = match report.outcome {
-            Outcome::FallsAsBuilt => {
-                self.falls() || report.end.as_ref().is_some_and(slides) || self.out_of_reach(report.cap)
-            }
+            Outcome::FallsAsBuilt => self.falls() || self.out_of_reach(report.cap),
+            Outcome::SlidesAsBuilt => report.end.as_ref().is_some_and(slides),
             Outcome::NeverCollapses => self.limit(sign).is_some_and(|limit| sign * limit >= report.cap * (1.0 - EQUAL)),
             Outcome::Collapse => self.inside() >= -self.floor,
             Outcome::StandsInWindow => self.inside() <= self.floor && !self.falls(),

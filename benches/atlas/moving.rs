@@ -24,7 +24,11 @@ pub fn judge_settlement(analysis: &Analysis, report: &CollapseReport, truth: &Tr
     let Some(settled) = report.settlement.as_ref() else {
         // Where joints slide, standing depends on how the arch was built.
         let slides = report.end.as_ref().is_some_and(|end| !end.mechanism.slides.is_empty());
-        let fits = report.outcome == Outcome::FallsAsBuilt && (!stands || slides);
+        let fits = match report.outcome {
+            Outcome::FallsAsBuilt => !stands,
+            Outcome::SlidesAsBuilt => slides,
+            _ => false,
+        };
         return if fits { Mark::Right } else { Mark::Wrong(format!("{:?}, stands: {stands}", report.outcome)) };
     };
     match thrust_fault(analysis, &settled.first_order, truth) {

@@ -110,5 +110,5 @@ fn nothing_scaled(truth: &Truth) -> bool {
 
 /// Ours falls by sliding as its loads come on, where limit analysis finds equilibrium.
 fn fell_by_sliding(ours: &Ours) -> bool {
-    ours.outcome == Some(voussoir::collapse::Outcome::FallsAsBuilt) && ours.slides > 0
+    ours.outcome == Some(voussoir::collapse::Outcome::SlidesAsBuilt)
 }

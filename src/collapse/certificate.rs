@@ -85,6 +85,7 @@ impl Certificate {
         let start = self.natural_start(settled, sign);
         match self.window {
             _ if start.abs() < cap => start,
+            _ if self.ends_at_zero(sign) => sign * 0.5 * cap,
             Some([low, high]) if low.max(-cap) < high.min(cap) => 0.5 * (low.max(-cap) + high.min(cap)),
             _ => 0.0,
         }

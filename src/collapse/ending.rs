@@ -236,6 +236,11 @@ fn resultants(model: &Model, force: impl Fn(usize) -> [f64; 2]) -> Vec<Resultant
     (0..=model.voussoirs).map(joint).collect()
 }
 
+/// The thrust line of an arch without load.
+pub(super) fn no_thrust(arch: &Arch) -> Vec<Thrust> {
+    thrust_line(arch, &vec![Resultant { intrados: 0.0, extrados: 0.0, shear: 0.0 }; arch.joints.len()])
+}
+
 pub(super) fn thrust_line(arch: &Arch, resultants: &[Resultant]) -> Vec<Thrust> {
     arch.joints
         .iter()

@@ -92,7 +92,7 @@ impl CollapseReport {
             };
             match self.stress_fields.iter().find(|found| Some(found.load_factor) == wanted) {
                 Some(found) => settled.push(found.clone()),
-                None => self.notes.push(missing_field(*field)),
+                None => self.notes.push(missing_field(*field, self.end.is_some())),
             }
         }
         self.stress_fields = settled;
@@ -188,10 +188,13 @@ fn finite(what: &'static str, numbers: impl IntoIterator<Item = f64>) -> Result<
     if numbers.into_iter().all(f64::is_finite) { Ok(()) } else { Err(AnalysisError::NotFinite { what }) }
 }
 
-fn missing_field(field: FieldAt) -> String {
+fn missing_field(field: FieldAt, falls: bool) -> String {
     match field {
         FieldAt::LoadFactor(load_factor) => {
             format!("No stress field at load factor {}: the load path does not pass it.", Digits(load_factor))
+        }
+        FieldAt::NearCollapse if falls => {
+            "No stress field near collapse: the arch falls before it could be loaded.".into()
         }
         FieldAt::NearCollapse => "No stress field near collapse: the arch does not collapse.".into(),
     }

@@ -1,5 +1,6 @@
 //! From the limit window and the load path to one answer, or to saying that we cannot tell.
 
+mod fallen;
 mod leg;
 
 use super::certificate::{Certificate, any_fixed, loaded, mesh_notes};
@@ -11,7 +12,7 @@ use super::record::snapshot;
 use super::updated::{self, Course};
 use super::{
     Aim, Analysis, AnalysisError, CollapseReport, Cost, Crushing, Direction, Geometry, LimitWindow, Outcome,
-    PathEnd, SettlementEnd, SpringingMovement, ThrustRange, UpdatedGeometry, ending, falling, motion, plan, rounding, safety, settlement,
+    SettlementEnd, SpringingMovement, ThrustRange, UpdatedGeometry, falling, plan, rounding, safety, settlement,
 };
 use crate::arch::{Joint, JointLaw};
 use crate::dda::{End, Tracer};
@@ -19,10 +20,6 @@ use std::ops::ControlFlow;
 
 /// Note on an arch of which nothing is asked but whether it stands.
 const NOTHING_GROWS: &str = "Nothing grows with the load factor: the answer says only that the arch stands.";
-
-/// Note on an arch whose limit window ends where no scaled load acts.
-const ENDS_AT_ZERO: &str = "The arch stands at load factor 0 and at none beyond it in the direction asked. Hinges, slides and \
-     velocities are those in which it falls as soon as the load factor leaves 0.";
 
 /// By default the load factor is raised until the scaled loads are so many times the fixed ones.
 const DEFAULT_CAP: f64 = 1e6;
@@ -218,30 +215,6 @@ impl<'a> Question<'a> {
             };
         }
         Ok(())
-    }
-
-    /// The arch did not stand under its loads at the start.
-    fn fallen(&self, mut report: CollapseReport, model: &Model, tracer: &Tracer) -> Result<Attempted, AnalysisError> {
-        // Without fixed loads the smallest load factor is one too many.
-        let load_factor = if any_fixed(self.analysis) { self.start } else { 0.0 };
-        let fall = ending::at_fall(self.analysis, model, tracer, self.start, load_factor);
-        let power = motion::power(self.analysis, &fall.mechanism, self.start);
-        let (loose, slides) = (!loaded(self.analysis)[1], !fall.mechanism.slides.is_empty());
-        let doubt = self.certificate.fallen(self.start, loose, slides, power, self.pulse);
-        self.pulse.check()?;
-        let doubt = doubt.or(self.certificate.standing_doubt(fall.residual));
-        if self.certificate.ends_at_zero(self.sign) {
-            report.outcome = Outcome::Collapse;
-            report.end = Some(PathEnd { load_factor: 0.0, ..fall });
-            report.notes.push(ENDS_AT_ZERO.into());
-            return Ok(Attempted { report, doubt });
-        }
-        let safety = matches!(self.analysis.aim, Aim::Safety { .. });
-        report.notes.extend(self.certificate.out_of_reach(self.start, safety));
-        let slides = doubt == Some(Doubt::SlidesInside);
-        report.outcome = if slides { Outcome::SlidesAsBuilt } else { Outcome::FallsAsBuilt };
-        report.end = Some(fall);
-        Ok(Attempted { report, doubt })
     }
 
     fn mesh_notes(&self, model: &Model) -> Vec<String> {

@@ -93,6 +93,12 @@ fn loads(dice: &mut Dice, shape: &Shape) -> Vec<Value> {
             loads.push(json!({"load": load, "scaled": true, "coefficient": coefficient}));
         }
     }
+    // Scaled fill in a scaled acceleration is refused.
+    if loads.iter().any(|load| load["scaled"] == true && load["load"]["body_acceleration"].is_object()) {
+        for fill in loads.iter_mut().filter(|load| load["load"]["fill_pressure"].is_object()) {
+            fill["scaled"] = json!(false);
+        }
+    }
     loads
 }
 

@@ -196,7 +196,7 @@ impl Checked {
         };
         let explained = report.outcome == Outcome::CannotTell
             || report.outcome == Outcome::Crushes
-            || (slides && report.outcome == Outcome::FallsAsBuilt)
+            || (slides && report.outcome == Outcome::SlidesAsBuilt)
             || (slides && expected == Outcome::NeverCollapses && report.outcome == Outcome::Collapse);
         self.complain(report.outcome != expected && !explained, || {
             format!("outcome {:?}, the oracle expects {expected:?}", report.outcome)

@@ -77,3 +77,6 @@ impl Fill {
         0.5 * self.density * depth * depth + embankment
     }
 }
+
+#[cfg(test)]
+mod tests;

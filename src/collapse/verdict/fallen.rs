@@ -1,0 +1,61 @@
+//! Arches that do not stand where the load path starts.
+
+use super::{Attempted, Question};
+use crate::collapse::certificate::{any_fixed, loaded};
+use crate::collapse::discretise::Model;
+use crate::collapse::doubt::Doubt;
+use crate::collapse::{Aim, AnalysisError, CollapseReport, LoadRange, Outcome, PathEnd, ending, motion};
+use crate::dda::Tracer;
+
+/// Note on an arch whose limit window ends where no scaled load acts.
+const ENDS_AT_ZERO: &str = "The arch stands at load factor 0 and at none beyond it in the direction asked. Hinges, slides and \
+     velocities are those in which it falls as soon as the load factor leaves 0.";
+
+impl Question<'_> {
+    /// The arch did not stand under its loads at the start.
+    pub(super) fn fallen(
+        &self,
+        mut report: CollapseReport,
+        model: &Model,
+        tracer: &Tracer,
+    ) -> Result<Attempted, AnalysisError> {
+        // Without fixed loads the smallest load factor is one too many.
+        let load_factor = if any_fixed(self.analysis) { self.start } else { 0.0 };
+        let mut fall = ending::at_fall(self.analysis, model, tracer, self.start, load_factor);
+        fall.range = self.range_of(&fall);
+        let power = motion::power(self.analysis, &fall.mechanism, self.start);
+        let (loose, slides) = (!loaded(self.analysis)[1], !fall.mechanism.slides.is_empty());
+        let doubt = self.certificate.fallen(self.start, loose, slides, power, self.pulse);
+        self.pulse.check()?;
+        let doubt = doubt.or(self.certificate.standing_doubt(fall.residual));
+        if self.certificate.ends_at_zero(self.sign) {
+            report.notes.extend(doubt.is_none().then(|| ENDS_AT_ZERO.into()));
+            return Ok(Attempted { report: self.at_zero(report, fall), doubt });
+        }
+        let safety = matches!(self.analysis.aim, Aim::Safety { .. });
+        report.notes.extend(self.certificate.out_of_reach(self.start, safety));
+        let slides = doubt == Some(Doubt::SlidesInside);
+        report.outcome = if slides { Outcome::SlidesAsBuilt } else { Outcome::FallsAsBuilt };
+        report.end = Some(fall);
+        Ok(Attempted { report, doubt })
+    }
+
+    /// Where it slides although limit analysis finds equilibrium: the load at which it fell, and the window's end.
+    fn range_of(&self, fall: &PathEnd) -> Option<LoadRange> {
+        let greatest = self.certificate.end(self.sign).filter(|_| self.certificate.stands_at(fall.load_factor))?;
+        let (least, path) = (fall.load_factor, fall.load_factor);
+        let slides = !fall.mechanism.slides.is_empty();
+        slides.then_some(LoadRange { least, greatest, path, mechanisms_tried: 0 })
+    }
+
+    /// The arch stands at load factor 0, and at none beyond it, where it fell.
+    fn at_zero(&self, mut report: CollapseReport, fall: PathEnd) -> CollapseReport {
+        let thrust_line = match any_fixed(self.analysis) {
+            true => Vec::new(),
+            false => ending::no_thrust(&self.analysis.arch),
+        };
+        report.outcome = Outcome::Collapse;
+        report.end = Some(PathEnd { load_factor: 0.0, thrust_line, ..fall });
+        report
+    }
+}
