@@ -40,6 +40,8 @@ pub(super) struct Model<'p> {
     positions: Vec<Vec<f64>>,
     /// Extent, m.
     pub size: f64,
+    /// Whether chain and loads are their own mirror image.
+    pub symmetric: bool,
     /// Least stiffness of a contact, N/m2.
     pub softest: f64,
     /// Loads that stay, and those that the load factor multiplies.
@@ -82,14 +84,12 @@ pub(super) fn discretise<'p>(analysis: &Analysis, seed: u64, pulse: &'p Pulse<'p
     let last = joints.len() - 2;
     let bodies: Vec<Grid> = stand(left, 0).into_iter().chain(grids.iter().copied()).chain(stand(right, last)).collect();
     let bond = bond(analysis.mesh.seams, penalty);
-    let mut scatter = Scatter::new(seed);
     let mut macroblocks = Vec::with_capacity(bodies.len());
     for grid in &bodies {
         macroblocks.push(grid.macroblock(elasticity, bond));
         pulse.work(CUT * grid.radial * grid.along)?;
     }
     let mut builder = ChainBuilder::new(macroblocks);
-    let mut softest = f64::INFINITY;
     for (k, joint) in joints.iter().enumerate() {
         let stiffer = match joint.law {
             JointLaw::Mirror => CUT_STONE,
@@ -97,16 +97,15 @@ pub(super) fn discretise<'p>(analysis: &Analysis, seed: u64, pulse: &'p Pulse<'p
             _ => 1.0,
         };
         let sides = [k.checked_sub(1).map(|k| &bodies[k]), bodies.get(k)];
-        for touch in touches(joint, sides, stiffer * penalty, &mut scatter) {
-            softest = softest.min(touch.stiffness[0]);
-            builder.contact(touch);
-        }
+        touches(joint, sides, stiffer * penalty).for_each(|touch| builder.contact(touch));
         builder.next_interface();
     }
-    let chain = builder.finish(&pulse.heart).map_err(|error| match error {
+    let mut chain = builder.finish(&pulse.heart).map_err(|error| match error {
         Unbuilt::Loose(loose) => loose.into(),
         Unbuilt::Stopped(_) => pulse.stopped(),
     })?;
+    let mut scatter = Scatter::new(seed);
+    chain.scatter(|| [(); 2].map(|()| 1.0 + STIFFNESS_SCATTER * scatter.next()));
     let first_voussoir = usize::from(left.is_some());
     let around = |k: usize| places(joints[k].law, k.checked_sub(1).map(|k| &bodies[k]), bodies.get(k));
     let on_subblocks = |force: &PointForce| pushes(force, first_voussoir, &grids);
@@ -116,16 +115,17 @@ pub(super) fn discretise<'p>(analysis: &Analysis, seed: u64, pulse: &'p Pulse<'p
         Geometry::FirstOrder => Ok(Vec::new()),
         Geometry::Updated => chain.turned_loads(forces.iter().flat_map(on_subblocks), heart).map_err(stopped),
     };
-    let (fixed, scaled) = (&analysis.fixed, &analysis.scaled);
+    let [fixed, scaled] = [straight(&analysis.fixed)?, straight(&analysis.scaled)?];
     Ok(Model {
-        turned: [turned(fixed)?, turned(scaled)?],
-        fixed: straight(fixed)?,
-        scaled: straight(scaled)?,
+        turned: [turned(&analysis.fixed)?, turned(&analysis.scaled)?],
+        symmetric: [&fixed, &scaled].iter().all(|loads| chain.are_symmetric(&loads.on_nodes)) && chain.is_symmetric(),
+        fixed,
+        scaled,
         pulse,
         first_voussoir,
         voussoirs: arch.voussoirs.len(),
         size: extent(arch.joints.iter().flat_map(|j| [j.intrados, j.extrados])),
-        softest,
+        softest: chain.contacts().iter().map(|contact| contact.stiffness[0]).fold(f64::INFINITY, f64::min),
         positions: (0..arch.joints.len()).map(|joint| around(first_voussoir + joint)).collect(),
         chain,
         grids,
@@ -164,7 +164,6 @@ fn touches<'a>(
     joint: &'a Joint,
     [before, after]: [Option<&'a Grid>; 2],
     penalty: f64,
-    scatter: &'a mut Scatter,
 ) -> impl Iterator<Item = Touch> + 'a {
     let links = before.into_iter().chain(after).count() as f64;
     let contact = 1.0 / (1.0 - links / LINK);
@@ -182,7 +181,7 @@ fn touches<'a>(
         Touch {
             at: joint.intrados + (joint.extrados - joint.intrados) * eta,
             normal: joint.normal(),
-            stiffness: [1.0, along].map(|by| by * contact * stiffness * (1.0 + STIFFNESS_SCATTER * scatter.next())),
+            stiffness: [1.0, along].map(|by| by * contact * stiffness),
             link: [LINK * stiffness; 2],
             law: law(joint, share),
             before: before.map_or(nobody, |g| g.on_joint(true, eta, sides)),
@@ -244,6 +243,12 @@ impl Model<'_> {
     /// All loads at a load factor, each with its own.
     pub(super) fn loads_at(&self, load_factor: f64) -> [(&Loads, f64); 2] {
         [(&self.fixed, 1.0), (&self.scaled, load_factor)]
+    }
+
+    /// The same on the nodes.
+    pub(super) fn loads_on_nodes(&self, load_factor: f64) -> Vec<f64> {
+        let loads = self.fixed.on_nodes.iter().zip(&self.scaled.on_nodes);
+        loads.map(|(fixed, scaled)| fixed + scaled * load_factor).collect()
     }
 
     /// Mean motion of a voussoir.

@@ -18,6 +18,7 @@ pub mod report;
 mod safety;
 mod settlement;
 mod smallest_motion;
+mod state;
 mod tally;
 mod updated;
 mod verdict;

@@ -2,6 +2,7 @@
 
 use super::discretise::Model;
 use super::record::{Point, Recorder, stress_field};
+use super::state::{Standing, States};
 use super::{
     Analysis, AnalysisError, Answer, CollapseReport, Cost, Digits, FallingMotion, FieldAt, Reach, SafetyPoint,
     StressField,
@@ -36,7 +37,7 @@ impl CollapseReport {
     pub(super) fn add_fields(
         &mut self,
         analysis: &Analysis,
-        model: &Model,
+        states: &mut States,
         path: &Recorder,
         near: Option<&Point>,
     ) -> Result<(), AnalysisError> {
@@ -45,7 +46,9 @@ impl CollapseReport {
             FieldAt::NearCollapse => near.map(|(load_factor, d)| (*load_factor, d.as_slice())),
         });
         for (load_factor, d) in found {
-            self.stress_fields.push(stress_field(model, load_factor, d)?);
+            if let Some(state) = states.find(load_factor, d)? {
+                self.stress_fields.push(stress_field(states.model, load_factor, &state.displacements)?);
+            }
         }
         Ok(())
     }
@@ -55,14 +58,14 @@ impl CollapseReport {
         &mut self,
         analysis: &Analysis,
         model: &Model,
-        displacements: &[f64],
+        state: &Standing,
     ) -> Result<(), AnalysisError> {
         let factors = analysis.fields.iter().filter_map(|field| match field {
             FieldAt::LoadFactor(factor) => Some(*factor),
             FieldAt::NearCollapse => None,
         });
         for factor in factors {
-            self.stress_fields.push(stress_field(model, factor, displacements)?);
+            self.stress_fields.push(stress_field(model, factor, &state.displacements)?);
         }
         Ok(())
     }

@@ -6,6 +6,7 @@ use super::doubt::Doubt;
 use super::path::{ATTEMPTS, Attempt, Leg, disturbed, follow, nothing_grows, stand, total};
 use super::pulse::Pulse;
 use super::record::{MOST_STEPS, Recorder, snapshot};
+use super::state::States;
 use super::updated::{self, Course};
 use super::{
     Aim, Analysis, AnalysisError, CollapseReport, Cost, Crushing, Direction, Geometry, LimitWindow, Method, Outcome,
@@ -146,24 +147,28 @@ impl<'a> Question<'a> {
             End::Mechanism => return self.fallen(report, &model, &tracer),
             End::Rising | End::Lost => return Ok(Attempted { report, doubt: Some(Doubt::NotLoaded) }),
         }
-        report.at_start = Some(snapshot(&model, self.start, tracer.displacements())?);
+        let mut states = States::new(&model);
+        let at_start = states.find(self.start, tracer.displacements())?;
+        report.at_start = at_start.as_ref().map(|state| snapshot(&model, state)).transpose()?;
         if nothing_grows(&model, total(&analysis.scaled)) {
             report.outcome = Outcome::NeverCollapses;
-            report.fields_at_rest(analysis, &model, tracer.displacements())?;
+            at_start.map(|state| report.fields_at_rest(analysis, &model, &state)).transpose()?;
             if !matches!(analysis.aim, Aim::Settlement(_)) {
                 report.notes.push(NOTHING_GROWS.into());
             }
-            return Ok(Attempted { report, doubt: None });
+            let doubt = states.tell(&mut report);
+            return Ok(Attempted { report, doubt });
         }
         let both_ways = analysis.aim == Aim::Collapse && !self.certificate.stands_at(0.0);
         let back = both_ways.then(|| tracer.clone());
-        let mut doubt = self.leg(&mut report, &model, &mut tracer, &fixed, self.sign, &mut progress)?;
+        let mut doubt = self.leg(&mut report, &mut states, &mut tracer, &fixed, self.sign, &mut progress)?;
         if let Some(mut back) = back {
             report.outcome = Outcome::StandsInWindow;
             let mut other = self.blank(&model);
-            doubt = doubt.or(self.leg(&mut other, &model, &mut back, &fixed, -self.sign, &mut progress)?);
+            doubt = doubt.or(self.leg(&mut other, &mut states, &mut back, &fixed, -self.sign, &mut progress)?);
             report.join_other_end(other);
         }
+        let doubt = doubt.or(states.tell(&mut report));
         Ok(Attempted { report, doubt })
     }
 
@@ -171,18 +176,19 @@ impl<'a> Question<'a> {
     fn leg(
         &self,
         report: &mut CollapseReport,
-        model: &Model,
+        states: &mut States,
         tracer: &mut Tracer,
         fixed: &[f64],
         sign: f64,
         progress: &mut Progress,
     ) -> Result<Option<Doubt>, AnalysisError> {
-        let analysis = self.analysis;
+        let (analysis, model) = (self.analysis, states.model);
         let mut recorder = Recorder::new(model, analysis, [self.start, sign]);
         let before = Cost::of(tracer);
         let leg = follow(tracer, fixed, self.cap, &mut recorder, progress);
         report.cost.add(tracer, before);
-        report.at_unit_load = recorder.at(1.0).map(|d| snapshot(model, 1.0, d)).transpose()?;
+        let at_unit_load = recorder.at(1.0).map(|d| states.find(1.0, d)).transpose()?.flatten();
+        report.at_unit_load = at_unit_load.map(|state| snapshot(model, &state)).transpose()?;
         if let Some(crushing) = &mut report.crushing {
             crushing.elastic = Some(recorder.first_yield());
         }
@@ -193,7 +199,7 @@ impl<'a> Question<'a> {
             Leg::TooManySteps => return Err(AnalysisError::TooManySteps { most: MOST_STEPS }),
             Leg::Lost => return Ok(Some(Doubt::Lost)),
             Leg::Endless => {
-                report.add_fields(analysis, model, &recorder, None)?;
+                report.add_fields(analysis, states, &recorder, None)?;
                 report.history = recorder.history;
                 report.outcome = Outcome::NeverCollapses;
                 return Ok(self.certificate.endless(sign, self.cap).or(self.certificate.standing_doubt(residual)));
@@ -212,8 +218,9 @@ impl<'a> Question<'a> {
             }
         };
         let near = recorder.near(peak_load.unwrap_or(end.load_factor));
-        report.near_collapse = near.as_ref().map(|(factor, d)| snapshot(model, *factor, d)).transpose()?;
-        report.add_fields(analysis, model, &recorder, near.as_ref())?;
+        let near_collapse = near.as_ref().map(|(factor, d)| states.find(*factor, d)).transpose()?.flatten();
+        report.near_collapse = near_collapse.map(|state| snapshot(model, &state)).transpose()?;
+        report.add_fields(analysis, states, &recorder, near.as_ref())?;
         report.history = recorder.history;
         let doubt = self.conclude(report, end, sign, turned_back);
         Ok(doubt.or(self.certificate.standing_doubt(residual)))
