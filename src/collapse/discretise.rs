@@ -40,7 +40,7 @@ pub(super) struct Model<'p> {
     positions: Vec<Vec<f64>>,
     /// Extent, m.
     pub size: f64,
-    /// Whether chain and loads are their own mirror image.
+    /// Whether the chain is its own mirror image.
     pub symmetric: bool,
     /// Least stiffness of a contact, N/m2.
     pub softest: f64,
@@ -118,7 +118,7 @@ pub(super) fn discretise<'p>(analysis: &Analysis, seed: u64, pulse: &'p Pulse<'p
     let [fixed, scaled] = [straight(&analysis.fixed)?, straight(&analysis.scaled)?];
     Ok(Model {
         turned: [turned(&analysis.fixed)?, turned(&analysis.scaled)?],
-        symmetric: [&fixed, &scaled].iter().all(|loads| chain.are_symmetric(&loads.on_nodes)) && chain.is_symmetric(),
+        symmetric: !arch.half && chain.is_symmetric(),
         fixed,
         scaled,
         pulse,
@@ -249,6 +249,11 @@ impl Model<'_> {
     pub(super) fn loads_on_nodes(&self, load_factor: f64) -> Vec<f64> {
         let loads = self.fixed.on_nodes.iter().zip(&self.scaled.on_nodes);
         loads.map(|(fixed, scaled)| fixed + scaled * load_factor).collect()
+    }
+
+    /// Whether the chain and these loads on its nodes are their own mirror image.
+    pub(super) fn is_symmetric_under(&self, loads: &[f64]) -> bool {
+        self.symmetric && self.chain.are_symmetric(loads)
     }
 
     /// Mean motion of a voussoir.

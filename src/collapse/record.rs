@@ -164,7 +164,8 @@ impl<'a> Recorder<'a> {
 
     fn history_point(&self, load_factor: f64, displacements: &[f64]) -> HistoryPoint {
         // Of two states that are each other's mirror image, as near as the scatter of stiffness lets them be.
-        let symmetric = self.model.symmetric.then(|| self.model.chain.symmetrised(displacements));
+        let symmetric = self.model.symmetric && self.model.is_symmetric_under(&self.model.loads_on_nodes(load_factor));
+        let symmetric = symmetric.then(|| self.model.chain.symmetrised(displacements));
         let displacements = symmetric.as_deref().unwrap_or(displacements);
         let of = |voussoir: usize| self.model.motion(voussoir, load_factor, displacements).displacement;
         let crown = 0.5 * (of(self.crown[0]) + of(self.crown[1]));

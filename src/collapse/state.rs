@@ -85,7 +85,8 @@ impl<'m> States<'m> {
         loads: &[f64],
         on_path: &[f64],
     ) -> Result<Option<Vec<f64>>, AnalysisError> {
-        if self.model.symmetric
+        let symmetric = self.model.is_symmetric_under(loads);
+        if symmetric
             && let Some(Balanced { displacements, free, .. }) = self.newton(loads, on_path, true)?
         {
             let joints = self.joints_apart(&displacements, on_path);
@@ -96,7 +97,7 @@ impl<'m> States<'m> {
             return Ok(Some(displacements));
         }
         let found = self.newton(loads, on_path, false)?.map(|found| found.displacements);
-        if self.model.symmetric {
+        if symmetric {
             let state = found.as_deref().unwrap_or(on_path);
             let joints = self.joints_apart(state, &self.model.chain.mirrored(state));
             self.others.push((load_factor, Other::Lopsided, joints));
@@ -105,8 +106,8 @@ impl<'m> States<'m> {
     }
 
     fn newton(&mut self, loads: &[f64], on_path: &[f64], symmetric: bool) -> Result<Option<Balanced>, AnalysisError> {
-        let (chain, pulse) = (&self.model.chain, self.model.pulse);
-        let found = balanced(chain, loads, on_path, symmetric, &pulse.heart).map_err(|_| pulse.stopped())?;
+        let Model { chain, pulse, size, .. } = self.model;
+        let found = balanced(chain, *size, loads, on_path, symmetric, &pulse.heart).map_err(|_| pulse.stopped())?;
         if let Some(Balanced { factorisations, block_rows, .. }) = found {
             self.work = [self.work[0] + factorisations, self.work[1] + block_rows];
         }

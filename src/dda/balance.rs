@@ -4,7 +4,8 @@
 //! would stop it. What is wanted of it are states of the chain as it was built. Slip is measured from the unstressed start, so
 //! the law gives a contact's force as a function of gap and slip alone, piecewise linear and continuous; Newton's method on
 //! it, with the piece that the law itself chooses at every step, ends in a state of equilibrium after one step where the path
-//! has left no contact on the wrong side of its border, and after some more where it has.
+//! has left no contact on the wrong side of its border, and after some more where it has. Where it fails, what is missing is
+//! brought on by tracing.
 //!
 //! # Symmetric states
 //! Where chain and loads are their own mirror image, the mirror image of a state is a state. Which of the two a path meets
@@ -24,6 +25,8 @@ use super::chain::Chain;
 use super::contact::{Contact, State};
 use super::factor::{Factor, Tridiagonal};
 use super::heart::{Heart, Stopped};
+use super::trace::{Drive, End, Tracer};
+use std::ops::ControlFlow;
 
 /// Residuals, as a share of the sum of all loads on the nodes, below which corrections are mere rounding, and up to which a
 /// state is one of equilibrium.
@@ -31,6 +34,8 @@ const EXACT: f64 = 1e-15;
 const BALANCED: f64 = 1e-9;
 /// Most steps of Newton's method; from the states of a path one or two are enough.
 const STEPS: usize = 20;
+/// A residual that has grown so many times leads nowhere.
+const LOST: f64 = 1e3;
 /// A pivot ratio below this is a motion that changes no force, see the tracer.
 const SINGULAR: f64 = 1e-12;
 
@@ -47,12 +52,30 @@ pub struct Balanced {
     pub block_rows: usize,
 }
 
-/// The state of equilibrium under `loads` on the nodes, of a chain with its exact contacts, next to displacements `near` of
-/// the nodes; `symmetric`: a symmetric one, of a chain and loads that are. None where there is none to be found.
+/// The state of equilibrium under `loads` on the nodes, of a chain of extent `size` with its exact contacts, next to
+/// displacements `near` of the nodes; `symmetric`: a symmetric one, of a chain and loads that are. None where there is none
+/// to be found.
 ///
 /// # Errors
 /// When stopped.
 pub fn balanced(
+    chain: &Chain,
+    size: f64,
+    loads: &[f64],
+    near: &[f64],
+    symmetric: bool,
+    heart: &Heart,
+) -> Result<Option<Balanced>, Stopped> {
+    let found = by_newton(chain, loads, near, symmetric, heart)?;
+    if found.is_some() {
+        return Ok(found);
+    }
+    let traced = traced(chain, size, loads, near, heart)?;
+    traced.map_or(Ok(None), |near| by_newton(chain, loads, &near, symmetric, heart))
+}
+
+/// Newton's method from displacements `near`.
+fn by_newton(
     chain: &Chain,
     loads: &[f64],
     near: &[f64],
@@ -65,11 +88,12 @@ pub fn balanced(
     for _ in 0..STEPS {
         chain.unbalance(newton.contacts, loads, &d, &mut residual, heart)?;
         let share = share_of(&residual, loads);
-        let done = share <= EXACT || (share >= 0.5 * best.0 && best.0 <= BALANCED);
+        let settled = share <= EXACT || (share >= 0.5 * best.0 && best.0 <= BALANCED);
+        let lost = share > LOST * best.0;
         if share < best.0 {
             best = (share, d.clone());
         }
-        if done {
+        if settled || lost {
             break;
         }
         newton.correct(&mut d, &residual)?;
@@ -78,6 +102,27 @@ pub fn balanced(
     let [factorisations, block_rows] = [newton.factorisations, newton.factor.eliminated()];
     let found = Balanced { displacements, free: newton.factor.pivot_ratio() < SINGULAR, factorisations, block_rows };
     Ok((share <= BALANCED).then_some(found))
+}
+
+/// Where the tangent is singular, as next to a momentary mechanism, a state may be far away in its direction. Displacements
+/// `near` are an exact state under the loads that they are in equilibrium with: it is traced from there to `loads`.
+fn traced(
+    chain: &Chain,
+    size: f64,
+    loads: &[f64],
+    near: &[f64],
+    heart: &Heart,
+) -> Result<Option<Vec<f64>>, Stopped> {
+    let mut exact = chain.clone();
+    exact.scatter(|| [1.0; 2]);
+    let mut rate = vec![0.0; loads.len()];
+    exact.unbalance(exact.contacts(), loads, near, &mut rate, heart)?;
+    let base = loads.iter().zip(&rate).map(|(load, missing)| load - missing).collect();
+    let drive = Drive { base, rate, ..Drive::default() };
+    let mut tracer = Tracer::starting_at(&exact, drive, near, size, total(loads), heart);
+    let reached = tracer.trace(1.0, &mut |_| ControlFlow::Continue(())) == End::Reached;
+    heart.check()?;
+    Ok(reached.then(|| tracer.displacements().to_vec()))
 }
 
 /// Largest force that is missing on a node under `loads` on the nodes, as a share of the sum of those, and an interface that
@@ -101,8 +146,12 @@ pub fn missing(chain: &Chain, loads: &[f64], d: &[f64], heart: &Heart) -> Result
 fn share_of(residual: &[f64], loads: &[f64]) -> f64 {
     // `max` passes over NaN, which must not pass for equilibrium.
     let size = |r: &f64| if r.is_finite() { r.abs() } else { f64::INFINITY };
-    let all: f64 = loads.iter().map(|load| load.abs()).sum();
-    residual.iter().map(size).fold(0.0, f64::max) / all.max(f64::MIN_POSITIVE)
+    residual.iter().map(size).fold(0.0, f64::max) / total(loads)
+}
+
+/// Sum of the sizes of all loads.
+fn total(loads: &[f64]) -> f64 {
+    loads.iter().map(|load| load.abs()).sum::<f64>().max(f64::MIN_POSITIVE)
 }
 
 /// Newton's method on the law of a chain's exact contacts.

@@ -2,7 +2,7 @@
 //!
 //! All figures are shares of the loads: the sum of the sizes of all forces at the state's load factor.
 
-use voussoir::arch::{Joint, JointLaw, PointForce};
+use voussoir::arch::{Arch, Joint, JointLaw, PointForce};
 use voussoir::collapse::{Analysis, CollapseReport, ContactForce, Snapshot};
 use voussoir::geometry::Vec2;
 
@@ -48,7 +48,7 @@ impl Broken {
 }
 
 /// The larger number; what is none is larger than any.
-fn larger(a: f64, b: f64) -> f64 {
+pub fn larger(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::INFINITY } else { a.max(b) }
 }
 
@@ -160,4 +160,35 @@ fn stones(analysis: &Analysis, state: &Snapshot) -> [f64; 2] {
         worst[1] = apart.into_iter().map(|part| part.abs() / length).fold(worst[1], larger);
     }
     worst
+}
+
+/// How far a state is from its mirror image about the axis of the arch: displacements, stresses, forces and openings, each as
+/// a share of the largest of its kind.
+pub fn leaning(arch: &Arch, state: &Snapshot) -> f64 {
+    let n = arch.joints.len() - 1;
+    let pairs = state.blocks.iter().zip(state.blocks.iter().rev());
+    let moved = pairs.clone().flat_map(|(a, b)| {
+        let (u, v) = (a.displacement, b.displacement);
+        [[u.x, -v.x], [u.y, v.y]]
+    });
+    let turned = pairs.clone().map(|(a, b)| [a.rotation, -b.rotation]);
+    let stressed = pairs.flat_map(|(a, b)| {
+        let ([x, y, tau], [p, q, r]) = (a.stress, b.stress);
+        [[x, p], [y, q], [tau, -r]]
+    });
+    let at = |joint: usize| state.contacts.iter().filter(move |contact| contact.joint == joint);
+    let contacts: Vec<_> = (0..=n).flat_map(|k| at(k).zip(at(n - k))).collect();
+    let forces = contacts.iter().flat_map(|(a, b)| [[a.normal, b.normal], [a.tangential, -b.tangential]]);
+    let gaps = contacts.iter().map(|(a, b)| [a.gap, b.gap]);
+    if std::env::var("DBG").is_ok() { let v=[apart(moved.clone()), apart(turned.clone()), apart(stressed.clone()), apart(forces.clone()), apart(gaps.clone())]; if v.iter().any(|x| *x>1e-10) {println!("PARTS {v:?}");} }
+    let parts = [apart(moved), apart(turned), apart(stressed), apart(forces), apart(gaps)];
+    parts.into_iter().fold(0.0, larger)
+}
+
+/// Largest difference of a pair over the largest number.
+fn apart(pairs: impl Iterator<Item = [f64; 2]>) -> f64 {
+    let (most, scale) = pairs.fold((0.0, 0.0), |(most, scale), [a, b]| {
+        (larger(most, (a - b).abs()), larger(scale, larger(a.abs(), b.abs())))
+    });
+    if most == 0.0 { 0.0 } else { most / scale }
 }
