@@ -1,6 +1,7 @@
 //! What is kept of a path: its history, the arch at load factor 1 and just before collapse.
 
 use super::discretise::Model;
+use super::mirror::{evened_blocks, evened_stresses};
 use super::state::Standing;
 use super::yielding::Yielding;
 use super::{
@@ -205,14 +206,15 @@ fn interpolate(a: &Point, b: &Point, load_factor: f64) -> Vec<f64> {
 
 /// The arch in one state.
 pub(super) fn snapshot(model: &Model, state: &Standing) -> Result<Snapshot, AnalysisError> {
-    let Standing { load_factor, displacements, forces } = state;
-    let load_factor = *load_factor;
+    let Standing { displacements, forces, .. } = state;
+    let load_factor = state.load_factor;
     let block = |v: usize| {
         model.pulse.work(model.work_of_stresses(v))?;
         let MeanMotion { displacement, rotation } = model.motion(v, load_factor, displacements);
         Ok(BlockState { displacement, rotation, stress: model.mean_stress(v, load_factor, displacements) })
     };
-    let blocks = (0..model.voussoirs).map(block).collect::<Result<_, AnalysisError>>()?;
+    let blocks = (0..model.voussoirs).map(block).collect::<Result<Vec<_>, AnalysisError>>()?;
+    let blocks = if state.symmetric { evened_blocks(&blocks) } else { blocks };
     let contact = |joint: usize, p: usize| ContactForce {
         joint,
         position: model.position(joint, p),
@@ -226,16 +228,16 @@ pub(super) fn snapshot(model: &Model, state: &Standing) -> Result<Snapshot, Anal
     Ok(Snapshot { load_factor, blocks, contacts: contacts.collect() })
 }
 
-/// Stress in every subblock at displacements of the nodes.
-pub(super) fn stress_field(
-    model: &Model,
-    load_factor: f64,
-    displacements: &[f64],
-) -> Result<StressField, AnalysisError> {
+/// Stress in every subblock in a state, under the loads at `load_factor`.
+pub(super) fn stress_field(model: &Model, load_factor: f64, state: &Standing) -> Result<StressField, AnalysisError> {
     let mut subblocks = Vec::new();
     for (voussoir, grid) in model.grids.iter().enumerate() {
         model.pulse.work(model.work_of_stresses(voussoir))?;
-        subblocks.extend(grid.field(voussoir, &model.stresses(voussoir, load_factor, displacements)));
+        subblocks.extend(grid.field(voussoir, &model.stresses(voussoir, load_factor, &state.displacements)));
+    }
+    if state.symmetric {
+        let radial: Vec<usize> = model.grids.iter().map(|grid| grid.radial).collect();
+        subblocks = evened_stresses(&subblocks, &radial);
     }
     Ok(StressField { load_factor, subblocks })
 }

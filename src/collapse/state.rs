@@ -23,6 +23,8 @@ pub(super) struct Standing {
     pub displacements: Vec<f64>,
     /// Force and opening of every contact.
     pub forces: Vec<ContactForce>,
+    /// Whether the displacements are their own mirror image.
+    pub symmetric: bool,
 }
 
 /// Why the state of a symmetric arch at a load factor is not the only one.
@@ -73,7 +75,8 @@ impl<'m> States<'m> {
             }
         };
         let forces = chain.contact_forces(contacts, &displacements);
-        let standing = Standing { load_factor, displacements, forces };
+        let symmetric = model.symmetric && chain.mirrored(&displacements) == displacements;
+        let standing = Standing { load_factor, displacements, forces, symmetric };
         self.found.push(standing.clone());
         Ok(Some(standing))
     }
@@ -86,9 +89,7 @@ impl<'m> States<'m> {
         on_path: &[f64],
     ) -> Result<Option<Vec<f64>>, AnalysisError> {
         let symmetric = self.model.is_symmetric_under(loads);
-        if symmetric
-            && let Some(Balanced { displacements, free, .. }) = self.newton(loads, on_path, true)?
-        {
+        if symmetric && let Some(Balanced { displacements, free, .. }) = self.newton(loads, on_path, true)? {
             let joints = self.joints_apart(&displacements, on_path);
             if !joints.is_empty() {
                 let other = if free { Other::Free } else { Other::Leaning };

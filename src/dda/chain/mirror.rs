@@ -58,7 +58,8 @@ impl Chain {
         let image = |i: usize, j: usize| sign(i) * sign(j) * b[(place(i), place(j))];
         let apart = |i: usize, j: usize| (a[(i, j)] - image(i, j)).abs();
         b.nrows() == size
-            && (0..size).all(|i| (0..size).all(|j| apart(i, j) <= STIFFNESS_ROUNDING * a[(i, i)].abs().max(a[(j, j)].abs())))
+            && (0..size)
+                .all(|i| (0..size).all(|j| apart(i, j) <= STIFFNESS_ROUNDING * a[(i, i)].abs().max(a[(j, j)].abs())))
     }
 }
 
