@@ -90,7 +90,7 @@ fn states_on_the_way_to_collapse_are_not_taken_from_a_path_that_has_fallen() {
     judged.tell();
 }
 
-/// Fifteen small stones with cohesion: the state near collapse was out of equilibrium by 19 % of the loads.
+/// Fifteen small stones with cohesion: the state near collapse was out of equilibrium by 2.7 times the loads.
 #[test]
 fn near_collapse_is_in_equilibrium_where_joints_have_cohesion() {
     let mut judged = Judged::default();
