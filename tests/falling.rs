@@ -51,7 +51,7 @@ fn complaints(motion: &FallingMotion, measured: &Measured) -> Vec<String> {
     complain(measured.area >= AREA, format!("area {:e}", measured.area));
     complain(measured.excess >= EXCESS, format!("friction beyond its bound {:e}", measured.excess));
     complain(measured.shear > measured.excess + 1e-9, format!("forces beyond friction {:e}", measured.shear));
-    complain(measured.frames > 1 && measured.work < 0.0, format!("work {:e}", measured.work));
+    complain(measured.work < 0.0, format!("work {:e}", measured.work));
     complain(measured.residual >= RESIDUAL, format!("residual {:e}", measured.residual));
     words
 }

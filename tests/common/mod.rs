@@ -11,7 +11,6 @@ pub mod motion;
 pub mod oracle;
 pub mod random_arch;
 pub mod random_profile;
-pub mod semicircle;
 pub mod state;
 pub mod table;
 pub mod verify;
