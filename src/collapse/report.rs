@@ -151,7 +151,7 @@ pub struct LimitWindow {
 pub struct PathEnd {
     /// Load factor at which the arch falls (first order), polished on the final static conditions.
     pub load_factor: f64,
-    /// Largest equilibrium residual of any block at any event, as a share of the arch's weight, or of the
+    /// Largest equilibrium residual of any block at any event, forces by the contact law alone, as a share of the arch's weight, or of the
     /// largest load at a point where that is more.
     pub residual: f64,
     /// The mechanism.

@@ -149,7 +149,7 @@ impl Other {
         match self {
             Other::Free => format!(
                 "{at} Joints {joints} can be open by more or less, one in place of the other, while all forces stay as they \
-                 are. Displacements and openings are given in the middle of what is possible, where they are symmetric."
+                 are. Displacements and openings are given where they are symmetric."
             ),
             Other::Leaning => format!(
                 "{at} The symmetric one is given; the load path passed one in which joints {joints} are open by more or \
