@@ -1,12 +1,14 @@
 //! Thousands of random arches against the limit window, and a share of them against the oracle.
 //!
 //! `cargo bench --bench random_arches -- [count] [first seed] [oracle every n-th]`, by default 10000 0 10; or
-//! `... -- look SEED [picture.svg]` for one arch in full.
+//! `... -- look SEED [picture.svg]` for one arch in full; or `... -- states [count] [first seed]`, by default 10000 0, for the
+//! reported states of as many arches, judged by the contact law.
 #![allow(clippy::print_stdout, clippy::disallowed_methods, missing_docs)]
 
 #[path = "../tests/common/mod.rs"]
 mod common;
 
+use common::state::{Broken, broken};
 use common::verify::{Checked, check};
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -16,6 +18,9 @@ fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|arg| !arg.starts_with("--")).collect();
     if arguments.first().is_some_and(|word| word == "look") {
         return look(arguments.get(1).and_then(|seed| seed.parse().ok()).unwrap_or(0), arguments.get(2));
+    }
+    if arguments.first().is_some_and(|word| word == "states") {
+        return states(arguments[1..].iter().filter_map(|arg| arg.parse().ok()).collect());
     }
     // A panic is a finding here, not a page of text.
     std::panic::set_hook(Box::new(|_| {}));
@@ -119,6 +124,27 @@ fn complaints(all: &[Checked]) {
     for checked in bad.iter().take(200) {
         println!("  seed {} ({} voussoirs): {}", checked.seed, checked.voussoirs, checked.complaints.join("; "));
     }
+}
+
+/// Reported states against the contact law.
+fn states(numbers: Vec<u64>) {
+    let (count, first) = (numbers.first().copied().unwrap_or(10_000), numbers.get(1).copied().unwrap_or(0));
+    let (mut seen, mut all, mut bad) = (0, Broken::default(), 0);
+    for seed in first..first + count {
+        let request = common::random_arch::request(seed);
+        let analysis = common::door::analysis(&request).unwrap_or_else(|faults| panic!("{faults}"));
+        let report = common::door::solve(&request);
+        for (name, state) in common::state::states(&report) {
+            let broken = broken(&analysis, state);
+            seen += 1;
+            all = all.join(broken);
+            if broken.worst() > 1e-6 {
+                bad += 1;
+                println!("seed {seed}, {name} ({:?}, {} stones): {broken:?}", report.outcome, state.blocks.len());
+            }
+        }
+    }
+    println!("{seen} states of {count} arches: {bad} break the law by more than 1e-6 of the loads; worst {all:?}");
 }
 
 /// One arch: request, answer, checks and picture.

@@ -22,7 +22,7 @@ const AREA: f64 = 1e-9;
 /// Largest residual of equilibrium, share of the loads.
 const RESIDUAL: f64 = 1e-9;
 /// Most friction beyond its bound, share of the loads.
-const EXCESS: f64 = 0.05;
+const EXCESS: f64 = 1e-6;
 /// How many random arches.
 const ARCHES: usize = 200;
 
@@ -50,7 +50,8 @@ fn complaints(motion: &FallingMotion, measured: &Measured) -> Vec<String> {
     complain(measured.overlap >= OVERLAP, format!("overlap {:e}", measured.overlap));
     complain(measured.area >= AREA, format!("area {:e}", measured.area));
     complain(measured.excess >= EXCESS, format!("friction beyond its bound {:e}", measured.excess));
-    complain(measured.work.is_finite() && measured.work < 0.0, format!("work {:e}", measured.work));
+    complain(measured.shear > measured.excess + 1e-9, format!("forces beyond friction {:e}", measured.shear));
+    complain(measured.work < 0.0, format!("work {:e}", measured.work));
     complain(measured.residual >= RESIDUAL, format!("residual {:e}", measured.residual));
     words
 }
@@ -92,7 +93,7 @@ fn the_arches_of_the_paper_fall() {
         let both = name.starts_with("paper/table-3") || name == "paper/table-4";
         assert!(report.motion.is_some() && report.other_motion.is_some() == both, "{name}");
         for motion in report.motion.iter().chain(&report.other_motion) {
-            let measured = measure(&analysis.arch, motion);
+            let measured = measure(&analysis, motion);
             say(name, &report, motion, &measured);
             all.extend(complaints(motion, &measured).into_iter().map(|words| format!("{name}: {words}")));
             let moved = matches!(motion.end, MotionEnd::Moved | MotionEnd::StoneFree { .. });
@@ -114,7 +115,7 @@ fn random_arches_fall_to_one_of_the_ends() {
         let (analysis, report) = solve(&request);
         seed += 1;
         for motion in report.motion.iter().chain(&report.other_motion) {
-            let measured = measure(&analysis.arch, motion);
+            let measured = measure(&analysis, motion);
             say(&name, &report, motion, &measured);
             all.extend(complaints(motion, &measured).into_iter().map(|words| format!("{name}: {words}")));
             lagging += measured.beyond;
@@ -135,7 +136,7 @@ fn random_arches_fall_to_one_of_the_ends() {
     );
     println!("friction beyond its bound by more than 1e-6 of the loads in {lagging} of {steps} steps");
     assert!(all.is_empty(), "{} complaints: {all:#?}", all.len());
-    assert!(lagging * 100 < steps && count(|end| matches!(end, MotionEnd::AtRest)) * 20 < seen.len());
+    assert!(lagging == 0 && steps > 10_000 && count(|end| matches!(end, MotionEnd::AtRest)) * 20 < seen.len());
 }
 
 /// Corners of stone `k` of the last frame that two motions both have, at most `most`.

@@ -6,7 +6,8 @@
 
 use std::ops::ControlFlow;
 use voussoir::dda::{
-    Block, Chain, ChainBuilder, Drive, Elasticity, End, Heart, Law, Loads, Push, Touch, Tracer, covering,
+    Block, Chain, ChainBuilder, Drive, Elasticity, End, Heart, Law, Loads, Push, Touch, Tracer, balanced, covering,
+    missing,
 };
 use voussoir::geometry::{Region, Vec2};
 
@@ -223,7 +224,44 @@ fn a_pile_carries_its_weight_as_mean_stress_and_penetrates_by_n_over_2k() {
         let stress = chain.stresses(i, tracer.displacements(), &[(&loads, 1.0)])[0];
         assert!((stress[1] / expected - 1.0).abs() < 1e-9, "block {i}: {stress:?} not {expected}");
     }
-    let forces = chain.contact_forces(tracer.displacements());
+    let forces = chain.contact_forces(chain.contacts(), tracer.displacements());
     let penetration = WEIGHT_DENSITY * 4.0 * 0.5 / (2.0 * PENALTY);
     assert!((-forces[0].gap / penetration - 1.0).abs() < 1e-3);
+}
+
+#[test]
+fn a_state_traced_with_scattered_stiffness_is_taken_to_that_of_the_chain_as_built() {
+    let heart = Heart::unwatched();
+    // Pushed by 0.2 g, two blocks of 1 m press the floor's corners with (1 -+ 0.4) of a block's weight.
+    let (blocks, chain) = stack(&[0.0, 0.0], 1.0, 1.0, 0.7);
+    let loads = body_loads(&blocks, &chain, Vec2::new(0.2, -1.0));
+    let exact = stand(&blocks, &chain, &loads, &heart).0.displacements().to_vec();
+    let mut scattered = chain.clone();
+    let mut by = [1.01, 0.98, 1.02, 0.97, 1.0, 0.99, 1.03, 0.96].into_iter();
+    scattered.scatter(|| [by.next().unwrap(), by.next().unwrap()]);
+    let near = stand(&blocks, &scattered, &loads, &heart).0.displacements().to_vec();
+    let apart = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let largest = exact.iter().map(|d| d.abs()).fold(0.0, f64::max);
+    assert!(apart(&near, &exact) > 1e-3 * largest);
+    let found = balanced(&scattered, 10.0, &loads.on_nodes, &near, false, &heart).unwrap().unwrap();
+    assert!(apart(&found.displacements, &exact) < 1e-11 * largest && !found.free);
+    let forces = scattered.contact_forces(scattered.exact_contacts(), &found.displacements);
+    let of = |p: usize| forces[p].normal / (0.5 * weight(&blocks));
+    assert!((of(0) - 0.6).abs() < 1e-9 && (of(1) - 1.4).abs() < 1e-9, "{} {}", of(0), of(1));
+}
+
+#[test]
+fn a_force_that_is_missing_is_told_with_its_interface() {
+    let heart = Heart::unwatched();
+    let (blocks, chain) = stack(&[0.0, 0.0, 0.0], 1.0, 1.0, 0.7);
+    let loads = body_loads(&blocks, &chain, -Vec2::y());
+    let tracer = stand(&blocks, &chain, &loads, &heart).0;
+    let (share, _) = missing(&chain, &loads.on_nodes, tracer.displacements(), &heart).unwrap();
+    assert!(share < 1e-12, "{share:e}");
+    let mut other = loads.on_nodes.clone();
+    let node = chain.elastic().range(chain.faces(2)[1].unwrap()).start;
+    other[node] -= 1000.0;
+    let all: f64 = other.iter().map(|load| load.abs()).sum();
+    let (share, interface) = missing(&chain, &other, tracer.displacements(), &heart).unwrap();
+    assert!((share - 1000.0 / all).abs() < 1e-9 && interface == 2, "{share} at {interface}");
 }

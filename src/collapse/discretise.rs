@@ -40,6 +40,8 @@ pub(super) struct Model<'p> {
     positions: Vec<Vec<f64>>,
     /// Extent, m.
     pub size: f64,
+    /// Whether the chain is its own mirror image.
+    pub symmetric: bool,
     /// Least stiffness of a contact, N/m2.
     pub softest: f64,
     /// Loads that stay, and those that the load factor multiplies.
@@ -82,14 +84,12 @@ pub(super) fn discretise<'p>(analysis: &Analysis, seed: u64, pulse: &'p Pulse<'p
     let last = joints.len() - 2;
     let bodies: Vec<Grid> = stand(left, 0).into_iter().chain(grids.iter().copied()).chain(stand(right, last)).collect();
     let bond = bond(analysis.mesh.seams, penalty);
-    let mut scatter = Scatter::new(seed);
     let mut macroblocks = Vec::with_capacity(bodies.len());
     for grid in &bodies {
         macroblocks.push(grid.macroblock(elasticity, bond));
         pulse.work(CUT * grid.radial * grid.along)?;
     }
     let mut builder = ChainBuilder::new(macroblocks);
-    let mut softest = f64::INFINITY;
     for (k, joint) in joints.iter().enumerate() {
         let stiffer = match joint.law {
             JointLaw::Mirror => CUT_STONE,
@@ -98,16 +98,15 @@ pub(super) fn discretise<'p>(analysis: &Analysis, seed: u64, pulse: &'p Pulse<'p
         };
         let sides = [k.checked_sub(1).map(|k| &bodies[k]), bodies.get(k)];
         let stiffness = [1.0, analysis.shear_penalty_ratio].map(|ratio| stiffer * penalty * ratio);
-        for touch in touches(joint, sides, stiffness, &mut scatter) {
-            softest = softest.min(touch.stiffness[0]);
-            builder.contact(touch);
-        }
+        touches(joint, sides, stiffness).for_each(|touch| builder.contact(touch));
         builder.next_interface();
     }
-    let chain = builder.finish(&pulse.heart).map_err(|error| match error {
+    let mut chain = builder.finish(&pulse.heart).map_err(|error| match error {
         Unbuilt::Loose(loose) => loose.into(),
         Unbuilt::Stopped(_) => pulse.stopped(),
     })?;
+    let mut scatter = Scatter::new(seed);
+    chain.scatter(|| [(); 2].map(|()| 1.0 + STIFFNESS_SCATTER * scatter.next()));
     let first_voussoir = usize::from(left.is_some());
     let around = |k: usize| places(joints[k].law, k.checked_sub(1).map(|k| &bodies[k]), bodies.get(k));
     let on_subblocks = |force: &PointForce| pushes(force, first_voussoir, &grids);
@@ -117,16 +116,17 @@ pub(super) fn discretise<'p>(analysis: &Analysis, seed: u64, pulse: &'p Pulse<'p
         Geometry::FirstOrder => Ok(Vec::new()),
         Geometry::Updated => chain.turned_loads(forces.iter().flat_map(on_subblocks), heart).map_err(stopped),
     };
-    let (fixed, scaled) = (&analysis.fixed, &analysis.scaled);
+    let [fixed, scaled] = [straight(&analysis.fixed)?, straight(&analysis.scaled)?];
     Ok(Model {
-        turned: [turned(fixed)?, turned(scaled)?],
-        fixed: straight(fixed)?,
-        scaled: straight(scaled)?,
+        turned: [turned(&analysis.fixed)?, turned(&analysis.scaled)?],
+        symmetric: !arch.half && chain.is_symmetric(),
+        fixed,
+        scaled,
         pulse,
         first_voussoir,
         voussoirs: arch.voussoirs.len(),
         size: extent(arch.joints.iter().flat_map(|j| [j.intrados, j.extrados])),
-        softest,
+        softest: chain.contacts().iter().map(|contact| contact.stiffness[0]).fold(f64::INFINITY, f64::min),
         positions: (0..arch.joints.len()).map(|joint| around(first_voussoir + joint)).collect(),
         chain,
         grids,
@@ -165,7 +165,6 @@ fn touches<'a>(
     joint: &'a Joint,
     [before, after]: [Option<&'a Grid>; 2],
     penalty: [f64; 2],
-    scatter: &'a mut Scatter,
 ) -> impl Iterator<Item = Touch> + 'a {
     let links = before.into_iter().chain(after).count() as f64;
     let contact = 1.0 / (1.0 - links / LINK);
@@ -179,12 +178,11 @@ fn touches<'a>(
         let (sides, share) = ([below, above], below + above);
         // Two corners alone have the penalty each.
         let stiffness = penalty.map(|penalty| 2.0 * penalty * share);
-        let scattered = |way: usize, by: f64| held[way] * contact * stiffness[way] * (1.0 + STIFFNESS_SCATTER * by);
         let nobody = [(0, 0.0); 2];
         Touch {
             at: joint.intrados + (joint.extrados - joint.intrados) * eta,
             normal: joint.normal(),
-            stiffness: [scattered(0, scatter.next()), scattered(1, scatter.next())],
+            stiffness: [0, 1].map(|way| held[way] * contact * stiffness[way]),
             link: stiffness.map(|stiffness| LINK * stiffness),
             law: law(joint, share),
             before: before.map_or(nobody, |g| g.on_joint(true, eta, sides)),
@@ -246,6 +244,17 @@ impl Model<'_> {
     /// All loads at a load factor, each with its own.
     pub(super) fn loads_at(&self, load_factor: f64) -> [(&Loads, f64); 2] {
         [(&self.fixed, 1.0), (&self.scaled, load_factor)]
+    }
+
+    /// The same on the nodes.
+    pub(super) fn loads_on_nodes(&self, load_factor: f64) -> Vec<f64> {
+        let loads = self.fixed.on_nodes.iter().zip(&self.scaled.on_nodes);
+        loads.map(|(fixed, scaled)| fixed + scaled * load_factor).collect()
+    }
+
+    /// Whether the chain and these loads on its nodes are their own mirror image.
+    pub(super) fn is_symmetric_under(&self, loads: &[f64]) -> bool {
+        self.symmetric && self.chain.are_symmetric(loads)
     }
 
     /// Mean motion of a voussoir.

@@ -17,6 +17,12 @@ pub(super) enum Doubt {
     NoCertificate,
     #[error("Equilibrium was kept to {} of the loads only, too coarse to be trusted.", Digits(*.0))]
     Unbalanced(f64),
+    #[error(
+        "At load factor {} the state on the load path breaks the contact law: at joint {joint} forces of {} of the loads are \
+         missing.",
+        Digits(*.load_factor), Digits(*.amount)
+    )]
+    BreaksLaw { load_factor: f64, joint: usize, amount: f64 },
     #[error("The load path could not be followed to its end.")]
     Lost,
     #[error("The load path stands where limit analysis finds no equilibrium.")]

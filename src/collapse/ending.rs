@@ -217,7 +217,7 @@ fn sliding_shear(model: &Model, joint: usize, peak: &Peak) -> Option<f64> {
 
 /// Joint forces that the contact points carry.
 fn carried(model: &Model, displacements: &[f64]) -> Vec<Resultant> {
-    let forces = model.chain.contact_forces(displacements);
+    let forces = model.chain.contact_forces(model.chain.contacts(), displacements);
     resultants(model, |p| [forces[p].normal, forces[p].tangential])
 }
 

@@ -2,7 +2,7 @@
 
 use super::pulse::Pulse;
 use super::{
-    Analysis, AnalysisError, CollapseReport, Direction, FallingMotion, MotionAsked, MotionContact, MotionEnd,
+    Analysis, AnalysisError, CollapseReport, Digits, Direction, FallingMotion, MotionAsked, MotionContact, MotionEnd,
     MotionFrame, OpenHinge, Outcome, Slid,
 };
 use crate::arch::{Arch, Face, Joint, JointLaw};
@@ -23,6 +23,9 @@ const BONDED: &str = "No motion is shown: it knows no bonded joints between ston
 
 /// Note on a keystone cut in half, which its mirror plane would have to hold upright.
 const HALVED: &str = "No motion is shown: it knows no stone cut in half. Set half to false.";
+
+/// Friction beyond its bound by more than this share of the loads is told.
+const BEYOND: f64 = 1e-6;
 
 /// A load factor and how far it is beyond that of collapse.
 type Loading = (f64, f64);
@@ -54,6 +57,15 @@ pub(super) fn follow(analysis: &Analysis, report: &mut CollapseReport, pulse: &P
     let lost = |motion: &Option<FallingMotion>| motion.as_ref().is_some_and(|motion| motion.end == MotionEnd::Lost);
     if lost(&report.motion) || lost(&report.other_motion) {
         report.notes.push("The motion could not be followed to one of its ends: no further step was found.".into());
+    }
+    let frames = report.motion.iter().chain(&report.other_motion).flat_map(|motion| &motion.frames);
+    let excess = frames.filter(|frame| frame.excess > BEYOND).map(|frame| frame.excess);
+    if let Some(worst) = excess.reduce(f64::max) {
+        report.notes.push(format!(
+            "In some steps of the motion friction is beyond its bound, by up to {} of the loads: what follows them is \
+             doubtful.",
+            Digits(worst)
+        ));
     }
     Ok(())
 }

@@ -1,6 +1,8 @@
 //! What is kept of a path: its history, the arch at load factor 1 and just before collapse.
 
 use super::discretise::Model;
+use super::mirror::{evened_blocks, evened_stresses};
+use super::state::Standing;
 use super::yielding::Yielding;
 use super::{
     Analysis, AnalysisError, BlockState, ContactForce, ElasticCrushing, FieldAt, HistoryPoint, Method, Snapshot,
@@ -97,7 +99,9 @@ impl<'a> Recorder<'a> {
     /// Keeps what was asked for between two points of the path.
     fn pass(&mut self, before: &Point, now: &Point) {
         for (asked, found) in self.asked.iter_mut().filter(|(_, found)| found.is_none()) {
-            if (before.0 - *asked) * (now.0 - *asked) <= 0.0 && before.0 != now.0 {
+            // Behind the start there are only states of a path that has fallen and run back.
+            let ahead = self.sign * (*asked - self.start) >= 0.0;
+            if ahead && (before.0 - *asked) * (now.0 - *asked) <= 0.0 && before.0 != now.0 {
                 *found = Some(interpolate(before, now, *asked));
             }
         }
@@ -125,7 +129,7 @@ impl<'a> Recorder<'a> {
     }
 
     fn keep(&mut self, before: Option<Rc<Point>>, now: &Rc<Point>) {
-        let highest = (now.0 - self.start).abs() >= (self.farthest - self.start).abs();
+        let highest = self.way(now.0) >= self.way(self.farthest);
         self.yielding.see(before.as_ref(), now, highest);
         if !highest {
             return;
@@ -136,16 +140,21 @@ impl<'a> Recorder<'a> {
         }
         self.farthest = now.0;
         self.recent.push_back(Rc::clone(now));
-        let wanted = self.share * (self.farthest - self.start).abs();
-        while self.recent.len() > 2 && (self.recent[1].0 - self.start).abs() <= wanted {
+        let wanted = self.share * self.way(self.farthest);
+        while self.recent.len() > 2 && self.way(self.recent[1].0) <= wanted {
             self.recent.pop_front();
         }
+    }
+
+    /// How far a load factor is from the start, negative where the path has run back past it.
+    fn way(&self, load_factor: f64) -> f64 {
+        self.sign * (load_factor - self.start)
     }
 
     /// Displacements at `share` of the way from the start to `collapse`, with the load factor there.
     pub(super) fn near(&self, collapse: f64) -> Option<Point> {
         let wanted = self.start + self.share * (collapse - self.start);
-        let after = self.recent.iter().position(|p| (p.0 - self.start).abs() >= (wanted - self.start).abs())?;
+        let after = self.recent.iter().position(|p| self.way(p.0) >= self.way(wanted))?;
         let displacements = if after == 0 {
             self.recent[0].1.clone()
         } else {
@@ -155,6 +164,10 @@ impl<'a> Recorder<'a> {
     }
 
     fn history_point(&self, load_factor: f64, displacements: &[f64]) -> HistoryPoint {
+        // Of two states that are each other's mirror image, as near as the scatter of stiffness lets them be.
+        let symmetric = self.model.symmetric && self.model.is_symmetric_under(&self.model.loads_on_nodes(load_factor));
+        let symmetric = symmetric.then(|| self.model.chain.symmetrised(displacements));
+        let displacements = symmetric.as_deref().unwrap_or(displacements);
         let of = |voussoir: usize| self.model.motion(voussoir, load_factor, displacements).displacement;
         let crown = 0.5 * (of(self.crown[0]) + of(self.crown[1]));
         let largest = (0..self.model.voussoirs).map(|v| of(v).norm_squared()).fold(0.0, f64::max).sqrt();
@@ -191,15 +204,17 @@ fn interpolate(a: &Point, b: &Point, load_factor: f64) -> Vec<f64> {
     a.1.iter().zip(&b.1).map(|(x, y)| x + (y - x) * t).collect()
 }
 
-/// The arch at one point of the path.
-pub(super) fn snapshot(model: &Model, load_factor: f64, displacements: &[f64]) -> Result<Snapshot, AnalysisError> {
+/// The arch in one state.
+pub(super) fn snapshot(model: &Model, state: &Standing) -> Result<Snapshot, AnalysisError> {
+    let Standing { displacements, forces, .. } = state;
+    let load_factor = state.load_factor;
     let block = |v: usize| {
         model.pulse.work(model.work_of_stresses(v))?;
         let MeanMotion { displacement, rotation } = model.motion(v, load_factor, displacements);
         Ok(BlockState { displacement, rotation, stress: model.mean_stress(v, load_factor, displacements) })
     };
-    let blocks = (0..model.voussoirs).map(block).collect::<Result<_, AnalysisError>>()?;
-    let forces = model.chain.contact_forces(displacements);
+    let blocks = (0..model.voussoirs).map(block).collect::<Result<Vec<_>, AnalysisError>>()?;
+    let blocks = if state.symmetric { evened_blocks(&blocks) } else { blocks };
     let contact = |joint: usize, p: usize| ContactForce {
         joint,
         position: model.position(joint, p),
@@ -213,16 +228,16 @@ pub(super) fn snapshot(model: &Model, load_factor: f64, displacements: &[f64]) -
     Ok(Snapshot { load_factor, blocks, contacts: contacts.collect() })
 }
 
-/// Stress in every subblock at one point of the path.
-pub(super) fn stress_field(
-    model: &Model,
-    load_factor: f64,
-    displacements: &[f64],
-) -> Result<StressField, AnalysisError> {
+/// Stress in every subblock in a state, under the loads at `load_factor`.
+pub(super) fn stress_field(model: &Model, load_factor: f64, state: &Standing) -> Result<StressField, AnalysisError> {
     let mut subblocks = Vec::new();
     for (voussoir, grid) in model.grids.iter().enumerate() {
         model.pulse.work(model.work_of_stresses(voussoir))?;
-        subblocks.extend(grid.field(voussoir, &model.stresses(voussoir, load_factor, displacements)));
+        subblocks.extend(grid.field(voussoir, &model.stresses(voussoir, load_factor, &state.displacements)));
+    }
+    if state.symmetric {
+        let radial: Vec<usize> = model.grids.iter().map(|grid| grid.radial).collect();
+        subblocks = evened_stresses(&subblocks, &radial);
     }
     Ok(StressField { load_factor, subblocks })
 }

@@ -9,6 +9,7 @@ use super::doubt::Doubt;
 use super::path::{ATTEMPTS, Attempt, disturbed, nothing_grows, stand, total};
 use super::pulse::Pulse;
 use super::record::snapshot;
+use super::state::States;
 use super::updated::{self, Course};
 use super::{
     Aim, Analysis, AnalysisError, CollapseReport, Cost, Crushing, Direction, Geometry, LimitWindow, Outcome,
@@ -164,24 +165,28 @@ impl<'a> Question<'a> {
             End::Mechanism => return self.fallen(report, &model, &tracer),
             End::Rising | End::Lost => return Ok(Attempted { report, doubt: Some(Doubt::NotLoaded) }),
         }
-        report.at_start = Some(snapshot(&model, self.start, tracer.displacements())?);
+        let mut states = States::new(&model);
+        let at_start = states.find(self.start, tracer.displacements())?;
+        report.at_start = at_start.as_ref().map(|state| snapshot(&model, state)).transpose()?;
         if nothing_grows(&model, total(&analysis.scaled)) {
             report.outcome = Outcome::NeverCollapses;
-            report.fields_at_rest(analysis, &model, tracer.displacements())?;
+            at_start.map(|state| report.fields_at_rest(analysis, &model, &state)).transpose()?;
             if !matches!(analysis.aim, Aim::Settlement(_)) {
                 report.notes.push(NOTHING_GROWS.into());
             }
-            return Ok(Attempted { report, doubt: None });
+            let doubt = states.tell(&mut report);
+            return Ok(Attempted { report, doubt });
         }
         let both_ways = analysis.aim == Aim::Collapse && !self.certificate.stands_at(0.0);
         let back = both_ways.then(|| tracer.clone());
-        let mut doubt = self.leg(&mut report, &model, &mut tracer, &fixed, self.sign, &mut progress)?;
+        let mut doubt = self.leg(&mut report, &mut states, &mut tracer, &fixed, self.sign, &mut progress)?;
         if let Some(mut back) = back {
             report.outcome = Outcome::StandsInWindow;
             let mut other = self.blank(model.chain.unknowns());
-            doubt = doubt.or(self.leg(&mut other, &model, &mut back, &fixed, -self.sign, &mut progress)?);
+            doubt = doubt.or(self.leg(&mut other, &mut states, &mut back, &fixed, -self.sign, &mut progress)?);
             report.join_other_end(other);
         }
+        let doubt = doubt.or(states.tell(&mut report));
         Ok(Attempted { report, doubt })
     }
 

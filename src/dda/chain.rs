@@ -1,13 +1,15 @@
 //! The chain: bodies in a row, joined at interfaces by contact points.
 
 mod build;
+mod law;
+mod mirror;
 mod places;
 
 pub use build::{ChainBuilder, Touch};
 
 use super::block::V6;
 use super::condense::{Condensed, Node};
-use super::contact::{Contact, ContactForce, State};
+use super::contact::Contact;
 use super::factor::Tridiagonal;
 use super::heart::{Heart, Stopped};
 use super::macroblock::Macroblock;
@@ -92,7 +94,9 @@ pub struct MeanMotion {
 pub struct Chain {
     bodies: Vec<Body>,
     kinds: Vec<Kind>,
+    /// Contacts as a path meets them, and as they were built.
     contacts: Vec<Contact>,
+    exact: Vec<Contact>,
     sites: Vec<Site>,
     /// Stiffness of every contact's links.
     links: Vec<[f64; 2]>,
@@ -134,7 +138,7 @@ impl Chain {
         &self.elastic
     }
 
-    /// All contact points, interface by interface.
+    /// All contact points as a path meets them, interface by interface.
     pub fn contacts(&self) -> &[Contact] {
         &self.contacts
     }
@@ -186,26 +190,6 @@ impl Chain {
                 forces[i + 1] += sign * shear;
             }
         }
-    }
-
-    /// Contact forces at displacements `d`; the gap is that between the bodies, links and contact together.
-    pub fn contact_forces(&self, d: &[f64]) -> Vec<ContactForce> {
-        let force = |p: usize| {
-            let [gap, slip] = self.gap(p, d);
-            let force = self.contacts[p].force(gap, slip);
-            let ties = self.places[p].iter().flatten().count() as f64;
-            ContactForce { gap: gap - ties * force.normal / self.links[p][0], ..force }
-        };
-        (0..self.contacts.len()).map(force).collect()
-    }
-
-    /// Tangent stiffness of interface `k` in the given states, as one 2 x 2 block per contact.
-    pub(super) fn interface_stiffness<'s>(
-        &'s self,
-        k: usize,
-        states: &'s [State],
-    ) -> impl Iterator<Item = [f64; 4]> + 's {
-        self.at_interface(k).map(|p| self.contacts[p].tangent_stiffness(states[p]))
     }
 
     /// Condenses forces on subblocks onto the nodes.

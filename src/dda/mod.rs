@@ -12,6 +12,7 @@
 //! Body `i` lies between interfaces `i` and `i + 1`; interface `k` joins body `k - 1` (before) to body `k` (after), and the
 //! rigid ground takes the place of a body that is not there.
 
+mod balance;
 mod block;
 mod chain;
 mod condense;
@@ -25,6 +26,7 @@ mod panels;
 mod pivot;
 mod trace;
 
+pub use balance::{Balanced, balanced, missing};
 pub use block::{Block, Elasticity, V6};
 pub use chain::{Chain, ChainBuilder, Loads, MeanMotion, Push, Touch};
 pub use condense::{Condensed, Loose, Node, Unbuilt, free_response};

@@ -168,6 +168,25 @@ impl<'a> Tracer<'a> {
         tracer
     }
 
+    /// A tracer at parameter 0 and displacements `d` of the nodes, at which the chain must be in equilibrium with the drive's
+    /// base; every contact is in the state that the law gives it there. The rest is as for [`Tracer::new`].
+    pub fn starting_at(
+        chain: &'a Chain,
+        drive: Drive,
+        d: &[f64],
+        size: f64,
+        load_scale: f64,
+        heart: &'a Heart<'a>,
+    ) -> Self {
+        let mut tracer = Tracer::new(chain, drive, size, load_scale, heart);
+        tracer.displacements.copy_from_slice(d);
+        tracer.find_residual();
+        let law = chain.contacts().iter().zip(&tracer.gaps);
+        tracer.states = law.map(|(contact, &gap)| contact.state_at(gap)).collect();
+        tracer.reassemble_all();
+        tracer
+    }
+
     /// Goes on with another drive from `parameter` on, which must leave the loads and offsets of this instant unchanged.
     ///
     /// Slip goes on being measured from the unstressed start, so that no contact starts on the border of its state.

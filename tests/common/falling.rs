@@ -1,7 +1,8 @@
 //! A motion after collapse, measured from its frames alone.
 
-use voussoir::arch::Arch;
-use voussoir::collapse::{FallingMotion, MotionFrame};
+use super::state::{larger, weight};
+use voussoir::arch::{Arch, JointLaw};
+use voussoir::collapse::{Analysis, FallingMotion, MotionContact, MotionFrame};
 use voussoir::geometry::{Region, Vec2, cross, perpendicular};
 
 /// What was measured on a motion.
@@ -13,9 +14,11 @@ pub struct Measured {
     pub area: f64,
     /// Largest residual of equilibrium, share of the loads.
     pub residual: f64,
-    /// Friction beyond its bound, share of the loads, and in how many steps by more than a millionth.
+    /// Friction beyond its bound, share of the loads, as every frame says of itself, and in how many steps by more than a
+    /// millionth; and by the forces in the frames.
     pub excess: f64,
     pub beyond: usize,
+    pub shear: f64,
     /// Least work of the loads in a step, share of the most.
     pub work: f64,
     pub frames: usize,
@@ -52,25 +55,37 @@ fn near(a: &Corners, b: &Corners) -> bool {
     (a[0] - b[0]).norm() <= radius(a) + radius(b)
 }
 
-pub fn measure(arch: &Arch, motion: &FallingMotion) -> Measured {
+/// Shear beyond friction and half the joint's cohesion, N/m.
+fn beyond(arch: &Arch, contact: &MotionContact) -> f64 {
+    let joint = &arch.joints[contact.joint];
+    let JointLaw::Dry { friction, cohesion } = joint.law else { return 0.0 };
+    // A wall at the crown of half an arch is smooth.
+    let friction = if arch.half && contact.joint + 1 == arch.joints.len() { 0.0 } else { friction };
+    contact.tangential.abs() - friction * contact.normal - 0.5 * cohesion * joint.length()
+}
+
+pub fn measure(analysis: &Analysis, motion: &FallingMotion) -> Measured {
+    let (arch, loads) = (&analysis.arch, weight(analysis, motion.load_factor));
     let mut measured = Measured { frames: motion.frames.len(), work: f64::INFINITY, ..Measured::default() };
     let start: Vec<f64> = stones(arch, &motion.frames[0]).iter().map(|c| Region::polygon(c).area).collect();
     let most = motion.frames.iter().map(|f| f.work).fold(f64::MIN_POSITIVE, f64::max);
     for (number, frame) in motion.frames.iter().enumerate() {
         // The springings and the wall are in the frame's own figure only.
-        measured.overlap = measured.overlap.max(frame.penetration);
+        measured.overlap = larger(measured.overlap, frame.penetration);
+        let shear = frame.contacts.iter().map(|contact| beyond(arch, contact) / loads);
+        measured.shear = shear.fold(measured.shear, larger);
         let stones = stones(arch, frame);
         for (i, a) in stones.iter().enumerate() {
-            measured.area = measured.area.max((Region::polygon(a).area / start[i] - 1.0).abs());
+            measured.area = larger(measured.area, (Region::polygon(a).area / start[i] - 1.0).abs());
             for b in stones[i + 1..].iter().filter(|b| near(a, b)) {
-                measured.overlap = measured.overlap.max(depth(a, b) / motion.thickness);
+                measured.overlap = larger(measured.overlap, depth(a, b) / motion.thickness);
             }
         }
-        measured.residual = measured.residual.max(frame.residual);
-        measured.excess = measured.excess.max(frame.excess);
-        measured.beyond += usize::from(frame.excess > 1e-6);
+        measured.residual = larger(measured.residual, frame.residual);
+        measured.excess = larger(measured.excess, frame.excess);
+        measured.beyond += usize::from(larger(frame.excess, 0.0) > 1e-6);
         if number > 0 {
-            measured.work = measured.work.min(frame.work / most);
+            measured.work = -larger(-measured.work, -frame.work / most);
         }
     }
     measured

@@ -15,6 +15,7 @@ pub mod random_arch;
 pub mod random_profile;
 pub mod sliding;
 pub mod sliding_arch;
+pub mod state;
 pub mod table;
 pub mod verify;
 pub mod wire;

@@ -4,6 +4,7 @@ use crate::arch::ring::{JointLines, Line, Ring, Thickness, stations};
 use crate::arch::{Arch, straight_voussoirs};
 use crate::collapse::pulse::watched;
 use crate::collapse::{Aim, Direction, Mesh, Method, Unwatched};
+use crate::geometry::perpendicular;
 
 /// A semicircle of `n` equal stones, cut into `subblocks` each, without loads.
 fn semicircle(n: usize, subblocks: [usize; 2], curved: bool) -> Analysis {
@@ -66,4 +67,59 @@ fn the_subblocks_of_a_stone_tile_it() {
             assert!((all.centroid - stone.region.centroid).norm() < 1e-12 * 10.0);
         }
     }
+}
+
+/// Displacements of the nodes of a chain that moves as `field` says.
+fn moved(chain: &Chain, field: impl Fn(Vec2) -> Vec2) -> Vec<f64> {
+    let mut d = vec![0.0; chain.node_unknowns()];
+    for k in 0..chain.interfaces() {
+        for face in chain.faces(k).into_iter().flatten() {
+            for (p, i) in chain.at_interface(k).zip(chain.elastic().range(face).step_by(2)) {
+                let (u, normal) = (field(chain.place(p)), chain.normal(p));
+                (d[i], d[i + 1]) = (u.dot(&normal), u.dot(&perpendicular(normal)));
+            }
+        }
+    }
+    d
+}
+
+#[test]
+fn the_mirror_image_of_a_motion_is_that_of_a_chain_and_its_nodes() {
+    watched(&mut Unwatched, |pulse| {
+        let model = discretise(&semicircle(7, [2, 2], false), 1, pulse)?;
+        let chain = &model.chain;
+        assert!(model.symmetric);
+        let turns = |at: Vec2| Vec2::new(2.0 - at.y, at.x);
+        let bends = |at: Vec2| Vec2::new(0.1 * at.x * at.y, 0.3 * at.y * at.y - at.x * at.x);
+        let right = |_: Vec2| Vec2::x();
+        let up = |_: Vec2| Vec2::y();
+        let motions: [(&dyn Fn(Vec2) -> Vec2, f64); 4] = [(&right, -1.0), (&up, 1.0), (&turns, -1.0), (&bends, 1.0)];
+        for (field, sign) in motions {
+            let d = moved(chain, field);
+            let image = chain.mirrored(&d);
+            let apart = image.iter().zip(&d).map(|(there, here)| (there - sign * here).abs()).fold(0.0, f64::max);
+            assert!(apart < 1e-11, "{apart:e}");
+        }
+        Ok(())
+    })
+    .unwrap();
+}
+
+#[test]
+fn an_arch_is_its_own_mirror_image_where_nothing_tells_the_sides_apart() {
+    watched(&mut Unwatched, |pulse| {
+        let symmetric = |analysis: &Analysis| discretise(analysis, 1, pulse).map(|model| model.symmetric);
+        for (n, mesh) in [(7, [1, 1]), (8, [1, 1]), (7, [3, 2]), (8, [2, 3])] {
+            assert!(symmetric(&semicircle(n, mesh, false))? && symmetric(&semicircle(n, mesh, true))?);
+        }
+        let [mut rough, mut fine, mut flat] = [(); 3].map(|()| semicircle(7, [1, 1], false));
+        rough.arch.joints[2].law = JointLaw::Dry { friction: 0.61, cohesion: 0.0 };
+        fine.mesh.subblocks[5] = [1, 2];
+        flat.arch.joints[3].extrados.y += 1e-3;
+        for analysis in [&rough, &fine, &flat] {
+            assert!(!symmetric(analysis)?);
+        }
+        Ok(())
+    })
+    .unwrap();
 }

@@ -47,7 +47,7 @@ fn unfolded(arch: &Arch, left: &Snapshot) -> Snapshot {
     let block = |k: usize| match (keystone == Some(k), k < n.div_ceil(2)) {
         (true, _) => mean(left.blocks[k]),
         (_, true) => left.blocks[k],
-        _ => mirror_image(left.blocks[n - 1 - k]),
+        _ => left.blocks[n - 1 - k].mirror_image(),
     };
     let start = |joint: usize| left.contacts.partition_point(|contact| contact.joint < joint);
     let joint = |k: usize| left.contacts[start(k)..start(k + 1)].iter();
@@ -60,11 +60,6 @@ fn unfolded(arch: &Arch, left: &Snapshot) -> Snapshot {
     };
     let contacts = (0..=n).flat_map(|k| joint(k.min(n - k)).map(move |c| contact(k, c)));
     Snapshot { load_factor: left.load_factor, blocks: (0..n).map(block).collect(), contacts: contacts.collect() }
-}
-
-fn mirror_image(block: BlockState) -> BlockState {
-    let [x, y, tau] = block.stress;
-    BlockState { displacement: mirrored(block.displacement, 0.0), rotation: -block.rotation, stress: [x, y, -tau] }
 }
 
 /// Of a stone on the axis whose left half is in this state.

@@ -2,12 +2,12 @@
 
 use super::{Progress, Question};
 use crate::collapse::certificate::{LATER_MECHANISM, fixed_steps_note, range_note};
-use crate::collapse::discretise::Model;
 use crate::collapse::doubt::Doubt;
 use crate::collapse::ending::{self, Ending};
 use crate::collapse::path::{Leg, follow};
 use crate::collapse::record::{MOST_STEPS, Recorder, snapshot};
 use crate::collapse::sliding::{SAME, Search};
+use crate::collapse::state::States;
 use crate::collapse::{AnalysisError, CollapseReport, Cost, LoadRange, Method, Outcome};
 use crate::dda::Tracer;
 
@@ -16,18 +16,19 @@ impl Question<'_> {
     pub(super) fn leg(
         &self,
         report: &mut CollapseReport,
-        model: &Model,
+        states: &mut States,
         tracer: &mut Tracer,
         fixed: &[f64],
         sign: f64,
         progress: &mut Progress,
     ) -> Result<Option<Doubt>, AnalysisError> {
-        let analysis = self.analysis;
+        let (analysis, model) = (self.analysis, states.model);
         let mut recorder = Recorder::new(model, analysis, [self.start, sign]);
         let before = Cost::of(tracer);
         let leg = follow(tracer, fixed, self.cap, &mut recorder, progress);
         report.cost.add(tracer, before);
-        report.at_unit_load = recorder.at(1.0).map(|d| snapshot(model, 1.0, d)).transpose()?;
+        let at_unit_load = recorder.at(1.0).map(|d| states.find(1.0, d)).transpose()?.flatten();
+        report.at_unit_load = at_unit_load.map(|state| snapshot(model, &state)).transpose()?;
         if let Some(crushing) = &mut report.crushing {
             crushing.elastic = Some(recorder.first_yield());
         }
@@ -38,7 +39,7 @@ impl Question<'_> {
             Leg::TooManySteps => return Err(AnalysisError::TooManySteps { most: MOST_STEPS }),
             Leg::Lost => return Ok(Some(Doubt::Lost)),
             Leg::Endless => {
-                report.add_fields(analysis, model, &recorder, None)?;
+                report.add_fields(analysis, states, &recorder, None)?;
                 report.history = recorder.history;
                 report.outcome = Outcome::NeverCollapses;
                 return Ok(self.certificate.endless(sign, self.cap).or(self.certificate.standing_doubt(residual)));
@@ -57,8 +58,9 @@ impl Question<'_> {
             }
         };
         let near = recorder.near(peak_load.unwrap_or(ending.end.load_factor));
-        report.near_collapse = near.as_ref().map(|(factor, d)| snapshot(model, *factor, d)).transpose()?;
-        report.add_fields(analysis, model, &recorder, near.as_ref())?;
+        let near_collapse = near.as_ref().map(|(factor, d)| states.find(*factor, d)).transpose()?.flatten();
+        report.near_collapse = near_collapse.map(|state| snapshot(model, &state)).transpose()?;
+        report.add_fields(analysis, states, &recorder, near.as_ref())?;
         report.history = recorder.history;
         let doubt = self.conclude(report, ending, sign, turned_back)?;
         Ok(doubt.or(self.certificate.standing_doubt(residual)))

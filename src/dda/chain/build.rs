@@ -95,10 +95,11 @@ impl ChainBuilder {
         self.touches.iter().for_each(|t| first.push(first[first.len() - 1] + t.len()));
         let interface = self.touches.iter().enumerate().flat_map(|(k, t)| vec![k; t.len()]).collect();
         let touches = || self.touches.iter().flatten();
-        let contacts = touches().map(|t| Contact::new(t.stiffness, t.law)).collect();
+        let contacts: Vec<_> = touches().map(|t| Contact::new(t.stiffness, t.law)).collect();
         let links = touches().map(|t| t.link).collect();
         let sites = touches().map(|t| Site { at: t.at, normal: t.normal }).collect();
-        let mut chain = Chain { bodies, kinds, contacts, sites, links, first, interface, places: Vec::new(), elastic };
+        let (exact, places) = (contacts.clone(), Vec::new());
+        let mut chain = Chain { bodies, kinds, contacts, exact, sites, links, first, interface, places, elastic };
         chain.places = (0..chain.contacts.len()).map(|p| chain.find_places(p)).collect();
         Ok(chain)
     }

@@ -11,7 +11,7 @@ use crate::geometry::{cross, perpendicular};
 use nalgebra::Vector3;
 
 /// Bounds on friction that do not depend on the step are brought up to date so often, starting from the step before.
-const ROUNDS: usize = 12;
+const ROUNDS: usize = 100;
 /// They are up to date when they change by less than this share of the loads.
 const RUBBED: f64 = 1e-6;
 

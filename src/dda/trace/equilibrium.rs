@@ -4,7 +4,6 @@ use super::Tracer;
 use crate::dda::contact::State;
 use crate::dda::heart::Stopped;
 use crate::dda::moving::{Bearing, Placed};
-use crate::dda::panels::subtract_applied;
 
 /// Equilibrium residual, as a share of the load scale, above which the displacements are corrected; and above which
 /// the path is given up.
@@ -14,7 +13,7 @@ const GIVE_UP: f64 = 1e-6;
 const RENEWED: usize = 8;
 
 impl Tracer<'_> {
-    /// Measures the equilibrium residual of every node, corrects the displacements where it matters; false when
+    /// Measures the equilibrium residual of every node by the contact law, corrects the displacements where it matters; false when
     /// equilibrium is lost.
     pub(super) fn keep_equilibrium(&mut self) -> bool {
         let mut worst = self.find_residual();
@@ -24,13 +23,21 @@ impl Tracer<'_> {
                 return false;
             }
             self.updates.apply(self.chain, &self.states, |_| [0.0; 2], &mut corrections);
-            for (d, correction) in self.displacements.iter_mut().zip(&corrections) {
-                *d += correction;
+            self.correct_by(&corrections, 1.0);
+            let corrected = self.find_residual();
+            // Next to a mechanism the correction of mere rounding may lead far across borders.
+            if corrected > worst {
+                self.correct_by(&corrections, -1.0);
+                self.find_residual();
             }
-            worst = self.find_residual();
+            worst = worst.min(corrected);
         }
         self.worst_residual = self.worst_residual.max(worst / self.loads_grown());
         worst < GIVE_UP
+    }
+
+    fn correct_by(&mut self, corrections: &[f64], sign: f64) {
+        self.displacements.iter_mut().zip(corrections).for_each(|(d, correction)| *d += sign * correction);
     }
 
     /// How many times the load scale the largest load on a node is, at least 1: far out on a path the rounding of loads that
@@ -74,23 +81,12 @@ impl Tracer<'_> {
         for (i, r) in self.residual.iter_mut().enumerate() {
             *r = self.drive.base[i] + self.drive.rate[i] * self.parameter;
         }
-        let (elastic, d) = (self.chain.elastic(), &self.displacements);
-        for face in 0..elastic.rows() {
-            let (here, residual) = (elastic.range(face), &mut self.residual);
-            subtract_applied(elastic.diagonal.get(face), &d[here.clone()], &mut residual[here.clone()]);
-            // A body's faces are 2 i and 2 i + 1: only they are tied by elasticity.
-            if face % 2 == 0 {
-                subtract_applied(elastic.upper.get(face), &d[elastic.range(face + 1)], &mut residual[here]);
-            } else {
-                subtract_applied(elastic.lower.get(face - 1), &d[elastic.range(face - 1)], &mut residual[here]);
-            }
-            self.heart.work(2 * elastic.diagonal.get(face).len())?;
-        }
+        self.chain.subtract_elastic(&self.displacements, &mut self.residual, self.heart)?;
         for p in 0..self.states.len() {
             let ([gap, slip], settling) = (self.chain.gap(p, &self.displacements), self.settling[p]);
             let offset = self.offset_of(p, self.drive.offset[0] + self.drive.offset[1] * self.parameter);
             self.gaps[p] = [gap + offset + settling[0] * self.parameter, slip + settling[1] * self.parameter];
-            let force = self.force_of(p);
+            let force = self.force_by_law(p);
             self.chain.push(p, force, &mut self.residual);
         }
         Ok(())
@@ -107,10 +103,17 @@ impl Tracer<'_> {
         if self.states[p] == State::Bonded { 0.0 } else { offset }
     }
 
-    /// Normal and tangential force of contact `p` at the present gaps, N/m.
+    /// Normal and tangential force of contact `p` in its state at the present gaps, N/m.
     pub(super) fn force_of(&self, p: usize) -> [f64; 2] {
         let ([gap, slip], state) = (self.gaps[p], self.states[p]);
         self.chain.contacts()[p].force_in(state, gap, slip)
+    }
+
+    /// The same by the law alone: a state that is not the law's must not pass for equilibrium.
+    pub(super) fn force_by_law(&self, p: usize) -> [f64; 2] {
+        let [gap, slip] = self.gaps[p];
+        let force = self.chain.contacts()[p].force(gap, slip);
+        [force.normal, force.tangential]
     }
 
     /// Renews the whole matrix and load rate.
@@ -138,20 +141,11 @@ impl Tracer<'_> {
     }
 
     fn reassemble_first_order(&mut self, k: usize) {
-        let (elastic, chain, matrix) = (self.chain.elastic(), self.chain, &mut self.matrix);
-        let width = 2 * chain.at_interface(k).len();
+        let (chain, states) = (self.chain, &self.states);
+        chain.set_interface(k, |p| chain.contacts()[p].tangent_stiffness(states[p]), &mut self.matrix);
         for face in chain.faces(k).into_iter().flatten() {
-            let diagonal = matrix.diagonal.get_mut(face);
-            diagonal.copy_from_slice(elastic.diagonal.get(face));
-            add_contacts(diagonal, width, chain.interface_stiffness(k, &self.states), 1.0);
-            let range = elastic.range(face);
+            let range = chain.elastic().range(face);
             self.load_rate[range.clone()].copy_from_slice(&self.drive.rate[range]);
-        }
-        if let [Some(before), Some(_)] = chain.faces(k) {
-            for panel in [matrix.upper.get_mut(before), matrix.lower.get_mut(before)] {
-                panel.fill(0.0);
-                add_contacts(panel, width, chain.interface_stiffness(k, &self.states), -1.0);
-            }
         }
         for p in chain.at_interface(k) {
             let drift = self.drift(p);
@@ -187,15 +181,5 @@ impl Tracer<'_> {
         }
         moving.add_ground(chain, &self.drive, k, self.parameter, points, &mut self.load_rate);
         self.moving = Some(moving);
-    }
-}
-
-/// Adds the 2 x 2 blocks of an interface's contacts to the diagonal of a square panel.
-fn add_contacts(panel: &mut [f64], width: usize, contacts: impl Iterator<Item = [f64; 4]>, sign: f64) {
-    for (j, [nn, nt, tn, tt]) in contacts.enumerate() {
-        let at = 2 * j * (width + 1);
-        for (place, entry) in [(at, nn), (at + 1, nt), (at + width, tn), (at + width + 1, tt)] {
-            panel[place] += sign * entry;
-        }
     }
 }

@@ -17,13 +17,18 @@ impl Tracer<'_> {
 
     /// Normal and tangential force of every contact, the drive's offset included, N/m.
     pub fn contact_forces(&self) -> Vec<[f64; 2]> {
-        (0..self.states.len()).map(|p| self.force_of(p)).collect()
+        (0..self.states.len()).map(|p| self.force_seen(p)).collect()
+    }
+
+    /// By the law on the reference geometry; in its state on moving geometry, where both are compared at every step.
+    fn force_seen(&self, p: usize) -> [f64; 2] {
+        if self.moving.is_none() { self.force_by_law(p) } else { self.force_of(p) }
     }
 
     /// Resultant of the forces of interface `k` on the body after it, N/m.
     pub fn force_through(&self, k: usize) -> Vec2 {
         let of = |p: usize| {
-            let (normal, [pressure, shear]) = (self.chain.normal(p), self.force_of(p));
+            let (normal, [pressure, shear]) = (self.chain.normal(p), self.force_seen(p));
             let along = self.moving.as_ref().map_or([pressure, shear], |moving| moving.turned(k, [pressure, shear]));
             normal * along[0] + perpendicular(normal) * along[1]
         };

@@ -1,0 +1,272 @@
+//! Whether every number of an answer is one: none that is not may reach anyone as a `null` or a blank.
+//!
+//! Structures are taken apart field by field, so that a field that is added has to be looked at here.
+
+use super::{
+    AnalysisError, Answer, BlockState, CollapseReport, ContactForce, FallingMotion, Hinge, HistoryPoint, LiftOff,
+    LoadRange, Mechanism, MotionContact, MotionFrame, OpenHinge, PathEnd, Reach, SafetyPoint, SettlementPath,
+    SettlementPoint, Slid, Slide, Snapshot, StressField, Thrust, UpdatedGeometry,
+};
+use crate::geometry::Vec2;
+
+type Checked = Result<(), AnalysisError>;
+
+fn finite(what: &'static str, numbers: impl IntoIterator<Item = f64>) -> Checked {
+    if numbers.into_iter().all(f64::is_finite) { Ok(()) } else { Err(AnalysisError::NotFinite { what }) }
+}
+
+fn both(v: Vec2) -> [f64; 2] {
+    [v.x, v.y]
+}
+
+impl Answer {
+    /// Whether every number is one.
+    ///
+    /// # Errors
+    /// Naming the first quantity with a number that is not.
+    pub fn check_finite(&self) -> Checked {
+        match self {
+            Answer::One(report) => report.check_finite(),
+            Answer::Curve(points) => points.iter().try_for_each(SafetyPoint::check_finite),
+            Answer::CurvedBeam(report) => {
+                report.field.check_finite()?;
+                let meshes = report.plan.iter().flat_map(|plan| &plan.meshes);
+                finite("estimated errors", meshes.filter_map(|mesh| mesh.stress))?;
+                finite("curved beam", report.exact.iter().chain(&report.energy).copied().chain([report.error]))
+            }
+        }
+    }
+}
+
+impl CollapseReport {
+    pub(super) fn check_finite(&self) -> Checked {
+        self.end.iter().chain(&self.other_end).try_for_each(PathEnd::check_finite)?;
+        finite("start of the path", [self.start, self.cap, self.share])?;
+        // Both may have no bound.
+        let thrust = self.thrust_range.iter().flat_map(|range| [range.lowest, range.highest]);
+        let window = self.limit_window.iter().flat_map(|window| [window.lowest, window.highest]);
+        finite("limit analysis", thrust.chain(window).filter(|end| !end.is_infinite()))?;
+        let states = self.near_collapse.iter().chain(&self.at_unit_load).chain(&self.at_start);
+        { states }.try_for_each(Snapshot::check_finite)?;
+        self.stress_fields.iter().try_for_each(StressField::check_finite)?;
+        let elastic = self.crushing.iter().filter_map(|c| c.elastic.as_ref());
+        finite("first yield", elastic.clone().filter_map(|e| e.load_factor))?;
+        finite("first yield", elastic.filter_map(|e| e.where_largest).flat_map(|subblock| subblock.stress))?;
+        self.safety.iter().try_for_each(SafetyPoint::check_finite)?;
+        self.updated.iter().try_for_each(UpdatedGeometry::check_finite)?;
+        let paths = self.settlement.iter().flat_map(|s| std::iter::once(&s.first_order).chain(&s.updated));
+        { paths }.try_for_each(SettlementPath::check_finite)?;
+        self.motion.iter().chain(&self.other_motion).try_for_each(FallingMotion::check_finite)?;
+        let plan = self.plan.iter().flat_map(|plan| [plan.collapse_intensity, plan.stress]);
+        finite("estimated errors", plan.flatten().filter_map(|estimate| estimate.estimate))?;
+        finite("estimated errors", self.plan.iter().filter_map(|plan| plan.first_yield))?;
+        let meshes = self.plan.iter().flat_map(|plan| &plan.meshes);
+        finite("estimated errors", meshes.filter_map(|mesh| mesh.stress))?;
+        let of =
+            |HistoryPoint { load_factor, crown, largest }: &HistoryPoint| [*load_factor, crown.x, crown.y, *largest];
+        finite("history", self.history.iter().flat_map(of))
+    }
+}
+
+impl PathEnd {
+    fn check_finite(&self) -> Checked {
+        let PathEnd { load_factor, range, residual, mechanism, thrust_line } = self;
+        finite("collapse load", [*load_factor, *residual])?;
+        let known = |LoadRange { least, greatest, path, .. }: &LoadRange| {
+            // No window's end may bound it.
+            [*least, *path].into_iter().chain((!greatest.is_infinite()).then_some(*greatest))
+        };
+        finite("range of the collapse load", range.iter().flat_map(known))?;
+        mechanism.check_finite()?;
+        check_line(thrust_line)
+    }
+}
+
+impl Mechanism {
+    fn check_finite(&self) -> Checked {
+        let Mechanism { mode: _, hinges, slides, lift_offs, velocities } = self;
+        let turning = |hinge: &Hinge| {
+            let Hinge { joint: _, face: _, angle_from_springing, angle_from_crown, rotation } = hinge;
+            [*angle_from_springing, *angle_from_crown, *rotation]
+        };
+        finite("hinges", hinges.iter().flat_map(turning))?;
+        finite("sliding joints", slides.iter().map(|Slide { joint: _, rate }| *rate))?;
+        let parting = |LiftOff { joint: _, intrados, extrados }: &LiftOff| [*intrados, *extrados];
+        finite("joints that part", lift_offs.iter().flat_map(parting))?;
+        finite("mechanism", velocities.iter().flatten().copied())
+    }
+}
+
+fn check_line(line: &[Thrust]) -> Checked {
+    let numbers = |thrust: &Thrust| {
+        let Thrust { joint: _, normal, shear, eccentricity, at } = thrust;
+        [*normal, *shear, *eccentricity, at.x, at.y]
+    };
+    finite("thrust line", line.iter().flat_map(numbers))
+}
+
+impl Snapshot {
+    fn check_finite(&self) -> Checked {
+        let Snapshot { load_factor, blocks, contacts } = self;
+        finite("load factor of a state", [*load_factor])?;
+        for BlockState { displacement, rotation, stress } in blocks {
+            finite("displacements", [displacement.x, displacement.y, *rotation])?;
+            finite("stresses", *stress)?;
+        }
+        let forces = |contact: &ContactForce| {
+            let ContactForce { joint: _, position, normal, tangential, gap } = contact;
+            [*position, *normal, *tangential, *gap]
+        };
+        finite("contact forces", contacts.iter().flat_map(forces))
+    }
+}
+
+impl StressField {
+    fn check_finite(&self) -> Checked {
+        let StressField { load_factor, subblocks } = self;
+        let places = subblocks.iter().flat_map(|subblock| subblock.corners.into_iter().chain([subblock.centre]));
+        finite("places of subblocks", places.flat_map(both))?;
+        finite("stress field", subblocks.iter().flat_map(|subblock| subblock.stress).chain([*load_factor]))
+    }
+}
+
+impl SafetyPoint {
+    fn check_finite(&self) -> Checked {
+        let reaches = [self.instability, self.elastic, self.plastic_section, self.governing];
+        let factor = |reach: Reach| if let Reach::At(factor) = reach { Some(factor) } else { None };
+        finite("safety factors", reaches.into_iter().chain(self.updated).filter_map(factor).chain(self.abscissa))
+    }
+}
+
+impl UpdatedGeometry {
+    fn check_finite(&self) -> Checked {
+        let UpdatedGeometry { end: _, load_factor, share_of_loads, crown, largest, mechanism, snap, residual } = self;
+        let some = [*load_factor, *share_of_loads, *largest, *snap, Some(*residual)];
+        finite("updated geometry", some.into_iter().flatten().chain(crown.iter().copied().flat_map(both)))?;
+        mechanism.iter().try_for_each(Mechanism::check_finite)
+    }
+}
+
+impl SettlementPath {
+    fn check_finite(&self) -> Checked {
+        let SettlementPath { end: _, share, points, mechanism, thrust_line, displacements, snap, residual } = self;
+        finite("settlement", [*share, *residual].into_iter().chain(*snap))?;
+        let forces = |point: &SettlementPoint| {
+            let SettlementPoint { share, thrust, left, right } = point;
+            [*share, *thrust, *left, right.unwrap_or(0.0)]
+        };
+        finite("settlement", points.iter().flat_map(forces).chain(displacements.iter().flatten().copied()))?;
+        mechanism.check_finite()?;
+        check_line(thrust_line)
+    }
+}
+
+impl FallingMotion {
+    fn check_finite(&self) -> Checked {
+        let FallingMotion { end: _, load_factor, overload, span, thickness, frames } = self;
+        finite("motion", [*load_factor, *overload, *span, *thickness])?;
+        frames.iter().try_for_each(MotionFrame::check_finite)
+    }
+}
+
+impl MotionFrame {
+    fn check_finite(&self) -> Checked {
+        let MotionFrame { centroids, rotations, contacts, hinges, slides, .. } = self;
+        let MotionFrame { parameter, displacement, penetration, residual, excess, work, .. } = self;
+        finite("motion", [*parameter, *displacement, *penetration, *residual, *excess, *work])?;
+        finite("motion", centroids.iter().copied().flat_map(both).chain(rotations.iter().copied()))?;
+        for MotionContact { joint: _, at, direction, normal, tangential, gap } in contacts {
+            let numbers = [*normal, *tangential, *gap].into_iter();
+            finite("contact forces in motion", numbers.chain(both(*at)).chain(both(*direction)))?;
+        }
+        finite("openings in motion", hinges.iter().map(|OpenHinge { joint: _, face: _, opening }| *opening))?;
+        finite("slides in motion", slides.iter().map(|Slid { joint: _, by }| *by))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arch::Face;
+    use crate::collapse::{Mode, MotionEnd, SettlementEnd, UpdatedEnd};
+
+    fn mechanism(rotation: f64, rate: f64) -> Mechanism {
+        let hinge =
+            Hinge { joint: 0, face: Face::Intrados, angle_from_springing: 0.0, angle_from_crown: 0.0, rotation };
+        Mechanism { mode: Mode::Sway, hinges: vec![hinge], slides: vec![Slide { joint: 1, rate }], velocities: vec![] }
+    }
+
+    fn motion(change: impl Fn(&mut MotionFrame)) -> FallingMotion {
+        let contact =
+            MotionContact { joint: 0, at: Vec2::zeros(), direction: Vec2::x(), normal: 0.0, tangential: 0.0, gap: 0.0 };
+        let mut frame = MotionFrame {
+            parameter: 0.0,
+            centroids: Vec::new(),
+            rotations: Vec::new(),
+            contacts: vec![contact],
+            hinges: vec![OpenHinge { joint: 0, face: Face::Intrados, opening: 0.0 }],
+            slides: vec![Slid { joint: 0, by: 0.0 }],
+            displacement: 0.0,
+            penetration: 0.0,
+            residual: 0.0,
+            excess: 0.0,
+            work: 0.0,
+        };
+        change(&mut frame);
+        FallingMotion {
+            end: MotionEnd::Moved,
+            load_factor: 1.0,
+            overload: 0.0,
+            span: 1.0,
+            thickness: 1.0,
+            frames: vec![frame],
+        }
+    }
+
+    #[test]
+    fn a_motion_with_a_number_that_is_none_is_refused() {
+        assert!(motion(|_| {}).check_finite().is_ok());
+        let changes: [fn(&mut MotionFrame); 7] = [
+            |frame| frame.residual = f64::NAN,
+            |frame| frame.excess = f64::NAN,
+            |frame| frame.work = f64::NAN,
+            |frame| frame.penetration = f64::INFINITY,
+            |frame| frame.hinges[0].opening = f64::NAN,
+            |frame| frame.slides[0].by = f64::NAN,
+            |frame| frame.contacts[0].direction.y = f64::NAN,
+        ];
+        assert!(changes.iter().all(|change| motion(change).check_finite().is_err()));
+    }
+
+    #[test]
+    fn a_mechanism_with_a_number_that_is_none_is_refused() {
+        assert!(mechanism(1.0, 0.5).check_finite().is_ok());
+        assert!(mechanism(f64::NAN, 0.5).check_finite().is_err() && mechanism(1.0, f64::NAN).check_finite().is_err());
+    }
+
+    #[test]
+    fn a_residual_that_is_none_is_refused() {
+        let updated = |residual: f64| UpdatedGeometry {
+            end: UpdatedEnd::Collapse,
+            load_factor: Some(1.0),
+            share_of_loads: None,
+            crown: None,
+            largest: None,
+            mechanism: None,
+            snap: None,
+            residual,
+        };
+        let settlement = |residual: f64| SettlementPath {
+            end: SettlementEnd::Follows,
+            share: 1.0,
+            points: Vec::new(),
+            mechanism: mechanism(1.0, 0.0),
+            thrust_line: Vec::new(),
+            displacements: Vec::new(),
+            snap: None,
+            residual,
+        };
+        assert!(updated(0.0).check_finite().is_ok() && settlement(0.0).check_finite().is_ok());
+        assert!(updated(f64::NAN).check_finite().is_err() && settlement(f64::NAN).check_finite().is_err());
+    }
+}

@@ -1,0 +1,172 @@
+//! The states that a report gives: of equilibrium by the contact law alone, and symmetric where arch and loads are.
+//!
+//! A path is traced with scattered stiffness and disturbed loads. Its states are taken to the arch as it is described (see
+//! [`balanced`]); what cannot be is judged by the law, and doubted where it breaks it.
+
+use super::discretise::Model;
+use super::doubt::Doubt;
+use super::{AnalysisError, CollapseReport, Digits};
+use crate::dda::{Balanced, ContactForce, balanced, missing};
+
+/// A state that breaks the contact law by more than this share of the loads is not reported.
+const LAWFUL: f64 = 1e-6;
+/// A gap that differs by more than this share of the largest displacement between a state of the path and the symmetric one
+/// was not decided by the scatter of stiffness, which is a hundred times smaller.
+const LEANS: f64 = 1e-2;
+
+/// A state that is reported.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Standing {
+    /// Load factor.
+    pub load_factor: f64,
+    /// Displacements of the nodes.
+    pub displacements: Vec<f64>,
+    /// Force and opening of every contact.
+    pub forces: Vec<ContactForce>,
+    /// Whether the displacements are their own mirror image.
+    pub symmetric: bool,
+}
+
+/// Why the state of a symmetric arch at a load factor is not the only one.
+#[derive(Debug, Clone, PartialEq)]
+enum Other {
+    /// Joints may be open by more or less while no force changes; the state given is the symmetric one.
+    Free,
+    /// The path leant to one side, with other forces; the state given is the symmetric one.
+    Leaning,
+    /// The state given leans to one side: no symmetric one was found.
+    Lopsided,
+}
+
+/// Finds the states of a report, and what has to be said of them.
+pub(super) struct States<'m> {
+    pub model: &'m Model<'m>,
+    found: Vec<Standing>,
+    /// Load factors at which there are other states, with the joints that differ.
+    others: Vec<(f64, Other, Vec<usize>)>,
+    /// Factorisations and block rows.
+    work: [usize; 2],
+    doubt: Option<Doubt>,
+}
+
+impl<'m> States<'m> {
+    pub(super) fn new(model: &'m Model<'m>) -> Self {
+        States { model, found: Vec::new(), others: Vec::new(), work: [0; 2], doubt: None }
+    }
+
+    /// The state at a load factor at which the path passes `on_path`; none where that breaks the law, which leaves a doubt.
+    pub(super) fn find(&mut self, load_factor: f64, on_path: &[f64]) -> Result<Option<Standing>, AnalysisError> {
+        if let Some(found) = self.found.iter().find(|state| state.load_factor == load_factor) {
+            return Ok(Some(found.clone()));
+        }
+        let (model, chain) = (self.model, &self.model.chain);
+        let loads = model.loads_on_nodes(load_factor);
+        let (displacements, contacts) = match self.balanced(load_factor, &loads, on_path)? {
+            Some(displacements) => (displacements, chain.exact_contacts()),
+            None => {
+                let broken = missing(chain, &loads, on_path, &model.pulse.heart);
+                let (amount, interface) = broken.map_err(|_| model.pulse.stopped())?;
+                if amount > LAWFUL {
+                    let joint = interface.saturating_sub(model.first_voussoir).min(model.voussoirs);
+                    self.doubt.get_or_insert(Doubt::BreaksLaw { load_factor, joint, amount });
+                    return Ok(None);
+                }
+                (on_path.to_vec(), chain.contacts())
+            }
+        };
+        let forces = chain.contact_forces(contacts, &displacements);
+        let symmetric = model.symmetric && chain.mirrored(&displacements) == displacements;
+        let standing = Standing { load_factor, displacements, forces, symmetric };
+        self.found.push(standing.clone());
+        Ok(Some(standing))
+    }
+
+    /// Displacements in equilibrium of the arch as it is described: symmetric ones where there are any.
+    fn balanced(
+        &mut self,
+        load_factor: f64,
+        loads: &[f64],
+        on_path: &[f64],
+    ) -> Result<Option<Vec<f64>>, AnalysisError> {
+        let symmetric = self.model.is_symmetric_under(loads);
+        if symmetric && let Some(Balanced { displacements, free, .. }) = self.newton(loads, on_path, true)? {
+            let joints = self.joints_apart(&displacements, on_path);
+            if !joints.is_empty() {
+                let other = if free { Other::Free } else { Other::Leaning };
+                self.others.push((load_factor, other, joints));
+            }
+            return Ok(Some(displacements));
+        }
+        let found = self.newton(loads, on_path, false)?.map(|found| found.displacements);
+        if symmetric {
+            let state = found.as_deref().unwrap_or(on_path);
+            let joints = self.joints_apart(state, &self.model.chain.mirrored(state));
+            self.others.push((load_factor, Other::Lopsided, joints));
+        }
+        Ok(found)
+    }
+
+    fn newton(&mut self, loads: &[f64], on_path: &[f64], symmetric: bool) -> Result<Option<Balanced>, AnalysisError> {
+        let Model { chain, pulse, size, .. } = self.model;
+        let found = balanced(chain, *size, loads, on_path, symmetric, &pulse.heart).map_err(|_| pulse.stopped())?;
+        if let Some(Balanced { factorisations, block_rows, .. }) = found {
+            self.work = [self.work[0] + factorisations, self.work[1] + block_rows];
+        }
+        Ok(found)
+    }
+
+    /// Joints whose opening differs visibly between two states.
+    fn joints_apart(&self, a: &[f64], b: &[f64]) -> Vec<usize> {
+        let (model, chain) = (self.model, &self.model.chain);
+        let largest = b.iter().fold(0.0f64, |most, d| most.max(d.abs()));
+        let apart = |p: usize| (chain.gap(p, a)[0] - chain.gap(p, b)[0]).abs() > LEANS * largest;
+        (0..=model.voussoirs).filter(|&joint| model.contacts(joint).any(apart)).collect()
+    }
+
+    /// Writes down what there is to say and what it took; returns a doubt where a state broke the law.
+    pub(super) fn tell(self, report: &mut CollapseReport) -> Option<Doubt> {
+        report.cost.factorisations += self.work[0];
+        report.cost.block_rows += self.work[1];
+        for kind in [Other::Free, Other::Leaning, Other::Lopsided] {
+            let some: Vec<_> = self.others.iter().filter(|(_, other, _)| *other == kind).collect();
+            if some.is_empty() {
+                continue;
+            }
+            let mut joints: Vec<usize> = some.iter().flat_map(|(.., joints)| joints.clone()).collect();
+            joints.sort_unstable();
+            joints.dedup();
+            let factors: Vec<String> = some.iter().map(|(factor, ..)| Digits(*factor).to_string()).collect();
+            let joints: Vec<String> = joints.iter().map(usize::to_string).collect();
+            report.notes.push(kind.note(&listed(&factors), &listed(&joints)));
+        }
+        self.doubt
+    }
+}
+
+impl Other {
+    fn note(&self, factors: &str, joints: &str) -> String {
+        let at = format!("Arch and loads are symmetric, but the state at load factor {factors} is not the only one.");
+        match self {
+            Other::Free => format!(
+                "{at} Joints {joints} can be open by more or less, one in place of the other, while all forces stay as they \
+                 are. Displacements and openings are given where they are symmetric."
+            ),
+            Other::Leaning => format!(
+                "{at} The symmetric one is given; the load path passed one in which joints {joints} are open by more or \
+                 less on one side than on the other, and its mirror image is as good."
+            ),
+            Other::Lopsided => format!(
+                "{at} No symmetric one was found, as may be where joints slide: in the one given joints {joints} are open \
+                 by more or less on one side than on the other, and its mirror image is as good."
+            ),
+        }
+    }
+}
+
+/// A list in words.
+fn listed(items: &[String]) -> String {
+    match items {
+        [all @ .., last] if !all.is_empty() => format!("{} and {last}", all.join(", ")),
+        _ => items.concat(),
+    }
+}

@@ -1,0 +1,203 @@
+//! A reported state of the arch judged by the contact law alone, from its own numbers: nothing of the mechanics is used.
+//!
+//! All figures are shares of the loads: the sum of the sizes of all forces at the state's load factor.
+
+use voussoir::arch::{Arch, Joint, JointLaw, PointForce};
+use voussoir::collapse::{Analysis, CollapseReport, ContactForce, Snapshot};
+use voussoir::geometry::Vec2;
+
+/// Gap at which cohesion is lost, as a multiple of cohesion over the contact's own stiffness (the README's figure).
+const REACH: f64 = 10.0;
+/// A contact between two stones is in series with a link on either side, each of four times the joint's stiffness.
+const LINK: f64 = 4.0;
+/// Stiffness may differ by this share from what is said of it.
+const UNKNOWN: f64 = 1.01e-4;
+/// Stiffness of half an arch's crown joint over that of others.
+const CROWN: f64 = 2.0;
+
+/// By how much a state breaks the law.
+#[derive(Debug, Default, Clone, Copy)]
+pub struct Broken {
+    /// Force or moment (over the length of a joint) that is missing on some stone.
+    pub balance: f64,
+    /// Tension in a dry joint.
+    pub tension: f64,
+    /// Shear beyond friction and what cohesion the gap leaves.
+    pub friction: f64,
+    /// Difference of a normal force from the stiffness times the overlap, beyond what is not known of the stiffness: force where
+    /// a joint is open, overlap without force.
+    pub overlap: f64,
+    /// Difference of the stones' mean stress times area from the moments of the forces on them.
+    pub stress: f64,
+}
+
+impl Broken {
+    /// The largest.
+    pub fn worst(&self) -> f64 {
+        [self.balance, self.tension, self.friction, self.overlap, self.stress].into_iter().fold(0.0, larger)
+    }
+
+    /// The larger of both, entry by entry.
+    pub fn join(self, other: Broken) -> Broken {
+        Broken {
+            balance: larger(self.balance, other.balance),
+            tension: larger(self.tension, other.tension),
+            friction: larger(self.friction, other.friction),
+            overlap: larger(self.overlap, other.overlap),
+            stress: larger(self.stress, other.stress),
+        }
+    }
+}
+
+/// The larger number; what is none is larger than any.
+pub fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() { f64::INFINITY } else { a.max(b) }
+}
+
+/// Every state of a report, with a name.
+pub fn states(report: &CollapseReport) -> impl Iterator<Item = (&'static str, &Snapshot)> {
+    let named = [
+        ("at_start", &report.at_start),
+        ("at_unit_load", &report.at_unit_load),
+        ("near_collapse", &report.near_collapse),
+    ];
+    named.into_iter().filter_map(|(name, state)| Some((name, state.as_ref()?)))
+}
+
+/// Sum of the sizes of all loads at a load factor, N/m.
+pub fn weight(analysis: &Analysis, factor: f64) -> f64 {
+    let total = |forces: &[PointForce]| forces.iter().map(|f| f.force.norm()).sum::<f64>();
+    total(&analysis.fixed) + factor.abs() * total(&analysis.scaled)
+}
+
+/// Judges a state.
+pub fn broken(analysis: &Analysis, state: &Snapshot) -> Broken {
+    let stones = stones(analysis, state);
+    let mut all = Broken { balance: stones[0], stress: stones[1], ..Broken::default() };
+    for (k, joint) in analysis.arch.joints.iter().enumerate() {
+        let places: Vec<f64> = at_joint(state, k).map(|contact| contact.position).collect();
+        for (j, contact) in at_joint(state, k).enumerate() {
+            all = all.join(of_contact(analysis, k, joint, share(&places, j), contact));
+        }
+    }
+    let loads = weight(analysis, state.load_factor);
+    let of_loads = |amount: f64| if amount == 0.0 { 0.0 } else { amount / loads };
+    Broken {
+        balance: of_loads(all.balance),
+        tension: of_loads(all.tension),
+        friction: of_loads(all.friction),
+        overlap: of_loads(all.overlap),
+        stress: of_loads(all.stress),
+    }
+}
+
+/// Contacts of a joint.
+fn at_joint(state: &Snapshot, joint: usize) -> impl Iterator<Item = &ContactForce> {
+    state.contacts.iter().filter(move |contact| contact.joint == joint)
+}
+
+/// The share of a joint that is nearest to one of its points.
+fn share(places: &[f64], j: usize) -> f64 {
+    let low = if j == 0 { 0.0 } else { 0.5 * (places[j - 1] + places[j]) };
+    let high = if j + 1 == places.len() { 1.0 } else { 0.5 * (places[j] + places[j + 1]) };
+    high - low
+}
+
+/// Tension, friction and overlap of one contact, N/m.
+fn of_contact(analysis: &Analysis, k: usize, joint: &Joint, share: f64, contact: &ContactForce) -> Broken {
+    let ContactForce { normal, tangential, gap, .. } = *contact;
+    let arch = &analysis.arch;
+    let last = k + 1 == arch.joints.len();
+    let JointLaw::Dry { friction, cohesion } = joint.law else {
+        let shear = if joint.law == JointLaw::Mirror { tangential.abs() } else { 0.0 };
+        return Broken { friction: shear, ..Broken::default() };
+    };
+    let ground = |end: usize, here: bool| here && arch.abutments[end].is_none();
+    let links = if ground(0, k == 0) || ground(1, last) { 1.0 } else { 2.0 };
+    let stiffer = if arch.half && last { CROWN } else { 1.0 };
+    let stiffness = 2.0 * stiffer * share * analysis.penalty_ratio * analysis.stone.youngs_modulus;
+    let held = share * cohesion * joint.length();
+    let reach = REACH * held * (1.0 - links / LINK) / stiffness;
+    let bound = match gap > 0.0 {
+        false => friction * normal + held,
+        true if reach > 0.0 => held * (1.0 - gap / reach).max(0.0),
+        true => 0.0,
+    };
+    Broken {
+        tension: -normal,
+        friction: tangential.abs() - bound,
+        overlap: (normal - stiffness * (-gap).max(0.0)).abs() - UNKNOWN * normal,
+        ..Broken::default()
+    }
+}
+
+/// Force or moment over the joint's length that is missing on any stone, and force times length that is missing between
+/// its mean stress and the forces on it, over the joint's length; N/m.
+fn stones(analysis: &Analysis, state: &Snapshot) -> [f64; 2] {
+    let arch = &analysis.arch;
+    let mut worst = [0.0; 2];
+    for (k, stone) in arch.voussoirs.iter().enumerate() {
+        let mut forces: Vec<(Vec2, Vec2)> = Vec::new();
+        for contact in state.contacts.iter().filter(|contact| contact.joint == k || contact.joint == k + 1) {
+            let joint = &arch.joints[contact.joint];
+            let at = joint.intrados + (joint.extrados - joint.intrados) * contact.position;
+            let sign = if contact.joint == k { 1.0 } else { -1.0 };
+            forces.push((at, (joint.normal() * contact.normal + joint.tangent() * contact.tangential) * sign));
+        }
+        for (loads, times) in [(&analysis.fixed, 1.0), (&analysis.scaled, state.load_factor)] {
+            let here = loads.iter().filter(|load| load.voussoir == k);
+            forces.extend(here.map(|load| {
+                // What is spread over the stone does no work in a uniform strain about its centroid.
+                (if load.spread { stone.region.centroid } else { load.at }, load.force * times)
+            }));
+        }
+        let length = arch.joints[k].length();
+        // Force, and f (x) arm: its antisymmetric part is the moment, its symmetric part area times mean stress.
+        let (mut sum, mut first) = (Vec2::zeros(), [[0.0; 2]; 2]);
+        for (at, force) in forces {
+            let arm = at - stone.region.centroid;
+            sum += force;
+            (0..2).for_each(|i| (0..2).for_each(|j| first[i][j] += force[i] * arm[j]));
+        }
+        let moment = first[1][0] - first[0][1];
+        worst[0] = [sum.x, sum.y, moment / length].into_iter().map(f64::abs).fold(worst[0], larger);
+        let [x, y, tau] = state.blocks[k].stress.map(|stress| stress * stone.region.area);
+        let apart = [x - first[0][0], y - first[1][1], tau - 0.5 * (first[0][1] + first[1][0])];
+        worst[1] = apart.into_iter().map(|part| part.abs() / length).fold(worst[1], larger);
+    }
+    worst
+}
+
+/// How far a state is from its mirror image about the axis of the arch: displacements, rotations, forces and openings, and
+/// stresses, each as a share of the largest of its kind.
+pub fn leaning(arch: &Arch, state: &Snapshot) -> [f64; 2] {
+    mirrored_apart(arch, state, state)
+}
+
+/// The same for a state and the mirror image of another.
+pub fn mirrored_apart(arch: &Arch, one: &Snapshot, other: &Snapshot) -> [f64; 2] {
+    let n = arch.joints.len() - 1;
+    let pairs = one.blocks.iter().zip(other.blocks.iter().rev());
+    let moved = pairs.clone().flat_map(|(a, b)| {
+        let (u, v) = (a.displacement, b.displacement);
+        [[u.x, -v.x], [u.y, v.y]]
+    });
+    let turned = pairs.clone().map(|(a, b)| [a.rotation, -b.rotation]);
+    let stressed = pairs.flat_map(|(a, b)| {
+        let ([x, y, tau], [p, q, r]) = (a.stress, b.stress);
+        [[x, p], [y, q], [tau, -r]]
+    });
+    let contacts: Vec<_> = (0..=n).flat_map(|k| at_joint(one, k).zip(at_joint(other, n - k))).collect();
+    let forces = contacts.iter().flat_map(|(a, b)| [[a.normal, b.normal], [a.tangential, -b.tangential]]);
+    let gaps = contacts.iter().map(|(a, b)| [a.gap, b.gap]);
+    let parts = [apart(moved), apart(turned), apart(forces), apart(gaps)];
+    [parts.into_iter().fold(0.0, larger), apart(stressed)]
+}
+
+/// Largest difference of a pair over the largest number.
+fn apart(pairs: impl Iterator<Item = [f64; 2]>) -> f64 {
+    let (most, scale) = pairs.fold((0.0, 0.0), |(most, scale), [a, b]| {
+        (larger(most, (a - b).abs()), larger(scale, larger(a.abs(), b.abs())))
+    });
+    if most == 0.0 { 0.0 } else { most / scale }
+}
