@@ -17,8 +17,8 @@ use crate::geometry::Vec2;
 use std::ops::ControlFlow;
 
 /// The springings stay where they are while stones find another seat: hinges may move from joint to joint, and a joint that
-/// has opened far takes far to close.
-const PATIENCE: Patience = Patience { fall: 0.9, rise: 1.0, movement: [0.02, 0.2] };
+/// has opened far takes far to close. Rises are in sizes of the arch, whatever movement is asked for.
+const PATIENCE: Patience = Patience { fall: 0.9, rise: 0.01, movement: [0.02, 0.2], lost_is_over: false };
 
 /// A path whose equilibrium residual, as a share of the loads, exceeds this is not trusted. Springings that move by a tenth
 /// of the span leave more rounding than loads do.
@@ -55,13 +55,18 @@ fn attempt(
     pulse: &Pulse,
 ) -> Result<Option<SettlementPath>, AnalysisError> {
     let model = discretise(analysis, attempt.seed, pulse)?;
+    let attempt = match geometry {
+        Geometry::FirstOrder => attempt,
+        Geometry::Updated => attempt.on_moving_geometry(&model, weight),
+    };
     let base = disturbed(&model, 0.0, attempt);
     let mut see = |tracer: &Tracer, share: f64| pulse.step(share, tracer.events());
     let zeros = vec![0.0; base.len()];
     let turned = [model.turned[0].clone(), zeros.clone()];
-    let ground = ground(&analysis.arch, movements);
+    let target = largest(movements, model.size);
+    let ground = ground(&analysis.arch, movements.map(|by| by.times(1.0 / target)));
     let drive = Drive { base, rate: zeros, turned, ground, ..Drive::default() };
-    let followed = trace(analysis, &model, geometry, drive, weight, cost, &mut see);
+    let followed = trace(analysis, &model, geometry, drive, target, weight, cost, &mut see);
     cost.add(&followed.tracer, Cost::default());
     match followed.stood {
         _ if followed.end == End::Stopped => Err(pulse.stopped()),
@@ -77,6 +82,8 @@ struct Followed<'m> {
     stood: Moved,
     end: End,
     points: Vec<SettlementPoint>,
+    /// The whole movement, in sizes of the arch.
+    target: f64,
 }
 
 /// Brings the loads on that `drive` has at the start, and moves the springings as it says.
@@ -85,6 +92,7 @@ fn trace<'m>(
     model: &'m Model<'m>,
     geometry: Geometry,
     drive: Drive,
+    target: f64,
     weight: f64,
     cost: &mut Cost,
     see: &mut dyn FnMut(&Tracer, f64) -> ControlFlow<()>,
@@ -104,7 +112,7 @@ fn trace<'m>(
     let mut points = Vec::new();
     if stood != Moved::Stands {
         let end = if stood == Moved::Stopped { End::Stopped } else { End::Lost };
-        return Followed { tracer, stood, end, points };
+        return Followed { tracer, stood, end, points, target };
     }
     tracer.drive_on(drive, 0.0);
     let mut record = |tracer: &Tracer| -> ControlFlow<()> {
@@ -112,20 +120,21 @@ fn trace<'m>(
         if tracer.parameter() == 0.0 {
             points.clear();
         }
-        points.push(point(model, &analysis.arch, tracer, tracer.parameter()));
-        see(tracer, tracer.parameter())
+        let share = tracer.parameter() / target;
+        points.push(point(model, &analysis.arch, tracer, share));
+        see(tracer, share)
     };
     let end = match geometry {
-        Geometry::FirstOrder => tracer.trace(1.0, &mut record),
-        Geometry::Updated => tracer.trace_moving(1.0, PATIENCE, &mut record),
+        Geometry::FirstOrder => tracer.trace(target, &mut record),
+        Geometry::Updated => tracer.trace_moving(target, PATIENCE, &mut record),
     };
-    Followed { tracer, stood, end, points }
+    Followed { tracer, stood, end, points, target }
 }
 
 fn describe(analysis: &Analysis, model: &Model, geometry: Geometry, followed: Followed) -> SettlementPath {
-    let Followed { mut tracer, stood, end, mut points } = followed;
+    let Followed { mut tracer, stood, end, mut points, target } = followed;
     let falls = end == End::Mechanism && tracer.return_to_peak();
-    let share = if stood == Moved::Stands { tracer.parameter() } else { 0.0 };
+    let share = if stood == Moved::Stands { tracer.parameter() / target } else { 0.0 };
     let peak = points.iter().position(|at| at.share >= share);
     points.truncate(peak.unwrap_or(points.len()));
     points.push(point(model, &analysis.arch, &tracer, share));
@@ -143,7 +152,7 @@ fn describe(analysis: &Analysis, model: &Model, geometry: Geometry, followed: Fo
         mechanism: ending::at_rates(analysis, model, &tracer),
         thrust_line: ending::carried_by(analysis, model, &tracer),
         displacements: displacements(model, &tracer, geometry),
-        snap: tracer.snap(),
+        snap: tracer.snap().map(|at| at / target),
         residual: tracer.worst_residual(),
     }
 }
@@ -160,7 +169,15 @@ fn displacements(model: &Model, tracer: &Tracer, geometry: Geometry) -> Vec<[f64
     (0..model.voussoirs).map(of).collect()
 }
 
-/// Movements of the ground at both ends of the chain, for the whole movement.
+/// The largest part of a movement, in sizes of the arch; an angle counts as what it moves by at that distance.
+///
+/// The path is followed in this measure, so that it is the same however far the springings are asked to go.
+fn largest(movements: [SpringingMovement; 2], size: f64) -> f64 {
+    let parts = movements.iter().flat_map(|by| [by.outwards / size, by.downwards / size, by.rotation]);
+    parts.fold(0.0, |most, part| most.max(part.abs()))
+}
+
+/// Movements of the ground at both ends of the chain, per unit of the parameter.
 fn ground(arch: &Arch, movements: [SpringingMovement; 2]) -> [Movement; 2] {
     let springings = [arch.joints.first(), arch.joints.last()];
     // Outwards is to the left on the left, and a rotation that opens the intrados there turns clockwise.

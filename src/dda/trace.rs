@@ -10,11 +10,14 @@ mod drift;
 mod drive;
 mod equilibrium;
 mod event;
+mod lost;
 mod moving;
+mod point;
 mod seen;
 mod tangent;
 
 pub use drive::{Drive, Movement, covering};
+pub use lost::{Lost, Violation};
 pub use moving::Patience;
 
 use super::chain::Chain;
@@ -50,6 +53,10 @@ pub struct Peak {
     pub parameter: f64,
     /// Displacements of the nodes.
     pub displacements: Vec<f64>,
+    /// What rounding has taken off them, on moving geometry.
+    pub rests: Vec<f64>,
+    /// And off the parameter.
+    pub parameter_rest: f64,
     /// Direction in which the path goes on, its largest entry 1 m.
     pub direction: Vec<f64>,
     /// Change of the parameter in that direction.
@@ -92,6 +99,9 @@ pub struct Tracer<'a> {
     states: Vec<State>,
     displacements: Vec<f64>,
     parameter: f64,
+    /// What rounding has taken off both, on moving geometry.
+    rests: Vec<f64>,
+    parameter_rest: f64,
     /// Change of the parameter along the current direction.
     rate: f64,
     peak: Option<Peak>,
@@ -102,6 +112,10 @@ pub struct Tracer<'a> {
     dip: Option<f64>,
     /// Whether the path lies so far below its peak that it has ended for sure.
     fallen: bool,
+    /// Why the path was lost, where it was.
+    lost: Option<Lost>,
+    /// The contact beyond its law that kept the last step from being made.
+    stuck: Option<Violation>,
     /// Gap and slip that the moving ground gives every contact per unit of the parameter, first order.
     settling: Vec<[f64; 2]>,
 
@@ -143,11 +157,15 @@ impl<'a> Tracer<'a> {
             states: chain.contacts().iter().map(|c| c.pressed_state()).collect(),
             displacements: vec![0.0; n],
             parameter: 0.0,
+            rests: vec![0.0; n],
+            parameter_rest: 0.0,
             rate: 0.0,
             peak: None,
             moving: None,
             dip: None,
             fallen: false,
+            lost: None,
+            stuck: None,
             settling: vec![[0.0; 2]; chain.contacts().len()],
             matrix: chain.elastic().copied(heart),
             load_rate: vec![0.0; n],
@@ -172,7 +190,8 @@ impl<'a> Tracer<'a> {
     ///
     /// Slip goes on being measured from the unstressed start, so that no contact starts on the border of its state.
     pub fn drive_on(&mut self, drive: Drive, parameter: f64) {
-        (self.drive, self.parameter, self.peak) = (drive, parameter, None);
+        (self.drive, self.peak) = (drive, None);
+        self.set_parameter(parameter);
         self.find_settling();
         self.reassemble_all();
     }
@@ -303,6 +322,8 @@ impl<'a> Tracer<'a> {
             self.peak = Some(Peak {
                 parameter: self.parameter,
                 displacements: self.displacements.clone(),
+                rests: self.rests.clone(),
+                parameter_rest: self.parameter_rest,
                 direction: self.direction.clone(),
                 rate: self.rate,
                 states: self.states.clone(),
