@@ -36,14 +36,6 @@ pub(super) const ATTEMPTS: usize = 6;
 const MOVING_ATTEMPTS: usize = 3;
 
 impl Attempt {
-    /// The same on moving geometry, under loads of `weight` in all, N/m: ties that rounding tells apart it tells apart another
-    /// way at the next step. By what a contact's force changes for the last digit of the arch's size, the disturbance stays
-    /// well above the rounding of the path (measured: some hundredths of that).
-    pub(super) fn on_moving_geometry(self, model: &Model, weight: f64) -> Self {
-        let digit = f64::EPSILON * model.softest * model.size / weight;
-        Attempt { disturbance: self.disturbance + digit, ..self }
-    }
-
     pub(super) fn number(i: usize) -> Self {
         Attempt { seed: 1 + i as u64, disturbance: 1e-9 * 30f64.powi(i.saturating_sub(1).min(2) as i32) }
     }
@@ -166,7 +158,7 @@ fn stand_moved_from<'a>(
         end = tracer.move_on(Drive { base, rate, turned: [zeros, turned], ..Drive::default() }, share, see);
     }
     if share < 1.0 && end == End::Reached {
-        let patience = Patience { fall: FALLEN, rise: 1.0, movement: [0.0, MOVED[1]], lost_is_over: true };
+        let patience = Patience { fall: FALLEN, rise: 1.0, movement: [0.0, MOVED[1]], creep: 0.0, lost_is_over: true };
         end = tracer.trace_moving(1.0, patience, see);
     }
     let moved = match end {

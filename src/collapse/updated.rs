@@ -29,7 +29,7 @@ pub(super) struct Course {
 
 impl Course {
     fn patience(&self) -> Patience {
-        Patience { fall: FALLEN, rise: self.rise, movement: MOVED, lost_is_over: true }
+        Patience { fall: FALLEN, rise: self.rise, movement: MOVED, creep: FALLEN, lost_is_over: true }
     }
 }
 

@@ -6,6 +6,7 @@
 //! one that goes on crossing, so rises and falls of the load factor, and momentary mechanisms, pass by themselves.
 
 mod correct;
+mod creep;
 mod drift;
 mod drive;
 mod equilibrium;
@@ -319,16 +320,21 @@ impl<'a> Tracer<'a> {
     fn note_peak(&mut self, turns_down: bool) {
         let highest = self.peak.as_ref().is_none_or(|peak| self.parameter >= peak.parameter);
         if highest && turns_down {
-            self.peak = Some(Peak {
-                parameter: self.parameter,
-                displacements: self.displacements.clone(),
-                rests: self.rests.clone(),
-                parameter_rest: self.parameter_rest,
-                direction: self.direction.clone(),
-                rate: self.rate,
-                states: self.states.clone(),
-                residual: self.worst_residual,
-            });
+            self.peak = Some(self.as_peak());
+        }
+    }
+
+    /// The present point, and how the path goes on.
+    fn as_peak(&self) -> Peak {
+        Peak {
+            parameter: self.parameter,
+            displacements: self.displacements.clone(),
+            rests: self.rests.clone(),
+            parameter_rest: self.parameter_rest,
+            direction: self.direction.clone(),
+            rate: self.rate,
+            states: self.states.clone(),
+            residual: self.worst_residual,
         }
     }
 

@@ -3,7 +3,7 @@
 use super::Tracer;
 use super::event::{Event, is_gap};
 use super::lost::Violation;
-use crate::dda::contact::State;
+use crate::dda::contact::{State, zone};
 use crate::dda::moving::Velocity;
 
 /// Equilibrium residual, as a share of the load scale, to which a point is corrected, and above which a step is too long.
@@ -126,9 +126,14 @@ impl Tracer<'_> {
         found
     }
 
-    /// What a border function is worth as a force, N/m.
+    /// What a border function is worth as a force, N/m: a gap by the stiffness; shear by its distance from the cone of friction,
+    /// where rough joints turn a little normal force into much shear.
     fn as_force(&self, p: usize, from: State, to: State, value: f64) -> f64 {
-        if is_gap(from, to) { value * self.chain.contacts()[p].stiffness[0] } else { value }
+        let contact = &self.chain.contacts()[p];
+        match (is_gap(from, to), zone(from)) {
+            (false, Some(zone)) => value / 1f64.hypot(contact.slope(zone) / contact.stiffness[0]),
+            _ => value * contact.stiffness[0],
+        }
     }
 
     /// How far contact `p` is beyond a border of its state, as a share of the load scale, and beyond which; none where that is

@@ -47,6 +47,9 @@ pub struct Patience {
     pub rise: f64,
     /// Movements of the chain, as shares of its size: the small one, and the one that counts alone.
     pub movement: [f64; 2],
+    /// A chain that moves by the larger of the two while its parameter rises by less than this share of what it rose has ended as
+    /// well; nought where rises count however small.
+    pub creep: f64,
     /// Whether a path that is lost deep below its peak has ended there too.
     pub lost_is_over: bool,
 }
@@ -91,7 +94,7 @@ impl Tracer<'_> {
         self.set_parameter(0.0);
         let end = self.trace_moving(
             1.0,
-            Patience { fall: f64::INFINITY, rise: 1.0, movement: [0.0, SURE[1]], lost_is_over: true },
+            Patience { fall: f64::INFINITY, rise: 1.0, movement: [0.0, SURE[1]], creep: 0.0, lost_is_over: true },
             see,
         );
         (self.drive, self.peak) = (drive, None);
@@ -157,12 +160,16 @@ impl Tracer<'_> {
         if self.rate * sign < 0.0 {
             self.turn_round();
         }
+        let mut stretch = self.stretch(patience.rise);
         loop {
             if see(self).is_break() {
                 return Ok(End::Stopped);
             }
             if let Some(end) = self.is_over(start, patience) {
                 return Ok(end);
+            }
+            if patience.creep > 0.0 && self.creeps(&mut stretch, patience) {
+                return Ok(End::Mechanism);
             }
             let event = self.nearest_event(barred);
             let to_target = if self.rate > 0.0 { (target - self.parameter) / self.rate } else { f64::INFINITY };
@@ -233,6 +240,7 @@ impl Tracer<'_> {
         }
     }
 
+
     /// True unless a correction has undone a step from displacements `before`, and more.
     fn went_on(&self, before: &[f64], step: f64) -> bool {
         let moved = self.displacements.iter().zip(before).zip(&self.direction).map(|((d, b), t)| (d - b) * t);
@@ -302,7 +310,7 @@ impl Tracer<'_> {
 }
 
 /// Largest difference of two displacements.
-fn farthest(a: &[f64], b: &[f64]) -> f64 {
+pub(super) fn farthest(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
