@@ -2,9 +2,9 @@
 
 use super::discretise::{Model, Scatter};
 use super::record::Recorder;
-use super::{AnalysisError, Cost};
+use super::{AnalysisError, Cost, Unfollowed};
 use crate::arch::PointForce;
-use crate::dda::{Drive, End, Patience, Peak, Tracer, covering};
+use crate::dda::{Drive, End, Lost, Patience, Peak, Tracer, Violation, covering};
 use std::ops::ControlFlow;
 
 /// An arch falls that has to give up this share of its load to stay in equilibrium, if it moves visibly as it does; or to move
@@ -168,6 +168,20 @@ fn stand_moved_from<'a>(
         _ => Moved::Lost,
     };
     (tracer, moved)
+}
+
+/// Why a tracer has lost its path.
+pub(super) fn lost(model: &Model, tracer: &Tracer) -> Unfollowed {
+    match tracer.lost() {
+        None => Unfollowed::OutOfBalance(tracer.worst_residual()),
+        Some(Lost::OutOfBalance(residual)) => Unfollowed::OutOfBalance(residual),
+        Some(Lost::AgainstLaw(Violation { contact, beyond })) => {
+            let joint = (0..=model.voussoirs).find(|&joint| model.contacts(joint).contains(&contact));
+            Unfollowed::AgainstLaw { joint: joint.unwrap_or(0), beyond }
+        }
+        Some(Lost::Ties(changes)) => Unfollowed::Ties(changes),
+        Some(Lost::Endless(steps)) => Unfollowed::Endless(steps),
+    }
 }
 
 /// Where a path went after its peak.

@@ -5,11 +5,11 @@
 //! it no longer finds room in the stones.
 
 use super::discretise::{Model, discretise};
-use super::path::{Attempt, Moved, disturbed, first_that_tells, stand, stand_moved};
+use super::path::{Attempt, Moved, disturbed, first_that_tells, lost, stand, stand_moved};
 use super::pulse::Pulse;
 use super::{
     Analysis, AnalysisError, Cost, Geometry, SettlementEnd, SettlementPath, SettlementPoint, SettlementReport,
-    SpringingMovement, ending,
+    SpringingMovement, Unfollowed, ending,
 };
 use crate::arch::Arch;
 use crate::dda::{Drive, End, Movement, Patience, Tracer};
@@ -22,7 +22,7 @@ const PATIENCE: Patience = Patience { fall: 0.9, rise: 0.01, movement: [0.02, 0.
 
 /// A path whose equilibrium residual, as a share of the loads, exceeds this is not trusted. Springings that move by a tenth
 /// of the span leave more rounding than loads do.
-const UNBALANCED: f64 = 1e-7;
+const UNBALANCED: f64 = 1e-6;
 
 /// How far above what rounding may leave of a force ties are told apart.
 const ABOVE_ROUNDING: f64 = 4.0;
@@ -133,27 +133,50 @@ fn trace<'m>(
 
 fn describe(analysis: &Analysis, model: &Model, geometry: Geometry, followed: Followed) -> SettlementPath {
     let Followed { mut tracer, stood, end, mut points, target } = followed;
-    let falls = end == End::Mechanism && tracer.return_to_peak();
+    let why = unfollowed(model, &tracer, geometry, stood, end);
+    // A path that was lost in a dip has stood at its peak.
+    let dips = end == End::Lost && tracer.peak().is_some_and(|peak| peak.parameter > tracer.parameter());
+    let snap = tracer.snap().or_else(|| tracer.peak().filter(|_| dips).map(|peak| peak.parameter));
+    if dips || end == End::Mechanism {
+        tracer.return_to_peak();
+    }
     let share = if stood == Moved::Stands { tracer.parameter() / target } else { 0.0 };
-    let peak = points.iter().position(|at| at.share >= share);
-    points.truncate(peak.unwrap_or(points.len()));
+    let reached = points.iter().position(|at| at.share >= share);
+    points.truncate(reached.unwrap_or(points.len()));
     points.push(point(model, &analysis.arch, &tracer, share));
-    let end = match end {
-        _ if tracer.worst_residual() > UNBALANCED => SettlementEnd::CannotTell,
-        _ if matches!(stood, Moved::Falls(_)) => SettlementEnd::FallsAsLoaded,
-        End::Reached => SettlementEnd::Follows,
-        End::Mechanism if falls && geometry == Geometry::Updated => SettlementEnd::Collapse,
-        _ => SettlementEnd::CannotTell,
+    let end = match (stood, end) {
+        _ if why.is_some() => SettlementEnd::CannotTell,
+        (Moved::Falls(_), _) => SettlementEnd::FallsAsLoaded,
+        (_, End::Reached) => SettlementEnd::Follows,
+        _ => SettlementEnd::Collapse,
     };
+    let snap = snap.map(|at| at / target);
     SettlementPath {
         end,
+        why,
         share,
+        safe: snap.unwrap_or(share).min(share),
         points,
         mechanism: ending::at_rates(analysis, model, &tracer),
         thrust_line: ending::carried_by(analysis, model, &tracer),
         displacements: displacements(model, &tracer, geometry),
-        snap: tracer.snap().map(|at| at / target),
+        snap,
         residual: tracer.worst_residual(),
+    }
+}
+
+/// Why a path has no answer, where it has none.
+fn unfollowed(model: &Model, tracer: &Tracer, geometry: Geometry, stood: Moved, end: End) -> Option<Unfollowed> {
+    let residual = tracer.worst_residual();
+    match (stood, end) {
+        _ if residual > UNBALANCED => Some(Unfollowed::Coarse(residual)),
+        (Moved::Falls(_), _) | (Moved::Stands, End::Reached | End::Stopped) => None,
+        (Moved::Stands, End::Mechanism) if geometry == Geometry::FirstOrder => Some(Unfollowed::Mechanism),
+        (Moved::Stands, End::Mechanism) if tracer.peak().is_some() => None,
+        (Moved::Stands, End::Mechanism) => Some(Unfollowed::TurnedBack),
+        (Moved::Stands, End::Rising) => Some(Unfollowed::BeyondModel),
+        (Moved::Stands, End::Lost) => Some(lost(model, tracer)),
+        _ => Some(Unfollowed::NotLoaded),
     }
 }
 

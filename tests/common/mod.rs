@@ -11,6 +11,8 @@ pub mod motion;
 pub mod oracle;
 pub mod random_arch;
 pub mod random_profile;
+pub mod settled;
 pub mod table;
+pub mod three_hinges;
 pub mod verify;
 pub mod wire;

@@ -28,6 +28,8 @@ pub enum UpdatedEndWord {
 pub struct UpdatedBody {
     /// How the path ended.
     pub end: UpdatedEndWord,
+    /// Why there is no answer, in words; null where there is one.
+    pub why: Option<String>,
     /// Intensity there: at collapse, or the highest at which the arch is known to stand; null where it falls as loaded, or where
     /// nothing grows.
     pub intensity: Option<f64>,
@@ -62,6 +64,7 @@ impl UpdatedBody {
         let mechanism = updated.mechanism.as_ref();
         UpdatedBody {
             end: updated.end.into(),
+            why: updated.why.map(|why| why.to_string()),
             intensity: updated.load_factor.map(|factor| scale.intensity(factor)),
             load_factor: updated.load_factor,
             // In a window both may be negative, and a ratio would read the wrong way round.

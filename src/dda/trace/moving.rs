@@ -113,7 +113,8 @@ impl Tracer<'_> {
     ) -> End {
         let (start, at, states, residual) = (self.parameter, self.point(), self.states.clone(), self.worst_residual);
         let end = self.trace_one_way(Way { target, patience, sign: 1.0 }, see);
-        if end != End::Mechanism || self.parameter >= start {
+        let risen = self.peak.as_ref().is_some_and(|peak| peak.parameter - start > SNAP * patience.rise);
+        if end != End::Mechanism || self.parameter >= start || risen {
             return end;
         }
         // From a point on the middle branch of an S the path up ends where the parameter was to come from; the way down
