@@ -17,7 +17,8 @@ use crate::geometry::Vec2;
 use std::ops::ControlFlow;
 
 /// The springings stay where they are while stones find another seat: hinges may move from joint to joint, and a joint that
-/// has opened far takes far to close. Rises are in sizes of the arch, whatever movement is asked for.
+/// has opened far takes far to close. Where on the way they would have to come back by nine tenths of what they have done, the
+/// arch has fallen. Rises are in sizes of the arch, whatever movement is asked for.
 const PATIENCE: Patience = Patience { fall: 0.9, rise: 0.01, movement: [0.02, 0.2], creep: 0.0, lost_is_over: false };
 
 /// A path whose equilibrium residual, as a share of the loads, exceeds this is not trusted. Springings that move by a tenth
@@ -25,7 +26,7 @@ const PATIENCE: Patience = Patience { fall: 0.9, rise: 0.01, movement: [0.02, 0.
 const UNBALANCED: f64 = 1e-6;
 
 /// How far above what rounding may leave of a force ties are told apart.
-const ABOVE_ROUNDING: f64 = 4.0;
+const ABOVE_ROUNDING: f64 = 1.0;
 
 /// Follows the movement; the work is added to `cost`. None where the arch does not stand before it.
 ///
