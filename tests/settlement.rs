@@ -189,16 +189,23 @@ fn arches_that_do_not_slide_fall_at_the_spread_of_rigid_stones_whatever_their_st
         let taken_on = [0, 1].map(|i| stiff[i] + loss[i] * 1000e-11);
         let softened = [0, 1].map(|i| taken_on[i] - loss[i] * 2300e-9);
         // Which of the ends counts as the last is a matter of patience; the first is not.
-        let nearest = |at: f64| course.ends.iter().map(|end| end.0).min_by(|a, b| (a - at).abs().total_cmp(&(b - at).abs()));
+        let nearest =
+            |at: f64| course.ends.iter().map(|end| end.0).min_by(|a, b| (a - at).abs().total_cmp(&(b - at).abs()));
         let rigid = [nearest(taken_on[0]).unwrap(), course.first()];
-        println!("{ring:?}: rigid {rigid:.6?}, at 1e11 Pa {stiff:.6?}, 1e10 {firm:.6?}, 1e9 {soft:.6?}; ends {:?}", course.ends);
+        println!(
+            "{ring:?}: rigid {rigid:.6?}, at 1e11 Pa {stiff:.6?}, 1e10 {firm:.6?}, 1e9 {soft:.6?}; ends {:?}",
+            course.ends
+        );
         assert!(differ(taken_on, rigid) < 1e-4, "{ring:?}: {taken_on:?} not {rigid:?}");
         assert!(differ(rough, firm) < 1e-6, "{ring:?}: {rough:?} not {firm:?}");
         assert!(differ(softened, soft) < 1e-4, "{ring:?}: {soft:?} not {softened:?}, as elasticity has it");
         let by = [differ(taken_on, rigid), differ(rough, firm), differ(softened, soft)];
         worst = [0, 1, 2].map(|i| worst[i].max(by[i]));
     }
-    println!("off rigid stone {:.1e}, by friction {:.1e}, off proportion to density / modulus {:.1e}", worst[0], worst[1], worst[2]);
+    println!(
+        "off rigid stone {:.1e}, by friction {:.1e}, off proportion to density / modulus {:.1e}",
+        worst[0], worst[1], worst[2]
+    );
 }
 
 /// What the references say of rigid stones (`spreading_supports.json`).

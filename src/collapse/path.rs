@@ -158,7 +158,7 @@ fn stand_moved_from<'a>(
         end = tracer.move_on(Drive { base, rate, turned: [zeros, turned], ..Drive::default() }, share, see);
     }
     if share < 1.0 && end == End::Reached {
-        let patience = Patience { fall: FALLEN, rise: 1.0, movement: [0.0, MOVED[1]], creep: 0.0, lost_is_over: true };
+        let patience = Patience { fall: FALLEN, rise: 1.0, movement: [0.0, MOVED[1]], creep: 0.0, loads: true };
         end = tracer.trace_moving(1.0, patience, see);
     }
     let moved = match end {

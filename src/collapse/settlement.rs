@@ -19,7 +19,7 @@ use std::ops::ControlFlow;
 /// The springings stay where they are while stones find another seat: hinges may move from joint to joint, and a joint that
 /// has opened far takes far to close. Where on the way they would have to come back by nine tenths of what they have done, the
 /// arch has fallen. Rises are in sizes of the arch, whatever movement is asked for.
-const PATIENCE: Patience = Patience { fall: 0.9, rise: 0.01, movement: [0.02, 0.2], creep: 0.0, lost_is_over: false };
+const PATIENCE: Patience = Patience { fall: 0.9, rise: 0.01, movement: [0.02, 0.2], creep: 0.0, loads: false };
 
 /// A path whose equilibrium residual, as a share of the loads, exceeds this is not trusted. Springings that move by a tenth
 /// of the span leave more rounding than loads do.

@@ -36,7 +36,7 @@ impl Course {
     }
 
     fn patience(&self) -> Patience {
-        Patience { fall: FALLEN, rise: self.rise, movement: MOVED, creep: FALLEN, lost_is_over: true }
+        Patience { fall: FALLEN, rise: self.rise, movement: MOVED, creep: FALLEN, loads: true }
     }
 }
 
@@ -75,8 +75,10 @@ fn attempt(
     if matches!((stood, end), (Moved::Stopped, _) | (Moved::Stands, End::Stopped)) {
         return Err(pulse.stopped());
     }
-    // A path that hardly rises and runs back past its start has found the other end of the loads that the arch can bear.
-    let turned_back = tracer.parameter() < course.sign * course.start && !course.has_risen(&tracer);
+    // A path that hardly rises, or comes back the way it went, and runs past its start has found the other end of the loads that
+    // the arch can bear.
+    let is_fall = course.has_risen(&tracer) && !tracer.retraced();
+    let turned_back = tracer.parameter() < course.sign * course.start && !is_fall;
     let why = lost(&model, &tracer);
     let falls = end == End::Mechanism && !turned_back && tracer.return_to_peak();
     let residual = tracer.worst_residual();

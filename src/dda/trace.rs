@@ -113,6 +113,8 @@ pub struct Tracer<'a> {
     dip: Option<f64>,
     /// Whether the path lies so far below its peak that it has ended for sure.
     fallen: bool,
+    /// Whether the path, where it last lay below its peak but above its start, was on the way it had come.
+    retraced: bool,
     /// Why the path was lost, where it was.
     lost: Option<Lost>,
     /// The contact beyond its law that kept the last step from being made.
@@ -165,6 +167,7 @@ impl<'a> Tracer<'a> {
             moving: None,
             dip: None,
             fallen: false,
+            retraced: false,
             lost: None,
             stuck: None,
             settling: vec![[0.0; 2]; chain.contacts().len()],

@@ -161,7 +161,8 @@ fn admissible(ring: &Ring, hinges: Triple, spread: f64) -> bool {
 fn all_admissible(ring: &Ring, spread: f64) -> Vec<Triple> {
     let n = ring.stones.len();
     let faces = [(false, true), (true, false)];
-    let triples = (0..n / 2).flat_map(|joint| faces.map(|(outer, top)| [(joint, outer), (n / 2, top), (n - joint, outer)]));
+    let triples =
+        (0..n / 2).flat_map(|joint| faces.map(|(outer, top)| [(joint, outer), (n / 2, top), (n - joint, outer)]));
     triples.filter(|hinges| admissible(ring, *hinges, spread)).collect()
 }
 

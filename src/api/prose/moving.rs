@@ -32,7 +32,9 @@ pub fn headline(settlement: &SettlementBody) -> String {
 
 /// Half a sentence on the first snap, where there is one.
 fn snaps(path: &SettlementPathBody) -> String {
-    let words = |at: f64| format!(", but first snaps into another shape at {} %: rely on no more than that", Digits(100.0 * at));
+    let words = |at: f64| {
+        format!(", but first snaps into another shape at {} %: rely on no more than that", Digits(100.0 * at))
+    };
     path.snap_share_of_movement.map(words).unwrap_or_default()
 }
 

@@ -23,7 +23,8 @@ pub enum UpdatedEndWord {
     CannotTell,
 }
 
-/// The answer on moving geometry. It depends on Young's modulus and the penalty: as they grow it tends to the first-order one.
+/// The answer on moving geometry. It depends on Young's modulus and the penalty: as they grow it tends to the first-order one, unless
+/// joints slide and the path takes another turn.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct UpdatedBody {
     /// How the path ended.

@@ -34,6 +34,9 @@ const DEEP: f64 = 0.5;
 const SNAP: f64 = 0.01;
 /// Displacements beyond this share of the size are no arch of this shape any more.
 const FAR: f64 = 0.3;
+/// A path that comes back to its start with less movement since its peak than so many times what it had moved by there, or than this
+/// share of the little that has to be seen, has come the way it went: that is no fall, but a wrong turn.
+const THERE_AND_BACK: [f64; 2] = [3.0, 0.25];
 /// Strain beyond which stone is no longer elastic by any measure.
 const STRAINED: f64 = 0.02;
 
@@ -50,8 +53,9 @@ pub struct Patience {
     /// A chain that moves by the larger of the two while its parameter rises by less than this share of what it rose has ended as
     /// well; nought where rises count however small.
     pub creep: f64,
-    /// Whether a path that is lost deep below its peak has ended there too.
-    pub lost_is_over: bool,
+    /// Whether the parameter is one of loads, not of springings: a path that is lost deep below its peak has ended there too, and
+    /// one that comes back the way it went has not.
+    pub loads: bool,
 }
 
 /// A path to follow: how far, for how long below its peak, and from its start with the parameter rising (+1) or falling (-1).
@@ -94,7 +98,7 @@ impl Tracer<'_> {
         self.set_parameter(0.0);
         let end = self.trace_moving(
             1.0,
-            Patience { fall: f64::INFINITY, rise: 1.0, movement: [0.0, SURE[1]], creep: 0.0, lost_is_over: true },
+            Patience { fall: f64::INFINITY, rise: 1.0, movement: [0.0, SURE[1]], creep: 0.0, loads: true },
             see,
         );
         (self.drive, self.peak) = (drive, None);
@@ -113,24 +117,30 @@ impl Tracer<'_> {
     ) -> End {
         let (start, at, states, residual) = (self.parameter, self.point(), self.states.clone(), self.worst_residual);
         let end = self.trace_one_way(Way { target, patience, sign: 1.0 }, see);
-        let risen = self.peak.as_ref().is_some_and(|peak| peak.parameter - start > SNAP * patience.rise);
-        if end != End::Mechanism || self.parameter >= start || risen {
+        if end != End::Mechanism || self.parameter >= start || self.fell_past_start(start, patience) {
             return end;
         }
         // From a point on the middle branch of an S the path up ends where the parameter was to come from; the way down
         // passes a fold and goes up then.
-        let first = (self.parameter, self.peak.take(), self.dip, self.worst_residual);
+        let first = (self.parameter, self.peak.take(), self.dip, self.worst_residual, self.retraced);
         self.go_to(&at);
         (self.states, self.worst_residual) = (states, residual);
         let end = self.trace_one_way(Way { target, patience, sign: -1.0 }, see);
         if end == End::Mechanism && self.parameter < start {
-            (self.parameter, self.peak, self.dip, self.worst_residual) = first;
+            (self.parameter, self.peak, self.dip, self.worst_residual, self.retraced) = first;
         }
         end
     }
 
+    /// Whether a path that came down past its start had fallen by then, and not only taken a wrong turn: it had risen, and moved
+    /// on as it came down. Springings that move back take the arch along.
+    fn fell_past_start(&self, start: f64, patience: Patience) -> bool {
+        let risen = self.peak.as_ref().is_some_and(|peak| peak.parameter - start > SNAP * patience.rise);
+        risen && !(self.retraced && patience.loads)
+    }
+
     fn trace_one_way(&mut self, way: Way, see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>) -> End {
-        (self.dip, self.peak, self.fallen, self.lost) = (None, None, false, None);
+        (self.dip, self.peak, self.fallen, self.lost, self.retraced) = (None, None, false, None, false);
         let walked = self.walk(way, see);
         self.lost = walked.err();
         match self.unless_stopped(walked.unwrap_or(End::Lost)) {
@@ -162,11 +172,12 @@ impl Tracer<'_> {
             self.turn_round();
         }
         let mut stretch = self.stretch(patience.rise);
+        let from = self.point();
         loop {
             if see(self).is_break() {
                 return Ok(End::Stopped);
             }
-            if let Some(end) = self.is_over(start, patience) {
+            if let Some(end) = self.is_over(&from, patience) {
                 return Ok(end);
             }
             if patience.creep > 0.0 && self.creeps(&mut stretch, patience) {
@@ -241,7 +252,6 @@ impl Tracer<'_> {
         }
     }
 
-
     /// True unless a correction has undone a step from displacements `before`, and more.
     fn went_on(&self, before: &[f64], step: f64) -> bool {
         let moved = self.displacements.iter().zip(before).zip(&self.direction).map(|((d, b), t)| (d - b) * t);
@@ -263,19 +273,24 @@ impl Tracer<'_> {
     }
 
     /// How the path has ended, if it has.
-    fn is_over(&mut self, start: f64, patience: Patience) -> Option<End> {
+    fn is_over(&mut self, from: &Point, patience: Patience) -> Option<End> {
+        let start = from.parameter;
         let below = self.peak.as_ref().filter(|peak| self.parameter < peak.parameter);
         let is_below = below.is_some();
         self.fallen = false;
         if let Some(peak) = below {
             let moved = farthest(&self.displacements, &peak.displacements) / self.size;
+            if self.parameter >= start {
+                let went = farthest(&peak.displacements, &from.displacements) / self.size;
+                self.retraced = moved < (THERE_AND_BACK[0] * went).max(THERE_AND_BACK[1] * patience.movement[0]);
+            }
             let fall = (peak.parameter - self.parameter) / (peak.parameter - start).max(patience.rise);
             let [little, far] = patience.movement;
             let beyond = |most: f64, far: f64| moved > far || (fall > most && moved > little);
             if beyond(patience.fall, far) {
                 return Some(End::Mechanism);
             }
-            self.fallen = patience.lost_is_over && (beyond(SURE[0], SURE[1]) || fall > DEEP);
+            self.fallen = patience.loads && (beyond(SURE[0], SURE[1]) || fall > DEEP);
             if fall > SNAP && peak.parameter > start {
                 self.dip = self.dip.or(Some(peak.parameter));
             }

@@ -77,6 +77,12 @@ impl Tracer<'_> {
         self.dip.filter(|&dip| self.lost.is_some() || higher(dip))
     }
 
+    /// Whether the path on moving geometry, as it came down from its peak to its start, went back the way it had come: it has
+    /// not fallen then, but taken a wrong turn.
+    pub fn retraced(&self) -> bool {
+        self.retraced
+    }
+
     /// Mean motion of body `i` on moving geometry, what loads add between the nodes left out; still on the reference
     /// geometry.
     pub fn mean_motion(&self, i: usize) -> MeanMotion {
