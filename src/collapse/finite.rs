@@ -140,7 +140,8 @@ impl SafetyPoint {
 
 impl UpdatedGeometry {
     fn check_finite(&self) -> Checked {
-        let UpdatedGeometry { end: _, load_factor, share_of_loads, crown, largest, mechanism, snap, residual } = self;
+        let UpdatedGeometry { end: _, load_factor, share_of_loads, crown, largest, mechanism, snap, residual, why: _ } =
+            self;
         let some = [*load_factor, *share_of_loads, *largest, *snap, Some(*residual)];
         finite("updated geometry", some.into_iter().flatten().chain(crown.iter().copied().flat_map(both)))?;
         mechanism.iter().try_for_each(Mechanism::check_finite)
@@ -149,8 +150,19 @@ impl UpdatedGeometry {
 
 impl SettlementPath {
     fn check_finite(&self) -> Checked {
-        let SettlementPath { end: _, share, points, mechanism, thrust_line, displacements, snap, residual } = self;
-        finite("settlement", [*share, *residual].into_iter().chain(*snap))?;
+        let SettlementPath {
+            end: _,
+            why: _,
+            share,
+            safe,
+            points,
+            mechanism,
+            thrust_line,
+            displacements,
+            snap,
+            residual,
+        } = self;
+        finite("settlement", [*share, *safe, *residual].into_iter().chain(*snap))?;
         let forces = |point: &SettlementPoint| {
             let SettlementPoint { share, thrust, left, right } = point;
             [*share, *thrust, *left, right.unwrap_or(0.0)]

@@ -108,6 +108,14 @@ pub struct SpringingMovement {
     pub rotation: f64,
 }
 
+impl SpringingMovement {
+    /// The same movement, `factor` times as large.
+    fn times(self, factor: f64) -> Self {
+        let SpringingMovement { outwards, downwards, rotation } = self;
+        SpringingMovement { outwards: outwards * factor, downwards: downwards * factor, rotation: rotation * factor }
+    }
+}
+
 /// The two answers about crushing of the stone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CrushingKind {

@@ -2,9 +2,9 @@
 
 use super::discretise::{Model, Scatter};
 use super::record::Recorder;
-use super::{AnalysisError, Cost};
+use super::{AnalysisError, Cost, Unfollowed};
 use crate::arch::PointForce;
-use crate::dda::{Drive, End, Patience, Peak, Tracer, covering};
+use crate::dda::{Drive, End, Lost, Patience, Peak, Tracer, Violation, covering};
 use std::ops::ControlFlow;
 
 /// An arch falls that has to give up this share of its load to stay in equilibrium, if it moves visibly as it does; or to move
@@ -158,7 +158,7 @@ fn stand_moved_from<'a>(
         end = tracer.move_on(Drive { base, rate, turned: [zeros, turned], ..Drive::default() }, share, see);
     }
     if share < 1.0 && end == End::Reached {
-        let patience = Patience { fall: FALLEN, rise: 1.0, movement: [0.0, MOVED[1]] };
+        let patience = Patience { fall: FALLEN, rise: 1.0, movement: [0.0, MOVED[1]], creep: 0.0, loads: true };
         end = tracer.trace_moving(1.0, patience, see);
     }
     let moved = match end {
@@ -168,6 +168,20 @@ fn stand_moved_from<'a>(
         _ => Moved::Lost,
     };
     (tracer, moved)
+}
+
+/// Why a tracer has lost its path.
+pub(super) fn lost(model: &Model, tracer: &Tracer) -> Unfollowed {
+    match tracer.lost() {
+        None => Unfollowed::OutOfBalance(tracer.worst_residual()),
+        Some(Lost::OutOfBalance(residual)) => Unfollowed::OutOfBalance(residual),
+        Some(Lost::AgainstLaw(Violation { contact, beyond })) => {
+            let joint = (0..=model.voussoirs).find(|&joint| model.contacts(joint).contains(&contact));
+            Unfollowed::AgainstLaw { joint: joint.unwrap_or(0), beyond }
+        }
+        Some(Lost::Ties(changes)) => Unfollowed::Ties(changes),
+        Some(Lost::Endless(steps)) => Unfollowed::Endless(steps),
+    }
 }
 
 /// Where a path went after its peak.

@@ -4,6 +4,7 @@ mod falling;
 mod plan;
 mod settlement;
 mod strength;
+mod unfollowed;
 mod updated;
 
 pub use crate::arch::Face;
@@ -11,6 +12,7 @@ pub use falling::*;
 pub use plan::*;
 pub use settlement::*;
 pub use strength::*;
+pub use unfollowed::*;
 pub use updated::*;
 
 use crate::geometry::Vec2;

@@ -5,11 +5,11 @@
 //! it no longer finds room in the stones.
 
 use super::discretise::{Model, discretise};
-use super::path::{Attempt, Moved, disturbed, first_that_tells, stand, stand_moved};
+use super::path::{Attempt, Moved, disturbed, first_that_tells, lost, stand, stand_moved};
 use super::pulse::Pulse;
 use super::{
     Analysis, AnalysisError, Cost, Geometry, SettlementEnd, SettlementPath, SettlementPoint, SettlementReport,
-    SpringingMovement, ending,
+    SpringingMovement, Unfollowed, ending,
 };
 use crate::arch::Arch;
 use crate::dda::{Drive, End, Movement, Patience, Tracer};
@@ -17,12 +17,16 @@ use crate::geometry::Vec2;
 use std::ops::ControlFlow;
 
 /// The springings stay where they are while stones find another seat: hinges may move from joint to joint, and a joint that
-/// has opened far takes far to close.
-const PATIENCE: Patience = Patience { fall: 0.9, rise: 1.0, movement: [0.02, 0.2] };
+/// has opened far takes far to close. Where on the way they would have to come back by nine tenths of what they have done, the
+/// arch has fallen. Rises are in sizes of the arch, whatever movement is asked for.
+const PATIENCE: Patience = Patience { fall: 0.9, rise: 0.01, movement: [0.02, 0.2], creep: 0.0, loads: false };
 
 /// A path whose equilibrium residual, as a share of the loads, exceeds this is not trusted. Springings that move by a tenth
 /// of the span leave more rounding than loads do.
-const UNBALANCED: f64 = 1e-7;
+const UNBALANCED: f64 = 1e-6;
+
+/// How far above what rounding may leave of a force ties are told apart.
+const ABOVE_ROUNDING: f64 = 1.0;
 
 /// Follows the movement; the work is added to `cost`. None where the arch does not stand before it.
 ///
@@ -59,9 +63,11 @@ fn attempt(
     let mut see = |tracer: &Tracer, share: f64| pulse.step(share, tracer.events());
     let zeros = vec![0.0; base.len()];
     let turned = [model.turned[0].clone(), zeros.clone()];
-    let ground = ground(&analysis.arch, movements);
+    let target = largest(movements, model.size);
+    let mut ground = ground(&analysis.arch, movements.map(|by| by.times(1.0 / target)));
+    ground[0].velocity.y += uneven(&model, weight, attempt) * model.size;
     let drive = Drive { base, rate: zeros, turned, ground, ..Drive::default() };
-    let followed = trace(analysis, &model, geometry, drive, weight, cost, &mut see);
+    let followed = trace(analysis, &model, geometry, drive, target, weight, cost, &mut see);
     cost.add(&followed.tracer, Cost::default());
     match followed.stood {
         _ if followed.end == End::Stopped => Err(pulse.stopped()),
@@ -77,6 +83,8 @@ struct Followed<'m> {
     stood: Moved,
     end: End,
     points: Vec<SettlementPoint>,
+    /// The whole movement, in sizes of the arch.
+    target: f64,
 }
 
 /// Brings the loads on that `drive` has at the start, and moves the springings as it says.
@@ -85,6 +93,7 @@ fn trace<'m>(
     model: &'m Model<'m>,
     geometry: Geometry,
     drive: Drive,
+    target: f64,
     weight: f64,
     cost: &mut Cost,
     see: &mut dyn FnMut(&Tracer, f64) -> ControlFlow<()>,
@@ -104,7 +113,7 @@ fn trace<'m>(
     let mut points = Vec::new();
     if stood != Moved::Stands {
         let end = if stood == Moved::Stopped { End::Stopped } else { End::Lost };
-        return Followed { tracer, stood, end, points };
+        return Followed { tracer, stood, end, points, target };
     }
     tracer.drive_on(drive, 0.0);
     let mut record = |tracer: &Tracer| -> ControlFlow<()> {
@@ -112,39 +121,63 @@ fn trace<'m>(
         if tracer.parameter() == 0.0 {
             points.clear();
         }
-        points.push(point(model, &analysis.arch, tracer, tracer.parameter()));
-        see(tracer, tracer.parameter())
+        let share = tracer.parameter() / target;
+        points.push(point(model, &analysis.arch, tracer, share));
+        see(tracer, share)
     };
     let end = match geometry {
-        Geometry::FirstOrder => tracer.trace(1.0, &mut record),
-        Geometry::Updated => tracer.trace_moving(1.0, PATIENCE, &mut record),
+        Geometry::FirstOrder => tracer.trace(target, &mut record),
+        Geometry::Updated => tracer.trace_moving(target, PATIENCE, &mut record),
     };
-    Followed { tracer, stood, end, points }
+    Followed { tracer, stood, end, points, target }
 }
 
 fn describe(analysis: &Analysis, model: &Model, geometry: Geometry, followed: Followed) -> SettlementPath {
-    let Followed { mut tracer, stood, end, mut points } = followed;
-    let falls = end == End::Mechanism && tracer.return_to_peak();
-    let share = if stood == Moved::Stands { tracer.parameter() } else { 0.0 };
-    let peak = points.iter().position(|at| at.share >= share);
-    points.truncate(peak.unwrap_or(points.len()));
+    let Followed { mut tracer, stood, end, mut points, target } = followed;
+    let why = unfollowed(model, &tracer, geometry, stood, end);
+    // A path that was lost in a dip has stood at its peak.
+    let dips = end == End::Lost && tracer.peak().is_some_and(|peak| peak.parameter > tracer.parameter());
+    let snap = tracer.snap().or_else(|| tracer.peak().filter(|_| dips).map(|peak| peak.parameter));
+    if dips || end == End::Mechanism {
+        tracer.return_to_peak();
+    }
+    let share = if stood == Moved::Stands { tracer.parameter() / target } else { 0.0 };
+    let reached = points.iter().position(|at| at.share >= share);
+    points.truncate(reached.unwrap_or(points.len()));
     points.push(point(model, &analysis.arch, &tracer, share));
-    let end = match end {
-        _ if tracer.worst_residual() > UNBALANCED => SettlementEnd::CannotTell,
-        _ if matches!(stood, Moved::Falls(_)) => SettlementEnd::FallsAsLoaded,
-        End::Reached => SettlementEnd::Follows,
-        End::Mechanism if falls && geometry == Geometry::Updated => SettlementEnd::Collapse,
-        _ => SettlementEnd::CannotTell,
+    let end = match (stood, end) {
+        _ if why.is_some() => SettlementEnd::CannotTell,
+        (Moved::Falls(_), _) => SettlementEnd::FallsAsLoaded,
+        (_, End::Reached) => SettlementEnd::Follows,
+        _ => SettlementEnd::Collapse,
     };
+    let snap = snap.map(|at| at / target);
     SettlementPath {
         end,
+        why,
         share,
+        safe: snap.unwrap_or(share).min(share),
         points,
         mechanism: ending::at_rates(analysis, model, &tracer),
         thrust_line: ending::carried_by(analysis, model, &tracer),
         displacements: displacements(model, &tracer, geometry),
-        snap: tracer.snap(),
+        snap,
         residual: tracer.worst_residual(),
+    }
+}
+
+/// Why a path has no answer, where it has none.
+fn unfollowed(model: &Model, tracer: &Tracer, geometry: Geometry, stood: Moved, end: End) -> Option<Unfollowed> {
+    let residual = tracer.worst_residual();
+    match (stood, end) {
+        _ if residual > UNBALANCED => Some(Unfollowed::Coarse(residual)),
+        (Moved::Falls(_), _) | (Moved::Stands, End::Reached | End::Stopped) => None,
+        (Moved::Stands, End::Mechanism) if geometry == Geometry::FirstOrder => Some(Unfollowed::Mechanism),
+        (Moved::Stands, End::Mechanism) if tracer.peak().is_some() => None,
+        (Moved::Stands, End::Mechanism) => Some(Unfollowed::TurnedBack),
+        (Moved::Stands, End::Rising) => Some(Unfollowed::BeyondModel),
+        (Moved::Stands, End::Lost) => Some(lost(model, tracer)),
+        _ => Some(Unfollowed::NotLoaded),
     }
 }
 
@@ -160,7 +193,24 @@ fn displacements(model: &Model, tracer: &Tracer, geometry: Geometry) -> Vec<[f64
     (0..model.voussoirs).map(of).collect()
 }
 
-/// Movements of the ground at both ends of the chain, for the whole movement.
+/// The largest part of a movement, in sizes of the arch; an angle counts as what it moves by at that distance.
+///
+/// The path is followed in this measure, so that it is the same however far the springings are asked to go.
+fn largest(movements: [SpringingMovement; 2], size: f64) -> f64 {
+    let parts = movements.iter().flat_map(|by| [by.outwards / size, by.downwards / size, by.rotation]);
+    parts.fold(0.0, |most, part| most.max(part.abs()))
+}
+
+/// By what share of the largest movement the left springing rises besides, so that ties of symmetric arches are told apart by
+/// more than rounding, which grows with the movement: by what a contact's force changes for the last digit of the arch's size
+/// (measured on paths: some hundredths of that).
+fn uneven(model: &Model, weight: f64, attempt: Attempt) -> f64 {
+    let digit = f64::EPSILON * model.softest * model.size / weight;
+    let sign = if attempt.seed.is_multiple_of(2) { -1.0 } else { 1.0 };
+    sign * ABOVE_ROUNDING * digit
+}
+
+/// Movements of the ground at both ends of the chain, per unit of the parameter.
 fn ground(arch: &Arch, movements: [SpringingMovement; 2]) -> [Movement; 2] {
     let springings = [arch.joints.first(), arch.joints.last()];
     // Outwards is to the left on the left, and a rotation that opens the intrados there turns clockwise.

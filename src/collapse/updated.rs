@@ -2,9 +2,9 @@
 
 use super::certificate::UNBALANCED;
 use super::discretise::{Model, discretise};
-use super::path::{Attempt, FALLEN, MOVED, Moved, disturbed, first_that_tells, stand_moved};
+use super::path::{Attempt, FALLEN, MOVED, Moved, disturbed, first_that_tells, lost, stand_moved};
 use super::pulse::Pulse;
-use super::{Analysis, AnalysisError, Cost, UpdatedEnd, UpdatedGeometry, ending, mechanism};
+use super::{Analysis, AnalysisError, Cost, Unfollowed, UpdatedEnd, UpdatedGeometry, ending, mechanism};
 use crate::dda::{Drive, End, Patience, Tracer};
 
 /// Note on stones that are one subblock thick.
@@ -27,9 +27,16 @@ pub(super) struct Course {
     pub weight: f64,
 }
 
+/// A rise by less than this share of that at first order is none.
+const RISEN: f64 = 0.01;
+
 impl Course {
+    fn has_risen(&self, tracer: &Tracer) -> bool {
+        tracer.peak().is_some_and(|peak| peak.parameter - self.sign * self.start > RISEN * self.rise)
+    }
+
     fn patience(&self) -> Patience {
-        Patience { fall: FALLEN, rise: self.rise, movement: MOVED }
+        Patience { fall: FALLEN, rise: self.rise, movement: MOVED, creep: FALLEN, loads: true }
     }
 }
 
@@ -68,19 +75,24 @@ fn attempt(
     if matches!((stood, end), (Moved::Stopped, _) | (Moved::Stands, End::Stopped)) {
         return Err(pulse.stopped());
     }
-    // A path that runs back past its start has found the other end of the loads that the arch can bear.
-    let turned_back = tracer.parameter() < course.sign * course.start;
+    // A path that hardly rises, or comes back the way it went, and runs past its start has found the other end of the loads that
+    // the arch can bear.
+    let is_fall = course.has_risen(&tracer) && !tracer.retraced();
+    let turned_back = tracer.parameter() < course.sign * course.start && !is_fall;
+    let why = lost(&model, &tracer);
     let falls = end == End::Mechanism && !turned_back && tracer.return_to_peak();
+    let residual = tracer.worst_residual();
     let end = match (stood, end) {
-        _ if tracer.worst_residual() > UNBALANCED => UpdatedEnd::CannotTell,
-        (Moved::Falls(_), _) => UpdatedEnd::FallsAsLoaded,
-        (Moved::Stands, End::Mechanism) if falls => UpdatedEnd::Collapse,
-        (Moved::Stands, End::Reached) => UpdatedEnd::StandsToCap,
-        (Moved::Stands, End::Rising) => UpdatedEnd::BeyondModel,
-        _ => UpdatedEnd::CannotTell,
+        _ if residual > UNBALANCED => Err(Unfollowed::Coarse(residual)),
+        (Moved::Falls(share), _) => Ok((UpdatedEnd::FallsAsLoaded, Some(share))),
+        (Moved::Stands, End::Mechanism) if falls => Ok((UpdatedEnd::Collapse, None)),
+        (Moved::Stands, End::Mechanism) => Err(Unfollowed::TurnedBack),
+        (Moved::Stands, End::Reached) => Ok((UpdatedEnd::StandsToCap, None)),
+        (Moved::Stands, End::Rising) => Ok((UpdatedEnd::BeyondModel, None)),
+        (Moved::Stands, _) => Err(why),
+        _ => Err(Unfollowed::NotLoaded),
     };
-    let share = if let (Moved::Falls(share), UpdatedEnd::FallsAsLoaded) = (stood, end) { Some(share) } else { None };
-    Ok(describe(analysis, &model, &tracer, course.sign, end, share))
+    Ok(describe(analysis, &model, &tracer, course.sign, end))
 }
 
 fn drive(model: &Model, fixed: Vec<f64>, sign: f64) -> Drive {
@@ -98,16 +110,17 @@ fn describe(
     model: &Model,
     tracer: &Tracer,
     sign: f64,
-    end: UpdatedEnd,
-    share: Option<f64>,
+    end: Result<(UpdatedEnd, Option<f64>), Unfollowed>,
 ) -> UpdatedGeometry {
-    let (known, grows) = (end != UpdatedEnd::CannotTell, !analysis.scaled.is_empty());
+    let (known, grows, why) = (end.is_ok(), !analysis.scaled.is_empty(), end.err());
+    let (end, share) = end.unwrap_or((UpdatedEnd::CannotTell, None));
     let falls = matches!(end, UpdatedEnd::Collapse | UpdatedEnd::FallsAsLoaded);
     let of = |voussoir: usize| tracer.mean_motion(model.first_voussoir + voussoir).displacement;
     let [left, right] = mechanism::crown(&analysis.arch);
     let largest = (0..model.voussoirs).map(|v| of(v).norm()).fold(0.0, f64::max);
     UpdatedGeometry {
         end,
+        why,
         load_factor: (known && share.is_none() && grows).then(|| sign * tracer.parameter()),
         share_of_loads: share,
         crown: known.then(|| 0.5 * (of(left) + of(right))),

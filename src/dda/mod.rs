@@ -33,4 +33,4 @@ pub use condense::{Condensed, Loose, Node, Unbuilt, free_response};
 pub use contact::{Contact, ContactForce, Law, State, Zone};
 pub use heart::{Heart, Stopped};
 pub use macroblock::{Bond, Macroblock, Seam};
-pub use trace::{Drive, End, Movement, Patience, Peak, Tracer, covering};
+pub use trace::{Drive, End, Lost, Movement, Patience, Peak, Tracer, Violation, covering};

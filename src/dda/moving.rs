@@ -8,6 +8,7 @@ mod interface;
 #[cfg(test)]
 mod tests;
 mod turn;
+mod twofold;
 
 use super::chain::{Chain, MeanMotion};
 use super::contact::force_change;
@@ -21,6 +22,7 @@ pub(super) use interface::{Bearing, Stiffness};
 pub(super) use turn::Turn;
 pub(super) use turn::quarter;
 use turn::{cross, quarter_of};
+pub(super) use twofold::{Twofold, dot as twofold_dot};
 
 /// Work of renewing a body's stiffness, over the square of its unknowns.
 const LINEARISED: usize = 10;
@@ -69,7 +71,8 @@ impl Placed {
         }
     }
 
-    /// Moves everything to node displacements `d` with the drive at `parameter`; fills `gaps`.
+    /// Moves everything to node displacements `d`, each with what rounding has taken off it, with the drive at `parameter`;
+    /// fills `gaps`.
     ///
     /// # Errors
     /// When stopped.
@@ -77,28 +80,29 @@ impl Placed {
         &mut self,
         chain: &Chain,
         drive: &Drive,
-        parameter: f64,
-        d: &[f64],
+        parameter: Twofold,
+        d: [&[f64]; 2],
         gaps: &mut [[f64; 2]],
         heart: &Heart,
     ) -> Result<(), Stopped> {
         let parts = [[&drive.base, &drive.rate], [&drive.turned[0], &drive.turned[1]]];
         for (load, [base, rate]) in self.loads.iter_mut().zip(parts) {
-            let sum = base.iter().zip(rate).map(|(base, rate)| base + rate * parameter);
+            let sum = base.iter().zip(rate).map(|(base, rate)| base + rate * parameter.high);
             load.iter_mut().zip(sum).for_each(|(load, sum)| *load = sum);
         }
         for (i, pose) in self.poses.iter_mut().enumerate() {
             let (kind, nodes) = (chain.kind_of(i), chain.nodes_of(i));
             let [straight, turned] = self.loads.each_ref().map(|load| &load[nodes.clone()]);
-            self.corotated[kind].pose(chain.stiffness_of(i), &d[nodes], NodeLoads { straight, turned }, pose);
+            let d = d.map(|d| &d[nodes.clone()]);
+            self.corotated[kind].pose(chain.stiffness_of(i), d, NodeLoads { straight, turned }, pose);
             heart.work(chain.stiffness_of(i).len())?;
         }
         for k in 0..chain.interfaces() {
             let ground = chain.ground_at(k).map(|end| &drive.ground[end]);
-            self.frames[k] = frame(chain, k, d, ground.map_or(0.0, |ground| ground.spin * parameter));
+            self.frames[k] = frame(chain, k, d[0], ground.map_or(0.0, |ground| ground.spin * parameter.high));
             for p in chain.at_interface(k) {
-                let moved = ground.map_or(Vec2::zeros(), |ground| ground.moves(chain.place(p), parameter));
-                gaps[p] = self.frames[k].gap(plus(chain.gap(p, d), chain.ground_gap(p, moved)));
+                let moved = ground.map_or_else(Default::default, |ground| ground.moves(chain.place(p), parameter));
+                gaps[p] = self.frames[k].gap(chain.exact_gap(p, d, moved));
             }
         }
         Ok(())

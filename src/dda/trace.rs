@@ -6,15 +6,19 @@
 //! one that goes on crossing, so rises and falls of the load factor, and momentary mechanisms, pass by themselves.
 
 mod correct;
+mod creep;
 mod drift;
 mod drive;
 mod equilibrium;
 mod event;
+mod lost;
 mod moving;
+mod point;
 mod seen;
 mod tangent;
 
 pub use drive::{Drive, Movement, covering};
+pub use lost::{Lost, Violation};
 pub use moving::Patience;
 
 use super::chain::Chain;
@@ -50,6 +54,10 @@ pub struct Peak {
     pub parameter: f64,
     /// Displacements of the nodes.
     pub displacements: Vec<f64>,
+    /// What rounding has taken off them, on moving geometry.
+    pub rests: Vec<f64>,
+    /// And off the parameter.
+    pub parameter_rest: f64,
     /// Direction in which the path goes on, its largest entry 1 m.
     pub direction: Vec<f64>,
     /// Change of the parameter in that direction.
@@ -92,6 +100,9 @@ pub struct Tracer<'a> {
     states: Vec<State>,
     displacements: Vec<f64>,
     parameter: f64,
+    /// What rounding has taken off both, on moving geometry.
+    rests: Vec<f64>,
+    parameter_rest: f64,
     /// Change of the parameter along the current direction.
     rate: f64,
     peak: Option<Peak>,
@@ -102,6 +113,12 @@ pub struct Tracer<'a> {
     dip: Option<f64>,
     /// Whether the path lies so far below its peak that it has ended for sure.
     fallen: bool,
+    /// Whether the path, where it last lay below its peak but above its start, was on the way it had come.
+    retraced: bool,
+    /// Why the path was lost, where it was.
+    lost: Option<Lost>,
+    /// The contact beyond its law that kept the last step from being made.
+    stuck: Option<Violation>,
     /// Gap and slip that the moving ground gives every contact per unit of the parameter, first order.
     settling: Vec<[f64; 2]>,
 
@@ -143,11 +160,16 @@ impl<'a> Tracer<'a> {
             states: chain.contacts().iter().map(|c| c.pressed_state()).collect(),
             displacements: vec![0.0; n],
             parameter: 0.0,
+            rests: vec![0.0; n],
+            parameter_rest: 0.0,
             rate: 0.0,
             peak: None,
             moving: None,
             dip: None,
             fallen: false,
+            retraced: false,
+            lost: None,
+            stuck: None,
             settling: vec![[0.0; 2]; chain.contacts().len()],
             matrix: chain.elastic().copied(heart),
             load_rate: vec![0.0; n],
@@ -191,7 +213,8 @@ impl<'a> Tracer<'a> {
     ///
     /// Slip goes on being measured from the unstressed start, so that no contact starts on the border of its state.
     pub fn drive_on(&mut self, drive: Drive, parameter: f64) {
-        (self.drive, self.parameter, self.peak) = (drive, parameter, None);
+        (self.drive, self.peak) = (drive, None);
+        self.set_parameter(parameter);
         self.find_settling();
         self.reassemble_all();
     }
@@ -319,14 +342,21 @@ impl<'a> Tracer<'a> {
     fn note_peak(&mut self, turns_down: bool) {
         let highest = self.peak.as_ref().is_none_or(|peak| self.parameter >= peak.parameter);
         if highest && turns_down {
-            self.peak = Some(Peak {
-                parameter: self.parameter,
-                displacements: self.displacements.clone(),
-                direction: self.direction.clone(),
-                rate: self.rate,
-                states: self.states.clone(),
-                residual: self.worst_residual,
-            });
+            self.peak = Some(self.as_peak());
+        }
+    }
+
+    /// The present point, and how the path goes on.
+    fn as_peak(&self) -> Peak {
+        Peak {
+            parameter: self.parameter,
+            displacements: self.displacements.clone(),
+            rests: self.rests.clone(),
+            parameter_rest: self.parameter_rest,
+            direction: self.direction.clone(),
+            rate: self.rate,
+            states: self.states.clone(),
+            residual: self.worst_residual,
         }
     }
 

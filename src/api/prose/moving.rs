@@ -11,18 +11,36 @@ pub fn headline(settlement: &SettlementBody) -> String {
     let path = settlement.updated_geometry.as_ref().unwrap_or(&settlement.first_order);
     let share = format!("{} %", Digits(100.0 * path.share_of_movement));
     match (path.end, &settlement.updated_geometry) {
-        (SettlementEndWord::Follows, Some(_)) => "The arch follows its springings through their whole movement.".into(),
+        (SettlementEndWord::Follows, Some(_)) => {
+            format!("The arch follows its springings through their whole movement{}.", snaps(path))
+        }
         (SettlementEndWord::Follows, None) => {
             "At first order the arch follows its springings; only on updated geometry can they bring it down.".into()
         }
         (SettlementEndWord::Collapse, _) => {
-            format!("The arch falls when its springings have done {share} of their movement.")
+            format!("The arch falls when its springings have done {share} of their movement{}.", snaps(path))
         }
         (SettlementEndWord::FallsAsLoaded, _) => {
             "On updated geometry the arch falls under its loads before its springings move.".into()
         }
-        (SettlementEndWord::CannotTell, _) => "No answer: the movement could not be followed.".into(),
+        (SettlementEndWord::CannotTell, _) => {
+            let safe = Digits(100.0 * path.safe_share_of_movement);
+            format!("No answer: the movement could not be followed beyond {safe} % of it.")
+        }
     }
+}
+
+/// Half a sentence on the first snap, where there is one.
+fn snaps(path: &SettlementPathBody) -> String {
+    let words = |at: f64| {
+        format!(", but first snaps into another shape at {} %: rely on no more than that", Digits(100.0 * at))
+    };
+    path.snap_share_of_movement.map(words).unwrap_or_default()
+}
+
+/// Why there is no answer, after a colon.
+fn because(why: Option<&String>) -> String {
+    why.map(|why| format!(": {}", why.trim_end_matches('.'))).unwrap_or_default()
 }
 
 /// A sentence on an arch that falls on moving geometry before the loads at the start are on in full.
@@ -64,7 +82,7 @@ fn on_moving_geometry(result: &AnalysisResult, updated: &UpdatedBody) -> String 
         UpdatedEndWord::StandsToCap if at.is_empty() => "stands".into(),
         UpdatedEndWord::StandsToCap => format!("stands up to {at}, the cap"),
         UpdatedEndWord::BeyondModel => format!("stands up to {at}, where it is strained or moved beyond the model"),
-        UpdatedEndWord::CannotTell => "could not be followed".into(),
+        UpdatedEndWord::CannotTell => format!("could not be followed{}", because(updated.why.as_ref())),
     }
 }
 
@@ -74,9 +92,11 @@ fn path(path: &SettlementPathBody) -> String {
         SettlementEndWord::Follows => "follows the whole movement".to_owned(),
         SettlementEndWord::Collapse => format!("falls at {share} % of the movement"),
         SettlementEndWord::FallsAsLoaded => return "falls under its loads before any movement".to_owned(),
-        SettlementEndWord::CannotTell => format!("lost at {share} % of the movement"),
+        SettlementEndWord::CannotTell => format!("lost after {share} % of the movement{}", because(path.why.as_ref())),
     };
+    let safe = Digits(100.0 * path.safe_share_of_movement);
+    let snap = if path.snap_share_of_movement.is_some() { format!("; snaps first at {safe} %") } else { String::new() };
     let hinges: Vec<_> = path.hinges.iter().map(|hinge| hinge.joint.to_string()).collect();
     let turning = if hinges.is_empty() { String::new() } else { format!(", turning at joints {}", hinges.join(", ")) };
-    format!("{end}; thrust then {thrust} kN per metre of depth{turning}")
+    format!("{end}{snap}; thrust then {thrust} kN per metre of depth{turning}")
 }

@@ -36,8 +36,13 @@ pub struct SettlementBody {
 pub struct SettlementPathBody {
     /// How it ended.
     pub end: SettlementEndWord,
-    /// Share of the movement at the end: 1, or less where the arch falls.
+    /// Why there is no answer, in words; null where there is one.
+    pub why: Option<String>,
+    /// The last share of the movement that the arch can reach: 1, or less where it falls; where the path was lost, the highest
+    /// that it reached.
     pub share_of_movement: f64,
+    /// Share of the movement through which the arch follows without a snap: what can be relied on.
+    pub safe_share_of_movement: f64,
     /// Horizontal thrust at the end, with which the left springing pushes the arch to the right.
     pub thrust_n_per_m: f64,
     /// The path, event by event, from the arch as it stands before the movement to the largest share it reaches. Where the
@@ -98,7 +103,9 @@ impl From<&SettlementPath> for SettlementPathBody {
     fn from(path: &SettlementPath) -> Self {
         SettlementPathBody {
             end: path.end.into(),
+            why: path.why.map(|why| why.to_string()),
             share_of_movement: path.share,
+            safe_share_of_movement: path.safe,
             thrust_n_per_m: path.points.last().map_or(0.0, |point| point.thrust),
             history: SettlementColumns::new(&path.points),
             mode: path.mechanism.mode.into(),

@@ -23,11 +23,14 @@ pub enum UpdatedEndWord {
     CannotTell,
 }
 
-/// The answer on moving geometry. It depends on Young's modulus and the penalty: as they grow it tends to the first-order one.
+/// The answer on moving geometry. It depends on Young's modulus and the penalty: as they grow it tends to the first-order one, unless
+/// joints slide and the path takes another turn.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct UpdatedBody {
     /// How the path ended.
     pub end: UpdatedEndWord,
+    /// Why there is no answer, in words; null where there is one.
+    pub why: Option<String>,
     /// Intensity there: at collapse, or the highest at which the arch is known to stand; null where it falls as loaded, or where
     /// nothing grows.
     pub intensity: Option<f64>,
@@ -64,6 +67,7 @@ impl UpdatedBody {
         let mechanism = updated.mechanism.as_ref();
         UpdatedBody {
             end: updated.end.into(),
+            why: updated.why.map(|why| why.to_string()),
             intensity: updated.load_factor.map(|factor| scale.intensity(factor)),
             load_factor: updated.load_factor,
             // In a window both may be negative, and a ratio would read the wrong way round.

@@ -1,6 +1,6 @@
 //! What the movement of springings does.
 
-use super::{Mechanism, Thrust};
+use super::{Mechanism, Thrust, Unfollowed};
 
 /// How a movement ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,8 +33,13 @@ pub struct SettlementPoint {
 pub struct SettlementPath {
     /// How it ended.
     pub end: SettlementEnd,
-    /// Share of the movement at the end: 1, or less where the arch falls.
+    /// Why there is no answer, where there is none.
+    pub why: Option<Unfollowed>,
+    /// The last share of the movement that the arch can reach: 1, or less where it falls; where the path was lost, the highest
+    /// that it reached.
     pub share: f64,
+    /// Share of the movement through which the arch follows without a snap: what can be relied on.
+    pub safe: f64,
     /// The path, event by event, from the arch as it stands before the movement.
     pub points: Vec<SettlementPoint>,
     /// How the arch moves on at the end: the hinges on which it follows its springings, or falls.
@@ -43,7 +48,7 @@ pub struct SettlementPath {
     pub thrust_line: Vec<Thrust>,
     /// Displacement (u, v) of every voussoir's centroid and its rotation at the end, m and rad.
     pub displacements: Vec<[f64; 3]>,
-    /// Share at which the arch first snaps into another shape: the path dips by more than a hundredth, then goes on.
+    /// Share at which the arch first snaps into another shape: the path dips by more than a hundredth, then goes on further.
     pub snap: Option<f64>,
     /// Largest equilibrium residual, as a share of the loads.
     pub residual: f64,

@@ -1,6 +1,6 @@
 //! What an analysis on the moving geometry says, beside the first-order one.
 
-use super::Mechanism;
+use super::{Mechanism, Unfollowed};
 use crate::geometry::Vec2;
 
 /// How the path on moving geometry ended.
@@ -23,6 +23,8 @@ pub enum UpdatedEnd {
 pub struct UpdatedGeometry {
     /// How the path ended.
     pub end: UpdatedEnd,
+    /// Why there is no answer, where there is none.
+    pub why: Option<Unfollowed>,
     /// Load factor there: at collapse, or the highest at which the arch is known to stand.
     pub load_factor: Option<f64>,
     /// Share of the loads at the start under which the arch falls as they come on, where it does.

@@ -1,7 +1,7 @@
 //! Where bodies and contact points of a chain are.
 
 use super::{Chain, MeanMotion, Node};
-use crate::dda::moving::Turn;
+use crate::dda::moving::{Turn, Twofold, twofold_dot};
 use crate::dda::panels::add_applied_columns;
 use crate::geometry::{Vec2, perpendicular};
 use nalgebra::DMatrix;
@@ -65,6 +65,18 @@ impl Chain {
             [_, None] => gap,
             _ => [0.0; 2],
         }
+    }
+
+    /// Normal and tangential gap of contact `p` where its nodes are displaced by `d`, each with what rounding has taken off
+    /// it, and the ground beside it by `ground`, m.
+    pub(in crate::dda) fn exact_gap(&self, p: usize, d: [&[f64]; 2], ground: [Twofold; 2]) -> [f64; 2] {
+        let (normal, sides) = (self.sites[p].normal, self.places[p]);
+        let axes = [normal, perpendicular(normal)];
+        let of = |side: usize, axis: usize| match sides[side] {
+            Some(i) => Twofold { high: d[0][i + axis], low: d[1][i + axis] },
+            None => twofold_dot(axes[axis].into(), ground),
+        };
+        [0, 1].map(|axis| of(1, axis).plus(of(0, axis).times(-1.0)).value())
     }
 
     /// Mean motion of body `i` whose nodes, of mean place `centre` in its frame, have turned and shifted as one and are

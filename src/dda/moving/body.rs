@@ -12,6 +12,7 @@
 //! rotation of every pair.
 
 use super::turn::{Turn, cross, dot, quarter};
+use super::twofold::Twofold;
 use crate::dda::condense::Node;
 use crate::geometry::Vec2;
 use nalgebra::DMatrix;
@@ -90,18 +91,21 @@ impl Corotated {
         }
     }
 
-    /// Moves `pose` to node displacements `d` (m) under `loads`, for condensed stiffness `s`.
-    pub fn pose(&self, s: &DMatrix<f64>, d: &[f64], loads: NodeLoads, pose: &mut Pose) {
-        let mut shift = [0.0; 2];
-        for (axes, pair) in self.axes.iter().zip(d.chunks_exact(2)) {
-            let [x, y] = axes.pair([pair[0], pair[1]]);
-            shift = [shift[0] + x, shift[1] + y];
+    /// Moves `pose` to node displacements `d` (m), each with what rounding has taken off it, under `loads`, for condensed
+    /// stiffness `s`.
+    pub fn pose(&self, s: &DMatrix<f64>, d: [&[f64]; 2], loads: NodeLoads, pose: &mut Pose) {
+        let pair = |i: usize| [2 * i, 2 * i + 1].map(|i| Twofold { high: d[0][i], low: d[1][i] });
+        let mut shift = [Twofold::default(); 2];
+        for (i, axes) in self.axes.iter().enumerate() {
+            let [x, y] = axes.twofold(pair(i));
+            shift = [shift[0].plus(x), shift[1].plus(y)];
         }
-        pose.shift = shift.map(|x| x / self.axes.len() as f64);
+        let shift = shift.map(|x| x.over(self.axes.len() as f64));
+        pose.shift = shift.map(Twofold::value);
         // Displacements about the mean.
-        for ((axes, pair), into) in self.axes.iter().zip(d.chunks_exact(2)).zip(pose.elastic.chunks_exact_mut(2)) {
-            let mean = axes.back().pair(pose.shift);
-            into.copy_from_slice(&[pair[0] - mean[0], pair[1] - mean[1]]);
+        for (i, (axes, into)) in self.axes.iter().zip(pose.elastic.chunks_exact_mut(2)).enumerate() {
+            let (mean, pair) = (axes.back().twofold(shift), pair(i));
+            into.copy_from_slice(&[0, 1].map(|k| pair[k].plus(mean[k].times(-1.0)).value()));
         }
         let along = dot(&self.arms, &self.arms) + dot(&self.arms, &pose.elastic);
         pose.turn = Turn::onto(along, cross(&self.arms, &pose.elastic));

@@ -44,7 +44,7 @@ fn a_rigid_motion_costs_nothing_however_far() {
     for angle in [1e-6, 0.3, -1.4, 2.5] {
         let d = moved(&nodes, angle, Vec2::new(3.0, -2.0), 0.0);
         let mut pose = body.at_rest();
-        body.pose(&s, &d, NodeLoads { straight: &zeros, turned: &zeros }, &mut pose);
+        body.pose(&s, [&d, &vec![0.0; d.len()]], NodeLoads { straight: &zeros, turned: &zeros }, &mut pose);
         let mut residual = vec![0.0; 8];
         body.add_residual(&pose, &mut residual);
         assert!(residual.iter().all(|r| r.abs() < 1e-11), "{residual:?}");
@@ -59,7 +59,7 @@ fn the_stiffness_of_a_turned_body_is_the_derivative_of_its_forces_and_symmetric(
     let d = moved(&nodes, 0.7, Vec2::new(0.2, 0.1), 0.05);
     let at = |d: &[f64]| {
         let mut pose = body.at_rest();
-        body.pose(&s, d, loads, &mut pose);
+        body.pose(&s, [d, &vec![0.0; d.len()]], loads, &mut pose);
         let mut residual = vec![0.0; 8];
         body.add_residual(&pose, &mut residual);
         (pose, residual)
@@ -89,7 +89,12 @@ fn loads_that_grow_add_what_they_grow_by() {
     let at = |factor: f64| {
         let scaled = |x: [f64; 8]| x.map(|x| x * factor);
         let mut pose = body.at_rest();
-        body.pose(&s, &d, NodeLoads { straight: &scaled(STRAIGHT), turned: &scaled(TURNED) }, &mut pose);
+        body.pose(
+            &s,
+            [&d, &vec![0.0; d.len()]],
+            NodeLoads { straight: &scaled(STRAIGHT), turned: &scaled(TURNED) },
+            &mut pose,
+        );
         let mut residual = vec![0.0; 8];
         body.add_residual(&pose, &mut residual);
         (pose, residual)

@@ -1,5 +1,7 @@
 //! Rotations of the plane, and what is done with lists of pairs.
 
+use super::twofold::{self, Twofold};
+
 /// A rotation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Turn {
@@ -38,6 +40,11 @@ impl Turn {
     /// A pair, rotated.
     pub fn pair(self, [x, y]: [f64; 2]) -> [f64; 2] {
         [self.cos * x - self.sin * y, self.sin * x + self.cos * y]
+    }
+
+    /// A pair of twice the digits, rotated.
+    pub fn twofold(self, pair: [Twofold; 2]) -> [Twofold; 2] {
+        [twofold::dot([self.cos, -self.sin], pair), twofold::dot([self.sin, self.cos], pair)]
     }
 
     /// What the rotation moves a pair by, without cancellation where it is small.

@@ -2,7 +2,7 @@
 
 use crate::dda::chain::Chain;
 use crate::dda::contact::Law;
-use crate::dda::moving::Turn;
+use crate::dda::moving::{Turn, Twofold};
 use crate::geometry::{Vec2, perpendicular};
 
 /// A rigid movement of the ground, per unit of the parameter.
@@ -18,9 +18,10 @@ pub struct Movement {
 
 impl Movement {
     /// Displacement of a point of the ground at a parameter, m; exact however far it turns.
-    pub fn moves(&self, at: Vec2, parameter: f64) -> Vec2 {
-        let turned = Turn::by(self.spin * parameter).shift((at - self.about).into());
-        self.velocity * parameter + Vec2::from(turned)
+    pub(in crate::dda) fn moves(&self, at: Vec2, parameter: Twofold) -> [Twofold; 2] {
+        let turned = Turn::by(self.spin * parameter.high).shift((at - self.about).into());
+        let along = |velocity: f64, turned: f64| parameter.times(velocity).plus(Twofold { high: turned, low: 0.0 });
+        [along(self.velocity.x, turned[0]), along(self.velocity.y, turned[1])]
     }
 
     /// Its derivative by the parameter, m.

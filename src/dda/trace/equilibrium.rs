@@ -68,7 +68,8 @@ impl Tracer<'_> {
 
     fn find_moving_residual(&mut self, moving: &mut Placed) -> Result<(), Stopped> {
         let chain = self.chain;
-        moving.place(chain, &self.drive, self.parameter, &self.displacements, &mut self.gaps, self.heart)?;
+        let d = [self.displacements.as_slice(), &self.rests];
+        moving.place(chain, &self.drive, self.exact_parameter(), d, &mut self.gaps, self.heart)?;
         self.residual.fill(0.0);
         for p in 0..self.states.len() {
             self.forces[p] = self.force_of(p);

@@ -6,6 +6,8 @@
 //! are passed; or the parameter, at the end.
 
 use super::correct::{EQUILIBRIUM, FAILED, Hold};
+use super::lost::Lost;
+use super::point::Point;
 use super::{End, Tracer};
 use crate::dda::moving::{Placed, quarter};
 use crate::dda::trace::Drive;
@@ -23,7 +25,7 @@ const MOST_EVENTS: [usize; 2] = [200, 6];
 /// So many halvings of a step in a row mean that the path is lost.
 const HALVINGS: usize = 40;
 /// A path has at most so many steps that end at no change of state; real ones have up to two hundred.
-const MOST_STEPS: usize = 400;
+const MOST_STEPS: usize = 4000;
 /// A path that is lost after it has fallen by this share and moved a little, or moved by this share of its size, has ended.
 const SURE: [f64; 2] = [0.1, 0.01];
 /// So has one that is lost after it has fallen by this share, however little it has moved.
@@ -32,6 +34,9 @@ const DEEP: f64 = 0.5;
 const SNAP: f64 = 0.01;
 /// Displacements beyond this share of the size are no arch of this shape any more.
 const FAR: f64 = 0.3;
+/// A path that comes back to its start with less movement since its peak than so many times what it had moved by there, or than this
+/// share of the little that has to be seen, has come the way it went: that is no fall, but a wrong turn.
+const THERE_AND_BACK: [f64; 2] = [3.0, 0.25];
 /// Strain beyond which stone is no longer elastic by any measure.
 const STRAINED: f64 = 0.02;
 
@@ -45,6 +50,12 @@ pub struct Patience {
     pub rise: f64,
     /// Movements of the chain, as shares of its size: the small one, and the one that counts alone.
     pub movement: [f64; 2],
+    /// A chain that moves by the larger of the two while its parameter rises by less than this share of what it rose has ended as
+    /// well; nought where rises count however small.
+    pub creep: f64,
+    /// Whether the parameter is one of loads, not of springings: a path that is lost deep below its peak has ended there too, and
+    /// one that comes back the way it went has not.
+    pub loads: bool,
 }
 
 /// A path to follow: how far, for how long below its peak, and from its start with the parameter rising (+1) or falling (-1).
@@ -64,13 +75,11 @@ impl Tracer<'_> {
     }
 
     fn let_go(&mut self, drive: Drive, parameter: f64, see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>) -> End {
-        (self.drive, self.parameter, self.moving) =
-            (drive.clone(), parameter, Some(Placed::new(self.chain, self.heart)));
+        (self.drive, self.moving) = (drive.clone(), Some(Placed::new(self.chain, self.heart)));
+        self.set_parameter(parameter);
         // Gaps on moving geometry differ from those at first order, and so may states.
         self.find_residual();
-        for p in (0..self.states.len()).filter(|&p| self.beyond(p).is_some()).collect::<Vec<_>>() {
-            self.states[p] = self.chain.contacts()[p].state_at(self.gaps[p]);
-        }
+        self.states_by_law();
         if self.find_residual() < EQUILIBRIUM {
             return End::Reached;
         }
@@ -86,9 +95,14 @@ impl Tracer<'_> {
             rate: held,
             ..Drive::default()
         };
-        self.parameter = 0.0;
-        let end = self.trace_moving(1.0, Patience { fall: f64::INFINITY, rise: 1.0, movement: [0.0, SURE[1]] }, see);
-        (self.drive, self.parameter, self.peak) = (drive, parameter, None);
+        self.set_parameter(0.0);
+        let end = self.trace_moving(
+            1.0,
+            Patience { fall: f64::INFINITY, rise: 1.0, movement: [0.0, SURE[1]], creep: 0.0, loads: true },
+            see,
+        );
+        (self.drive, self.peak) = (drive, None);
+        self.set_parameter(parameter);
         end
     }
 
@@ -101,53 +115,73 @@ impl Tracer<'_> {
         patience: Patience,
         see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>,
     ) -> End {
-        let (start, residual) = (self.parameter, self.worst_residual);
-        let (displacements, states) = (self.displacements.clone(), self.states.clone());
+        let (start, at, states, residual) = (self.parameter, self.point(), self.states.clone(), self.worst_residual);
         let end = self.trace_one_way(Way { target, patience, sign: 1.0 }, see);
-        if end != End::Mechanism || self.parameter >= start {
+        if end != End::Mechanism || self.parameter >= start || self.fell_past_start(start, patience) {
             return end;
         }
         // From a point on the middle branch of an S the path up ends where the parameter was to come from; the way down
         // passes a fold and goes up then.
-        let first = (self.parameter, self.peak.take(), self.dip, self.worst_residual);
-        (self.parameter, self.displacements, self.states, self.worst_residual) =
-            (start, displacements, states, residual);
+        let first = (self.parameter, self.peak.take(), self.dip, self.worst_residual, self.retraced);
+        self.go_to(&at);
+        (self.states, self.worst_residual) = (states, residual);
         let end = self.trace_one_way(Way { target, patience, sign: -1.0 }, see);
         if end == End::Mechanism && self.parameter < start {
-            (self.parameter, self.peak, self.dip, self.worst_residual) = first;
+            (self.parameter, self.peak, self.dip, self.worst_residual, self.retraced) = first;
         }
         end
     }
 
+    /// Whether a path that came down past its start had fallen by then, and not only taken a wrong turn: it had risen, and moved
+    /// on as it came down. Springings that move back take the arch along.
+    fn fell_past_start(&self, start: f64, patience: Patience) -> bool {
+        let risen = self.peak.as_ref().is_some_and(|peak| peak.parameter - start > SNAP * patience.rise);
+        risen && !(self.retraced && patience.loads)
+    }
+
     fn trace_one_way(&mut self, way: Way, see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>) -> End {
-        (self.dip, self.peak, self.fallen) = (None, None, false);
-        let end = self.walk(way, see);
-        match self.unless_stopped(end) {
+        (self.dip, self.peak, self.fallen, self.lost, self.retraced) = (None, None, false, None, false);
+        let walked = self.walk(way, see);
+        self.lost = walked.err();
+        match self.unless_stopped(walked.unwrap_or(End::Lost)) {
             End::Lost if self.fallen => End::Mechanism,
             end => end,
         }
     }
 
-    fn walk(&mut self, Way { target, patience, sign }: Way, see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>) -> End {
+    fn walk(
+        &mut self,
+        Way { target, patience, sign }: Way,
+        see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>,
+    ) -> Result<End, Lost> {
         let start = self.parameter;
         let mut longest = LONGEST * self.size;
         let (mut halvings, mut zero_steps, mut steps, mut barred, mut refined) = (0, 0, 0, None, false);
         let most_zero_steps = super::MOST_ZERO_STEPS[0] + super::MOST_ZERO_STEPS[1] * self.states.len();
         let most_events = self.events + MOST_EVENTS[0] + MOST_EVENTS[1] * self.states.len();
-        if self.find_residual() > FAILED + self.rounding() || target <= start {
-            return End::Lost;
+        let residual = self.find_residual();
+        if residual > FAILED + self.rounding() || target <= start {
+            return Err(Lost::OutOfBalance(residual));
+        }
+        if let Some(violation) = self.violated() {
+            return Err(Lost::AgainstLaw(violation));
         }
         self.linearise();
         self.solve_tangent();
         if self.rate * sign < 0.0 {
             self.turn_round();
         }
+        let mut stretch = self.stretch(patience.rise);
+        let from = self.point();
         loop {
             if see(self).is_break() {
-                return End::Stopped;
+                return Ok(End::Stopped);
             }
-            if let Some(end) = self.is_over(start, patience) {
-                return end;
+            if let Some(end) = self.is_over(&from, patience) {
+                return Ok(end);
+            }
+            if patience.creep > 0.0 && self.creeps(&mut stretch, patience) {
+                return Ok(End::Mechanism);
             }
             let event = self.nearest_event(barred);
             let to_target = if self.rate > 0.0 { (target - self.parameter) / self.rate } else { f64::INFINITY };
@@ -160,17 +194,21 @@ impl Tracer<'_> {
                 Some(event) if step == to_event => Hold::Border(event, self.states[event.contact]),
                 _ => Hold::Fastest(fastest(&self.direction)),
             };
-            let before = (self.displacements.clone(), self.parameter, self.rate);
+            let (before, rate) = (self.point(), self.rate);
             let direction = self.direction.clone();
             let held = self.step(step, hold, target);
             // A limit point short of the next event is a point of the path too.
-            let passed = before.2 > 0.0 && self.parameter < before.1 && step >= NEAR * self.size;
+            let passed = rate > 0.0 && self.parameter < before.parameter && step >= NEAR * self.size;
             let passed = |hold: &Hold| passed && matches!(hold, Hold::Border(..));
-            let Some(hold) = held.filter(|hold| !passed(hold) && self.went_on(&before.0, step)) else {
-                (self.displacements, self.parameter) = (before.0, before.1);
+            let Some(hold) = held.filter(|hold| !passed(hold) && self.went_on(&before.displacements, step)) else {
+                self.go_to(&before);
                 halvings += 1;
-                if halvings > HALVINGS || self.events > most_events || self.find_residual() > FAILED + self.rounding() {
-                    return End::Lost;
+                let residual = self.find_residual();
+                if halvings > HALVINGS || residual > FAILED + self.rounding() {
+                    return Err(self.why_stuck(residual));
+                }
+                if self.events > most_events {
+                    return Err(Lost::Endless(self.events));
                 }
                 longest = 0.5 * step;
                 // Corrections renew the direction as they go, and may have lost their way.
@@ -180,11 +218,14 @@ impl Tracer<'_> {
             };
             halvings = 0;
             match hold {
-                Hold::Parameter => return End::Reached,
+                Hold::Parameter => return Ok(End::Reached),
                 Hold::Border(event, state) => {
                     zero_steps = if step > 0.0 { 0 } else { zero_steps + 1 };
-                    if zero_steps > most_zero_steps || self.events > most_events {
-                        return End::Lost;
+                    if zero_steps > most_zero_steps {
+                        return Err(Lost::Ties(zero_steps));
+                    }
+                    if self.events > most_events {
+                        return Err(Lost::Endless(self.events));
                     }
                     barred = Some((event.contact, state));
                     // Geometric stiffness goes with the forces too, which change without much movement.
@@ -196,13 +237,14 @@ impl Tracer<'_> {
                 Hold::Fastest(_) => {
                     steps += 1;
                     if steps > MOST_STEPS {
-                        return End::Lost;
+                        return Err(Lost::Endless(steps));
                     }
                     barred = None;
                     self.renew_tangent();
-                    refined = before.2 > 0.0 && self.rate < 0.0 && !refined;
-                    if refined && !self.stop_at_limit_point(before, step) {
-                        return End::Lost;
+                    refined = rate > 0.0 && self.rate < 0.0 && !refined;
+                    if refined && !self.stop_at_limit_point(&before, rate, step) {
+                        let residual = self.find_residual();
+                        return Err(self.why_stuck(residual));
                     }
                     longest = (2.0 * longest).min(LONGEST * self.size);
                 }
@@ -216,14 +258,14 @@ impl Tracer<'_> {
         step < ROUNDING * self.size || moved.sum::<f64>() >= 0.0
     }
 
-    /// Goes back to `before` (displacements, parameter and its rate) a step ago, and stops where the parameter is highest in
+    /// Goes back to `before`, a step ago, where the parameter's rate was `rate`, and stops where the parameter is highest in
     /// between: the rate falls about linearly through zero. False where that point is not found.
-    fn stop_at_limit_point(&mut self, before: (Vec<f64>, f64, f64), step: f64) -> bool {
-        let share = before.2 / (before.2 - self.rate);
-        (self.displacements, self.parameter) = (before.0, before.1);
+    fn stop_at_limit_point(&mut self, before: &Point, rate: f64, step: f64) -> bool {
+        let share = rate / (rate - self.rate);
+        self.go_to(before);
         self.find_residual();
         self.renew_tangent();
-        self.advance(share * step);
+        self.move_by(share * step, &vec![0.0; self.displacements.len()]);
         let found = self.correct(Hold::Fastest(fastest(&self.direction)));
         self.renew_tangent();
         self.note_peak(true);
@@ -231,19 +273,24 @@ impl Tracer<'_> {
     }
 
     /// How the path has ended, if it has.
-    fn is_over(&mut self, start: f64, patience: Patience) -> Option<End> {
+    fn is_over(&mut self, from: &Point, patience: Patience) -> Option<End> {
+        let start = from.parameter;
         let below = self.peak.as_ref().filter(|peak| self.parameter < peak.parameter);
         let is_below = below.is_some();
         self.fallen = false;
         if let Some(peak) = below {
             let moved = farthest(&self.displacements, &peak.displacements) / self.size;
+            if self.parameter >= start {
+                let went = farthest(&peak.displacements, &from.displacements) / self.size;
+                self.retraced = moved < (THERE_AND_BACK[0] * went).max(THERE_AND_BACK[1] * patience.movement[0]);
+            }
             let fall = (peak.parameter - self.parameter) / (peak.parameter - start).max(patience.rise);
             let [little, far] = patience.movement;
             let beyond = |most: f64, far: f64| moved > far || (fall > most && moved > little);
             if beyond(patience.fall, far) {
                 return Some(End::Mechanism);
             }
-            self.fallen = beyond(SURE[0], SURE[1]) || fall > DEEP;
+            self.fallen = patience.loads && (beyond(SURE[0], SURE[1]) || fall > DEEP);
             if fall > SNAP && peak.parameter > start {
                 self.dip = self.dip.or(Some(peak.parameter));
             }
@@ -279,7 +326,7 @@ impl Tracer<'_> {
 }
 
 /// Largest difference of two displacements.
-fn farthest(a: &[f64], b: &[f64]) -> f64 {
+pub(super) fn farthest(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 

@@ -4,6 +4,9 @@ use super::{Peak, Tracer};
 use crate::dda::chain::MeanMotion;
 use crate::geometry::{Vec2, perpendicular};
 
+/// Peaks that differ by less than this share are one, passed on two sides of a tie.
+const SAME: f64 = 1e-4;
+
 impl Tracer<'_> {
     /// Parameter reached.
     pub fn parameter(&self) -> f64 {
@@ -64,7 +67,8 @@ impl Tracer<'_> {
     /// Goes back to the peak, to be looked at there; false where the path has none.
     pub fn return_to_peak(&mut self) -> bool {
         let Some(peak) = self.peak.clone() else { return false };
-        (self.parameter, self.displacements, self.direction) = (peak.parameter, peak.displacements, peak.direction);
+        (self.parameter, self.parameter_rest) = (peak.parameter, peak.parameter_rest);
+        (self.displacements, self.rests, self.direction) = (peak.displacements, peak.rests, peak.direction);
         (self.states, self.worst_residual) = (peak.states, peak.residual);
         self.find_residual();
         self.rate = peak.rate;
@@ -72,9 +76,16 @@ impl Tracer<'_> {
         true
     }
 
-    /// Where the path on moving geometry first dipped, only to rise higher later on.
+    /// Where the path on moving geometry first dipped, only to rise higher later on, or as it is now, where it was lost.
     pub fn snap(&self) -> Option<f64> {
-        self.dip.filter(|&dip| self.peak.as_ref().is_none_or(|peak| peak.parameter > dip))
+        let higher = |dip: f64| self.peak.as_ref().is_none_or(|peak| peak.parameter - dip > SAME * dip.abs());
+        self.dip.filter(|&dip| self.lost.is_some() || higher(dip))
+    }
+
+    /// Whether the path on moving geometry, as it came down from its peak to its start, went back the way it had come: it has
+    /// not fallen then, but taken a wrong turn.
+    pub fn retraced(&self) -> bool {
+        self.retraced
     }
 
     /// Mean motion of body `i` on moving geometry, what loads add between the nodes left out; still on the reference
