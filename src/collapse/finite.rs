@@ -205,7 +205,8 @@ mod tests {
     fn mechanism(rotation: f64, rate: f64) -> Mechanism {
         let hinge =
             Hinge { joint: 0, face: Face::Intrados, angle_from_springing: 0.0, angle_from_crown: 0.0, rotation };
-        Mechanism { mode: Mode::Sway, hinges: vec![hinge], slides: vec![Slide { joint: 1, rate }], velocities: vec![] }
+        let slides = vec![Slide { joint: 1, rate }];
+        Mechanism { mode: Mode::Sway, hinges: vec![hinge], slides, lift_offs: vec![], velocities: vec![] }
     }
 
     fn motion(change: impl Fn(&mut MotionFrame)) -> FallingMotion {
@@ -260,6 +261,7 @@ mod tests {
     fn a_residual_that_is_none_is_refused() {
         let updated = |residual: f64| UpdatedGeometry {
             end: UpdatedEnd::Collapse,
+            why: None,
             load_factor: Some(1.0),
             share_of_loads: None,
             crown: None,
@@ -270,6 +272,8 @@ mod tests {
         };
         let settlement = |residual: f64| SettlementPath {
             end: SettlementEnd::Follows,
+            why: None,
+            safe: 1.0,
             share: 1.0,
             points: Vec::new(),
             mechanism: mechanism(1.0, 0.0),
