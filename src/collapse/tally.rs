@@ -3,8 +3,8 @@
 use super::discretise::Model;
 use super::record::{Point, Recorder, stress_field};
 use super::{
-    Analysis, AnalysisError, Answer, CollapseReport, Cost, Digits, FallingMotion, FieldAt, Mechanism, Reach,
-    SafetyPoint, StressField,
+    Analysis, AnalysisError, Answer, CollapseReport, Cost, Digits, FallingMotion, FieldAt, Reach, SafetyPoint,
+    StressField,
 };
 use crate::dda::Tracer;
 
@@ -102,7 +102,7 @@ impl CollapseReport {
     pub(super) fn check_finite(&self) -> Result<(), AnalysisError> {
         for end in self.end.iter().chain(&self.other_end) {
             finite("collapse load", [end.load_factor, end.residual])?;
-            finite("mechanism", end.mechanism.numbers())?;
+            finite("mechanism", end.mechanism.velocities.iter().flatten().copied())?;
             let line = end.thrust_line.iter().flat_map(|t| [t.normal, t.shear, t.eccentricity, t.at.x, t.at.y]);
             finite("thrust line", line)?;
         }
@@ -132,15 +132,6 @@ impl CollapseReport {
         let meshes = self.plan.iter().flat_map(|plan| &plan.meshes);
         finite("estimated errors", meshes.filter_map(|mesh| mesh.stress))?;
         finite("history", self.history.iter().flat_map(|h| [h.load_factor, h.crown.x, h.crown.y, h.largest]))
-    }
-}
-
-impl Mechanism {
-    /// Every rate in it.
-    fn numbers(&self) -> impl Iterator<Item = f64> {
-        let joints = self.hinges.iter().map(|hinge| hinge.rotation).chain(self.slides.iter().map(|slide| slide.rate));
-        let parting = self.lift_offs.iter().flat_map(|lift_off| [lift_off.intrados, lift_off.extrados]);
-        self.velocities.iter().flatten().copied().chain(joints).chain(parting)
     }
 }
 
