@@ -1,5 +1,6 @@
 use super::*;
-use crate::collapse::{Cost, LimitWindow, Mechanism, Mode, PathEnd, Reach, SafetyPoint};
+use crate::collapse::{Cost, HistoryPoint, LimitWindow, Reach, SafetyPoint};
+use crate::geometry::Vec2;
 
 /// A report of nothing but its limit window.
 fn blank() -> CollapseReport {
@@ -29,25 +30,22 @@ fn blank() -> CollapseReport {
     }
 }
 
-/// A collapse whose stones move with this velocity.
-fn collapse(velocity: f64) -> CollapseReport {
-    let velocities = vec![[velocity, 0.0, 0.0]];
-    let (hinges, slides, lift_offs) = (Vec::new(), Vec::new(), Vec::new());
-    let mechanism = Mechanism { mode: Mode::Sway, hinges, slides, lift_offs, velocities };
-    let end = PathEnd { load_factor: 2.0, residual: 0.0, mechanism, thrust_line: Vec::new() };
-    CollapseReport { outcome: Outcome::Collapse, end: Some(end), ..blank() }
+/// A collapse whose crown moved by so much, m.
+fn collapse(crown: f64) -> CollapseReport {
+    let point = HistoryPoint { load_factor: 2.0, crown: Vec2::new(crown, 0.0), largest: 1.0 };
+    CollapseReport { outcome: Outcome::Collapse, history: vec![point], ..blank() }
 }
 
 #[test]
 fn a_number_that_is_none_leaves_the_window_and_a_reason() {
     assert_eq!(collapse(1.0).or_cannot_tell(blank()), collapse(1.0));
-    for velocity in [f64::NAN, f64::INFINITY] {
+    for crown in [f64::NAN, f64::INFINITY] {
         let safety = SafetyPoint { governing: Reach::At(2.0), ..SafetyPoint::unknown(None) };
-        let report = CollapseReport { safety: Some(safety), ..collapse(velocity) }.or_cannot_tell(blank());
-        assert_eq!((report.outcome, &report.end), (Outcome::CannotTell, &None));
+        let report = CollapseReport { safety: Some(safety), ..collapse(crown) }.or_cannot_tell(blank());
+        assert_eq!((report.outcome, report.history.len()), (Outcome::CannotTell, 0));
         assert_eq!(report.limit_window, blank().limit_window);
         assert_eq!(report.safety, Some(SafetyPoint::unknown(None)));
-        assert!(report.notes[0].contains("mechanism"), "{:?}", report.notes);
+        assert!(report.notes[0].contains("history"), "{:?}", report.notes);
         assert_eq!(report.check_finite(), Ok(()));
     }
 }
