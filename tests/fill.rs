@@ -1,7 +1,12 @@
 //! Fill: it presses sideways where that is asked for, it has mass in every acceleration, and the answer says what was taken.
 #![cfg(feature = "server")]
-#![allow(clippy::unwrap_used, clippy::expect_used)]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::print_stdout)]
 
+mod common;
+
+use common::dice::Dice;
+use common::masonry::Ring;
+use common::oracle::{Problem, Push};
 use serde_json::{Value, json};
 use std::time::Duration;
 use voussoir::api::prose::prose;
@@ -96,6 +101,62 @@ fn fill_shakes_with_its_mass() {
     close(under(fill()), 0.156843, 1e-6);
     close(under(fill_with("lateral_ratio", 0.5)), 0.221627, 1e-6);
     close(intensity(&arch(json!([scaled(shaken(1.0, 0.0))]))), 0.14534, 1e-5);
+}
+
+/// Columns of fill of this density up to `level` in vertical slices: masses at half their height, in an acceleration in g.
+fn columns(ring: &Ring, level: f64, density: f64, acceleration: [f64; 2]) -> Vec<Push> {
+    const SLICES: usize = 400;
+    let slice = |block: usize, i: usize| {
+        let (a, b) = (ring.joints[block].1, ring.joints[block + 1].1);
+        let [x, y] = [0, 1].map(|c| a[c] + (b[c] - a[c]) * (i as f64 + 0.5) / SLICES as f64);
+        let mass = density * (level - y) * (b[0] - a[0]) / SLICES as f64;
+        Push { block, at: [x, 0.5 * (y + level)], force: acceleration.map(|a| 9.81 * mass * a) }
+    };
+    (0..ring.stones.len()).flat_map(|block| (0..SLICES).map(move |i| slice(block, i))).collect()
+}
+
+/// Both windows of an arch under fill that is shaken: the program's, and that of the oracle with its own geometry.
+fn windows(dice: &mut Dice) -> [[f64; 2]; 2] {
+    let (half, share, radius) = (dice.between(55.0, 90.0), dice.between(0.12, 0.25), dice.decades(1.0, 20.0));
+    let (count, ratio, density) = (6 + dice.below(30), dice.between(0.0, 0.6), dice.between(1200.0, 2000.0));
+    let level = radius * (1.0 + 0.5 * share + dice.between(0.0, 0.5));
+    let acceleration = [dice.sign(), dice.between(-0.5, 0.5)];
+    let springing = radius * half.to_radians().cos();
+    let request = json!({
+        "arch": {
+            "profile": {"circular": {"radius_m": radius, "opening_angle_deg": 2.0 * half}},
+            "thickness": {"constant_m": share * radius}, "voussoirs": count
+        },
+        "stone": {"friction_angle_deg": 60},
+        "loads": [
+            {"load": {"self_weight": {}}},
+            {"load": {"fill_pressure": {
+                "fill_height_m": level - springing, "fill_density_kg_m3": density, "lateral_ratio": ratio
+            }}},
+            scaled(shaken(acceleration[0], acceleration[1]))
+        ]
+    });
+    let found = solved(&request)["limit_window"].clone();
+    let ring = Ring::circular(half, share, count).times(radius);
+    let weight = 2300.0 * 9.81;
+    let fixed = [ring.weight(weight), ring.fill(level, density * 9.81, ratio)].concat();
+    let scaled = [ring.body(weight, acceleration), columns(&ring, level, density, acceleration)].concat();
+    let friction = 60f64.to_radians().tan();
+    let (low, high) = Problem { fixed, scaled, ..ring.problem(friction) }.window().expect("stands");
+    [[0, 1].map(|end| found[end].as_f64().unwrap()), [low, high]]
+}
+
+#[test]
+fn shaken_fill_has_the_window_of_an_oracle_with_columns_of_its_own() {
+    let mut worst = 0f64;
+    for seed in 0..30 {
+        let [ours, theirs] = windows(&mut Dice::new(seed));
+        for (a, b) in ours.iter().zip(theirs) {
+            worst = worst.max((a / b - 1.0).abs());
+            assert!((a / b - 1.0).abs() < 1e-6, "seed {seed}: {ours:?}, oracle {theirs:?}");
+        }
+    }
+    println!("worst {worst:.1e}");
 }
 
 #[test]

@@ -28,3 +28,6 @@ impl CollapseReport {
         CollapseReport { outcome: Outcome::CannotTell, cost: self.cost, notes: vec![why], safety, ..blank }
     }
 }
+
+#[cfg(test)]
+mod tests;

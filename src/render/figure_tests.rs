@@ -1,6 +1,6 @@
 use super::*;
 use crate::arch::{Joint, JointLaw, Sides, Voussoir};
-use crate::collapse::{Hinge, Mechanism, Mode, Slide, Thrust};
+use crate::collapse::{Hinge, LiftOff, Mechanism, Mode, Slide, Thrust};
 use crate::geometry::Region;
 use crate::render::checks::{attributes, well_formed};
 use std::f64::consts::PI;
@@ -94,6 +94,16 @@ fn the_document_is_well_formed_and_finite() {
     assert_eq!(svg.matches("class=\"stone\"").count(), 17);
     assert_eq!(svg.matches("class=\"ghost\"").count(), 3 + 1);
     assert_eq!(svg.matches("<circle").count(), 4 + 1);
+}
+
+#[test]
+fn a_joint_that_parts_is_drawn() {
+    let (arch, mut end) = example(17, [1, 6, 11, 16], false);
+    end.mechanism.lift_offs.push(LiftOff { joint: 8, intrados: 0.1, extrados: 0.2 });
+    let svg = svg(&arch, &end, "");
+    // The joint and the legend; the stones part there.
+    assert_eq!(svg.matches("class=\"parting\"").count(), 2);
+    assert_eq!(svg.matches("class=\"ghost\"").count(), 4 + 1);
 }
 
 #[test]

@@ -66,7 +66,7 @@ pub struct FillPressure {
     #[schema(minimum = 0.0, exclusive_maximum = 1e5)]
     pub embankment_density_kg_m3: f64,
     /// Ratio K of horizontal to vertical pressure, a pure number. Left out: that of `fill_friction_angle_deg` or, without one
-    /// either, 0, no horizontal pressure.
+    /// either, 0, no horizontal pressure. Given both, they have to agree to 0.001.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(minimum = 0.0, exclusive_maximum = 1e12)]
     pub lateral_ratio: Option<f64>,
