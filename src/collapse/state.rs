@@ -18,6 +18,8 @@ const LEANS: f64 = 1e-2;
 /// Stress reaches the strength to this share of it, after so many steps of the secant method.
 const YIELDS: f64 = 1e-12;
 const SECANTS: usize = 8;
+/// First yield lies within this share of the load factor at which the path has it.
+const NEARBY: f64 = 1e-2;
 
 /// A state that is reported.
 #[derive(Debug, Clone, PartialEq)]
@@ -106,7 +108,7 @@ impl<'m> States<'m> {
             last = Some((factor, excess));
             factor -= excess / slope;
             // Farther away it would be another yield.
-            if (factor - first).abs() > LEANS * first.abs() || !factor.is_finite() {
+            if (factor - first).abs() > NEARBY * first.abs() || !factor.is_finite() {
                 break;
             }
         }
