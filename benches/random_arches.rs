@@ -8,7 +8,7 @@
 #[path = "../tests/common/mod.rs"]
 mod common;
 
-use common::state::{Broken, broken};
+use common::state::{Broken, broken, broken_line};
 use common::verify::{Checked, check};
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -130,10 +130,18 @@ fn complaints(all: &[Checked]) {
 fn states(numbers: Vec<u64>) {
     let (count, first) = (numbers.first().copied().unwrap_or(10_000), numbers.get(1).copied().unwrap_or(0));
     let (mut seen, mut all, mut bad) = (0, Broken::default(), 0);
+    let (mut lines, mut worst_line) = (0, Broken::default());
     for seed in first..first + count {
         let request = common::random_arch::request(seed);
         let analysis = common::door::analysis(&request).unwrap_or_else(|faults| panic!("{faults}"));
         let report = common::door::solve(&request);
+        for end in common::state::ends(&analysis, &report) {
+            let broken = broken_line(&analysis, end);
+            (lines, worst_line) = (lines + 1, worst_line.join(broken));
+            if broken.worst() > 1e-6 {
+                println!("seed {seed}, thrust line ({:?}): {broken:?}", report.outcome);
+            }
+        }
         for (name, state) in common::state::states(&report) {
             let broken = broken(&analysis, state);
             seen += 1;
@@ -144,6 +152,7 @@ fn states(numbers: Vec<u64>) {
             }
         }
     }
+    println!("{lines} thrust lines, worst {worst_line:?}");
     println!("{seen} states of {count} arches: {bad} break the law by more than 1e-6 of the loads; worst {all:?}");
 }
 

@@ -26,7 +26,7 @@ const COUNTS: [(&str, [usize; 3]); 21] = [
     ("paper/figure-7/17-joints", [58, 63, 1067]),
     ("paper/figure-7/27-joints", [70, 75, 2115]),
     ("paper/figure-8", [67, 72, 1091]),
-    ("paper/figure-11", [60, 8, 184]),
+    ("paper/figure-11", [60, 11, 280]),
     ("paper/figure-12/lower-limit", [66, 73, 1242]),
     ("paper/figure-12/upper-limit", [66, 73, 1242]),
     ("paper/table-2/9-joints", [37, 42, 420]),

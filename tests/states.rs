@@ -11,7 +11,7 @@ mod semicircle;
 mod symmetric;
 
 use common::folders::{cases, folders, name};
-use common::state::{Broken, broken, larger, leaning, mirrored_apart, states};
+use common::state::{Broken, broken, broken_line, ends, larger, leaning, mirrored_apart, states};
 use common::{door, random_arch};
 use semicircle::semicircle;
 use serde_json::{Value, json};
@@ -31,11 +31,13 @@ fn solve(request: &Value) -> (Analysis, CollapseReport) {
     (analysis, report)
 }
 
-/// How many states were judged, and the worst of them; what breaks the law is complained of.
+/// How many states and thrust lines were judged, and the worst of them; what breaks the law is complained of.
 #[derive(Default)]
 struct Judged {
     states: usize,
     worst: Broken,
+    lines: usize,
+    worst_line: Broken,
     complaints: Vec<String>,
 }
 
@@ -49,11 +51,19 @@ impl Judged {
                 self.complaints.push(format!("{title}, {state}: {broken:?}"));
             }
         }
+        for end in ends(&analysis, &report) {
+            let broken = broken_line(&analysis, end);
+            (self.lines, self.worst_line) = (self.lines + 1, self.worst_line.join(broken));
+            if broken.worst() > LAWFUL {
+                self.complaints.push(format!("{title}, thrust line: {broken:?}"));
+            }
+        }
         report
     }
 
     fn tell(&self) {
         println!("{} states, at worst {:?}", self.states, self.worst);
+        println!("{} thrust lines, at worst {:?}", self.lines, self.worst_line);
         assert!(self.complaints.is_empty(), "{}", self.complaints.join("\n"));
     }
 }

@@ -128,6 +128,11 @@ impl<'a> Recorder<'a> {
         self.yielding.answer()
     }
 
+    /// The point of the path at which it does.
+    pub(super) fn yields_at(&self) -> Option<&Point> {
+        self.yielding.yields_at()
+    }
+
     fn keep(&mut self, before: Option<Rc<Point>>, now: &Rc<Point>) {
         let highest = self.way(now.0) >= self.way(self.farthest);
         self.yielding.see(before.as_ref(), now, highest);

@@ -5,7 +5,8 @@
 
 use super::discretise::Model;
 use super::doubt::Doubt;
-use super::{AnalysisError, CollapseReport, Digits};
+use super::record::{Point, stress_field};
+use super::{AnalysisError, CollapseReport, Digits, ElasticCrushing, SubblockStress};
 use crate::dda::{Balanced, ContactForce, balanced, missing};
 
 /// A state that breaks the contact law by more than this share of the loads is not reported.
@@ -13,6 +14,12 @@ const LAWFUL: f64 = 1e-6;
 /// A gap that differs by more than this share of the largest displacement between a state of the path and the symmetric one
 /// was not decided by the scatter of stiffness, which is a hundred times smaller.
 const LEANS: f64 = 1e-2;
+
+/// Stress reaches the strength to this share of it, after so many steps of the secant method.
+const YIELDS: f64 = 1e-12;
+const SECANTS: usize = 8;
+/// First yield lies within this share of the load factor at which the path has it.
+const NEARBY: f64 = 1e-2;
 
 /// A state that is reported.
 #[derive(Debug, Clone, PartialEq)]
@@ -81,6 +88,46 @@ impl<'m> States<'m> {
         Ok(Some(standing))
     }
 
+    /// First yield of the arch as it is described, next to where the path has it; `at`: the path where a subblock first reaches
+    /// the strength. The secant method on the largest equivalent stress, which is nearly linear.
+    pub(super) fn first_yield(
+        &mut self,
+        on_path: ElasticCrushing,
+        at: Option<&Point>,
+        strength: f64,
+    ) -> Result<ElasticCrushing, AnalysisError> {
+        let Some((first, displacements)) = at.filter(|_| !on_path.at_start) else { return Ok(on_path) };
+        let (mut factor, mut last) = (*first, None);
+        for _ in 0..SECANTS {
+            let Some((stress, subblock)) = self.largest_stress(factor, displacements)? else { break };
+            let excess = stress / strength - 1.0;
+            if excess.abs() <= YIELDS {
+                return Ok(ElasticCrushing { load_factor: Some(factor), where_largest: Some(subblock), ..on_path });
+            }
+            let slope = last.map_or((1.0 + excess) / factor, |(before, then)| (excess - then) / (factor - before));
+            last = Some((factor, excess));
+            factor -= excess / slope;
+            // Farther away it would be another yield.
+            if (factor - first).abs() > NEARBY * first.abs() || !factor.is_finite() {
+                break;
+            }
+        }
+        Ok(on_path)
+    }
+
+    /// The largest equivalent stress at a load factor, Pa, and its subblock; none where no state is found.
+    fn largest_stress(&mut self, factor: f64, near: &[f64]) -> Result<Option<(f64, SubblockStress)>, AnalysisError> {
+        let (model, said) = (self.model, self.others.len());
+        let found = self.balanced(factor, &model.loads_on_nodes(factor), near)?;
+        self.others.truncate(said);
+        let Some(displacements) = found else { return Ok(None) };
+        let symmetric = model.symmetric && model.chain.mirrored(&displacements) == displacements;
+        let state = Standing { load_factor: factor, displacements, forces: Vec::new(), symmetric };
+        let field = stress_field(model, factor, &state)?;
+        let stresses = field.subblocks.into_iter().map(|subblock| (subblock.tresca(), subblock));
+        Ok(stresses.reduce(|most, next| if next.0 > most.0 { next } else { most }))
+    }
+
     /// Displacements in equilibrium of the arch as it is described: symmetric ones where there are any.
     fn balanced(
         &mut self,
@@ -145,7 +192,7 @@ impl<'m> States<'m> {
 
 impl Other {
     fn note(&self, factors: &str, joints: &str) -> String {
-        let at = format!("Arch and loads are symmetric, but the state at load factor {factors} is not the only one.");
+        let at = format!("At load factor {factors} arch and loads are symmetric, but there is more than one state.");
         match self {
             Other::Free => format!(
                 "{at} Joints {joints} can be open by more or less, one in place of the other, while all forces stay as they \

@@ -68,6 +68,11 @@ impl<'a> Yielding<'a> {
         }
     }
 
+    /// Where on the way to the highest load the stone first yields.
+    pub(super) fn yields_at(&self) -> Option<&Point> {
+        self.answer.first.as_ref().map(|found| found.at.as_ref())
+    }
+
     fn look(&mut self, before: Option<&Rc<Point>>, now: &Rc<Point>) {
         std::mem::swap(&mut self.before, &mut self.now);
         let (model, loads) = (self.model, self.model.loads_at(now.0));

@@ -3,7 +3,7 @@
 //! All figures are shares of the loads: the sum of the sizes of all forces at the state's load factor.
 
 use voussoir::arch::{Arch, Joint, JointLaw, PointForce};
-use voussoir::collapse::{Analysis, CollapseReport, ContactForce, Snapshot};
+use voussoir::collapse::{Analysis, CollapseReport, ContactForce, Method, PathEnd, Snapshot};
 use voussoir::geometry::Vec2;
 
 /// Gap at which cohesion is lost, as a multiple of cohesion over the contact's own stiffness (the README's figure).
@@ -37,6 +37,18 @@ impl Broken {
         [self.balance, self.tension, self.friction, self.overlap, self.stress].into_iter().fold(0.0, larger)
     }
 
+    /// As shares of the loads.
+    fn over(self, loads: f64) -> Broken {
+        let share = |amount: f64| if amount == 0.0 { 0.0 } else { amount / loads };
+        Broken {
+            balance: share(self.balance),
+            tension: share(self.tension),
+            friction: share(self.friction),
+            overlap: share(self.overlap),
+            stress: share(self.stress),
+        }
+    }
+
     /// The larger of both, entry by entry.
     pub fn join(self, other: Broken) -> Broken {
         Broken {
@@ -64,6 +76,12 @@ pub fn states(report: &CollapseReport) -> impl Iterator<Item = (&'static str, &S
     named.into_iter().filter_map(|(name, state)| Some((name, state.as_ref()?)))
 }
 
+/// The ends of a report's path that have a thrust line at their load factor.
+pub fn ends<'a>(analysis: &Analysis, report: &'a CollapseReport) -> impl Iterator<Item = &'a PathEnd> {
+    let exact = analysis.method == Method::EventPath;
+    report.end.iter().chain(&report.other_end).filter(move |end| exact && !end.thrust_line.is_empty())
+}
+
 /// Sum of the sizes of all loads at a load factor, N/m.
 pub fn weight(analysis: &Analysis, factor: f64) -> f64 {
     let total = |forces: &[PointForce]| forces.iter().map(|f| f.force.norm()).sum::<f64>();
@@ -80,15 +98,7 @@ pub fn broken(analysis: &Analysis, state: &Snapshot) -> Broken {
             all = all.join(of_contact(analysis, k, joint, share(&places, j), contact));
         }
     }
-    let loads = weight(analysis, state.load_factor);
-    let of_loads = |amount: f64| if amount == 0.0 { 0.0 } else { amount / loads };
-    Broken {
-        balance: of_loads(all.balance),
-        tension: of_loads(all.tension),
-        friction: of_loads(all.friction),
-        overlap: of_loads(all.overlap),
-        stress: of_loads(all.stress),
-    }
+    all.over(weight(analysis, state.load_factor))
 }
 
 /// Contacts of a joint.
@@ -137,28 +147,15 @@ fn stones(analysis: &Analysis, state: &Snapshot) -> [f64; 2] {
     let arch = &analysis.arch;
     let mut worst = [0.0; 2];
     for (k, stone) in arch.voussoirs.iter().enumerate() {
-        let mut forces: Vec<(Vec2, Vec2)> = Vec::new();
-        for contact in state.contacts.iter().filter(|contact| contact.joint == k || contact.joint == k + 1) {
+        let contacts = state.contacts.iter().filter(|contact| contact.joint == k || contact.joint == k + 1);
+        let pushed = contacts.map(|contact| {
             let joint = &arch.joints[contact.joint];
             let at = joint.intrados + (joint.extrados - joint.intrados) * contact.position;
             let sign = if contact.joint == k { 1.0 } else { -1.0 };
-            forces.push((at, (joint.normal() * contact.normal + joint.tangent() * contact.tangential) * sign));
-        }
-        for (loads, times) in [(&analysis.fixed, 1.0), (&analysis.scaled, state.load_factor)] {
-            let here = loads.iter().filter(|load| load.voussoir == k);
-            forces.extend(here.map(|load| {
-                // What is spread over the stone does no work in a uniform strain about its centroid.
-                (if load.spread { stone.region.centroid } else { load.at }, load.force * times)
-            }));
-        }
-        let length = arch.joints[k].length();
-        // Force, and f (x) arm: its antisymmetric part is the moment, its symmetric part area times mean stress.
-        let (mut sum, mut first) = (Vec2::zeros(), [[0.0; 2]; 2]);
-        for (at, force) in forces {
-            let arm = at - stone.region.centroid;
-            sum += force;
-            (0..2).for_each(|i| (0..2).for_each(|j| first[i][j] += force[i] * arm[j]));
-        }
+            (at, (joint.normal() * contact.normal + joint.tangent() * contact.tangential) * sign)
+        });
+        let (length, about) = (arch.joints[k].length(), stone.region.centroid);
+        let (sum, first) = moments(pushed.chain(loads_on(analysis, k, state.load_factor)), about);
         let moment = first[1][0] - first[0][1];
         worst[0] = [sum.x, sum.y, moment / length].into_iter().map(f64::abs).fold(worst[0], larger);
         let [x, y, tau] = state.blocks[k].stress.map(|stress| stress * stone.region.area);
@@ -166,6 +163,55 @@ fn stones(analysis: &Analysis, state: &Snapshot) -> [f64; 2] {
         worst[1] = apart.into_iter().map(|part| part.abs() / length).fold(worst[1], larger);
     }
     worst
+}
+
+/// Judges the thrust line at the end of a path: stones out of balance, and a thrust outside its joint or beyond friction (with
+/// all of the joint's cohesion, as limit analysis has it).
+pub fn broken_line(analysis: &Analysis, end: &PathEnd) -> Broken {
+    let arch = &analysis.arch;
+    let mut all = Broken::default();
+    for (joint, thrust) in arch.joints.iter().zip(&end.thrust_line) {
+        let JointLaw::Dry { friction, cohesion } = joint.law else { continue };
+        let ([normal, shear], half) = ([thrust.normal, thrust.shear], 0.5 * joint.length());
+        let outside = normal * (thrust.eccentricity.abs() - half) / half;
+        let beyond = shear.abs() - friction * normal - cohesion * joint.length();
+        let here = Broken { tension: larger(-normal, outside), friction: beyond, ..Broken::default() };
+        all = all.join(here);
+    }
+    for k in 0..arch.voussoirs.len() {
+        let joint = |k: usize, sign: f64| {
+            let (joint, thrust) = (&arch.joints[k], &end.thrust_line[k]);
+            (thrust.at, (joint.normal() * thrust.normal + joint.tangent() * thrust.shear) * sign)
+        };
+        let forces = [joint(k, 1.0), joint(k + 1, -1.0)].into_iter().chain(loads_on(analysis, k, end.load_factor));
+        let (sum, first) = moments(forces, arch.voussoirs[k].region.centroid);
+        let moment = (first[1][0] - first[0][1]) / arch.joints[k].length();
+        all.balance = [sum.x, sum.y, moment].into_iter().map(f64::abs).fold(all.balance, larger);
+    }
+    all.over(weight(analysis, end.load_factor))
+}
+
+/// Loads on a stone, each with its place.
+fn loads_on(analysis: &Analysis, stone: usize, factor: f64) -> impl Iterator<Item = (Vec2, Vec2)> {
+    let both = [(&analysis.fixed, 1.0), (&analysis.scaled, factor)].into_iter();
+    both.flat_map(move |(loads, times)| {
+        loads.iter().filter(move |load| load.voussoir == stone).map(move |load| (load, times))
+    })
+    // What is spread over the stone does no work in a uniform strain about its centroid.
+    .map(move |(load, times)| {
+        (if load.spread { analysis.arch.voussoirs[stone].region.centroid } else { load.at }, load.force * times)
+    })
+}
+
+/// Sum of forces, each with its place, and of f (x) arm about a point: its antisymmetric part is the moment.
+fn moments(forces: impl Iterator<Item = (Vec2, Vec2)>, about: Vec2) -> (Vec2, [[f64; 2]; 2]) {
+    let (mut sum, mut first) = (Vec2::zeros(), [[0.0; 2]; 2]);
+    for (at, force) in forces {
+        let arm = at - about;
+        sum += force;
+        (0..2).for_each(|i| (0..2).for_each(|j| first[i][j] += force[i] * arm[j]));
+    }
+    (sum, first)
 }
 
 /// How far a state is from its mirror image about the axis of the arch: displacements, rotations, forces and openings, and

@@ -30,7 +30,8 @@ impl Question<'_> {
         let at_unit_load = recorder.at(1.0).map(|d| states.find(1.0, d)).transpose()?.flatten();
         report.at_unit_load = at_unit_load.map(|state| snapshot(model, &state)).transpose()?;
         if let Some(crushing) = &mut report.crushing {
-            crushing.elastic = Some(recorder.first_yield());
+            let (first_yield, at) = (recorder.first_yield(), recorder.yields_at());
+            crushing.elastic = Some(states.first_yield(first_yield, at, crushing.strength)?);
         }
         let residual = tracer.worst_residual();
         let mut peak_load = None;
