@@ -25,9 +25,6 @@ const PATIENCE: Patience = Patience { fall: 0.9, rise: 0.01, movement: [0.02, 0.
 /// of the span leave more rounding than loads do.
 const UNBALANCED: f64 = 1e-6;
 
-/// How far above what rounding may leave of a force ties are told apart.
-const ABOVE_ROUNDING: f64 = 1.0;
-
 /// Follows the movement; the work is added to `cost`. None where the arch does not stand before it.
 ///
 /// # Errors
@@ -67,13 +64,20 @@ fn attempt(
     let mut ground = ground(&analysis.arch, movements.map(|by| by.times(1.0 / target)));
     ground[0].velocity.y += uneven(&model, weight, attempt) * model.size;
     let drive = Drive { base, rate: zeros, turned, ground, ..Drive::default() };
-    let followed = trace(analysis, &model, geometry, drive, target, weight, cost, &mut see);
+    let followed = trace(analysis, &model, geometry, Course { drive, target, weight }, cost, &mut see);
     cost.add(&followed.tracer, Cost::default());
     match followed.stood {
         _ if followed.end == End::Stopped => Err(pulse.stopped()),
         Moved::FallsAsBuilt => Ok(None),
         _ => Ok(Some(describe(analysis, &model, geometry, followed))),
     }
+}
+
+/// A movement to follow: its drive, and how far, in sizes of the arch; `weight` is the sum of all loads, N/m.
+struct Course {
+    drive: Drive,
+    target: f64,
+    weight: f64,
 }
 
 /// A path that has been followed.
@@ -92,9 +96,7 @@ fn trace<'m>(
     analysis: &Analysis,
     model: &'m Model<'m>,
     geometry: Geometry,
-    drive: Drive,
-    target: f64,
-    weight: f64,
+    Course { drive, target, weight }: Course,
     cost: &mut Cost,
     see: &mut dyn FnMut(&Tracer, f64) -> ControlFlow<()>,
 ) -> Followed<'m> {
@@ -207,7 +209,7 @@ fn largest(movements: [SpringingMovement; 2], size: f64) -> f64 {
 fn uneven(model: &Model, weight: f64, attempt: Attempt) -> f64 {
     let digit = f64::EPSILON * model.softest * model.size / weight;
     let sign = if attempt.seed.is_multiple_of(2) { -1.0 } else { 1.0 };
-    sign * ABOVE_ROUNDING * digit
+    sign * digit
 }
 
 /// Movements of the ground at both ends of the chain, per unit of the parameter.

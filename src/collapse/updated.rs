@@ -23,16 +23,21 @@ pub(super) struct Course {
     /// How much the load factor rises at first order; where there is no end to it, by how much loads as large as those at
     /// the start would raise it. Dips are measured by it.
     pub rise: f64,
+    /// Whether that is the rise to a collapse at first order.
+    pub ends: bool,
     /// Sum of all loads at the start, N/m.
     pub weight: f64,
 }
 
-/// A rise by less than this share of that at first order is none.
-const RISEN: f64 = 0.01;
+/// A rise by less than the first of these shares of that at first order is none; one by more than the second is all of it.
+const RISEN: [f64; 2] = [0.01, 0.99];
 
 impl Course {
-    fn has_risen(&self, tracer: &Tracer) -> bool {
-        tracer.peak().is_some_and(|peak| peak.parameter - self.sign * self.start > RISEN * self.rise)
+    /// Whether a path that has come down past its start had fallen: it had risen, and moved on as it came down, or had come as far
+    /// as limit analysis lets it.
+    fn fell(&self, tracer: &Tracer) -> bool {
+        let risen = tracer.peak().map_or(0.0, |peak| (peak.parameter - self.sign * self.start) / self.rise);
+        (risen > RISEN[0] && !tracer.retraced()) || (self.ends && risen > RISEN[1])
     }
 
     fn patience(&self) -> Patience {
@@ -77,8 +82,7 @@ fn attempt(
     }
     // A path that hardly rises, or comes back the way it went, and runs past its start has found the other end of the loads that
     // the arch can bear.
-    let is_fall = course.has_risen(&tracer) && !tracer.retraced();
-    let turned_back = tracer.parameter() < course.sign * course.start && !is_fall;
+    let turned_back = tracer.parameter() < course.sign * course.start && !course.fell(&tracer);
     let why = lost(&model, &tracer);
     let falls = end == End::Mechanism && !turned_back && tracer.return_to_peak();
     let residual = tracer.worst_residual();

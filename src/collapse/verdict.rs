@@ -200,7 +200,7 @@ impl<'a> Question<'a> {
         let (start, sign, cap, weight) = (self.start, self.sign, self.cap, self.weight);
         let as_much = weight / total(&self.analysis.scaled).max(f64::MIN_POSITIVE);
         let rise = report.end.as_ref().map_or(as_much, |end| (end.on_path() - start).abs());
-        let course = Course { start, sign, cap, rise, weight };
+        let course = Course { start, sign, cap, rise, ends: report.end.is_some(), weight };
         updated::follow(self.analysis, course, &mut report.cost, self.pulse).map(Some)
     }
 
