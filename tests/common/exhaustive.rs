@@ -208,17 +208,14 @@ fn solve(rows: &[[f64; 5]]) -> Option<[f64; 4]> {
         .collect();
     for column in 0..4 {
         let pivot = (column..4).max_by(|&i, &j| a[i][column].abs().total_cmp(&a[j][column].abs()))?;
-        if !(a[pivot][column].abs() > NONE) {
+        if a[pivot][column].abs() <= NONE {
             return None;
         }
         a.swap(column, pivot);
-        for row in 0..4 {
-            if row != column {
-                let by = a[row][column] / a[column][column];
-                for i in column..5 {
-                    a[row][i] -= by * a[column][i];
-                }
-            }
+        let pivot = a[column];
+        for (_, row) in a.iter_mut().enumerate().filter(|(i, _)| *i != column) {
+            let by = row[column] / pivot[column];
+            row.iter_mut().zip(pivot).for_each(|(entry, above)| *entry -= by * above);
         }
     }
     Some(std::array::from_fn(|i| -a[i][4] / a[i][i]))

@@ -87,8 +87,11 @@ impl Checked {
         // At some ends of the window no motion without dilation is driven by the scaled loads: the answer says so.
         let full = !self.exhaustive.is_some_and(f64::is_infinite)
             && !report.notes.iter().any(|note| note.contains("make no mechanism"));
-        complain(full && !(self.gap.worst() <= FULL), format!("no full solution: {:?}", self.gap));
-        complain(full && !(sign * self.gap.driving > 1e-9), format!("scaled loads do work {:e}", self.gap.driving));
+        complain(full && exceeds(self.gap.worst(), FULL), format!("no full solution: {:?}", self.gap));
+        complain(
+            full && exceeds(1e-9, sign * self.gap.driving),
+            format!("scaled loads do work {:e}", self.gap.driving),
+        );
         complain(
             !full && lower(self.least, self.greatest),
             format!("{} is neither full nor the window's end", self.least),
@@ -101,7 +104,10 @@ impl Checked {
         complain(lower(self.greatest, self.least), format!("window {}, least {}", self.greatest, self.least));
         if let Some(exhaustive) = self.exhaustive.filter(|_| full) {
             let apart = (exhaustive - self.least).abs();
-            complain(!(apart <= SAME * scale), format!("least of all mechanisms {exhaustive}, least {}", self.least));
+            complain(
+                exceeds(apart, SAME * scale),
+                format!("least of all mechanisms {exhaustive}, least {}", self.least),
+            );
         }
         let open = lower(self.least, self.greatest);
         let silent = (self.slides || open)
@@ -114,7 +120,7 @@ impl Checked {
             let nearest = if sign * (nearest - report.start) > 0.0 { nearest } else { report.start };
             let apart = (nearest - self.least).abs();
             complain(
-                !(apart <= 1e-5 * scale),
+                exceeds(apart, 1e-5 * scale),
                 format!("the mechanism's own programme {nearest}, least {}", self.least),
             );
         }
@@ -133,6 +139,11 @@ fn lowest_variant(analysis: &Analysis, end: &PathEnd, sign: f64) -> f64 {
         }
     }
     sign * lowest
+}
+
+/// True, too, where one of the two is no number.
+fn exceeds(value: f64, most: f64) -> bool {
+    value.is_nan() || most.is_nan() || value > most
 }
 
 /// A dry joint without cohesion.
