@@ -38,6 +38,7 @@ fn main() {
     println!("  {} whose path ended above the least", of(&|c| c.slides && below(c.least, c.path)));
     println!("  {} with a variant below the path", of(&|c| c.slides && below(c.variants, c.path)));
     println!("  {} with the least below every variant", of(&|c| c.slides && below(c.least, c.variants)));
+    println!("  {} that may fall where the path starts", of(&|c| c.slides && !below(c.least, c.start)));
     println!("  {} are no full solutions, but the end of the window", of(&|c| c.slides && !c.full));
     let worst = all.iter().filter(|(_, c)| c.full).map(|(_, c)| c.gap.worst()).fold(0.0, f64::max);
     println!("largest violation of a full solution {worst:.1e}");

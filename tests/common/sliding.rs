@@ -20,6 +20,8 @@ pub const EXHAUSTED: usize = 9;
 /// One end of an answer, and what was held against it.
 #[derive(Debug, Clone)]
 pub struct Checked {
+    /// Load factor from which the path went.
+    pub start: f64,
     pub least: f64,
     pub greatest: f64,
     pub path: f64,
@@ -62,6 +64,7 @@ impl Checked {
         let exhaustive = (centroids.len() <= EXHAUSTED && problem.seams.iter().all(plain))
             .then(|| exhaustive::least(&problem, report.start, sign));
         let mut checked = Checked {
+            start: report.start,
             least: end.load_factor,
             greatest: if sign > 0.0 { window[1] } else { window[0] },
             path: end.on_path(),
