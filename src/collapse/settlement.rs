@@ -67,13 +67,19 @@ fn attempt(
     let mut ground = ground(&analysis.arch, movements.map(|by| by.times(1.0 / target)));
     ground[0].velocity.y += uneven(&model, weight, attempt) * model.size;
     let drive = Drive { base, rate: zeros, turned, ground, ..Drive::default() };
-    let followed = trace(analysis, &model, geometry, drive, target, weight, cost, &mut see);
+    let followed = trace(analysis, &model, geometry, Driven { drive, target }, weight, cost, &mut see);
     cost.add(&followed.tracer, Cost::default());
     match followed.stood {
         _ if followed.end == End::Stopped => Err(pulse.stopped()),
         Moved::FallsAsBuilt => Ok(None),
         _ => Ok(Some(describe(analysis, &model, geometry, followed))),
     }
+}
+
+/// What moves the springings, and how far, in sizes of the arch.
+struct Driven {
+    drive: Drive,
+    target: f64,
 }
 
 /// A path that has been followed.
@@ -92,8 +98,7 @@ fn trace<'m>(
     analysis: &Analysis,
     model: &'m Model<'m>,
     geometry: Geometry,
-    drive: Drive,
-    target: f64,
+    Driven { drive, target }: Driven,
     weight: f64,
     cost: &mut Cost,
     see: &mut dyn FnMut(&Tracer, f64) -> ControlFlow<()>,
