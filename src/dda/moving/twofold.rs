@@ -60,7 +60,6 @@ pub fn dot(a: [f64; 2], b: [Twofold; 2]) -> Twofold {
 mod tests {
     use super::*;
 
-    /// With 2^-40 in place of a unit in the last place everything stays an integer that can be counted.
     #[test]
     fn what_rounding_takes_off_is_kept() {
         let (large, small) = (1.0 + f64::EPSILON, 2f64.powi(-60));
@@ -70,7 +69,7 @@ mod tests {
         let square = Twofold::product(large, large);
         assert_eq!((square.high, square.low), (1.0 + 2.0 * f64::EPSILON, f64::EPSILON * f64::EPSILON));
         let third = sum.over(3.0);
-        assert_eq!(third.times(3.0).plus(Twofold::sum(-large, -small)).value().abs() < 1e-32, true);
+        assert!(third.times(3.0).plus(Twofold::sum(-large, -small)).value().abs() < 1e-32);
         let back = dot([0.6, 0.8], [sum, sum]).plus(sum.times(-0.6)).plus(sum.times(-0.8));
         assert!(back.value().abs() < 1e-31, "{back:?}");
     }
