@@ -64,7 +64,7 @@ fn attempt(
     let mut ground = ground(&analysis.arch, movements.map(|by| by.times(1.0 / target)));
     ground[0].velocity.y += uneven(&model, weight, attempt) * model.size;
     let drive = Drive { base, rate: zeros, turned, ground, ..Drive::default() };
-    let followed = trace(analysis, &model, geometry, Course { drive, target, weight }, cost, &mut see);
+    let followed = trace(analysis, &model, geometry, Driven { drive, target }, weight, cost, &mut see);
     cost.add(&followed.tracer, Cost::default());
     match followed.stood {
         _ if followed.end == End::Stopped => Err(pulse.stopped()),
@@ -73,11 +73,10 @@ fn attempt(
     }
 }
 
-/// A movement to follow: its drive, and how far, in sizes of the arch; `weight` is the sum of all loads, N/m.
-struct Course {
+/// What moves the springings, and how far, in sizes of the arch.
+struct Driven {
     drive: Drive,
     target: f64,
-    weight: f64,
 }
 
 /// A path that has been followed.
@@ -96,7 +95,8 @@ fn trace<'m>(
     analysis: &Analysis,
     model: &'m Model<'m>,
     geometry: Geometry,
-    Course { drive, target, weight }: Course,
+    Driven { drive, target }: Driven,
+    weight: f64,
     cost: &mut Cost,
     see: &mut dyn FnMut(&Tracer, f64) -> ControlFlow<()>,
 ) -> Followed<'m> {

@@ -122,7 +122,7 @@ impl<'r> Parted<'r> {
             let [i, e] = [inner, outer].map(|p| self.motions[joint].of(p));
             let along = minus(e, i);
             let share = (about_origin - cross(i, force)) / cross(along, force);
-            Carried { normal: -cross(along, force) / along[0].hypot(along[1]), share }
+            Carried { normal: cross(force, along) / along[0].hypot(along[1]), share }
         };
         (r[0], (0..=n).map(joint).collect())
     }

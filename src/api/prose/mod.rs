@@ -6,6 +6,7 @@ mod figure;
 mod moving;
 mod plan;
 mod safety;
+mod sliding;
 mod summary;
 mod wording;
 

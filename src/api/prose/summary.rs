@@ -1,7 +1,7 @@
 //! The answer as a person reads it.
 
 use super::wording::{self, Limit, word};
-use super::{moving, plan, safety};
+use super::{moving, plan, safety, sliding};
 use crate::api::response::{AnalysisResult, HingeBody, LiftOffBody, OutcomeWord, SlideBody};
 use crate::collapse::Digits;
 use comfy_table::{Table, presets};
@@ -97,7 +97,7 @@ fn collapse_facts(result: &AnalysisResult) -> Vec<(&'static str, String)> {
         if matches!(result.outcome, OutcomeWord::Collapse | OutcomeWord::CannotTell) {
             lines.push(("intensity", wording::intensity(result, collapse)));
             lines.push(("load factor", Digits(collapse.load_factor).to_string()));
-            lines.extend(wording::sliding_range(collapse, wording::unit(result)).map(|range| ("range", range)));
+            lines.extend(sliding::fact(collapse, wording::unit(result)).map(|range| ("range", range)));
         }
         if result.outcome != OutcomeWord::StandsInWindow {
             lines.push(("mode", word(&collapse.mode)));
@@ -126,8 +126,7 @@ fn window_end(text: &mut String, name: &str, limit: Option<Limit<'_>>, result: &
     };
     let collapse = limit.collapse;
     let at = wording::intensity(result, collapse);
-    let range =
-        wording::sliding_range(collapse, wording::unit(result)).map(|range| format!(" ({range})")).unwrap_or_default();
+    let range = sliding::fact(collapse, wording::unit(result)).map(|range| format!(" ({range})")).unwrap_or_default();
     append(text, &format!("{name} end: {at}{range}, {}", word(&collapse.mode)), hinges(limit.hinges));
     let end = format!("at the {} end", name.to_lowercase());
     append(text, &format!("Sliding joints {end}"), slides(limit.slides));

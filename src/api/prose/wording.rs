@@ -1,6 +1,6 @@
 //! An answer in sentences.
 
-use super::{moving, safety};
+use super::{moving, safety, sliding};
 use crate::api::request::{
     ArchRequest, DirectionRequest, FillPressure, LoadEntry, LoadRequest, PointLoad, ProfileRequest,
 };
@@ -68,7 +68,7 @@ pub fn headline(result: &AnalysisResult) -> String {
         (OutcomeWord::Collapse, Some(collapse)) => {
             let first = if result.updated_geometry.is_some() { " at first order" } else { "" };
             let moved = moving::before_the_start(result).unwrap_or_default();
-            let more = beyond_the_least(result, collapse);
+            let more = sliding::sentence(collapse, unit(result));
             format!("The arch collapses{first} {}.{more}{}{moved}", reached(result, collapse), with_strength(result))
         }
         (OutcomeWord::StandsInWindow, _) => in_window(result) + &with_strength(result),
@@ -102,33 +102,6 @@ fn reached(result: &AnalysisResult, collapse: &Collapse) -> String {
         false => format!("at {at}"),
         true => format!("at {at}, that is with its scaled loads reversed and {times} times as large"),
     }
-}
-
-/// What an arch whose joints slide may bear beyond the least, in a sentence; none where that is the same.
-fn beyond_the_least(result: &AnalysisResult, collapse: &Collapse) -> String {
-    let of = |(_, greatest): (f64, Option<f64>)| match greatest {
-        Some(greatest) => {
-            format!(" As its joints slide, it may also stand up to {} {}.", Digits(greatest), unit(result))
-        }
-        None => " As its joints slide, it may also stand at any larger load.".to_owned(),
-    };
-    open_range(collapse).map(of).unwrap_or_default()
-}
-
-/// Least and greatest intensity at which an arch whose joints slide may fall, where these differ visibly.
-fn open_range(collapse: &Collapse) -> Option<(f64, Option<f64>)> {
-    let range = collapse.range.as_ref()?;
-    let same = range.greatest.is_some_and(|greatest| Digits(greatest).to_string() == Digits(range.least).to_string());
-    (!same).then_some((range.least, range.greatest))
-}
-
-/// The range in a table of facts.
-pub fn sliding_range(collapse: &Collapse, unit: &str) -> Option<String> {
-    let (least, greatest) = open_range(collapse)?;
-    Some(match greatest {
-        Some(greatest) => format!("{} to {} {unit}, as joints slide", Digits(least), Digits(greatest)),
-        None => format!("{} {unit} and more, as joints slide", Digits(least)),
-    })
 }
 
 /// What joints of the stone's strength make of an answer, where they change it visibly.

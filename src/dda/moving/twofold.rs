@@ -60,7 +60,6 @@ pub fn dot(a: [f64; 2], b: [Twofold; 2]) -> Twofold {
 mod tests {
     use super::*;
 
-    /// With 2^-40 in place of a unit in the last place everything stays an integer that can be counted.
     #[test]
     fn what_rounding_takes_off_is_kept() {
         let (large, small) = (1.0 + f64::EPSILON, 2f64.powi(-60));
