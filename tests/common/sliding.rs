@@ -164,5 +164,10 @@ fn balance(problem: &Problem) -> f64 {
 fn limits(end: &PathEnd) -> Vec<(usize, Limit)> {
     let opens = |face: Face| if face == Face::Intrados { Limit::NoForce(1) } else { Limit::NoForce(0) };
     let hinges = end.mechanism.hinges.iter().map(|hinge| (hinge.joint, opens(hinge.face)));
-    hinges.chain(end.mechanism.slides.iter().map(|slide| (slide.joint, Limit::Shear(-slide.rate.signum())))).collect()
+    let both = |joint| [(joint, Limit::NoForce(0)), (joint, Limit::NoForce(1))];
+    let parted = end.mechanism.lift_offs.iter().flat_map(|lift_off| both(lift_off.joint));
+    hinges
+        .chain(parted)
+        .chain(end.mechanism.slides.iter().map(|slide| (slide.joint, Limit::Shear(-slide.rate.signum()))))
+        .collect()
 }
