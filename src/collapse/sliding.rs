@@ -8,9 +8,10 @@
 use super::discretise::Scatter;
 use super::mechanism::{Released, all_releases, columns, describe};
 use super::pulse::Pulse;
+use super::smallest_motion::Column;
 use super::{Analysis, Mechanism};
-use crate::arch::PointForce;
-use crate::limit::{Equilibrium, Resultant, StaticTheorem, cheapest_motion};
+use crate::arch::{Face, PointForce};
+use crate::limit::{Equilibrium, Release, Resultant, StaticTheorem, cheapest_motion};
 use std::collections::BTreeSet;
 
 /// So many motions in turn that give nothing lower end the search.
@@ -45,7 +46,7 @@ impl Search<'_> {
         let mut best: Option<(Equilibrium, Vec<Released>, Vec<f64>)> = None;
         let mut costs = Scatter::new(0x51DE);
         for released in at_limits {
-            let mut released = released.clone();
+            let mut released = self.with_columns(released.clone());
             let mut quiet = 0;
             while quiet < QUIET {
                 quiet += 1;
@@ -59,7 +60,7 @@ impl Search<'_> {
                 };
                 if best.as_ref().is_none_or(|(least, ..)| self.is_beyond(least.load_factor, found.load_factor, SAME)) {
                     quiet = 0;
-                    released = self.at_limits(&found);
+                    released = self.with_columns(self.at_limits(&found));
                     best = Some((found, moving, rates));
                 }
             }
@@ -78,13 +79,22 @@ impl Search<'_> {
         found.ok().flatten().filter(|_| greatest.is_finite()).map(|equilibrium| self.at_limits(&equilibrium))
     }
 
-    /// One of the motions that these releases allow, and in which the scaled loads do work: those that move, at their rates.
-    fn motion(&self, released: &[Released], costs: &mut Scatter) -> Option<(Vec<Released>, Vec<f64>)> {
+    /// Releases with what each does to the closure of the chain, and its power under the scaled loads.
+    fn with_columns(&self, released: Vec<Released>) -> (Vec<Released>, Vec<Column>) {
         let forward = |f: &PointForce| PointForce { force: f.force * self.sign, ..*f };
         let driving: Vec<PointForce> = self.analysis.scaled.iter().map(forward).collect();
-        let columns = columns(&self.analysis.arch, released, &driving);
+        let columns = columns(&self.analysis.arch, &released, &driving);
+        (released, columns)
+    }
+
+    /// One of the motions that these releases allow, and in which the scaled loads do work: those that move, at their rates.
+    fn motion(
+        &self,
+        (released, columns): &(Vec<Released>, Vec<Column>),
+        costs: &mut Scatter,
+    ) -> Option<(Vec<Released>, Vec<f64>)> {
         let costs: Vec<f64> = columns.iter().map(|_| 1.0 + 0.99 * costs.next()).collect();
-        let rates = cheapest_motion(&columns, &costs, &|| self.pulse.beat())?;
+        let rates = cheapest_motion(columns, &costs, &|| self.pulse.beat())?;
         Some(released.iter().zip(rates).filter(|(_, rate)| *rate > 0.0).unzip())
     }
 
@@ -102,8 +112,6 @@ impl Search<'_> {
 
 /// A mechanism by the joints that it moves.
 fn key(moving: &[Released]) -> Vec<(usize, u8)> {
-    use crate::arch::Face;
-    use crate::limit::Release;
     let of = |&(joint, release): &Released| {
         let kind = match release {
             Release::Rotation(Face::Intrados) => 0,

@@ -13,6 +13,7 @@ mod equilibrium;
 mod event;
 mod lost;
 mod moving;
+mod peak;
 mod point;
 mod seen;
 mod tangent;
@@ -20,6 +21,7 @@ mod tangent;
 pub use drive::{Drive, Movement, covering};
 pub use lost::{Lost, Violation};
 pub use moving::Patience;
+pub use peak::Peak;
 
 use super::chain::Chain;
 use super::contact::State;
@@ -45,27 +47,6 @@ pub enum End {
     Stopped,
     /// The path could not be followed (ties that do not resolve, or lost equilibrium).
     Lost,
-}
-
-/// The point of the path with the largest parameter.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Peak {
-    /// Parameter.
-    pub parameter: f64,
-    /// Displacements of the nodes.
-    pub displacements: Vec<f64>,
-    /// What rounding has taken off them, on moving geometry.
-    pub rests: Vec<f64>,
-    /// And off the parameter.
-    pub parameter_rest: f64,
-    /// Direction in which the path goes on, its largest entry 1 m.
-    pub direction: Vec<f64>,
-    /// Change of the parameter in that direction.
-    pub rate: f64,
-    /// Contact states in which the path goes on.
-    pub states: Vec<State>,
-    /// Largest equilibrium residual up to there, as a share of the load scale.
-    pub residual: f64,
 }
 
 /// A pivot ratio below this is a mechanism (measured: regular 1e-2 to 1e-8, singular below 1e-14).
@@ -336,28 +317,6 @@ impl<'a> Tracer<'a> {
         self.direction.iter_mut().for_each(|d| *d = -*d);
         self.rates.iter_mut().for_each(|g| *g = g.map(|x| -x));
         self.rate = -self.rate;
-    }
-
-    /// Keeps the present point where the path turns down here, and was never higher.
-    fn note_peak(&mut self, turns_down: bool) {
-        let highest = self.peak.as_ref().is_none_or(|peak| self.parameter >= peak.parameter);
-        if highest && turns_down {
-            self.peak = Some(self.as_peak());
-        }
-    }
-
-    /// The present point, and how the path goes on.
-    fn as_peak(&self) -> Peak {
-        Peak {
-            parameter: self.parameter,
-            displacements: self.displacements.clone(),
-            rests: self.rests.clone(),
-            parameter_rest: self.parameter_rest,
-            direction: self.direction.clone(),
-            rate: self.rate,
-            states: self.states.clone(),
-            residual: self.worst_residual,
-        }
     }
 
     /// True where the present contact state leaves the chain free to move.
