@@ -10,3 +10,4 @@ pub mod geometry;
 pub mod jobs;
 pub mod limit;
 pub mod render;
+pub mod structure;

@@ -1,0 +1,206 @@
+//! The structure: bodies of stone, the joints between them, and the ground they stand on.
+//!
+//! Nothing here knows how a structure was built or how it will be solved. All quantities are SI, per metre of depth; x runs
+//! to the right, y upwards.
+
+use crate::geometry::{Region, Vec2};
+use std::ops::Range;
+
+/// Standard gravity used throughout, m/s2.
+pub const GRAVITY: f64 = 9.81;
+
+/// Stone and joint material, SI.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stone {
+    /// Density, kg/m3.
+    pub density: f64,
+    /// Young's modulus, Pa.
+    pub youngs_modulus: f64,
+    /// Poisson's ratio.
+    pub poissons_ratio: f64,
+    /// Joint friction angle, rad.
+    pub friction_angle: f64,
+    /// Joint cohesion, Pa.
+    pub cohesion: f64,
+    /// Compressive strength, Pa.
+    pub compressive_strength: f64,
+}
+
+impl Default for Stone {
+    /// Table 1 of the paper.
+    fn default() -> Self {
+        Stone {
+            density: 2300.0,
+            youngs_modulus: 1e9,
+            poissons_ratio: 0.25,
+            friction_angle: 30f64.to_radians(),
+            cohesion: 0.0,
+            compressive_strength: 1e7,
+        }
+    }
+}
+
+/// What lies on one side of a joint.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    /// This body.
+    Body(usize),
+    /// The ground of this support. Supports move on their own.
+    Support(usize),
+}
+
+impl Side {
+    /// The body, where one is there.
+    pub fn body(self) -> Option<usize> {
+        match self {
+            Side::Body(body) => Some(body),
+            Side::Support(_) => None,
+        }
+    }
+}
+
+/// An end of a joint. In an arch ring they lie on its two faces, which name them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Face {
+    /// The first end; the inner, lower face of an arch.
+    Intrados,
+    /// The second end; the outer, upper face of an arch.
+    Extrados,
+}
+
+/// How two neighbouring stones hold on to each other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum JointLaw {
+    /// Unilateral contact with Coulomb friction: |T| <= friction * N + cohesion * length.
+    Dry {
+        /// Friction coefficient, tan(phi).
+        friction: f64,
+        /// Cohesion, Pa.
+        cohesion: f64,
+    },
+    /// Glued: neither opens nor slides.
+    Bonded,
+    /// Plane of symmetry where a joint lies: presses without friction, and opens. The stone moves half as far towards it as two
+    /// stones towards each other.
+    Wall,
+    /// Plane of symmetry through a stone, no joint: carries any normal force and bending, tension too, and no shear.
+    Mirror,
+}
+
+/// The contact between two bodies, or a body and the ground: a straight segment.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Joint {
+    /// What lies before it and after it; one of them at least is a body.
+    pub between: [Side; 2],
+    /// First end, m: on the intrados of an arch.
+    pub intrados: Vec2,
+    /// Second end, m: on the extrados of an arch.
+    pub extrados: Vec2,
+    /// Contact law.
+    pub law: JointLaw,
+}
+
+impl Joint {
+    /// Length of the joint (thickness of the arch there), m.
+    pub fn length(&self) -> f64 {
+        (self.extrados - self.intrados).norm()
+    }
+
+    /// Middle of the joint, m.
+    pub fn middle(&self) -> Vec2 {
+        0.5 * (self.intrados + self.extrados)
+    }
+
+    /// Unit vector along the joint, from its first end to its second.
+    pub fn tangent(&self) -> Vec2 {
+        (self.extrados - self.intrados).normalize()
+    }
+
+    /// Unit normal, pointing from what lies before the joint into what lies after it.
+    pub fn normal(&self) -> Vec2 {
+        let t = self.tangent();
+        Vec2::new(t.y, -t.x)
+    }
+
+    /// True for a plane of symmetry, which is no joint of the structure.
+    pub fn is_symmetry(&self) -> bool {
+        matches!(self.law, JointLaw::Wall | JointLaw::Mirror)
+    }
+}
+
+/// Shape of a voussoir's sides along intrados and extrados.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Sides {
+    /// Straight.
+    Straight,
+    /// Arcs of circles about one centre.
+    Arcs {
+        /// The centre, m.
+        centre: Vec2,
+    },
+    /// More than one arc on a side.
+    Compound,
+}
+
+/// One stone, or a block of an abutment or a pier.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Body {
+    /// Corners, counter-clockwise, m; of a voussoir four, from the intrados end of its left joint.
+    pub corners: Vec<Vec2>,
+    /// Shape of the sides between corners 0 and 1 and between corners 2 and 3; all others are straight.
+    pub sides: Sides,
+    /// Area (positive) and centroid.
+    pub region: Region,
+    /// Which of the structure's stones it is made of.
+    pub stone: usize,
+}
+
+/// One arch ring of a structure: voussoirs from springing to springing.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Span {
+    /// Its voussoirs, from left to right.
+    pub bodies: Range<usize>,
+    /// Its joints, one more: joint `joints.start + k` lies before voussoir `bodies.start + k`.
+    pub joints: Range<usize>,
+    /// Point about which positions are given as angles, m: the centre of the circle, else mid-span at the springing level.
+    pub angle_centre: Vec2,
+}
+
+/// Bodies, joints and the ground.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Structure {
+    /// What the bodies are made of.
+    pub stones: Vec<Stone>,
+    /// All bodies. Those of a span are in a row.
+    pub bodies: Vec<Body>,
+    /// All joints. Those of a span are in a row.
+    pub joints: Vec<Joint>,
+    /// The arch rings among the bodies; none in a wall.
+    pub spans: Vec<Span>,
+    /// Number of supports: pieces of ground that move on their own.
+    pub supports: usize,
+}
+
+impl Structure {
+    /// Numbers of the joints of every body, in rising order.
+    pub fn joints_of_bodies(&self) -> Vec<Vec<usize>> {
+        let mut joints = vec![Vec::new(); self.bodies.len()];
+        for (k, joint) in self.joints.iter().enumerate() {
+            joint.between.iter().filter_map(|side| side.body()).for_each(|body| joints[body].push(k));
+        }
+        joints
+    }
+}
+
+/// A force on one body: at one point, or spread evenly over it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PointForce {
+    /// Which body.
+    pub body: usize,
+    /// Where it acts, m; the body's centroid if it is spread.
+    pub at: Vec2,
+    /// Force per metre of depth, N/m.
+    pub force: Vec2,
+    /// True for a body force, spread evenly over the body's area.
+    pub spread: bool,
+}
