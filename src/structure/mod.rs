@@ -166,6 +166,15 @@ pub struct Span {
     pub angle_centre: Vec2,
 }
 
+/// A straight side on which loads and soil stand.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Surface {
+    /// Whose side it is.
+    pub body: usize,
+    /// Its left and its right end as one goes along the structure from left to right, the body being below, m.
+    pub ends: [Vec2; 2],
+}
+
 /// Bodies, joints and the ground.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Structure {
@@ -177,6 +186,8 @@ pub struct Structure {
     pub joints: Vec<Joint>,
     /// The arch rings among the bodies; none in a wall.
     pub spans: Vec<Span>,
+    /// Sides on which loads and soil stand, from left to right: the extrados of the outer rings; none in a wall.
+    pub surfaces: Vec<Surface>,
     /// Number of supports: pieces of ground that move on their own.
     pub supports: usize,
 }
