@@ -4,7 +4,7 @@ use super::grid::{Grid, Lines, ON_LINE};
 use super::pulse::Pulse;
 use super::{Analysis, AnalysisError, Geometry, PlaneModel, Seams};
 use crate::arch::{Abutment, Joint, JointLaw, PointForce, Stone};
-use crate::dda::{Bond, Chain, ChainBuilder, Elasticity, Law, Loads, MeanMotion, Push, Stopped, Touch, Unbuilt};
+use crate::dda::{Assembly, AssemblyBuilder, Beside, Bond, Elasticity, Law, Loads, MeanMotion, Push, Stopped, Touch, Unbuilt};
 use crate::geometry::{Region, Vec2};
 
 /// Relative scatter of the contact stiffnesses. Ties between contacts of a symmetric arch need something to break
@@ -30,7 +30,7 @@ const SHAPE: usize = 200;
 pub(super) struct Model<'p> {
     /// The watch on the analysis that it is for.
     pub pulse: &'p Pulse<'p>,
-    pub chain: Chain,
+    pub chain: Assembly,
     /// Body of voussoir 0 (1 where there is a left abutment).
     pub first_voussoir: usize,
     pub voussoirs: usize,
@@ -89,7 +89,7 @@ pub(super) fn discretise<'p>(analysis: &Analysis, seed: u64, pulse: &'p Pulse<'p
         macroblocks.push(grid.macroblock(elasticity, bond));
         pulse.work(CUT * grid.radial * grid.along)?;
     }
-    let mut builder = ChainBuilder::new(macroblocks);
+    let mut builder = AssemblyBuilder::new(macroblocks);
     for (k, joint) in joints.iter().enumerate() {
         let stiffer = match joint.law {
             JointLaw::Mirror => CUT_STONE,
@@ -98,8 +98,9 @@ pub(super) fn discretise<'p>(analysis: &Analysis, seed: u64, pulse: &'p Pulse<'p
         };
         let sides = [k.checked_sub(1).map(|k| &bodies[k]), bodies.get(k)];
         let stiffness = [1.0, analysis.shear_penalty_ratio].map(|ratio| stiffer * penalty * ratio);
-        touches(joint, sides, stiffness).for_each(|touch| builder.contact(touch));
-        builder.next_interface();
+        let before = k.checked_sub(1).map_or(Beside::Ground(0), Beside::Body);
+        let after = if k < bodies.len() { Beside::Body(k) } else { Beside::Ground(1) };
+        builder.join([before, after], touches(joint, sides, stiffness));
     }
     let mut chain = builder.finish(&pulse.heart).map_err(|error| match error {
         Unbuilt::Loose(loose) => loose.into(),

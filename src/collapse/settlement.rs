@@ -63,7 +63,7 @@ fn attempt(
     let target = largest(movements, model.size);
     let mut ground = ground(&analysis.arch, movements.map(|by| by.times(1.0 / target)));
     ground[0].velocity.y += uneven(&model, weight, attempt) * model.size;
-    let drive = Drive { base, rate: zeros, turned, ground, ..Drive::default() };
+    let drive = Drive { base, rate: zeros, turned, ground: ground.to_vec(), ..Drive::default() };
     let followed = trace(analysis, &model, geometry, Driven { drive, target }, weight, cost, &mut see);
     cost.add(&followed.tracer, Cost::default());
     match followed.stood {

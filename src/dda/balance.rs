@@ -1,14 +1,14 @@
 //! The state of equilibrium next to given displacements, by the contact law alone.
 //!
 //! A path is traced with contacts whose stiffness is scattered a little and with loads that are disturbed a little, or ties
-//! would stop it. What is wanted of it are states of the chain as it was built. Slip is measured from the unstressed start, so
+//! would stop it. What is wanted of it are states of the assembly as it was built. Slip is measured from the unstressed start, so
 //! the law gives a contact's force as a function of gap and slip alone, piecewise linear and continuous; Newton's method on
 //! it, with the piece that the law itself chooses at every step, ends in a state of equilibrium after one step where the path
 //! has left no contact on the wrong side of its border, and after some more where it has. Where it fails, what is missing is
 //! brought on by tracing.
 //!
 //! # Symmetric states
-//! Where chain and loads are their own mirror image, the mirror image of a state is a state. Which of the two a path meets
+//! Where assembly and loads are their own mirror image, the mirror image of a state is a state. Which of the two a path meets
 //! is decided by the scatter. Newton's method then starts from their mean, and every correction is made symmetric, so that it
 //! stays among symmetric displacements. This is a solution of the whole problem, not of half of it: the residual is that of
 //! every node. Where contacts stick or carry no shear, equilibrium makes the least of a convex energy, the least form a
@@ -17,13 +17,14 @@
 //! is antisymmetric. Where contacts slide without dilating there is no such energy, and Newton's method may find no symmetric
 //! state; the caller is told.
 //!
-//! Where the set has more than one state, the chain can move from one to another without any change of force: the tangent
+//! Where the set has more than one state, the assembly can move from one to another without any change of force: the tangent
 //! stiffness is singular, in antisymmetric directions only if a symmetric state is found. The residual is symmetric and
 //! does no work in those; what rounding puts into them is taken out as every correction is made symmetric.
 
-use super::chain::Chain;
+use super::assembly::Assembly;
 use super::contact::{Contact, State};
-use super::factor::{Factor, Tridiagonal};
+use super::elements::Elements;
+use super::factor::Factor;
 use super::heart::{Heart, Stopped};
 use super::trace::{Drive, End, Tracer};
 use std::ops::ControlFlow;
@@ -44,7 +45,7 @@ const SINGULAR: f64 = 1e-12;
 pub struct Balanced {
     /// Displacements of the nodes, m.
     pub displacements: Vec<f64>,
-    /// True where the chain can move on from it, at least a little, without any change of force.
+    /// True where the assembly can move on from it, at least a little, without any change of force.
     pub free: bool,
     /// Factorisations that it took.
     pub factorisations: usize,
@@ -52,41 +53,41 @@ pub struct Balanced {
     pub block_rows: usize,
 }
 
-/// The state of equilibrium under `loads` on the nodes, of a chain of extent `size` with its exact contacts, next to
-/// displacements `near` of the nodes; `symmetric`: a symmetric one, of a chain and loads that are. None where there is none
+/// The state of equilibrium under `loads` on the nodes, of an assembly of extent `size` with its exact contacts, next to
+/// displacements `near` of the nodes; `symmetric`: a symmetric one, of an assembly and loads that are. None where there is none
 /// to be found.
 ///
 /// # Errors
 /// When stopped.
 pub fn balanced(
-    chain: &Chain,
+    assembly: &Assembly,
     size: f64,
     loads: &[f64],
     near: &[f64],
     symmetric: bool,
     heart: &Heart,
 ) -> Result<Option<Balanced>, Stopped> {
-    let found = by_newton(chain, loads, near, symmetric, heart)?;
+    let found = by_newton(assembly, loads, near, symmetric, heart)?;
     if found.is_some() {
         return Ok(found);
     }
-    let traced = traced(chain, size, loads, near, heart)?;
-    traced.map_or(Ok(None), |near| by_newton(chain, loads, &near, symmetric, heart))
+    let traced = traced(assembly, size, loads, near, heart)?;
+    traced.map_or(Ok(None), |near| by_newton(assembly, loads, &near, symmetric, heart))
 }
 
 /// Newton's method from displacements `near`.
 fn by_newton(
-    chain: &Chain,
+    assembly: &Assembly,
     loads: &[f64],
     near: &[f64],
     symmetric: bool,
     heart: &Heart,
 ) -> Result<Option<Balanced>, Stopped> {
-    let mut newton = Newton::new(chain, symmetric, heart);
-    let mut d = if symmetric { chain.symmetrised(near) } else { near.to_vec() };
+    let mut newton = Newton::new(assembly, symmetric, heart);
+    let mut d = if symmetric { assembly.symmetrised(near) } else { near.to_vec() };
     let (mut residual, mut best) = (vec![0.0; d.len()], (f64::INFINITY, Vec::new()));
     for _ in 0..STEPS {
-        chain.unbalance(newton.contacts, loads, &d, &mut residual, heart)?;
+        assembly.unbalance(newton.contacts, loads, &d, &mut residual, heart)?;
         let share = share_of(&residual, loads);
         let settled = share <= EXACT || (share >= 0.5 * best.0 && best.0 <= BALANCED);
         let lost = share > LOST * best.0;
@@ -106,8 +107,8 @@ fn by_newton(
 
 /// Where the tangent is singular, as next to a momentary mechanism, a state may be far away in its direction. Displacements
 /// `near` are an exact state under the loads that they are in equilibrium with: it is traced from there to `loads`.
-fn traced(chain: &Chain, size: f64, loads: &[f64], near: &[f64], heart: &Heart) -> Result<Option<Vec<f64>>, Stopped> {
-    let mut exact = chain.clone();
+fn traced(assembly: &Assembly, size: f64, loads: &[f64], near: &[f64], heart: &Heart) -> Result<Option<Vec<f64>>, Stopped> {
+    let mut exact = assembly.clone();
     exact.scatter(|| [1.0; 2]);
     let mut rate = vec![0.0; loads.len()];
     exact.unbalance(exact.contacts(), loads, near, &mut rate, heart)?;
@@ -120,19 +121,19 @@ fn traced(chain: &Chain, size: f64, loads: &[f64], near: &[f64], heart: &Heart) 
 }
 
 /// Largest force that is missing on a node under `loads` on the nodes, as a share of the sum of those, and an interface that
-/// the node is at; of a chain at displacements `d` with the contacts that a path meets, by their law alone.
+/// the node is at; of an assembly at displacements `d` with the contacts that a path meets, by their law alone.
 ///
 /// # Errors
 /// When stopped.
-pub fn missing(chain: &Chain, loads: &[f64], d: &[f64], heart: &Heart) -> Result<(f64, usize), Stopped> {
+pub fn missing(assembly: &Assembly, loads: &[f64], d: &[f64], heart: &Heart) -> Result<(f64, usize), Stopped> {
     let mut residual = vec![0.0; d.len()];
-    chain.unbalance(chain.contacts(), loads, d, &mut residual, heart)?;
+    assembly.unbalance(assembly.contacts(), loads, d, &mut residual, heart)?;
     let at = |k: usize| {
-        let faces = chain.faces(k).into_iter().flatten();
-        let entries = faces.flat_map(|face| &residual[chain.elastic().range(face)]);
+        let faces = assembly.faces(k).into_iter().flatten();
+        let entries = faces.flat_map(|face| &residual[face]);
         share_of(&entries.copied().collect::<Vec<_>>(), loads)
     };
-    let all = (0..chain.interfaces()).map(|k| (at(k), k));
+    let all = (0..assembly.interfaces()).map(|k| (at(k), k));
     Ok(all.fold((0.0, 0), |worst, here| if here.0 > worst.0 { here } else { worst }))
 }
 
@@ -148,41 +149,41 @@ fn total(loads: &[f64]) -> f64 {
     loads.iter().map(|load| load.abs()).sum::<f64>().max(f64::MIN_POSITIVE)
 }
 
-/// Newton's method on the law of a chain's exact contacts.
+/// Newton's method on the law of an assembly's exact contacts.
 struct Newton<'c> {
-    chain: &'c Chain,
+    assembly: &'c Assembly,
     contacts: &'c [Contact],
     symmetric: bool,
     heart: &'c Heart<'c>,
-    matrix: Tridiagonal,
-    factor: Factor,
+    matrix: Elements,
+    factor: Factor<'c>,
     /// States in which the matrix is factored; none at first.
     states: Vec<State>,
     factorisations: usize,
 }
 
 impl<'c> Newton<'c> {
-    fn new(chain: &'c Chain, symmetric: bool, heart: &'c Heart<'c>) -> Self {
-        let (matrix, factor) = (chain.elastic().copied(heart), Factor::new(chain.elastic()));
-        let (states, contacts) = (Vec::new(), chain.exact_contacts());
-        Newton { chain, contacts, symmetric, heart, matrix, factor, states, factorisations: 0 }
+    fn new(assembly: &'c Assembly, symmetric: bool, heart: &'c Heart<'c>) -> Self {
+        let (matrix, factor) = (assembly.elastic().copied(heart), Factor::new(assembly.tree()));
+        let (states, contacts) = (Vec::new(), assembly.exact_contacts());
+        Newton { assembly, contacts, symmetric, heart, matrix, factor, states, factorisations: 0 }
     }
 
     /// Adds the correction for a residual, by the tangent stiffness that the law has at displacements `d`.
     fn correct(&mut self, d: &mut [f64], residual: &[f64]) -> Result<(), Stopped> {
         let states: Vec<State> =
-            self.contacts.iter().enumerate().map(|(p, contact)| contact.state_at(self.chain.gap(p, d))).collect();
+            self.contacts.iter().enumerate().map(|(p, contact)| contact.state_at(self.assembly.gap(p, d))).collect();
         let mut correction = vec![0.0; d.len()];
         if states == self.states {
-            self.factor.solve(&self.matrix, residual, &mut correction, self.heart)?;
+            self.factor.solve(residual, &mut correction, self.heart)?;
         } else {
             self.states = states;
             self.assemble();
-            self.factor.update(&self.matrix, residual, &mut correction, self.heart)?;
+            self.factor.update(&self.matrix, residual, &mut correction, self.middle(), self.heart)?;
             self.factorisations += 1;
         }
         if self.symmetric {
-            correction = self.chain.symmetrised(&correction);
+            correction = self.assembly.symmetrised(&correction);
         }
         d.iter_mut().zip(&correction).for_each(|(d, correction)| *d += correction);
         Ok(())
@@ -190,13 +191,16 @@ impl<'c> Newton<'c> {
 
     fn assemble(&mut self) {
         let (contacts, states) = (self.contacts, &self.states);
-        for k in 0..self.chain.interfaces() {
-            self.chain.set_interface(k, |p| contacts[p].tangent_stiffness(states[p]), &mut self.matrix);
+        for k in 0..self.assembly.interfaces() {
+            self.assembly.set_interface(k, |p| contacts[p].tangent_stiffness(states[p]), &mut self.matrix);
         }
-        // All rows are new, the last eliminated that in the middle.
-        let rows = self.matrix.rows();
-        for row in [0, rows - 1, rows / 2] {
-            self.factor.invalidate(row);
+        for k in 0..self.assembly.interfaces() {
+            self.factor.invalidate(self.assembly.element(k));
         }
+    }
+
+    /// All of the matrix is new, wherever elimination meets.
+    fn middle(&self) -> usize {
+        self.assembly.element(self.assembly.interfaces() / 2)
     }
 }

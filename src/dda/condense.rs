@@ -56,7 +56,7 @@ pub struct Condensed {
 #[error("a block is held by fewer than two contact points")]
 pub struct Loose;
 
-/// Why a chain was not built.
+/// Why an assembly was not built.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum Unbuilt {
     /// A body is not held.

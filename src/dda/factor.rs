@@ -1,316 +1,269 @@
-//! Block LU of a block tridiagonal matrix, pivoting inside the blocks.
+//! Block LU on the tree of an assembly's faces, pivoting inside the blocks.
 //!
-//! The matrix is eliminated from both ends towards the block row that changed last (a twisted factorisation), so that
-//! the next change costs only the rows between the two. Blocks may differ in size.
+//! Unknowns are eliminated from the leaves of the [`Tree`] towards the clique of the interface that changed last, where the
+//! system is solved. What a front leaves of its clique for the next is kept, for either direction of every edge; a change makes
+//! worthless what leads away from it, so that the next one costs the cliques between the two. In a row of bodies this is a
+//! twisted factorisation.
 //!
-//! Where block rows are large, the tracer goes on with these factors over several changes, see [`super::trace`].
+//! Where blocks are large, the tracer goes on with these factors over several changes, see [`super::trace`].
 
+use super::elements::Elements;
 use super::heart::{Heart, Stopped};
 use super::panels::{Panels, subtract_applied, subtract_product};
 use super::pivot::Pivot;
-use std::ops::Range;
+use super::tree::{Front, Origin, Run, Source, Tree};
 
-/// Work of eliminating a block row, over the cube of its unknowns; and of solving for it, over their square.
-const ELIMINATED: usize = 3;
-const SOLVED: usize = 3;
-
-/// A block tridiagonal matrix.
-#[derive(Debug, Clone, Default)]
-pub struct Tridiagonal {
-    /// Unknowns before each block row, and all of them.
-    pub start: Vec<usize>,
-    /// K(i, i).
-    pub diagonal: Panels,
-    /// K(i, i + 1).
-    pub upper: Panels,
-    /// K(i + 1, i).
-    pub lower: Panels,
-}
-
-impl Tridiagonal {
-    /// A zero matrix with block rows of these sizes.
-    pub fn zeros(sizes: &[usize]) -> Self {
-        let mut start = vec![0];
-        sizes.iter().for_each(|n| start.push(start[start.len() - 1] + n));
-        let pairs = || sizes.iter().copied().zip(sizes.iter().copied().skip(1));
-        Tridiagonal {
-            start,
-            diagonal: Panels::zeros(sizes.iter().map(|&n| (n, n))),
-            upper: Panels::zeros(pairs()),
-            lower: Panels::zeros(pairs().map(|(a, b)| (b, a))),
-        }
-    }
-
-    /// Sets the four panels between block rows `i` and `i + 1`, given as one matrix over both.
-    pub fn set_pair(&mut self, i: usize, entry: impl Fn(usize, usize) -> f64) {
-        let (left, all) = (self.range(i).len(), self.range(i).len() + self.range(i + 1).len());
-        let copy = |panel: &mut [f64], rows: Range<usize>, columns: Range<usize>| {
-            let entries = rows.flat_map(|i| columns.clone().map(move |j| (i, j)));
-            panel.iter_mut().zip(entries).for_each(|(x, (i, j))| *x = entry(i, j));
-        };
-        copy(self.diagonal.get_mut(i), 0..left, 0..left);
-        copy(self.diagonal.get_mut(i + 1), left..all, left..all);
-        copy(self.upper.get_mut(i), 0..left, left..all);
-        copy(self.lower.get_mut(i), left..all, 0..left);
-    }
-
-    /// The same again; zero from where it was stopped.
-    pub fn copied(&self, heart: &Heart) -> Self {
-        let [diagonal, upper, lower] = [&self.diagonal, &self.upper, &self.lower].map(|panels| panels.copied(heart));
-        Tridiagonal { start: self.start.clone(), diagonal, upper, lower }
-    }
-
-    /// Number of block rows.
-    pub fn rows(&self) -> usize {
-        self.start.len() - 1
-    }
-
-    /// Unknowns of block row `i`.
-    pub fn range(&self, i: usize) -> Range<usize> {
-        self.start[i]..self.start[i + 1]
-    }
-}
-
-/// Elimination from one end: row 0 is the first eliminated.
+/// The fronts of a tree, eliminated as far as they were asked for, with the solution for one right-hand side.
 #[derive(Debug, Clone)]
-struct Sweep {
-    reversed: bool,
-    /// Pivot blocks, by place in the matrix.
+pub struct Factor<'t> {
+    tree: &'t Tree,
+    /// Of every front: whether it is current, its pivots, and the smallest pivot ratio in it and in all that feed it.
+    current: Vec<bool>,
     pivots: Vec<Pivot>,
-    /// S_i^-1 K(i, next), by place in the matrix.
-    ahead: Panels,
-    /// Smallest pivot ratio of rows 0..=i.
     ratio: Vec<f64>,
-    /// Forward substitution of the kept right-hand side, by place in the matrix.
-    forward: Vec<f64>,
-    /// How many rows are eliminated and current.
-    current: usize,
-    /// Scratch: a Schur complement, a pivot's rows.
-    schur: Vec<f64>,
-    work: Vec<f64>,
-}
-
-impl Sweep {
-    fn new(k: &Tridiagonal, reversed: bool) -> Self {
-        let n = k.rows();
-        let size = |i: usize| k.range(i).len();
-        let next = |i: usize| if reversed { i.checked_sub(1) } else { Some(i + 1).filter(|&i| i < n) };
-        Sweep {
-            reversed,
-            pivots: (0..n).map(|i| Pivot::new(size(i))).collect(),
-            ahead: Panels::zeros((0..n).map(|i| (size(i), next(i).map_or(0, size)))),
-            ratio: vec![f64::INFINITY; n],
-            forward: vec![0.0; k.start[n]],
-            current: 0,
-            schur: Vec::new(),
-            work: Vec::new(),
-        }
-    }
-
-    /// Place of row `i` of this sweep in the matrix.
-    fn place(&self, i: usize) -> usize {
-        if self.reversed { self.pivots.len() - 1 - i } else { i }
-    }
-
-    /// K(i, i + 1) in the order of this sweep.
-    fn next<'m>(&self, k: &'m Tridiagonal, i: usize) -> &'m [f64] {
-        if self.reversed { k.lower.get(self.place(i) - 1) } else { k.upper.get(i) }
-    }
-
-    /// K(i, i - 1) in the order of this sweep.
-    fn previous<'m>(&self, k: &'m Tridiagonal, i: usize) -> &'m [f64] {
-        if self.reversed { k.upper.get(self.place(i)) } else { k.lower.get(i - 1) }
-    }
-
-    /// Takes what rows before `i` pass on to row `i` off its diagonal block.
-    fn reduce(&self, k: &Tridiagonal, i: usize, schur: &mut [f64]) {
-        if i > 0 {
-            let (before, here) = (self.place(i - 1), k.range(self.place(i)).len());
-            subtract_product(self.previous(k, i), self.ahead.get(before), schur, k.range(before).len(), here);
-        }
-    }
-
-    /// Takes what rows before `i` pass on to row `i` off its right-hand side.
-    fn reduce_load(&self, k: &Tridiagonal, i: usize, forward: &[f64], load: &mut [f64]) {
-        if i > 0 {
-            subtract_applied(self.previous(k, i), &forward[k.range(self.place(i - 1))], load);
-        }
-    }
-
-    /// Eliminates rows up to `count`, with the kept right-hand side `b`.
-    fn extend(&mut self, k: &Tridiagonal, b: &[f64], count: usize, heart: &Heart) -> Result<(), Stopped> {
-        for i in self.current..count {
-            self.eliminate(k, b, i);
-            heart.work(ELIMINATED * k.range(self.place(i)).len().pow(3))?;
-        }
-        Ok(())
-    }
-
-    /// Eliminates row `i`, those before being eliminated.
-    fn eliminate(&mut self, k: &Tridiagonal, b: &[f64], i: usize) {
-        let (mut schur, mut work) = (std::mem::take(&mut self.schur), std::mem::take(&mut self.work));
-        let mut forward = std::mem::take(&mut self.forward);
-        let place = self.place(i);
-        schur.clear();
-        schur.extend_from_slice(k.diagonal.get(place));
-        self.reduce(k, i, &mut schur);
-        let next = self.next(k, i);
-        self.ahead.get_mut(place).copy_from_slice(next);
-        self.pivots[place].factor(&schur, self.ahead.get_mut(place), &mut work);
-        self.ratio[i] = self.pivots[place].ratio.min(if i > 0 { self.ratio[i - 1] } else { f64::INFINITY });
-        self.forward_row(k, b, i, &mut forward, &mut work);
-        (self.schur, self.work, self.forward) = (schur, work, forward);
-        self.current = i + 1;
-    }
-
-    /// Forward substitution of row `i` of the right-hand side `b`.
-    fn forward_row(&self, k: &Tridiagonal, b: &[f64], i: usize, forward: &mut [f64], work: &mut Vec<f64>) {
-        let here = k.range(self.place(i));
-        forward[here.clone()].copy_from_slice(&b[here.clone()]);
-        if i > 0 {
-            let (load, before) = apart(forward, here.clone(), k.range(self.place(i - 1)));
-            subtract_applied(self.previous(k, i), before, load);
-        }
-        self.pivots[self.place(i)].solve(&mut forward[here], work);
-    }
-
-    /// Substitutes back from row `count` (solved) to row 0.
-    fn substitute_back(&self, k: &Tridiagonal, count: usize, x: &mut [f64], forward: &[f64]) {
-        for i in (0..count).rev() {
-            let here = k.range(self.place(i));
-            let (into, known) = apart(x, here.clone(), k.range(self.place(i + 1)));
-            into.copy_from_slice(&forward[here]);
-            subtract_applied(self.ahead.get(self.place(i)), known, into);
-        }
-    }
-}
-
-/// Two neighbouring stretches of `x`: the first to change, the second to read.
-fn apart(x: &mut [f64], change: Range<usize>, read: Range<usize>) -> (&mut [f64], &[f64]) {
-    let (low, high) = x.split_at_mut(change.start.max(read.start));
-    if change.start < read.start {
-        (&mut low[change], &high[..read.len()])
-    } else {
-        (&mut high[..change.len()], &low[read])
-    }
-}
-
-/// Twisted factorisation of a block tridiagonal matrix, with the solution for one right-hand side kept up to date.
-#[derive(Debug, Clone)]
-pub struct Factor {
-    from_left: Sweep,
-    from_right: Sweep,
-    /// Row at which the two sweeps meet, and its pivot block.
-    meeting: usize,
-    middle: Pivot,
+    /// With rows and columns of what is removed first, a front is [[A, B], [C, D]]: A^-1 B, C, and D - C A^-1 B.
+    ahead: Panels,
+    behind: Panels,
+    left: Panels,
+    /// Forward substitution of the kept right-hand side: what is removed, and what is passed on.
+    forward: Sides,
+    /// The same of any other.
+    other: Sides,
+    /// The front in which the system was solved last.
+    root: usize,
     eliminated: usize,
-    /// Scratch.
-    schur: Vec<f64>,
-    work: Vec<f64>,
+    scratch: Scratch,
 }
 
-impl Factor {
-    /// For matrices shaped as `k`, no row of them factored yet.
-    pub fn new(k: &Tridiagonal) -> Self {
+/// A right-hand side on its way to the root: for every front the solved part of what it removes, and what it passes on.
+#[derive(Debug, Clone, Default)]
+struct Sides {
+    removed: Panels,
+    passed: Panels,
+}
+
+#[derive(Debug, Clone, Default)]
+struct Scratch {
+    rows: Vec<f64>,
+    load: Vec<f64>,
+    work: Vec<f64>,
+    /// Fronts to go through, those nearest to the root first.
+    order: Vec<usize>,
+}
+
+impl Sides {
+    fn new(tree: &Tree) -> Self {
+        Sides {
+            removed: Panels::zeros(tree.fronts.iter().map(|front| (front.sizes[0], 1))),
+            passed: Panels::zeros(tree.fronts.iter().map(|front| (front.sizes[1], 1))),
+        }
+    }
+}
+
+impl<'t> Factor<'t> {
+    /// For matrices of the tree's pattern; nothing is factored yet.
+    pub fn new(tree: &'t Tree) -> Self {
+        let of = |shape: fn(&Front) -> (usize, usize)| Panels::zeros(tree.fronts.iter().map(shape));
+        let root = tree.root(tree.into.len() / 2);
         Factor {
-            from_left: Sweep::new(k, false),
-            from_right: Sweep::new(k, true),
-            meeting: k.rows() / 2,
-            middle: Pivot::default(),
+            tree,
+            current: vec![false; tree.fronts.len()],
+            pivots: tree.fronts.iter().map(|front| Pivot::new(front.sizes[0])).collect(),
+            ratio: vec![f64::INFINITY; tree.fronts.len()],
+            ahead: of(|front| (front.sizes[0], front.sizes[1])),
+            behind: of(|front| (front.sizes[1], front.sizes[0])),
+            left: of(|front| (front.sizes[1], front.sizes[1])),
+            forward: Sides::new(tree),
+            other: Sides::new(tree),
+            root,
             eliminated: 0,
-            schur: Vec::new(),
-            work: Vec::new(),
+            scratch: Scratch::default(),
         }
     }
 
-    /// Notes that row `row` of the matrix or of the kept right-hand side changes; the sweeps will meet there.
-    pub fn invalidate(&mut self, row: usize) {
-        let n = self.from_left.pivots.len();
-        self.from_left.current = self.from_left.current.min(row);
-        self.from_right.current = self.from_right.current.min(n - 1 - row);
-        self.meeting = row;
+    /// Notes that an element, or the kept right-hand side on its faces, changes. Until the next update the factors remain those
+    /// of the matrix as it was.
+    pub fn invalidate(&mut self, element: usize) {
+        let clique = self.tree.home[element];
+        let mut open = std::mem::take(&mut self.scratch.order);
+        open.clear();
+        open.extend(self.tree.out_of(clique));
+        // What is fed by a front that is not current is not current either.
+        while let Some(front) = open.pop() {
+            if std::mem::replace(&mut self.current[front], false) {
+                open.extend(self.tree.onwards(front));
+            }
+        }
+        self.scratch.order = open;
     }
 
-    /// Factors what is not current and solves K x = b. `b` may differ from that of the last call only in rows that were
-    /// invalidated since.
+    /// Multiplications of the update to come, were it to meet at this element, and of solving once more.
+    pub fn work(&self, element: usize) -> [usize; 2] {
+        let (mut open, mut work) = (vec![self.tree.root(self.tree.home[element])], 0);
+        while let Some(front) = open.pop() {
+            work += self.tree.fronts[front].work()[0];
+            open.extend(self.tree.feeding(front).filter(|&front| !self.current[front]));
+        }
+        [work, self.tree.solving()]
+    }
+
+    /// Factors what is not current and solves K x = b; `element` is that at whose clique elimination from all sides meets. `b`
+    /// may differ from that of the last call only on the faces of elements that were invalidated since.
     ///
     /// # Errors
     /// When stopped: what is done by then is kept.
-    pub fn update(&mut self, k: &Tridiagonal, b: &[f64], x: &mut [f64], heart: &Heart) -> Result<(), Stopped> {
-        let (m, beyond) = (self.meeting, k.rows() - 1 - self.meeting);
-        self.eliminated +=
-            1 + m.saturating_sub(self.from_left.current) + beyond.saturating_sub(self.from_right.current);
-        self.from_left.extend(k, b, m, heart)?;
-        self.from_right.extend(k, b, beyond, heart)?;
-        self.schur.clear();
-        self.schur.extend_from_slice(k.diagonal.get(m));
-        self.from_left.reduce(k, m, &mut self.schur);
-        self.from_right.reduce(k, beyond, &mut self.schur);
-        self.middle = Pivot::new(k.range(m).len());
-        self.middle.factor(&self.schur, &mut [], &mut self.work);
-        let forward = [&self.from_left.forward, &self.from_right.forward].map(Vec::as_slice);
-        Self::finish([&self.from_left, &self.from_right], &self.middle, k, b, forward, m, x);
+    pub fn update(
+        &mut self,
+        k: &Elements,
+        b: &[f64],
+        x: &mut [f64],
+        element: usize,
+        heart: &Heart,
+    ) -> Result<(), Stopped> {
+        self.root = self.tree.root(self.tree.home[element]);
+        let mut order = std::mem::take(&mut self.scratch.order);
+        order.clear();
+        order.push(self.root);
+        self.find_order(&mut order, |current| !current);
+        for &front in order.iter().rev() {
+            self.eliminate(k, front);
+            self.forward_front(b, front);
+            heart.work(self.tree.fronts[front].work()[0])?;
+        }
+        self.scratch.order = order;
+        self.substitute_back(x);
         Ok(())
     }
 
-    /// Solves K x = b for another right-hand side.
+    /// Solves K x = b for another right-hand side, with the factors of the last update.
     ///
     /// # Errors
     /// When stopped.
-    pub fn solve(&self, k: &Tridiagonal, b: &[f64], x: &mut [f64], heart: &Heart) -> Result<(), Stopped> {
+    pub fn solve(&mut self, b: &[f64], x: &mut [f64], heart: &Heart) -> Result<(), Stopped> {
         // Where a factorisation was stopped there are no factors.
         heart.check()?;
-        let (m, beyond) = (self.meeting, k.rows() - 1 - self.meeting);
-        let mut work = Vec::new();
-        let sweeps = [&self.from_left, &self.from_right];
-        let mut forward = [vec![0.0; b.len()], vec![0.0; b.len()]];
-        for ((sweep, count), forward) in sweeps.into_iter().zip([m, beyond]).zip(&mut forward) {
-            // Rows before the first load stay zero.
-            let idle = (0..count).take_while(|&i| b[k.range(sweep.place(i))].iter().all(|load| *load == 0.0)).count();
-            for i in idle..count {
-                sweep.forward_row(k, b, i, forward, &mut work);
-                heart.work(SOLVED * k.range(sweep.place(i)).len().pow(2))?;
-            }
-        }
-        Self::finish(sweeps, &self.middle, k, b, forward.each_ref().map(Vec::as_slice), m, x);
-        Ok(())
+        let mut order = std::mem::take(&mut self.scratch.order);
+        order.clear();
+        order.push(self.root);
+        self.find_order(&mut order, |_| true);
+        std::mem::swap(&mut self.forward, &mut self.other);
+        order.iter().rev().for_each(|&front| self.forward_front(b, front));
+        self.scratch.order = order;
+        self.substitute_back(x);
+        std::mem::swap(&mut self.forward, &mut self.other);
+        heart.work(self.tree.solving())
     }
 
-    /// Solves the middle row and substitutes back to both ends.
-    fn finish(
-        [left, right]: [&Sweep; 2],
-        middle: &Pivot,
-        k: &Tridiagonal,
-        b: &[f64],
-        forward: [&[f64]; 2],
-        m: usize,
-        x: &mut [f64],
-    ) {
-        let beyond = k.rows() - 1 - m;
-        let mut load = b[k.range(m)].to_vec();
-        left.reduce_load(k, m, forward[0], &mut load);
-        right.reduce_load(k, beyond, forward[1], &mut load);
-        middle.solve(&mut load, &mut Vec::new());
-        x[k.range(m)].copy_from_slice(&load);
-        left.substitute_back(k, m, x, forward[0]);
-        right.substitute_back(k, beyond, x, forward[1]);
+    /// Follows the fronts that feed those in `order`, where `wanted(current)` says so.
+    fn find_order(&self, order: &mut Vec<usize>, wanted: impl Fn(bool) -> bool) {
+        let mut next = 0;
+        while next < order.len() {
+            order.extend(self.tree.feeding(order[next]).filter(|&front| wanted(self.current[front])));
+            next += 1;
+        }
+    }
+
+    /// Adds a front up and eliminates what it removes, those that feed it being current.
+    fn eliminate(&mut self, k: &Elements, number: usize) {
+        let front = &self.tree.fronts[number];
+        let [removed, kept] = front.sizes;
+        let width = removed + kept;
+        let mut rows = std::mem::take(&mut self.scratch.rows);
+        rows.clear();
+        rows.resize(width * width, 0.0);
+        for source in &self.tree.sources[front.sources.clone()] {
+            let entries = match source.origin {
+                Origin::Element(element) => k.get(element),
+                Origin::Front(other) => self.left.get(other),
+            };
+            add_up(entries, source, &self.tree.runs[source.runs.clone()], width, &mut rows);
+        }
+        let (above, below) = rows.split_at_mut(removed * width);
+        self.pivots[number].factor(above, kept, self.ahead.get_mut(number));
+        let (behind, left) = (self.behind.get_mut(number), self.left.get_mut(number));
+        for (i, row) in below.chunks_exact(width.max(1)).enumerate() {
+            behind[i * removed..(i + 1) * removed].copy_from_slice(&row[..removed]);
+            left[i * kept..(i + 1) * kept].copy_from_slice(&row[removed..]);
+        }
+        subtract_product(behind, self.ahead.get(number), left, removed, kept);
+        let fed = self.tree.feeding(number).map(|other| self.ratio[other]);
+        self.ratio[number] = fed.fold(self.pivots[number].ratio, f64::min);
+        self.current[number] = true;
+        self.eliminated += front.faces;
+        self.scratch.rows = rows;
+    }
+
+    /// Forward substitution of a right-hand side through a front.
+    fn forward_front(&mut self, b: &[f64], number: usize) {
+        let front = &self.tree.fronts[number];
+        let [removed, kept] = front.sizes;
+        let mut load = std::mem::take(&mut self.scratch.load);
+        load.clear();
+        load.resize(removed + kept, 0.0);
+        for run in &self.tree.runs[front.removed.clone()] {
+            load[run.to..run.to + run.length].copy_from_slice(&b[run.from..run.from + run.length]);
+        }
+        for source in &self.tree.sources[front.sources.clone()] {
+            let Origin::Front(other) = source.origin else { continue };
+            let passed = self.forward.passed.get(other);
+            for run in &self.tree.runs[source.runs.clone()] {
+                let into = load[run.to..run.to + run.length].iter_mut();
+                into.zip(&passed[run.from..run.from + run.length]).for_each(|(sum, part)| *sum += part);
+            }
+        }
+        self.pivots[number].solve(&mut load[..removed], &mut self.scratch.work);
+        let (solved, passed) = load.split_at_mut(removed);
+        subtract_applied(self.behind.get(number), solved, passed);
+        self.forward.removed.get_mut(number).copy_from_slice(solved);
+        self.forward.passed.get_mut(number).copy_from_slice(passed);
+        self.scratch.load = load;
+    }
+
+    /// Substitutes back from the root to all leaves.
+    fn substitute_back(&mut self, x: &mut [f64]) {
+        let (mut order, mut load) = (std::mem::take(&mut self.scratch.order), std::mem::take(&mut self.scratch.load));
+        let mut known = std::mem::take(&mut self.scratch.work);
+        order.clear();
+        order.push(self.root);
+        while let Some(number) = order.pop() {
+            let front = &self.tree.fronts[number];
+            load.clear();
+            load.extend_from_slice(self.forward.removed.get(number));
+            known.clear();
+            for run in &self.tree.runs[front.kept.clone()] {
+                known.extend_from_slice(&x[run.from..run.from + run.length]);
+            }
+            subtract_applied(self.ahead.get(number), &known, &mut load);
+            for run in &self.tree.runs[front.removed.clone()] {
+                x[run.from..run.from + run.length].copy_from_slice(&load[run.to..run.to + run.length]);
+            }
+            order.extend(self.tree.feeding(number));
+        }
+        (self.scratch.order, self.scratch.load, self.scratch.work) = (order, load, known);
     }
 
     /// Smallest ratio of pivots within a block: 1e-2 to 1e-6 for a stable structure, below 1e-13 for a mechanism.
     pub fn pivot_ratio(&self) -> f64 {
-        let of = |sweep: &Sweep, count: usize| if count > 0 { sweep.ratio[count - 1] } else { f64::INFINITY };
-        let n = self.from_left.pivots.len();
-        self.middle.ratio.min(of(&self.from_left, self.meeting)).min(of(&self.from_right, n - 1 - self.meeting))
+        self.ratio[self.root]
     }
 
-    /// Row at which the two sweeps met last.
-    pub fn meeting(&self) -> usize {
-        self.meeting
-    }
-
-    /// Block rows eliminated so far: the work done.
+    /// Faces eliminated so far: the work done.
     pub fn eliminated(&self) -> usize {
         self.eliminated
+    }
+}
+
+/// Adds a square matrix into a front of so many rows.
+fn add_up(entries: &[f64], source: &Source, runs: &[Run], width: usize, front: &mut [f64]) {
+    for row in runs {
+        for i in 0..row.length {
+            let from = &entries[(row.from + i) * source.size..(row.from + i + 1) * source.size];
+            let into = &mut front[(row.to + i) * width..(row.to + i + 1) * width];
+            for column in runs {
+                let sums = into[column.to..column.to + column.length].iter_mut();
+                sums.zip(&from[column.from..column.from + column.length]).for_each(|(sum, entry)| *sum += entry);
+            }
+        }
     }
 }
 

@@ -1,22 +1,23 @@
-//! Discontinuous deformation analysis of a chain of blocks: macroblocks of constant-strain subblocks, unilateral penalty
+//! Discontinuous deformation analysis of an assembly of blocks: macroblocks of constant-strain subblocks, unilateral penalty
 //! contacts with Coulomb friction, and the load path traced exactly from one change of contact state to the next.
 //!
-//! Every macroblock is condensed onto its contact points: the unknowns of a chain are the displacements of the contact
+//! Every macroblock is condensed onto its contact points: the unknowns of an assembly are the displacements of the contact
 //! points on either side of every interface, along the contact's normal and tangent (its nodes). What happens inside
 //! follows from them.
 //!
-//! Nothing here knows that the chain is an arch: a block on a slope, a stack and a portal are chains too.
+//! Nothing here knows that the assembly is an arch: a block on a slope, a stack and a portal are assemblies too.
 //!
 //! Signs, said once: compression is negative in stress; a contact's normal force `N` is positive in compression; a gap
 //! is positive when open; a tangential force `T` acts on the block after the contact, along the contact's tangent.
 //! Body `i` lies between interfaces `i` and `i + 1`; interface `k` joins body `k - 1` (before) to body `k` (after), and the
 //! rigid ground takes the place of a body that is not there.
 
+mod assembly;
 mod balance;
 mod block;
-mod chain;
 mod condense;
 mod contact;
+mod elements;
 mod factor;
 pub mod falling;
 mod heart;
@@ -25,10 +26,11 @@ mod moving;
 mod panels;
 mod pivot;
 mod trace;
+mod tree;
 
+pub use assembly::{Assembly, AssemblyBuilder, Beside, Loads, MeanMotion, Push, Touch};
 pub use balance::{Balanced, balanced, missing};
 pub use block::{Block, Elasticity, V6};
-pub use chain::{Chain, ChainBuilder, Loads, MeanMotion, Push, Touch};
 pub use condense::{Condensed, Loose, Node, Unbuilt, free_response};
 pub use contact::{Contact, ContactForce, Law, State, Zone};
 pub use heart::{Heart, Stopped};

@@ -1,7 +1,7 @@
-//! A chain on its moving geometry: bodies that turn by finite angles, contacts whose normals turn with them.
+//! An assembly on its moving geometry: bodies that turn by finite angles, contacts whose normals turn with them.
 //!
 //! Macroblocks stay condensed as they were in the reference position; what turns is the frame they are seen from. Within
-//! small strains of the bodies this is exact: forces balance in the place where the chain then is.
+//! small strains of the bodies this is exact: forces balance in the place where the assembly then is.
 
 mod body;
 mod interface;
@@ -10,9 +10,9 @@ mod tests;
 mod turn;
 mod twofold;
 
-use super::chain::{Chain, MeanMotion};
+use super::assembly::{Assembly, MeanMotion};
 use super::contact::force_change;
-use super::factor::Tridiagonal;
+use super::elements::Elements;
 use super::heart::{Heart, Stopped};
 use super::trace::Drive;
 use crate::geometry::Vec2;
@@ -27,7 +27,7 @@ pub(super) use twofold::{Twofold, dot as twofold_dot};
 /// Work of renewing a body's stiffness, over the square of its unknowns.
 const LINEARISED: usize = 10;
 
-/// Where all bodies and interfaces of a chain are.
+/// Where all bodies and interfaces of an assembly are.
 #[derive(Debug, Clone)]
 pub(super) struct Placed {
     /// By kind of body.
@@ -35,16 +35,14 @@ pub(super) struct Placed {
     poses: Vec<Pose>,
     frames: Vec<Frame>,
     /// Stiffness of the bodies where it was last computed.
-    pub bodies: Tridiagonal,
+    pub bodies: Elements,
     /// What their loads grow by per unit of the parameter there, N/m.
     pub load_rate: Vec<f64>,
     /// Scratch: loads on the nodes, and the same with all forces turned by -90 degrees.
     loads: [Vec<f64>; 2],
-    /// Scratch: stiffness of one body.
-    dense: Vec<f64>,
 }
 
-/// A velocity of the whole chain.
+/// A velocity of the whole assembly.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Velocity<'d> {
     /// Of the nodes.
@@ -56,18 +54,17 @@ pub(super) struct Velocity<'d> {
 }
 
 impl Placed {
-    /// The chain in its reference position.
-    pub fn new(chain: &Chain, heart: &Heart) -> Self {
-        let corotated: Vec<Corotated> = (0..chain.kinds()).map(|kind| Corotated::new(chain.kind_nodes(kind))).collect();
-        let still = vec![0.0; chain.node_unknowns()];
+    /// The assembly in its reference position.
+    pub fn new(assembly: &Assembly, heart: &Heart) -> Self {
+        let corotated: Vec<Corotated> = (0..assembly.kinds()).map(|kind| Corotated::new(assembly.kind_nodes(kind))).collect();
+        let still = vec![0.0; assembly.node_unknowns()];
         Placed {
-            poses: (0..chain.bodies()).map(|i| corotated[chain.kind_of(i)].at_rest()).collect(),
-            frames: (0..chain.interfaces()).map(|k| frame(chain, k, &still, 0.0)).collect(),
+            poses: (0..assembly.bodies()).map(|i| corotated[assembly.kind_of(i)].at_rest()).collect(),
+            frames: (0..assembly.interfaces()).map(|k| frame(assembly, k, &still, 0.0)).collect(),
             corotated,
-            bodies: chain.elastic().copied(heart),
+            bodies: assembly.elastic().copied(heart),
             load_rate: still.clone(),
             loads: [still.clone(), still],
-            dense: Vec::new(),
         }
     }
 
@@ -78,7 +75,7 @@ impl Placed {
     /// When stopped.
     pub fn place(
         &mut self,
-        chain: &Chain,
+        assembly: &Assembly,
         drive: &Drive,
         parameter: Twofold,
         d: [&[f64]; 2],
@@ -91,18 +88,18 @@ impl Placed {
             load.iter_mut().zip(sum).for_each(|(load, sum)| *load = sum);
         }
         for (i, pose) in self.poses.iter_mut().enumerate() {
-            let (kind, nodes) = (chain.kind_of(i), chain.nodes_of(i));
+            let (kind, nodes) = (assembly.kind_of(i), assembly.nodes_of(i));
             let [straight, turned] = self.loads.each_ref().map(|load| &load[nodes.clone()]);
             let d = d.map(|d| &d[nodes.clone()]);
-            self.corotated[kind].pose(chain.stiffness_of(i), d, NodeLoads { straight, turned }, pose);
-            heart.work(chain.stiffness_of(i).len())?;
+            self.corotated[kind].pose(assembly.stiffness_of(i), d, NodeLoads { straight, turned }, pose);
+            heart.work(assembly.stiffness_of(i).len())?;
         }
-        for k in 0..chain.interfaces() {
-            let ground = chain.ground_at(k).map(|end| &drive.ground[end]);
-            self.frames[k] = frame(chain, k, d[0], ground.map_or(0.0, |ground| ground.spin * parameter.high));
-            for p in chain.at_interface(k) {
-                let moved = ground.map_or_else(Default::default, |ground| ground.moves(chain.place(p), parameter));
-                gaps[p] = self.frames[k].gap(chain.exact_gap(p, d, moved));
+        for k in 0..assembly.interfaces() {
+            let ground = drive.moving_ground(assembly, k);
+            self.frames[k] = frame(assembly, k, d[0], ground.map_or(0.0, |ground| ground.spin * parameter.high));
+            for p in assembly.at_interface(k) {
+                let moved = ground.map_or_else(Default::default, |ground| ground.moves(assembly.place(p), parameter));
+                gaps[p] = self.frames[k].gap(assembly.exact_gap(p, d, moved));
             }
         }
         Ok(())
@@ -110,15 +107,15 @@ impl Placed {
 
     /// Adds loads less elastic forces of all bodies, and what contacts with these gaps and forces put on them, to the
     /// nodes' `residual`.
-    pub fn add_residual(&self, chain: &Chain, gaps: &[[f64; 2]], forces: &[[f64; 2]], residual: &mut [f64]) {
+    pub fn add_residual(&self, assembly: &Assembly, gaps: &[[f64; 2]], forces: &[[f64; 2]], residual: &mut [f64]) {
         for (i, pose) in self.poses.iter().enumerate() {
-            self.corotated[chain.kind_of(i)].add_residual(pose, &mut residual[chain.nodes_of(i)]);
+            self.corotated[assembly.kind_of(i)].add_residual(pose, &mut residual[assembly.nodes_of(i)]);
         }
-        for k in 0..chain.interfaces() {
-            for (side, face) in chain.faces(k).into_iter().enumerate() {
+        for k in 0..assembly.interfaces() {
+            for (side, face) in assembly.faces(k).into_iter().enumerate() {
                 let Some(face) = face else { continue };
-                let points = chain.at_interface(k).map(|p| (forces[p], cross(&forces[p], &gaps[p])));
-                self.frames[k].add_forces(side, points, &mut residual[chain.elastic().range(face)]);
+                let points = assembly.at_interface(k).map(|p| (forces[p], cross(&forces[p], &gaps[p])));
+                self.frames[k].add_forces(side, points, &mut residual[face]);
             }
         }
     }
@@ -127,13 +124,11 @@ impl Placed {
     ///
     /// # Errors
     /// When stopped.
-    pub fn linearise(&mut self, chain: &Chain, drive: &Drive, heart: &Heart) -> Result<(), Stopped> {
+    pub fn linearise(&mut self, assembly: &Assembly, drive: &Drive, heart: &Heart) -> Result<(), Stopped> {
         for (i, pose) in self.poses.iter().enumerate() {
-            let (nodes, corotated) = (chain.nodes_of(i), &self.corotated[chain.kind_of(i)]);
+            let (nodes, corotated) = (assembly.nodes_of(i), &self.corotated[assembly.kind_of(i)]);
             let n = nodes.len();
-            self.dense.resize(n * n, 0.0);
-            corotated.stiffness(chain.stiffness_of(i), pose, &mut self.dense);
-            self.bodies.set_pair(2 * i, |i, j| self.dense[i * n + j]);
+            corotated.stiffness(assembly.stiffness_of(i), pose, self.bodies.get_mut(i));
             let rate = NodeLoads { straight: &drive.rate[nodes.clone()], turned: &drive.turned[1][nodes.clone()] };
             corotated.load_rate(pose, rate, &mut self.load_rate[nodes]);
             heart.work(LINEARISED * n * n)?;
@@ -147,25 +142,25 @@ impl Placed {
     }
 
     /// Rates of gap and slip of all contacts, for a velocity.
-    pub fn gap_rates(&self, chain: &Chain, drive: &Drive, along: Velocity, gaps: &[[f64; 2]], rates: &mut [[f64; 2]]) {
-        for k in 0..chain.interfaces() {
-            let spin = self.spin(chain, drive, k, along);
-            for p in chain.at_interface(k) {
-                rates[p] = self.frames[k].gap_rate(gaps[p], between(chain, drive, p, along), spin);
+    pub fn gap_rates(&self, assembly: &Assembly, drive: &Drive, along: Velocity, gaps: &[[f64; 2]], rates: &mut [[f64; 2]]) {
+        for k in 0..assembly.interfaces() {
+            let spin = self.spin(assembly, drive, k, along);
+            for p in assembly.at_interface(k) {
+                rates[p] = self.frames[k].gap_rate(gaps[p], between(assembly, drive, p, along), spin);
             }
         }
     }
 
     /// Rates of gap and slip of contact `p` alone.
-    pub fn gap_rate(&self, chain: &Chain, drive: &Drive, p: usize, along: Velocity, gap: [f64; 2]) -> [f64; 2] {
-        let k = chain.interface_of(p);
-        self.frames[k].gap_rate(gap, between(chain, drive, p, along), self.spin(chain, drive, k, along))
+    pub fn gap_rate(&self, assembly: &Assembly, drive: &Drive, p: usize, along: Velocity, gap: [f64; 2]) -> [f64; 2] {
+        let k = assembly.interface_of(p);
+        self.frames[k].gap_rate(gap, between(assembly, drive, p, along), self.spin(assembly, drive, k, along))
     }
 
     /// Rate at which the normal of interface `k` turns.
-    fn spin(&self, chain: &Chain, drive: &Drive, k: usize, along: Velocity) -> f64 {
-        let ground = chain.ground_at(k).map_or(0.0, |end| along.rate * drive.ground[end].spin);
-        self.frames[k].spin(faces(chain, k, along.nodes), ground)
+    fn spin(&self, assembly: &Assembly, drive: &Drive, k: usize, along: Velocity) -> f64 {
+        let ground = drive.moving_ground(assembly, k).map_or(0.0, |ground| along.rate * ground.spin);
+        self.frames[k].spin(faces(assembly, k, along.nodes), ground)
     }
 
     /// Largest elastic displacement of a body's points over the body's size.
@@ -178,26 +173,26 @@ impl Placed {
     /// gap, force, and the change of minus the force per change of gap and slip.
     pub fn add_ground(
         &self,
-        chain: &Chain,
+        assembly: &Assembly,
         drive: &Drive,
         k: usize,
         parameter: f64,
         points: impl Iterator<Item = Bearing> + Clone,
         load_rate: &mut [f64],
     ) {
-        let Some(ground) = chain.ground_at(k).map(|end| &drive.ground[end]).filter(|g| !g.is_still()) else { return };
+        let Some(ground) = drive.moving_ground(assembly, k) else { return };
         let (frame, spin) = (&self.frames[k], ground.spin);
-        let rates = chain.at_interface(k).zip(points).map(|(p, at)| {
-            let moved = ground.velocity_at(chain.place(p), parameter);
-            let gap = frame.gap_rate(at.gap, chain.ground_gap(p, moved), spin);
+        let rates = assembly.at_interface(k).zip(points).map(|(p, at)| {
+            let moved = ground.velocity_at(assembly.place(p), parameter);
+            let gap = frame.gap_rate(at.gap, assembly.ground_gap(p, moved), spin);
             let change = force_change(at.tangent, gap);
             let turning = quarter_of(at.force).map(|x| x * spin);
             let couple = cross(&change, &at.gap) + cross(&at.force, &gap);
             ([change[0] + turning[0], change[1] + turning[1]], couple)
         });
-        for (side, face) in chain.faces(k).into_iter().enumerate() {
+        for (side, face) in assembly.faces(k).into_iter().enumerate() {
             if let Some(face) = face {
-                frame.add_forces(side, rates.clone(), &mut load_rate[chain.elastic().range(face)]);
+                frame.add_forces(side, rates.clone(), &mut load_rate[face]);
             }
         }
     }
@@ -208,17 +203,17 @@ impl Placed {
     }
 
     /// Mean motion of body `i`: of its nodes' mean and of what is elastic in it, loads between the nodes left out.
-    pub fn mean_motion(&self, chain: &Chain, i: usize) -> MeanMotion {
-        let (pose, centre) = (&self.poses[i], self.corotated[chain.kind_of(i)].centre());
-        chain.moved(i, centre, pose.turn, pose.shift, &pose.elastic)
+    pub fn mean_motion(&self, assembly: &Assembly, i: usize) -> MeanMotion {
+        let (pose, centre) = (&self.poses[i], self.corotated[assembly.kind_of(i)].centre());
+        assembly.moved(i, centre, pose.turn, pose.shift, &pose.elastic)
     }
 }
 
 /// Velocity between the two sides of contact `p`, along its axes.
-fn between(chain: &Chain, drive: &Drive, p: usize, along: Velocity) -> [f64; 2] {
-    let ground = chain.ground_at(chain.interface_of(p)).map(|end| &drive.ground[end]);
-    let moved = ground.map_or(Vec2::zeros(), |g| g.velocity_at(chain.place(p), along.parameter) * along.rate);
-    plus(chain.gap(p, along.nodes), chain.ground_gap(p, moved))
+fn between(assembly: &Assembly, drive: &Drive, p: usize, along: Velocity) -> [f64; 2] {
+    let ground = drive.moving_ground(assembly, assembly.interface_of(p));
+    let moved = ground.map_or(Vec2::zeros(), |g| g.velocity_at(assembly.place(p), along.parameter) * along.rate);
+    plus(assembly.gap(p, along.nodes), assembly.ground_gap(p, moved))
 }
 
 fn plus(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
@@ -226,10 +221,10 @@ fn plus(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
 }
 
 /// Displacements (or velocities) of the faces beside interface `k`.
-fn faces<'d>(chain: &Chain, k: usize, d: &'d [f64]) -> [Option<&'d [f64]>; 2] {
-    chain.faces(k).map(|face| face.map(|face| &d[chain.elastic().range(face)]).filter(|d| !d.is_empty()))
+fn faces<'d>(assembly: &Assembly, k: usize, d: &'d [f64]) -> [Option<&'d [f64]>; 2] {
+    assembly.faces(k).map(|face| face.map(|face| &d[face]).filter(|d| !d.is_empty()))
 }
 
-fn frame(chain: &Chain, k: usize, d: &[f64], ground: f64) -> Frame {
-    Frame::new(chain.line(k), faces(chain, k, d), ground)
+fn frame(assembly: &Assembly, k: usize, d: &[f64], ground: f64) -> Frame {
+    Frame::new(assembly.line(k), faces(assembly, k, d), ground)
 }

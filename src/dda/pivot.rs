@@ -21,33 +21,29 @@ impl Pivot {
         Pivot { n, rows: Vec::new(), order: Vec::new(), ratio: f64::INFINITY }
     }
 
-    /// Factors `a` and solves a X = b for all columns of `b` in the same sweep; `b` becomes X. `work` is scratch.
-    pub(super) fn factor(&mut self, a: &[f64], b: &mut [f64], work: &mut Vec<f64>) {
-        let columns = b.len().checked_div(self.n).unwrap_or(0);
+    /// Factors a and solves a X = b for all `columns` of b in the same sweep, given as `rows` of [a | b], which are used up; X goes
+    /// to `solved`, row by row.
+    pub(super) fn factor(&mut self, rows: &mut [f64], columns: usize, solved: &mut [f64]) {
         match (self.n, columns) {
             (0, _) => self.ratio = f64::INFINITY,
             // Two contact points a joint: shapes known to the compiler run several times faster.
-            (4, 4) => self.factor_of(4, 4, a, b, work),
-            (4, 0) => self.factor_of(4, 0, a, b, work),
-            (n, columns) => self.factor_of(n, columns, a, b, work),
+            (4, 4) => self.factor_of(4, 4, rows, solved),
+            (4, 0) => self.factor_of(4, 0, rows, solved),
+            (n, columns) => self.factor_of(n, columns, rows, solved),
         }
     }
 
     /// Rows of [a | b] are kept together: an elimination step is one operation on neighbours, which compilers turn into
     /// vector instructions.
     #[inline(always)]
-    fn factor_of(&mut self, n: usize, columns: usize, a: &[f64], b: &mut [f64], work: &mut Vec<f64>) {
+    fn factor_of(&mut self, n: usize, columns: usize, rows: &mut [f64], b: &mut [f64]) {
         let width = n + columns;
-        work.clear();
-        for i in 0..n {
-            work.extend_from_slice(&a[i * n..(i + 1) * n]);
-            work.extend_from_slice(&b[i * columns..(i + 1) * columns]);
-        }
-        let rows = &mut work[..n * width];
+        let rows = &mut rows[..n * width];
         self.rows.resize(n * n, 0.0);
         self.order.resize(n, 0);
         self.order.iter_mut().enumerate().for_each(|(i, place)| *place = i);
-        let scale = a.iter().fold(f64::MIN_POSITIVE / f64::EPSILON, |scale, x| scale.max(x.abs()));
+        let of_a = rows.chunks_exact(width).flat_map(|row| &row[..n]);
+        let scale = of_a.fold(f64::MIN_POSITIVE / f64::EPSILON, |scale, x| scale.max(x.abs()));
         let (mut smallest, mut largest) = (f64::INFINITY, 0f64);
         for k in 0..n {
             let size = |i: usize| rows[i * width + k].abs();

@@ -23,9 +23,10 @@ pub use lost::{Lost, Violation};
 pub use moving::Patience;
 pub use peak::Peak;
 
-use super::chain::Chain;
+use super::assembly::Assembly;
 use super::contact::State;
-use super::factor::{Factor, Tridiagonal};
+use super::elements::Elements;
+use super::factor::Factor;
 use super::heart::Heart;
 use super::moving::{Placed, Velocity};
 use drift::Drift;
@@ -38,9 +39,9 @@ use tangent::Updates;
 pub enum End {
     /// The parameter reached the value asked for.
     Reached,
-    /// The chain moves on without any further change: a mechanism.
+    /// The assembly moves on without any further change: a mechanism.
     Mechanism,
-    /// The parameter rises, for all that can be told to the value asked for, and the chain moves so far with it that its
+    /// The parameter rises, for all that can be told to the value asked for, and the assembly moves so far with it that its
     /// displacements mean nothing.
     Rising,
     /// The caller asked to stop.
@@ -51,14 +52,14 @@ pub enum End {
 
 /// A pivot ratio below this is a mechanism (measured: regular 1e-2 to 1e-8, singular below 1e-14).
 const SINGULAR: f64 = 1e-13;
-/// So is a direction in which the chain has to move by its own size to take on this share of its load (measured:
-/// stable chains take on 1e4 times their load). Elimination that pivots inside the blocks only may blur a singular
+/// So is a direction in which the assembly has to move by its own size to take on this share of its load (measured:
+/// stable assemblies take on 1e4 times their load). Elimination that pivots inside the blocks only may blur a singular
 /// pivot to 1e-10; this it does not blur.
 const SOFT: f64 = 1e-6;
 /// So is one in which the load gains, per movement, less than this share of the stiffest contact's stiffness for every contact:
-/// rounding of the stiffness gains as much (measured: rounding up to 5e-16, stable chains 1e-12 and more).
+/// rounding of the stiffness gains as much (measured: rounding up to 5e-16, stable assemblies 1e-12 and more).
 const BLURRED: f64 = 16.0 * f64::EPSILON;
-/// A chain that moves by so many sizes while its load gains less than `SOFT` for each goes on for ever; and equilibrium that is
+/// An assembly that moves by so many sizes while its load gains less than `SOFT` for each goes on for ever; and equilibrium that is
 /// lost to rounding so far away is none that it could reach.
 const FAR: f64 = 100.0;
 /// So many steps of length zero in a row, and as many more per contact, mean that ties do not resolve.
@@ -66,14 +67,14 @@ const MOST_ZERO_STEPS: [usize; 2] = [60, 4];
 /// A path has at most so many events, and so many more per contact; real ones have about one per contact.
 const MOST_EVENTS: [usize; 2] = [200, 20];
 
-/// Follows the load path of a chain.
+/// Follows the load path of an assembly.
 #[derive(Clone)]
 pub struct Tracer<'a> {
-    chain: &'a Chain,
+    assembly: &'a Assembly,
     /// Beats in long work between events.
     heart: &'a Heart<'a>,
     drive: Drive,
-    /// Extent of the chain and scale of its loads.
+    /// Extent of the assembly and scale of its loads.
     size: f64,
     load_scale: f64,
     /// Greatest normal stiffness of a contact, N/m2.
@@ -104,9 +105,9 @@ pub struct Tracer<'a> {
     settling: Vec<[f64; 2]>,
 
     /// Tangent stiffness, load rate and their factors, without the changes that `updates` follows.
-    matrix: Tridiagonal,
+    matrix: Elements,
     load_rate: Vec<f64>,
-    factor: Factor,
+    factor: Factor<'a>,
     updates: Updates,
     /// Largest entry of the drive's load rate.
     load_rate_scale: f64,
@@ -125,20 +126,20 @@ pub struct Tracer<'a> {
 impl<'a> Tracer<'a> {
     /// A tracer at parameter 0 with zero displacements, every contact closed and stuck.
     ///
-    /// `size` is the chain's extent in m, `load_scale` a load in N/m (its weight) that residuals are measured against.
+    /// `size` is the assembly's extent in m, `load_scale` a load in N/m (its weight) that residuals are measured against.
     /// The drive must be in equilibrium there: `base` balances the offset's contact forces (see [`covering`]).
     ///
     /// `heart` is asked between the calls of what sees a path go by, wherever it takes long from one to the next.
-    pub fn new(chain: &'a Chain, drive: Drive, size: f64, load_scale: f64, heart: &'a Heart<'a>) -> Self {
-        let n = chain.elastic().start[chain.elastic().rows()];
+    pub fn new(assembly: &'a Assembly, drive: Drive, size: f64, load_scale: f64, heart: &'a Heart<'a>) -> Self {
+        let n = assembly.node_unknowns();
         let mut tracer = Tracer {
-            chain,
+            assembly,
             heart,
             drive,
             size,
             load_scale,
-            stiffest: chain.contacts().iter().map(|c| c.stiffness[0]).fold(0.0, f64::max),
-            states: chain.contacts().iter().map(|c| c.pressed_state()).collect(),
+            stiffest: assembly.contacts().iter().map(|c| c.stiffness[0]).fold(0.0, f64::max),
+            states: assembly.contacts().iter().map(|c| c.pressed_state()).collect(),
             displacements: vec![0.0; n],
             parameter: 0.0,
             rests: vec![0.0; n],
@@ -151,15 +152,15 @@ impl<'a> Tracer<'a> {
             retraced: false,
             lost: None,
             stuck: None,
-            settling: vec![[0.0; 2]; chain.contacts().len()],
-            matrix: chain.elastic().copied(heart),
+            settling: vec![[0.0; 2]; assembly.contacts().len()],
+            matrix: assembly.elastic().copied(heart),
             load_rate: vec![0.0; n],
             load_rate_scale: 0.0,
-            factor: Factor::new(chain.elastic()),
+            factor: Factor::new(assembly.tree()),
             updates: Updates::default(),
-            gaps: vec![[0.0; 2]; chain.contacts().len()],
-            rates: vec![[0.0; 2]; chain.contacts().len()],
-            forces: vec![[0.0; 2]; chain.contacts().len()],
+            gaps: vec![[0.0; 2]; assembly.contacts().len()],
+            rates: vec![[0.0; 2]; assembly.contacts().len()],
+            forces: vec![[0.0; 2]; assembly.contacts().len()],
             direction: vec![0.0; n],
             residual: vec![0.0; n],
             events: 0,
@@ -171,20 +172,20 @@ impl<'a> Tracer<'a> {
         tracer
     }
 
-    /// A tracer at parameter 0 and displacements `d` of the nodes, at which the chain must be in equilibrium with the drive's
+    /// A tracer at parameter 0 and displacements `d` of the nodes, at which the assembly must be in equilibrium with the drive's
     /// base; every contact is in the state that the law gives it there. The rest is as for [`Tracer::new`].
     pub fn starting_at(
-        chain: &'a Chain,
+        assembly: &'a Assembly,
         drive: Drive,
         d: &[f64],
         size: f64,
         load_scale: f64,
         heart: &'a Heart<'a>,
     ) -> Self {
-        let mut tracer = Tracer::new(chain, drive, size, load_scale, heart);
+        let mut tracer = Tracer::new(assembly, drive, size, load_scale, heart);
         tracer.displacements.copy_from_slice(d);
         tracer.find_residual();
-        let law = chain.contacts().iter().zip(&tracer.gaps);
+        let law = assembly.contacts().iter().zip(&tracer.gaps);
         tracer.states = law.map(|(contact, &gap)| contact.state_at(gap)).collect();
         tracer.reassemble_all();
         tracer
@@ -201,11 +202,12 @@ impl<'a> Tracer<'a> {
     }
 
     fn find_settling(&mut self) {
-        for (k, end) in [(0, 0), (self.chain.bodies(), 1)] {
-            let ground = &self.drive.ground[end];
-            for p in self.chain.at_interface(k) {
-                let velocity = ground.velocity_at(self.chain.place(p), 0.0);
-                self.settling[p] = self.chain.ground_gap(p, velocity);
+        self.settling.fill([0.0; 2]);
+        for k in 0..self.assembly.interfaces() {
+            let Some(ground) = self.drive.moving_ground(self.assembly, k) else { continue };
+            for p in self.assembly.at_interface(k) {
+                let velocity = ground.velocity_at(self.assembly.place(p), 0.0);
+                self.settling[p] = self.assembly.ground_gap(p, velocity);
             }
         }
     }
@@ -302,13 +304,13 @@ impl<'a> Tracer<'a> {
         match &self.moving {
             None => {
                 for p in 0..self.states.len() {
-                    let ([gap, slip], drift) = (self.chain.gap(p, &self.direction), self.drift(p));
+                    let ([gap, slip], drift) = (self.assembly.gap(p, &self.direction), self.drift(p));
                     self.rates[p] = [gap + drift[0] * self.rate, slip + drift[1] * self.rate];
                 }
             }
             Some(moving) => {
                 let along = Velocity { nodes: &self.direction, parameter: self.parameter, rate: self.rate };
-                moving.gap_rates(self.chain, &self.drive, along, &self.gaps, &mut self.rates);
+                moving.gap_rates(self.assembly, &self.drive, along, &self.gaps, &mut self.rates);
             }
         }
     }
@@ -319,10 +321,10 @@ impl<'a> Tracer<'a> {
         self.rate = -self.rate;
     }
 
-    /// True where the present contact state leaves the chain free to move.
+    /// True where the present contact state leaves the assembly free to move.
     pub fn is_mechanism(&self) -> bool {
         let gained = self.rate.abs() * self.size * self.load_rate_scale;
-        // Moving geometry stiffens a chain by its loads, however stiff its contacts are.
+        // Moving geometry stiffens an assembly by its loads, however stiff its contacts are.
         let contacts = if self.moving.is_none() { self.states.len() } else { 0 };
         let blurred = BLURRED * contacts as f64 * self.stiffest * self.size;
         self.factor.pivot_ratio() < SINGULAR || gained < blurred.max(SOFT * self.load_scale)

@@ -70,11 +70,11 @@ fn the_subblocks_of_a_stone_tile_it() {
 }
 
 /// Displacements of the nodes of a chain that moves as `field` says.
-fn moved(chain: &Chain, field: impl Fn(Vec2) -> Vec2) -> Vec<f64> {
+fn moved(chain: &crate::dda::Assembly, field: impl Fn(Vec2) -> Vec2) -> Vec<f64> {
     let mut d = vec![0.0; chain.node_unknowns()];
     for k in 0..chain.interfaces() {
         for face in chain.faces(k).into_iter().flatten() {
-            for (p, i) in chain.at_interface(k).zip(chain.elastic().range(face).step_by(2)) {
+            for (p, i) in chain.at_interface(k).zip(face.step_by(2)) {
                 let (u, normal) = (field(chain.place(p)), chain.normal(p));
                 (d[i], d[i + 1]) = (u.dot(&normal), u.dot(&perpendicular(normal)));
             }

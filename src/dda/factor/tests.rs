@@ -1,4 +1,5 @@
 use super::*;
+use crate::dda::elements::Pattern;
 use faer::linalg::solvers::Solve;
 
 /// A fixed, well-spread sequence of numbers in (-1, 1).
@@ -6,37 +7,48 @@ fn numbers() -> impl Iterator<Item = f64> {
     (1..).map(|i| ((i * i) as f64 * 0.754_877_666).fract() * 2.0 - 1.0)
 }
 
-/// Block rows of different sizes, one of them empty, as at a free end.
-const SIZES: [usize; 7] = [4, 4, 6, 2, 4, 5, 0];
+/// Faces of these sizes, tied by these elements.
+fn pattern(sizes: &[usize], elements: &[&[usize]]) -> Pattern {
+    let mut start = vec![0];
+    sizes.iter().for_each(|n| start.push(start[start.len() - 1] + n));
+    Pattern { start, faces: elements.iter().map(|faces| faces.to_vec()).collect() }
+}
 
-fn matrix(sizes: &[usize]) -> Tridiagonal {
-    let mut k = Tridiagonal::zeros(sizes);
-    let mut source = numbers();
-    let mut fill = |panel: &mut [f64]| panel.iter_mut().for_each(|x| *x = source.next().unwrap());
-    for (i, &n) in sizes.iter().enumerate() {
-        fill(k.diagonal.get_mut(i));
-        (0..n).for_each(|j| k.diagonal.get_mut(i)[j * (n + 1)] += 9.0);
-    }
-    for i in 1..sizes.len() {
-        fill(k.upper.get_mut(i - 1));
-        fill(k.lower.get_mut(i - 1));
+/// Faces in a row, each tied to the next.
+fn row(sizes: &[usize]) -> Pattern {
+    let elements: Vec<[usize; 2]> = (1..sizes.len()).map(|i| [i - 1, i]).collect();
+    pattern(sizes, &elements.iter().map(|e| e.as_slice()).collect::<Vec<_>>())
+}
+
+/// Bodies in a row, three of which meet a fourth; loops; a part of its own; an element of one face; a face without unknowns.
+fn patterns() -> Vec<Pattern> {
+    let loops: [&[usize]; 8] = [&[0, 1], &[1, 2, 3], &[3, 4], &[4, 5, 0], &[5, 6], &[6, 7, 8], &[8, 2], &[7]];
+    let forest: [&[usize]; 6] = [&[0, 1], &[1, 2], &[2, 3, 4], &[4, 5], &[6, 7], &[8]];
+    vec![
+        row(&[4, 4, 6, 2, 4, 5, 0]),
+        pattern(&[4, 4, 2, 6, 4, 4, 3, 4, 2], &loops),
+        pattern(&[4, 2, 4, 4, 0, 4, 4, 4, 2], &forest),
+        pattern(&[3], &[&[0]]),
+    ]
+}
+
+fn matrix(pattern: &Pattern) -> Elements {
+    let (mut k, mut source) = (Elements::zeros(pattern), numbers());
+    for element in 0..pattern.faces.len() {
+        let n = pattern.size(element);
+        k.get_mut(element).iter_mut().for_each(|x| *x = source.next().unwrap());
+        (0..n).for_each(|j| k.get_mut(element)[j * (n + 1)] += 9.0);
     }
     k
 }
 
 /// Worst difference from faer's dense LU with partial pivoting over the whole matrix.
-fn error(k: &Tridiagonal, b: &[f64], x: &[f64]) -> f64 {
-    let mut dense = faer::Mat::zeros(b.len(), b.len());
-    let mut put = |panel: &[f64], rows: Range<usize>, columns: Range<usize>| {
-        for (at, value) in panel.iter().enumerate() {
-            dense[(rows.start + at / columns.len(), columns.start + at % columns.len())] = *value;
-        }
-    };
-    for i in 0..k.rows() {
-        put(k.diagonal.get(i), k.range(i), k.range(i));
-        if i > 0 {
-            put(k.upper.get(i - 1), k.range(i - 1), k.range(i));
-            put(k.lower.get(i - 1), k.range(i), k.range(i - 1));
+fn error(pattern: &Pattern, k: &Elements, b: &[f64], x: &[f64]) -> f64 {
+    let mut dense = faer::Mat::<f64>::zeros(b.len(), b.len());
+    for (element, faces) in pattern.faces.iter().enumerate() {
+        let places: Vec<usize> = faces.iter().flat_map(|&face| pattern.range(face)).collect();
+        for (at, value) in k.get(element).iter().enumerate() {
+            dense[(places[at / places.len()], places[at % places.len()])] += *value;
         }
     }
     let rhs = faer::Mat::from_fn(b.len(), 1, |i, _| b[i]);
@@ -46,45 +58,86 @@ fn error(k: &Tridiagonal, b: &[f64], x: &[f64]) -> f64 {
 
 #[test]
 fn agrees_with_a_dense_solver_wherever_the_change_is() {
-    let mut k = matrix(&SIZES);
-    let mut factor = Factor::new(&k);
-    let n = k.start[SIZES.len()];
-    let mut source = numbers().skip(5000);
-    let mut vector = || -> Vec<f64> { source.by_ref().take(n).collect() };
-    let (mut b, other, mut x) = (vector(), vector(), vec![0.0; n]);
-    for row in [3, 4, 0, 6, 5, 1, 1] {
-        if SIZES[row] > 0 {
-            k.diagonal.get_mut(row)[1] += 1.5;
-            b[k.start[row]] -= 0.3;
+    for pattern in patterns() {
+        let (mut k, tree) = (matrix(&pattern), Tree::new(&pattern));
+        let mut factor = Factor::new(&tree);
+        let n = pattern.unknowns();
+        let mut source = numbers().skip(5000);
+        let mut vector = || -> Vec<f64> { source.by_ref().take(n).collect() };
+        let (mut b, other, mut x) = (vector(), vector(), vec![0.0; n]);
+        for change in [3, 4, 0, 6, 5, 1, 1, 7, 2].map(|element| element % pattern.faces.len()) {
+            if pattern.size(change) > 0 {
+                k.get_mut(change)[pattern.size(change) - 1] += 1.5;
+                let face = pattern.faces[change].iter().find(|&&face| !pattern.range(face).is_empty());
+                b[pattern.start[*face.unwrap()]] -= 0.3;
+            }
+            factor.invalidate(change);
+            factor.update(&k, &b, &mut x, change, &Heart::unwatched()).unwrap();
+            assert!(error(&pattern, &k, &b, &x) < 1e-13);
+            factor.solve(&other, &mut x, &Heart::unwatched()).unwrap();
+            assert!(error(&pattern, &k, &other, &x) < 1e-13);
+            assert!(factor.pivot_ratio() > 1e-3);
         }
-        factor.invalidate(row);
-        factor.update(&k, &b, &mut x, &Heart::unwatched()).unwrap();
-        assert!(error(&k, &b, &x) < 1e-13);
-        factor.solve(&k, &other, &mut x, &Heart::unwatched()).unwrap();
-        assert!(error(&k, &other, &x) < 1e-13);
-        assert!(factor.pivot_ratio() > 1e-3);
     }
 }
 
 #[test]
+fn until_the_next_update_the_factors_are_those_of_the_last() {
+    let pattern = &patterns()[1];
+    let (mut k, tree) = (matrix(pattern), Tree::new(pattern));
+    let (before, b, mut x) = (k.clone(), vec![1.0; pattern.unknowns()], vec![0.0; pattern.unknowns()]);
+    let mut factor = Factor::new(&tree);
+    factor.update(&k, &b, &mut x, 2, &Heart::unwatched()).unwrap();
+    k.get_mut(5)[0] += 2.0;
+    factor.invalidate(5);
+    factor.solve(&b, &mut x, &Heart::unwatched()).unwrap();
+    assert!(error(pattern, &before, &b, &x) < 1e-13);
+    assert!(error(pattern, &k, &b, &x) > 1e-3);
+}
+
+#[test]
 fn a_change_costs_the_rows_between_it_and_the_last() {
-    let k = matrix(&[4; 100]);
-    let mut factor = Factor::new(&k);
+    let pattern = row(&[4; 100]);
+    let (k, tree) = (matrix(&pattern), Tree::new(&pattern));
+    let mut factor = Factor::new(&tree);
     let (b, mut x) = (vec![0.0; 400], vec![0.0; 400]);
-    let mut cost = |row: usize| {
+    let mut cost = |element: usize| {
         let before = factor.eliminated();
-        factor.invalidate(row);
-        factor.update(&k, &b, &mut x, &Heart::unwatched()).unwrap();
+        factor.invalidate(element);
+        factor.update(&k, &b, &mut x, element, &Heart::unwatched()).unwrap();
         factor.eliminated() - before
     };
-    assert_eq!([cost(50), cost(53), cost(53), cost(43), cost(99)], [100, 4, 1, 11, 57]);
+    // The two faces of the element last, and one for every element on the way.
+    assert_eq!([cost(50), cost(53), cost(53), cost(43), cost(98)], [100, 5, 2, 12, 57]);
+}
+
+#[test]
+fn arches_on_piers_tie_nothing_that_was_not() {
+    // Two arches of ten stones on a pier of five, a skewback of three faces between them.
+    let (mut sizes, mut elements) = (vec![4; 3], vec![vec![0, 1, 2]]);
+    for (face, stones) in [(0, 10), (1, 10), (2, 5)] {
+        let mut last = face;
+        for _ in 0..stones {
+            let n = sizes.len();
+            sizes.extend([4, 4]);
+            elements.extend([vec![last, n], vec![n, n + 1]]);
+            last = n + 1;
+        }
+        elements.push(vec![last]);
+    }
+    let pattern = pattern(&sizes, &elements.iter().map(|e| e.as_slice()).collect::<Vec<_>>());
+    let tree = Tree::new(&pattern);
+    let largest = tree.fronts.iter().map(|front| front.sizes[0] + front.sizes[1]).max();
+    assert_eq!(largest, Some(12));
 }
 
 #[test]
 fn a_singular_block_shows_in_the_pivot_ratio() {
-    let mut k = Tridiagonal::zeros(&[4]);
-    k.diagonal.get_mut(0).copy_from_slice(&[1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 0.]);
-    let mut factor = Factor::new(&k);
-    factor.update(&k, &[0.0; 4], &mut [0.0; 4], &Heart::unwatched()).unwrap();
+    let pattern = pattern(&[4], &[&[0]]);
+    let tree = Tree::new(&pattern);
+    let mut k = Elements::zeros(&pattern);
+    k.get_mut(0).copy_from_slice(&[1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 0.]);
+    let mut factor = Factor::new(&tree);
+    factor.update(&k, &[0.0; 4], &mut [0.0; 4], 0, &Heart::unwatched()).unwrap();
     assert!(factor.pivot_ratio() < 1e-14);
 }

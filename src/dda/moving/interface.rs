@@ -146,8 +146,24 @@ impl Stiffness {
         Stiffness { direct, coupled, of_levers, of_curvature, levers, lines: frame.lines }
     }
 
+    /// Fills the element over the faces that there are, before and after, row by row.
+    pub fn fill(&self, faces: [bool; 2], element: &mut [f64]) {
+        let sides: Vec<usize> = (0..2).filter(|&side| faces[side]).collect();
+        let (n, width) = (2 * self.direct.len(), 2 * self.direct.len() * sides.len());
+        let mut panel = vec![0.0; n * n];
+        for (i, &row) in sides.iter().enumerate() {
+            for (j, &column) in sides.iter().enumerate() {
+                panel.fill(0.0);
+                self.add([row, column], &mut panel);
+                for (at, entries) in panel.chunks_exact(n).enumerate() {
+                    element[(i * n + at) * width + j * n..][..n].copy_from_slice(entries);
+                }
+            }
+        }
+    }
+
     /// Adds to the panel between two sides (0 before, 1 after), row by row.
-    pub fn add(&self, [row, column]: [usize; 2], panel: &mut [f64]) {
+    fn add(&self, [row, column]: [usize; 2], panel: &mut [f64]) {
         let (n, sign) = (2 * self.direct.len(), if row == column { 1.0 } else { -1.0 });
         for (j, direct) in self.direct.iter().enumerate() {
             let at = 2 * j * (n + 1);

@@ -57,7 +57,7 @@ impl Tracer<'_> {
         None
     }
 
-    /// Brings the chain back to equilibrium while something is held; false where that does not converge.
+    /// Brings the assembly back to equilibrium while something is held; false where that does not converge.
     pub(super) fn correct(&mut self, hold: Hold) -> bool {
         let mut correction = vec![0.0; self.displacements.len()];
         let (mut last, mut renewed) = (f64::INFINITY, false);
@@ -75,7 +75,7 @@ impl Tracer<'_> {
                 self.renew_tangent();
             }
             (last, renewed) = (error, slow);
-            if self.factor.solve(&self.matrix, &self.residual, &mut correction, self.heart).is_err() {
+            if self.factor.solve(&self.residual, &mut correction, self.heart).is_err() {
                 return false;
             }
             let along = match hold {
@@ -113,12 +113,12 @@ impl Tracer<'_> {
         let rate = match (along, &self.moving) {
             (Some(direction), Some(moving)) => {
                 let along = Velocity { nodes: direction, parameter: self.parameter, rate: 0.0 };
-                moving.gap_rate(self.chain, &self.drive, p, along, gap)
+                moving.gap_rate(self.assembly, &self.drive, p, along, gap)
             }
             _ => self.rates[p],
         };
         let mut found = [0.0; 2];
-        self.chain.contacts()[p].ways_out(state, [gap[0], rate[0]], [gap[1], rate[1]], |value, next| {
+        self.assembly.contacts()[p].ways_out(state, [gap[0], rate[0]], [gap[1], rate[1]], |value, next| {
             if next == event.next || state == State::Open {
                 found = value;
             }
@@ -129,7 +129,7 @@ impl Tracer<'_> {
     /// What a border function is worth as a force, N/m: a gap by the stiffness; shear by its distance from the cone of friction,
     /// where rough joints turn a little normal force into much shear.
     fn as_force(&self, p: usize, from: State, to: State, value: f64) -> f64 {
-        let contact = &self.chain.contacts()[p];
+        let contact = &self.assembly.contacts()[p];
         match (is_gap(from, to), zone(from)) {
             (false, Some(zone)) => value / 1f64.hypot(contact.slope(zone) / contact.stiffness[0]),
             _ => value * contact.stiffness[0],
@@ -177,7 +177,7 @@ impl Tracer<'_> {
     pub(super) fn states_by_law(&mut self) {
         for p in 0..self.states.len() {
             if self.beyond(p, MISSED).is_some() {
-                self.states[p] = self.chain.contacts()[p].state_at(self.gaps[p]);
+                self.states[p] = self.assembly.contacts()[p].state_at(self.gaps[p]);
             }
         }
     }

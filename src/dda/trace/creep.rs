@@ -1,4 +1,4 @@
-//! Chains that move on and on while their load hardly rises, as where stones slide.
+//! Assemblies that move on and on while their load hardly rises, as where stones slide.
 
 use super::moving::{Patience, farthest};
 use super::{Peak, Tracer};
@@ -27,7 +27,7 @@ impl Tracer<'_> {
         Stretch { from: self.as_peak(), rise, start, knee: self.as_peak(), above: 0.0 }
     }
 
-    /// Whether the chain has moved far in this stretch while its parameter went on rising, but by too little: it has fallen at the
+    /// Whether the assembly has moved far in this stretch while its parameter went on rising, but by too little: it has fallen at the
     /// knee, which becomes the peak. Where the parameter has risen by enough a new stretch begins.
     pub(super) fn creeps(&mut self, stretch: &mut Stretch, patience: Patience) -> bool {
         let (needed, far) = (patience.creep * stretch.rise, patience.movement[1] * self.size);

@@ -1,8 +1,8 @@
-//! Chains that move on and on while their load hardly gains.
+//! Assemblies that move on and on while their load hardly gains.
 
 use super::{FAR, SOFT, Tracer};
 
-/// How far the chain has moved, m, since its load last gained worth telling, and the parameter then.
+/// How far the assembly has moved, m, since its load last gained worth telling, and the parameter then.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Drift {
     from: f64,
@@ -17,13 +17,13 @@ impl Drift {
 }
 
 impl Tracer<'_> {
-    /// Whether a further step only moves the chain on.
+    /// Whether a further step only moves the assembly on.
     pub(super) fn drifts(&self, drift: Drift, step: f64) -> bool {
         let gained = self.parameter + step * self.rate - drift.from;
         drift.moved + step > FAR * self.size && !self.worth_telling(gained)
     }
 
-    /// The drift after a step that the chain has made.
+    /// The drift after a step that the assembly has made.
     pub(super) fn drifted(&self, drift: Drift, step: f64) -> Drift {
         match self.worth_telling(self.parameter - drift.from) {
             true => Drift::at(self.parameter),
@@ -31,7 +31,7 @@ impl Tracer<'_> {
         }
     }
 
-    /// Whether a gain of the parameter is what a chain that moves far has to gain.
+    /// Whether a gain of the parameter is what an assembly that moves far has to gain.
     fn worth_telling(&self, gained: f64) -> bool {
         gained * self.load_rate_scale > SOFT * FAR * self.load_scale
     }

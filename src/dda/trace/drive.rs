@@ -1,6 +1,6 @@
 //! What is driven along a path: loads, the ground, and the preload of an unstressed start.
 
-use crate::dda::chain::Chain;
+use crate::dda::assembly::Assembly;
 use crate::dda::contact::Law;
 use crate::dda::moving::{Turn, Twofold};
 use crate::geometry::{Vec2, perpendicular};
@@ -49,19 +49,26 @@ pub struct Drive {
     /// Gap offset at parameter 0 and its change per unit of the parameter, m (the same for all unbonded contacts); only
     /// on the reference geometry.
     pub offset: [f64; 2],
-    /// Movement of the ground before the first body and after the last.
-    pub ground: [Movement; 2],
+    /// Movements of the pieces of ground, by their number; those beyond the end of the list stay.
+    pub ground: Vec<Movement>,
 }
 
-/// The drive that takes a chain from an unstressed start, where every contact is pressed by a fictitious pre-load and
+impl Drive {
+    /// Movement of the ground beside interface `k`; none where it stays, or no ground is there.
+    pub(in crate::dda) fn moving_ground(&self, assembly: &Assembly, k: usize) -> Option<&Movement> {
+        self.ground.get(assembly.ground_at(k)?).filter(|movement| !movement.is_still())
+    }
+}
+
+/// The drive that takes an assembly from an unstressed start, where every contact is pressed by a fictitious pre-load and
 /// the exact answer is D = 0, to its true `loads` on the nodes at parameter 1.
 ///
 /// The pre-load is a gap offset that fades with the parameter, balanced by fictitious loads that fade with it.
-pub fn covering(chain: &Chain, loads: &[f64], preload: f64) -> Drive {
+pub fn covering(assembly: &Assembly, loads: &[f64], preload: f64) -> Drive {
     let mut base = vec![0.0; loads.len()];
-    for (p, contact) in chain.contacts().iter().enumerate() {
+    for (p, contact) in assembly.contacts().iter().enumerate() {
         if contact.law != Law::Bonded {
-            chain.push(p, [-contact.stiffness[0] * preload, 0.0], &mut base);
+            assembly.push(p, [-contact.stiffness[0] * preload, 0.0], &mut base);
         }
     }
     let rate = loads.iter().zip(&base).map(|(load, start)| load - start).collect();

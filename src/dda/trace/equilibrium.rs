@@ -19,10 +19,10 @@ impl Tracer<'_> {
         let mut worst = self.find_residual();
         if worst > CORRECT && !self.is_mechanism() {
             let mut corrections = vec![0.0; self.residual.len()];
-            if self.factor.solve(&self.matrix, &self.residual, &mut corrections, self.heart).is_err() {
+            if self.factor.solve(&self.residual, &mut corrections, self.heart).is_err() {
                 return false;
             }
-            self.updates.apply(self.chain, &self.states, |_| [0.0; 2], &mut corrections);
+            self.updates.apply(self.assembly, &self.states, |_| [0.0; 2], &mut corrections);
             self.correct_by(&corrections, 1.0);
             let corrected = self.find_residual();
             // Next to a mechanism the correction of mere rounding may lead far across borders.
@@ -67,14 +67,14 @@ impl Tracer<'_> {
     }
 
     fn find_moving_residual(&mut self, moving: &mut Placed) -> Result<(), Stopped> {
-        let chain = self.chain;
+        let assembly = self.assembly;
         let d = [self.displacements.as_slice(), &self.rests];
-        moving.place(chain, &self.drive, self.exact_parameter(), d, &mut self.gaps, self.heart)?;
+        moving.place(assembly, &self.drive, self.exact_parameter(), d, &mut self.gaps, self.heart)?;
         self.residual.fill(0.0);
         for p in 0..self.states.len() {
             self.forces[p] = self.force_of(p);
         }
-        moving.add_residual(chain, &self.gaps, &self.forces, &mut self.residual);
+        moving.add_residual(assembly, &self.gaps, &self.forces, &mut self.residual);
         Ok(())
     }
 
@@ -82,13 +82,13 @@ impl Tracer<'_> {
         for (i, r) in self.residual.iter_mut().enumerate() {
             *r = self.drive.base[i] + self.drive.rate[i] * self.parameter;
         }
-        self.chain.subtract_elastic(&self.displacements, &mut self.residual, self.heart)?;
+        self.assembly.subtract_elastic(&self.displacements, &mut self.residual, self.heart)?;
         for p in 0..self.states.len() {
-            let ([gap, slip], settling) = (self.chain.gap(p, &self.displacements), self.settling[p]);
+            let ([gap, slip], settling) = (self.assembly.gap(p, &self.displacements), self.settling[p]);
             let offset = self.offset_of(p, self.drive.offset[0] + self.drive.offset[1] * self.parameter);
             self.gaps[p] = [gap + offset + settling[0] * self.parameter, slip + settling[1] * self.parameter];
             let force = self.force_by_law(p);
-            self.chain.push(p, force, &mut self.residual);
+            self.assembly.push(p, force, &mut self.residual);
         }
         Ok(())
     }
@@ -107,23 +107,21 @@ impl Tracer<'_> {
     /// Normal and tangential force of contact `p` in its state at the present gaps, N/m.
     pub(super) fn force_of(&self, p: usize) -> [f64; 2] {
         let ([gap, slip], state) = (self.gaps[p], self.states[p]);
-        self.chain.contacts()[p].force_in(state, gap, slip)
+        self.assembly.contacts()[p].force_in(state, gap, slip)
     }
 
     /// The same by the law alone: a state that is not the law's must not pass for equilibrium.
     pub(super) fn force_by_law(&self, p: usize) -> [f64; 2] {
         let [gap, slip] = self.gaps[p];
-        let force = self.chain.contacts()[p].force(gap, slip);
+        let force = self.assembly.contacts()[p].force(gap, slip);
         [force.normal, force.tangential]
     }
 
     /// Renews the whole matrix and load rate.
     pub(super) fn reassemble_all(&mut self) {
-        for k in 0..self.chain.interfaces() {
+        for k in 0..self.assembly.interfaces() {
             self.reassemble(k);
-            let faces = self.chain.faces(k).into_iter().flatten();
-            let done: usize = faces.map(|face| self.matrix.diagonal.get(face).len()).sum();
-            if self.heart.work(RENEWED * done).is_err() {
+            if self.heart.work(RENEWED * self.matrix.get(self.assembly.element(k)).len()).is_err() {
                 return;
             }
         }
@@ -136,51 +134,37 @@ impl Tracer<'_> {
             None => self.reassemble_first_order(k),
             Some(_) => self.reassemble_moving(k),
         }
-        for face in self.chain.faces(k).into_iter().flatten() {
-            self.factor.invalidate(face);
-        }
+        self.factor.invalidate(self.assembly.element(k));
     }
 
     fn reassemble_first_order(&mut self, k: usize) {
-        let (chain, states) = (self.chain, &self.states);
-        chain.set_interface(k, |p| chain.contacts()[p].tangent_stiffness(states[p]), &mut self.matrix);
-        for face in chain.faces(k).into_iter().flatten() {
-            let range = chain.elastic().range(face);
-            self.load_rate[range.clone()].copy_from_slice(&self.drive.rate[range]);
+        let (assembly, states) = (self.assembly, &self.states);
+        assembly.set_interface(k, |p| assembly.contacts()[p].tangent_stiffness(states[p]), &mut self.matrix);
+        for face in assembly.faces(k).into_iter().flatten() {
+            self.load_rate[face.clone()].copy_from_slice(&self.drive.rate[face]);
         }
-        for p in chain.at_interface(k) {
+        for p in assembly.at_interface(k) {
             let drift = self.drift(p);
             if drift != [0.0; 2] {
-                let rate = chain.contacts()[p].force_rate(self.states[p], drift);
-                chain.push(p, rate, &mut self.load_rate);
+                let rate = assembly.contacts()[p].force_rate(self.states[p], drift);
+                assembly.push(p, rate, &mut self.load_rate);
             }
         }
     }
 
     fn reassemble_moving(&mut self, k: usize) {
         let Some(moving) = self.moving.take() else { return };
-        let (chain, matrix) = (self.chain, &mut self.matrix);
-        let points = chain.at_interface(k).map(|p| {
-            let (contact, state, gap) = (&chain.contacts()[p], self.states[p], self.gaps[p]);
+        let (assembly, matrix) = (self.assembly, &mut self.matrix);
+        let points = assembly.at_interface(k).map(|p| {
+            let (contact, state, gap) = (&assembly.contacts()[p], self.states[p], self.gaps[p]);
             Bearing { gap, force: contact.force_in(state, gap[0], gap[1]), tangent: contact.tangent_stiffness(state) }
         });
-        let stiffness = moving.interface(k, points.clone());
-        let faces = chain.faces(k);
-        for (side, face) in faces.into_iter().enumerate() {
-            let Some(face) = face else { continue };
-            let diagonal = matrix.diagonal.get_mut(face);
-            diagonal.copy_from_slice(moving.bodies.diagonal.get(face));
-            stiffness.add([side, side], diagonal);
-            let range = chain.elastic().range(face);
-            self.load_rate[range.clone()].copy_from_slice(&moving.load_rate[range]);
+        let faces = assembly.faces(k);
+        moving.interface(k, points.clone()).fill(faces.each_ref().map(Option::is_some), matrix.get_mut(assembly.element(k)));
+        for face in faces.into_iter().flatten() {
+            self.load_rate[face.clone()].copy_from_slice(&moving.load_rate[face]);
         }
-        if let [Some(before), Some(_)] = faces {
-            for (panel, sides) in [(matrix.upper.get_mut(before), [0, 1]), (matrix.lower.get_mut(before), [1, 0])] {
-                panel.fill(0.0);
-                stiffness.add(sides, panel);
-            }
-        }
-        moving.add_ground(chain, &self.drive, k, self.parameter, points, &mut self.load_rate);
+        moving.add_ground(assembly, &self.drive, k, self.parameter, points, &mut self.load_rate);
         self.moving = Some(moving);
     }
 }

@@ -18,7 +18,7 @@ impl Tracer<'_> {
     /// Calls `see(value, next)` for every way out of `state` at contact `p`, along the current direction.
     pub(super) fn ways_out(&self, p: usize, state: State, see: impl FnMut(Moving, State)) {
         let ([gap, slip], [gap_rate, slip_rate]) = (self.gaps[p], self.rates[p]);
-        self.chain.contacts()[p].ways_out(state, [gap, gap_rate], [slip, slip_rate], see);
+        self.assembly.contacts()[p].ways_out(state, [gap, gap_rate], [slip, slip_rate], see);
     }
 
     /// The next change of state along the current direction, but the one that is barred.
@@ -26,7 +26,7 @@ impl Tracer<'_> {
         let still = if self.moving.is_none() && self.is_mechanism() { STILL } else { 0.0 };
         let mut nearest: Option<Event> = None;
         for (p, &state) in self.states.iter().enumerate() {
-            let stiffness = self.chain.contacts()[p].stiffness[0];
+            let stiffness = self.assembly.contacts()[p].stiffness[0];
             self.ways_out(p, state, |[value, change], next| {
                 let back = barred.is_some_and(|(contact, old)| contact == p && (next == old || state == State::Open));
                 // Rates of gaps are measured against 1, rates of forces against the penalty.

@@ -13,7 +13,7 @@ use crate::dda::moving::{Placed, quarter};
 use crate::dda::trace::Drive;
 use std::ops::ControlFlow;
 
-/// Longest step between two linearisations, as a share of the chain's size: joints of slender stones then turn by a
+/// Longest step between two linearisations, as a share of the assembly's size: joints of slender stones then turn by a
 /// degree at most.
 const LONGEST: f64 = 2e-3;
 /// Limit points are not looked for in steps shorter than this share of the size.
@@ -48,9 +48,9 @@ pub struct Patience {
     pub fall: f64,
     /// Rises smaller than this count as this.
     pub rise: f64,
-    /// Movements of the chain, as shares of its size: the small one, and the one that counts alone.
+    /// Movements of the assembly, as shares of its size: the small one, and the one that counts alone.
     pub movement: [f64; 2],
-    /// A chain that moves by the larger of the two while its parameter rises by less than this share of what it rose has ended as
+    /// An assembly that moves by the larger of the two while its parameter rises by less than this share of what it rose has ended as
     /// well; nought where rises count however small.
     pub creep: f64,
     /// Whether the parameter is one of loads, not of springings: a path that is lost deep below its peak has ended there too, and
@@ -75,7 +75,7 @@ impl Tracer<'_> {
     }
 
     fn let_go(&mut self, drive: Drive, parameter: f64, see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>) -> End {
-        (self.drive, self.moving) = (drive.clone(), Some(Placed::new(self.chain, self.heart)));
+        (self.drive, self.moving) = (drive.clone(), Some(Placed::new(self.assembly, self.heart)));
         self.set_parameter(parameter);
         // Gaps on moving geometry differ from those at first order, and so may states.
         self.find_residual();
@@ -107,7 +107,7 @@ impl Tracer<'_> {
     }
 
     /// Traces on moving geometry until the parameter reaches `target` or the path ends: [`End::Mechanism`] where the
-    /// parameter has passed its peak for good, [`End::Rising`] where the chain has moved too far for its displacements to
+    /// parameter has passed its peak for good, [`End::Rising`] where the assembly has moved too far for its displacements to
     /// mean anything.
     pub fn trace_moving(
         &mut self,
@@ -300,7 +300,7 @@ impl Tracer<'_> {
         (far || strained).then_some(if is_below { End::Mechanism } else { End::Rising })
     }
 
-    /// Linearises where the chain is and goes on the way it went.
+    /// Linearises where the assembly is and goes on the way it went.
     pub(super) fn renew_tangent(&mut self) {
         let before = self.direction.clone();
         self.linearise();
@@ -313,12 +313,12 @@ impl Tracer<'_> {
     /// Renews the stiffness of bodies and interfaces where they are now.
     fn linearise(&mut self) {
         if let Some(moving) = &mut self.moving {
-            if moving.linearise(self.chain, &self.drive, self.heart).is_err() {
+            if moving.linearise(self.assembly, &self.drive, self.heart).is_err() {
                 return;
             }
-            for i in 0..self.chain.bodies() {
-                self.matrix.upper.get_mut(2 * i).copy_from_slice(moving.bodies.upper.get(2 * i));
-                self.matrix.lower.get_mut(2 * i).copy_from_slice(moving.bodies.lower.get(2 * i));
+            for i in 0..self.assembly.bodies() {
+                self.matrix.get_mut(i).copy_from_slice(moving.bodies.get(i));
+                self.factor.invalidate(i);
             }
         }
         self.reassemble_all();

@@ -1,7 +1,7 @@
 //! What can be seen of a tracer from outside.
 
 use super::{Peak, Tracer};
-use crate::dda::chain::MeanMotion;
+use crate::dda::assembly::MeanMotion;
 use crate::geometry::{Vec2, perpendicular};
 
 /// Peaks that differ by less than this share are one, passed on two sides of a tie.
@@ -31,11 +31,11 @@ impl Tracer<'_> {
     /// Resultant of the forces of interface `k` on the body after it, N/m.
     pub fn force_through(&self, k: usize) -> Vec2 {
         let of = |p: usize| {
-            let (normal, [pressure, shear]) = (self.chain.normal(p), self.force_seen(p));
+            let (normal, [pressure, shear]) = (self.assembly.normal(p), self.force_seen(p));
             let along = self.moving.as_ref().map_or([pressure, shear], |moving| moving.turned(k, [pressure, shear]));
             normal * along[0] + perpendicular(normal) * along[1]
         };
-        self.chain.at_interface(k).map(of).sum()
+        self.assembly.at_interface(k).map(of).sum()
     }
 
     /// Displacements of the nodes at `parameter`, were the path to go on as it does now.
@@ -92,7 +92,7 @@ impl Tracer<'_> {
     /// geometry.
     pub fn mean_motion(&self, i: usize) -> MeanMotion {
         let still = MeanMotion { displacement: Vec2::zeros(), rotation: 0.0 };
-        self.moving.as_ref().map_or(still, |moving| moving.mean_motion(self.chain, i))
+        self.moving.as_ref().map_or(still, |moving| moving.mean_motion(self.assembly, i))
     }
 
     /// Changes of contact state so far.

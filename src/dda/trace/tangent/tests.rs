@@ -1,28 +1,27 @@
 use super::*;
-use crate::dda::{Block, ChainBuilder, Drive, Elasticity, End, Heart, Law, Push, Touch, covering};
+use crate::dda::{AssemblyBuilder, Beside, Block, Drive, Elasticity, End, Heart, Law, Push, Touch, covering};
 use crate::geometry::{Region, Vec2};
 use std::ops::ControlFlow;
 
 /// Unit squares of 1e4 N on the ground, one on the other, with nine contact points a joint.
-fn column(blocks: usize) -> Chain {
+fn column(blocks: usize) -> Assembly {
     let elasticity = Elasticity { youngs_modulus: 1e9, poissons_ratio: 0.25, plane_strain: false };
     let centroid = |i: usize| Vec2::new(0.5, i as f64 + 0.5);
     let block = |i| Block::new(Region { area: 1.0, centroid: centroid(i) }, elasticity);
-    let mut builder = ChainBuilder::new((0..blocks).map(|i| block(i).into()).collect());
+    let mut builder = AssemblyBuilder::new((0..blocks).map(|i| block(i).into()).collect());
     for joint in 0..blocks {
-        for j in 0..9 {
-            builder.contact(Touch {
-                at: Vec2::new(j as f64 / 8.0, joint as f64),
-                normal: Vec2::y(),
-                // A little scatter, so that no two contacts change at once.
-                stiffness: [1e9 * (1.0 + 1e-5 * (9 * joint + j) as f64); 2],
-                link: [4e9; 2],
-                law: Law::Coulomb { friction: 0.6, cohesion: 0.0 },
-                before: [(0, 1.0), (0, 0.0)],
-                after: [(0, 1.0), (0, 0.0)],
-            });
-        }
-        builder.next_interface();
+        let touch = |j: usize| Touch {
+            at: Vec2::new(j as f64 / 8.0, joint as f64),
+            normal: Vec2::y(),
+            // A little scatter, so that no two contacts change at once.
+            stiffness: [1e9 * (1.0 + 1e-5 * (9 * joint + j) as f64); 2],
+            link: [4e9; 2],
+            law: Law::Coulomb { friction: 0.6, cohesion: 0.0 },
+            before: [(0, 1.0), (0, 0.0)],
+            after: [(0, 1.0), (0, 0.0)],
+        };
+        let below = joint.checked_sub(1).map_or(Beside::Ground(0), Beside::Body);
+        builder.join([below, Beside::Body(joint)], (0..9).map(touch));
     }
     builder.finish(&Heart::unwatched()).unwrap()
 }
@@ -39,13 +38,13 @@ fn error(tracer: &Tracer) -> f64 {
 
 #[test]
 fn an_updated_tangent_is_that_of_a_factorisation() {
-    let (chain, heart) = (column(6), Heart::unwatched());
+    let (assembly, heart) = (column(6), Heart::unwatched());
     let forces = |force: Vec2| {
         let push = move |body| Push { body, subblock: 0, at: Vec2::new(0.5, body as f64 + 0.5), force };
-        chain.loads((0..6).map(push), &heart).unwrap().on_nodes
+        assembly.loads((0..6).map(push), &heart).unwrap().on_nodes
     };
     let weight = forces(Vec2::new(0.0, -1e4));
-    let mut tracer = Tracer::new(&chain, covering(&chain, &weight, 1e-4), 6.0, 6e4, &heart);
+    let mut tracer = Tracer::new(&assembly, covering(&assembly, &weight, 1e-4), 6.0, 6e4, &heart);
     let mut worst = 0f64;
     let mut see = |tracer: &Tracer| {
         worst = worst.max(error(tracer));

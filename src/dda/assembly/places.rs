@@ -1,21 +1,21 @@
-//! Where bodies and contact points of a chain are.
+//! Where bodies and contact points of an assembly are.
 
-use super::{Chain, MeanMotion, Node};
+use super::{Assembly, Beside, MeanMotion, Node};
 use crate::dda::moving::{Turn, Twofold, twofold_dot};
 use crate::dda::panels::add_applied_columns;
 use crate::geometry::{Vec2, perpendicular};
 use nalgebra::DMatrix;
 use std::ops::Range;
 
-impl Chain {
+impl Assembly {
     /// Unknowns of all nodes together.
     pub fn node_unknowns(&self) -> usize {
-        self.elastic.start[self.elastic.rows()]
+        self.pattern.unknowns()
     }
 
     /// Unknowns of the nodes of body `i`.
     pub(in crate::dda) fn nodes_of(&self, i: usize) -> Range<usize> {
-        self.elastic.start[2 * i]..self.elastic.start[2 * i + 2]
+        self.nodes[i].clone()
     }
 
     /// Which macroblock body `i` is a copy of.
@@ -52,9 +52,14 @@ impl Chain {
         }
     }
 
-    /// Which ground lies beside interface `k`: 0 before the first body, 1 after the last, none between bodies.
+    /// Which ground lies beside interface `k`; none between bodies.
     pub(in crate::dda) fn ground_at(&self, k: usize) -> Option<usize> {
-        [k == 0, k == self.bodies.len()].iter().position(|&here| here)
+        self.beside[k].iter().find_map(|beside| if let Beside::Ground(ground) = beside { Some(*ground) } else { None })
+    }
+
+    pub(super) fn find_places(&self, p: usize) -> [Option<usize>; 2] {
+        let k = self.interface[p];
+        self.faces(k).map(|face| face.map(|face| face.start + 2 * (p - self.first[k])))
     }
 
     /// Normal and tangential gap that ground moved by `moved` gives contact `p`; none where no ground is.

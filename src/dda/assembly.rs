@@ -1,28 +1,31 @@
-//! The chain: bodies in a row, joined at interfaces by contact points.
+//! The assembly: bodies joined to each other and to the ground at interfaces, by contact points.
 
 mod build;
 mod law;
 mod mirror;
 mod places;
 
-pub use build::{ChainBuilder, Touch};
+pub use build::{AssemblyBuilder, Touch};
 
 use super::block::V6;
 use super::condense::{Condensed, Node};
 use super::contact::Contact;
-use super::factor::Tridiagonal;
+use super::elements::{Elements, Pattern};
 use super::heart::{Heart, Stopped};
 use super::macroblock::Macroblock;
 use super::panels::add_applied_columns;
+use super::tree::Tree;
 use crate::geometry::{Vec2, cross, perpendicular};
+use mirror::Mirror;
 use nalgebra::{DMatrix, DVector, SMatrix};
+use std::ops::Range;
 
 /// Work of putting a force on a subblock, in multiplications; and of solving for the inside of a body, over the number of
 /// entries of its response to the nodes.
 const PUSHED: usize = 1000;
 const SOLVED: usize = 4;
 
-/// A body of the chain: where its frame is, and which condensed macroblock it is a copy of.
+/// A body of the assembly: where its frame is, and which condensed macroblock it is a copy of.
 #[derive(Debug, Clone, PartialEq)]
 struct Body {
     origin: Vec2,
@@ -46,6 +49,15 @@ struct Kind {
     stress_of_nodes: Option<DMatrix<f64>>,
 }
 
+/// What lies on one side of an interface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Beside {
+    /// This body.
+    Body(usize),
+    /// This piece of rigid ground.
+    Ground(usize),
+}
+
 /// Where a contact point is, and its normal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Site {
@@ -53,7 +65,7 @@ struct Site {
     normal: Vec2,
 }
 
-/// Loads on a chain.
+/// Loads on an assembly.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Loads {
     /// What they are worth on the nodes, N/m.
@@ -86,12 +98,12 @@ pub struct MeanMotion {
     pub rotation: f64,
 }
 
-/// Bodies in a row. Interface `k` joins body `k - 1` to body `k`; beyond either end lies the rigid ground.
+/// Bodies and the interfaces between two of them, or one and the rigid ground.
 ///
-/// Unknowns are the displacements of the contact points on every body, along each contact's normal and tangent: face
-/// `2 i` is that of body `i` to interface `i`, face `2 i + 1` that to interface `i + 1`.
+/// Unknowns are the displacements of the contact points on every body, along each contact's normal and tangent: body by body,
+/// and those of a body interface by interface (its faces).
 #[derive(Debug, Clone)]
-pub struct Chain {
+pub struct Assembly {
     bodies: Vec<Body>,
     kinds: Vec<Kind>,
     /// Contacts as a path meets them, and as they were built.
@@ -104,11 +116,21 @@ pub struct Chain {
     first: Vec<usize>,
     /// Interface of every contact.
     interface: Vec<usize>,
+    /// What lies before and after every interface, and the faces there (none: the ground).
+    beside: Vec<[Beside; 2]>,
+    faces: Vec<[Option<usize>; 2]>,
     /// Places of every contact's normal unknown on the body before and on the body after (none: the ground); the
     /// tangential one follows.
     places: Vec<[Option<usize>; 2]>,
-    /// Elastic stiffness between the faces.
-    elastic: Tridiagonal,
+    /// Unknowns of every body.
+    nodes: Vec<Range<usize>>,
+    /// Bodies and interfaces as elements of a matrix over the faces: first all bodies, then all interfaces.
+    pattern: Pattern,
+    tree: Tree,
+    /// Elastic stiffness of the bodies; nothing in the interfaces.
+    elastic: Elements,
+    /// The mirror image, where the assembly is its own.
+    mirror: Option<Mirror>,
 }
 
 /// Stress of subblocks displaced by `d`, three numbers each.
@@ -117,7 +139,7 @@ fn stresses(stress: &[SMatrix<f64, 3, 6>], d: &[f64]) -> DVector<f64> {
     DVector::from_iterator(3 * stress.len(), each.flat_map(|s| [s[0], s[1], s[2]]))
 }
 
-impl Chain {
+impl Assembly {
     /// Number of bodies.
     pub fn bodies(&self) -> usize {
         self.bodies.len()
@@ -133,9 +155,19 @@ impl Chain {
         self.bodies.iter().map(|b| 6 * self.kinds[b.kind].macroblock.blocks().len()).sum()
     }
 
-    /// Elastic stiffness between the faces, N/m2.
-    pub fn elastic(&self) -> &Tridiagonal {
+    /// Elastic stiffness of the bodies as elements, N/m2; zero in the interfaces.
+    pub(super) fn elastic(&self) -> &Elements {
         &self.elastic
+    }
+
+    /// In which order unknowns are eliminated.
+    pub(super) fn tree(&self) -> &Tree {
+        &self.tree
+    }
+
+    /// The element of interface `k` in a matrix.
+    pub(super) fn element(&self, k: usize) -> usize {
+        self.bodies.len() + k
     }
 
     /// All contact points as a path meets them, interface by interface.
@@ -153,19 +185,14 @@ impl Chain {
         self.interface[p]
     }
 
-    /// Number of interfaces, the two ends included.
+    /// Number of interfaces.
     pub fn interfaces(&self) -> usize {
-        self.bodies.len() + 1
+        self.beside.len()
     }
 
-    /// Faces before and after interface `k`; none where the ground is.
-    pub fn faces(&self, k: usize) -> [Option<usize>; 2] {
-        [(2 * k).checked_sub(1), Some(2 * k).filter(|_| k < self.bodies.len())]
-    }
-
-    fn find_places(&self, p: usize) -> [Option<usize>; 2] {
-        let k = self.interface[p];
-        self.faces(k).map(|face| face.map(|face| self.elastic.start[face] + 2 * (p - self.first[k])))
+    /// Unknowns of the faces before and after interface `k`; none where the ground is.
+    pub fn faces(&self, k: usize) -> [Option<Range<usize>>; 2] {
+        self.faces[k].map(|face| face.map(|face| self.pattern.range(face)))
     }
 
     /// Normal and tangential gap of contact `p` at the displacements (or velocities) `d`, its links' strain left out, m.
@@ -286,7 +313,7 @@ impl Body {
         self.x_axis * v.x + perpendicular(self.x_axis) * v.y
     }
 
-    /// A state of stress in the frame of the chain.
+    /// A state of stress in the frame of the assembly.
     fn stress_turned_back(&self, [x, y, tau]: [f64; 3]) -> [f64; 3] {
         let (c, s) = (self.x_axis.x, self.x_axis.y);
         let (cc, ss, cs) = (c * c, s * s, c * s);

@@ -1,11 +1,12 @@
-//! Building a chain: contact points, and stones of one shape condensed once.
+//! Building an assembly: contact points, and stones of one shape condensed once.
 
-use super::{Body, Chain, Kind, Site, stresses};
+use super::{Assembly, Beside, Body, Kind, Site, stresses};
 use crate::dda::condense::{Condensed, Loose, Node, Unbuilt};
 use crate::dda::contact::{Contact, Law};
-use crate::dda::factor::Tridiagonal;
-use crate::dda::heart::{Heart, Stopped};
+use crate::dda::elements::{Elements, Pattern};
+use crate::dda::heart::Heart;
 use crate::dda::macroblock::Macroblock;
+use crate::dda::tree::Tree;
 use crate::geometry::{Vec2, cross, perpendicular};
 use nalgebra::{DMatrix, DVectorView};
 
@@ -38,42 +39,42 @@ pub struct Touch {
     pub after: [(usize, f64); 2],
 }
 
-/// Builds a [`Chain`] interface by interface.
+/// Builds an [`Assembly`].
 #[derive(Debug)]
-pub struct ChainBuilder {
+pub struct AssemblyBuilder {
     macroblocks: Vec<Macroblock>,
-    touches: Vec<Vec<Touch>>,
+    interfaces: Vec<Interface>,
 }
 
-impl ChainBuilder {
-    /// A chain of these bodies with no contacts yet, the first interface (ground to body 0) open for contacts.
+/// An interface as it is built.
+#[derive(Debug)]
+struct Interface {
+    between: [Beside; 2],
+    touches: Vec<Touch>,
+}
+
+impl AssemblyBuilder {
+    /// An assembly of these bodies, not yet joined to anything.
     pub fn new(macroblocks: Vec<Macroblock>) -> Self {
-        ChainBuilder { macroblocks, touches: vec![Vec::new()] }
+        AssemblyBuilder { macroblocks, interfaces: Vec::new() }
     }
 
-    /// Adds a contact point to the current interface.
-    pub fn contact(&mut self, touch: Touch) {
-        if let Some(interface) = self.touches.last_mut() {
-            interface.push(touch);
-        }
+    /// Joins what lies before an interface to what lies after it, by these contact points.
+    pub fn join(&mut self, between: [Beside; 2], touches: impl IntoIterator<Item = Touch>) {
+        self.interfaces.push(Interface { between, touches: touches.into_iter().collect() });
     }
 
-    /// Closes the current interface and goes on to the next.
-    pub fn next_interface(&mut self) {
-        self.touches.push(Vec::new());
-    }
-
-    /// The chain; interfaces not reached stay free.
+    /// The assembly.
     ///
     /// # Errors
     /// When a body is not held by two contact points at least, or when stopped.
-    pub fn finish(mut self, heart: &Heart) -> Result<Chain, Unbuilt> {
-        let n = self.macroblocks.len();
-        self.touches.resize(n + 1, Vec::new());
+    pub fn finish(self, heart: &Heart) -> Result<Assembly, Unbuilt> {
+        let of_bodies = self.interfaces_of_bodies();
         let mut kinds: Vec<Kind> = Vec::new();
         let mut bodies = Vec::new();
         for (i, macroblock) in self.macroblocks.iter().enumerate() {
-            let nodes = nodes(&self.touches[i], &self.touches[i + 1]);
+            let nodes: Vec<Node> =
+                of_bodies[i].iter().flat_map(|&(k, side)| nodes(&self.interfaces[k].touches, side)).collect();
             let (origin, x_axis) = nodes.first().map(|n| (n.at, n.axes[0])).ok_or(Loose)?;
             let (seen, nodes) = (macroblock.seen_from(origin, x_axis), seen_nodes(&nodes, origin, x_axis));
             let rounding = ROUNDING * (origin.amax() + extent(&nodes));
@@ -89,19 +90,74 @@ impl ChainBuilder {
             };
             bodies.push(Body { origin, x_axis, kind });
         }
-        let sizes: Vec<usize> = (0..2 * n).map(|face| 2 * self.touches[face.div_ceil(2)].len()).collect();
-        let elastic = elastic(&sizes, bodies.iter().map(|b| &kinds[b.kind].condensed), heart)?;
+        self.put_together(&of_bodies, bodies, kinds, heart)
+    }
+
+    /// The interfaces of every body, each with the side on which the body lies.
+    fn interfaces_of_bodies(&self) -> Vec<Vec<(usize, usize)>> {
+        let mut of_bodies = vec![Vec::new(); self.macroblocks.len()];
+        for (k, interface) in self.interfaces.iter().enumerate() {
+            for (side, beside) in interface.between.iter().enumerate() {
+                if let Beside::Body(body) = beside {
+                    of_bodies[*body].push((k, side));
+                }
+            }
+        }
+        of_bodies
+    }
+
+    fn put_together(
+        self,
+        of_bodies: &[Vec<(usize, usize)>],
+        bodies: Vec<Body>,
+        kinds: Vec<Kind>,
+        heart: &Heart,
+    ) -> Result<Assembly, Unbuilt> {
+        let (mut pattern, mut nodes) = (Pattern { start: vec![0], faces: Vec::new() }, Vec::new());
+        let mut faces = vec![[None; 2]; self.interfaces.len()];
+        for interfaces in of_bodies {
+            let (first, begin) = (pattern.start.len() - 1, pattern.unknowns());
+            for &(k, side) in interfaces {
+                faces[k][side] = Some(pattern.start.len() - 1);
+                pattern.start.push(pattern.unknowns() + 2 * self.interfaces[k].touches.len());
+            }
+            pattern.faces.push((first..pattern.start.len() - 1).collect());
+            nodes.push(begin..pattern.unknowns());
+        }
+        pattern.faces.extend(faces.iter().map(|sides| sides.iter().flatten().copied().collect()));
+        let mut elastic = Elements::zeros(&pattern);
+        for (i, body) in bodies.iter().enumerate() {
+            // Symmetric, so that columns are rows.
+            let stiffness = kinds[body.kind].condensed.stiffness();
+            elastic.get_mut(i).copy_from_slice(stiffness.as_slice());
+            heart.work(SET * stiffness.len())?;
+        }
         let mut first = vec![0];
-        self.touches.iter().for_each(|t| first.push(first[first.len() - 1] + t.len()));
-        let interface = self.touches.iter().enumerate().flat_map(|(k, t)| vec![k; t.len()]).collect();
-        let touches = || self.touches.iter().flatten();
+        self.interfaces.iter().for_each(|i| first.push(first[first.len() - 1] + i.touches.len()));
+        let touches = || self.interfaces.iter().flat_map(|interface| &interface.touches);
         let contacts: Vec<_> = touches().map(|t| Contact::new(t.stiffness, t.law)).collect();
-        let links = touches().map(|t| t.link).collect();
-        let sites = touches().map(|t| Site { at: t.at, normal: t.normal }).collect();
-        let (exact, places) = (contacts.clone(), Vec::new());
-        let mut chain = Chain { bodies, kinds, contacts, exact, sites, links, first, interface, places, elastic };
-        chain.places = (0..chain.contacts.len()).map(|p| chain.find_places(p)).collect();
-        Ok(chain)
+        let of_contact = |(k, i): (usize, &Interface)| vec![k; i.touches.len()];
+        let mut assembly = Assembly {
+            exact: contacts.clone(),
+            contacts,
+            links: touches().map(|t| t.link).collect(),
+            sites: touches().map(|t| Site { at: t.at, normal: t.normal }).collect(),
+            interface: self.interfaces.iter().enumerate().flat_map(of_contact).collect(),
+            beside: self.interfaces.iter().map(|interface| interface.between).collect(),
+            tree: Tree::new(&pattern),
+            bodies,
+            kinds,
+            first,
+            faces,
+            places: Vec::new(),
+            nodes,
+            pattern,
+            elastic,
+            mirror: None,
+        };
+        assembly.places = (0..assembly.contacts.len()).map(|p| assembly.find_places(p)).collect();
+        assembly.mirror = assembly.find_mirror();
+        Ok(assembly)
     }
 }
 
@@ -129,10 +185,14 @@ impl Kind {
     }
 }
 
-/// Nodes of a body between two interfaces, first those on the first.
-fn nodes(before: &[Touch], after: &[Touch]) -> Vec<Node> {
-    let node = |t: &Touch, holds| Node { at: t.at, axes: [t.normal, perpendicular(t.normal)], link: t.link, holds };
-    before.iter().map(|t| node(t, t.after)).chain(after.iter().map(|t| node(t, t.before))).collect()
+/// Nodes of the body on one side of an interface.
+fn nodes(touches: &[Touch], side: usize) -> impl Iterator<Item = Node> + '_ {
+    touches.iter().map(move |t| Node {
+        at: t.at,
+        axes: [t.normal, perpendicular(t.normal)],
+        link: t.link,
+        holds: if side == 0 { t.before } else { t.after },
+    })
 }
 
 fn seen_nodes(nodes: &[Node], origin: Vec2, x_axis: Vec2) -> Vec<Node> {
@@ -157,18 +217,4 @@ fn alike(kind: &Kind, body: &Macroblock, nodes: &[Node], rounding: f64) -> bool 
     kind.nodes.len() == nodes.len()
         && kind.nodes.iter().zip(nodes).all(same_node)
         && kind.macroblock.same_as(body, rounding)
-}
-
-/// Elastic stiffness between the faces of all bodies.
-fn elastic<'c>(
-    sizes: &[usize],
-    bodies: impl Iterator<Item = &'c Condensed>,
-    heart: &Heart,
-) -> Result<Tridiagonal, Stopped> {
-    let mut k = Tridiagonal::zeros(sizes);
-    for (i, condensed) in bodies.enumerate() {
-        k.set_pair(2 * i, |i, j| condensed.stiffness()[(i, j)]);
-        heart.work(SET * condensed.stiffness().len())?;
-    }
-    Ok(k)
 }

@@ -1,0 +1,150 @@
+//! An assembly and its mirror image about a vertical axis.
+//!
+//! Interfaces are matched by their middles. Where the mirror image of an interface's normal points against its partner's, what
+//! lies before the one is the image of what lies after the other, and points keep their order; a node's displacement along the
+//! normal changes its sign, and that along the tangent (the normal turned by +90 degrees) keeps it. Where the normals agree it is
+//! the other way round. Gaps stay, slips change their sign.
+
+use super::{Assembly, Beside};
+use crate::dda::contact::Contact;
+use crate::geometry::{Vec2, mirrored};
+
+/// Numbers of two mirror images that differ by this share of the largest differ by rounding.
+const ROUNDING: f64 = 1e-9;
+/// The same for the stiffness of condensed bodies, which took many operations.
+const STIFFNESS_ROUNDING: f64 = 1e-7;
+
+/// Where the mirror image of every unknown is, and whether it keeps its sign.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Mirror {
+    place: Vec<usize>,
+    sign: Vec<f64>,
+}
+
+/// The mirror image of an interface, and whether what lies before is exchanged with what lies after.
+type Image = (usize, bool);
+
+impl Assembly {
+    /// Displacements of the nodes (or loads on them) of the mirror image, where the assembly is its own; else as they are.
+    pub fn mirrored(&self, d: &[f64]) -> Vec<f64> {
+        let Some(Mirror { place, sign }) = &self.mirror else { return d.to_vec() };
+        place.iter().zip(sign).map(|(&place, sign)| sign * d[place]).collect()
+    }
+
+    /// The mean of displacements of the nodes and their mirror image, where the assembly is its own: symmetric to the last digit.
+    pub fn symmetrised(&self, d: &[f64]) -> Vec<f64> {
+        self.mirrored(d).iter().zip(d).map(|(there, here)| 0.5 * (there + here)).collect()
+    }
+
+    /// True where the assembly and `loads` on its nodes are their own mirror image.
+    pub fn are_symmetric(&self, loads: &[f64]) -> bool {
+        self.is_symmetric() && near(&self.mirrored(loads), loads, ROUNDING)
+    }
+
+    /// True where the assembly is its own mirror image: places, normals, exact contacts and elastic stiffness.
+    pub fn is_symmetric(&self) -> bool {
+        self.mirror.is_some()
+    }
+
+    /// The mirror image, if the assembly is its own.
+    pub(super) fn find_mirror(&self) -> Option<Mirror> {
+        let images = self.images()?;
+        let mut mirror = Mirror { place: vec![0; self.node_unknowns()], sign: vec![0.0; self.node_unknowns()] };
+        let mut bodies = vec![None; self.bodies.len()];
+        for (k, &(image, swapped)) in images.iter().enumerate() {
+            self.pair_bodies(k, (image, swapped), &mut bodies)?;
+            let (here, there) = (self.at_interface(k), self.at_interface(image));
+            for (j, p) in here.clone().enumerate() {
+                let q = if swapped { there.start + j } else { there.end - 1 - j };
+                let same = |a: &Contact, b: &Contact| a.law == b.law && near(&a.stiffness, &b.stiffness, ROUNDING);
+                if !same(&self.exact[p], &self.exact[q]) {
+                    return None;
+                }
+                for side in 0..2 {
+                    let partner = if swapped { 1 - side } else { side };
+                    let (Some(at), Some(from)) = (self.places[p][side], self.places[q][partner]) else { continue };
+                    let sign = if swapped { -1.0 } else { 1.0 };
+                    (mirror.place[at], mirror.place[at + 1]) = (from, from + 1);
+                    (mirror.sign[at], mirror.sign[at + 1]) = (sign, -sign);
+                }
+            }
+        }
+        let bodies: Vec<usize> = bodies.into_iter().collect::<Option<_>>()?;
+        bodies.iter().enumerate().all(|(a, &b)| self.has_mirror_image(a, b, &mirror)).then_some(mirror)
+    }
+
+    /// The mirror image of every interface; none where one has none.
+    fn images(&self) -> Option<Vec<Image>> {
+        let middle = |k: usize| {
+            let points = &self.sites[self.at_interface(k)];
+            Some(0.5 * (points.first()?.at + points.last()?.at))
+        };
+        let middles: Vec<Vec2> = (0..self.interfaces()).map(middle).collect::<Option<_>>()?;
+        let (low, high) = middles
+            .iter()
+            .fold((Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY)), |(l, h), m| (l.inf(m), h.sup(m)));
+        let (axis, rounding) = (0.5 * (low.x + high.x), ROUNDING * (high - low).amax());
+        let mut by_height: Vec<usize> = (0..middles.len()).collect();
+        by_height.sort_by(|&a, &b| middles[a].y.total_cmp(&middles[b].y));
+        let image = |k: usize| {
+            let wanted = mirrored(middles[k], axis);
+            let from = by_height.partition_point(|&other| middles[other].y < wanted.y - rounding);
+            let level = by_height[from..].iter().take_while(|&&other| middles[other].y <= wanted.y + rounding);
+            { level }.find_map(|&other| {
+                let near = (middles[other] - wanted).amax() <= rounding;
+                self.facing(k, other).filter(|_| near).map(|swapped| (other, swapped))
+            })
+        };
+        (0..middles.len()).map(image).collect()
+    }
+
+    /// Whether what lies before and after is exchanged between an interface and its mirror image; none where the other is not.
+    fn facing(&self, k: usize, image: usize) -> Option<bool> {
+        let (here, there) = (self.at_interface(k), self.at_interface(image));
+        let (a, b) = (mirrored(self.sites[here.start].normal, 0.0), self.sites[there.start].normal);
+        let same = |b: Vec2| near(&[a.x, a.y], &[b.x, b.y], ROUNDING);
+        let swapped = if same(-b) { Some(true) } else { same(b).then_some(false) };
+        swapped.filter(|_| here.len() == there.len())
+    }
+
+    /// Writes down which body is the mirror image of which; none where it is not the same everywhere.
+    fn pair_bodies(&self, k: usize, (image, swapped): Image, bodies: &mut [Option<usize>]) -> Option<()> {
+        for side in 0..2 {
+            let partner = if swapped { 1 - side } else { side };
+            match (self.beside[k][side], self.beside[image][partner]) {
+                (Beside::Body(a), Beside::Body(b)) => {
+                    bodies[a] = Some(b).filter(|_| bodies[a].is_none_or(|other| other == b));
+                    bodies[a]?;
+                }
+                (Beside::Ground(_), Beside::Ground(_)) => {}
+                _ => return None,
+            }
+        }
+        Some(())
+    }
+
+    /// Whether the stiffness of body `b` is the mirror image of that of body `a`.
+    fn has_mirror_image(&self, a: usize, b: usize, mirror: &Mirror) -> bool {
+        let (here, there) = (self.nodes_of(a), self.nodes_of(b));
+        let (of_a, of_b) = (self.stiffness_of(a), self.stiffness_of(b));
+        let size = here.len();
+        // The image is of this body, node by node.
+        if there.len() != size || here.clone().any(|i| !there.contains(&mirror.place[i])) {
+            return false;
+        }
+        let apart = |i: usize, j: usize| {
+            let (at, other) = (mirror.place[here.start + i], mirror.place[here.start + j]);
+            let sign = mirror.sign[here.start + i] * mirror.sign[here.start + j];
+            (of_a[(i, j)] - sign * of_b[(at - there.start, other - there.start)]).abs()
+        };
+        (0..size).all(|i| {
+            (0..size).all(|j| apart(i, j) <= STIFFNESS_ROUNDING * of_a[(i, i)].abs().max(of_a[(j, j)].abs()))
+        })
+    }
+}
+
+/// True where two lists are the same but for rounding.
+fn near(a: &[f64], b: &[f64], rounding: f64) -> bool {
+    let scale = a.iter().chain(b).fold(0.0f64, |most, x| most.max(x.abs()));
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() <= rounding * scale)
+}

@@ -1,0 +1,59 @@
+//! A matrix as the sum of its elements: bodies, which tie their faces by elasticity, and interfaces, which tie the two faces
+//! at them by their contacts.
+
+use super::heart::Heart;
+use super::panels::Panels;
+use std::ops::Range;
+
+/// The unknowns, face by face, and the faces that every element ties.
+#[derive(Debug, Clone, Default)]
+pub struct Pattern {
+    /// Unknowns before each face, and all of them.
+    pub start: Vec<usize>,
+    /// Faces of every element.
+    pub faces: Vec<Vec<usize>>,
+}
+
+impl Pattern {
+    /// The unknowns of face `i`.
+    pub fn range(&self, i: usize) -> Range<usize> {
+        self.start[i]..self.start[i + 1]
+    }
+
+    /// Number of all unknowns.
+    pub fn unknowns(&self) -> usize {
+        self.start[self.start.len() - 1]
+    }
+
+    /// Number of unknowns of an element.
+    pub fn size(&self, element: usize) -> usize {
+        self.faces[element].iter().map(|&face| self.range(face).len()).sum()
+    }
+}
+
+/// The entries of all elements, each a square matrix over the unknowns of its faces, row by row.
+#[derive(Debug, Clone, Default)]
+pub struct Elements(Panels);
+
+impl Elements {
+    /// All of them zero.
+    pub fn zeros(pattern: &Pattern) -> Self {
+        let sizes = (0..pattern.faces.len()).map(|element| pattern.size(element));
+        Elements(Panels::zeros(sizes.map(|n| (n, n))))
+    }
+
+    /// The same again; zero from where it was stopped.
+    pub fn copied(&self, heart: &Heart) -> Self {
+        Elements(self.0.copied(heart))
+    }
+
+    /// Element `i`, row by row.
+    pub fn get(&self, i: usize) -> &[f64] {
+        self.0.get(i)
+    }
+
+    /// Element `i`, row by row.
+    pub fn get_mut(&mut self, i: usize) -> &mut [f64] {
+        self.0.get_mut(i)
+    }
+}

@@ -1,0 +1,317 @@
+//! In which order the unknowns of a structure are eliminated.
+//!
+//! Faces are eliminated by least degree (George and Liu 1989). What is eliminated together with what it is tied to by then is a
+//! clique, and the cliques form a tree: a face that is in two of them is in all on the way from one to the other. Bodies in a
+//! row give cliques in a row, arches on piers a tree of bodies, and nothing is tied that was not; rings and walls have loops, whose
+//! faces come together in larger cliques.
+//!
+//! The tree has no root of its own. Elimination goes from its leaves towards any clique that is asked for: on every edge there
+//! is one way of eliminating for each direction, the [`Front`].
+
+use super::elements::Pattern;
+use std::collections::BTreeSet;
+use std::ops::Range;
+
+/// A stretch of unknowns that are neighbours where they come from and where they go.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Run {
+    pub from: usize,
+    pub to: usize,
+    pub length: usize,
+}
+
+/// Where entries of a front come from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Origin {
+    /// An element.
+    Element(usize),
+    /// What another front has left.
+    Front(usize),
+}
+
+/// A square matrix that is added into a front.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Source {
+    pub origin: Origin,
+    /// Unknowns of it.
+    pub size: usize,
+    /// Where they are in the front.
+    pub runs: Range<usize>,
+}
+
+/// The elimination of faces from one clique: those that are not in the clique it goes to, or all of them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Front {
+    /// The clique.
+    pub clique: usize,
+    /// Unknowns that are eliminated, and those that stay. In the front the former come first.
+    pub sizes: [usize; 2],
+    /// Where they are in the whole system.
+    pub removed: Range<usize>,
+    pub kept: Range<usize>,
+    /// What is added up in it.
+    pub sources: Range<usize>,
+    /// Faces that are eliminated.
+    pub faces: usize,
+}
+
+impl Front {
+    /// Multiplications of eliminating, and of solving with the factors.
+    pub fn work(&self) -> [usize; 2] {
+        let [removed, kept] = self.sizes;
+        [removed * (removed * removed + 2 * removed * kept + kept * kept), removed * (removed + 2 * kept)]
+    }
+}
+
+/// Cliques, the edges between them, and the fronts: front `2 e` goes along edge `e`, front `2 e + 1` the other way, and the one
+/// that eliminates all of clique `c` is number `2 edges + c`.
+#[derive(Debug, Clone, Default)]
+pub struct Tree {
+    pub fronts: Vec<Front>,
+    pub sources: Vec<Source>,
+    pub runs: Vec<Run>,
+    /// Edges that lead into every clique, as their fronts.
+    pub into: Vec<Vec<usize>>,
+    /// The clique of every element.
+    pub home: Vec<usize>,
+    edges: usize,
+}
+
+/// A clique while the tree is made: its faces, and the clique it hangs on with how many of its last faces it shares.
+struct Clique {
+    faces: Vec<usize>,
+    parent: Option<usize>,
+    shared: usize,
+}
+
+impl Tree {
+    /// The tree of a pattern.
+    pub fn new(pattern: &Pattern) -> Self {
+        let Ordered { cliques, of_face, turn } = cliques(pattern);
+        let mut tree = Tree { into: vec![Vec::new(); cliques.len()], ..Tree::default() };
+        let mut place = vec![0; pattern.start.len() - 1];
+        // The clique in which the first of an element's faces is eliminated has them all.
+        let home = |faces: &Vec<usize>| faces.iter().min_by_key(|&&face| turn[face]).map_or(0, |&face| of_face[face]);
+        tree.home = pattern.faces.iter().map(home).collect();
+        let mut elements = vec![Vec::new(); cliques.len()];
+        tree.home.iter().enumerate().for_each(|(element, &clique)| elements[clique].push(element));
+        let edges: Vec<[usize; 2]> =
+            cliques.iter().enumerate().filter_map(|(c, clique)| clique.parent.map(|parent| [c, parent])).collect();
+        tree.edges = edges.len();
+        for (e, [child, parent]) in edges.iter().enumerate() {
+            tree.into[*parent].push(2 * e);
+            tree.into[*child].push(2 * e + 1);
+        }
+        let kept = |front: usize| {
+            let child = &cliques[edges[front / 2][0]];
+            &child.faces[child.faces.len() - child.shared..]
+        };
+        let mut add = |clique: usize, to: Option<usize>| {
+            let kept_faces = to.map_or(&[][..], kept);
+            let removed: Vec<usize> =
+                cliques[clique].faces.iter().copied().filter(|face| !kept_faces.contains(face)).collect();
+            tree.add(pattern, clique, [&removed, kept_faces], &mut place, to, &elements[clique], kept);
+        };
+        for (e, [child, parent]) in edges.iter().enumerate() {
+            add(*child, Some(2 * e));
+            add(*parent, Some(2 * e + 1));
+        }
+        (0..cliques.len()).for_each(|clique| add(clique, None));
+        tree
+    }
+
+    /// Adds the front that eliminates the first of `faces` of a clique and keeps the second.
+    #[allow(clippy::too_many_arguments, reason = "one caller, and all of it is what the front is made of")]
+    fn add<'c>(
+        &mut self,
+        pattern: &Pattern,
+        clique: usize,
+        faces: [&[usize]; 2],
+        place: &mut [usize],
+        to: Option<usize>,
+        elements: &[usize],
+        kept: impl Fn(usize) -> &'c [usize],
+    ) {
+        let mut end = 0;
+        let mut lay = |runs: &mut Vec<Run>, faces: &[usize]| {
+            let first = runs.len();
+            for &face in faces {
+                let range = pattern.range(face);
+                place[face] = end;
+                join(runs, first, Run { from: range.start, to: end, length: range.len() });
+                end += range.len();
+            }
+            (first..runs.len(), end)
+        };
+        let (removed, size) = lay(&mut self.runs, faces[0]);
+        let (stays, all) = lay(&mut self.runs, faces[1]);
+        let first = self.sources.len();
+        let of_elements = elements.iter().map(|&e| (Origin::Element(e), pattern.faces[e].as_slice()));
+        let incoming = self.into[clique].iter().filter(|&&front| to.is_none_or(|to| front != to ^ 1));
+        let of_fronts = incoming.map(|&front| (Origin::Front(front), kept(front)));
+        for (origin, faces) in of_elements.chain(of_fronts) {
+            let (start, mut from) = (self.runs.len(), 0);
+            for &face in faces {
+                let length = pattern.range(face).len();
+                // What is eliminated and what stays are added up apart.
+                let fresh = place[face] == size;
+                let first = if fresh { self.runs.len() } else { start };
+                join(&mut self.runs, first, Run { from, to: place[face], length });
+                from += length;
+            }
+            self.sources.push(Source { origin, size: from, runs: start..self.runs.len() });
+        }
+        self.fronts.push(Front {
+            clique,
+            sizes: [size, all - size],
+            removed,
+            kept: stays,
+            sources: first..self.sources.len(),
+            faces: faces[0].len(),
+        });
+    }
+
+    /// The front that eliminates all of a clique.
+    pub fn root(&self, clique: usize) -> usize {
+        2 * self.edges + clique
+    }
+
+    /// Number of fronts that lead from clique to clique.
+    pub fn directed(&self) -> usize {
+        2 * self.edges
+    }
+
+    /// Multiplications of solving with the factors, about the same wherever elimination meets.
+    pub fn solving(&self) -> usize {
+        self.fronts.iter().step_by(2).take(self.edges).map(|front| front.work()[1]).sum()
+    }
+
+    /// Fronts that lead away from the clique to which front `front` leads, but not back.
+    pub fn onwards(&self, front: usize) -> impl Iterator<Item = usize> {
+        self.out_of(self.fronts[front ^ 1].clique).filter(move |&next| next != front ^ 1)
+    }
+
+    /// Fronts that lead into the clique that front `front` starts from, but the one that comes the other way.
+    pub fn feeding(&self, front: usize) -> impl Iterator<Item = usize> {
+        let back = if front < self.directed() { front ^ 1 } else { usize::MAX };
+        self.into[self.fronts[front].clique].iter().copied().filter(move |&other| other != back)
+    }
+
+    /// Fronts that lead out of a clique.
+    pub fn out_of(&self, clique: usize) -> impl Iterator<Item = usize> {
+        self.into[clique].iter().map(|front| front ^ 1)
+    }
+}
+
+/// Adds a run, to the last one where it goes on from there.
+fn join(runs: &mut Vec<Run>, first: usize, run: Run) {
+    match runs[first..].last_mut() {
+        Some(last) if last.from + last.length == run.from && last.to + last.length == run.to => {
+            last.length += run.length;
+        }
+        _ => runs.push(run),
+    }
+}
+
+/// The cliques of an elimination, the clique in which every face is eliminated, and when.
+struct Ordered {
+    cliques: Vec<Clique>,
+    of_face: Vec<usize>,
+    turn: Vec<usize>,
+}
+
+/// The cliques of an elimination by least degree.
+fn cliques(pattern: &Pattern) -> Ordered {
+    let faces = pattern.start.len() - 1;
+    let mut tied: Vec<Vec<usize>> = vec![Vec::new(); faces];
+    for element in &pattern.faces {
+        for &face in element {
+            tied[face].extend(element.iter().filter(|&&other| other != face));
+        }
+    }
+    tied.iter_mut().for_each(|tied| {
+        tied.sort_unstable();
+        tied.dedup();
+    });
+    let degree = |tied: &[usize]| tied.iter().map(|&face| pattern.range(face).len()).sum::<usize>();
+    let mut degrees: Vec<usize> = tied.iter().map(|tied| degree(tied)).collect();
+    let mut waiting: BTreeSet<(usize, usize)> = degrees.iter().copied().zip(0..).collect();
+    let mut order = Vec::with_capacity(faces);
+    while let Some((_, face)) = waiting.pop_first() {
+        order.push(face);
+        let around = std::mem::take(&mut tied[face]);
+        for &other in &around {
+            let more = around.iter().copied().filter(|&f| f != other);
+            tied[other] = merged(&tied[other], more, face);
+            let now = degree(&tied[other]);
+            if now != degrees[other] {
+                waiting.remove(&(degrees[other], other));
+                waiting.insert((now, other));
+                degrees[other] = now;
+            }
+        }
+        tied[face] = around;
+    }
+    hung_up(&order, &tied)
+}
+
+/// Two sorted lists without repetition, `but` left out.
+fn merged(a: &[usize], b: impl Iterator<Item = usize>, but: usize) -> Vec<usize> {
+    let (mut a, mut b) = (a.iter().copied().filter(|&x| x != but).peekable(), b.peekable());
+    let mut all = Vec::new();
+    loop {
+        let next = match (a.peek(), b.peek()) {
+            (Some(&x), Some(&y)) => x.min(y),
+            (Some(&x), None) | (None, Some(&x)) => x,
+            (None, None) => return all,
+        };
+        a.next_if_eq(&next);
+        b.next_if_eq(&next);
+        all.push(next);
+    }
+}
+
+/// Cliques of faces that are eliminated in this `order`, `tied` to those by then: one that has all that is left of another
+/// takes it in.
+fn hung_up(order: &[usize], tied: &[Vec<usize>]) -> Ordered {
+    let mut turn = vec![0; order.len()];
+    order.iter().enumerate().for_each(|(i, &face)| turn[face] = i);
+    let next = |face: usize| tied[face].iter().copied().min_by_key(|&other| turn[other]);
+    let mut cliques: Vec<Clique> = Vec::new();
+    let mut of_face = vec![usize::MAX; order.len()];
+    // A face joins the clique of one eliminated before it that shares all its ties.
+    let mut takes_in = vec![usize::MAX; order.len()];
+    for &face in order {
+        let clique = match takes_in[face] {
+            usize::MAX => {
+                let mut faces = vec![face];
+                faces.extend(&tied[face]);
+                cliques.push(Clique { faces, parent: None, shared: tied[face].len() });
+                cliques.len() - 1
+            }
+            clique => {
+                cliques[clique].shared = tied[face].len();
+                clique
+            }
+        };
+        of_face[face] = clique;
+        if let Some(next) = next(face)
+            && tied[next].len() + 1 == tied[face].len()
+            && takes_in[next] == usize::MAX
+        {
+            takes_in[next] = clique;
+        }
+    }
+    for clique in &mut cliques {
+        // Last those that are shared, in the order of elimination, as all cliques have them.
+        clique.faces.sort_unstable_by_key(|&face| turn[face]);
+        let first_shared = clique.faces.len() - clique.shared;
+        clique.parent = clique.faces.get(first_shared).map(|&face| of_face[face]);
+    }
+    // Parts that nothing ties to each other hang together by nothing.
+    let roots: Vec<usize> = (0..cliques.len()).filter(|&c| cliques[c].parent.is_none()).collect();
+    for pair in roots.windows(2) {
+        cliques[pair[0]].parent = Some(pair[1]);
+    }
+    Ordered { cliques, of_face, turn }
+}
