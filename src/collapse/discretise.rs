@@ -4,7 +4,9 @@ use super::grid::{Grid, Lines, ON_LINE};
 use super::pulse::Pulse;
 use super::{Analysis, AnalysisError, Geometry, PlaneModel, Seams};
 use crate::arch::{Abutment, Joint, JointLaw, PointForce, Stone};
-use crate::dda::{Assembly, AssemblyBuilder, Beside, Bond, Elasticity, Law, Loads, MeanMotion, Push, Stopped, Touch, Unbuilt};
+use crate::dda::{
+    Assembly, AssemblyBuilder, Beside, Bond, Elasticity, Law, Loads, MeanMotion, Push, Stopped, Touch, Unbuilt,
+};
 use crate::geometry::{Region, Vec2};
 
 /// Relative scatter of the contact stiffnesses. Ties between contacts of a symmetric arch need something to break

@@ -107,7 +107,13 @@ fn by_newton(
 
 /// Where the tangent is singular, as next to a momentary mechanism, a state may be far away in its direction. Displacements
 /// `near` are an exact state under the loads that they are in equilibrium with: it is traced from there to `loads`.
-fn traced(assembly: &Assembly, size: f64, loads: &[f64], near: &[f64], heart: &Heart) -> Result<Option<Vec<f64>>, Stopped> {
+fn traced(
+    assembly: &Assembly,
+    size: f64,
+    loads: &[f64],
+    near: &[f64],
+    heart: &Heart,
+) -> Result<Option<Vec<f64>>, Stopped> {
     let mut exact = assembly.clone();
     exact.scatter(|| [1.0; 2]);
     let mut rate = vec![0.0; loads.len()];

@@ -9,9 +9,9 @@
 
 use super::elements::Elements;
 use super::heart::{Heart, Stopped};
-use super::panels::{Panels, subtract_applied, subtract_product};
+use super::panels::{Panels, dot, subtract_applied};
 use super::pivot::Pivot;
-use super::tree::{Front, Origin, Run, Source, Tree};
+use super::tree::{Front, Origin, Run, Tree};
 
 /// The fronts of a tree, eliminated as far as they were asked for, with the solution for one right-hand side.
 #[derive(Debug, Clone)]
@@ -21,10 +21,9 @@ pub struct Factor<'t> {
     current: Vec<bool>,
     pivots: Vec<Pivot>,
     ratio: Vec<f64>,
-    /// With rows and columns of what is removed first, a front is [[A, B], [C, D]]: A^-1 B, C, and D - C A^-1 B.
+    /// With rows and columns of what is removed first, a front is [[A, B], [C, D]]: A^-1 B, and [C, D - C A^-1 B].
     ahead: Panels,
-    behind: Panels,
-    left: Panels,
+    lower: Panels,
     /// Forward substitution of the kept right-hand side: what is removed, and what is passed on.
     forward: Sides,
     /// The same of any other.
@@ -71,8 +70,7 @@ impl<'t> Factor<'t> {
             pivots: tree.fronts.iter().map(|front| Pivot::new(front.sizes[0])).collect(),
             ratio: vec![f64::INFINITY; tree.fronts.len()],
             ahead: of(|front| (front.sizes[0], front.sizes[1])),
-            behind: of(|front| (front.sizes[1], front.sizes[0])),
-            left: of(|front| (front.sizes[1], front.sizes[1])),
+            lower: of(|front| (front.sizes[1], front.sizes[0] + front.sizes[1])),
             forward: Sides::new(tree),
             other: Sides::new(tree),
             root,
@@ -172,20 +170,20 @@ impl<'t> Factor<'t> {
         rows.clear();
         rows.resize(width * width, 0.0);
         for source in &self.tree.sources[front.sources.clone()] {
-            let entries = match source.origin {
-                Origin::Element(element) => k.get(element),
-                Origin::Front(other) => self.left.get(other),
+            // Of what another front has left the columns are those that it keeps.
+            let (entries, size) = match source.origin {
+                Origin::Element(element) => (k.get(element), source.size),
+                Origin::Front(other) => {
+                    let removed = self.tree.fronts[other].sizes[0];
+                    (self.lower.get(other).get(removed..).unwrap_or(&[]), removed + source.size)
+                }
             };
-            add_up(entries, source, &self.tree.runs[source.runs.clone()], width, &mut rows);
+            add_up(entries, size, &self.tree.runs[source.runs.clone()], width, &mut rows);
         }
         let (above, below) = rows.split_at_mut(removed * width);
         self.pivots[number].factor(above, kept, self.ahead.get_mut(number));
-        let (behind, left) = (self.behind.get_mut(number), self.left.get_mut(number));
-        for (i, row) in below.chunks_exact(width.max(1)).enumerate() {
-            behind[i * removed..(i + 1) * removed].copy_from_slice(&row[..removed]);
-            left[i * kept..(i + 1) * kept].copy_from_slice(&row[removed..]);
-        }
-        subtract_product(behind, self.ahead.get(number), left, removed, kept);
+        reduce(below, self.ahead.get(number), front.sizes);
+        self.lower.get_mut(number).copy_from_slice(below);
         let fed = self.tree.feeding(number).map(|other| self.ratio[other]);
         self.ratio[number] = fed.fold(self.pivots[number].ratio, f64::min);
         self.current[number] = true;
@@ -213,7 +211,9 @@ impl<'t> Factor<'t> {
         }
         self.pivots[number].solve(&mut load[..removed], &mut self.scratch.work);
         let (solved, passed) = load.split_at_mut(removed);
-        subtract_applied(self.behind.get(number), solved, passed);
+        for (row, passed) in self.lower.get(number).chunks_exact((removed + kept).max(1)).zip(passed.iter_mut()) {
+            *passed -= dot(&row[..removed], solved);
+        }
         self.forward.removed.get_mut(number).copy_from_slice(solved);
         self.forward.passed.get_mut(number).copy_from_slice(passed);
         self.scratch.load = load;
@@ -253,16 +253,44 @@ impl<'t> Factor<'t> {
     }
 }
 
-/// Adds a square matrix into a front of so many rows.
-fn add_up(entries: &[f64], source: &Source, runs: &[Run], width: usize, front: &mut [f64]) {
+/// Adds the entries of a square matrix, whose rows are `size` apart, into a front of rows that are `width` apart.
+fn add_up(entries: &[f64], size: usize, runs: &[Run], width: usize, front: &mut [f64]) {
     for row in runs {
-        for i in 0..row.length {
-            let from = &entries[(row.from + i) * source.size..(row.from + i + 1) * source.size];
-            let into = &mut front[(row.to + i) * width..(row.to + i + 1) * width];
-            for column in runs {
-                let sums = into[column.to..column.to + column.length].iter_mut();
-                sums.zip(&from[column.from..column.from + column.length]).for_each(|(sum, entry)| *sum += entry);
+        for column in runs {
+            let (from, into) = (&entries[row.from * size + column.from..], &mut front[row.to * width + column.to..]);
+            match (row.length, column.length) {
+                // Two contact points a joint: shapes known to the compiler run several times faster.
+                (4, 4) => add_block(from, size, into, width, [4, 4]),
+                (rows, columns) => add_block(from, size, into, width, [rows, columns]),
             }
+        }
+    }
+}
+
+#[inline(always)]
+fn add_block(from: &[f64], size: usize, into: &mut [f64], width: usize, [rows, columns]: [usize; 2]) {
+    for i in 0..rows {
+        let (from, into) = (&from[i * size..][..columns], &mut into[i * width..][..columns]);
+        into.iter_mut().zip(from).for_each(|(sum, entry)| *sum += entry);
+    }
+}
+
+/// From rows [C | D] to [C | D - C X], for what is removed and what is kept.
+fn reduce(rows: &mut [f64], x: &[f64], sizes: [usize; 2]) {
+    match sizes {
+        [4, 4] => reduce_of(rows, x, [4, 4]),
+        [0, _] | [_, 0] => {}
+        sizes => reduce_of(rows, x, sizes),
+    }
+}
+
+#[inline(always)]
+fn reduce_of(rows: &mut [f64], x: &[f64], [removed, kept]: [usize; 2]) {
+    for row in rows.chunks_exact_mut(removed + kept) {
+        let (c, d) = row.split_at_mut(removed);
+        // What ties two bodies at their joint is zero but for the 2 x 2 blocks of its contact points.
+        for (&l, x) in c.iter().zip(x.chunks_exact(kept)).filter(|(l, _)| removed == 4 || **l != 0.0) {
+            d.iter_mut().zip(x).for_each(|(entry, x)| *entry -= l * x);
         }
     }
 }

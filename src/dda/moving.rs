@@ -56,7 +56,8 @@ pub(super) struct Velocity<'d> {
 impl Placed {
     /// The assembly in its reference position.
     pub fn new(assembly: &Assembly, heart: &Heart) -> Self {
-        let corotated: Vec<Corotated> = (0..assembly.kinds()).map(|kind| Corotated::new(assembly.kind_nodes(kind))).collect();
+        let corotated: Vec<Corotated> =
+            (0..assembly.kinds()).map(|kind| Corotated::new(assembly.kind_nodes(kind))).collect();
         let still = vec![0.0; assembly.node_unknowns()];
         Placed {
             poses: (0..assembly.bodies()).map(|i| corotated[assembly.kind_of(i)].at_rest()).collect(),
@@ -142,7 +143,14 @@ impl Placed {
     }
 
     /// Rates of gap and slip of all contacts, for a velocity.
-    pub fn gap_rates(&self, assembly: &Assembly, drive: &Drive, along: Velocity, gaps: &[[f64; 2]], rates: &mut [[f64; 2]]) {
+    pub fn gap_rates(
+        &self,
+        assembly: &Assembly,
+        drive: &Drive,
+        along: Velocity,
+        gaps: &[[f64; 2]],
+        rates: &mut [[f64; 2]],
+    ) {
         for k in 0..assembly.interfaces() {
             let spin = self.spin(assembly, drive, k, along);
             for p in assembly.at_interface(k) {

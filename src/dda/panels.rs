@@ -50,29 +50,6 @@ impl Panels {
     }
 }
 
-/// out -= a b, for `a` of `inner` columns and `b` of `inner` rows.
-#[inline(always)]
-fn subtract_product_of(a: &[f64], b: &[f64], out: &mut [f64], inner: usize, columns: usize) {
-    for (row, into) in a.chunks_exact(inner).zip(out.chunks_exact_mut(columns)) {
-        // What ties two bodies at their joint is zero but for the 2 x 2 blocks of its contact points.
-        for (&l, other) in row.iter().zip(b.chunks_exact(columns)).filter(|(l, _)| inner == 4 || **l != 0.0) {
-            for (entry, x) in into.iter_mut().zip(other) {
-                *entry -= l * x;
-            }
-        }
-    }
-}
-
-/// out -= a b, for `a` of `inner` columns and `b` of `columns` columns.
-pub fn subtract_product(a: &[f64], b: &[f64], out: &mut [f64], inner: usize, columns: usize) {
-    match (inner, columns) {
-        // Two contact points a joint: shapes known to the compiler run several times faster.
-        (4, 4) => subtract_product_of(a, b, out, 4, 4),
-        (0, _) | (_, 0) => {}
-        _ => subtract_product_of(a, b, out, inner, columns),
-    }
-}
-
 /// y -= a x.
 pub fn subtract_applied(a: &[f64], x: &[f64], y: &mut [f64]) {
     match x.len() {

@@ -28,7 +28,7 @@ impl Pivot {
             (0, _) => self.ratio = f64::INFINITY,
             // Two contact points a joint: shapes known to the compiler run several times faster.
             (4, 4) => self.factor_of(4, 4, rows, solved),
-            (4, 0) => self.factor_of(4, 0, rows, solved),
+            (8, 0) => self.factor_of(8, 0, rows, solved),
             (n, columns) => self.factor_of(n, columns, rows, solved),
         }
     }
@@ -89,6 +89,7 @@ impl Pivot {
     pub(super) fn solve(&self, x: &mut [f64], work: &mut Vec<f64>) {
         match self.n {
             4 => self.solve_of(4, x, work),
+            8 => self.solve_of(8, x, work),
             n => self.solve_of(n, x, work),
         }
     }

@@ -206,6 +206,7 @@ impl Tree {
 /// Adds a run, to the last one where it goes on from there.
 fn join(runs: &mut Vec<Run>, first: usize, run: Run) {
     match runs[first..].last_mut() {
+        _ if run.length == 0 => {}
         Some(last) if last.from + last.length == run.from && last.to + last.length == run.to => {
             last.length += run.length;
         }

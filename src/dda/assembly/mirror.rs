@@ -137,9 +137,8 @@ impl Assembly {
             let sign = mirror.sign[here.start + i] * mirror.sign[here.start + j];
             (of_a[(i, j)] - sign * of_b[(at - there.start, other - there.start)]).abs()
         };
-        (0..size).all(|i| {
-            (0..size).all(|j| apart(i, j) <= STIFFNESS_ROUNDING * of_a[(i, i)].abs().max(of_a[(j, j)].abs()))
-        })
+        (0..size)
+            .all(|i| (0..size).all(|j| apart(i, j) <= STIFFNESS_ROUNDING * of_a[(i, i)].abs().max(of_a[(j, j)].abs())))
     }
 }
 

@@ -160,7 +160,9 @@ impl Tracer<'_> {
             Bearing { gap, force: contact.force_in(state, gap[0], gap[1]), tangent: contact.tangent_stiffness(state) }
         });
         let faces = assembly.faces(k);
-        moving.interface(k, points.clone()).fill(faces.each_ref().map(Option::is_some), matrix.get_mut(assembly.element(k)));
+        moving
+            .interface(k, points.clone())
+            .fill(faces.each_ref().map(Option::is_some), matrix.get_mut(assembly.element(k)));
         for face in faces.into_iter().flatten() {
             self.load_rate[face.clone()].copy_from_slice(&moving.load_rate[face]);
         }
