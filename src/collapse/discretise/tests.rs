@@ -1,7 +1,7 @@
 use super::*;
 use crate::arch::profile::Profile;
 use crate::arch::ring::{JointLines, Line, Ring, Thickness, stations};
-use crate::arch::{Arch, straight_voussoirs};
+use crate::arch::{assemble, straight_voussoirs};
 use crate::collapse::pulse::watched;
 use crate::collapse::{Aim, Direction, Mesh, Method, Unwatched};
 use crate::geometry::perpendicular;
@@ -21,8 +21,7 @@ fn semicircle(n: usize, subblocks: [usize; 2], curved: bool) -> Analysis {
     let law = JointLaw::Dry { friction: 0.6, cohesion: 0.0 };
     Analysis {
         aim: Aim::Collapse,
-        arch: Arch::assemble(&ends, stones, law, Vec2::zeros()),
-        stone: Stone::default(),
+        structure: assemble(&ends, stones, Stone::default(), law, Vec2::zeros()),
         plane: PlaneModel::Stress,
         penalty_ratio: 10.0,
         shear_penalty_ratio: 1.0,
@@ -61,7 +60,7 @@ fn the_subblocks_of_a_stone_tile_it() {
     for curved in [false, true] {
         let analysis = semicircle(7, [5, 4], curved);
         let grids = watched(&mut Unwatched, |pulse| Ok(discretise(&analysis, 1, pulse)?.grids)).unwrap();
-        for (grid, stone) in grids.iter().zip(&analysis.arch.voussoirs) {
+        for (grid, stone) in grids.iter().zip(analysis.structure.voussoirs()) {
             let all = grid.cells().map(|(i, j)| grid.region(i, j)).reduce(Region::join).unwrap();
             assert!((all.area / stone.region.area - 1.0).abs() < 1e-12);
             assert!((all.centroid - stone.region.centroid).norm() < 1e-12 * 10.0);
@@ -113,9 +112,9 @@ fn an_arch_is_its_own_mirror_image_where_nothing_tells_the_sides_apart() {
             assert!(symmetric(&semicircle(n, mesh, false))? && symmetric(&semicircle(n, mesh, true))?);
         }
         let [mut rough, mut fine, mut flat] = [(); 3].map(|()| semicircle(7, [1, 1], false));
-        rough.arch.joints[2].law = JointLaw::Dry { friction: 0.61, cohesion: 0.0 };
+        rough.structure.joints[2].law = JointLaw::Dry { friction: 0.61, cohesion: 0.0 };
         fine.mesh.subblocks[5] = [1, 2];
-        flat.arch.joints[3].extrados.y += 1e-3;
+        flat.structure.joints[3].extrados.y += 1e-3;
         for analysis in [&rough, &fine, &flat] {
             assert!(!symmetric(analysis)?);
         }
