@@ -5,20 +5,21 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Rooms below the double line: pure functions of their input.
-const PURE: [&str; 5] = ["geometry", "arch", "dda", "limit", "collapse"];
+const PURE: [&str; 6] = ["geometry", "structure", "arch", "dda", "limit", "collapse"];
 
 /// A room, the rooms of this crate it may use, the outside crates it may use.
-const TABLE: [(&str, &[&str], &[&str]); 8] = [
+const TABLE: [(&str, &[&str], &[&str]); 9] = [
     ("geometry", &[], &["nalgebra"]),
-    ("arch", &["geometry"], &["thiserror"]),
+    ("structure", &["geometry"], &["thiserror"]),
+    ("arch", &["geometry", "structure"], &["thiserror"]),
     ("dda", &["geometry"], &["nalgebra", "faer", "thiserror"]),
-    ("limit", &["geometry", "arch"], &["nalgebra", "thiserror"]),
-    ("collapse", &["geometry", "arch", "dda", "limit"], &["nalgebra", "thiserror"]),
+    ("limit", &["geometry", "structure"], &["nalgebra", "thiserror"]),
+    ("collapse", &["geometry", "structure", "dda", "limit"], &["nalgebra", "thiserror"]),
     ("jobs", &["collapse"], &["thiserror", "tokio", "tracing", "uuid"]),
-    ("render", &["collapse", "arch", "geometry"], &["thiserror"]),
+    ("render", &["collapse", "structure", "geometry"], &["thiserror"]),
     (
         "api",
-        &["jobs", "render", "arch", "collapse", "geometry"],
+        &["jobs", "render", "arch", "structure", "collapse", "geometry"],
         &[
             "axum",
             "comfy_table",
