@@ -36,7 +36,7 @@ pub(super) enum Doubt {
     )]
     SlidesInside,
     #[error(
-        "Stones that carry neither weight nor load are free to move, so the load path cannot be followed. Give the structure \
+        "Stones that carry neither weight nor load are free to move, so the load path cannot be followed. Give the arch \
          its self weight."
     )]
     LooseStones,

@@ -353,4 +353,14 @@ mod tests {
             None
         );
     }
+
+    #[test]
+    fn joints_of_no_span_have_no_angle() {
+        let mut structure = semicircle(12);
+        let (from_springing, from_crown) = angles(&structure, 2).unwrap();
+        assert!((from_springing - std::f64::consts::PI / 6.0).abs() < 1e-12);
+        assert!((from_crown + std::f64::consts::PI / 3.0).abs() < 1e-12);
+        structure.spans.clear();
+        assert_eq!(angles(&structure, 2), None);
+    }
 }

@@ -122,3 +122,16 @@ fn an_arch_is_its_own_mirror_image_where_nothing_tells_the_sides_apart() {
     })
     .unwrap();
 }
+
+#[test]
+fn a_joint_between_two_stones_is_as_soft_as_the_softer() {
+    let mut analysis = semicircle(6, [1, 1], false);
+    let soft = Stone { youngs_modulus: 2e8, ..Stone::default() };
+    analysis.structure.stones.push(soft);
+    analysis.structure.bodies[3].stone = 1;
+    let normal = |k: usize| penalties(&analysis, &analysis.structure.joints[k])[0];
+    let hard = 10.0 * Stone::default().youngs_modulus;
+    assert_eq!([2, 3, 4, 5].map(normal), [hard, 2e9, 2e9, hard]);
+    // The soft stone is of another kind, and so are its neighbours, which have a soft joint each.
+    assert_eq!(kinds(&analysis), 4);
+}
