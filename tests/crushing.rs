@@ -6,9 +6,9 @@ mod common;
 use common::dice::Dice;
 use common::{door, random_arch};
 use serde_json::{Value, json};
-use voussoir::arch::{Joint, PointForce};
 use voussoir::collapse::Analysis;
 use voussoir::limit::{StaticTheorem, unwatched};
+use voussoir::structure::{Joint, PointForce};
 
 /// How many random arches, from seed 0.
 const ARCHES: u64 = 360;
@@ -22,14 +22,14 @@ const SMALL: f64 = 1e-3;
 const HARD: f64 = 1e30;
 
 fn theorem(analysis: &Analysis) -> StaticTheorem {
-    StaticTheorem::new(&analysis.arch, &analysis.fixed, &analysis.scaled)
+    StaticTheorem::new(&analysis.structure, &analysis.fixed, &analysis.scaled)
 }
 
 /// Half the loads over the mean joint, Pa: about the mean stress at a springing.
 fn mean_stress(analysis: &Analysis) -> f64 {
     let total = |forces: &[PointForce]| forces.iter().map(|f| f.force.norm()).sum::<f64>();
     let loads = [total(&analysis.fixed), total(&analysis.scaled)].into_iter().find(|&sum| sum > 0.0).unwrap();
-    let joints = &analysis.arch.joints;
+    let joints = &analysis.structure.ring();
     0.5 * loads * joints.len() as f64 / joints.iter().map(Joint::length).sum::<f64>()
 }
 

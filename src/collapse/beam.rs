@@ -4,9 +4,9 @@ use super::discretise::{bond, elasticity};
 use super::grid::{Grid, Lines};
 use super::pulse::Pulse;
 use super::{AnalysisError, BeamReport, CurvedBeam, DEFAULT_PENALTY_RATIO, PlaneModel, StressField, SubblockStress};
-use crate::arch::{Joint, JointLaw};
 use crate::dda::{Macroblock, free_response};
 use crate::geometry::{Region, Vec2};
+
 use nalgebra::DVector;
 use std::f64::consts::FRAC_PI_2;
 
@@ -103,17 +103,13 @@ pub(super) fn solve(beam: &CurvedBeam, pulse: &Pulse) -> Result<BeamReport, Anal
 
 /// The ring from theta = 90 degrees (left) to 0, as a stone between two joints.
 fn macroblock(beam: &CurvedBeam) -> (Grid, Macroblock) {
-    let joint = |direction: Vec2| Joint {
-        intrados: direction * beam.inner_radius,
-        extrados: direction * beam.outer_radius,
-        law: JointLaw::Bonded,
-    };
+    let side = |direction: Vec2| [direction * beam.inner_radius, direction * beam.outer_radius];
     let lines = if beam.curved_sides { Lines::Arcs(Vec2::zeros()) } else { Lines::Chords(Vec2::zeros()) };
     let (a, b) = (beam.inner_radius, beam.outer_radius);
     let area = 0.5 * FRAC_PI_2 * (b * b - a * a);
     // First moment of a quarter ring about either axis: (b^3 - a^3) / 3.
     let whole = Region { area, centroid: Vec2::repeat((b.powi(3) - a.powi(3)) / (3.0 * area)) };
-    let grid = Grid::new([&joint(Vec2::y()), &joint(Vec2::x())], whole, lines, beam.subblocks);
+    let grid = Grid::new([side(Vec2::y()), side(Vec2::x())], whole, lines, beam.subblocks);
     let bond = bond(beam.seams, DEFAULT_PENALTY_RATIO * beam.stone.youngs_modulus);
     (grid, grid.macroblock(elasticity(&beam.stone, beam.plane), bond))
 }
@@ -173,7 +169,7 @@ mod tests {
                 inner_radius: 0.5,
                 outer_radius: 0.5 * ratio,
                 shear: 2500.0,
-                stone: crate::arch::Stone::default(),
+                stone: crate::structure::Stone::default(),
                 plane: PlaneModel::Stress,
                 subblocks: [1, 1],
                 accuracy: None,

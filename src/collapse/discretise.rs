@@ -1,13 +1,13 @@
-//! From an arch to a chain of blocks: the only door between masonry and mechanics.
+//! From a structure to an assembly of blocks: the only door between masonry and mechanics.
 
-use super::grid::{Grid, Lines, ON_LINE};
+use super::grid::{Grid, ON_LINE};
 use super::pulse::Pulse;
 use super::{Analysis, AnalysisError, Geometry, PlaneModel, Seams};
-use crate::arch::{Abutment, Joint, JointLaw, PointForce, Stone};
 use crate::dda::{
     Assembly, AssemblyBuilder, Beside, Bond, Elasticity, Law, Loads, MeanMotion, Push, Stopped, Touch, Unbuilt,
 };
 use crate::geometry::{Region, Vec2};
+use crate::structure::{Joint, JointLaw, PointForce, Side, Stone};
 
 /// Relative scatter of the contact stiffnesses. Ties between contacts of a symmetric arch need something to break
 /// them; stiffness does not move a rigid limit load, and 1e-4 is far below what anyone knows of a joint.
@@ -17,7 +17,7 @@ const STIFFNESS_SCATTER: f64 = 1e-4;
 /// links (one towards the ground, two between stones) make up the joint's own.
 const LINK: f64 = 4.0;
 
-/// Stiffness of the crown joint of half an arch over that of others: its stone moves half as far towards the mirror plane as
+/// Stiffness of a crown joint on the plane of symmetry over that of others: its stone moves half as far towards the mirror plane as
 /// the two towards each other.
 const CROWN_JOINT: f64 = 2.0;
 /// The same of the cut through a keystone, where there is no joint: its compliance, a hundredth of a joint's, is not seen.
@@ -28,21 +28,21 @@ const CUT: usize = 2000;
 /// Work of finding a subblock's shape, in multiplications.
 const SHAPE: usize = 200;
 
-/// A chain of macroblocks with the voussoirs' and joints' places in it, and the loads on it.
+/// An assembly of macroblocks, one for every body, with an interface for every joint, and the loads on it.
 pub(super) struct Model<'p> {
     /// The watch on the analysis that it is for.
     pub pulse: &'p Pulse<'p>,
-    pub chain: Assembly,
-    /// Body of voussoir 0 (1 where there is a left abutment).
-    pub first_voussoir: usize,
-    pub voussoirs: usize,
-    /// The subblocks of every voussoir.
+    pub assembly: Assembly,
+    /// Bodies and joints that are told of: all but abutment blocks.
+    pub bodies: usize,
+    pub joints: usize,
+    /// The subblocks of these bodies.
     pub grids: Vec<Grid>,
-    /// Places of every joint's contact points: 0 at the intrados, 1 at the extrados.
+    /// Places of every joint's contact points: 0 at its first end, 1 at its second.
     positions: Vec<Vec<f64>>,
     /// Extent, m.
     pub size: f64,
-    /// Whether the chain is its own mirror image.
+    /// Whether the assembly is its own mirror image.
     pub symmetric: bool,
     /// Least stiffness of a contact, N/m2.
     pub softest: f64,
@@ -71,69 +71,81 @@ impl Scatter {
     }
 }
 
-/// Cuts the arch into one macroblock per voussoir, and one block per abutment.
+/// Cuts every body of the structure into the subblocks of a macroblock.
 pub(super) fn discretise<'p>(analysis: &Analysis, seed: u64, pulse: &'p Pulse<'p>) -> Result<Model<'p>, AnalysisError> {
-    let arch = &analysis.arch;
-    let elasticity = elasticity(&analysis.stone, analysis.plane);
-    let penalty = analysis.penalty_ratio * analysis.stone.youngs_modulus;
-    let grids = grids(analysis);
-    let [left, right] = arch.abutments;
-    let base = |abutment: Option<Abutment>| abutment.map(|a| Joint { law: JointLaw::Bonded, ..a.base });
-    let joints: Vec<Joint> = base(left).into_iter().chain(arch.joints.iter().copied()).chain(base(right)).collect();
-    let stand = |abutment: Option<Abutment>, k: usize| {
-        abutment.map(|a| Grid::new([&joints[k], &joints[k + 1]], a.region, Lines::Straight, [1, 1]))
+    let structure = &analysis.structure;
+    let mut grids = grids(analysis);
+    let assembly = assembly(analysis, &grids, seed, pulse)?;
+    let (bodies, joints) = (structure.voussoirs().len(), structure.ring().len());
+    let positions = structure.ring().iter().map(|joint| places(joint.law, around(joint, &grids))).collect();
+    let on_subblocks = |force: &PointForce| pushes(force, &grids);
+    let (heart, stopped) = (&pulse.heart, |_: Stopped| pulse.stopped());
+    let straight = |forces: &[PointForce]| assembly.loads(forces.iter().flat_map(on_subblocks), heart).map_err(stopped);
+    let turned = |forces: &[PointForce]| match analysis.geometry {
+        Geometry::FirstOrder => Ok(Vec::new()),
+        Geometry::Updated => assembly.turned_loads(forces.iter().flat_map(on_subblocks), heart).map_err(stopped),
     };
-    let last = joints.len() - 2;
-    let bodies: Vec<Grid> = stand(left, 0).into_iter().chain(grids.iter().copied()).chain(stand(right, last)).collect();
-    let bond = bond(analysis.mesh.seams, penalty);
-    let mut macroblocks = Vec::with_capacity(bodies.len());
-    for grid in &bodies {
-        macroblocks.push(grid.macroblock(elasticity, bond));
+    let [fixed, scaled] = [straight(&analysis.fixed)?, straight(&analysis.scaled)?];
+    let turned = [turned(&analysis.fixed)?, turned(&analysis.scaled)?];
+    grids.truncate(bodies);
+    Ok(Model {
+        turned,
+        symmetric: !structure.is_half() && assembly.is_symmetric(),
+        fixed,
+        scaled,
+        pulse,
+        bodies,
+        joints,
+        size: extent(structure.ring().iter().flat_map(|j| [j.intrados, j.extrados])),
+        softest: assembly.contacts().iter().map(|contact| contact.stiffness[0]).fold(f64::INFINITY, f64::min),
+        positions,
+        assembly,
+        grids,
+    })
+}
+
+/// The bodies cut like this, joined as the structure says, their contacts scattered.
+fn assembly(analysis: &Analysis, grids: &[Grid], seed: u64, pulse: &Pulse) -> Result<Assembly, AnalysisError> {
+    let structure = &analysis.structure;
+    let mut macroblocks = Vec::with_capacity(grids.len());
+    for (body, grid) in grids.iter().enumerate() {
+        let stone = structure.stone_of(body);
+        let bond = bond(analysis.mesh.seams, analysis.penalty_ratio * stone.youngs_modulus);
+        macroblocks.push(grid.macroblock(elasticity(stone, analysis.plane), bond));
         pulse.work(CUT * grid.radial * grid.along)?;
     }
     let mut builder = AssemblyBuilder::new(macroblocks);
-    for (k, joint) in joints.iter().enumerate() {
-        let stiffer = match joint.law {
-            JointLaw::Mirror => CUT_STONE,
-            _ if arch.half && k + 1 == joints.len() => CROWN_JOINT,
-            _ => 1.0,
-        };
-        let sides = [k.checked_sub(1).map(|k| &bodies[k]), bodies.get(k)];
-        let stiffness = [1.0, analysis.shear_penalty_ratio].map(|ratio| stiffer * penalty * ratio);
-        let before = k.checked_sub(1).map_or(Beside::Ground(0), Beside::Body);
-        let after = if k < bodies.len() { Beside::Body(k) } else { Beside::Ground(1) };
-        builder.join([before, after], touches(joint, sides, stiffness));
+    for joint in &structure.joints {
+        let between = joint.between.map(|side| match side {
+            Side::Body(body) => Beside::Body(body),
+            Side::Support(support) => Beside::Ground(support),
+        });
+        builder.join(between, touches(joint, around(joint, grids), penalties(analysis, joint)));
     }
-    let mut chain = builder.finish(&pulse.heart).map_err(|error| match error {
+    let mut assembly = builder.finish(&pulse.heart).map_err(|error| match error {
         Unbuilt::Loose(loose) => loose.into(),
         Unbuilt::Stopped(_) => pulse.stopped(),
     })?;
     let mut scatter = Scatter::new(seed);
-    chain.scatter(|| [(); 2].map(|()| 1.0 + STIFFNESS_SCATTER * scatter.next()));
-    let first_voussoir = usize::from(left.is_some());
-    let around = |k: usize| places(joints[k].law, k.checked_sub(1).map(|k| &bodies[k]), bodies.get(k));
-    let on_subblocks = |force: &PointForce| pushes(force, first_voussoir, &grids);
-    let (heart, stopped) = (&pulse.heart, |_: Stopped| pulse.stopped());
-    let straight = |forces: &[PointForce]| chain.loads(forces.iter().flat_map(on_subblocks), heart).map_err(stopped);
-    let turned = |forces: &[PointForce]| match analysis.geometry {
-        Geometry::FirstOrder => Ok(Vec::new()),
-        Geometry::Updated => chain.turned_loads(forces.iter().flat_map(on_subblocks), heart).map_err(stopped),
+    assembly.scatter(|| [(); 2].map(|()| 1.0 + STIFFNESS_SCATTER * scatter.next()));
+    Ok(assembly)
+}
+
+/// What lies before and after a joint; none: the ground.
+fn around<'g>(joint: &Joint, grids: &'g [Grid]) -> [Option<&'g Grid>; 2] {
+    joint.between.map(|side| side.body().map(|body| &grids[body]))
+}
+
+/// Normal and tangential contact penalty of a joint, N/m2: that of the softer of two stones.
+fn penalties(analysis: &Analysis, joint: &Joint) -> [f64; 2] {
+    let stiffer = match joint.law {
+        JointLaw::Mirror => CUT_STONE,
+        JointLaw::Wall => CROWN_JOINT,
+        JointLaw::Dry { .. } | JointLaw::Bonded => 1.0,
     };
-    let [fixed, scaled] = [straight(&analysis.fixed)?, straight(&analysis.scaled)?];
-    Ok(Model {
-        turned: [turned(&analysis.fixed)?, turned(&analysis.scaled)?],
-        symmetric: !arch.half && chain.is_symmetric(),
-        fixed,
-        scaled,
-        pulse,
-        first_voussoir,
-        voussoirs: arch.voussoirs.len(),
-        size: extent(arch.joints.iter().flat_map(|j| [j.intrados, j.extrados])),
-        softest: chain.contacts().iter().map(|contact| contact.stiffness[0]).fold(f64::INFINITY, f64::min),
-        positions: (0..arch.joints.len()).map(|joint| around(first_voussoir + joint)).collect(),
-        chain,
-        grids,
-    })
+    let softest = analysis.structure.stones_at(joint).map(|stone| stone.youngs_modulus).fold(f64::INFINITY, f64::min);
+    let penalty = analysis.penalty_ratio * softest;
+    [1.0, analysis.shear_penalty_ratio].map(|ratio| stiffer * penalty * ratio)
 }
 
 /// Material of the stones.
@@ -153,13 +165,10 @@ pub(super) fn bond(seams: Seams, penalty: f64) -> Bond {
     }
 }
 
+/// How every body is cut: whole, where the mesh says nothing of it.
 fn grids(analysis: &Analysis) -> Vec<Grid> {
-    let arch = &analysis.arch;
-    let grid = |(k, &subblocks): (usize, &[usize; 2])| {
-        let stone = &arch.voussoirs[k];
-        Grid::new([&arch.joints[k], &arch.joints[k + 1]], stone.region, stone.sides.into(), subblocks)
-    };
-    analysis.mesh.subblocks.iter().enumerate().map(grid).collect()
+    let subblocks = |k: usize| analysis.mesh.subblocks.get(k).copied().unwrap_or([1, 1]);
+    analysis.structure.bodies.iter().enumerate().map(|(k, body)| Grid::of(body, subblocks(k))).collect()
 }
 
 /// Contact points of a joint between two bodies (none: the ground): its ends, and where subblocks on either side meet,
@@ -171,7 +180,7 @@ fn touches<'a>(
 ) -> impl Iterator<Item = Touch> + 'a {
     let links = before.into_iter().chain(after).count() as f64;
     let contact = 1.0 / (1.0 - links / LINK);
-    let places = places(joint.law, before, after);
+    let places = places(joint.law, [before, after]);
     // A mirror plane holds across and lets slide along.
     let held = [1.0, if joint.law == JointLaw::Mirror { 0.0 } else { 1.0 }];
     (0..places.len()).map(move |j| {
@@ -199,7 +208,7 @@ fn touches<'a>(
 /// Those of both sides: points of the finer side alone would put their forces off the middle of the coarser side's
 /// subblocks. A cut through a stone is held as a seam is, in the middle of its subblocks: points at their corners would lock in
 /// bending.
-fn places(law: JointLaw, before: Option<&Grid>, after: Option<&Grid>) -> Vec<f64> {
+fn places(law: JointLaw, [before, after]: [Option<&Grid>; 2]) -> Vec<f64> {
     if let Some(grid) = before.filter(|grid| law == JointLaw::Mirror && grid.radial > 1) {
         return (0..grid.radial).map(|i| (i as f64 + 0.5) / grid.radial as f64).collect();
     }
@@ -212,15 +221,15 @@ fn places(law: JointLaw, before: Option<&Grid>, after: Option<&Grid>) -> Vec<f64
 
 /// Law of a contact point that has this share of the joint.
 fn law(joint: &Joint, share: f64) -> Law {
-    match joint.law {
-        JointLaw::Bonded | JointLaw::Mirror => Law::Bonded,
-        JointLaw::Dry { friction, cohesion } => Law::Coulomb { friction, cohesion: share * cohesion * joint.length() },
+    match joint.law.coulomb() {
+        Some([friction, cohesion]) => Law::Coulomb { friction, cohesion: share * cohesion * joint.length() },
+        None => Law::Bonded,
     }
 }
 
-/// A force on a voussoir as forces on its subblocks.
-fn pushes(force: &PointForce, first_voussoir: usize, grids: &[Grid]) -> Vec<Push> {
-    let (grid, body) = (&grids[force.voussoir], first_voussoir + force.voussoir);
+/// A force on a body as forces on its subblocks.
+fn pushes(force: &PointForce, grids: &[Grid]) -> Vec<Push> {
+    let (grid, body) = (&grids[force.body], force.body);
     if force.spread {
         let regions: Vec<_> = grid.cells().map(|(i, j)| grid.region(i, j)).collect();
         let area: f64 = regions.iter().map(|r| r.area).sum();
@@ -255,43 +264,42 @@ impl Model<'_> {
         loads.map(|(fixed, scaled)| fixed + scaled * load_factor).collect()
     }
 
-    /// Whether the chain and these loads on its nodes are their own mirror image.
+    /// Whether the assembly and these loads on its nodes are their own mirror image.
     pub(super) fn is_symmetric_under(&self, loads: &[f64]) -> bool {
-        self.symmetric && self.chain.are_symmetric(loads)
+        self.symmetric && self.assembly.are_symmetric(loads)
     }
 
-    /// Mean motion of a voussoir.
-    pub(super) fn motion(&self, voussoir: usize, load_factor: f64, displacements: &[f64]) -> MeanMotion {
-        self.chain.mean_motion(self.first_voussoir + voussoir, displacements, &self.loads_at(load_factor))
+    /// Mean motion of a body.
+    pub(super) fn motion(&self, body: usize, load_factor: f64, displacements: &[f64]) -> MeanMotion {
+        self.assembly.mean_motion(body, displacements, &self.loads_at(load_factor))
     }
 
-    /// Work of finding the stress in every subblock of a voussoir, in multiplications.
-    pub(super) fn work_of_stresses(&self, voussoir: usize) -> usize {
-        let Grid { radial, along, .. } = self.grids[voussoir];
-        let nodes = [voussoir, voussoir + 1].map(|joint| self.contacts(joint).len());
-        radial * along * (SHAPE + 6 * (nodes[0] + nodes[1]))
+    /// Work of finding the stress in every subblock of a body, in multiplications.
+    pub(super) fn work_of_stresses(&self, body: usize) -> usize {
+        let Grid { radial, along, .. } = self.grids[body];
+        radial * along * (SHAPE + 3 * self.assembly.nodes_of(body).len())
     }
 
-    /// Stress in every subblock of a voussoir, Pa.
-    pub(super) fn stresses(&self, voussoir: usize, load_factor: f64, displacements: &[f64]) -> Vec<[f64; 3]> {
-        self.chain.stresses(self.first_voussoir + voussoir, displacements, &self.loads_at(load_factor))
+    /// Stress in every subblock of a body, Pa.
+    pub(super) fn stresses(&self, body: usize, load_factor: f64, displacements: &[f64]) -> Vec<[f64; 3]> {
+        self.assembly.stresses(body, displacements, &self.loads_at(load_factor))
     }
 
-    /// Mean stress in a voussoir, Pa.
-    pub(super) fn mean_stress(&self, voussoir: usize, load_factor: f64, displacements: &[f64]) -> [f64; 3] {
-        let stresses = self.stresses(voussoir, load_factor, displacements);
-        let grid = &self.grids[voussoir];
+    /// Mean stress in a body, Pa.
+    pub(super) fn mean_stress(&self, body: usize, load_factor: f64, displacements: &[f64]) -> [f64; 3] {
+        let stresses = self.stresses(body, load_factor, displacements);
+        let grid = &self.grids[body];
         let areas: Vec<f64> = grid.cells().map(|(i, j)| grid.region(i, j).area).collect();
         let total: f64 = areas.iter().sum();
         [0, 1, 2].map(|c| stresses.iter().zip(&areas).map(|(s, a)| s[c] * a / total).sum())
     }
 
-    /// Contacts of joint `k`, from intrados to extrados.
+    /// Contacts of joint `k`, from its first end to its second.
     pub(super) fn contacts(&self, joint: usize) -> std::ops::Range<usize> {
-        self.chain.at_interface(self.first_voussoir + joint)
+        self.assembly.at_interface(joint)
     }
 
-    /// Place of contact `p` on joint `k`: 0 at the intrados, 1 at the extrados.
+    /// Place of contact `p` on joint `k`: 0 at its first end, 1 at its second.
     pub(super) fn position(&self, joint: usize, p: usize) -> f64 {
         self.positions[joint][p - self.contacts(joint).start]
     }

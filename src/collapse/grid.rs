@@ -1,9 +1,9 @@
 //! The grid of subblocks in one stone.
 
 use super::SubblockStress;
-use crate::arch::{Joint, Sides};
 use crate::dda::{Block, Bond, Elasticity, Macroblock, Seam};
 use crate::geometry::{Region, Vec2, cross, perpendicular};
+use crate::structure::{Body, Sides};
 
 /// A point this close to a line of the grid, as a share of a subblock, lies on it.
 pub(super) const ON_LINE: f64 = 1e-9;
@@ -54,9 +54,15 @@ pub(super) struct Grid {
 }
 
 impl Grid {
-    /// The grid of a stone of the given shape between two joints, with this many subblocks (radial, along).
-    pub(super) fn new(joints: [&Joint; 2], whole: Region, lines: Lines, [radial, along]: [usize; 2]) -> Self {
-        Grid { ends: joints.map(|j| [j.intrados, j.extrados]), lines, radial, along, whole }
+    /// The grid of a body with this many subblocks (radial, along). What has not four corners cannot be cut.
+    pub(super) fn of(body: &Body, subblocks: [usize; 2]) -> Self {
+        let corner = |i: usize| body.corners[i.min(body.corners.len() - 1)];
+        Grid::new([[corner(0), corner(3)], [corner(1), corner(2)]], body.region, body.sides.into(), subblocks)
+    }
+
+    /// The grid between two sides, each from intrados to extrados, of a stone of the given shape.
+    pub(super) fn new(ends: [[Vec2; 2]; 2], whole: Region, lines: Lines, [radial, along]: [usize; 2]) -> Self {
+        Grid { ends, lines, radial, along, whole }
     }
 
     /// The point at (xi, eta), m.

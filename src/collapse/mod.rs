@@ -32,7 +32,7 @@ pub use digits::Digits;
 pub use plan::LOAD_PIECES;
 pub use report::*;
 
-use crate::arch::{Arch, PointForce, Stone};
+use crate::structure::{PointForce, Stone, Structure};
 use pulse::watched;
 use std::ops::ControlFlow;
 
@@ -210,10 +210,8 @@ pub enum Answer {
 pub struct Analysis {
     /// What is wanted.
     pub aim: Aim,
-    /// The arch.
-    pub arch: Arch,
-    /// Its stone.
-    pub stone: Stone,
+    /// The structure, with its stones.
+    pub structure: Structure,
     /// Plane stress or plane strain.
     pub plane: PlaneModel,
     /// Contact penalty as a multiple of Young's modulus (per metre of depth and contact point).

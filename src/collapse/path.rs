@@ -3,8 +3,8 @@
 use super::discretise::{Model, Scatter};
 use super::record::Recorder;
 use super::{AnalysisError, Cost, Unfollowed};
-use crate::arch::PointForce;
 use crate::dda::{Drive, End, Lost, Patience, Peak, Tracer, Violation, covering};
+use crate::structure::PointForce;
 use std::ops::ControlFlow;
 
 /// An arch falls that has to give up this share of its load to stay in equilibrium, if it moves visibly as it does; or to move
@@ -89,8 +89,8 @@ pub(super) fn stand<'a>(
     let target = at(model, fixed, start);
     // Deep enough that nothing has opened yet when the true loads begin to act.
     let preload = target.len() as f64 * largest(&target) / model.softest;
-    let drive = covering(&model.chain, &target, preload);
-    let mut tracer = Tracer::new(&model.chain, drive, model.size, load_scale, &model.pulse.heart);
+    let drive = covering(&model.assembly, &target, preload);
+    let mut tracer = Tracer::new(&model.assembly, drive, model.size, load_scale, &model.pulse.heart);
     let end = match tracer.trace(1.0, see) {
         // Stones that have to move by many times the arch's size until they are held have fallen.
         End::Rising => End::Mechanism,
@@ -176,7 +176,7 @@ pub(super) fn lost(model: &Model, tracer: &Tracer) -> Unfollowed {
         None => Unfollowed::OutOfBalance(tracer.worst_residual()),
         Some(Lost::OutOfBalance(residual)) => Unfollowed::OutOfBalance(residual),
         Some(Lost::AgainstLaw(Violation { contact, beyond })) => {
-            let joint = (0..=model.voussoirs).find(|&joint| model.contacts(joint).contains(&contact));
+            let joint = (0..model.joints).find(|&joint| model.contacts(joint).contains(&contact));
             Unfollowed::AgainstLaw { joint: joint.unwrap_or(0), beyond }
         }
         Some(Lost::Ties(changes)) => Unfollowed::Ties(changes),

@@ -57,14 +57,14 @@ impl<'a> Recorder<'a> {
             share: analysis.share,
             start,
             sign,
-            crown: mechanism::crown(&analysis.arch),
+            crown: mechanism::crown(&analysis.structure),
             recent: VecDeque::new(),
             farthest: start,
             last: None,
             steps_done: 0,
             history: Vec::new(),
             asked: std::iter::once(1.0).chain(fields).map(|load_factor| (load_factor, None)).collect(),
-            yielding: Yielding::new(model, analysis.stone.compressive_strength),
+            yielding: Yielding::new(model, analysis.structure.least_strength()),
         }
     }
 
@@ -171,11 +171,11 @@ impl<'a> Recorder<'a> {
     fn history_point(&self, load_factor: f64, displacements: &[f64]) -> HistoryPoint {
         // Of two states that are each other's mirror image, as near as the scatter of stiffness lets them be.
         let symmetric = self.model.symmetric && self.model.is_symmetric_under(&self.model.loads_on_nodes(load_factor));
-        let symmetric = symmetric.then(|| self.model.chain.symmetrised(displacements));
+        let symmetric = symmetric.then(|| self.model.assembly.symmetrised(displacements));
         let displacements = symmetric.as_deref().unwrap_or(displacements);
         let of = |voussoir: usize| self.model.motion(voussoir, load_factor, displacements).displacement;
         let crown = 0.5 * (of(self.crown[0]) + of(self.crown[1]));
-        let largest = (0..self.model.voussoirs).map(|v| of(v).norm_squared()).fold(0.0, f64::max).sqrt();
+        let largest = (0..self.model.bodies).map(|v| of(v).norm_squared()).fold(0.0, f64::max).sqrt();
         HistoryPoint { load_factor, crown, largest }
     }
 
@@ -190,12 +190,12 @@ impl<'a> Recorder<'a> {
             }
             self.steps_done += 1;
             let displacements = interpolate(before, now, at);
-            self.model.chain.gaps(&displacements, &mut gaps);
+            self.model.assembly.gaps(&displacements, &mut gaps);
             // The path is stopped at the end of this event.
             if self.model.pulse.heart.work(LOOK * gaps.len()).is_err() {
                 return None;
             }
-            let open = (0..=self.model.voussoirs).filter(|&k| self.model.contacts(k).any(|p| gaps[p][0] > opening));
+            let open = (0..self.model.joints).filter(|&k| self.model.contacts(k).any(|p| gaps[p][0] > opening));
             if open.count() >= hinges {
                 return Some((at, displacements));
             }
@@ -218,7 +218,7 @@ pub(super) fn snapshot(model: &Model, state: &Standing) -> Result<Snapshot, Anal
         let MeanMotion { displacement, rotation } = model.motion(v, load_factor, displacements);
         Ok(BlockState { displacement, rotation, stress: model.mean_stress(v, load_factor, displacements) })
     };
-    let blocks = (0..model.voussoirs).map(block).collect::<Result<Vec<_>, AnalysisError>>()?;
+    let blocks = (0..model.bodies).map(block).collect::<Result<Vec<_>, AnalysisError>>()?;
     let blocks = if state.symmetric { evened_blocks(&blocks) } else { blocks };
     let contact = |joint: usize, p: usize| ContactForce {
         joint,
@@ -227,9 +227,8 @@ pub(super) fn snapshot(model: &Model, state: &Standing) -> Result<Snapshot, Anal
         tangential: forces[p].tangential,
         gap: forces[p].gap,
     };
-    let contacts = (0..=model.voussoirs)
-        .flat_map(|joint| model.contacts(joint).map(move |p| (joint, p)))
-        .map(|(j, p)| contact(j, p));
+    let contacts =
+        (0..model.joints).flat_map(|joint| model.contacts(joint).map(move |p| (joint, p))).map(|(j, p)| contact(j, p));
     Ok(Snapshot { load_factor, blocks, contacts: contacts.collect() })
 }
 

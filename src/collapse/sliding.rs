@@ -10,8 +10,8 @@ use super::mechanism::{Released, all_releases, columns, describe};
 use super::pulse::Pulse;
 use super::smallest_motion::Column;
 use super::{Analysis, Mechanism};
-use crate::arch::{Face, PointForce};
 use crate::limit::{Equilibrium, Release, Resultant, StaticTheorem, cheapest_motion};
+use crate::structure::{Face, PointForce};
 use std::collections::BTreeSet;
 
 /// So many motions in turn that give nothing lower end the search.
@@ -68,7 +68,7 @@ impl Search<'_> {
         let solution = best.map(|(equilibrium, moving, rates)| FullSolution {
             load_factor: equilibrium.load_factor,
             forces: self.theorem.resultants(&equilibrium),
-            mechanism: describe(&self.analysis.arch, &moving, &rates),
+            mechanism: describe(&self.analysis.structure, &moving, &rates),
         });
         (solution, seen.len())
     }
@@ -83,7 +83,7 @@ impl Search<'_> {
     fn with_columns(&self, released: Vec<Released>) -> (Vec<Released>, Vec<Column>) {
         let forward = |f: &PointForce| PointForce { force: f.force * self.sign, ..*f };
         let driving: Vec<PointForce> = self.analysis.scaled.iter().map(forward).collect();
-        let columns = columns(&self.analysis.arch, &released, &driving);
+        let columns = columns(&self.analysis.structure, &released, &driving);
         (released, columns)
     }
 
@@ -100,7 +100,7 @@ impl Search<'_> {
 
     fn at_limits(&self, equilibrium: &Equilibrium) -> Vec<Released> {
         let forces = self.theorem.resultants(equilibrium);
-        all_releases(&self.analysis.arch, &forces, &vec![None; forces.len()], AT_LIMIT)
+        all_releases(&self.analysis.structure, &forces, &vec![None; forces.len()], AT_LIMIT)
     }
 
     /// True where a load factor lies beyond another, seen from the start, by more than this share of it (or of that at which the

@@ -66,23 +66,23 @@ impl<'m> States<'m> {
         if let Some(found) = self.found.iter().find(|state| state.load_factor == load_factor) {
             return Ok(Some(found.clone()));
         }
-        let (model, chain) = (self.model, &self.model.chain);
+        let (model, assembly) = (self.model, &self.model.assembly);
         let loads = model.loads_on_nodes(load_factor);
         let (displacements, contacts) = match self.balanced(load_factor, &loads, on_path)? {
-            Some(displacements) => (displacements, chain.exact_contacts()),
+            Some(displacements) => (displacements, assembly.exact_contacts()),
             None => {
-                let broken = missing(chain, &loads, on_path, &model.pulse.heart);
+                let broken = missing(assembly, &loads, on_path, &model.pulse.heart);
                 let (amount, interface) = broken.map_err(|_| model.pulse.stopped())?;
                 if amount > LAWFUL {
-                    let joint = interface.saturating_sub(model.first_voussoir).min(model.voussoirs);
+                    let joint = interface.min(model.joints - 1);
                     self.doubt.get_or_insert(Doubt::BreaksLaw { load_factor, joint, amount });
                     return Ok(None);
                 }
-                (on_path.to_vec(), chain.contacts())
+                (on_path.to_vec(), assembly.contacts())
             }
         };
-        let forces = chain.contact_forces(contacts, &displacements);
-        let symmetric = model.symmetric && chain.mirrored(&displacements) == displacements;
+        let forces = assembly.contact_forces(contacts, &displacements);
+        let symmetric = model.symmetric && assembly.mirrored(&displacements) == displacements;
         let standing = Standing { load_factor, displacements, forces, symmetric };
         self.found.push(standing.clone());
         Ok(Some(standing))
@@ -121,7 +121,7 @@ impl<'m> States<'m> {
         let found = self.balanced(factor, &model.loads_on_nodes(factor), near)?;
         self.others.truncate(said);
         let Some(displacements) = found else { return Ok(None) };
-        let symmetric = model.symmetric && model.chain.mirrored(&displacements) == displacements;
+        let symmetric = model.symmetric && model.assembly.mirrored(&displacements) == displacements;
         let state = Standing { load_factor: factor, displacements, forces: Vec::new(), symmetric };
         let field = stress_field(model, factor, &state)?;
         let stresses = field.subblocks.into_iter().map(|subblock| (subblock.tresca(), subblock));
@@ -147,15 +147,15 @@ impl<'m> States<'m> {
         let found = self.newton(loads, on_path, false)?.map(|found| found.displacements);
         if symmetric {
             let state = found.as_deref().unwrap_or(on_path);
-            let joints = self.joints_apart(state, &self.model.chain.mirrored(state));
+            let joints = self.joints_apart(state, &self.model.assembly.mirrored(state));
             self.others.push((load_factor, Other::Lopsided, joints));
         }
         Ok(found)
     }
 
     fn newton(&mut self, loads: &[f64], on_path: &[f64], symmetric: bool) -> Result<Option<Balanced>, AnalysisError> {
-        let Model { chain, pulse, size, .. } = self.model;
-        let found = balanced(chain, *size, loads, on_path, symmetric, &pulse.heart).map_err(|_| pulse.stopped())?;
+        let Model { assembly, pulse, size, .. } = self.model;
+        let found = balanced(assembly, *size, loads, on_path, symmetric, &pulse.heart).map_err(|_| pulse.stopped())?;
         if let Some(Balanced { factorisations, block_rows, .. }) = found {
             self.work = [self.work[0] + factorisations, self.work[1] + block_rows];
         }
@@ -164,10 +164,10 @@ impl<'m> States<'m> {
 
     /// Joints whose opening differs visibly between two states.
     fn joints_apart(&self, a: &[f64], b: &[f64]) -> Vec<usize> {
-        let (model, chain) = (self.model, &self.model.chain);
+        let (model, assembly) = (self.model, &self.model.assembly);
         let largest = b.iter().fold(0.0f64, |most, d| most.max(d.abs()));
-        let apart = |p: usize| (chain.gap(p, a)[0] - chain.gap(p, b)[0]).abs() > LEANS * largest;
-        (0..=model.voussoirs).filter(|&joint| model.contacts(joint).any(apart)).collect()
+        let apart = |p: usize| (assembly.gap(p, a)[0] - assembly.gap(p, b)[0]).abs() > LEANS * largest;
+        (0..model.joints).filter(|&joint| model.contacts(joint).any(apart)).collect()
     }
 
     /// Writes down what there is to say and what it took; returns a doubt where a state broke the law.

@@ -42,7 +42,7 @@ pub(super) struct Yielding<'a> {
 
 impl<'a> Yielding<'a> {
     pub(super) fn new(model: &'a Model<'a>, strength: f64) -> Self {
-        let empty = vec![Vec::new(); model.voussoirs];
+        let empty = vec![Vec::new(); model.bodies];
         let (seen, answer) = (Seen::default(), Seen::default());
         Yielding { model, strength, before: empty.clone(), now: empty, seen, answer }
     }
@@ -78,13 +78,13 @@ impl<'a> Yielding<'a> {
         let (model, loads) = (self.model, self.model.loads_at(now.0));
         // Share of the way from the last point, or the stress, with voussoir and subblock.
         let (mut crossing, mut largest) = ((f64::INFINITY, 0, 0), (f64::NEG_INFINITY, 0, 0));
-        for voussoir in 0..model.voussoirs {
+        for voussoir in 0..model.bodies {
             // The path is stopped at the end of this event.
             if model.pulse.heart.work(model.work_of_stresses(voussoir)).is_err() {
                 return;
             }
             let here = &mut self.now[voussoir];
-            model.chain.stresses_in_frame(model.first_voussoir + voussoir, &now.1, &loads, here);
+            model.assembly.stresses_in_frame(voussoir, &now.1, &loads, here);
             for (subblock, stress) in here.chunks_exact(3).enumerate() {
                 let equivalent = tresca([stress[0], stress[1], stress[2]]);
                 if equivalent > largest.0 {

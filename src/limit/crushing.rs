@@ -7,7 +7,6 @@
 
 use super::linear_program::{Beat, Inequality, Optimum, Row, maximise};
 use super::{StaticTheorem, Unsolved};
-use crate::arch::JointLaw;
 
 /// A parabola may be violated by this, relative to the loads and to the size of the point: ten times what the linear
 /// programme grants its own rows, so that every cut moves the point.
@@ -99,7 +98,7 @@ impl StaticTheorem {
     }
 
     fn sections(&self, strength: f64) -> Vec<Section> {
-        let dry = self.joints.iter().enumerate().filter(|(_, joint)| matches!(joint.law, JointLaw::Dry { .. }));
+        let dry = self.joints.iter().enumerate().filter(|(_, joint)| joint.law.coulomb().is_some());
         dry.map(|(k, joint)| {
             let [intrados, extrados, _] = self.forces[k];
             Section {

@@ -7,7 +7,7 @@
 
 use super::linear_program::{Beat, Inequality, Optimum, Row, UNKNOWNS, maximise, multipliers_at_optimum};
 use super::static_theorem::{Equilibrium, Resultant, StaticTheorem, Unsolved};
-use crate::arch::{Face, Joint, JointLaw};
+use crate::structure::{Face, Joint, JointLaw};
 
 /// Rates below this share of the fastest are none.
 const MOVES: f64 = 1e-9;
@@ -24,8 +24,9 @@ pub enum Release {
 /// What a joint that carries `forces` lets happen; a corner's force up to `none`, N/m, is none, and shear as near to its capacity
 /// is at it.
 pub fn releases(joint: &Joint, forces: &Resultant, none: f64) -> Vec<Release> {
-    let (friction, cohesion) = match joint.law {
-        JointLaw::Dry { friction, cohesion } => (friction, cohesion),
+    let [friction, cohesion] = match joint.law {
+        JointLaw::Dry { friction, cohesion } => [friction, cohesion],
+        JointLaw::Wall => [0.0; 2],
         JointLaw::Mirror => return vec![Release::Sliding(1.0), Release::Sliding(-1.0)],
         JointLaw::Bonded => return Vec::new(),
     };
@@ -70,7 +71,7 @@ impl StaticTheorem {
 
     /// What `joint` at the limit of `release` is held to; `turns`: some end of it opens.
     fn add_limits(&self, joint: usize, release: Release, turns: bool, inequalities: &mut Vec<Inequality>) {
-        let JointLaw::Dry { friction, cohesion } = self.joints[joint].law else { return };
+        let Some([friction, cohesion]) = self.joints[joint].law.coulomb() else { return };
         let [intrados, extrados, shear] = self.forces[joint];
         let (row, constant) = match release {
             Release::Rotation(Face::Intrados) => extrados,

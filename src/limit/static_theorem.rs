@@ -1,8 +1,8 @@
 //! The static theorem of one arch in four unknowns.
 
 use super::linear_program::{Beat, Inequality, Optimum, Row, UNKNOWNS, maximise};
-use crate::arch::{Arch, Joint, JointLaw, PointForce};
 use crate::geometry::{Vec2, cross};
+use crate::structure::{Joint, JointLaw, PointForce, Structure};
 use nalgebra::{DMatrix, DVector};
 
 /// Iterations after which a singular value decomposition of four columns has failed (it needs about ten).
@@ -70,18 +70,23 @@ pub struct Equilibrium {
 
 impl StaticTheorem {
     /// The theorem of an arch under fixed loads and loads scaled by the load factor.
-    pub fn new(arch: &Arch, fixed: &[PointForce], scaled: &[PointForce]) -> Self {
-        let origin = arch.joints.iter().map(Joint::middle).sum::<Vec2>() / arch.joints.len() as f64;
-        let length = arch.joints.iter().map(|j| (j.middle() - origin).norm()).fold(0.0, f64::max);
+    pub fn new(structure: &Structure, fixed: &[PointForce], scaled: &[PointForce]) -> Self {
+        let origin = structure.ring().iter().map(Joint::middle).sum::<Vec2>() / structure.ring().len() as f64;
+        let length = structure.ring().iter().map(|j| (j.middle() - origin).norm()).fold(0.0, f64::max);
         let total = |loads: &[PointForce]| loads.iter().map(|l| l.force.norm()).sum::<f64>();
         let (total_fixed, total_scaled) = (total(fixed), total(scaled));
         let force = [total_fixed, total_scaled, 1.0].into_iter().find(|&f| f > 0.0).unwrap_or(1.0);
         let factor = if total_scaled > 0.0 { force / total_scaled } else { 1.0 };
 
-        let (steady, growing) = (cumulative(arch, fixed, origin), cumulative(arch, scaled, origin));
-        let mut theorem =
-            StaticTheorem { joints: arch.joints.clone(), forces: Vec::new(), inequalities: Vec::new(), force, factor };
-        for (k, joint) in arch.joints.iter().enumerate() {
+        let (steady, growing) = (cumulative(structure, fixed, origin), cumulative(structure, scaled, origin));
+        let mut theorem = StaticTheorem {
+            joints: structure.ring().to_vec(),
+            forces: Vec::new(),
+            inequalities: Vec::new(),
+            force,
+            factor,
+        };
+        for (k, joint) in structure.ring().iter().enumerate() {
             let component = |functional: [f64; 3]| {
                 let row = Row::new(
                     functional[0] * force,
@@ -111,7 +116,8 @@ impl StaticTheorem {
             )
         };
         let conditions = match self.joints[k].law {
-            JointLaw::Dry { friction, cohesion } => {
+            law @ (JointLaw::Dry { .. } | JointLaw::Wall) => {
+                let [friction, cohesion] = law.coulomb().unwrap_or_default();
                 let adhesion = cohesion * self.joints[k].length();
                 vec![intrados, extrados, capacity(friction, adhesion, 1.0), capacity(friction, adhesion, -1.0)]
             }
@@ -213,11 +219,11 @@ impl StaticTheorem {
 }
 
 /// What the loads on stones 0..k add to (F_x, F_y, M about `origin`) at joint k.
-fn cumulative(arch: &Arch, loads: &[PointForce], origin: Vec2) -> Vec<[f64; 3]> {
-    let mut sums = vec![[0.0; 3]; arch.joints.len()];
+fn cumulative(structure: &Structure, loads: &[PointForce], origin: Vec2) -> Vec<[f64; 3]> {
+    let mut sums = vec![[0.0; 3]; structure.ring().len()];
     for load in loads {
         let part = [load.force.x, load.force.y, cross(load.at - origin, load.force)];
-        let after = &mut sums[load.voussoir + 1];
+        let after = &mut sums[load.body + 1];
         *after = std::array::from_fn(|i| after[i] + part[i]);
     }
     for k in 1..sums.len() {

@@ -14,7 +14,7 @@ impl Assembly {
     }
 
     /// Unknowns of the nodes of body `i`.
-    pub(in crate::dda) fn nodes_of(&self, i: usize) -> Range<usize> {
+    pub fn nodes_of(&self, i: usize) -> Range<usize> {
         self.nodes[i].clone()
     }
 

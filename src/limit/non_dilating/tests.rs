@@ -1,25 +1,25 @@
 use super::super::linear_program::unwatched;
 use super::*;
-use crate::arch::{Arch, PointForce, Sides, Voussoir};
-use crate::geometry::{Region, Vec2};
+use crate::arch::{assemble, straight_voussoirs};
+use crate::geometry::Vec2;
+use crate::structure::{PointForce, Side, Stone};
 
 const FRICTION: f64 = 0.5;
 
 fn joint(x: f64, law: JointLaw) -> Joint {
-    Joint { intrados: Vec2::new(x, 0.0), extrados: Vec2::new(x, 1.0), law }
+    let between = [Side::Support(0), Side::Body(0)];
+    Joint { between, intrados: Vec2::new(x, 0.0), extrados: Vec2::new(x, 1.0), law }
 }
 
 /// One stone of 1 m x 1 m between two upright walls: 100 N press it down, and scaled loads push it down.
 fn wedged(cohesion: f64) -> StaticTheorem {
     let law = JointLaw::Dry { friction: FRICTION, cohesion };
-    let joints = vec![joint(0.0, law), joint(1.0, law)];
-    let corners = [joints[0].extrados, joints[0].intrados, joints[1].intrados, joints[1].extrados];
-    let voussoirs = vec![Voussoir { region: Region::polygon(&corners), sides: Sides::Straight }];
-    let arch = Arch { voussoirs, joints, abutments: [None, None], half: false, angle_centre: Vec2::zeros() };
+    let ends = [0.0, 1.0].map(|x| [0.0, 1.0].map(|y| Vec2::new(x, y)));
+    let structure = assemble(&ends, straight_voussoirs(&ends).unwrap(), Stone::default(), law, Vec2::zeros());
     let push = |force: f64| {
-        vec![PointForce { voussoir: 0, at: Vec2::new(0.5, 0.5), force: Vec2::new(0.0, -force), spread: false }]
+        vec![PointForce { body: 0, at: Vec2::new(0.5, 0.5), force: Vec2::new(0.0, -force), spread: false }]
     };
-    StaticTheorem::new(&arch, &push(100.0), &push(1.0))
+    StaticTheorem::new(&structure, &push(100.0), &push(1.0))
 }
 
 fn forces(intrados: f64, extrados: f64, shear: f64) -> Resultant {
@@ -39,6 +39,9 @@ fn a_joint_at_its_limits_lets_go_what_it_can_no_longer_hold() {
     assert_eq!(of(&dry, [0.0, 100.0], 60.0), vec![Rotation(Face::Extrados), Sliding(-1.0)]);
     assert_eq!(of(&joint(0.0, JointLaw::Bonded), [0.0, 0.0], 0.0), vec![]);
     assert_eq!(of(&joint(0.0, JointLaw::Mirror), [9.0, 9.0], 0.0).len(), 2);
+    // A wall is a joint without friction.
+    assert_eq!(of(&joint(0.0, JointLaw::Wall), [50.0, 50.0], 0.0), vec![Sliding(1.0), Sliding(-1.0)]);
+    assert_eq!(of(&joint(0.0, JointLaw::Wall), [50.0, 50.0], 1.0), vec![Sliding(-1.0)]);
 }
 
 /// A stone that slides down between two walls may be wedged as little as not at all: then only the cohesion of both joints

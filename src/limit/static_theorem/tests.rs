@@ -1,10 +1,10 @@
 use super::*;
-use crate::arch::{Sides, Voussoir};
-use crate::geometry::Region;
+use crate::arch::{assemble, straight_voussoirs};
 use crate::limit::unwatched;
+use crate::structure::Stone;
 
 /// A skewed arch of four quadrilaterals, so that nothing is symmetric by accident.
-pub(in crate::limit) fn arch() -> Arch {
+pub(in crate::limit) fn skewed() -> Structure {
     let ends = [
         (-2.0, 0.0, -2.6, 0.1),
         (-1.5, 1.2, -1.9, 1.7),
@@ -13,21 +13,14 @@ pub(in crate::limit) fn arch() -> Arch {
         (1.9, 0.2, 2.5, 0.3),
     ];
     let law = JointLaw::Dry { friction: 0.7, cohesion: 0.0 };
-    let joint = |(xi, yi, xe, ye): (f64, f64, f64, f64)| Joint {
-        intrados: Vec2::new(xi, yi),
-        extrados: Vec2::new(xe, ye),
-        law,
-    };
-    let joints = ends.map(joint).to_vec();
-    let region = |w: &[Joint]| Region::polygon(&[w[0].intrados, w[1].intrados, w[1].extrados, w[0].extrados]);
-    let voussoirs = joints.windows(2).map(|w| Voussoir { region: region(w), sides: Sides::Straight }).collect();
-    Arch { voussoirs, joints, abutments: [None, None], half: false, angle_centre: Vec2::zeros() }
+    let ends = ends.map(|(xi, yi, xe, ye)| [Vec2::new(xi, yi), Vec2::new(xe, ye)]);
+    assemble(&ends, straight_voussoirs(&ends).unwrap(), Stone::default(), law, Vec2::zeros())
 }
 
-pub(in crate::limit) fn loads(arch: &Arch) -> [Vec<PointForce>; 2] {
+pub(in crate::limit) fn loads(structure: &Structure) -> [Vec<PointForce>; 2] {
     let force = |i: usize, x: f64, y: f64| PointForce {
-        voussoir: i,
-        at: arch.voussoirs[i].region.centroid,
+        body: i,
+        at: structure.bodies[i].region.centroid,
         force: Vec2::new(x, y),
         spread: false,
     };
@@ -46,9 +39,9 @@ fn wrench(joint: &Joint, r: &Resultant) -> [f64; 3] {
 
 #[test]
 fn every_stone_is_in_equilibrium_whatever_the_unknowns() {
-    let arch = arch();
-    let [fixed, scaled] = loads(&arch);
-    let theorem = StaticTheorem::new(&arch, &fixed, &scaled);
+    let structure = skewed();
+    let [fixed, scaled] = loads(&structure);
+    let theorem = StaticTheorem::new(&structure, &fixed, &scaled);
     let free = |joint: usize, face: usize| Condition {
         joint,
         weights: std::array::from_fn(|i| if i == face { 1.0 } else { 0.0 }),
@@ -58,9 +51,10 @@ fn every_stone_is_in_equilibrium_whatever_the_unknowns() {
     let resultants = theorem.resultants(&equilibrium);
     assert!(resultants[0].intrados.abs() < 1e-12 && resultants[3].intrados.abs() < 1e-12);
     for i in 0..4 {
-        let (left, right) = (wrench(&arch.joints[i], &resultants[i]), wrench(&arch.joints[i + 1], &resultants[i + 1]));
+        let (left, right) =
+            (wrench(&structure.joints[i], &resultants[i]), wrench(&structure.joints[i + 1], &resultants[i + 1]));
         let loads = fixed.iter().map(|f| (f, 1.0)).chain(scaled.iter().map(|f| (f, equilibrium.load_factor)));
-        let mine = loads.filter(|(f, _)| f.voussoir == i);
+        let mine = loads.filter(|(f, _)| f.body == i);
         let sum = mine
             .fold([0.0; 3], |s, (f, w)| [s[0] + w * f.force.x, s[1] + w * f.force.y, s[2] + w * cross(f.at, f.force)]);
         for c in 0..3 {
@@ -71,25 +65,27 @@ fn every_stone_is_in_equilibrium_whatever_the_unknowns() {
 
 #[test]
 fn the_window_does_not_depend_on_units() {
-    let arch = arch();
-    let [fixed, scaled] = loads(&arch);
-    let [low, high] = StaticTheorem::new(&arch, &fixed, &scaled).window(&unwatched).unwrap().unwrap();
+    let structure = skewed();
+    let [fixed, scaled] = loads(&structure);
+    let [low, high] = StaticTheorem::new(&structure, &fixed, &scaled).window(&unwatched).unwrap().unwrap();
     let larger = |loads: &[PointForce], by: f64| {
         loads.iter().map(|l| PointForce { force: l.force * by, ..*l }).collect::<Vec<_>>()
     };
-    let again =
-        StaticTheorem::new(&arch, &larger(&fixed, 1e7), &larger(&scaled, 1e3)).window(&unwatched).unwrap().unwrap();
+    let again = StaticTheorem::new(&structure, &larger(&fixed, 1e7), &larger(&scaled, 1e3))
+        .window(&unwatched)
+        .unwrap()
+        .unwrap();
     assert!((again[0] / (low * 1e4) - 1.0).abs() < 1e-10 && (again[1] / (high * 1e4) - 1.0).abs() < 1e-10);
     assert!(low < 0.0 && high > 0.0 && high.is_finite());
 }
 
 #[test]
 fn a_bonded_arch_never_falls_and_a_tensile_one_never_stands() {
-    let mut arch = arch();
-    let [fixed, scaled] = loads(&arch);
+    let mut structure = skewed();
+    let [fixed, scaled] = loads(&structure);
     let upwards: Vec<_> = fixed.iter().map(|f| PointForce { force: -f.force * 10.0, ..*f }).collect();
-    assert_eq!(StaticTheorem::new(&arch, &upwards, &[]).window(&unwatched), Ok(None));
-    arch.joints.iter_mut().for_each(|j| j.law = JointLaw::Bonded);
-    let window = StaticTheorem::new(&arch, &fixed, &scaled).window(&unwatched).unwrap().unwrap();
+    assert_eq!(StaticTheorem::new(&structure, &upwards, &[]).window(&unwatched), Ok(None));
+    structure.joints.iter_mut().for_each(|j| j.law = JointLaw::Bonded);
+    let window = StaticTheorem::new(&structure, &fixed, &scaled).window(&unwatched).unwrap().unwrap();
     assert_eq!(window, [f64::NEG_INFINITY, f64::INFINITY]);
 }
