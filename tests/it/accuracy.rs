@@ -1,14 +1,9 @@
 //! An accuracy asked for, and the accuracy had; half an arch in place of the whole.
-#![allow(clippy::print_stdout, clippy::unwrap_used)]
 
-mod common;
-#[path = "common/semicircle.rs"]
-mod semicircle;
-
-use common::dice::Dice;
-use common::field::error;
-use common::{door, random_arch};
-use semicircle::{mesh, semicircle};
+use crate::common::dice::Dice;
+use crate::common::field::error;
+use crate::common::semicircle::{mesh, semicircle};
+use crate::common::{door, random_arch};
 use serde_json::{Value, json};
 use voussoir::collapse::{CollapseReport, Direction, Outcome, Snapshot, StressField};
 
@@ -143,7 +138,7 @@ fn stress_in_an_arch_is_as_accurate_as_asked() {
 /// An arch of nearly the least thickness, which has hinges about to form in it as it stands.
 #[test]
 fn stress_next_to_hinges_is_not_said_to_be_better_than_it_is() {
-    let file = common::folders::cases().join("half-arch/request.json");
+    let file = crate::common::folders::cases().join("half-arch/request.json");
     let request: Value = serde_json::from_slice(&std::fs::read(file).unwrap()).unwrap();
     let request = with(request, "report", json!({"stress_fields": ["unit_load"]}));
     let planned = door::solve(&with(request.clone(), "accuracy", json!({"stress": 0.07, "subblocks": 1000})));

@@ -1,6 +1,4 @@
 //! Stress, crushing, safety and the curved beam on the wire, from reports made up here.
-#![cfg(feature = "server")]
-#![allow(clippy::unwrap_used, clippy::expect_used)]
 
 use serde_json::{Value, json};
 use voussoir::api::read::read_question;

@@ -1,22 +1,13 @@
 //! A thin slice of the atlas of hard scenes (`benches/atlas/`): ours is right in all of it, or says that it cannot tell.
-#![cfg(feature = "server")]
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    clippy::print_stdout,
-    dead_code,
-    reason = "the atlas is a program of its own"
-)]
+#![allow(dead_code, reason = "the atlas is a program of its own")]
 
-mod common;
-
-#[path = "../benches/atlas/judge.rs"]
+#[path = "../../benches/atlas/judge.rs"]
 mod judge;
-#[path = "../benches/atlas/maps/mod.rs"]
+#[path = "../../benches/atlas/maps/mod.rs"]
 mod maps;
-#[path = "../benches/atlas/moving.rs"]
+#[path = "../../benches/atlas/moving.rs"]
 mod moving;
-#[path = "../benches/atlas/ours.rs"]
+#[path = "../../benches/atlas/ours.rs"]
 mod ours;
 
 use judge::{Mark, Truth};
@@ -37,7 +28,7 @@ fn hard_scenes_get_no_wrong_number() {
             if analysis.arch.voussoirs.len() > MOST {
                 continue;
             }
-            let truth = Truth::of(common::door::problem(&analysis)).known(scene.stands);
+            let truth = Truth::of(crate::common::door::problem(&analysis)).known(scene.stands);
             let place = [0, 1].map(|i| map.axes[i].values[scene.at[i]]);
             match ours(scene, &analysis, &truth).mark {
                 Mark::Right => decided += 1,
@@ -65,7 +56,7 @@ fn at(map: &str, place: [f64; 2], variant: &str) -> ours::Ours {
     };
     let scene = map.scenes.iter().find(here).expect("a scene");
     let analysis = scene.analysis().expect("an arch");
-    let truth = Truth::of(common::door::problem(&analysis)).known(scene.stands);
+    let truth = Truth::of(crate::common::door::problem(&analysis)).known(scene.stands);
     ours(scene, &analysis, &truth)
 }
 

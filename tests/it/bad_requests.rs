@@ -1,11 +1,6 @@
 //! Requests that cannot be: each is refused, and the refusal points at what to mend.
-#![cfg(feature = "server")]
-#![allow(clippy::unwrap_used, clippy::expect_used)]
 
-#[path = "common/places.rs"]
-mod places;
-
-use places::places;
+use crate::common::places::places;
 use proptest::prelude::*;
 use serde_json::{Value, json};
 use voussoir::api::fault::Fault;

@@ -2,16 +2,11 @@
 //!
 //! Strict on both sides: a missing or unknown file, an unknown key, a number without a tolerance, and a tolerance
 //! without a number are failures, so that nothing written in a case goes unread.
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may panic")]
 
+use crate::common::answered::solved;
+use crate::common::folders;
 use serde_json::{Value, json};
 use std::path::Path;
-use voussoir::api::read::read_question;
-use voussoir::api::response::JobResult;
-use voussoir::collapse::{self, Unwatched};
-
-#[path = "common/folders.rs"]
-mod folders;
 
 /// An answer that does not slide equals the end of its limit window to this share (issue: within 1e-6).
 const WINDOW: f64 = 1e-6;
@@ -26,12 +21,6 @@ struct Case {
     expected: Value,
     answer: Value,
     faults: Vec<String>,
-}
-
-fn answer(request: &Value) -> Value {
-    let (request, question) = read_question(request.to_string().as_bytes()).unwrap();
-    let answer = collapse::answer(&question, &mut Unwatched).unwrap();
-    serde_json::from_slice(&JobResult::new(&request, &answer).unwrap().to_bytes().unwrap()).unwrap()
 }
 
 #[test]
@@ -66,7 +55,7 @@ impl Case {
             |file: &str| -> Value { serde_json::from_slice(&std::fs::read(folder.join(file)).unwrap()).unwrap() };
         let (request, expected) = (read("request.json"), read("expected.json"));
         let name = folders::name(folder);
-        let answer = answer(&request);
+        let answer = solved(&request);
         Case { name, request, expected, answer, faults: Vec::new() }
     }
 
@@ -201,7 +190,7 @@ impl Case {
     fn least_thickness(&mut self, key: &str, least: f64) {
         let allowed = self.tolerance(key, least);
         for (thickness, stands) in [(least + allowed, true), (least - allowed, false)] {
-            let outcome = answer(&self.with_thickness(thickness))["outcome"].clone();
+            let outcome = solved(&self.with_thickness(thickness))["outcome"].clone();
             let wanted = if stands { self.answer["outcome"].clone() } else { json!("falls_as_built") };
             self.expect(outcome == wanted, || format!("{thickness} m thick: expected {wanted}, got {outcome}"));
         }

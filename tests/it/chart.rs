@@ -1,11 +1,7 @@
 //! What the chart of speed against accuracy takes for exact, against the oracle; and the verb on a small part of it.
-#![cfg(feature = "server")]
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test stops at the first surprise")]
 
-mod common;
-
-use common::door;
-use common::oracle::{Aim, Bond, Problem};
+use crate::common::door;
+use crate::common::oracle::{Aim, Bond, Problem};
 use serde_json::Value;
 use std::process::Command;
 

@@ -1,23 +1,16 @@
 //! The written contract and the reader are the same thing: what the schema of a body refuses the reader refuses, and the
 //! other way round. The oracle is `openapi/voussoir.json` on disk; nothing of the code is asked for a bound.
-#![cfg(feature = "server")]
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may panic, and says its counts")]
 
+use crate::common::folders;
+use crate::common::places::places;
 use bodies::{bodies, with, without};
-use places::places;
 use schema::{Leaf, document, is, leaves, validator};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use voussoir::api::fault::Fault;
 use voussoir::api::read::{read, read_question};
 
-#[path = "contract/bodies.rs"]
-mod bodies;
-#[path = "common/folders.rs"]
-mod folders;
-#[path = "common/places.rs"]
-mod places;
-#[path = "contract/schema.rs"]
+pub mod bodies;
 mod schema;
 
 fn faults(request: &Value) -> Vec<Fault> {

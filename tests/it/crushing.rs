@@ -1,10 +1,7 @@
 //! Limit windows with crushing joints, held against second-order cones and against a published-geometry table.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-mod common;
-
-use common::dice::Dice;
-use common::{door, random_arch};
+use crate::common::dice::Dice;
+use crate::common::{door, random_arch};
 use serde_json::{Value, json};
 use voussoir::arch::{Joint, PointForce};
 use voussoir::collapse::Analysis;
@@ -56,7 +53,7 @@ fn compare(seed: u64) -> Result<Found, String> {
         return Err(format!("hard {hard:?}, plain {plain:?}"));
     }
     let ours = theorem.crushing_window(strength, &unwatched).map_err(|_| "unsolved")?.map(|window| window.ends);
-    let problem = common::oracle::Problem { strength: Some(strength), ..door::problem(&analysis) };
+    let problem = crate::common::oracle::Problem { strength: Some(strength), ..door::problem(&analysis) };
     let give = problem.give();
     if give.abs() < BALANCE {
         return Ok(Found::Undecided);
@@ -198,7 +195,7 @@ fn hold(title: &str, rows: &[[f64; 3]], request: impl Fn(f64) -> Value) {
         let theorem = theorem(&analysis);
         let plain = theorem.window(&unwatched).unwrap();
         let crushing = theorem.crushing_window(STRENGTH, &unwatched).unwrap().map(|window| window.ends);
-        let problem = common::oracle::Problem { strength: Some(STRENGTH), ..door::problem(&analysis) };
+        let problem = crate::common::oracle::Problem { strength: Some(STRENGTH), ..door::problem(&analysis) };
         let cones = if problem.give() < 0.0 { problem.window() } else { None };
         let same = match (crushing, cones) {
             (Some([low, high]), Some(cones)) => relative(low, cones.0, 0.0).max(relative(high, cones.1, 0.0)) < EQUAL,

@@ -1,12 +1,7 @@
 //! The same request gives the same bytes, at the same cost: counts of events, factorisations and block rows are held under a
 //! ceiling, which is a performance test that noise cannot touch.
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may panic")]
 
-#[path = "common/semicircle.rs"]
-#[allow(dead_code, reason = "only the arch is wanted")]
-mod semicircle;
-
-use semicircle::semicircle;
+use crate::common::semicircle::semicircle;
 use serde_json::json;
 use std::path::Path;
 use voussoir::api::read::read_analysis;

@@ -1,11 +1,7 @@
 //! Motion after collapse: every run ends by one of its ends, stones keep their shape and stay out of each other.
-#![cfg(feature = "server")]
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may panic, and prints what it measured")]
 
-mod common;
-
-use common::falling::{Measured, measure};
-use common::{door, random_arch};
+use crate::common::falling::{Measured, measure};
+use crate::common::{door, random_arch};
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
 use std::path::Path;

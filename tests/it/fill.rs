@@ -1,19 +1,13 @@
 //! Fill: it presses sideways where that is asked for, it has mass in every acceleration, and the answer says what was taken.
-#![cfg(feature = "server")]
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::print_stdout)]
 
-mod common;
-
-use common::dice::Dice;
-use common::masonry::Ring;
-use common::oracle::{Problem, Push};
+use crate::common::answered::{solved, text};
+use crate::common::dice::Dice;
+use crate::common::masonry::Ring;
+use crate::common::oracle::{Problem, Push};
 use serde_json::{Value, json};
-use std::time::Duration;
-use voussoir::api::prose::prose;
 use voussoir::api::read::{read, read_analysis, read_question};
-use voussoir::api::response::JobResult;
 use voussoir::arch::PointForce;
-use voussoir::collapse::{Analysis, CurvePoint, Question, Unwatched, answer};
+use voussoir::collapse::{Analysis, CurvePoint, Question};
 use voussoir::geometry::{Vec2, cross};
 
 /// A semicircle of mean radius 10 m and thickness 1.5 m, its weight, and these loads.
@@ -60,20 +54,6 @@ fn fill_with(name: &str, value: f64) -> Value {
 
 fn analysis(request: &Value) -> Analysis {
     read_analysis(request.to_string().as_bytes()).unwrap().1
-}
-
-fn result(request: &Value) -> JobResult {
-    let (request, question) = read_question(request.to_string().as_bytes()).unwrap();
-    JobResult::new(&request, &answer(&question, &mut Unwatched).unwrap()).unwrap()
-}
-
-fn solved(request: &Value) -> Value {
-    serde_json::from_slice(&result(request).to_bytes().unwrap()).unwrap()
-}
-
-fn text(request: &Value) -> String {
-    // Lines are broken anywhere.
-    prose(&result(request), Duration::ZERO).split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 fn faults(request: &Value) -> Vec<(String, String)> {

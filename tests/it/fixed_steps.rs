@@ -1,7 +1,5 @@
 //! The paper-like reading of the load path, held against the exact one.
 
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
-
 use serde_json::{Value, json};
 use std::path::Path;
 use voussoir::api::read::read_analysis;

@@ -1,15 +1,10 @@
 //! Half a symmetric arch answers for the whole: every symmetric case of `cases/` and random symmetric arches, each
 //! solved whole and in half, through the door. With a keystone the half ends in a mirror plane, without in a wall.
-#![cfg(feature = "server")]
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may panic")]
 
-mod common;
-#[path = "half/compare.rs"]
 mod compare;
-#[path = "half/symmetric.rs"]
-mod symmetric;
+pub mod symmetric;
 
-use common::folders::{cases, folders, name};
+use crate::common::folders::{cases, folders, name};
 use compare::{Pair, solve};
 use serde_json::{Value, json};
 

@@ -1,11 +1,7 @@
 //! The HTTP interface, over real connections.
-#![cfg(feature = "server")]
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test stops at the first surprise")]
 
-mod support;
-
+use crate::support::{BODY_LIMIT, ENDLESS, ERROR, PANIC, Server, beam, broken, curve, request, trouble};
 use serde_json::Value;
-use support::{BODY_LIMIT, ENDLESS, ERROR, PANIC, Server, beam, broken, curve, request, trouble};
 
 const NOT_READY: &str = "http://www.opengis.net/def/exceptions/ogcapi-processes-1/1.0/result-not-ready";
 const NO_SUCH_JOB: &str = "http://www.opengis.net/def/exceptions/ogcapi-processes-1/1.0/no-such-job";

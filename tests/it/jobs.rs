@@ -1,6 +1,4 @@
 //! The job store, with stand-ins for the mechanics.
-#![cfg(feature = "server")]
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test stops at the first surprise")]
 #![allow(clippy::disallowed_methods, reason = "tests wait for jobs by looking again")]
 
 use std::sync::atomic::{AtomicUsize, Ordering};

@@ -2,8 +2,6 @@
 //!
 //! No arch here: chains are built by hand, and the expected values are one-line statics.
 
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
-
 use std::ops::ControlFlow;
 use voussoir::dda::{
     Block, Chain, ChainBuilder, Drive, Elasticity, End, Heart, Law, Loads, Push, Touch, Tracer, balanced, covering,

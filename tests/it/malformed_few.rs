@@ -1,27 +1,14 @@
 //! The short version of `tests/load/malformed.rs`: a few thousand malformed and extreme bodies.
-#![cfg(feature = "server")]
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    clippy::print_stdout,
-    reason = "a test may panic, and says its counts"
-)]
 
-use dice::Dice;
+use crate::common::dice::{self, Dice};
+use crate::common::folders;
+use crate::contract::bodies;
 use held::{Answers, is_small, read, seeds, solve};
 use inputs::{KINDS, input};
 
-#[path = "contract/bodies.rs"]
-#[allow(dead_code)]
-mod bodies;
-#[path = "common/dice.rs"]
-#[allow(dead_code)]
-mod dice;
-#[path = "common/folders.rs"]
-mod folders;
-#[path = "load/held.rs"]
+#[path = "../load/held.rs"]
 mod held;
-#[path = "load/inputs.rs"]
+#[path = "../load/inputs.rs"]
 mod inputs;
 
 /// How many, from seed 0.

@@ -1,12 +1,8 @@
 //! The path on moving geometry against closed forms (snap-through of two bars, an eccentrically loaded column), and against
 //! the first-order one, to which it tends.
 
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may panic")]
-
-mod common;
-
-use common::door::solve;
-use common::wire::{ask, circular, paper_case_1};
+use crate::common::door::solve;
+use crate::common::wire::{ask, circular, paper_case_1};
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
 use voussoir::collapse::{CollapseReport, Outcome, Unwatched, UpdatedEnd, UpdatedGeometry, run};
@@ -179,10 +175,10 @@ fn a_quarter_load_on_moving_geometry_falls_just_below_first_order() {
 fn random_arches_on_moving_geometry() {
     let (mut fell, mut near, mut worst, mut least, mut lost) = (0, 0, 0f64, 0f64, Vec::new());
     for seed in 0..150 {
-        let mut request = common::random_arch::request(seed);
+        let mut request = crate::common::random_arch::request(seed);
         request["stone"]["youngs_modulus_pa"] = json!(1e11);
         request["geometry"] = json!("updated");
-        let Ok(analysis) = common::door::analysis(&request) else { continue };
+        let Ok(analysis) = crate::common::door::analysis(&request) else { continue };
         let report = run(&analysis, &mut Unwatched).unwrap();
         let (Some(updated), Outcome::Collapse, Some(end)) = (report.updated, report.outcome, report.end) else {
             continue;
@@ -274,9 +270,9 @@ fn an_arch_that_creeps_up_while_it_slides_has_fallen_where_it_began_to() {
 fn arches_that_slide_pass_no_limit_window_and_tend_to_first_order_as_stone_stiffens() {
     let (mut slide, mut tend, mut lost, mut asked, mut most) = (0, 0, 0, 0, 0f64);
     for seed in 0..400 {
-        let request = common::random_arch::request(seed);
+        let request = crate::common::random_arch::request(seed);
         let few = request["arch"]["voussoirs"].as_u64().is_some_and(|count| count <= 25);
-        let Ok(arch) = common::door::analysis(&request) else { continue };
+        let Ok(arch) = crate::common::door::analysis(&request) else { continue };
         let as_built = run(&arch, &mut Unwatched).unwrap();
         let slides = as_built.end.as_ref().is_some_and(|end| !end.mechanism.slides.is_empty());
         if !few || !slides || as_built.outcome != Outcome::Collapse {
@@ -380,5 +376,5 @@ fn only_the_exact_path_moves() {
     let mut request = paper_case_1(9);
     request["geometry"] = json!("updated");
     request["method"] = json!({"fixed_steps": {"step": 5.0}});
-    assert!(common::door::analysis(&request).unwrap_err().starts_with("/method: "));
+    assert!(crate::common::door::analysis(&request).unwrap_err().starts_with("/method: "));
 }

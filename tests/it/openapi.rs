@@ -1,6 +1,4 @@
 //! The written contract is the one that is served.
-#![cfg(feature = "server")]
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test stops at the first surprise")]
 
 use serde_json::Value;
 use std::fs;

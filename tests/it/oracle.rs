@@ -2,17 +2,9 @@
 //!
 //! Nothing of the library runs here. Values: `references/*.json` of the project's shared notes, restated with the
 //! file's name; each was computed there by two independent codes or in closed form.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-#[allow(dead_code)]
-#[path = "common/masonry.rs"]
-mod masonry;
-#[allow(dead_code, clippy::expect_used)]
-#[path = "common/oracle.rs"]
-mod oracle;
-
-use masonry::Ring;
-use oracle::{Aim, Answer, Problem};
+use crate::common::masonry::Ring;
+use crate::common::oracle::{Aim, Answer, Problem, Push};
 
 /// No sliding.
 const ROUGH: f64 = 100.0;
@@ -28,7 +20,7 @@ fn compare(title: &str, rows: &[(String, f64, f64, f64)]) {
     assert_eq!(bad, 0, "{title}: {bad} rows outside their tolerance");
 }
 
-fn highest(ring: &Ring, friction: f64, fixed: Vec<oracle::Push>, scaled: Vec<oracle::Push>) -> f64 {
+fn highest(ring: &Ring, friction: f64, fixed: Vec<Push>, scaled: Vec<Push>) -> f64 {
     Problem { fixed, scaled, ..ring.problem(friction) }.solve(Aim::Highest).value(Aim::Highest).unwrap()
 }
 

@@ -1,33 +1,13 @@
 //! What an outcome says is true, and every `cannot_tell` has a reason: windows that end at 0, arches that slide as built,
 //! joints that part altogether, arches as thin as paper.
-#![cfg(feature = "server")]
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::print_stdout)]
 
-mod common;
-
-use common::dice::Dice;
-use common::door;
+use crate::common::answered::{solved, text};
+use crate::common::dice::Dice;
+use crate::common::door;
 use serde_json::{Value, json};
-use std::time::Duration;
-use voussoir::api::prose::prose;
-use voussoir::api::read::read_question;
-use voussoir::api::response::JobResult;
 use voussoir::arch::{Arch, Joint};
-use voussoir::collapse::{CollapseReport, Outcome, PathEnd, Unwatched, answer};
+use voussoir::collapse::{CollapseReport, Outcome, PathEnd, Unwatched};
 use voussoir::geometry::Vec2;
-
-fn result(request: &Value) -> JobResult {
-    let (request, question) = read_question(request.to_string().as_bytes()).unwrap();
-    JobResult::new(&request, &answer(&question, &mut Unwatched).unwrap()).unwrap()
-}
-
-fn solved(request: &Value) -> Value {
-    serde_json::from_slice(&result(request).to_bytes().unwrap()).unwrap()
-}
-
-fn text(request: &Value) -> String {
-    prose(&result(request), Duration::ZERO).split_whitespace().collect::<Vec<_>>().join(" ")
-}
 
 /// A semicircle whose weight is all its load, the load factor going down from 0.
 fn weight_reversed() -> Value {

@@ -1,16 +1,11 @@
 //! What must hold for any arch: statics and kinematics of the answer itself, and symmetries of the question.
 //!
 //! The scenes are random but always the same ones (a fixed seed), so that a failure is a failure for everybody.
-#![cfg(feature = "server")]
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-mod common;
-#[path = "properties/scene.rs"]
 mod scene;
-#[path = "properties/statics.rs"]
 mod statics;
 
-use common::{door, motion};
+use crate::common::{door, motion};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use scene::{ANY, ROUGH, Solved, apart, scene, surveyed, symmetric};

@@ -1,11 +1,6 @@
 //! Meshes, stress fields, safety factors and the curved beam: what requests mean, and which of them cannot be.
-#![cfg(feature = "server")]
-#![allow(clippy::unwrap_used, clippy::expect_used)]
 
-#[path = "common/places.rs"]
-mod places;
-
-use places::places;
+use crate::common::places::places;
 use proptest::prelude::*;
 use serde_json::{Value, json};
 use voussoir::api::fault::Fault;

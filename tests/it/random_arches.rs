@@ -1,9 +1,6 @@
 //! Random arches through the front door: the short version of `benches/random_arches.rs`.
-#![allow(clippy::print_stdout)]
 
-mod common;
-
-use common::verify::check;
+use crate::common::verify::check;
 
 /// How many, from seed 0.
 const ARCHES: u64 = 300;

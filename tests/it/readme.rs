@@ -1,6 +1,4 @@
 //! The README's own lines, run as they stand.
-#![cfg(all(feature = "server", unix))]
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test stops at the first surprise")]
 #![allow(clippy::disallowed_methods, reason = "a thread that reads the log to its end")]
 
 use std::io::{BufRead, BufReader};

@@ -4,14 +4,11 @@
 //! their own sources). "Stands" means: with self weight fixed and no scaled load the outcome is neither `falls_as_built` nor
 //! `slides_as_built`.
 //! Minimum thickness is shown as: stands half a per cent above the value, falls half a per cent below.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-mod common;
-
-use common::door::solve;
-use common::masonry::THRUSTS;
-use common::table::{Table, hinges, slides};
-use common::wire::*;
+use crate::common::door::solve;
+use crate::common::masonry::THRUSTS;
+use crate::common::table::{Table, hinges, slides};
+use crate::common::wire::*;
 use serde_json::{Value, json};
 use std::f64::consts::PI;
 use voussoir::collapse::{CollapseReport, Face, Outcome, PathEnd};

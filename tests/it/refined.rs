@@ -1,11 +1,7 @@
 //! Refined voussoirs against voussoirs of one subblock: where nothing slides the mesh is nothing to a collapse load;
 //! where joints slide it may move the answer, but never above the limit window.
-#![cfg(feature = "server")]
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may panic, and prints what it measured")]
 
-mod common;
-
-use common::{dice::Dice, door, random_arch};
+use crate::common::{dice::Dice, door, random_arch};
 use serde_json::{Value, json};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;

@@ -1,5 +1,4 @@
 //! Who may import what: the table of the architecture, checked against the source.
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test stops at the first surprise")]
 
 use std::fs;
 use std::path::{Path, PathBuf};

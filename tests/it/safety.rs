@@ -1,5 +1,4 @@
 //! Safety analyses, crushing and stress fields, asked as a user asks.
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use serde_json::{Value, json};
 use voussoir::api::read::read_question;

@@ -1,15 +1,11 @@
 //! Ready requests can be read, and say what they mean.
-#![cfg(feature = "server")]
-#![allow(clippy::unwrap_used, clippy::expect_used)]
 
+use crate::common::folders;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use voussoir::api::read::{read, read_analysis, read_question};
 use voussoir::arch::JointLaw;
 use voussoir::collapse::{Analysis, Direction, Method};
-
-#[path = "common/folders.rs"]
-mod folders;
 
 fn cases() -> Vec<PathBuf> {
     folders::folders(&folders::cases())

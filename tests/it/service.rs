@@ -1,22 +1,18 @@
 //! What the HTTP interface promises beyond submitting and reading: waiting, keys, pages, versions, streams, parts,
 //! limits, tokens, counts.
-#![cfg(feature = "server")]
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test stops at the first surprise")]
 #![allow(clippy::disallowed_methods, reason = "tests wait for jobs by looking again")]
 
-mod support;
-
+use crate::support::{Answer, ENDLESS, ERROR, PANIC, Server, beam, curve, limits, request, settings, trouble};
 use serde_json::{Value, json};
 use std::thread::{scope, sleep};
 use std::time::{Duration, Instant};
-use support::{ENDLESS, ERROR, PANIC, Server, beam, curve, limits, request, settings, trouble};
 use voussoir::api::problem::kinds;
 use voussoir::api::{self, Settings, Tokens};
 use voussoir::jobs::Limits;
 
 const JSON: &str = "content-type: application/json\r\n";
 
-fn post(server: &Server, headers: &str, body: &Value) -> support::Answer {
+fn post(server: &Server, headers: &str, body: &Value) -> Answer {
     server.call("POST", "/v1/jobs", &format!("{JSON}{headers}"), body.to_string().as_bytes())
 }
 

@@ -1,18 +1,16 @@
 //! The real program with clients that are slow, rude or gone, and told to stop: what `tests/load` does at length.
-#![cfg(all(feature = "server", unix))]
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test stops at the first surprise")]
 #![allow(clippy::disallowed_methods, reason = "tests wait for jobs by looking again")]
 #![allow(dead_code, reason = "tests/load uses the rest")]
 
-#[path = "load/client.rs"]
+#[path = "../load/client.rs"]
 mod client;
-#[path = "load/draining.rs"]
+#[path = "../load/draining.rs"]
 mod draining;
-#[path = "load/hostile.rs"]
+#[path = "../load/hostile.rs"]
 mod hostile;
-#[path = "load/process.rs"]
+#[path = "../load/process.rs"]
 mod process;
-#[path = "load/requests.rs"]
+#[path = "../load/requests.rs"]
 mod requests;
 
 use draining::{Drained, Known, drain};

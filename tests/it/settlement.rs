@@ -1,13 +1,10 @@
 //! Springings that move: thrust against limit analysis, collapse against statics of the moved arch.
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may panic")]
 
-mod common;
-
-use common::door::{analysis, solve};
-use common::masonry::{Ring, THRUSTS};
-use common::settled::judge;
-use common::three_hinges::follow;
-use common::wire::{ask, circular, continuous};
+use crate::common::door::{analysis, solve};
+use crate::common::masonry::{Ring, THRUSTS};
+use crate::common::settled::judge;
+use crate::common::three_hinges::follow;
+use crate::common::wire::{ask, circular, continuous};
 use serde_json::{Value, json};
 use voussoir::arch::Face;
 use voussoir::collapse::{CollapseReport, Outcome, SettlementEnd, SettlementPath};

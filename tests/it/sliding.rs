@@ -1,11 +1,8 @@
 //! Where joints slide without dilating, the load is a range: its least is held against every variant of the path, against every
 //! mechanism of small arches, and against programmes that share no code with it.
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may panic")]
 
-mod common;
-
-use common::sliding::{Checked, EXHAUSTED, SAME, check};
-use common::{door, exhaustive, sliding_arch};
+use crate::common::sliding::{Checked, EXHAUSTED, SAME, check};
+use crate::common::{door, exhaustive, sliding_arch};
 use serde_json::{Value, json};
 use voussoir::collapse::{LoadRange, Outcome};
 

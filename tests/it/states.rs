@@ -1,19 +1,11 @@
 //! Reported states, judged by the contact law alone: equilibrium of every stone, no tension, friction within its bound, no
 //! force where a joint is open and no overlap without one; and the states of a symmetric arch, which are symmetric.
-#![cfg(feature = "server")]
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may panic, and prints what it measured")]
 
-mod common;
-#[path = "common/semicircle.rs"]
-#[allow(dead_code, reason = "only the arch is wanted")]
-mod semicircle;
-#[path = "half/symmetric.rs"]
-mod symmetric;
-
-use common::folders::{cases, folders, name};
-use common::state::{Broken, broken, broken_line, ends, larger, leaning, mirrored_apart, states};
-use common::{door, random_arch};
-use semicircle::semicircle;
+use crate::common::folders::{cases, folders, name};
+use crate::common::semicircle::semicircle;
+use crate::common::state::{Broken, broken, broken_line, ends, larger, leaning, mirrored_apart, states};
+use crate::common::{door, random_arch};
+use crate::half::symmetric;
 use serde_json::{Value, json};
 use voussoir::collapse::{Analysis, CollapseReport, Unwatched, run};
 

@@ -1,11 +1,7 @@
 //! An analysis that is asked to stop stops there and then, wherever it is: the watch is asked in every long stretch of every
 //! kind of request, and never again once it has said no. Times are measured in `benches/stopping.rs`.
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test stops at the first surprise")]
 
-#[path = "common/semicircle.rs"]
-mod semicircle;
-
-use semicircle::{mesh, semicircle};
+use crate::common::semicircle::{mesh, semicircle};
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
 use std::ops::Range;

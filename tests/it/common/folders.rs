@@ -22,7 +22,6 @@ pub fn cases() -> PathBuf {
 }
 
 /// Name of a case: its path below `cases/`.
-#[allow(dead_code, reason = "every test file uses its share")]
 pub fn name(folder: &Path) -> String {
     folder.strip_prefix(cases()).unwrap().to_string_lossy().into_owned()
 }

@@ -1,6 +1,6 @@
 //! Arches and loads written down a second time, for the oracle alone: nothing of `src/` is used.
 
-use super::oracle::{Bond, Point, Problem, Push, Seam, distance};
+use super::oracle::{Bond, Point, Problem, Push, Seam};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// `thrust_range.json` (derived and checked there): least and greatest thrust over the weight, continuous joints; half opening and t/R.
@@ -196,10 +196,5 @@ impl Ring {
     /// Total area.
     pub fn area(&self) -> f64 {
         self.stones.iter().map(|s| s.0).sum()
-    }
-
-    /// Mean thickness.
-    pub fn thickness(&self) -> f64 {
-        self.joints.iter().map(|j| distance(j.0, j.1)).sum::<f64>() / self.joints.len() as f64
     }
 }

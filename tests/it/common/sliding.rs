@@ -19,6 +19,7 @@ pub const EXHAUSTED: usize = 9;
 
 /// One end of an answer, and what was held against it.
 #[derive(Debug, Clone)]
+#[allow(dead_code, reason = "the benchmark reads what the tests do not")]
 pub struct Checked {
     /// Load factor from which the path went.
     pub start: f64,

@@ -1,8 +1,8 @@
 //! Random symmetric arches: every profile, even and odd numbers of voussoirs, loads on the crown, on both sides, of
 //! fill and of weight.
 
-use super::common::dice::Dice;
-use super::common::random_profile::profile;
+use crate::common::dice::Dice;
+use crate::common::random_profile::profile;
 use serde_json::{Value, json};
 
 /// The request of a seed, of the whole arch.

@@ -1,6 +1,6 @@
 //! The curved beam to an accuracy, against the exact stress, which has no part in finding the mesh.
 
-use crate::exact::{Ring, tresca};
+use super::exact::{Ring, tresca};
 use voussoir::arch::Stone;
 use voussoir::collapse::{Answer, CurvedBeam, PlaneModel, Question, Seams, Unwatched, answer};
 

@@ -1,6 +1,6 @@
 //! The curved beam of section 3.3 of the paper, cut into subblocks.
 
-use crate::exact::{PAPER, Ring, tresca};
+use super::exact::{PAPER, Ring, tresca};
 use voussoir::arch::Stone;
 use voussoir::collapse::{Answer, BeamReport, CurvedBeam, PlaneModel, Question, Seams, Unwatched, answer};
 

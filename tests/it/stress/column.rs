@@ -1,6 +1,6 @@
 //! Chains of refined stones glued at their joints, and the same whole, uncondensed and dense.
 
-use crate::mesh::{Mesh, STONE};
+use super::mesh::{Mesh, STONE};
 use nalgebra::{DMatrix, DVector};
 use std::ops::ControlFlow;
 use voussoir::dda::{Bond, Chain, ChainBuilder, Drive, End, Heart, Law, Loads, Push, Touch, Tracer};

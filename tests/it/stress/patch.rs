@@ -1,7 +1,7 @@
 //! Patch tests: what a uniform stress does to macroblocks.
 
-use crate::column::bonded;
-use crate::mesh::Mesh;
+use super::column::bonded;
+use super::mesh::Mesh;
 use nalgebra::{DMatrix, DVector};
 use voussoir::dda::{Bond, Condensed, Heart, Node, Push, free_response};
 use voussoir::geometry::Vec2;

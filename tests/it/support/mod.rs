@@ -1,6 +1,4 @@
 //! A real server on a free port, and a client that speaks just enough HTTP/1.1.
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test stops at the first surprise")]
-#![allow(dead_code, reason = "every test file uses its share")]
 #![allow(clippy::disallowed_methods, reason = "tests wait for jobs by looking again")]
 
 pub mod broken;
