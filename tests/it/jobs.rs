@@ -223,8 +223,8 @@ fn a_second_shutdown_waits_for_nothing() {
         Ok(Product { answer: answer(), bytes: ANSWER })
     };
     let store = JobStore::start(limits(1, 1, 1), deaf, |_| {}).unwrap();
-    store.submit(order(QUICK)).unwrap();
-    sleep(Duration::from_millis(50));
+    let job = store.submit(order(QUICK)).unwrap();
+    until(&store, job.id, |job| job.status() == Status::Running);
     assert!(!store.shutdown(Duration::ZERO), "this one does not listen");
     let start = Instant::now();
     drop(store);

@@ -1,11 +1,9 @@
 //! The curved beam to an accuracy, against the exact stress, which has no part in finding the mesh.
 
 use super::exact::{Ring, tresca};
+use crate::common::dice::Dice;
 use voussoir::arch::Stone;
 use voussoir::collapse::{Answer, CurvedBeam, PlaneModel, Question, Seams, Unwatched, answer};
-
-#[path = "../common/dice.rs"]
-mod dice;
 
 /// How many beams.
 const BEAMS: u64 = 250;
@@ -14,7 +12,7 @@ const BEAMS: u64 = 250;
 fn beams_are_as_accurate_as_asked() {
     let (mut met, mut missed, mut worst, mut ratios) = (0, Vec::new(), 0.0f64, Vec::new());
     for seed in 0..BEAMS {
-        let mut dice = dice::Dice::new(seed);
+        let mut dice = Dice::new(seed);
         let (asked, inner) = (dice.decades(0.003, 0.2), dice.decades(0.1, 10.0));
         let ratio = if dice.chance(0.5) { dice.between(1.02, 1.2) } else { dice.decades(1.2, 30.0) };
         let ring = Ring { radii: [inner, inner * ratio], shear: dice.sign() * dice.decades(1.0, 1e6) };
