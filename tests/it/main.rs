@@ -64,6 +64,7 @@ mod readme;
 mod references;
 #[cfg(feature = "server")]
 mod refined;
+mod rigid_blocks;
 mod rooms;
 #[cfg(feature = "server")]
 mod safety;

@@ -21,6 +21,7 @@ pub mod places;
 pub mod random_arch;
 #[cfg(feature = "server")]
 pub mod random_profile;
+pub mod rigid_blocks;
 #[cfg(feature = "server")]
 pub mod semicircle;
 pub mod settled;

@@ -201,9 +201,10 @@ impl Problem {
 }
 
 /// Accuracies asked of the solver, one after the other: at times round-off does not let it reach the first.
-const TOLERANCES: [f64; 4] = [1e-11, 1e-10, 1e-9, 1e-8];
+pub const TOLERANCES: [f64; 4] = [1e-11, 1e-10, 1e-9, 1e-8];
 
-fn settings(tolerance: f64) -> DefaultSettings<f64> {
+/// The solver's settings for an accuracy.
+pub fn settings(tolerance: f64) -> DefaultSettings<f64> {
     DefaultSettingsBuilder::default()
         .verbose(false)
         .max_threads(1)
