@@ -4,7 +4,7 @@
 //! lucky one, and the mean takes in whatever else the machine did. The growth of time with size is the slope between
 //! two sizes, ln(t2 / t1) / ln(n2 / n1): 1 is as good as it gets (every stone is looked at once), 2 means that
 //! the number of events grows with the arch and that each of them costs a pass over it. Counts of events, which noise
-//! cannot touch, are held in `tests/determinism.rs`.
+//! cannot touch, are held in `tests/it/determinism.rs`.
 #![allow(missing_docs, clippy::unwrap_used, reason = "a benchmark may panic")]
 
 use divan::{Bencher, black_box};

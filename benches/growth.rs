@@ -15,7 +15,7 @@
 //! | `beam` | the curved beam, one body |
 #![allow(missing_docs, clippy::unwrap_used, clippy::print_stdout, clippy::disallowed_methods, reason = "a benchmark")]
 
-#[path = "../tests/common/semicircle.rs"]
+#[path = "../tests/it/common/semicircle.rs"]
 #[allow(dead_code, reason = "only the arch is wanted")]
 mod semicircle;
 

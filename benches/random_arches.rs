@@ -5,7 +5,8 @@
 //! reported states of as many arches, judged by the contact law.
 #![allow(clippy::print_stdout, clippy::disallowed_methods, missing_docs)]
 
-#[path = "../tests/common/mod.rs"]
+#[path = "../tests/it/common/mod.rs"]
+#[allow(dead_code, reason = "the tests use the rest")]
 mod common;
 
 use common::state::{Broken, broken, broken_line};

@@ -8,7 +8,8 @@
 //! Accuracies are those had, not estimated ones. Uniform meshes are of n x n subblocks in every voussoir of the whole arch.
 #![allow(clippy::print_stdout, clippy::disallowed_methods, clippy::unwrap_used, missing_docs)]
 
-#[path = "../tests/common/mod.rs"]
+#[path = "../tests/it/common/mod.rs"]
+#[allow(dead_code, reason = "the tests use the rest")]
 mod common;
 
 use common::field::error;

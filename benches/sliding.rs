@@ -4,7 +4,8 @@
 //! arches of every kind; or `... -- look SEED` for a request.
 #![allow(clippy::print_stdout, clippy::disallowed_methods, missing_docs)]
 
-#[path = "../tests/common/mod.rs"]
+#[path = "../tests/it/common/mod.rs"]
+#[allow(dead_code, reason = "the tests use the rest")]
 mod common;
 
 use common::sliding::{Checked, SAME, check};

@@ -4,7 +4,7 @@
 //! `cargo bench --bench stopping`; words such as `-- beam motion` choose kinds, a path ending in `.json` is a request of
 //! one's own, `seconds=5` is after how long every analysis is stopped (20 by default), and `slow=50` shows where the calls
 //! are that come after more than so many milliseconds. Counts of calls, which noise cannot
-//! touch, are held in `tests/stopping.rs`.
+//! touch, are held in `tests/it/stopping.rs`.
 #![allow(
     missing_docs,
     clippy::print_stdout,
@@ -13,7 +13,7 @@
     reason = "a benchmark prints and may panic"
 )]
 
-#[path = "../tests/common/semicircle.rs"]
+#[path = "../tests/it/common/semicircle.rs"]
 mod semicircle;
 
 use semicircle::{mesh, semicircle};

@@ -171,8 +171,8 @@ impl Answers {
 
 /// All cases as seeds, and the good requests of the contract.
 pub fn seeds() -> Vec<serde_json::Value> {
-    let folders = crate::folders::folders(&crate::folders::cases());
+    let folders = super::folders::folders(&super::folders::cases());
     let text = |folder: &std::path::PathBuf| std::fs::read(folder.join("request.json")).expect("a case has a request");
     let cases = folders.iter().map(|folder| serde_json::from_slice(&text(folder)).expect("a case is JSON"));
-    cases.chain(crate::bodies::bodies()).collect()
+    cases.chain(super::bodies::bodies()).collect()
 }

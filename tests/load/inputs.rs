@@ -1,6 +1,6 @@
 //! Bodies of every kind of badness, from a seed.
 
-use crate::dice::Dice;
+use super::dice::Dice;
 use serde_json::{Map, Value, json};
 
 /// What is done to make a body.

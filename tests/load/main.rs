@@ -7,7 +7,7 @@ mod cancel;
 mod client;
 mod clients;
 mod connections;
-#[path = "../common/dice.rs"]
+#[path = "../it/common/dice.rs"]
 #[allow(dead_code, reason = "others use the rest")]
 mod dice;
 mod draining;

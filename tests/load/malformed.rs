@@ -12,13 +12,13 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
-#[path = "../contract/bodies.rs"]
-#[allow(dead_code)]
+#[path = "../it/contract/bodies.rs"]
+#[allow(dead_code, reason = "the tests use the rest")]
 mod bodies;
-#[path = "../common/dice.rs"]
-#[allow(dead_code)]
+#[path = "../it/common/dice.rs"]
+#[allow(dead_code, reason = "the tests use the rest")]
 mod dice;
-#[path = "../common/folders.rs"]
+#[path = "../it/common/folders.rs"]
 mod folders;
 mod held;
 mod inputs;

@@ -19,7 +19,7 @@ pub struct Scenes {
 pub struct CollapseScene {
     /// Its name on the chart.
     pub name: String,
-    /// Least and greatest collapse intensity that limit analysis leaves open (`tests/chart.rs`); one number where nothing slides.
+    /// Least and greatest collapse intensity that limit analysis leaves open (`tests/it/chart.rs`); one number where nothing slides.
     pub intensity: [f64; 2],
     /// Whether joints slide in the mechanism.
     pub slides: bool,

@@ -1,0 +1,102 @@
+//! A thin slice of the atlas of hard scenes (`benches/atlas/`): ours is right in all of it, or says that it cannot tell.
+#![allow(dead_code, reason = "the atlas is a program of its own")]
+
+#[path = "../../benches/atlas/judge.rs"]
+mod judge;
+#[path = "../../benches/atlas/maps/mod.rs"]
+mod maps;
+#[path = "../../benches/atlas/moving.rs"]
+mod moving;
+#[path = "../../benches/atlas/ours.rs"]
+mod ours;
+
+use judge::{Mark, Truth};
+use ours::ours;
+use voussoir::collapse::Outcome;
+
+/// Every so many scenes of a map are run, of arches of at most so many voussoirs.
+const EVERY: usize = 47;
+const MOST: usize = 33;
+
+#[test]
+fn hard_scenes_get_no_wrong_number() {
+    let (mut wrong, mut gave_up, mut decided) = (Vec::new(), 0, 0);
+    for (name, build) in maps::MAPS {
+        let map = build();
+        for scene in map.scenes.iter().step_by(EVERY) {
+            let Ok(analysis) = scene.analysis() else { continue };
+            if analysis.structure.voussoirs().len() > MOST {
+                continue;
+            }
+            let truth = Truth::of(crate::common::door::problem(&analysis)).known(scene.stands);
+            let place = [0, 1].map(|i| map.axes[i].values[scene.at[i]]);
+            match ours(scene, &analysis, &truth).mark {
+                Mark::Right => decided += 1,
+                Mark::Wrong(why) => wrong.push(format!("{name} at {place:?}, {}: {why}", scene.variant)),
+                Mark::GaveUp(why) => {
+                    println!("{name} at {place:?}, {}: cannot tell: {why}", scene.variant);
+                    gave_up += 1;
+                }
+                Mark::Unproven(_) | Mark::Open => {}
+            }
+        }
+    }
+    println!("{decided} right, {gave_up} cannot tell");
+    assert!(wrong.is_empty(), "{wrong:#?}");
+    assert!(decided >= 100 && gave_up <= 1, "{decided} right, {gave_up} cannot tell");
+}
+
+/// Our answer in one place of a map, axis values given.
+fn at(map: &str, place: [f64; 2], variant: &str) -> ours::Ours {
+    let (_, build) = maps::MAPS.iter().find(|(name, _)| *name == map).expect("a map");
+    let map = build();
+    let here = |scene: &&maps::Scene| {
+        let values = [0, 1].map(|i| map.axes[i].values[scene.at[i]]);
+        scene.variant == variant && (0..2).all(|i| (values[i] - place[i]).abs() <= 1e-9 * place[i].abs())
+    };
+    let scene = map.scenes.iter().find(here).expect("a scene");
+    let analysis = scene.analysis().expect("an arch");
+    let truth = Truth::of(crate::common::door::problem(&analysis)).known(scene.stands);
+    ours(scene, &analysis, &truth)
+}
+
+/// Between joints that lean by a millionth of a degree stones slide by a hundred times the arch's size until they are held.
+#[test]
+fn stones_that_slide_farther_than_the_arch_is_large_have_fallen() {
+    let found = at("tilt", [1e-6, 10.0], "crown");
+    assert_eq!((found.mark, found.outcome), (Mark::Right, Some(Outcome::SlidesAsBuilt)));
+    assert!(found.slides > 0);
+}
+
+/// The scaled loads do next to no work in the mechanism at a load factor of a hundred thousand: the fixed ones tell it.
+#[test]
+fn a_mechanism_far_out_is_found_by_the_work_of_the_fixed_loads() {
+    let found = at("never", [5.0, 0.12], "rough");
+    assert_eq!((found.mark, found.outcome), (Mark::Right, Some(Outcome::Collapse)));
+}
+
+/// A load a billionth below its greatest value stands, and one a billionth above it falls.
+#[test]
+fn loads_at_the_ends_of_the_window_are_told_apart() {
+    for (near, outcome) in [(-9.0, Outcome::NeverCollapses), (9.0, Outcome::FallsAsBuilt)] {
+        let found = at("window", [near, -5.0], "down");
+        assert_eq!((found.mark, found.outcome), (Mark::Right, Some(outcome)));
+    }
+}
+
+/// Limit analysis never lets this flat arch fall, and a path that strayed into sliding joints is no proof that it does.
+#[test]
+fn a_path_that_strays_into_sliding_is_no_collapse() {
+    let found = at("tilt", [0.3, 60.0], "crown");
+    assert!(matches!(found.mark, Mark::Right | Mark::GaveUp(_)), "{found:?}");
+}
+
+/// Beside contacts a thousand times stiffer than the stone and more, rounding of their stiffness passes for resistance of a
+/// mechanism.
+#[test]
+fn contacts_far_stiffer_than_the_stone_do_not_hide_a_mechanism() {
+    for penalty in [3.0, 3.5, 5.0, 5.5] {
+        let found = at("penalty", [10f64.powf(penalty), 21.0], "haunch");
+        assert_eq!((&found.mark, found.outcome), (&Mark::Right, Some(Outcome::Collapse)), "1e{penalty}");
+    }
+}

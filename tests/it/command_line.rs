@@ -1,0 +1,180 @@
+//! The program as it is called.
+
+use crate::support::{Server, beam, curve, request};
+use std::io::{BufRead, BufReader, Write};
+use std::process::{Child, Command, Output, Stdio};
+
+fn program(arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_voussoir"));
+    command.args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+}
+
+fn fed(arguments: &[&str], input: &str) -> Output {
+    let mut child = program(arguments).spawn().unwrap();
+    child.stdin.take().unwrap().write_all(input.as_bytes()).unwrap();
+    child.wait_with_output().unwrap()
+}
+
+#[test]
+fn solve_prints_a_summary() {
+    let output = fed(&["solve", "-"], &request().to_string());
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    for part in ["The arch collapses at", "kN/m", "limit window", "residual", "mode", "Hinges", "from crown", "time"] {
+        assert!(text.contains(part), "{part} in\n{text}");
+    }
+}
+
+#[test]
+fn solve_json_prints_the_bytes_of_the_service() {
+    let server = Server::start(1, 10);
+    let path = server.submit(&request());
+    server.until(&path, &["successful"]);
+    let output = fed(&["solve", "--json", "-"], &request().to_string());
+    assert!(output.status.success() && output.stdout == server.get(&format!("{path}/results")).body);
+}
+
+#[test]
+fn solve_prints_a_curve_and_draws_none() {
+    let output = fed(&["solve", "-"], &curve().to_string());
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    for part in ["scaled loads", "abscissa times: 1000 N", "strength", "10 MPa", "plastic section", "time"] {
+        assert!(text.contains(part), "{part} in\n{text}");
+    }
+    let output = fed(&["solve", "-", "--figure", "no/such/figure.svg"], &curve().to_string());
+    assert_eq!(output.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("no figure: only one arch"));
+    let mut request = beam();
+    request["mesh"] = serde_json::json!({"subblocks": {"uniform": {"radial": 0, "along": 1}}});
+    let output = fed(&["solve", "-"], &request.to_string());
+    assert!(output.status.code() == Some(2) && String::from_utf8_lossy(&output.stderr).contains("/mesh/subblocks"));
+}
+
+#[test]
+fn solve_lists_faults() {
+    let output = fed(&["solve", "-"], r#"{"arch": {"profile": {"circular": {}}}, "loads": 3, "colour": 1}"#);
+    let errors = String::from_utf8(output.stderr).unwrap();
+    assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
+    assert!(errors.matches("/loads: ").count() == 1 && errors.contains("/colour: "), "{errors}");
+    let missing = fed(&["solve", "no/such/file.json"], "");
+    assert_eq!(missing.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&missing.stderr).contains("no/such/file.json"));
+}
+
+#[test]
+fn openapi_prints_the_document() {
+    let output = fed(&["openapi"], "");
+    assert!(output.status.success() && output.stdout == voussoir::api::document().into_bytes());
+}
+
+/// A served program, and the address it says it listens at.
+fn served() -> (Child, String) {
+    let mut child = program(&["serve", "--bind", "127.0.0.1:0", "--log-format", "json"]).spawn().unwrap();
+    let mut line = String::new();
+    BufReader::new(child.stderr.as_mut().unwrap()).read_line(&mut line).unwrap();
+    let log: serde_json::Value = serde_json::from_str(&line).unwrap();
+    (child, log["address"].as_str().unwrap().to_owned())
+}
+
+#[test]
+#[cfg(unix)]
+fn serve_is_healthy_until_told_to_stop() {
+    let (mut child, address) = served();
+    assert!(fed(&["health", "--bind", &address], "").status.success());
+    let told = Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap();
+    assert!(told.success());
+    assert_eq!(child.wait().unwrap().code(), Some(0));
+    assert_eq!(fed(&["health", "--bind", &address], "").status.code(), Some(1));
+}
+
+#[test]
+fn settings_that_cannot_be_are_refused_without_being_quoted() {
+    let secret = fed(&["serve", "--bind", "127.0.0.1:0", "--token", "s3cr3t value"], "");
+    let told = String::from_utf8(secret.stderr).unwrap();
+    assert!(!secret.status.success() && told.contains("--token") && !told.contains("s3cr3t"), "{told}");
+    for log in ["warning", "", "voussoir=loud"] {
+        let output = fed(&["serve", "--bind", "127.0.0.1:0", "--log", log], "");
+        assert_eq!(output.status.code(), Some(2), "{log}");
+    }
+}
+
+fn case(name: &str) -> String {
+    format!("{}/cases/{name}", env!("CARGO_MANIFEST_DIR"))
+}
+
+#[test]
+fn the_figure_of_the_readme_is_what_solve_draws() {
+    let file = std::env::temp_dir().join(format!("voussoir-figure-{}.svg", std::process::id()));
+    let output = fed(&["solve", &case("first-arch/request.json"), "--figure", file.to_str().unwrap()], "");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let drawn = std::fs::read_to_string(&file).unwrap();
+    std::fs::remove_file(&file).unwrap();
+    let kept = std::fs::read_to_string(case("first-arch/figure.svg")).unwrap();
+    let command = "solve cases/first-arch/request.json --figure cases/first-arch/figure.svg";
+    assert!(drawn == kept, "stale: run `cargo run -- {command}`");
+}
+
+#[test]
+fn where_nothing_moves_there_is_no_figure() {
+    let file = std::env::temp_dir().join(format!("voussoir-no-figure-{}.svg", std::process::id()));
+    let output = fed(&["solve", &case("half-arch/request.json"), "--figure", file.to_str().unwrap()], "");
+    assert_eq!(output.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("no figure: nothing moves"));
+    assert!(String::from_utf8_lossy(&output.stdout).contains("The arch stands") && !file.exists());
+}
+
+/// The summary of a case, changed.
+fn summary(name: &str, change: impl Fn(&mut serde_json::Value)) -> String {
+    let mut request: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(case(&format!("{name}/request.json"))).unwrap()).unwrap();
+    change(&mut request);
+    let output = fed(&["solve", "-"], &request.to_string());
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap().split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+#[test]
+fn every_outcome_is_told_in_words_that_fit_it() {
+    use serde_json::json;
+    let first = |change: fn(&mut serde_json::Value)| summary("first-arch", change);
+    let table = [
+        (first(|_| {}), "The arch collapses at 243.125 kN."),
+        (
+            first(|r| r["load_factor"]["direction"] = json!("decrease")),
+            "with its scaled loads reversed and 108.843 times",
+        ),
+        (first(|r| r["load_factor"]["cap"] = json!(100)), "it stands up to 100 kN, the most that was tried"),
+        (first(|r| r["load_factor"] = json!({})), "The arch collapses at 243.125 (load factor)."),
+        (first(|r| r["arch"]["thickness"]["constant_m"] = json!(0.9)), "The arch falls as built"),
+        (summary("paper/table-4", |_| {}), "The arch stands only between 5.236255 and 201.1986 kN;"),
+        (
+            summary("paper/table-4", |r| r["load_factor"]["cap"] = json!(9)),
+            "The arch stands only above 5.236255 kN (tried up to 9)",
+        ),
+        (summary("half-arch", |_| {}), "The arch stands under its fixed loads."),
+        // The whole arch falls at the same load: its jacks are a pair.
+        (
+            summary("paper/table-2/61-joints", |r| r["arch"]["half"] = json!(true)),
+            "The arch collapses at 202.4586 kN/m.",
+        ),
+    ];
+    for (text, words) in table {
+        assert!(text.contains(words), "{words} in\n{text}");
+    }
+    let falls = first(|r| r["arch"]["thickness"]["constant_m"] = json!(0.9));
+    assert!(!falls.contains("intensity 0") && falls.contains("Hinges"), "{falls}");
+}
+
+#[test]
+fn the_answer_in_the_readme_is_the_one_given() {
+    let output = fed(&["solve", &case("first-arch/request.json")], "");
+    let text = String::from_utf8(output.stdout).unwrap();
+    let readme = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md")).unwrap();
+    // Time and round-off are the machine's own.
+    let own = |line: &str| line.starts_with(" time") || line.starts_with(" residual");
+    for line in text.lines().map(str::trim_end).filter(|line| !own(line)) {
+        assert!(readme.lines().any(|other| other == line), "not in README.md: {line}");
+    }
+}

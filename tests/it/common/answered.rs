@@ -1,0 +1,24 @@
+//! Wire JSON in, the answer on the wire out.
+
+use serde_json::Value;
+use std::time::Duration;
+use voussoir::api::prose::prose;
+use voussoir::api::read::read_question;
+use voussoir::api::response::JobResult;
+use voussoir::collapse::{Unwatched, answer};
+
+/// Runs a request that has to be a good one.
+pub fn result(request: &Value) -> JobResult {
+    let (request, question) = read_question(request.to_string().as_bytes()).unwrap();
+    JobResult::new(&request, &answer(&question, &mut Unwatched).unwrap()).unwrap()
+}
+
+/// Its answer as JSON.
+pub fn solved(request: &Value) -> Value {
+    serde_json::from_slice(&result(request).to_bytes().unwrap()).unwrap()
+}
+
+/// Its answer as text on one line: lines are broken anywhere.
+pub fn text(request: &Value) -> String {
+    prose(&result(request), Duration::ZERO).split_whitespace().collect::<Vec<_>>().join(" ")
+}

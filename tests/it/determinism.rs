@@ -1,0 +1,124 @@
+//! The same request gives the same bytes, at the same cost: counts of events, factorisations and block rows are held under a
+//! ceiling, which is a performance test that noise cannot touch.
+
+use crate::common::semicircle::semicircle;
+use serde_json::json;
+use std::path::Path;
+use voussoir::api::read::read_analysis;
+use voussoir::api::response::AnalysisResult;
+use voussoir::collapse::{Analysis, Cost, Unwatched, run};
+use voussoir::structure::JointLaw;
+
+/// Counts may grow by this much before a change has to explain itself.
+const ROOM: f64 = 1.25;
+
+/// Name; events, factorisations and block rows eliminated when last looked at.
+const COUNTS: [(&str, [usize; 3]); 21] = [
+    ("first-arch", [53, 58, 1270]),
+    ("half-arch", [19, 21, 238]),
+    ("lateral-7", [31, 35, 295]),
+    ("paper/figure-6", [37, 42, 420]),
+    ("paper/figure-7/17-joints", [58, 63, 1067]),
+    ("paper/figure-7/27-joints", [70, 75, 2115]),
+    ("paper/figure-8", [67, 72, 1091]),
+    ("paper/figure-11", [60, 11, 280]),
+    ("paper/figure-12/lower-limit", [66, 73, 1242]),
+    ("paper/figure-12/upper-limit", [66, 73, 1242]),
+    ("paper/table-2/9-joints", [37, 42, 420]),
+    ("paper/table-2/17-joints", [58, 63, 1067]),
+    ("paper/table-2/27-joints", [70, 75, 2115]),
+    ("paper/table-2/61-joints", [132, 137, 8246]),
+    ("paper/table-2/201-joints", [88, 93, 16143]),
+    ("paper/table-3/lower-limit", [66, 73, 1242]),
+    ("paper/table-3/upper-limit", [66, 73, 1242]),
+    ("paper/table-4", [68, 74, 1222]),
+    ("pointed", [29, 31, 1136]),
+    ("settlement", [66, 70, 1656]),
+    ("sliding-arch", [71, 75, 1256]),
+];
+
+/// The same for semicircles under a load at the quarter point: voussoirs, and subblocks each way in each of them. With more
+/// than two contact points a joint most events are followed without a factorisation.
+const SEMICIRCLES: [(usize, usize, [usize; 3]); 2] = [(201, 1, [228, 233, 20724]), (27, 4, [174, 14, 611])];
+
+/// What `solve --json` prints, and what it cost.
+fn solve(name: &str) -> (Vec<u8>, Cost) {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(name).join("request.json");
+    let (request, analysis) = read_analysis(&std::fs::read(file).unwrap()).unwrap();
+    let report = run(&analysis, &mut Unwatched).unwrap();
+    (AnalysisResult::new(&request, &report).to_bytes().unwrap(), report.cost)
+}
+
+#[test]
+fn the_same_request_gives_the_same_bytes() {
+    for (name, ..) in COUNTS {
+        let (first, again) = (solve(name).0, solve(name).0);
+        assert!(!first.is_empty() && first == again, "{name}");
+    }
+}
+
+#[test]
+fn the_same_request_gives_the_same_bytes_on_four_threads_at_once() {
+    let alone = solve("first-arch").0;
+    std::thread::scope(|scope| {
+        let threads: Vec<_> = (0..4).map(|_| scope.spawn(|| solve("first-arch").0)).collect();
+        for thread in threads {
+            assert!(thread.join().unwrap() == alone);
+        }
+    });
+}
+
+/// A semicircle of stones of these lengths, under its weight and a point load over the quarter point.
+fn arch(lengths: &[f64]) -> Analysis {
+    let mut request = semicircle(lengths.len(), &json!({}));
+    request["arch"]["relative_lengths"] = json!(lengths);
+    read_analysis(request.to_string().as_bytes()).unwrap().1
+}
+
+fn cost(analysis: &Analysis) -> Cost {
+    run(analysis, &mut Unwatched).unwrap().cost
+}
+
+/// What has grown by more than [`ROOM`].
+fn dearer(name: &str, before: [usize; 3], cost: Cost) -> Vec<String> {
+    let now = [cost.events, cost.factorisations, cost.block_rows];
+    println!("(\"{name}\", {now:?}),");
+    let grown = (0..3).filter(|&i| now[i] as f64 > ROOM * before[i] as f64);
+    let what = ["events", "factorisations", "block rows"];
+    grown.map(|i| format!("{name}: {} {}, {} before", now[i], what[i], before[i])).collect()
+}
+
+#[test]
+fn a_case_costs_no_more_than_it_did() {
+    let mut dear = Vec::new();
+    for (name, before) in COUNTS {
+        dear.extend(dearer(name, before, solve(name).1));
+    }
+    for (voussoirs, each_way, before) in SEMICIRCLES {
+        let mut analysis = arch(&vec![1.0; voussoirs]);
+        analysis.mesh.subblocks = vec![[each_way; 2]; voussoirs];
+        dear.extend(dearer(&format!("semicircle {voussoirs} {each_way}"), before, cost(&analysis)));
+    }
+    assert!(dear.is_empty(), "{}", dear.join("\n"));
+}
+
+/// Joints of the right half hold whatever happens: all events are in the left one. Eight times as many stones on the right
+/// make the start of each path dearer, where the whole chain is factored from one end and then, up to the first event, from
+/// the other; and nothing else.
+#[test]
+fn an_event_costs_nothing_in_a_part_of_the_arch_that_no_event_touches() {
+    let left = 20;
+    let of = |right: usize| {
+        let mut analysis = arch(&[vec![1.0; left], vec![left as f64 / right as f64; right]].concat());
+        analysis.structure.joints[left + 1..].iter_mut().for_each(|joint| joint.law = JointLaw::Bonded);
+        cost(&analysis)
+    };
+    let (few, many) = (of(40), of(320));
+    println!("40 stones to the right: {few:?}; 320: {many:?}");
+    let more_rows = 2 * (320 - 40);
+    let whole = few.factorisations - few.events;
+    let allowed = ROOM * few.block_rows as f64 + (2 * whole * more_rows) as f64;
+    assert!(many.block_rows as f64 <= allowed, "{} block rows, {allowed} at most", many.block_rows);
+    // A pass over the right half at every third event would show.
+    assert!(few.events / 3 > 2 * whole, "too few events to tell");
+}

@@ -1,0 +1,300 @@
+//! Motion after collapse: every run ends by one of its ends, stones keep their shape and stay out of each other.
+
+use crate::common::falling::{Measured, measure};
+use crate::common::{door, random_arch};
+use serde_json::{Value, json};
+use std::ops::ControlFlow;
+use std::path::Path;
+use std::time::Instant;
+use voussoir::collapse::{
+    Analysis, AnalysisError, CollapseReport, FallingMotion, LoadStep, MotionEnd, MotionFrame, Stop, Unwatched, Watch,
+    run,
+};
+
+/// Deepest overlap of stones, share of the thickness.
+const OVERLAP: f64 = 1e-3;
+/// Largest change of an area, share of it.
+const AREA: f64 = 1e-9;
+/// Largest residual of equilibrium, share of the loads.
+const RESIDUAL: f64 = 1e-9;
+/// Most friction beyond its bound, share of the loads.
+const EXCESS: f64 = 1e-6;
+/// How many random arches.
+const ARCHES: usize = 200;
+
+fn with_motion(mut request: Value) -> Value {
+    request["motion"] = json!({});
+    request
+}
+
+fn case(name: &str) -> Value {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(name).join("request.json");
+    with_motion(serde_json::from_slice(&std::fs::read(file).unwrap()).unwrap())
+}
+
+fn solve(request: &Value) -> (Analysis, CollapseReport) {
+    let analysis = door::analysis(request).unwrap_or_else(|faults| panic!("{faults}"));
+    let report = run(&analysis, &mut Unwatched).unwrap();
+    (analysis, report)
+}
+
+/// What is wrong with a motion.
+fn complaints(motion: &FallingMotion, measured: &Measured) -> Vec<String> {
+    let mut words = Vec::new();
+    let mut complain = |fails: bool, what: String| words.extend(fails.then_some(what));
+    complain(motion.end == MotionEnd::Lost, "lost".to_owned());
+    complain(measured.overlap >= OVERLAP, format!("overlap {:e}", measured.overlap));
+    complain(measured.area >= AREA, format!("area {:e}", measured.area));
+    complain(measured.excess >= EXCESS, format!("friction beyond its bound {:e}", measured.excess));
+    complain(measured.shear > measured.excess + 1e-9, format!("forces beyond friction {:e}", measured.shear));
+    complain(measured.work < 0.0, format!("work {:e}", measured.work));
+    complain(measured.residual >= RESIDUAL, format!("residual {:e}", measured.residual));
+    words
+}
+
+fn say(name: &str, report: &CollapseReport, motion: &FallingMotion, m: &Measured) {
+    let moved = motion.frames.last().unwrap().displacement / motion.span;
+    println!(
+        "{name} ({:?}): {:?} after {} steps, {moved:.3} of the span; overlap {:.1e}, area {:.1e}, residual {:.1e}, friction \
+         beyond its bound {:.1e} ({} steps), least work {:.1e}",
+        report.outcome,
+        motion.end,
+        m.frames - 1,
+        m.overlap,
+        m.area,
+        m.residual,
+        m.excess,
+        m.beyond,
+        m.work
+    );
+}
+
+#[test]
+fn the_arches_of_the_paper_fall() {
+    let names = [
+        "paper/table-2/9-joints",
+        "paper/table-2/17-joints",
+        "paper/table-2/27-joints",
+        "paper/table-2/61-joints",
+        "paper/table-3/lower-limit",
+        "paper/table-3/upper-limit",
+        "paper/table-4",
+        "first-arch",
+        "lateral-7",
+        "sliding-arch",
+    ];
+    let mut all = Vec::new();
+    for name in names {
+        let (analysis, report) = solve(&case(name));
+        let both = name.starts_with("paper/table-3") || name == "paper/table-4";
+        assert!(report.motion.is_some() && report.other_motion.is_some() == both, "{name}");
+        for motion in report.motion.iter().chain(&report.other_motion) {
+            let measured = measure(&analysis, motion);
+            say(name, &report, motion, &measured);
+            all.extend(complaints(motion, &measured).into_iter().map(|words| format!("{name}: {words}")));
+            let moved = matches!(motion.end, MotionEnd::Moved | MotionEnd::StoneFree { .. });
+            assert!(moved, "{name}: {:?}", motion.end);
+        }
+    }
+    assert!(all.is_empty(), "{all:#?}");
+}
+
+#[test]
+fn random_arches_fall_to_one_of_the_ends() {
+    let (mut all, mut seen, mut seed) = (Vec::new(), Vec::new(), 0);
+    let (mut steps, mut lagging) = (0, 0);
+    while seen.len() < ARCHES {
+        let name = format!("seed {seed}");
+        let mut request = random_arch::request(seed);
+        // As many as the longest of them may have.
+        request["motion"] = json!({"most_frames": 297});
+        let (analysis, report) = solve(&request);
+        seed += 1;
+        for motion in report.motion.iter().chain(&report.other_motion) {
+            let measured = measure(&analysis, motion);
+            say(&name, &report, motion, &measured);
+            all.extend(complaints(motion, &measured).into_iter().map(|words| format!("{name}: {words}")));
+            lagging += measured.beyond;
+            steps += measured.frames - 1;
+            seen.push((motion.end, motion.frames.last().unwrap().slides.len()));
+        }
+    }
+    let count = |end: fn(&MotionEnd) -> bool| seen.iter().filter(|(e, _)| end(e)).count();
+    println!(
+        "{} motions of {seed} arches: {} free, {} moved, {} at rest, {} met, {} out of steps, {} with sliding",
+        seen.len(),
+        count(|end| matches!(end, MotionEnd::StoneFree { .. })),
+        count(|end| matches!(end, MotionEnd::Moved)),
+        count(|end| matches!(end, MotionEnd::AtRest)),
+        count(|end| matches!(end, MotionEnd::StonesMeet { .. })),
+        count(|end| matches!(end, MotionEnd::StepLimit)),
+        seen.iter().filter(|(_, slides)| *slides > 0).count()
+    );
+    println!("friction beyond its bound by more than 1e-6 of the loads in {lagging} of {steps} steps");
+    assert!(all.is_empty(), "{} complaints: {all:#?}", all.len());
+    assert!(lagging == 0 && steps > 10_000 && count(|end| matches!(end, MotionEnd::AtRest)) * 20 < seen.len());
+}
+
+/// Corners of stone `k` of the last frame that two motions both have, at most `most`.
+fn same_frame(a: &FallingMotion, b: &FallingMotion, most: usize) -> usize {
+    most.min(a.frames.len() - 1).min(b.frames.len() - 1)
+}
+
+#[test]
+fn a_symmetric_arch_falls_symmetrically() {
+    for (name, most) in [("paper/table-2/27-joints", 1e-3), ("paper/table-2/61-joints", 1e-3), ("paper/table-4", 1e-3)]
+    {
+        let (_, report) = solve(&case(name));
+        let motion = report.motion.unwrap();
+        let lean = |frame: &MotionFrame| {
+            let both = frame.centroids.iter().zip(frame.centroids.iter().rev());
+            let turned = frame.rotations.iter().zip(frame.rotations.iter().rev());
+            let apart = both.map(|(a, b)| (a.x + b.x).abs().max((a.y - b.y).abs()));
+            apart.chain(turned.map(|(a, b)| (a + b).abs())).fold(0.0, f64::max)
+        };
+        let all: Vec<f64> = motion.frames.iter().map(lean).collect();
+        println!("{name}: lean {:.1e} after 10 steps, {:.1e} at the end", all[10], all[all.len() - 1]);
+        assert!(all[10] < 1e-6 && all.iter().all(|lean| *lean < most), "{name}: {all:?}");
+    }
+}
+
+#[test]
+fn a_mirrored_arch_falls_as_the_mirror_image() {
+    let mut mirrored = case("first-arch");
+    mirrored["loads"][1]["load"]["point_load"]["x_m"] = json!(5.0);
+    let (a, b) = (solve(&case("first-arch")).1.motion.unwrap(), solve(&mirrored).1.motion.unwrap());
+    assert_eq!(a.frames.len(), b.frames.len());
+    let mut worst: f64 = 0.0;
+    for (a, b) in a.frames.iter().zip(&b.frames) {
+        for (a, b) in a.centroids.iter().zip(b.centroids.iter().rev()) {
+            worst = worst.max((a.x + b.x).abs().max((a.y - b.y).abs()));
+        }
+    }
+    println!("mirror images differ by {worst:.1e} m");
+    assert!(worst < 1e-4);
+}
+
+#[test]
+fn half_an_arch_falls_as_the_whole_does() {
+    let mut half = case("paper/table-2/61-joints");
+    half["arch"]["half"] = json!(true);
+    let (whole, half) = (solve(&case("paper/table-2/61-joints")).1.motion.unwrap(), solve(&half).1.motion.unwrap());
+    assert_eq!(whole.end, half.end);
+    let at = same_frame(&whole, &half, 10);
+    let (whole, half) = (&whole.frames[at], &half.frames[at]);
+    let apart = half.centroids.iter().zip(&whole.centroids).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+    println!("half and whole differ by {apart:.1e} m after {at} steps, which moved them by {:.1e}", whole.displacement);
+    assert!(apart < 0.01 * whole.displacement);
+}
+
+#[test]
+fn the_arch_sets_out_in_its_mechanism() {
+    for name in ["first-arch", "lateral-7", "paper/table-3/lower-limit", "paper/table-3/upper-limit"] {
+        let (_, report) = solve(&case(name));
+        let (motion, end) = (report.motion.unwrap(), report.end.unwrap());
+        assert!(end.mechanism.slides.is_empty(), "{name}");
+        let moved = motion.frames[1].centroids.iter().zip(&motion.frames[0].centroids).map(|(a, b)| a - b);
+        let (mut both, mut squares) = (0.0, [0.0; 2]);
+        for (moved, [u, v, _]) in moved.zip(&end.mechanism.velocities) {
+            both += moved.x * u + moved.y * v;
+            squares = [squares[0] + moved.norm_squared(), squares[1] + u * u + v * v];
+        }
+        let cosine = both / (squares[0] * squares[1]).sqrt();
+        println!("{name}: first step against the mechanism, cosine {cosine:.6}");
+        assert!(cosine > 0.99, "{name}: {cosine}");
+    }
+}
+
+/// Sixty-one stones fall until one is free; the time that takes is printed.
+#[test]
+fn sixty_one_stones_fall_in_less_than_300_steps() {
+    let mut request = case("first-arch");
+    request["arch"]["voussoirs"] = json!(61);
+    request["arch"]["thickness"] = json!({"constant_m": 1.1});
+    request["stone"] = json!({"friction_angle_deg": 45.0});
+    request["motion"] = json!({"share_of_span": 1.0});
+    let clock = Instant::now();
+    let motion = solve(&request).1.motion.unwrap();
+    let seconds = clock.elapsed().as_secs_f64();
+    println!("{} steps of 61 stones with the collapse itself: {seconds:.2} s", motion.frames.len() - 1);
+    // The time is printed, not held: machines are shared. It goes with the steps.
+    assert!((250..=301).contains(&motion.frames.len()), "{}", motion.frames.len());
+}
+
+#[test]
+fn a_motion_is_served_in_columns() {
+    let body = case("paper/table-4").to_string();
+    let (request, question) = voussoir::api::read::read_question(body.as_bytes()).unwrap();
+    let answer = voussoir::collapse::answer(&question, &mut Unwatched).unwrap();
+    let bytes = voussoir::api::response::JobResult::new(&request, &answer).unwrap().to_bytes().unwrap();
+    let served: Value = serde_json::from_slice(&bytes).unwrap();
+    for key in ["motion", "other_motion"] {
+        let motion = &served[key];
+        assert_eq!(motion["end"], "moved");
+        let rows = |group: &str, column: &str| motion[group][column].as_array().unwrap().len();
+        let frames = rows("frames", "parameter_s2");
+        assert!(frames > 100 && frames == rows("places", "x_m") && frames == rows("frames", "penetration"));
+        assert!(
+            motion["places"]["rotation_rad"].as_array().unwrap().iter().all(|row| row.as_array().unwrap().len() == 16)
+        );
+        assert!(rows("contacts", "joint") > 17 * frames && rows("contacts", "joint") == rows("contacts", "normal_y"));
+        assert_eq!(rows("hinges", "face"), rows("hinges", "opening_rad"));
+        assert_eq!(rows("slides", "frame"), rows("slides", "by_m"));
+    }
+}
+
+#[test]
+fn a_motion_is_asked_for_and_bounded() {
+    let mut plain = case("first-arch");
+    plain.as_object_mut().unwrap().remove("motion");
+    assert_eq!(solve(&plain).1.motion, None);
+    let mut short = case("first-arch");
+    short["motion"] = json!({"most_frames": 7});
+    let motion = solve(&short).1.motion.unwrap();
+    assert_eq!((motion.end, motion.frames.len()), (MotionEnd::StepLimit, 8));
+    short["motion"] = json!({"share_of_span": 0.01});
+    assert_eq!(solve(&short).1.motion.unwrap().end, MotionEnd::Moved);
+    for (wrong, pointer) in [
+        (json!({"most_frames": 0}), "/motion/most_frames"),
+        (json!({"most_frames": 3000}), "/motion/most_frames"),
+        (json!({"share_of_span": 0.0}), "/motion/share_of_span"),
+        (json!({"steps": 5}), "/motion/steps"),
+    ] {
+        short["motion"] = wrong;
+        let faults = door::analysis(&short).unwrap_err();
+        assert!(faults.starts_with(&format!("{pointer}: ")) && faults.lines().count() == 1, "{faults}");
+    }
+    short["motion"] = json!({});
+    short["analysis"] = json!({"safety": {}});
+    assert!(door::analysis(&short).unwrap_err().starts_with("/motion: "));
+}
+
+/// Stops at the first step after a collapse at this load factor.
+struct StopsBeyond(f64);
+
+impl Watch for StopsBeyond {
+    fn on_step(&mut self, step: &LoadStep) -> ControlFlow<Stop> {
+        if step.load_factor > self.0 { ControlFlow::Break(Stop) } else { ControlFlow::Continue(()) }
+    }
+}
+
+#[test]
+fn a_motion_can_be_stopped() {
+    let analysis = door::analysis(&case("first-arch")).unwrap();
+    let stopped = run(&analysis, &mut StopsBeyond(244.0));
+    assert!(matches!(stopped, Err(AnalysisError::Stopped { load_factor, .. }) if load_factor > 244.0));
+}
+
+#[test]
+fn a_load_so_small_that_its_factor_overflows_has_no_motion() {
+    let mut request = case("first-arch");
+    request["loads"][1]["load"]["point_load"]["force_n_per_m"] = json!(1e-320);
+    request["method"] = json!({"fixed_steps": {"step": 1.0}});
+    request["motion"] = json!({});
+    let error = run(&door::analysis(&request).unwrap(), &mut Unwatched);
+    let told = match error {
+        Ok(report) => report.motion.is_none_or(|motion| motion.load_factor.is_finite() && motion.overload.is_finite()),
+        Err(error) => matches!(error, AnalysisError::NotFinite { .. } | AnalysisError::TooManySteps { .. }),
+    };
+    assert!(told);
+}

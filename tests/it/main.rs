@@ -1,0 +1,87 @@
+//! The integration tests, a module for each subject. `common` holds what several of them share.
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::print_stdout,
+    reason = "a test stops at the first surprise, and prints what it measured"
+)]
+#![cfg_attr(not(feature = "server"), allow(dead_code, reason = "without the service few tests are left"))]
+
+#[cfg(feature = "server")]
+mod accuracy;
+#[cfg(feature = "server")]
+mod answers;
+#[cfg(feature = "server")]
+mod atlas;
+#[cfg(feature = "server")]
+mod bad_requests;
+#[cfg(feature = "server")]
+mod cases;
+#[cfg(feature = "server")]
+mod chart;
+#[cfg(feature = "server")]
+mod command_line;
+mod common;
+#[cfg(feature = "server")]
+mod contract;
+#[cfg(feature = "server")]
+mod crushing;
+#[cfg(feature = "server")]
+mod determinism;
+#[cfg(feature = "server")]
+mod falling;
+#[cfg(feature = "server")]
+mod fill;
+#[cfg(feature = "server")]
+mod fixed_steps;
+#[cfg(feature = "server")]
+mod half;
+#[cfg(feature = "server")]
+mod http;
+#[cfg(feature = "server")]
+mod jobs;
+mod kernel;
+#[cfg(feature = "server")]
+mod malformed_few;
+#[cfg(feature = "server")]
+mod moving_geometry;
+#[cfg(feature = "server")]
+mod openapi;
+mod oracle;
+#[cfg(feature = "server")]
+mod outcomes;
+#[cfg(feature = "server")]
+mod paper;
+#[cfg(feature = "server")]
+mod properties;
+#[cfg(feature = "server")]
+mod questions;
+#[cfg(feature = "server")]
+mod random_arches;
+#[cfg(all(feature = "server", unix))]
+mod readme;
+#[cfg(feature = "server")]
+mod references;
+#[cfg(feature = "server")]
+mod refined;
+mod rigid_blocks;
+mod rooms;
+#[cfg(feature = "server")]
+mod safety;
+#[cfg(feature = "server")]
+mod scene;
+#[cfg(feature = "server")]
+mod service;
+#[cfg(all(feature = "server", unix))]
+mod serving;
+#[cfg(feature = "server")]
+mod settlement;
+#[cfg(feature = "server")]
+mod sliding;
+#[cfg(feature = "server")]
+mod states;
+#[cfg(feature = "server")]
+mod stopping;
+mod stress;
+#[cfg(feature = "server")]
+mod support;

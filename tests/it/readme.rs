@@ -1,0 +1,88 @@
+//! The README's own lines, run as they stand.
+#![allow(clippy::disallowed_methods, reason = "a thread that reads the log to its end")]
+
+use std::io::{BufRead, BufReader};
+use std::path::PathBuf;
+use std::process::{Child, Command, Output, Stdio};
+
+const ROOT: &str = env!("CARGO_MANIFEST_DIR");
+
+/// A served program that ends with the test.
+struct Served(Child, String);
+
+impl Served {
+    fn start() -> Self {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_voussoir"));
+        command.args(["serve", "--bind", "127.0.0.1:0", "--log-format", "json"]);
+        let mut child = command.stderr(Stdio::piped()).spawn().unwrap();
+        let mut log = BufReader::new(child.stderr.take().unwrap());
+        let mut line = String::new();
+        log.read_line(&mut line).unwrap();
+        std::thread::spawn(move || log.lines().for_each(drop));
+        let log: serde_json::Value = serde_json::from_str(&line).unwrap();
+        Served(child, format!("http://{}", log["address"].as_str().unwrap()))
+    }
+}
+
+impl Drop for Served {
+    fn drop(&mut self) {
+        self.0.kill().unwrap();
+        self.0.wait().unwrap();
+    }
+}
+
+/// The block of code in this language that contains `words`.
+fn block(language: &str, words: &str) -> String {
+    let readme = std::fs::read_to_string(format!("{ROOT}/README.md")).unwrap();
+    let fence = format!("```{language}\n");
+    let mut blocks = readme.split(&fence).skip(1).map(|rest| rest.split("```").next().unwrap());
+    blocks.find(|block| block.contains(words)).unwrap().to_owned()
+}
+
+fn run(program: &str, arguments: &[&str], directory: &PathBuf) -> Option<Output> {
+    // Where the machine has no such program there is nothing to try.
+    Command::new(program).args(arguments).current_dir(directory).output().ok()
+}
+
+#[test]
+fn the_python_client_works() {
+    let (served, client) = (Served::start(), block("python", "urllib"));
+    assert!(client.lines().filter(|line| !line.is_empty()).count() <= 20, "twenty lines");
+    let Some(output) = run("python3", &["-c", &client, &served.1], &ROOT.into()) else { return };
+    let printed = String::from_utf8(output.stdout).unwrap();
+    assert!(printed.starts_with("collapse 243.12"), "{printed}{}", String::from_utf8_lossy(&output.stderr));
+}
+
+#[test]
+fn the_curl_lines_work() {
+    let served = Served::start();
+    let lines = block("sh", "results/history").replace("http://127.0.0.1:8080", &served.1);
+    let place = std::env::temp_dir().join(format!("voussoir-readme-{}", std::process::id()));
+    std::fs::create_dir_all(&place).unwrap();
+    std::os::unix::fs::symlink(format!("{ROOT}/cases"), place.join("cases")).unwrap();
+    let output = run("bash", &["-euo", "pipefail", "-c", &lines], &place);
+    let files = ["history.csv", "figure.svg"].map(|file| std::fs::read_to_string(place.join(file)).unwrap_or_default());
+    std::fs::remove_dir_all(&place).unwrap();
+    let Some(output) = output.filter(|_| Command::new("curl").arg("--version").output().is_ok()) else { return };
+    let printed = String::from_utf8(output.stdout).unwrap();
+    assert!(output.status.success(), "{printed}{}", String::from_utf8_lossy(&output.stderr));
+    for words in ["\"status\":\"successful\"", "The arch collapses at", "event: end", "invalid-request", "\"jobs\":["] {
+        assert!(printed.contains(words), "{words}: {printed}");
+    }
+    assert!(files[0].starts_with("load_factor,intensity") && files[1].starts_with("<svg"), "{files:?}");
+}
+
+#[test]
+fn the_readme_lists_every_setting() {
+    let help = Command::new(env!("CARGO_BIN_EXE_voussoir")).args(["serve", "--help"]).output().unwrap();
+    let help = String::from_utf8(help.stdout).unwrap();
+    let readme = std::fs::read_to_string(format!("{ROOT}/README.md")).unwrap();
+    let is_flag = |word: &&str| word.starts_with("--") && word.bytes().all(|b| b == b'-' || b.is_ascii_lowercase());
+    let flags: Vec<_> = help.split_whitespace().filter(is_flag).filter(|word| *word != "--help").collect();
+    let variables: Vec<_> = help.split(['[', '=', ']']).filter_map(|part| part.strip_prefix("env: ")).collect();
+    assert!(flags.len() >= 17 && variables.len() >= 17, "{flags:?} {variables:?}");
+    for name in flags.iter().chain(&variables) {
+        let named = readme.contains(&format!("`{name}`"));
+        assert!(named, "{name}");
+    }
+}

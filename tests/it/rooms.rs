@@ -1,0 +1,189 @@
+//! Who may import what: the table of the architecture, checked against the source.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Rooms below the double line: pure functions of their input.
+const PURE: [&str; 6] = ["geometry", "structure", "arch", "dda", "limit", "collapse"];
+
+/// A room, the rooms of this crate it may use, the outside crates it may use.
+const TABLE: [(&str, &[&str], &[&str]); 9] = [
+    ("geometry", &[], &["nalgebra"]),
+    ("structure", &["geometry"], &["thiserror"]),
+    ("arch", &["geometry", "structure"], &["thiserror"]),
+    ("dda", &["geometry"], &["nalgebra", "faer", "thiserror"]),
+    ("limit", &["geometry", "structure"], &["nalgebra", "thiserror"]),
+    ("collapse", &["geometry", "structure", "dda", "limit"], &["nalgebra", "thiserror"]),
+    ("jobs", &["collapse"], &["thiserror", "tokio", "tracing", "uuid"]),
+    ("render", &["collapse", "structure", "geometry"], &["thiserror"]),
+    (
+        "api",
+        &["jobs", "render", "arch", "structure", "collapse", "geometry"],
+        &[
+            "axum",
+            "comfy_table",
+            "csv",
+            "futures_util",
+            "headers",
+            "headers_accept",
+            "mediatype",
+            "prometheus_client",
+            "tokio",
+            "tokio_util",
+            "serde",
+            "serde_ignored",
+            "serde_json",
+            "serde_path_to_error",
+            "sha2",
+            "subtle",
+            "thiserror",
+            "tower",
+            "tower_http",
+            "tracing",
+            "utoipa",
+            "utoipa_axum",
+            "utoipa_swagger_ui",
+            "uuid",
+        ],
+    ),
+];
+
+/// Crates that some room may not use; an outside crate is one of these.
+const CRATES: [&str; 32] = [
+    "axum",
+    "axum_server",
+    "clap",
+    "comfy_table",
+    "csv",
+    "faer",
+    "futures_util",
+    "headers",
+    "headers_accept",
+    "hyper_util",
+    "mediatype",
+    "mimalloc",
+    "nalgebra",
+    "prometheus_client",
+    "rayon",
+    "serde",
+    "serde_ignored",
+    "serde_json",
+    "serde_path_to_error",
+    "sha2",
+    "subtle",
+    "thiserror",
+    "tokio",
+    "tokio_util",
+    "tower",
+    "tower_http",
+    "tracing",
+    "tracing_subscriber",
+    "utoipa",
+    "utoipa_axum",
+    "utoipa_swagger_ui",
+    "uuid",
+];
+
+/// Not below the double line, each with the reason.
+const IMPURE: [(&str, &str); 10] = [
+    ("std::fs", "files"),
+    ("std::env", "surroundings"),
+    ("std::net", "network"),
+    ("std::thread", "threads"),
+    ("std::time", "clocks"),
+    ("std::process", "processes"),
+    ("std::io", "input and output"),
+    ("println!", "printing"),
+    ("HashMap", "iterates in another order every run: BTreeMap"),
+    ("HashSet", "iterates in another order every run: BTreeSet"),
+];
+
+/// Every source file of a room, with its code: comments and unit tests left out.
+fn room(name: &str) -> Vec<(PathBuf, String)> {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut open = vec![source.join(name), source.join(format!("{name}.rs"))];
+    let mut files = Vec::new();
+    while let Some(path) = open.pop() {
+        if path.is_dir() {
+            open.extend(fs::read_dir(path).unwrap().map(|entry| entry.unwrap().path()));
+        } else if path.is_file() && path.extension().is_some_and(|extension| extension == "rs") {
+            let text = fs::read_to_string(&path).unwrap();
+            let code = text.split("#[cfg(test)]\nmod tests").next().unwrap_or_default();
+            let lines = code.lines().map(|line| line.split("//").next().unwrap_or_default());
+            files.push((path, lines.collect::<Vec<_>>().join("\n")));
+        }
+    }
+    files
+}
+
+/// True for a file of unit tests and nothing else.
+fn of_tests(file: &Path) -> bool {
+    file.file_stem().is_some_and(|name| name == "tests" || name == "figure_tests")
+}
+
+/// True when `code` has `path` as a whole, followed by `::` if it is a crate or a room.
+fn names(code: &str, path: &str) -> bool {
+    code.match_indices(path).any(|(at, _)| {
+        let before = code[..at].chars().next_back();
+        let after = &code[at + path.len()..];
+        let inside = before.is_some_and(|c| c.is_alphanumeric() || c == '_' || c == ':');
+        !inside && !after.starts_with(|c: char| c.is_alphanumeric() || c == '_')
+    })
+}
+
+#[test]
+fn every_room_uses_what_it_may() {
+    for (name, rooms, crates) in TABLE {
+        // Unit tests may use builders.
+        for (file, code) in room(name).into_iter().filter(|(file, _)| !of_tests(file)) {
+            for other in TABLE.map(|row| row.0).iter().filter(|&&other| other != name && !rooms.contains(&other)) {
+                let used = names(&code, &format!("crate::{other}"));
+                assert!(!used, "{}: {name} may not use {other}", file.display());
+            }
+            for outside in CRATES.iter().filter(|outside| !crates.contains(outside)) {
+                let used = names(&code, &format!("use {outside}")) || code.contains(&format!(" {outside}::"));
+                assert!(!used, "{}: {name} may not use {outside}", file.display());
+            }
+        }
+    }
+}
+
+#[test]
+fn below_the_line_everything_is_a_function_of_its_input() {
+    for name in PURE {
+        for (file, code) in room(name) {
+            for (banned, reason) in IMPURE {
+                assert!(!names(&code, banned), "{}: {banned} ({reason})", file.display());
+            }
+            let group = code.contains("use std::{");
+            assert!(!group, "{}: one `use std::...` a line, so that this test can read them", file.display());
+        }
+    }
+}
+
+#[test]
+fn only_one_file_knows_the_sparse_solver() {
+    // Unit tests may check against it.
+    let knows = |(file, code): &(PathBuf, String)| !of_tests(file) && names(code, "faer");
+    let files: Vec<_> = room("dda").into_iter().filter(knows).collect();
+    assert!(files.len() <= 1, "faer in {:?}", files.iter().map(|(file, _)| file).collect::<Vec<_>>());
+}
+
+#[test]
+fn the_interface_runs_no_analysis() {
+    for (file, code) in room("api") {
+        assert!(
+            !code.contains("collapse::run") && !code.contains("collapse::answer") && !names(&code, "Unwatched"),
+            "{}",
+            file.display()
+        );
+    }
+}
+
+#[test]
+fn files_are_of_a_size_one_can_read() {
+    for (file, code) in room("") {
+        let lines = code.lines().filter(|line| !line.trim().is_empty()).count();
+        assert!(lines <= 300, "{}: {lines} lines of code", file.display());
+    }
+}
