@@ -33,6 +33,26 @@ pub fn segments_meet(a: Vec2, b: Vec2, c: Vec2, d: Vec2) -> bool {
     d1 * d2 <= 0.0 && d3 * d4 <= 0.0
 }
 
+/// Distance of the point `p` from the closed segment `a`-`b`, m.
+pub fn distance_from_segment(p: Vec2, a: Vec2, b: Vec2) -> f64 {
+    let along = b - a;
+    let share = ((p - a).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
+    (p - a - share * along).norm()
+}
+
+/// True when the point lies inside the polygon (even-odd rule, corners in either sense). Points on its outline may be either.
+pub fn lies_inside(p: Vec2, corners: &[Vec2]) -> bool {
+    let mut inside = false;
+    let mut a = corners[corners.len() - 1];
+    for &b in corners {
+        if (a.y > p.y) != (b.y > p.y) && p.x < a.x + (b.x - a.x) * ((p.y - a.y) / (b.y - a.y)) {
+            inside = !inside;
+        }
+        a = b;
+    }
+    inside
+}
+
 /// Distance along the unit vector `direction` from a point inside a circle to the circle, m; `None` from outside.
 pub fn exit_from_circle(from: Vec2, direction: Vec2, centre: Vec2, radius: f64) -> Option<f64> {
     let arm = from - centre;
@@ -160,6 +180,30 @@ mod tests {
         assert!(!segments_meet(p(0.0, 0.0), p(1.0, 0.0), p(2.0, 0.0), p(3.0, 0.0)));
         assert!(!segments_meet(p(0.0, 0.0), p(1.0, 0.0), p(0.0, 1.0), p(1.0, 1.0)));
         assert!(!segments_meet(p(0.0, 0.0), p(1.0, 1.0), p(3.0, 0.0), p(0.0, 3.0)));
+    }
+
+    #[test]
+    fn points_are_as_far_from_a_segment_as_from_its_nearest_point() {
+        let (a, b) = (Vec2::new(1.0, 1.0), Vec2::new(4.0, 1.0));
+        for (p, far) in
+            [((2.0, 3.0), 2.0), ((2.0, 0.5), 0.5), ((7.0, 5.0), 5.0), ((-3.0, -2.0), 5.0), ((4.0, 1.0), 0.0)]
+        {
+            assert!((distance_from_segment(Vec2::new(p.0, p.1), a, b) - far).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn points_in_a_notch_are_outside() {
+        let u = [(0.0, 0.0), (3.0, 0.0), (3.0, 2.0), (2.0, 2.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0)];
+        let mut u = u.map(|(x, y)| Vec2::new(x, y));
+        for _ in 0..2 {
+            for (p, inside) in
+                [((1.5, 1.5), false), ((0.5, 1.5), true), ((2.5, 1.5), true), ((1.5, 0.5), true), ((4.0, 1.0), false)]
+            {
+                assert_eq!(lies_inside(Vec2::new(p.0, p.1), &u), inside, "{p:?}");
+            }
+            u.reverse();
+        }
     }
 
     #[test]

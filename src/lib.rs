@@ -3,6 +3,7 @@
 #[cfg(feature = "server")]
 pub mod api;
 pub mod arch;
+pub mod blocks;
 pub mod collapse;
 pub mod dda;
 pub mod geometry;
