@@ -4,6 +4,7 @@
 pub mod api;
 pub mod arch;
 pub mod blocks;
+pub mod bridge;
 pub mod collapse;
 pub mod dda;
 pub mod geometry;

@@ -5,12 +5,15 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Rooms below the double line: pure functions of their input.
-const PURE: [&str; 5] = ["geometry", "arch", "dda", "limit", "collapse"];
+const PURE: [&str; 8] = ["geometry", "structure", "arch", "blocks", "bridge", "dda", "limit", "collapse"];
 
 /// A room, the rooms of this crate it may use, the outside crates it may use.
-const TABLE: [(&str, &[&str], &[&str]); 8] = [
+const TABLE: [(&str, &[&str], &[&str]); 11] = [
     ("geometry", &[], &["nalgebra"]),
+    ("structure", &["geometry"], &[]),
     ("arch", &["geometry"], &["thiserror"]),
+    ("blocks", &["geometry", "structure"], &["thiserror"]),
+    ("bridge", &["geometry", "structure", "arch"], &["thiserror"]),
     ("dda", &["geometry"], &["nalgebra", "faer", "thiserror"]),
     ("limit", &["geometry", "arch"], &["nalgebra", "thiserror"]),
     ("collapse", &["geometry", "arch", "dda", "limit"], &["nalgebra", "thiserror"]),
