@@ -29,7 +29,7 @@ fn profiles() -> [Profile; 6] {
 fn polygons_of_an_arch_meet_in_its_joints() {
     for profile in profiles() {
         for n in [3, 8, 41, 200] {
-            let ends = ends(&profile, Line::Axis, [0.4, 0.7], n);
+            let ends = ends(&profile, Line::Intrados, [0.4, 0.7], n);
             let polygon = |k: usize| Polygon {
                 name: format!("v{k}"),
                 corners: vec![ends[k][0], ends[k + 1][0], ends[k + 1][1], ends[k][1]],
