@@ -3,7 +3,7 @@
 use super::below::SAME;
 use super::fault::BridgeFault;
 use super::set_out::SetOut;
-use super::{Bridge, Works};
+use super::{Backing, Bridge, BridgeEnd, Works};
 use crate::geometry::Vec2;
 use crate::structure::Side;
 
@@ -63,14 +63,45 @@ fn haunch(span: &SetOut, end: usize, level: f64) -> Option<Haunch> {
 }
 
 impl Bridge {
-    pub(super) fn check_backing(&self, spans: &[SetOut]) -> Option<BridgeFault> {
-        let level = self.backing?.level;
+    pub(super) fn check_backing(&self, spans: &[SetOut]) -> Vec<BridgeFault> {
+        let Some(Backing { level, .. }) = self.backing else { return Vec::new() };
         let crossed = spans.iter().all(|span| (0..2).all(|end| haunch(span, end, level).is_some()));
+        if crossed {
+            return self.pinched(spans, level);
+        }
         let springings = spans.iter().flat_map(|span| [span.outer_end(0).y, span.outer_end(1).y]);
         let crown = |span: &SetOut| span.outer().iter().map(|point| point.y).fold(f64::NEG_INFINITY, f64::max);
         let (least, most) =
             (springings.fold(f64::NEG_INFINITY, f64::max), spans.iter().map(crown).fold(f64::INFINITY, f64::min));
-        (!crossed).then_some(BridgeFault::BackingLevel { level, least, most })
+        vec![BridgeFault::BackingLevel { level, least, most }]
+    }
+
+    /// Backing that an overhanging extrados cuts in two: it touches the back of the backing, or the extrados of the next span.
+    fn pinched(&self, spans: &[SetOut], level: f64) -> Vec<BridgeFault> {
+        // How far a haunch reaches beyond the springing of its intrados, if further than the outer end of the springings.
+        let overhang = |span: &SetOut, end: usize| {
+            let out = if end == 0 { -1.0 } else { 1.0 };
+            let beyond = |point: &Vec2| out * (point.x - span.springing(end)[0].x);
+            let reach = haunch(span, end, level)?.points.iter().map(beyond).fold(0.0, f64::max);
+            (reach > beyond(&span.outer_end(end)) + SAME * span.width()).then_some(reach)
+        };
+        let mut faults = Vec::new();
+        for (end, what) in self.ends.iter().enumerate() {
+            let span = &spans[if end == 0 { 0 } else { spans.len() - 1 }];
+            let width = if let BridgeEnd::Abutment { width, .. } = what { *width } else { None };
+            let pinches = |reach: &f64| width.unwrap_or(0.0) <= reach + SAME * span.width();
+            if let Some(least) = overhang(span, end).filter(pinches) {
+                faults.push(BridgeFault::BackingPinched { place: format!("ends[{end}]"), least });
+            }
+        }
+        for (j, pier) in self.piers.iter().enumerate() {
+            let reach = [overhang(&spans[j], 1), overhang(&spans[j + 1], 0)];
+            let least = spans[j].reach(1) + spans[j + 1].reach(0);
+            if reach.iter().any(Option::is_some) && pier.top_width <= least * (1.0 + SAME) {
+                faults.push(BridgeFault::BackingPinched { place: format!("piers[{j}]"), least });
+            }
+        }
+        faults
     }
 }
 

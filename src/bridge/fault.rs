@@ -135,4 +135,14 @@ pub enum BridgeFault {
         /// Lowest top of an extrados, m.
         most: f64,
     },
+    /// An extrados that overhangs its springing cuts the backing in two.
+    #[error(
+        "{place}: the extrados overhangs the springings and cuts the backing in two: let an abutment or a pier wider than {least:.6} m stand there, or leave the backing out"
+    )]
+    BackingPinched {
+        /// The field.
+        place: String,
+        /// The width that has to be exceeded, m.
+        least: f64,
+    },
 }

@@ -261,4 +261,15 @@ fn blocks_too_small_for_what_they_carry_are_refused() {
         faults(&bridge(vec![round], Vec::new())),
         [BridgeFault::SpringingsCross { place: "spans[0]".to_owned() }]
     );
+    // Backing above the bulge of a horseshoe needs room between it and its back.
+    let mut pinched = bridge(vec![horseshoe()], Vec::new());
+    pinched.backing = Some(Backing { level: 4.0, stone: 0 });
+    pinched.ends = [None, Some(1.5)].map(|width| BridgeEnd::Abutment { height: 3.0, width, stone: 0 });
+    let all = faults(&pinched);
+    assert!(
+        matches!(&all[..], [BridgeFault::BackingPinched { place, least }] if place == "ends[0]" && *least < 0.75),
+        "{all:?}"
+    );
+    pinched.ends[0] = pinched.ends[1];
+    assert!(pinched.build().is_ok());
 }
