@@ -69,7 +69,7 @@ pub enum BridgeFault {
     },
     /// A voussoir whose joints cross or whose faces do.
     #[error(
-        "{place}: voussoir {voussoir} is inside out: its joints or its faces cross. Make the ring thinner, or the profile less curved"
+        "{place}: voussoir {voussoir} is inside out: its joints or its faces cross. Give the ring more voussoirs, or another thickness"
     )]
     InsideOut {
         /// The field.

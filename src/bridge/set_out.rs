@@ -16,6 +16,8 @@ pub(super) struct SetOut {
     lines: Vec<Vec<Vec2>>,
     /// For every ring the places of its joints.
     joints: Vec<Vec<usize>>,
+    /// For every line the places at which it is cut: those of the joints of the ring below it or above it, rising.
+    cuts: Vec<Vec<usize>>,
     /// Point about which angles are measured, m.
     pub angle_centre: Vec2,
 }
@@ -49,7 +51,8 @@ impl SetOut {
             }
             lines.push(ends.iter().map(|ends| ends[1]).collect::<Vec<_>>());
         }
-        let set_out = SetOut { lines, joints, angle_centre: span.profile.angle_centre() };
+        let cuts = (0..lines.len()).map(|line| cuts(&joints, line)).collect();
+        let set_out = SetOut { lines, joints, cuts, angle_centre: span.profile.angle_centre() };
         let faults = set_out.faults(place);
         if faults.is_empty() { Ok(set_out) } else { Err(faults) }
     }
@@ -60,9 +63,13 @@ impl SetOut {
         for m in 0..self.rings() {
             for k in 0..self.voussoirs(m) {
                 let ([a, d], [b, c]) = (self.joint(m, k), self.joint(m, k + 1));
-                let area = Region::polygon(&self.corners(m, k)).area;
+                let [lower, upper] = [self.face(m, m, k), self.face(m + 1, m, k)];
+                // A long chord of few voussoirs can cut into a ring of many.
+                let faces_meet =
+                    lower.windows(2).any(|p| upper.windows(2).any(|q| segments_meet(p[0], p[1], q[0], q[1])));
                 // NaN is inside out too.
-                let sound = area > 0.0 && !segments_meet(a, d, b, c) && !segments_meet(a, b, c, d);
+                let sound =
+                    Region::polygon(&self.corners(m, k)).area > 0.0 && !segments_meet(a, d, b, c) && !faces_meet;
                 if !sound {
                     faults.push(BridgeFault::InsideOut { place: format!("{place}.rings[{m}]"), voussoir: k });
                 }
@@ -105,21 +112,14 @@ impl SetOut {
 
     /// Corners of voussoir `k` of ring `m`, counter-clockwise from the intrados end of its left joint, m.
     pub fn corners(&self, m: usize, k: usize) -> Vec<Vec2> {
-        let (from, to) = (self.joints[m][k], self.joints[m][k + 1]);
-        let along = |line: usize| {
-            let inside = self.cuts(line).into_iter().filter(|place| (from..=to).contains(place));
-            inside.map(|place| self.lines[line][place]).collect::<Vec<_>>()
-        };
-        along(m).into_iter().chain(along(m + 1).into_iter().rev()).collect()
+        self.face(m, m, k).into_iter().chain(self.face(m + 1, m, k).into_iter().rev()).collect()
     }
 
-    /// The places at which line `m` is cut: joints of the ring below it or above it.
-    fn cuts(&self, line: usize) -> Vec<usize> {
-        let below = line.checked_sub(1).map(|m| &self.joints[m]);
-        let mut cuts: Vec<usize> = below.into_iter().chain(self.joints.get(line)).flatten().copied().collect();
-        cuts.sort_unstable();
-        cuts.dedup();
-        cuts
+    /// The part of line `line` along voussoir `k` of ring `m`, from left to right, m.
+    fn face(&self, line: usize, m: usize, k: usize) -> Vec<Vec2> {
+        let cuts = &self.cuts[line];
+        let at = |joint: usize| cuts.partition_point(|&place| place < self.joints[m][joint]);
+        cuts[at(k)..=at(k + 1)].iter().map(|&place| self.lines[line][place]).collect()
     }
 
     /// The common faces of ring `m` and the ring above it, from left to right: voussoir below, voussoir above, left and right end.
@@ -127,7 +127,7 @@ impl SetOut {
         let line = &self.lines[m + 1];
         let of = |ring: usize, place: usize| self.joints[ring].partition_point(|&joint| joint <= place) - 1;
         let face = |pair: &[usize]| (of(m, pair[0]), of(m + 1, pair[0]), [line[pair[0]], line[pair[1]]]);
-        self.cuts(m + 1).windows(2).map(face).collect()
+        self.cuts[m + 1].windows(2).map(face).collect()
     }
 
     /// The points of the left (0) or right (1) springing, from the intrados of the lowest ring outwards, m.
@@ -171,4 +171,13 @@ fn places(rings: &[RingCourse], total: f64) -> (Vec<f64>, Vec<Vec<usize>>) {
     let nearest = |sigma: &f64| all.partition_point(|place| *place < sigma - SAME * total);
     let joints = own.iter().map(|own| own.iter().map(nearest).collect()).collect();
     (all, joints)
+}
+
+/// The places at which line `line` is cut.
+fn cuts(joints: &[Vec<usize>], line: usize) -> Vec<usize> {
+    let below = line.checked_sub(1).map(|m| &joints[m]);
+    let mut cuts: Vec<usize> = below.into_iter().chain(joints.get(line)).flatten().copied().collect();
+    cuts.sort_unstable();
+    cuts.dedup();
+    cuts
 }

@@ -272,4 +272,12 @@ fn blocks_too_small_for_what_they_carry_are_refused() {
     );
     pinched.ends[0] = pinched.ends[1];
     assert!(pinched.build().is_ok());
+    // The chords of few voussoirs cut into a ring of many.
+    let few = bridge(vec![span(Profile::circular(4.0, PI), &[ring(0.4, 40), ring(0.3, 4)])], Vec::new());
+    let all = faults(&few);
+    assert!(
+        all.len() == 4
+            && matches!(&all[0], BridgeFault::InsideOut { place, voussoir: 0 } if place == "spans[0].rings[1]"),
+        "{all:?}"
+    );
 }
