@@ -300,3 +300,23 @@ fn the_weaker_stone_governs_its_joints() {
     assert_eq!(structure.joints[2].law, dry(30f64.to_radians()));
     assert_eq!(structure.joints[3].law, dry(0.3));
 }
+
+#[test]
+fn corners_may_be_off_by_less_than_half_the_tolerance() {
+    let plain = blocks(wall(4, 3));
+    let exact = plain.build().unwrap();
+    let (mut off, mut seed) = (plain, 1u32);
+    off.tolerance = Some(1e-4);
+    for corner in off.polygons.iter_mut().flat_map(|polygon| &mut polygon.corners) {
+        for axis in 0..2 {
+            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            corner[axis] += 0.49e-4 * (f64::from(seed >> 8) / f64::from(1u32 << 23) - 1.0);
+        }
+    }
+    let here = off.build().unwrap();
+    assert_eq!(here.joints.len(), exact.joints.len());
+    for (a, b) in here.joints.iter().zip(&exact.joints) {
+        assert_eq!(a.between, b.between);
+        assert!((a.intrados - b.intrados).norm() < 1e-4 && (a.extrados - b.extrados).norm() < 1e-4);
+    }
+}
