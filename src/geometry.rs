@@ -22,15 +22,35 @@ pub fn mirrored(v: Vec2, axis: f64) -> Vec2 {
 
 /// True when the closed segments `a`-`b` and `c`-`d` have a point in common, be it an end.
 pub fn segments_meet(a: Vec2, b: Vec2, c: Vec2, d: Vec2) -> bool {
+    // Their boxes first: on nearly one line the signs below are those of round-off.
+    let overlap = |p: f64, q: f64, r: f64, s: f64| p.max(q) >= r.min(s) && r.max(s) >= p.min(q);
+    if !(overlap(a.x, b.x, c.x, d.x) && overlap(a.y, b.y, c.y, d.y)) {
+        return false;
+    }
     let side = |p: Vec2, q: Vec2, r: Vec2| cross(q - p, r - p);
     let (d1, d2) = (side(c, d, a), side(c, d, b));
     let (d3, d4) = (side(a, b, c), side(a, b, d));
-    if d1 == 0.0 && d2 == 0.0 {
-        // On one line: they meet when their boxes do.
-        let overlap = |p: f64, q: f64, r: f64, s: f64| p.max(q) >= r.min(s) && r.max(s) >= p.min(q);
-        return overlap(a.x, b.x, c.x, d.x) && overlap(a.y, b.y, c.y, d.y);
-    }
     d1 * d2 <= 0.0 && d3 * d4 <= 0.0
+}
+
+/// Distance of the point `p` from the closed segment `a`-`b`, m.
+pub fn distance_from_segment(p: Vec2, a: Vec2, b: Vec2) -> f64 {
+    let along = b - a;
+    let share = ((p - a).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
+    (p - a - share * along).norm()
+}
+
+/// True when the point lies inside the polygon (even-odd rule, corners in either sense). Points on its outline may be either.
+pub fn lies_inside(p: Vec2, corners: &[Vec2]) -> bool {
+    let mut inside = false;
+    let mut a = corners[corners.len() - 1];
+    for &b in corners {
+        if (a.y > p.y) != (b.y > p.y) && p.x < a.x + (b.x - a.x) * ((p.y - a.y) / (b.y - a.y)) {
+            inside = !inside;
+        }
+        a = b;
+    }
+    inside
 }
 
 /// Distance along the unit vector `direction` from a point inside a circle to the circle, m; `None` from outside.
@@ -160,6 +180,33 @@ mod tests {
         assert!(!segments_meet(p(0.0, 0.0), p(1.0, 0.0), p(2.0, 0.0), p(3.0, 0.0)));
         assert!(!segments_meet(p(0.0, 0.0), p(1.0, 0.0), p(0.0, 1.0), p(1.0, 1.0)));
         assert!(!segments_meet(p(0.0, 0.0), p(1.0, 1.0), p(3.0, 0.0), p(0.0, 3.0)));
+        // One after the other on a level line, but for round-off.
+        let level = |x: f64, y: f64| p(x, y * 1e-16);
+        assert!(!segments_meet(level(-2.8, 2.1), level(-5.1, 5.7), level(-5.5, 5.2), level(-6.6, 3.8)));
+    }
+
+    #[test]
+    fn points_are_as_far_from_a_segment_as_from_its_nearest_point() {
+        let (a, b) = (Vec2::new(1.0, 1.0), Vec2::new(4.0, 1.0));
+        for (p, far) in
+            [((2.0, 3.0), 2.0), ((2.0, 0.5), 0.5), ((7.0, 5.0), 5.0), ((-3.0, -2.0), 5.0), ((4.0, 1.0), 0.0)]
+        {
+            assert!((distance_from_segment(Vec2::new(p.0, p.1), a, b) - far).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn points_in_a_notch_are_outside() {
+        let u = [(0.0, 0.0), (3.0, 0.0), (3.0, 2.0), (2.0, 2.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0)];
+        let mut u = u.map(|(x, y)| Vec2::new(x, y));
+        for _ in 0..2 {
+            for (p, inside) in
+                [((1.5, 1.5), false), ((0.5, 1.5), true), ((2.5, 1.5), true), ((1.5, 0.5), true), ((4.0, 1.0), false)]
+            {
+                assert_eq!(lies_inside(Vec2::new(p.0, p.1), &u), inside, "{p:?}");
+            }
+            u.reverse();
+        }
     }
 
     #[test]

@@ -3,6 +3,8 @@
 #[cfg(feature = "server")]
 pub mod api;
 pub mod arch;
+pub mod blocks;
+pub mod bridge;
 pub mod collapse;
 pub mod dda;
 pub mod geometry;

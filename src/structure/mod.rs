@@ -110,6 +110,11 @@ impl JointLaw {
             JointLaw::Bonded | JointLaw::Mirror => None,
         }
     }
+
+    /// The dry joint between two stones: the lower friction and the lower cohesion of both.
+    pub fn dry(a: &Stone, b: &Stone) -> JointLaw {
+        JointLaw::Dry { friction: a.friction_angle.min(b.friction_angle).tan(), cohesion: a.cohesion.min(b.cohesion) }
+    }
 }
 
 /// The contact between two bodies, or a body and the ground: a straight segment.

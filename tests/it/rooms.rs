@@ -4,13 +4,15 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Rooms below the double line: pure functions of their input.
-const PURE: [&str; 6] = ["geometry", "structure", "arch", "dda", "limit", "collapse"];
+const PURE: [&str; 8] = ["geometry", "structure", "arch", "blocks", "bridge", "dda", "limit", "collapse"];
 
 /// A room, the rooms of this crate it may use, the outside crates it may use.
-const TABLE: [(&str, &[&str], &[&str]); 9] = [
+const TABLE: [(&str, &[&str], &[&str]); 11] = [
     ("geometry", &[], &["nalgebra"]),
     ("structure", &["geometry"], &["thiserror"]),
     ("arch", &["geometry", "structure"], &["thiserror"]),
+    ("blocks", &["geometry", "structure"], &["thiserror"]),
+    ("bridge", &["geometry", "structure", "arch"], &["thiserror"]),
     ("dda", &["geometry"], &["nalgebra", "faer", "thiserror"]),
     ("limit", &["geometry", "structure"], &["nalgebra", "thiserror"]),
     ("collapse", &["geometry", "structure", "dda", "limit"], &["nalgebra", "thiserror"]),
@@ -18,7 +20,7 @@ const TABLE: [(&str, &[&str], &[&str]); 9] = [
     ("render", &["collapse", "structure", "geometry"], &["thiserror"]),
     (
         "api",
-        &["jobs", "render", "arch", "structure", "collapse", "geometry"],
+        &["jobs", "render", "arch", "blocks", "bridge", "structure", "collapse", "geometry"],
         &[
             "axum",
             "comfy_table",
