@@ -3,6 +3,10 @@
 //! Nothing here knows how a structure was built or how it will be solved. All quantities are SI, per metre of depth; x runs
 //! to the right, y upwards.
 
+pub mod loops;
+
+pub use loops::{Loops, Unconnected};
+
 use crate::geometry::{Region, Vec2};
 use std::ops::Range;
 

@@ -1,23 +1,25 @@
 use super::super::static_theorem::tests::{arch, loads};
 use super::*;
-use crate::arch::{Arch, Joint, PointForce, Sides, Voussoir};
-use crate::geometry::{Region, Vec2};
+use super::super::scenes::ring;
+use crate::geometry::Vec2;
 use crate::limit::unwatched;
+use crate::structure::PointForce;
 
 /// Strength at which nothing crushes, Pa.
 const HARD: f64 = 1e30;
+
+/// The same strength in every joint.
+fn evenly(theorem: &StaticTheorem, strength: f64) -> Result<Option<CrushingWindow>, Unsolved> {
+    theorem.crushing_window(&vec![strength; theorem.joints()], &unwatched)
+}
 
 /// One stone between two level joints of length 1 m, all but smooth, under a load of `factor` 1 N/m at `off` from
 /// their middles.
 fn column(off: f64, strength: f64) -> CrushingWindow {
     let law = JointLaw::Dry { friction: 1e-3, cohesion: 0.0 };
-    let level = |y: f64| Joint { intrados: Vec2::new(0.5, y), extrados: Vec2::new(-0.5, y), law };
-    let joints = vec![level(0.0), level(1.0)];
-    let corners = [(0.5, 0.0), (0.5, 1.0), (-0.5, 1.0), (-0.5, 0.0)].map(|(x, y)| Vec2::new(x, y));
-    let voussoirs = vec![Voussoir { region: Region::polygon(&corners), sides: Sides::Straight }];
-    let arch = Arch { voussoirs, joints, abutments: [None, None], half: false, angle_centre: Vec2::zeros() };
-    let load = PointForce { voussoir: 0, at: Vec2::new(off, 0.5), force: Vec2::new(0.0, -1.0), spread: false };
-    StaticTheorem::new(&arch, &[], &[load]).crushing_window(strength, &unwatched).unwrap().unwrap()
+    let structure = ring(&[0.0, 1.0].map(|y| [Vec2::new(0.5, y), Vec2::new(-0.5, y)]), law);
+    let load = PointForce { body: 0, at: Vec2::new(off, 0.5), force: Vec2::new(0.0, -1.0), spread: false };
+    evenly(&StaticTheorem::new(&structure, &[], &[load]).unwrap(), strength).unwrap().unwrap()
 }
 
 /// Joints below and above bear N and n, P = N - n. Both on their parabolas, e P = t (N + n) / 2 - (N^2 + n^2) / 2 f,
@@ -39,14 +41,14 @@ fn a_column_carries_its_strength_times_what_is_left_of_its_joints() {
 fn a_hard_stone_leaves_the_plain_window() {
     let mut arch = arch();
     let [fixed, scaled] = loads(&arch);
-    let hard = |theorem: &StaticTheorem| theorem.crushing_window(HARD, &unwatched).unwrap().map(|window| window.ends);
+    let hard = |theorem: &StaticTheorem| evenly(theorem, HARD).unwrap().map(|window| window.ends);
     let upwards: Vec<_> = fixed.iter().map(|f| PointForce { force: -f.force * 10.0, ..*f }).collect();
     for (fixed, scaled) in [(&fixed, &scaled), (&fixed, &fixed), (&scaled, &fixed), (&upwards, &vec![])] {
-        let theorem = StaticTheorem::new(&arch, fixed, scaled);
+        let theorem = StaticTheorem::new(&arch, fixed, scaled).unwrap();
         assert_eq!(hard(&theorem), theorem.window(&unwatched).unwrap());
     }
     arch.joints.iter_mut().for_each(|joint| joint.law = JointLaw::Bonded);
-    let bonded = StaticTheorem::new(&arch, &fixed, &scaled).crushing_window(1.0, &unwatched).unwrap().unwrap();
+    let bonded = evenly(&StaticTheorem::new(&arch, &fixed, &scaled).unwrap(), 1.0).unwrap().unwrap();
     assert_eq!(bonded.ends, [f64::NEG_INFINITY, f64::INFINITY]);
     assert!(bonded.joints.iter().all(Vec::is_empty));
 }
@@ -55,9 +57,9 @@ fn a_hard_stone_leaves_the_plain_window() {
 fn a_stronger_stone_bears_more() {
     let arch = arch();
     let [fixed, scaled] = loads(&arch);
-    let theorem = StaticTheorem::new(&arch, &fixed, &scaled);
+    let theorem = StaticTheorem::new(&arch, &fixed, &scaled).unwrap();
     let [low, high] = theorem.window(&unwatched).unwrap().unwrap();
-    let windows: Vec<_> = (0..60).map(|k| theorem.crushing_window(1.2f64.powi(k), &unwatched).unwrap()).collect();
+    let windows: Vec<_> = (0..60).map(|k| evenly(&theorem, 1.2f64.powi(k)).unwrap()).collect();
     assert!(windows[0].is_none());
     let found: Vec<_> = windows.iter().skip_while(|window| window.is_none()).collect();
     assert!(found.len() > 40 && found.iter().all(|window| window.is_some()));
@@ -73,8 +75,8 @@ fn a_stronger_stone_bears_more() {
 fn crushed_joints_leave_just_the_length_they_need() {
     let arch = arch();
     let [fixed, _] = loads(&arch);
-    let theorem = StaticTheorem::new(&arch, &fixed, &fixed);
-    let window = theorem.crushing_window(500.0, &unwatched).unwrap().unwrap();
+    let theorem = StaticTheorem::new(&arch, &fixed, &fixed).unwrap();
+    let window = evenly(&theorem, 500.0).unwrap().unwrap();
     assert_eq!(theorem.window(&unwatched).unwrap().unwrap()[1], f64::INFINITY);
     assert!(window.ends[1].is_finite() && window.joints[1].len() >= 2, "{window:?}");
 }
@@ -83,12 +85,12 @@ fn crushed_joints_leave_just_the_length_they_need() {
 fn a_strength_that_is_none_is_refused() {
     let arch = arch();
     let [fixed, scaled] = loads(&arch);
-    let theorem = StaticTheorem::new(&arch, &fixed, &scaled);
+    let theorem = StaticTheorem::new(&arch, &fixed, &scaled).unwrap();
     for strength in [0.0, -1.0, f64::NAN] {
-        assert_eq!(theorem.crushing_window(strength, &unwatched), Err(Unsolved));
+        assert_eq!(evenly(&theorem, strength), Err(Unsolved));
     }
     assert_eq!(
-        theorem.crushing_window(f64::INFINITY, &unwatched).unwrap().unwrap().ends,
+        evenly(&theorem, f64::INFINITY).unwrap().unwrap().ends,
         theorem.window(&unwatched).unwrap().unwrap()
     );
 }
