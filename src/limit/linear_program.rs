@@ -10,6 +10,9 @@ const BOX: f64 = 1e9;
 const TOLERANCE: f64 = 1e-12;
 /// Weights of the entering row below this are none.
 const NO_WEIGHT: f64 = 1e-13;
+/// Ratios of a multiplier to a weight that differ by less than this share of them, or by rounding of the multipliers, are equal.
+const TIE: f64 = 1e-11;
+const ROUNDING: f64 = 1e-14;
 /// Far above what the method needs (two to five pivots an unknown); reached only if rounding defeats the tie rule.
 const MOST_PIVOTS: usize = 10_000;
 /// Pivots after which the inverse is computed anew.
@@ -105,7 +108,7 @@ pub fn maximise(objective: &[f64], half_spaces: &HalfSpaces, beat: Beat) -> Opti
         let found = basis.most_violated();
         let Violation::Worst(entering) = found else {
             match found {
-                Violation::NotANumber => return Optimum::Lost,
+                Violation::NotANumber => {eprintln!("nan"); return Optimum::Lost},
                 _ if basis.fresh => return basis.optimum(),
                 _ => {}
             }
@@ -125,9 +128,11 @@ pub fn maximise(objective: &[f64], half_spaces: &HalfSpaces, beat: Beat) -> Opti
             }
         }
         if pivot % REFRESH == 0 && !basis.refresh() {
+            eprintln!("singular at {pivot}");
             return Optimum::Lost;
         }
     }
+    eprintln!("pivots");
     Optimum::Lost
 }
 
@@ -249,7 +254,8 @@ impl<'p> Basis<'p> {
         };
         (0..n).filter(|&i| self.weights[i] > NO_WEIGHT * largest).min_by(|&a, &b| {
             let ratios = (0..=n).map(|k| (ratio(a, k), ratio(b, k)));
-            let differing = ratios.into_iter().find(|(x, y)| (x - y).abs() > 1e-11 * (x.abs() + y.abs()) + 1e-15);
+            let rounding = ROUNDING * (1.0 / self.weights[a] + 1.0 / self.weights[b]);
+            let differing = ratios.into_iter().find(|(x, y)| (x - y).abs() > TIE * (x.abs() + y.abs()) + rounding);
             differing.map_or(a.cmp(&b), |(x, y)| x.total_cmp(&y))
         })
     }
