@@ -5,9 +5,11 @@
 //! four unknowns for a single arch. Joints of finite strength add parabolas, cut off by planes.
 
 mod crushing;
+mod interior_point;
 mod linear_program;
 mod non_dilating;
 mod programme;
+mod sparse;
 mod static_theorem;
 
 pub use crushing::CrushingWindow;

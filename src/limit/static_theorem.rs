@@ -62,7 +62,7 @@ pub struct StaticTheorem {
     /// Of every loop.
     frames: Vec<Frame>,
     /// Of all joints.
-    frame: Frame,
+    pub(super) frame: Frame,
     /// What fixed loads, and scaled loads of load factor 1, add to the three forces of every joint down the tree, N/m.
     pub(super) carried: [Vec<[f64; 3]>; 2],
     /// The same loads on every body: F_x, F_y and M about the middle of all joints.
