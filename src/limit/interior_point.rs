@@ -15,13 +15,17 @@ use std::collections::BTreeMap;
 /// Iterations after which the method has failed (it needs 10 to 40).
 const MOST_ITERATIONS: usize = 120;
 /// Residuals and gap at which it goes no further, relative to the size of the data and of the point.
-const ENOUGH: f64 = 1e-12;
+const ENOUGH: f64 = 1e-13;
 /// A proof that there is no optimum may be off by this.
 const PROVEN: f64 = 1e-9;
 /// Share of the way to the boundary that a step goes.
 const STEP: f64 = 0.99;
 /// Iterations without a better point after which rounding has won.
-const PATIENCE: usize = 8;
+const PATIENCE: usize = 20;
+/// So much worse than the best point: rounding has won.
+const BLOWN_UP: f64 = 1e4;
+/// Root of the curvature of a block without rows.
+const UNREACHED: f64 = 1e-4;
 /// Corrections of a solution of the Newton system.
 const REFINEMENTS: usize = 3;
 /// Added to the Hessian of a block that its rows leave singular, relative to its largest entry.
@@ -56,7 +60,11 @@ pub struct Sparse {
 #[derive(Debug, Clone)]
 pub enum Found {
     /// Unknowns and the multipliers z >= 0 of the rows, and how far they are from a proof of the optimum.
-    Optimum { x: Vec<f64>, z: Vec<f64>, error: f64 },
+    Optimum {
+        x: Vec<f64>,
+        z: Vec<f64>,
+        error: f64,
+    },
     /// A direction of unlimited descent.
     Unbounded,
     Infeasible,
@@ -169,8 +177,6 @@ struct Newton<'p> {
     weights: Vec<f64>,
     /// C of every block, H^-1 = C C'.
     roots: Vec<Square>,
-    /// Curvature of the load factor.
-    last: f64,
     factors: Llt<usize, f64>,
     /// S^-1 growth, and the curvature of the load factor without the rest.
     growth: Vec<f64>,
@@ -193,10 +199,13 @@ impl<'p> Newton<'p> {
         }
         let roots: Vec<Square> = scaled.iter_mut().map(|rows| inverse_root(rows)).collect();
         let factors = factor(programme, pattern, &roots)?;
-        let mut newton =
-            Newton { programme, weights, roots, last, factors, growth: Vec::new(), schur: 0.0 };
+        let mut newton = Newton { programme, weights, roots, factors, growth: Vec::new(), schur: 0.0 };
         newton.growth = newton.solve_bodies(&programme.growth);
         newton.schur = last + dot(&programme.growth, &newton.growth);
+        if last == 0.0 && programme.growth.iter().all(|g| *g == 0.0) {
+            // Nothing depends on the load factor.
+            newton.schur = 1.0;
+        }
         (newton.schur > 0.0 && newton.schur.is_finite()).then_some(newton)
     }
 
@@ -235,12 +244,15 @@ impl<'p> Newton<'p> {
     fn solve(&self, first: &[f64], second: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let (mut x, mut y) = (vec![0.0; first.len()], vec![0.0; second.len()]);
         let (mut rest, mut others) = (first.to_vec(), second.to_vec());
-        let mut left = largest(&rest).max(largest(&others));
+        // Either kind of equation by its own size.
+        let sizes = [largest(first), largest(second)].map(|size| if size > 0.0 { size } else { 1.0 });
+        let size = |rest: &[f64], others: &[f64]| (largest(rest) / sizes[0]).max(largest(others) / sizes[1]);
+        let mut left = f64::INFINITY;
         for _ in 0..=REFINEMENTS {
             let (dx, dy) = self.solve_once(&rest, &others);
             let [next_x, next_y] = [(&x, &dx), (&y, &dy)].map(|(a, d)| sum(a, d, 1.0));
             let (next_rest, next_others) = self.residuals(first, second, &next_x, &next_y);
-            let next = largest(&next_rest).max(largest(&next_others));
+            let next = size(&next_rest, &next_others);
             if next.is_nan() || next >= left {
                 break;
             }
@@ -267,7 +279,7 @@ impl<'p> Newton<'p> {
 fn inverse_root(rows: &mut Vec<[f64; 4]>) -> Square {
     rows.sort_by(|a, b| b[0].total_cmp(&a[0]));
     let size = rows.iter().map(|row| row[1..].iter().fold(0.0, |m: f64, x| m.max(x.abs()))).fold(0.0, f64::max);
-    let ridge = if size > 0.0 { size * RIDGE.sqrt() } else { 1.0 };
+    let ridge = if size > 0.0 { size * RIDGE.sqrt() } else { UNREACHED };
     let mut m: Vec<[f64; 3]> = rows.iter().map(|row| [row[1], row[2], row[3]]).collect();
     let mut order = [0, 1, 2];
     let mut r: Square = [[0.0; 3]; 3];
@@ -339,8 +351,7 @@ fn factor(programme: &Sparse, pattern: &Pattern, roots: &[Square]) -> Option<Llt
                 shifted[start] = 1.0;
             }
         }
-        let symbolic =
-            SymbolicSparseColMat::new_checked(n, n, pattern.columns.clone(), None, pattern.rows.clone());
+        let symbolic = SymbolicSparseColMat::new_checked(n, n, pattern.columns.clone(), None, pattern.rows.clone());
         let matrix = SparseColMat::new(symbolic, shifted);
         if let Ok(factors) = Llt::try_new_with_symbolic(pattern.order.clone(), matrix.as_ref(), Side::Lower) {
             return Some(factors);
@@ -383,7 +394,7 @@ pub fn minimise(programme: &Sparse, beat: Beat) -> Found {
         kappa: 1.0,
     };
     let (mut best, mut since) = (None::<(f64, Vec<f64>, Vec<f64>)>, 0);
-    for iteration in 0..MOST_ITERATIONS {
+    for _ in 0..MOST_ITERATIONS {
         if beat().is_break() {
             return Found::Lost;
         }
@@ -395,8 +406,8 @@ pub fn minimise(programme: &Sparse, beat: Beat) -> Found {
         if error.is_nan() {
             break;
         }
-        if std::env::var("IPM").is_ok() {
-            eprintln!("{iteration}: error {error:e} tau {:e} kappa {:e} x {}", point.tau, point.kappa, point.x[point.x.len()-1]/point.tau);
+        if best.as_ref().is_some_and(|best| error > BLOWN_UP * best.0) {
+            break;
         }
         since += 1;
         if best.as_ref().is_none_or(|best| error < best.0) {
@@ -421,9 +432,8 @@ fn error(programme: &Sparse, constants: &[f64], point: &Point, residuals: &Resid
     let value = dot(&programme.cost, &point.x) / tau;
     let bound = -(dot(&programme.right, &point.y) + dot(constants, &point.z)) / tau;
     let gap = (value - bound).abs() / (1e-3 + value.abs());
-    let [x, z] = [&point.x, &point.z].map(|v| 1.0 + largest(v) / tau);
     // `max` drops what is no number.
-    [primal / x, dual / z, gap].into_iter().fold(0.0, |m, e| if e.is_nan() || e > m { e } else { m })
+    [primal, dual, gap].into_iter().fold(0.0, |m, e| if e.is_nan() || e > m { e } else { m })
 }
 
 /// A proof that there is no optimum.
@@ -434,8 +444,8 @@ fn without_optimum(programme: &Sparse, constants: &[f64], point: &Point, residua
     if bound > 0.0 && dual < PROVEN * bound && point.tau < 1e-3 * point.kappa {
         return Some(Found::Infeasible);
     }
-    let primal = largest(&sum(&residuals.y, &programme.right, point.tau))
-        .max(largest(&sum(&residuals.s, constants, point.tau)));
+    let primal =
+        largest(&sum(&residuals.y, &programme.right, point.tau)).max(largest(&sum(&residuals.s, constants, point.tau)));
     (descent > 0.0 && primal < PROVEN * descent && point.tau < 1e-3 * point.kappa).then_some(Found::Unbounded)
 }
 
@@ -452,7 +462,8 @@ fn step(programme: &Sparse, constants: &[f64], newton: &Newton, residuals: &Resi
     let pivot = -point.kappa / point.tau + dot(&programme.cost, &x2) + dot(&programme.right, &y2) + dot(constants, &z2);
     let direction = |share: f64, complementarity: &[f64], last: f64| -> Point {
         let scaled = |v: &[f64]| v.iter().map(|r| -share * r).collect::<Vec<f64>>();
-        let (qx, qy, qs, qt) = (scaled(&residuals.x), scaled(&residuals.y), scaled(&residuals.s), -share * residuals.tau);
+        let (qx, qy, qs, qt) =
+            (scaled(&residuals.x), scaled(&residuals.y), scaled(&residuals.s), -share * residuals.tau);
         let over: Vec<f64> = complementarity.iter().zip(&point.s).map(|(c, s)| c / s).collect();
         let mut first = qx;
         programme.add_transposed(&sum(&over, &weighted(&qs), -1.0), 1.0, &mut first);

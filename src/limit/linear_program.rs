@@ -108,7 +108,7 @@ pub fn maximise(objective: &[f64], half_spaces: &HalfSpaces, beat: Beat) -> Opti
         let found = basis.most_violated();
         let Violation::Worst(entering) = found else {
             match found {
-                Violation::NotANumber => {eprintln!("nan"); return Optimum::Lost},
+                Violation::NotANumber => return Optimum::Lost,
                 _ if basis.fresh => return basis.optimum(),
                 _ => {}
             }
@@ -128,11 +128,9 @@ pub fn maximise(objective: &[f64], half_spaces: &HalfSpaces, beat: Beat) -> Opti
             }
         }
         if pivot % REFRESH == 0 && !basis.refresh() {
-            eprintln!("singular at {pivot}");
             return Optimum::Lost;
         }
     }
-    eprintln!("pivots");
     Optimum::Lost
 }
 
@@ -176,8 +174,19 @@ impl<'p> Basis<'p> {
         let constraints = (0..n).map(|i| Constraint::Wall(i, -corner_sign(objective[i]))).collect();
         let [inverse, matrix] = [(); 2].map(|()| vec![0.0; n * n]);
         let [point, dual, row, weights] = [(); 4].map(|()| vec![0.0; n]);
-        let mut basis =
-            Basis { objective, half_spaces, constraints, inverse, point, dual, row, violation: 0.0, weights, fresh: true, matrix };
+        let mut basis = Basis {
+            objective,
+            half_spaces,
+            constraints,
+            inverse,
+            point,
+            dual,
+            row,
+            violation: 0.0,
+            weights,
+            fresh: true,
+            matrix,
+        };
         for i in 0..n {
             let sign = corner_sign(objective[i]);
             basis.inverse[i * n + i] = -sign;
@@ -192,7 +201,13 @@ impl<'p> Basis<'p> {
         match constraint {
             Constraint::Row(row) => self.half_spaces.entry(row, j),
             Constraint::Wall(_, _) if j == self.half_spaces.unknowns => BOX,
-            Constraint::Wall(unknown, sign) => if j == unknown { sign } else { 0.0 },
+            Constraint::Wall(unknown, sign) => {
+                if j == unknown {
+                    sign
+                } else {
+                    0.0
+                }
+            }
         }
     }
 

@@ -95,7 +95,21 @@ impl StaticTheorem {
     ///
     /// The dual asks for the largest load whose forces do no more work in any release than it costs, the joints carrying
     /// whatever else they may: a programme over the forces again, whose multipliers are the rates.
-    pub fn cheapest_motion(&self, releases: &[(usize, Release)], costs: &[f64], sign: f64, beat: Beat) -> Option<Vec<f64>> {
+    pub fn cheapest_motion(
+        &self,
+        releases: &[(usize, Release)],
+        costs: &[f64],
+        sign: f64,
+        beat: Beat,
+    ) -> Option<Vec<f64>> {
+        let programme = self.motion_programme(releases, costs);
+        let Outcome::At(_, rates) = programme.maximise(&Objective::load_factor(sign), beat) else { return None };
+        let fastest = rates.iter().copied().fold(0.0, f64::max);
+        Some(rates.into_iter().map(|rate| if rate > MOVES * fastest { rate } else { 0.0 }).collect())
+    }
+
+    /// Forces under the scaled loads that do no more work in any release than it costs.
+    pub(super) fn motion_programme(&self, releases: &[(usize, Release)], costs: &[f64]) -> Programme<'_> {
         let mut programme = Programme::unlimited(self);
         let bound = |(&(joint, release), cost): (&(usize, Release), &f64)| {
             let length = self.joints[joint].length();
@@ -107,9 +121,7 @@ impl StaticTheorem {
             Limit { joint, weights: work.map(|w| w / self.force), constant: *cost }
         };
         programme.limits = releases.iter().zip(costs).map(bound).collect();
-        let Outcome::At(_, rates) = programme.maximise(&Objective::load_factor(sign), beat) else { return None };
-        let fastest = rates.iter().copied().fold(0.0, f64::max);
-        Some(rates.into_iter().map(|rate| if rate > MOVES * fastest { rate } else { 0.0 }).collect())
+        programme
     }
 }
 

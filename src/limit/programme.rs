@@ -67,7 +67,11 @@ impl<'t> Programme<'t> {
     }
 
     pub(super) fn maximise(&self, objective: &Objective, beat: Beat) -> Outcome {
-        if self.theorem.has_few_unknowns() { self.maximise_densely(objective, beat) } else { self.maximise_sparsely(objective, beat) }
+        if self.theorem.has_few_unknowns() {
+            self.maximise_densely(objective, beat)
+        } else {
+            self.maximise_sparsely(objective, beat)
+        }
     }
 
     /// The exact method in loop space.

@@ -54,8 +54,20 @@ pub fn bridge(spans: usize, stones: usize, width: f64, law: JointLaw) -> Structu
         let (ends, first) = (springing(span), span * stones);
         polygons.extend(ends.windows(2).map(|w| vec![w[0][0], w[1][0], w[1][1], w[0][1]]));
         for (k, &[intrados, extrados]) in ends.iter().enumerate() {
-            let before = if k > 0 { Side::Body(first + k - 1) } else if span == 0 { Side::Support(0) } else { Side::Body(pier_top(span - 1)) };
-            let after = if k < stones { Side::Body(first + k) } else if span + 1 == spans { Side::Support(1) } else { Side::Body(pier_top(span)) };
+            let before = if k > 0 {
+                Side::Body(first + k - 1)
+            } else if span == 0 {
+                Side::Support(0)
+            } else {
+                Side::Body(pier_top(span - 1))
+            };
+            let after = if k < stones {
+                Side::Body(first + k)
+            } else if span + 1 == spans {
+                Side::Support(1)
+            } else {
+                Side::Body(pier_top(span))
+            };
             joints.push(Joint { between: [before, after], intrados, extrados, law });
         }
     }

@@ -10,6 +10,8 @@ use crate::geometry::{Vec2, cross};
 const SOLVED: f64 = 1e-9;
 /// Limits of one joint whose normals and constants differ by less than this are opposite.
 const OPPOSITE: f64 = 1e-13;
+/// Joint forces are measured in so many times the largest load on a body.
+const LOADED: f64 = 10.0;
 /// Rows shorter than this are none.
 const NO_ROW: f64 = 1e-12;
 
@@ -23,26 +25,34 @@ impl Programme<'_> {
     /// The interior point method over the forces of every joint and the equilibrium of every body.
     pub(super) fn maximise_sparsely(&self, objective: &Objective, beat: Beat) -> Outcome {
         let theorem = self.theorem;
+        let unit = unit(theorem);
+        // Without loads that grow the load factor is any.
+        let grows = theorem.loads[1].iter().flatten().any(|load| *load != 0.0);
+        let pinned = if !grows { Some(0.0) } else { Some(self.bounds[0]).filter(|at| *at == self.bounds[1]) };
         let mut limits: Vec<Vec<(Limit, Option<usize>)>> = vec![Vec::new(); theorem.joints.len()];
         let own = self.limits.iter().enumerate().map(|(k, limit)| (*limit, Some(k)));
         let laws = theorem.limits.iter().map(|limit| (*limit, None)).filter(|_| self.complete);
         for (limit, place) in laws.chain(own) {
-            let limit = Limit { weights: limit.weights.map(|w| w * theorem.force), constant: limit.constant + self.slack, ..limit };
+            let limit =
+                Limit { weights: limit.weights.map(|w| w * unit), constant: limit.constant + self.slack, ..limit };
             limits[limit.joint].push((limit, place));
         }
         let forces: Vec<Forces> = limits.iter().map(|limits| held(limits)).collect();
-        let pinned = self.bounds[0] == self.bounds[1];
         let Some((rows, places)) = self.rows(&limits, &forces, pinned) else { return Outcome::Infeasible };
-        let programme = self.assemble(objective, &forces, rows, pinned);
+        let programme = self.assemble(objective, &forces, rows, pinned, unit);
         match minimise(&programme, beat) {
             Found::Optimum { x, z, error } if error < SOLVED => {
                 let mut multipliers = vec![0.0; self.limits.len()];
                 for ((place, scale), z) in places.iter().zip(&z) {
                     place.iter().for_each(|&limit| multipliers[limit] = z * scale);
                 }
-                Outcome::At(self.equilibrium(&x, &forces, pinned), multipliers)
+                let equilibrium = self.equilibrium(&x, &forces, pinned, unit);
+                let bounded = grows || objective.load_factor == 0.0;
+                if bounded { Outcome::At(equilibrium, multipliers) } else { Outcome::Unbounded(equilibrium) }
             }
-            Found::Unbounded => Outcome::Unbounded(self.equilibrium(&vec![0.0; programme.cost.len()], &forces, pinned)),
+            Found::Unbounded => {
+                Outcome::Unbounded(self.equilibrium(&vec![0.0; programme.cost.len()], &forces, pinned, unit))
+            }
             Found::Infeasible => Outcome::Infeasible,
             Found::Optimum { .. } | Found::Lost => Outcome::Lost,
         }
@@ -55,7 +65,7 @@ impl Programme<'_> {
         &self,
         limits: &[Vec<(Limit, Option<usize>)>],
         forces: &[Forces],
-        pinned: bool,
+        pinned: Option<f64>,
     ) -> Option<(Vec<Row>, Vec<(Option<usize>, f64)>)> {
         let (mut rows, mut places) = (Vec::new(), Vec::new());
         for (block, (limits, forces)) in limits.iter().zip(forces).enumerate() {
@@ -73,7 +83,7 @@ impl Programme<'_> {
             }
         }
         for (sign, bound) in [(1.0, self.bounds[0]), (-1.0, self.bounds[1])] {
-            if bound.is_finite() && !pinned {
+            if bound.is_finite() && pinned.is_none() {
                 let constant = -sign * bound / self.theorem.factor;
                 rows.push(Row { block: forces.len(), a: [sign, 0.0, 0.0], constant });
                 places.push((None, 1.0));
@@ -82,7 +92,14 @@ impl Programme<'_> {
         Some((rows, places))
     }
 
-    fn assemble(&self, objective: &Objective, forces: &[Forces], rows: Vec<Row>, pinned: bool) -> Sparse {
+    fn assemble(
+        &self,
+        objective: &Objective,
+        forces: &[Forces],
+        rows: Vec<Row>,
+        pinned: Option<f64>,
+        unit: f64,
+    ) -> Sparse {
         let theorem = self.theorem;
         let bodies = theorem.loads[0].len();
         let frames = frames(theorem, bodies);
@@ -91,16 +108,15 @@ impl Programme<'_> {
         for (body, &(reference, length)) in frames.iter().enumerate() {
             let about = |[x, y, moment]: [f64; 3]| {
                 let arm = reference - theorem.frame.origin;
-                [x, y, (moment - cross(arm, Vec2::new(x, y))) / length].map(|component| component / theorem.force)
+                [x, y, (moment - cross(arm, Vec2::new(x, y))) / length].map(|component| component / unit)
             };
             let fixed = if self.complete { about(theorem.loads[0][body]) } else { [0.0; 3] };
             let scaled = about(theorem.loads[1][body]).map(|component| component * theorem.factor);
             for i in 0..3 {
                 right[3 * body + i] -= fixed[i];
-                if pinned {
-                    right[3 * body + i] -= scaled[i] * self.bounds[0] / theorem.factor;
-                } else {
-                    growth[3 * body + i] = scaled[i];
+                match pinned {
+                    Some(at) => right[3 * body + i] -= scaled[i] * at / theorem.factor,
+                    None => growth[3 * body + i] = scaled[i],
                 }
             }
         }
@@ -112,8 +128,11 @@ impl Programme<'_> {
                 let Some(body) = side.body() else { continue };
                 let (reference, length) = frames[body];
                 let column = |at: Vec2, force: Vec2| [force.x, force.y, cross(at - reference, force) / length];
-                let columns = [column(joint.intrados, normal), column(joint.extrados, normal), column(joint.intrados, tangent)];
-                let effect = |f: [f64; 3]| -> [f64; 3] { std::array::from_fn(|i| sign * (0..3).map(|c| columns[c][i] * f[c]).sum::<f64>()) };
+                let columns =
+                    [column(joint.intrados, normal), column(joint.extrados, normal), column(joint.intrados, tangent)];
+                let effect = |f: [f64; 3]| -> [f64; 3] {
+                    std::array::from_fn(|i| sign * (0..3).map(|c| columns[c][i] * f[c]).sum::<f64>())
+                };
                 effect(forces.origin).iter().enumerate().for_each(|(i, value)| right[3 * body + i] -= value);
                 let mut square: Square = [[0.0; 3]; 3];
                 for (j, basis) in forces.basis.iter().enumerate() {
@@ -127,24 +146,35 @@ impl Programme<'_> {
         for (joint, weights) in &objective.forces {
             forces[*joint].basis.iter().enumerate().for_each(|(i, basis)| cost[3 * joint + i] -= dot(*weights, *basis));
         }
-        if !pinned {
+        if pinned.is_none() {
             cost[3 * blocks.len()] = -objective.load_factor;
         }
         Sparse { blocks, bodies, rows, growth, right, cost }
     }
 
-    fn equilibrium(&self, x: &[f64], forces: &[Forces], pinned: bool) -> Equilibrium {
+    fn equilibrium(&self, x: &[f64], forces: &[Forces], pinned: Option<f64>, unit: f64) -> Equilibrium {
         let resultant = |(of, x): (&Forces, &[f64])| {
             let [intrados, extrados, shear] = std::array::from_fn(|c| {
-                self.theorem.force * (of.origin[c] + of.basis.iter().zip(x).map(|(basis, x)| basis[c] * x).sum::<f64>())
+                unit * (of.origin[c] + of.basis.iter().zip(x).map(|(basis, x)| basis[c] * x).sum::<f64>())
             });
             Resultant { intrados, extrados, shear }
         };
         let forces: Vec<Resultant> = forces.iter().zip(x.chunks(3)).map(resultant).collect();
         let largest = forces.iter().map(Resultant::size).fold(0.0, f64::max);
-        let load_factor = if pinned { self.bounds[0] } else { x[x.len() - 1] * self.theorem.factor };
+        let load_factor = pinned.unwrap_or(x[x.len() - 1] * self.theorem.factor);
         Equilibrium { load_factor, size: 1.0 + largest / self.theorem.force, forces }
     }
+}
+
+/// Unit of joint forces, N/m: of the order of what one joint carries.
+fn unit(theorem: &StaticTheorem) -> f64 {
+    let shares = theorem
+        .loads
+        .iter()
+        .zip([1.0, theorem.factor])
+        .flat_map(|(loads, by)| loads.iter().map(move |[x, y, _]| x.hypot(*y) * by));
+    let largest = shares.fold(0.0, f64::max);
+    if largest > 0.0 { theorem.force.min(LOADED * largest) } else { theorem.force }
 }
 
 /// Reference point and length of every body: the middle of its joints and their reach.
@@ -208,3 +238,6 @@ fn without(v: [f64; 3], directions: &[[f64; 3]]) -> [f64; 3] {
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
+
+#[cfg(test)]
+mod tests;

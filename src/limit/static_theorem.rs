@@ -139,8 +139,7 @@ impl StaticTheorem {
             functionals.iter().zip(carried).map(|(of, wrench)| of.map(|row| dot(row, wrench))).collect()
         });
         let (limits, rows) = (Vec::new(), None);
-        let mut theorem =
-            StaticTheorem { joints, loops, frames, frame, carried, loads, limits, rows, force, factor };
+        let mut theorem = StaticTheorem { joints, loops, frames, frame, carried, loads, limits, rows, force, factor };
         theorem.limits = (0..theorem.joints.len()).flat_map(|k| theorem.limits_of(k)).collect();
         theorem.rows = theorem.has_few_unknowns().then(|| Rows::of_laws(&theorem));
         Ok(theorem)
@@ -240,7 +239,12 @@ impl StaticTheorem {
         programme.bounds = [at; 2];
         let thrust = |sign: f64| {
             let on_support = |(k, joint): (usize, &Joint)| {
-                let way = sign * joint.between.iter().position(|side| *side == Side::Support(support)).map(|at| 1.0 - 2.0 * at as f64)?;
+                let way = sign
+                    * joint
+                        .between
+                        .iter()
+                        .position(|side| *side == Side::Support(support))
+                        .map(|at| 1.0 - 2.0 * at as f64)?;
                 let (n, t) = (joint.normal(), joint.tangent());
                 Some((k, [way * n.x, way * n.x, way * t.x]))
             };

@@ -1,6 +1,6 @@
+use super::super::scenes::ring;
 use super::super::static_theorem::tests::{arch, loads};
 use super::*;
-use super::super::scenes::ring;
 use crate::geometry::Vec2;
 use crate::limit::unwatched;
 use crate::structure::PointForce;
@@ -89,8 +89,5 @@ fn a_strength_that_is_none_is_refused() {
     for strength in [0.0, -1.0, f64::NAN] {
         assert_eq!(evenly(&theorem, strength), Err(Unsolved));
     }
-    assert_eq!(
-        evenly(&theorem, f64::INFINITY).unwrap().unwrap().ends,
-        theorem.window(&unwatched).unwrap().unwrap()
-    );
+    assert_eq!(evenly(&theorem, f64::INFINITY).unwrap().unwrap().ends, theorem.window(&unwatched).unwrap().unwrap());
 }

@@ -1,6 +1,6 @@
 use super::super::linear_program::unwatched;
-use super::*;
 use super::super::scenes::ring;
+use super::*;
 use crate::geometry::Vec2;
 use crate::structure::{PointForce, Side};
 
@@ -80,4 +80,3 @@ fn a_joint_that_opens_may_have_lost_its_cohesion() {
     }
     assert!((least.load_factor + 100.0).abs() < 1e-9);
 }
-

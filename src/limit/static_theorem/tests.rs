@@ -73,8 +73,7 @@ fn the_window_does_not_depend_on_units() {
     let larger = |loads: &[PointForce], by: f64| {
         loads.iter().map(|l| PointForce { force: l.force * by, ..*l }).collect::<Vec<_>>()
     };
-    let again =
-        theorem(&arch, &larger(&fixed, 1e7), &larger(&scaled, 1e3)).window(&unwatched).unwrap().unwrap();
+    let again = theorem(&arch, &larger(&fixed, 1e7), &larger(&scaled, 1e3)).window(&unwatched).unwrap().unwrap();
     assert!((again[0] / (low * 1e4) - 1.0).abs() < 1e-10 && (again[1] / (high * 1e4) - 1.0).abs() < 1e-10);
     assert!(low < 0.0 && high > 0.0 && high.is_finite());
 }
@@ -111,7 +110,14 @@ pub(in crate::limit) fn ferris_tin_loi(number: usize) -> Structure {
         _ => {
             let openings = [two_halves, two, two_halves, two, two_halves];
             let storey = [&openings[..], &[wide]].concat();
-            [&[wide_halves, wide, wide_halves, wide][..], &storey, &[wide_halves, wide], &storey, &[wide_halves, wide, wide_halves]].concat()
+            [
+                &[wide_halves, wide, wide_halves, wide][..],
+                &storey,
+                &[wide_halves, wide],
+                &storey,
+                &[wide_halves, wide, wide_halves],
+            ]
+            .concat()
         }
     };
     wall(&rows, 1.75, JointLaw::Dry { friction: 0.65, cohesion: 0.0 })
@@ -137,7 +143,9 @@ fn walls_stand_as_long_as_published() {
 #[test]
 fn a_stack_overturns_or_slides() {
     // min(friction, width / height): all blocks turn about the outer edge of the lowest.
-    for (n, b, h, friction) in [(1, 0.2, 1.0, 0.7), (2, 1.0, 1.0, 0.3), (3, 1.0, 1.0, 0.7), (3, 1.0, 1.0, 0.2), (5, 1.0, 0.5, 0.7)] {
+    for (n, b, h, friction) in
+        [(1, 0.2, 1.0, 0.7), (2, 1.0, 1.0, 0.3), (3, 1.0, 1.0, 0.7), (3, 1.0, 1.0, 0.2), (5, 1.0, 0.5, 0.7)]
+    {
         let row = [b];
         let rows = vec![&row[..]; n];
         let stack = wall(&rows, h, JointLaw::Dry { friction, cohesion: 0.0 });
@@ -171,7 +179,11 @@ fn a_mirrored_structure_has_the_mirrored_window() {
         let scaled = [&scaled[..], &[skew]].concat();
         let window = theorem(&structure, &fixed, &scaled).window(&unwatched).unwrap().unwrap();
         let turn = |loads: &[PointForce]| -> Vec<PointForce> {
-            let force = |f: &PointForce| PointForce { at: Vec2::new(-f.at.x, f.at.y), force: Vec2::new(-f.force.x, f.force.y), ..*f };
+            let force = |f: &PointForce| PointForce {
+                at: Vec2::new(-f.at.x, f.at.y),
+                force: Vec2::new(-f.force.x, f.force.y),
+                ..*f
+            };
             loads.iter().map(force).collect()
         };
         let again = theorem(&mirrored(&structure), &turn(&fixed), &turn(&scaled)).window(&unwatched).unwrap().unwrap();
