@@ -1,5 +1,13 @@
 //! Voussoir: tells when a masonry arch falls, how, and how sure we are.
 
+#[cfg(feature = "server")]
+pub mod api;
+pub mod arch;
+pub mod collapse;
+pub mod dda;
 pub mod geometry;
+#[cfg(feature = "server")]
+pub mod jobs;
 pub mod limit;
+pub mod render;
 pub mod structure;

@@ -22,8 +22,9 @@ const PROVEN: f64 = 1e-9;
 const STEP: f64 = 0.99;
 /// Iterations without a better point after which rounding has won.
 const PATIENCE: usize = 20;
-/// So much worse than the best point: rounding has won.
+/// So much worse than a best point that is as near as this to the optimum: rounding has won.
 const BLOWN_UP: f64 = 1e4;
+const NEAR: f64 = 1e-6;
 /// Root of the curvature of a block without rows.
 const UNREACHED: f64 = 1e-4;
 /// Corrections of a solution of the Newton system.
@@ -406,7 +407,7 @@ pub fn minimise(programme: &Sparse, beat: Beat) -> Found {
         if error.is_nan() {
             break;
         }
-        if best.as_ref().is_some_and(|best| error > BLOWN_UP * best.0) {
+        if best.as_ref().is_some_and(|best| best.0 < NEAR && error > BLOWN_UP * best.0) {
             break;
         }
         since += 1;
