@@ -24,8 +24,8 @@ use serde_json::json;
 use std::process::Command;
 use std::time::Instant;
 use voussoir::api::read::read_analysis;
-use voussoir::arch::JointLaw;
 use voussoir::collapse::{Analysis, Answer, Cost, CurvedBeam, FieldAt, PlaneModel, Question, Seams, Unwatched, answer};
+use voussoir::structure::JointLaw;
 
 /// Most runs of a row, and seconds after which no other is begun.
 const RUNS: usize = 5;
@@ -172,7 +172,7 @@ fn collapse(voussoirs: usize, each_way: usize, x: f64) -> Question {
 /// Stress in every subblock under the weight alone.
 fn elastic(voussoirs: usize, each_way: usize, lengths: &[f64]) -> Question {
     let mut analysis = arch(lengths, -0.5);
-    analysis.arch.joints.iter_mut().for_each(|joint| joint.law = JointLaw::Bonded);
+    analysis.structure.joints.iter_mut().for_each(|joint| joint.law = JointLaw::Bonded);
     analysis.mesh.subblocks = vec![[each_way; 2]; voussoirs];
     analysis.fields = vec![FieldAt::LoadFactor(0.0)];
     Question::One(Box::new(analysis))
@@ -184,7 +184,7 @@ fn beam(each_way: usize) -> Question {
         inner_radius: 1.0,
         outer_radius: 2.0,
         shear: 1000.0,
-        stone: arch(&[1.0; 3], 0.0).stone,
+        stone: arch(&[1.0; 3], 0.0).structure.stones[0],
         plane: PlaneModel::Stress,
         accuracy: None,
         subblocks: [each_way; 2],

@@ -171,7 +171,7 @@ fn look(seed: u64, picture: Option<&String>) {
     if let (Some(file), Some(end)) = (picture, &report.end) {
         let analysis = common::door::analysis(&request).unwrap_or_else(|faults| panic!("{faults}"));
         let caption = format!("{:?} at load factor {:.6}: {:?}", report.outcome, end.load_factor, end.mechanism.mode);
-        let svg = voussoir::render::figure::svg(&analysis.arch, end, &caption);
+        let svg = voussoir::render::figure::svg(&analysis.structure, end, &caption);
         std::fs::write(file, svg).unwrap_or_else(|error| panic!("{file}: {error}"));
     }
 }

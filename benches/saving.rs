@@ -114,7 +114,7 @@ enum Scene {
 
 impl Scene {
     fn voussoirs(&self) -> usize {
-        if let Scene::Arch(arch) = self { arch.analysis.arch.voussoirs.len() } else { 1 }
+        if let Scene::Arch(arch) = self { arch.analysis.structure.voussoirs().len() } else { 1 }
     }
 
     fn uniform(&self, n: usize) -> Option<Tried> {
@@ -182,7 +182,7 @@ struct Arch {
 impl Arch {
     /// The arch half-way to collapse; none where it has no stress there.
     fn new(analysis: Analysis) -> Option<Self> {
-        let voussoirs = analysis.arch.voussoirs.len();
+        let voussoirs = analysis.structure.voussoirs().len();
         let mut analysis = Analysis { accuracy: None, fields: Vec::new(), ..analysis };
         let rigid = run(&analysis, &mut Unwatched).ok()?;
         let collapse = rigid.end.as_ref().map_or(2.0, |end| end.load_factor);
@@ -192,7 +192,7 @@ impl Arch {
         }
         analysis.fields = vec![FieldAt::LoadFactor(at)];
         let square = |k: usize| {
-            let [before, after] = [&analysis.arch.joints[k], &analysis.arch.joints[k + 1]];
+            let [before, after] = [&analysis.structure.joints[k], &analysis.structure.joints[k + 1]];
             let along = (after.middle() - before.middle()).norm() / (0.5 * (before.length() + after.length()));
             [FINE, (along * FINE as f64).round().clamp(1.0, 48.0) as usize]
         };

@@ -34,7 +34,7 @@ fn hard_scenes_get_no_wrong_number() {
         let map = build();
         for scene in map.scenes.iter().step_by(EVERY) {
             let Ok(analysis) = scene.analysis() else { continue };
-            if analysis.arch.voussoirs.len() > MOST {
+            if analysis.structure.voussoirs().len() > MOST {
                 continue;
             }
             let truth = Truth::of(common::door::problem(&analysis)).known(scene.stands);

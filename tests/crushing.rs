@@ -6,9 +6,9 @@ mod common;
 use common::dice::Dice;
 use common::{door, random_arch};
 use serde_json::{Value, json};
-use voussoir::arch::{Joint, PointForce};
 use voussoir::collapse::Analysis;
 use voussoir::limit::{StaticTheorem, unwatched};
+use voussoir::structure::{Joint, PointForce};
 
 /// How many random arches, from seed 0.
 const ARCHES: u64 = 360;
@@ -22,14 +22,14 @@ const SMALL: f64 = 1e-3;
 const HARD: f64 = 1e30;
 
 fn theorem(analysis: &Analysis) -> StaticTheorem {
-    StaticTheorem::new(&analysis.arch, &analysis.fixed, &analysis.scaled)
+    StaticTheorem::new(&analysis.structure, &analysis.fixed, &analysis.scaled).unwrap()
 }
 
 /// Half the loads over the mean joint, Pa: about the mean stress at a springing.
 fn mean_stress(analysis: &Analysis) -> f64 {
     let total = |forces: &[PointForce]| forces.iter().map(|f| f.force.norm()).sum::<f64>();
     let loads = [total(&analysis.fixed), total(&analysis.scaled)].into_iter().find(|&sum| sum > 0.0).unwrap();
-    let joints = &analysis.arch.joints;
+    let joints = &analysis.structure.ring();
     0.5 * loads * joints.len() as f64 / joints.iter().map(Joint::length).sum::<f64>()
 }
 
@@ -51,11 +51,15 @@ fn compare(seed: u64) -> Result<Found, String> {
     let theorem = theorem(&analysis);
     let strength = mean_stress(&analysis) * Dice::new(seed).decades(1.0, 300.0);
     let plain = theorem.window(&unwatched).map_err(|_| "plain window unsolved")?;
-    let hard = theorem.crushing_window(HARD, &unwatched).map_err(|_| "hard window unsolved")?;
+    let hard =
+        theorem.crushing_window(&vec![HARD; theorem.joints()], &unwatched).map_err(|_| "hard window unsolved")?;
     if hard.as_ref().map(|window| window.ends) != plain {
         return Err(format!("hard {hard:?}, plain {plain:?}"));
     }
-    let ours = theorem.crushing_window(strength, &unwatched).map_err(|_| "unsolved")?.map(|window| window.ends);
+    let ours = theorem
+        .crushing_window(&vec![strength; theorem.joints()], &unwatched)
+        .map_err(|_| "unsolved")?
+        .map(|window| window.ends);
     let problem = common::oracle::Problem { strength: Some(strength), ..door::problem(&analysis) };
     let give = problem.give();
     if give.abs() < BALANCE {
@@ -197,7 +201,8 @@ fn hold(title: &str, rows: &[[f64; 3]], request: impl Fn(f64) -> Value) {
         let analysis = door::analysis(&request(abscissa)).unwrap();
         let theorem = theorem(&analysis);
         let plain = theorem.window(&unwatched).unwrap();
-        let crushing = theorem.crushing_window(STRENGTH, &unwatched).unwrap().map(|window| window.ends);
+        let crushing =
+            theorem.crushing_window(&vec![STRENGTH; theorem.joints()], &unwatched).unwrap().map(|window| window.ends);
         let problem = common::oracle::Problem { strength: Some(STRENGTH), ..door::problem(&analysis) };
         let cones = if problem.give() < 0.0 { problem.window() } else { None };
         let same = match (crushing, cones) {

@@ -11,8 +11,8 @@ use serde_json::json;
 use std::path::Path;
 use voussoir::api::read::read_analysis;
 use voussoir::api::response::AnalysisResult;
-use voussoir::arch::JointLaw;
 use voussoir::collapse::{Analysis, Cost, Unwatched, run};
+use voussoir::structure::JointLaw;
 
 /// Counts may grow by this much before a change has to explain itself.
 const ROOM: f64 = 1.25;
@@ -115,7 +115,7 @@ fn an_event_costs_nothing_in_a_part_of_the_arch_that_no_event_touches() {
     let left = 20;
     let of = |right: usize| {
         let mut analysis = arch(&[vec![1.0; left], vec![left as f64 / right as f64; right]].concat());
-        analysis.arch.joints[left + 1..].iter_mut().for_each(|joint| joint.law = JointLaw::Bonded);
+        analysis.structure.joints[left + 1..].iter_mut().for_each(|joint| joint.law = JointLaw::Bonded);
         cost(&analysis)
     };
     let (few, many) = (of(40), of(320));

@@ -12,9 +12,9 @@ use std::time::Duration;
 use voussoir::api::prose::prose;
 use voussoir::api::read::{read, read_analysis, read_question};
 use voussoir::api::response::JobResult;
-use voussoir::arch::PointForce;
 use voussoir::collapse::{Analysis, CurvePoint, Question, Unwatched, answer};
 use voussoir::geometry::{Vec2, cross};
+use voussoir::structure::PointForce;
 
 /// A semicircle of mean radius 10 m and thickness 1.5 m, its weight, and these loads.
 fn arch(loads: Value) -> Value {
@@ -247,7 +247,7 @@ fn half_an_arch_carries_half_the_shaken_fill() {
 fn fill_does_not_press_sideways_unless_asked() {
     let forces = |fill: Value| analysis(&arch(json!([fill]))).fixed;
     let left = |forces: &[PointForce]| {
-        let left = forces.iter().filter(|force| force.voussoir < 13);
+        let left = forces.iter().filter(|force| force.body < 13);
         left.map(|force| force.force).sum::<Vec2>()
     };
     assert_eq!(forces(fill()), forces(fill_with("lateral_ratio", 0.0)));

@@ -283,7 +283,7 @@ fn arches_that_slide_pass_no_limit_window_and_tend_to_first_order_as_stone_stiff
             continue;
         }
         slide += 1;
-        let thinnest = arch.arch.joints.iter().map(|joint| joint.length()).fold(f64::INFINITY, f64::min);
+        let thinnest = arch.structure.ring().iter().map(|joint| joint.length()).fold(f64::INFINITY, f64::min);
         let mut off = Vec::new();
         for modulus in [1e9, 1e10, 1e11, 1e12, STIFFEST] {
             let (report, first, updated) = both(request.clone(), modulus);

@@ -12,9 +12,9 @@ use std::time::Duration;
 use voussoir::api::prose::prose;
 use voussoir::api::read::read_question;
 use voussoir::api::response::JobResult;
-use voussoir::arch::{Arch, Joint};
 use voussoir::collapse::{CollapseReport, Outcome, PathEnd, Unwatched, answer};
 use voussoir::geometry::Vec2;
+use voussoir::structure::{Joint, Structure};
 
 fn result(request: &Value) -> JobResult {
     let (request, question) = read_question(request.to_string().as_bytes()).unwrap();
@@ -145,10 +145,10 @@ fn lifted(seed: u64) -> Value {
 }
 
 /// Rates at which the ends of a joint open, from the velocities of the stones beside it: intrados, extrados.
-fn openings(arch: &Arch, end: &PathEnd, k: usize) -> [f64; 2] {
+fn openings(arch: &Structure, end: &PathEnd, k: usize) -> [f64; 2] {
     let velocity = |stone: Option<usize>, at: Vec2| match stone {
-        Some(k) if k < arch.voussoirs.len() => {
-            let ([u, v, spin], arm) = (end.mechanism.velocities[k], at - arch.voussoirs[k].region.centroid);
+        Some(k) if k < arch.voussoirs().len() => {
+            let ([u, v, spin], arm) = (end.mechanism.velocities[k], at - arch.bodies[k].region.centroid);
             Vec2::new(u - spin * arm.y, v + spin * arm.x)
         }
         _ => Vec2::zeros(),
@@ -159,10 +159,10 @@ fn openings(arch: &Arch, end: &PathEnd, k: usize) -> [f64; 2] {
 }
 
 /// What is wrong with the lists of joints at one end of a path.
-fn wrong_lists(arch: &Arch, end: &PathEnd) -> Option<String> {
+fn wrong_lists(arch: &Structure, end: &PathEnd) -> Option<String> {
     let mechanism = &end.mechanism;
     let largest = end.thrust_line.iter().map(|thrust| thrust.normal).fold(0.0, f64::max);
-    for k in 0..arch.joints.len() {
+    for k in 0..arch.ring().len() {
         let [i, e] = openings(arch, end, k);
         let near = |a: f64, b: f64| (a - b).abs() < 1e-6 * arch.joints[k].length();
         let hinge = mechanism.hinges.iter().find(|hinge| hinge.joint == k);
@@ -192,7 +192,7 @@ fn a_joint_that_parts_altogether_is_no_hinge() {
     let (mut parting, mut faults) = (0, Vec::new());
     for seed in 0..600 {
         let request = lifted(seed);
-        let arch = door::analysis(&request).unwrap().arch;
+        let arch = door::analysis(&request).unwrap().structure;
         let report: CollapseReport = door::solve(&request);
         if report.outcome != Outcome::Collapse {
             continue;
@@ -226,8 +226,8 @@ fn a_joint_that_parts_is_listed_with_the_rates_of_its_ends() {
         ]
     });
     let found = solved(&request);
-    let arch = door::analysis(&request).unwrap().arch;
-    let (area, centroid) = arch.voussoirs.iter().fold((0.0, Vec2::zeros()), |(area, sum), stone| {
+    let arch = door::analysis(&request).unwrap().structure;
+    let (area, centroid) = arch.voussoirs().iter().fold((0.0, Vec2::zeros()), |(area, sum), stone| {
         (area + stone.region.area, sum + stone.region.area * stone.region.centroid)
     });
     let arm = centroid / area - arch.joints[0].extrados;

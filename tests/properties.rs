@@ -82,7 +82,7 @@ proptest! {
         let solved = Solved::new(&scene.request);
         prop_assume!(solved.falls());
         let problem = door::problem(&solved.analysis);
-        let centroids: Vec<_> = solved.analysis.arch.voussoirs.iter().map(|v| v.region.centroid.into()).collect();
+        let centroids: Vec<_> = solved.analysis.structure.voussoirs().iter().map(|v| v.region.centroid.into()).collect();
         for (end, sign) in solved.ends().into_iter().filter(|(end, _)| end.mechanism.slides.is_empty()) {
             // Hinges slower than 1e-6 of the fastest are not listed.
             let inconsistency = statics::inconsistency(&solved, end);
@@ -99,7 +99,7 @@ proptest! {
         let (solved, mirror) = (Solved::new(&scene.request), Solved::new(&scene.mirrored().request));
         prop_assume!(solved.falls() && !solved.slides());
         prop_assert!(apart(solved.factor(), mirror.factor()) <= EXACT, "{} {}", solved.factor(), mirror.factor());
-        let last = solved.analysis.arch.joints.len() - 1;
+        let last = solved.analysis.structure.ring().len() - 1;
         let (here, there) = (&solved.report.end.unwrap().mechanism, &mirror.report.end.unwrap().mechanism);
         prop_assert!(here.mode == there.mode && there.slides.is_empty());
         prop_assert_eq!(here.hinges.len(), there.hinges.len());

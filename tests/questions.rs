@@ -123,7 +123,7 @@ fn a_safety_analysis_says_which_crushing_counts() {
     assert_eq!(analysis.aim, Aim::Safety { crushing: CrushingKind::PlasticSection });
     assert_eq!(analysis.fields, [FieldAt::LoadFactor(1.0), FieldAt::NearCollapse, FieldAt::LoadFactor(2.5)]);
     assert_eq!(analysis.mesh.subblocks, [[3, 2]; 12]);
-    assert_eq!(analysis.stone.compressive_strength, 2e6);
+    assert_eq!(analysis.structure.stones[0].compressive_strength, 2e6);
     let elastic = with(safety(), "/analysis/safety/crushing", json!("elastic"));
     assert_eq!(one(&elastic).aim, Aim::Safety { crushing: CrushingKind::Elastic });
 }
@@ -153,7 +153,7 @@ fn a_curve_multiplies_flagged_loads_by_the_abscissa() {
         assert!((half.scaled[i].force - low * force.force).norm() < 1e-9);
         assert!((four.scaled[i].force - high * force.force).norm() < 1e-9);
     }
-    assert_eq!((&half.fixed, &half.arch), (&four.fixed, &four.arch));
+    assert_eq!((&half.fixed, &half.structure), (&four.fixed, &four.structure));
     let only = with(curve(), "/analysis/safety/curve/abscissae", json!([1]));
     let Question::Curve(single) = question(&only) else { panic!("a curve") };
     assert_eq!(single[0], points[1]);
@@ -229,8 +229,8 @@ fn voussoirs_of_several_arcs_are_not_cut() {
     let compound = |request: &Value| {
         let mut plain = request.clone();
         plain["mesh"] = json!({});
-        let sides = one(&plain).arch.voussoirs.into_iter().map(|voussoir| voussoir.sides);
-        sides.filter(|sides| *sides == voussoir::arch::Sides::Compound).count()
+        let sides = one(&plain).structure.bodies.into_iter().map(|voussoir| voussoir.sides);
+        sides.filter(|sides| *sides == voussoir::structure::Sides::Compound).count()
     };
     // Where the setting out knows no compound sides, there is nothing to refuse.
     if compound(&request) > 0 {
@@ -272,7 +272,7 @@ fn safety_factors_that_cannot_be() {
     );
     for strength in [1e3, 1e30] {
         let request = with(safety(), "/stone/compressive_strength_pa", json!(strength));
-        assert_eq!(one(&request).stone.compressive_strength, strength);
+        assert_eq!(one(&request).structure.stones[0].compressive_strength, strength);
     }
 }
 

@@ -27,7 +27,7 @@ const MESHES: [[usize; 2]; 3] = [[2, 2], [3, 2], [4, 4]];
 /// The analysis on another mesh: subblocks of each voussoir.
 fn meshed(analysis: &Analysis, of: impl FnMut(usize) -> [usize; 2]) -> Analysis {
     let mut refined = analysis.clone();
-    refined.mesh.subblocks = (0..analysis.arch.voussoirs.len()).map(of).collect();
+    refined.mesh.subblocks = (0..analysis.structure.voussoirs().len()).map(of).collect();
     refined
 }
 
@@ -59,7 +59,7 @@ fn falls(report: &CollapseReport) -> bool {
 
 /// Size of a load factor that matters: fixed over scaled loads.
 fn balance(analysis: &Analysis) -> f64 {
-    let total = |forces: &[voussoir::arch::PointForce]| forces.iter().map(|f| f.force.norm()).sum::<f64>();
+    let total = |forces: &[voussoir::structure::PointForce]| forces.iter().map(|f| f.force.norm()).sum::<f64>();
     let (fixed, scaled) = (total(&analysis.fixed), total(&analysis.scaled));
     if fixed > 0.0 && scaled > 0.0 { fixed / scaled } else { 1.0 }
 }
@@ -90,7 +90,7 @@ fn differences(analysis: &Analysis, plain: &CollapseReport, refined: &CollapseRe
 
 /// An arch that hinges, on square meshes and on one drawn at random for each voussoir.
 fn check_hinging(name: &str, analysis: &Analysis, plain: &CollapseReport, faults: &Mutex<Vec<String>>) {
-    let mut dice = Dice::new(analysis.arch.voussoirs.len() as u64);
+    let mut dice = Dice::new(analysis.structure.voussoirs().len() as u64);
     let drawn = meshed(analysis, |_| [0; 2].map(|_: usize| 1 + dice.below(4)));
     let square = |n: usize| (format!("{n}x{n}"), meshed(analysis, |_| [n, n]));
     let meshes = [1, 2, 4, 8].map(square).into_iter().chain([("drawn".to_owned(), drawn)]);
@@ -115,7 +115,7 @@ fn seeds(end: u64, see: impl Fn(u64) + Sync) {
 /// The analysis of a random request with voussoirs not too many.
 fn random(request: &Value) -> Option<Analysis> {
     let analysis = door::analysis(request).unwrap_or_else(|faults| panic!("{faults}{request}"));
-    Some(analysis).filter(|a| a.arch.voussoirs.len() <= MOST_VOUSSOIRS)
+    Some(analysis).filter(|a| a.structure.voussoirs().len() <= MOST_VOUSSOIRS)
 }
 
 #[test]

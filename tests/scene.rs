@@ -5,8 +5,8 @@
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use voussoir::api::read::{read, read_analysis, read_question};
-use voussoir::arch::JointLaw;
 use voussoir::collapse::{Analysis, Direction, Method};
+use voussoir::structure::JointLaw;
 
 #[path = "common/folders.rs"]
 mod folders;
@@ -71,12 +71,12 @@ fn the_buried_arch_weighs_and_carries_what_the_reference_says() {
         [(9, 188.0, 100.04), (17, 190.5, 94.82), (27, 191.02, 93.73), (61, 191.28, 93.19), (201, 191.34, 93.08)]
     {
         let analysis = analysis(&format!("paper/table-2/{joints}-joints"));
-        assert_eq!(analysis.arch.joints.len(), joints);
+        assert_eq!(analysis.structure.ring().len(), joints);
         let down: f64 = analysis.fixed.iter().map(|force| -force.force.y / 1000.0).sum();
         assert!((down - weight - 2.0 * gravel).abs() < 0.016, "{joints}: {down}");
         let jacks: f64 = analysis.scaled.iter().map(|force| -force.force.y).sum();
         assert!((jacks - 3350.0).abs() < 1e-9);
-        let abutments: f64 = analysis.arch.abutments.iter().flatten().map(|abutment| abutment.region.area).sum();
+        let abutments: f64 = analysis.structure.bodies[joints - 1..].iter().map(|block| block.region.area).sum();
         assert!((abutments * 2300.0 * 9.81 / 1000.0 - 45.58).abs() < 0.0051);
     }
 }
@@ -100,10 +100,10 @@ fn everything_asked_arrives_in_si() {
     request["load_factor"] = json!({"direction": "decrease", "cap": 40, "unit": "kN", "intensity_per_unit": 2});
     request["method"] = json!({"fixed_steps": {"step": 5}});
     let analysis = analyse(&request);
-    assert_eq!(analysis.arch.joints[0].law, JointLaw::Bonded);
-    assert_eq!(analysis.arch.joints[8].law, JointLaw::Bonded);
-    assert_eq!(analysis.arch.joints[3].law, JointLaw::Dry { friction: 0.0, cohesion: 7.0 });
-    let JointLaw::Dry { friction, cohesion } = analysis.arch.joints[4].law else { panic!() };
+    assert_eq!(analysis.structure.joints[0].law, JointLaw::Bonded);
+    assert_eq!(analysis.structure.joints[8].law, JointLaw::Bonded);
+    assert_eq!(analysis.structure.joints[3].law, JointLaw::Dry { friction: 0.0, cohesion: 7.0 });
+    let JointLaw::Dry { friction, cohesion } = analysis.structure.joints[4].law else { panic!() };
     assert!((friction - 1.0).abs() < 1e-15 && cohesion == 1.0);
     assert_eq!((analysis.direction, analysis.cap), (Direction::Decrease, Some(40.0)));
     assert_eq!(analysis.method, Method::FixedSteps { step: 5.0, opening: 0.01, hinges: 3 });
@@ -121,7 +121,7 @@ fn half_an_arch_carries_half_the_loads() {
     let whole = analyse(&request);
     request["arch"]["half"] = json!(true);
     let half = analyse(&request);
-    assert!(half.arch.half && half.arch.voussoirs.len() == 4 && half.arch.joints.len() == 5);
+    assert!(half.structure.is_half() && half.structure.voussoirs().len() == 4 && half.structure.ring().len() == 5);
     let down = |analysis: &Analysis| analysis.fixed.iter().map(|force| force.force.y).sum::<f64>();
     assert!((down(&half) - 0.5 * down(&whole)).abs() < 1e-9);
     assert_eq!(half.scaled.iter().map(|force| force.force.y).sum::<f64>(), -50.0);
@@ -130,9 +130,9 @@ fn half_an_arch_carries_half_the_loads() {
     let half = analyse(&request);
     request["arch"]["half"] = json!(false);
     let whole = analyse(&request);
-    assert!(half.arch.voussoirs.len() == 5 && half.arch.joints.len() == 6);
-    assert_eq!(half.arch.joints[5].law, JointLaw::Mirror);
-    assert!((2.0 * half.arch.voussoirs[4].region.area / whole.arch.voussoirs[4].region.area - 1.0).abs() < 1e-12);
+    assert!(half.structure.voussoirs().len() == 5 && half.structure.ring().len() == 6);
+    assert_eq!(half.structure.joints[5].law, JointLaw::Mirror);
+    assert!((2.0 * half.structure.bodies[4].region.area / whole.structure.bodies[4].region.area - 1.0).abs() < 1e-12);
     assert!((down(&half) - 0.5 * down(&whole)).abs() < 1e-9);
     assert_eq!(half.scaled.iter().map(|force| force.force.y).sum::<f64>(), -50.0);
 }
@@ -147,7 +147,7 @@ fn a_pair_of_mirrored_loads_is_symmetric() {
     request["arch"]["half"] = json!(true);
     request["loads"] = json!([{"load": {"self_weight": {}}}, jack(-0.7, 1000.0), jack(0.7, 1000.0)]);
     let half = analyse(&request);
-    assert_eq!(half.arch.voussoirs.len(), 4);
+    assert_eq!(half.structure.voussoirs().len(), 4);
     let down: f64 = half.scaled.iter().map(|force| -force.force.y).sum();
     assert!((down - 1000.0).abs() < 1e-9);
     // One of the two fixed and the other scaled, or of another size, is no pair.
@@ -164,15 +164,15 @@ fn a_pair_of_mirrored_loads_is_symmetric() {
 #[test]
 fn a_surveyed_arch_is_the_one_that_was_surveyed() {
     let drawn = analyse(&plain());
-    let points = |face: fn(&voussoir::arch::Joint) -> voussoir::geometry::Vec2| -> Vec<[f64; 2]> {
-        drawn.arch.joints.iter().map(|joint| [face(joint).x, face(joint).y]).collect()
+    let points = |face: fn(&voussoir::structure::Joint) -> voussoir::geometry::Vec2| -> Vec<[f64; 2]> {
+        drawn.structure.ring().iter().map(|joint| [face(joint).x, face(joint).y]).collect()
     };
     let request = json!({
         "arch": {"profile": {"surveyed": {"intrados_m": points(|j| j.intrados), "extrados_m": points(|j| j.extrados)}}},
         "loads": [{"load": {"self_weight": {}}}]
     });
     let surveyed = analyse(&request);
-    assert_eq!(surveyed.arch.joints, drawn.arch.joints);
+    assert_eq!(surveyed.structure.ring(), drawn.structure.ring());
     assert_eq!(surveyed.fixed, drawn.fixed);
-    assert!(surveyed.arch.angle_centre.norm() < 1e-12);
+    assert!(surveyed.structure.spans[0].angle_centre.norm() < 1e-12);
 }

@@ -9,9 +9,9 @@ use common::settled::judge;
 use common::three_hinges::follow;
 use common::wire::{ask, circular, continuous};
 use serde_json::{Value, json};
-use voussoir::arch::Face;
 use voussoir::collapse::{CollapseReport, Outcome, SettlementEnd, SettlementPath};
 use voussoir::geometry::Vec2;
+use voussoir::structure::Face;
 
 /// No joint slides.
 const ROUGH: f64 = 80.0;

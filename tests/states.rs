@@ -123,7 +123,7 @@ fn crown_hinge(x: f64) -> Value {
 fn a_symmetric_arch_under_a_crown_load_is_displaced_symmetrically() {
     let (analysis, report) = solve(&crown_hinge(0.0));
     for (state, snapshot) in states(&report) {
-        let lean = leaning(&analysis.arch, snapshot);
+        let lean = leaning(&analysis.structure, snapshot);
         println!("{state}: leans by {lean:?}");
         assert!(lean.into_iter().all(|part| part <= SYMMETRIC), "{state} leans by {lean:?}");
         assert!(broken(&analysis, snapshot).worst() <= LAWFUL, "{state}");
@@ -136,7 +136,7 @@ fn a_symmetric_arch_under_a_crown_load_is_displaced_symmetrically() {
 fn a_symmetric_arch_under_its_weight_alone_is_displaced_symmetrically() {
     let (analysis, report) = solve(&crown_hinge(-5.0));
     let start = report.at_start.unwrap();
-    let lean = leaning(&analysis.arch, &start);
+    let lean = leaning(&analysis.structure, &start);
     println!("at_start leans by {lean:?}");
     // The load that is to come is not symmetric, and does not act yet.
     assert!(lean.into_iter().all(|part| part <= SYMMETRIC), "at_start leans by {lean:?}");
@@ -149,7 +149,7 @@ fn random_symmetric_arches_have_symmetric_states_or_say_so() {
     for seed in 0..SYMMETRIC_ARCHES {
         let request = symmetric::request(seed);
         let report = judged.judge(&format!("seed {seed}"), &request);
-        let arch = door::analysis(&request).unwrap().arch;
+        let arch = door::analysis(&request).unwrap().structure;
         let said = |words: &str| report.notes.iter().any(|note| note.contains(words));
         let leans = states(&report).map(|(_, state)| leaning(&arch, state));
         let [worst, stress] = leans.fold([0.0; 2], |most, lean| [larger(most[0], lean[0]), larger(most[1], lean[1])]);
@@ -177,7 +177,7 @@ fn the_mirrored_request_has_the_mirrored_states() {
         let ((analysis, left), (_, right)) = (of(x), of(-x));
         assert_eq!(states(&left).count(), states(&right).count());
         for ((name, a), (_, b)) in states(&left).zip(states(&right)) {
-            let apart = mirrored_apart(&analysis.arch, a, b);
+            let apart = mirrored_apart(&analysis.structure, a, b);
             println!("{voussoirs} stones, load at {x}, {name}: {apart:?}");
             // The load factor near collapse is good to about 1e-12, and the arch a thousand times softer there.
             assert!(apart.into_iter().all(|part| part <= 1e-8), "{voussoirs} {name}: {apart:?}");

@@ -170,7 +170,7 @@ impl Truth {
         if slides(end) {
             return None;
         }
-        let centroids: Vec<_> = analysis.arch.voussoirs.iter().map(|v| v.region.centroid.into()).collect();
+        let centroids: Vec<_> = analysis.structure.voussoirs().iter().map(|v| v.region.centroid.into()).collect();
         let moved = motion::measure(&self.problem, &centroids, &end.mechanism, load);
         let holds = moved.entering <= HOLDS && moved.power.abs() <= HOLDS && sign * moved.driving > 0.0;
         (!holds).then(|| format!("the mechanism is none: {moved:?}"))
@@ -178,7 +178,7 @@ impl Truth {
 
     /// How far the end of a path is from a full solution of the non-associated problem.
     pub fn motion_fault(&self, analysis: &Analysis, end: &PathEnd) -> f64 {
-        let centroids: Vec<_> = analysis.arch.voussoirs.iter().map(|v| v.region.centroid.into()).collect();
+        let centroids: Vec<_> = analysis.structure.voussoirs().iter().map(|v| v.region.centroid.into()).collect();
         let entering = motion::measure(&self.problem, &centroids, &end.mechanism, end.load_factor).entering;
         end.mechanism.slides.iter().fold(entering, |worst, slide| {
             let (thrust, seam) = (&end.thrust_line[slide.joint], &self.problem.seams[slide.joint]);

@@ -83,7 +83,7 @@ fn sweep(map: &Map, classic: bool) -> (Vec<Row>, usize) {
         let truth = Truth::of(common::door::problem(&analysis)).known(scene.stands);
         let ours = ours(scene, &analysis, &truth);
         let theirs = if classic { theirs(&analysis, &truth, &ours) } else { vec![None; classic::METHODS.len()] };
-        rows.push(Row { scene: scene.clone(), voussoirs: analysis.arch.voussoirs.len(), truth, ours, theirs });
+        rows.push(Row { scene: scene.clone(), voussoirs: analysis.structure.voussoirs().len(), truth, ours, theirs });
     }
     (rows, refused)
 }

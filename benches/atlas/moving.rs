@@ -49,7 +49,7 @@ fn thrust_fault(analysis: &Analysis, path: &SettlementPath, truth: &Truth) -> Op
     }
     let Wanted::Settlement([left, right]) = analysis.aim else { return None };
     let outwards = left.outwards + right.outwards;
-    let size = analysis.arch.joints.iter().map(|joint| joint.intrados.y).fold(0.0, f64::max);
+    let size = analysis.structure.ring().iter().map(|joint| joint.intrados.y).fold(0.0, f64::max);
     if outwards.abs() < LARGE * size || !path.mechanism.slides.is_empty() {
         return None;
     }

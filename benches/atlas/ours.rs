@@ -7,8 +7,8 @@ use crate::common::door;
 use crate::common::verify::said;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
-use voussoir::arch::{Joint, JointLaw};
 use voussoir::collapse::{Aim, Analysis, CollapseReport, Outcome, Unwatched, run};
+use voussoir::structure::{Joint, JointLaw};
 
 /// What our method made of a scene.
 #[derive(Debug, Clone)]
@@ -130,7 +130,7 @@ impl Ours {
 fn rougher(analysis: &Analysis, factor: f64) -> Analysis {
     let mut other = analysis.clone();
     let joints: Vec<Joint> = other
-        .arch
+        .structure
         .joints
         .iter()
         .map(|joint| {
@@ -141,6 +141,6 @@ fn rougher(analysis: &Analysis, factor: f64) -> Analysis {
             Joint { law, ..*joint }
         })
         .collect();
-    other.arch.joints = joints;
+    other.structure.joints = joints;
     other
 }

@@ -29,14 +29,14 @@ pub fn theirs(analysis: &Analysis, truth: &Truth, ours: &Ours) -> Vec<Option<The
     let apply = analysis.aim == Aim::Collapse
         && analysis.motion.is_none()
         && analysis.mesh.subblocks.iter().all(|cut| *cut == [1, 1])
-        && analysis.arch.abutments == [None, None]
-        && analysis.arch.voussoirs.len() <= MOST;
+        && analysis.structure.abutments() == [None, None]
+        && analysis.structure.voussoirs().len() <= MOST;
     if !apply {
         return vec![None; METHODS.len()];
     }
     let sign = if analysis.direction == Direction::Increase { 1.0 } else { -1.0 };
     let loading = loading(truth, sign);
-    let stone = &analysis.stone;
+    let stone = &analysis.structure.stones[0];
     let penalty = analysis.penalty_ratio * stone.youngs_modulus;
     let elastic = Elastic { youngs_modulus: stone.youngs_modulus, poissons_ratio: stone.poissons_ratio, penalty };
     let model = Model::new(&truth.problem, elastic);

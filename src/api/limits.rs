@@ -57,7 +57,7 @@ fn size(question: &Question) -> (usize, usize) {
     let of = |analysis: &Analysis| {
         let given = || analysis.mesh.subblocks.iter().map(|[radial, along]| radial * along).sum();
         let refined = analysis.accuracy.filter(|accuracy| accuracy.stress.is_some());
-        (analysis.arch.voussoirs.len(), refined.map_or_else(given, |accuracy| accuracy.most_subblocks))
+        (analysis.structure.voussoirs().len(), refined.map_or_else(given, |accuracy| accuracy.most_subblocks))
     };
     match question {
         Question::One(analysis) => of(analysis),

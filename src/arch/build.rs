@@ -1,7 +1,7 @@
-//! From joints to an arch: checks that the stones can exist, adds springings and abutments.
+//! From joints to a structure: checks that the stones can exist, adds springings and abutments.
 
-use super::{Abutment, Arch, Face, Joint, JointLaw, Sides, Voussoir};
 use crate::geometry::{Region, Vec2, segments_meet};
+use crate::structure::{Body, Face, Joint, JointLaw, Side, Sides, Span, Stone, Structure, Surface};
 
 /// Most voussoirs an arch may have.
 pub const MAX_VOUSSOIRS: usize = 2001;
@@ -35,7 +35,7 @@ pub enum ArchFault {
 }
 
 /// Corners of a voussoir, counter-clockwise from the intrados end of its left joint.
-fn corners(left: &[Vec2; 2], right: &[Vec2; 2]) -> [Vec2; 4] {
+pub(super) fn corners(left: &[Vec2; 2], right: &[Vec2; 2]) -> [Vec2; 4] {
     [left[0], right[0], right[1], left[1]]
 }
 
@@ -43,7 +43,7 @@ fn corners(left: &[Vec2; 2], right: &[Vec2; 2]) -> [Vec2; 4] {
 ///
 /// # Errors
 /// Every stone that cannot exist.
-pub fn straight_voussoirs(ends: &[[Vec2; 2]]) -> Result<Vec<Voussoir>, Vec<ArchFault>> {
+pub fn straight_voussoirs(ends: &[[Vec2; 2]]) -> Result<Vec<Body>, Vec<ArchFault>> {
     let (mut voussoirs, mut faults) = (Vec::new(), Vec::new());
     for (voussoir, pair) in ends.windows(2).enumerate() {
         let [a, b, c, d] = corners(&pair[0], &pair[1]);
@@ -53,7 +53,7 @@ pub fn straight_voussoirs(ends: &[[Vec2; 2]]) -> Result<Vec<Voussoir>, Vec<ArchF
         } else if segments_meet(a, b, c, d) || region.area.is_nan() || region.area <= 0.0 {
             faults.push(ArchFault::InsideOut { voussoir });
         }
-        voussoirs.push(Voussoir { region, sides: Sides::Straight });
+        voussoirs.push(Body { corners: vec![a, b, c, d], sides: Sides::Straight, region, stone: 0 });
     }
     let ([a, b], [c, d]) = (ends[0], ends[ends.len() - 1]);
     if segments_meet(a, b, c, d) {
@@ -62,39 +62,57 @@ pub fn straight_voussoirs(ends: &[[Vec2; 2]]) -> Result<Vec<Voussoir>, Vec<ArchF
     if faults.is_empty() { Ok(voussoirs) } else { Err(faults) }
 }
 
-impl Arch {
-    /// Puts the arch together; every joint gets the same law.
-    pub fn assemble(ends: &[[Vec2; 2]], voussoirs: Vec<Voussoir>, law: JointLaw, angle_centre: Vec2) -> Arch {
-        Arch {
-            voussoirs,
-            joints: ends.iter().map(|&[intrados, extrados]| Joint { intrados, extrados, law }).collect(),
-            abutments: [None, None],
-            half: false,
-            angle_centre,
-        }
+/// Puts a ring together from its voussoirs and the ends of their joints: one span, of one stone, between two supports, all
+/// joints with the same law. Angles are about `angle_centre`; loads stand on the extrados.
+pub fn assemble(
+    ends: &[[Vec2; 2]],
+    voussoirs: Vec<Body>,
+    stone: Stone,
+    law: JointLaw,
+    angle_centre: Vec2,
+) -> Structure {
+    let n = voussoirs.len();
+    let before = |k: usize| if k == 0 { Side::Support(0) } else { Side::Body(k - 1) };
+    let after = |k: usize| if k == n { Side::Support(1) } else { Side::Body(k) };
+    let joint = |(k, &[intrados, extrados]): (usize, &[Vec2; 2])| Joint {
+        between: [before(k), after(k)],
+        intrados,
+        extrados,
+        law,
+    };
+    let surface = |(body, pair): (usize, &[[Vec2; 2]])| Surface { body, ends: [pair[0][1], pair[1][1]] };
+    Structure {
+        stones: vec![stone],
+        bodies: voussoirs,
+        joints: ends.iter().enumerate().map(joint).collect(),
+        spans: vec![Span { bodies: 0..n, joints: 0..n + 1, angle_centre }],
+        surfaces: ends.windows(2).enumerate().map(surface).collect(),
+        supports: 2,
     }
+}
 
-    /// Corners of voussoir `k`, counter-clockwise from the intrados end of its left joint, m.
-    pub fn corners(&self, k: usize) -> [Vec2; 4] {
-        let [left, right] = [&self.joints[k], &self.joints[k + 1]];
-        corners(&[left.intrados, left.extrados], &[right.intrados, right.extrados])
-    }
-
-    /// The straight extrados side of voussoir `k`, from left to right, m.
-    pub fn extrados_side(&self, k: usize) -> (Vec2, Vec2) {
-        (self.joints[k].extrados, self.joints[k + 1].extrados)
-    }
-
-    /// Puts rectangles of height `height`, m, on the outer sides of the springing joints, bonded to the foundation.
-    pub fn stand_on_abutments(&mut self, height: f64) {
-        let last = self.joints.len() - 1;
-        self.abutments = [(0, -height), (last, height)].map(|(joint, shift)| {
-            let top = self.joints[joint];
-            let shift = shift * top.normal();
-            let base = Joint { intrados: top.intrados + shift, extrados: top.extrados + shift, law: JointLaw::Bonded };
-            let mut region = Region::polygon(&[top.intrados, top.extrados, base.extrados, base.intrados]);
-            region.area = region.area.abs();
-            Some(Abutment { base, region })
-        });
+/// Puts rectangles of height `height`, m, on the outer sides of the springing joints of a ring, bonded to the ground.
+///
+/// They follow the voussoirs, and their bases the joints of the ring: the left one first. They have no weight.
+pub fn stand_on_abutments(ring: &mut Structure, height: f64) {
+    let (first_block, last_joint) = (ring.bodies.len(), ring.joints.len() - 1);
+    let weightless = Stone { density: 0.0, ..ring.stones[0] };
+    let stone = ring.stones.len();
+    ring.stones.push(weightless);
+    for side in 0..2 {
+        let (springing, shift) = [(0, -height), (last_joint, height)][side];
+        let (top, block) = (ring.joints[springing], Side::Body(first_block + side));
+        let shift = shift * top.normal();
+        let [intrados, extrados] = [top.intrados + shift, top.extrados + shift];
+        let ground = Side::Support(side);
+        let (between, corners) = match side {
+            0 => ([ground, block], corners(&[intrados, extrados], &[top.intrados, top.extrados])),
+            _ => ([block, ground], corners(&[top.intrados, top.extrados], &[intrados, extrados])),
+        };
+        let mut region = Region::polygon(&[top.intrados, top.extrados, extrados, intrados]);
+        region.area = region.area.abs();
+        ring.bodies.push(Body { corners: corners.to_vec(), sides: Sides::Straight, region, stone });
+        ring.joints[springing].between[side] = block;
+        ring.joints.push(Joint { between, intrados, extrados, law: JointLaw::Bonded });
     }
 }

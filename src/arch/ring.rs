@@ -1,8 +1,9 @@
 //! Setting out: from a profile line to the ends of every joint and the shape of every voussoir.
 
 use super::profile::{Profile, Station};
-use super::{ArchFault, Face, Sides, Voussoir};
+use super::{ArchFault, build};
 use crate::geometry::{Region, Vec2, cross, exit_from_circle, mirrored};
+use crate::structure::{Body, Face, Sides};
 
 /// Which curve of the arch the profile line is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -167,7 +168,7 @@ impl Ring {
 
     /// Shapes of the voussoirs with sides that follow the circles of the profile, exact by circular segments.
     /// `None` where the sides are not circular arcs about the profile's own centres.
-    pub fn curved_voussoirs(&self, ends: &[JointEnds]) -> Option<Vec<Voussoir>> {
+    pub fn curved_voussoirs(&self, ends: &[JointEnds]) -> Option<Vec<Body>> {
         let constant = matches!(self.thickness, Thickness::Linear { crown, springing } if crown == springing);
         if !constant || self.joints != JointLines::Normal {
             return None;
@@ -181,17 +182,18 @@ impl Ring {
             }
             places.push((to, ends[k + 1]));
             let sides = if places.len() > 2 { Sides::Compound } else { self.arc(from, to)? };
-            Some(Voussoir { region: self.curved_region(&places)?, sides })
+            let corners = build::corners(&ends[k], &ends[k + 1]).to_vec();
+            Some(Body { corners, sides, region: self.curved_region(&places)?, stone: 0 })
         };
         (0..ends.len() - 1).map(voussoir).collect()
     }
 
     /// The left half of the curved stone on the axis, and the ends of the cut.
-    pub fn left_half_of_keystone(&self) -> Option<(Voussoir, JointEnds)> {
+    pub fn left_half_of_keystone(&self) -> Option<(Body, JointEnds)> {
         let k = self.stations.len() / 2;
         let cut = Ring { stations: vec![self.stations[k - 1], 0.0], ..self.clone() };
         let ends = cut.set_out().ok()?;
-        Some((*cut.curved_voussoirs(&ends)?.first()?, ends[1]))
+        Some((cut.curved_voussoirs(&ends)?.into_iter().next()?, ends[1]))
     }
 
     fn arc(&self, from: f64, to: f64) -> Option<Sides> {

@@ -4,9 +4,9 @@ use super::discretise::{bond, elasticity};
 use super::grid::{Grid, Lines};
 use super::pulse::Pulse;
 use super::{AnalysisError, BeamReport, CurvedBeam, DEFAULT_PENALTY_RATIO, PlaneModel, StressField, SubblockStress};
-use crate::arch::{Joint, JointLaw};
 use crate::dda::{Macroblock, free_response};
 use crate::geometry::{Region, Vec2};
+use crate::structure::{Joint, JointLaw, Side};
 use nalgebra::DVector;
 use std::f64::consts::FRAC_PI_2;
 
@@ -103,7 +103,8 @@ pub(super) fn solve(beam: &CurvedBeam, pulse: &Pulse) -> Result<BeamReport, Anal
 
 /// The ring from theta = 90 degrees (left) to 0, as a stone between two joints.
 fn macroblock(beam: &CurvedBeam) -> (Grid, Macroblock) {
-    let joint = |direction: Vec2| Joint {
+    let joint = |between: [Side; 2], direction: Vec2| Joint {
+        between,
         intrados: direction * beam.inner_radius,
         extrados: direction * beam.outer_radius,
         law: JointLaw::Bonded,
@@ -113,7 +114,9 @@ fn macroblock(beam: &CurvedBeam) -> (Grid, Macroblock) {
     let area = 0.5 * FRAC_PI_2 * (b * b - a * a);
     // First moment of a quarter ring about either axis: (b^3 - a^3) / 3.
     let whole = Region { area, centroid: Vec2::repeat((b.powi(3) - a.powi(3)) / (3.0 * area)) };
-    let grid = Grid::new([&joint(Vec2::y()), &joint(Vec2::x())], whole, lines, beam.subblocks);
+    let left = joint([Side::Support(0), Side::Body(0)], Vec2::y());
+    let right = joint([Side::Body(0), Side::Support(1)], Vec2::x());
+    let grid = Grid::new([&left, &right], whole, lines, beam.subblocks);
     let bond = bond(beam.seams, DEFAULT_PENALTY_RATIO * beam.stone.youngs_modulus);
     (grid, grid.macroblock(elasticity(&beam.stone, beam.plane), bond))
 }
@@ -173,7 +176,7 @@ mod tests {
                 inner_radius: 0.5,
                 outer_radius: 0.5 * ratio,
                 shear: 2500.0,
-                stone: crate::arch::Stone::default(),
+                stone: crate::structure::Stone::default(),
                 plane: PlaneModel::Stress,
                 subblocks: [1, 1],
                 accuracy: None,

@@ -4,7 +4,6 @@ use super::doubt::Doubt;
 use super::path::total;
 use super::pulse::Pulse;
 use super::{Analysis, AnalysisError, Crushing, Digits, LimitWindow, LoadRange, PathEnd, PlasticCrushing};
-use crate::arch::JointLaw;
 use crate::limit::{CrushingWindow, StaticTheorem};
 
 /// Path and window agree when their load factors differ by less than this share.
@@ -44,7 +43,8 @@ pub(super) struct Certificate {
 impl Certificate {
     pub(super) fn new(analysis: &Analysis, pulse: &Pulse) -> Result<Self, AnalysisError> {
         pulse.go_on()?;
-        let theorem = StaticTheorem::new(&analysis.arch, &analysis.fixed, &analysis.scaled);
+        let theorem = StaticTheorem::new(&analysis.structure, &analysis.fixed, &analysis.scaled);
+        let theorem = theorem.map_err(|bodies| AnalysisError::Unconnected(bodies[0]))?;
         let window = theorem.window(&|| pulse.beat());
         pulse.check()?;
         let solved = window.is_ok();
@@ -102,7 +102,8 @@ impl Certificate {
 
     /// What limit analysis says of stone of this strength, Pa.
     pub(super) fn crushing(&self, strength: f64, pulse: &Pulse) -> Result<Crushing, AnalysisError> {
-        let found = self.theorem.crushing_window(strength, &|| pulse.beat());
+        let strengths = vec![strength; self.theorem.joints()];
+        let found = self.theorem.crushing_window(&strengths, &|| pulse.beat());
         pulse.check()?;
         let plastic_section = found.ok().map(|window| {
             let (ends, joints) = window.map(|CrushingWindow { ends, joints }| (ends, joints)).unzip();
@@ -154,7 +155,7 @@ impl Certificate {
         let largest = end.thrust_line.iter().map(|thrust| thrust.normal).fold(0.0, f64::max);
         end.mechanism.slides.iter().all(|slide| {
             let (joint, thrust) = (self.theorem.joint(slide.joint), &end.thrust_line[slide.joint]);
-            let JointLaw::Dry { friction, cohesion } = joint.law else { return true };
+            let Some([friction, cohesion]) = joint.law.coulomb() else { return true };
             let bound = friction * thrust.normal + cohesion * joint.length();
             bound + slide.rate.signum() * thrust.shear <= AT_BOUND * bound + MARGIN * largest
         })
@@ -212,9 +213,9 @@ pub(super) const LATER_MECHANISM: &str = "Joints at their limits at the collapse
 
 /// Whether every stone carries a fixed load, and whether every stone carries any.
 pub(super) fn loaded(analysis: &Analysis) -> [bool; 2] {
-    let mut loads = vec![[false; 2]; analysis.arch.voussoirs.len()];
-    analysis.fixed.iter().for_each(|f| loads[f.voussoir] = [true; 2]);
-    analysis.scaled.iter().for_each(|f| loads[f.voussoir][1] = true);
+    let mut loads = vec![[false; 2]; analysis.structure.voussoirs().len()];
+    analysis.fixed.iter().for_each(|f| loads[f.body] = [true; 2]);
+    analysis.scaled.iter().for_each(|f| loads[f.body][1] = true);
     [0, 1].map(|i| loads.iter().all(|l| l[i]))
 }
 

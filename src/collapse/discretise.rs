@@ -1,11 +1,11 @@
-//! From an arch to a chain of blocks: the only door between masonry and mechanics.
+//! From a structure to a chain of blocks: the only door between masonry and mechanics.
 
 use super::grid::{Grid, Lines, ON_LINE};
 use super::pulse::Pulse;
 use super::{Analysis, AnalysisError, Geometry, PlaneModel, Seams};
-use crate::arch::{Abutment, Joint, JointLaw, PointForce, Stone};
 use crate::dda::{Bond, Chain, ChainBuilder, Elasticity, Law, Loads, MeanMotion, Push, Stopped, Touch, Unbuilt};
 use crate::geometry::{Region, Vec2};
+use crate::structure::{Joint, JointLaw, PointForce, Stone, Structure};
 
 /// Relative scatter of the contact stiffnesses. Ties between contacts of a symmetric arch need something to break
 /// them; stiffness does not move a rigid limit load, and 1e-4 is far below what anyone knows of a joint.
@@ -15,7 +15,7 @@ const STIFFNESS_SCATTER: f64 = 1e-4;
 /// links (one towards the ground, two between stones) make up the joint's own.
 const LINK: f64 = 4.0;
 
-/// Stiffness of the crown joint of half an arch over that of others: its stone moves half as far towards the mirror plane as
+/// Stiffness of a crown joint on the plane of symmetry over that of others: its stone moves half as far towards the mirror plane as
 /// the two towards each other.
 const CROWN_JOINT: f64 = 2.0;
 /// The same of the cut through a keystone, where there is no joint: its compliance, a hundredth of a joint's, is not seen.
@@ -69,36 +69,27 @@ impl Scatter {
     }
 }
 
-/// Cuts the arch into one macroblock per voussoir, and one block per abutment.
+/// Cuts the structure into one macroblock per voussoir, and one block per abutment.
 pub(super) fn discretise<'p>(analysis: &Analysis, seed: u64, pulse: &'p Pulse<'p>) -> Result<Model<'p>, AnalysisError> {
-    let arch = &analysis.arch;
-    let elasticity = elasticity(&analysis.stone, analysis.plane);
-    let penalty = analysis.penalty_ratio * analysis.stone.youngs_modulus;
+    let structure = &analysis.structure;
     let grids = grids(analysis);
-    let [left, right] = arch.abutments;
-    let base = |abutment: Option<Abutment>| abutment.map(|a| Joint { law: JointLaw::Bonded, ..a.base });
-    let joints: Vec<Joint> = base(left).into_iter().chain(arch.joints.iter().copied()).chain(base(right)).collect();
-    let stand = |abutment: Option<Abutment>, k: usize| {
-        abutment.map(|a| Grid::new([&joints[k], &joints[k + 1]], a.region, Lines::Straight, [1, 1]))
+    let Row { joints, bodies } = Row::new(structure);
+    let in_row = |(place, &body): (usize, &usize)| match grids.get(body) {
+        Some(grid) => *grid,
+        None => Grid::new([joints[place], joints[place + 1]], structure.bodies[body].region, Lines::Straight, [1, 1]),
     };
-    let last = joints.len() - 2;
-    let bodies: Vec<Grid> = stand(left, 0).into_iter().chain(grids.iter().copied()).chain(stand(right, last)).collect();
-    let bond = bond(analysis.mesh.seams, penalty);
-    let mut macroblocks = Vec::with_capacity(bodies.len());
-    for grid in &bodies {
-        macroblocks.push(grid.macroblock(elasticity, bond));
+    let cut: Vec<Grid> = bodies.iter().enumerate().map(in_row).collect();
+    let mut macroblocks = Vec::with_capacity(cut.len());
+    for (grid, &body) in cut.iter().zip(&bodies) {
+        let stone = structure.stone_of(body);
+        let bond = bond(analysis.mesh.seams, analysis.penalty_ratio * stone.youngs_modulus);
+        macroblocks.push(grid.macroblock(elasticity(stone, analysis.plane), bond));
         pulse.work(CUT * grid.radial * grid.along)?;
     }
     let mut builder = ChainBuilder::new(macroblocks);
     for (k, joint) in joints.iter().enumerate() {
-        let stiffer = match joint.law {
-            JointLaw::Mirror => CUT_STONE,
-            _ if arch.half && k + 1 == joints.len() => CROWN_JOINT,
-            _ => 1.0,
-        };
-        let sides = [k.checked_sub(1).map(|k| &bodies[k]), bodies.get(k)];
-        let stiffness = [1.0, analysis.shear_penalty_ratio].map(|ratio| stiffer * penalty * ratio);
-        touches(joint, sides, stiffness).for_each(|touch| builder.contact(touch));
+        let sides = [k.checked_sub(1).map(|k| &cut[k]), cut.get(k)];
+        touches(joint, sides, penalties(analysis, joint)).for_each(|touch| builder.contact(touch));
         builder.next_interface();
     }
     let mut chain = builder.finish(&pulse.heart).map_err(|error| match error {
@@ -107,8 +98,8 @@ pub(super) fn discretise<'p>(analysis: &Analysis, seed: u64, pulse: &'p Pulse<'p
     })?;
     let mut scatter = Scatter::new(seed);
     chain.scatter(|| [(); 2].map(|()| 1.0 + STIFFNESS_SCATTER * scatter.next()));
-    let first_voussoir = usize::from(left.is_some());
-    let around = |k: usize| places(joints[k].law, k.checked_sub(1).map(|k| &bodies[k]), bodies.get(k));
+    let first_voussoir = usize::from(bodies[0] != 0);
+    let around = |k: usize| places(joints[k].law, k.checked_sub(1).map(|k| &cut[k]), cut.get(k));
     let on_subblocks = |force: &PointForce| pushes(force, first_voussoir, &grids);
     let (heart, stopped) = (&pulse.heart, |_: Stopped| pulse.stopped());
     let straight = |forces: &[PointForce]| chain.loads(forces.iter().flat_map(on_subblocks), heart).map_err(stopped);
@@ -119,18 +110,50 @@ pub(super) fn discretise<'p>(analysis: &Analysis, seed: u64, pulse: &'p Pulse<'p
     let [fixed, scaled] = [straight(&analysis.fixed)?, straight(&analysis.scaled)?];
     Ok(Model {
         turned: [turned(&analysis.fixed)?, turned(&analysis.scaled)?],
-        symmetric: !arch.half && chain.is_symmetric(),
+        symmetric: !structure.is_half() && chain.is_symmetric(),
         fixed,
         scaled,
         pulse,
         first_voussoir,
-        voussoirs: arch.voussoirs.len(),
-        size: extent(arch.joints.iter().flat_map(|j| [j.intrados, j.extrados])),
+        voussoirs: structure.voussoirs().len(),
+        size: extent(structure.ring().iter().flat_map(|j| [j.intrados, j.extrados])),
         softest: chain.contacts().iter().map(|contact| contact.stiffness[0]).fold(f64::INFINITY, f64::min),
-        positions: (0..arch.joints.len()).map(|joint| around(first_voussoir + joint)).collect(),
+        positions: (0..structure.ring().len()).map(|joint| around(first_voussoir + joint)).collect(),
         chain,
         grids,
     })
+}
+
+/// Joints and bodies of a ring from left to right, abutment blocks at its ends.
+struct Row<'a> {
+    joints: Vec<&'a Joint>,
+    bodies: Vec<usize>,
+}
+
+impl<'a> Row<'a> {
+    fn new(structure: &'a Structure) -> Self {
+        let [left, right] = structure.abutments();
+        let base = |joint: usize| &structure.joints[joint];
+        let [left_base, right_base] = [left, right].map(|abutment| abutment.map(|abutment| base(abutment.base)));
+        let [left_block, right_block] = [left, right].map(|abutment| abutment.map(|abutment| abutment.body));
+        let voussoirs = 0..structure.voussoirs().len();
+        Row {
+            joints: left_base.into_iter().chain(structure.ring()).chain(right_base).collect(),
+            bodies: left_block.into_iter().chain(voussoirs).chain(right_block).collect(),
+        }
+    }
+}
+
+/// Normal and tangential contact penalty of a joint, N/m2: that of the softer of two stones.
+fn penalties(analysis: &Analysis, joint: &Joint) -> [f64; 2] {
+    let stiffer = match joint.law {
+        JointLaw::Mirror => CUT_STONE,
+        JointLaw::Wall => CROWN_JOINT,
+        JointLaw::Dry { .. } | JointLaw::Bonded => 1.0,
+    };
+    let softest = analysis.structure.stones_at(joint).map(|stone| stone.youngs_modulus).fold(f64::INFINITY, f64::min);
+    let penalty = analysis.penalty_ratio * softest;
+    [1.0, analysis.shear_penalty_ratio].map(|ratio| stiffer * penalty * ratio)
 }
 
 /// Material of the stones.
@@ -151,10 +174,10 @@ pub(super) fn bond(seams: Seams, penalty: f64) -> Bond {
 }
 
 fn grids(analysis: &Analysis) -> Vec<Grid> {
-    let arch = &analysis.arch;
+    let structure = &analysis.structure;
     let grid = |(k, &subblocks): (usize, &[usize; 2])| {
-        let stone = &arch.voussoirs[k];
-        Grid::new([&arch.joints[k], &arch.joints[k + 1]], stone.region, stone.sides.into(), subblocks)
+        let stone = &structure.bodies[k];
+        Grid::new([&structure.joints[k], &structure.joints[k + 1]], stone.region, stone.sides.into(), subblocks)
     };
     analysis.mesh.subblocks.iter().enumerate().map(grid).collect()
 }
@@ -209,15 +232,15 @@ fn places(law: JointLaw, before: Option<&Grid>, after: Option<&Grid>) -> Vec<f64
 
 /// Law of a contact point that has this share of the joint.
 fn law(joint: &Joint, share: f64) -> Law {
-    match joint.law {
-        JointLaw::Bonded | JointLaw::Mirror => Law::Bonded,
-        JointLaw::Dry { friction, cohesion } => Law::Coulomb { friction, cohesion: share * cohesion * joint.length() },
+    match joint.law.coulomb() {
+        Some([friction, cohesion]) => Law::Coulomb { friction, cohesion: share * cohesion * joint.length() },
+        None => Law::Bonded,
     }
 }
 
-/// A force on a voussoir as forces on its subblocks.
+/// A force on a body as forces on its subblocks.
 fn pushes(force: &PointForce, first_voussoir: usize, grids: &[Grid]) -> Vec<Push> {
-    let (grid, body) = (&grids[force.voussoir], first_voussoir + force.voussoir);
+    let (grid, body) = (&grids[force.body], first_voussoir + force.body);
     if force.spread {
         let regions: Vec<_> = grid.cells().map(|(i, j)| grid.region(i, j)).collect();
         let area: f64 = regions.iter().map(|r| r.area).sum();

@@ -5,9 +5,9 @@ use super::mechanism::{self, Released};
 use super::motion::{Motion, motion_at};
 use super::path::{Fall, total};
 use super::{Analysis, PathEnd, Thrust};
-use crate::arch::{Arch, JointLaw, PointForce};
 use crate::dda::{Peak, State, Tracer, Zone};
 use crate::limit::{Condition, Resultant, StaticTheorem};
+use crate::structure::{JointLaw, PointForce, Structure};
 
 /// Polishing undoes a disturbance of about 1e-9 of the loads; a larger change means that other conditions were solved.
 pub(super) const POLISH: f64 = 1e-6;
@@ -39,8 +39,8 @@ pub(super) fn at_peak(
     sign: f64,
     residual: f64,
 ) -> Ending {
-    let arch = &analysis.arch;
-    let conditions = conditions(model, arch, peak);
+    let structure = &analysis.structure;
+    let conditions = conditions(model, structure, peak);
     let polished = theorem.solve(&conditions).filter(|e| {
         let scale = peak.parameter.abs().max(theorem.load_factor_scale());
         (e.load_factor - peak.parameter).abs() <= POLISH * scale && theorem.slack(e) >= -ADMISSIBLE
@@ -50,20 +50,20 @@ pub(super) fn at_peak(
         None => carried(model, &peak.displacements),
     };
     let driving = driving(analysis, peak.parameter, sign);
-    let slipping: Vec<Option<f64>> = (0..arch.joints.len()).map(|k| sliding_shear(model, k, peak)).collect();
-    let found = mechanism::from_statics(arch, &forces, &slipping, &driving, POLISHED, &model.pulse.heart);
+    let slipping: Vec<Option<f64>> = (0..structure.ring().len()).map(|k| sliding_shear(model, k, peak)).collect();
+    let found = mechanism::from_statics(structure, &forces, &slipping, &driving, POLISHED, &model.pulse.heart);
     let later = found.is_none();
     let mechanism = found.unwrap_or_else(|| {
-        from_direction(model, arch, if fall.turned_back { &peak.direction } else { &fall.direction })
+        from_direction(model, structure, if fall.turned_back { &peak.direction } else { &fall.direction })
     });
     let left = resultants(model, |p| fall.forces[p]);
     let at_limits = vec![
         mechanism::released(&mechanism),
-        mechanism::all_releases(arch, &forces, &slipping, if polished.is_some() { POLISHED } else { AS_BUILT }),
-        mechanism::all_releases(arch, &left, &vec![None; left.len()], AS_BUILT),
+        mechanism::all_releases(structure, &forces, &slipping, if polished.is_some() { POLISHED } else { AS_BUILT }),
+        mechanism::all_releases(structure, &left, &vec![None; left.len()], AS_BUILT),
     ];
     let load_factor = polished.map_or(peak.parameter, |e| e.load_factor);
-    let end = PathEnd { load_factor, range: None, residual, mechanism, thrust_line: thrust_line(arch, &forces) };
+    let end = PathEnd { load_factor, range: None, residual, mechanism, thrust_line: thrust_line(structure, &forces) };
     Ending { end, later, at_limits }
 }
 
@@ -83,14 +83,14 @@ fn driving(analysis: &Analysis, load_factor: f64, sign: f64) -> Vec<PointForce> 
 /// The path ends before all of them act, in joints that are at their limits already; without sliding, the smallest
 /// motion of those in which the loads do work is as symmetric as the arch.
 pub(super) fn at_fall(analysis: &Analysis, model: &Model, tracer: &Tracer, start: f64, load_factor: f64) -> PathEnd {
-    let arch = &analysis.arch;
+    let structure = &analysis.structure;
     let scaled = analysis.scaled.iter().map(|f| PointForce { force: f.force * start, ..*f });
     let driving: Vec<PointForce> = analysis.fixed.iter().copied().chain(scaled).collect();
     let forces = tracer.contact_forces();
-    let along_path = from_direction(model, arch, tracer.direction());
-    let none = vec![None; arch.joints.len()];
+    let along_path = from_direction(model, structure, tracer.direction());
+    let none = vec![None; structure.ring().len()];
     let (carried, heart) = (resultants(model, |p| forces[p]), &model.pulse.heart);
-    let smallest = mechanism::from_statics(arch, &carried, &none, &driving, AS_BUILT, heart);
+    let smallest = mechanism::from_statics(structure, &carried, &none, &driving, AS_BUILT, heart);
     let mechanism = smallest.filter(|m| along_path.slides.is_empty() && m.slides.is_empty()).unwrap_or(along_path);
     PathEnd { load_factor, range: None, residual: tracer.worst_residual(), mechanism, thrust_line: Vec::new() }
 }
@@ -103,15 +103,15 @@ pub(super) fn at_criterion(
     load_factor: f64,
     residual: f64,
 ) -> PathEnd {
-    let mechanism = from_direction(model, &analysis.arch, displacements);
-    let thrust_line = thrust_line(&analysis.arch, &carried(model, displacements));
+    let mechanism = from_direction(model, &analysis.structure, displacements);
+    let thrust_line = thrust_line(&analysis.structure, &carried(model, displacements));
     PathEnd { load_factor, range: None, residual, mechanism, thrust_line }
 }
 
 /// How an arch goes on in the direction of its path: joints that are open at one end turn about the other, be it further
 /// open or back, and slide as their contact points do.
 pub(super) fn at_rates(analysis: &Analysis, model: &Model, tracer: &Tracer) -> super::Mechanism {
-    let arch = &analysis.arch;
+    let structure = &analysis.structure;
     let forces = tracer.contact_forces();
     let rates = |joint: usize| {
         let contacts = model.contacts(joint);
@@ -127,35 +127,35 @@ pub(super) fn at_rates(analysis: &Analysis, model: &Model, tracer: &Tracer) -> s
         }
     };
     let apart = |joint: usize| model.contacts(joint).all(|p| forces[p][0] <= 0.0);
-    let joints = || 0..arch.joints.len();
+    let joints = || 0..structure.ring().len();
     let (rates, apart): (Vec<_>, Vec<_>) = (joints().map(rates).collect(), joints().map(apart).collect());
-    mechanism::from_rates(arch, &motions(model, arch, tracer.direction()), &rates, &apart)
+    mechanism::from_rates(structure, &motions(model, structure, tracer.direction()), &rates, &apart)
 }
 
 /// The thrust line of what the contacts carry now.
 pub(super) fn carried_by(analysis: &Analysis, model: &Model, tracer: &Tracer) -> Vec<Thrust> {
     let forces = tracer.contact_forces();
-    thrust_line(&analysis.arch, &resultants(model, |p| forces[p]))
+    thrust_line(&analysis.structure, &resultants(model, |p| forces[p]))
 }
 
-pub(super) fn from_direction(model: &Model, arch: &Arch, direction: &[f64]) -> super::Mechanism {
-    mechanism::from_velocities(arch, &motions(model, arch, direction))
+pub(super) fn from_direction(model: &Model, structure: &Structure, direction: &[f64]) -> super::Mechanism {
+    mechanism::from_velocities(structure, &motions(model, structure, direction))
 }
 
 /// Motions of the voussoirs in a direction of the nodes.
-fn motions(model: &Model, arch: &Arch, direction: &[f64]) -> Vec<Motion> {
+fn motions(model: &Model, structure: &Structure, direction: &[f64]) -> Vec<Motion> {
     let of = |v: usize| {
         let motion = model.chain.mean_motion(model.first_voussoir + v, direction, &[]);
-        motion_at(arch.voussoirs[v].region.centroid, motion.displacement, motion.rotation)
+        motion_at(structure.bodies[v].region.centroid, motion.displacement, motion.rotation)
     };
     (0..model.voussoirs).map(of).collect()
 }
 
 /// What the contact states at the peak say of the joint forces there.
-fn conditions(model: &Model, arch: &Arch, peak: &Peak) -> Vec<Condition> {
+fn conditions(model: &Model, structure: &Structure, peak: &Peak) -> Vec<Condition> {
     let mut conditions = Vec::new();
-    for joint in 0..arch.joints.len() {
-        if arch.joints[joint].law == JointLaw::Mirror {
+    for joint in 0..structure.ring().len() {
+        if structure.joints[joint].law == JointLaw::Mirror {
             conditions.push(Condition { joint, weights: [0.0, 0.0, 1.0], constant: 0.0 });
         }
         let contacts = model.contacts(joint);
@@ -237,12 +237,13 @@ fn resultants(model: &Model, force: impl Fn(usize) -> [f64; 2]) -> Vec<Resultant
 }
 
 /// The thrust line of an arch without load.
-pub(super) fn no_thrust(arch: &Arch) -> Vec<Thrust> {
-    thrust_line(arch, &vec![Resultant { intrados: 0.0, extrados: 0.0, shear: 0.0 }; arch.joints.len()])
+pub(super) fn no_thrust(structure: &Structure) -> Vec<Thrust> {
+    thrust_line(structure, &vec![Resultant { intrados: 0.0, extrados: 0.0, shear: 0.0 }; structure.ring().len()])
 }
 
-pub(super) fn thrust_line(arch: &Arch, resultants: &[Resultant]) -> Vec<Thrust> {
-    arch.joints
+pub(super) fn thrust_line(structure: &Structure, resultants: &[Resultant]) -> Vec<Thrust> {
+    structure
+        .ring()
         .iter()
         .zip(resultants)
         .enumerate()

@@ -5,9 +5,9 @@ use super::{
     Analysis, AnalysisError, CollapseReport, Digits, Direction, FallingMotion, MotionAsked, MotionContact, MotionEnd,
     MotionFrame, OpenHinge, Outcome, Slid,
 };
-use crate::arch::{Arch, Face, Joint, JointLaw};
 use crate::dda::falling::{Advance, Block, Corners, Falling, Frame, Friction};
 use crate::geometry::Vec2;
+use crate::structure::{Face, Joint, JointLaw, Structure};
 
 /// The scaled loads are so much larger in the motion than at collapse, lest a perfectly balanced arch stay where it is.
 const OVERLOAD: f64 = 0.01;
@@ -38,8 +38,8 @@ pub(super) fn follow(analysis: &Analysis, report: &mut CollapseReport, pulse: &P
     if !falls || (report.end.is_none() && report.other_end.is_none()) {
         return Ok(());
     }
-    let halved = analysis.arch.joints.iter().any(|joint| joint.law == JointLaw::Mirror);
-    if halved || !holds_together(&analysis.arch) {
+    let halved = analysis.structure.ring().iter().any(|joint| joint.law == JointLaw::Mirror);
+    if halved || !holds_together(&analysis.structure) {
         report.notes.push(if halved { HALVED } else { BONDED }.into());
         return Ok(());
     }
@@ -80,7 +80,7 @@ fn loadings(analysis: &Analysis, report: &CollapseReport, at: f64, sign: f64) ->
         // It falls as soon as the load factor leaves 0: the path was tried from there.
         return vec![(report.start, report.start)];
     }
-    let total = |forces: &[crate::arch::PointForce]| forces.iter().map(|f| f.force.norm()).sum::<f64>();
+    let total = |forces: &[crate::structure::PointForce]| forces.iter().map(|f| f.force.norm()).sum::<f64>();
     let small = SMALL * total(&analysis.fixed) / total(&analysis.scaled).max(f64::MIN_POSITIVE);
     let beyond = |at: f64| at + sign * OVERLOAD * at.abs().max(small);
     let limit = report.limit_window.map(|window| if sign > 0.0 { window.highest } else { window.lowest });
@@ -113,9 +113,9 @@ fn run(
     report: &CollapseReport,
     pulse: &Pulse,
 ) -> Result<FallingMotion, AnalysisError> {
-    let arch = &analysis.arch;
-    let thickness = arch.joints.iter().map(Joint::length).fold(f64::INFINITY, f64::min);
-    let span = span(arch);
+    let structure = &analysis.structure;
+    let thickness = structure.ring().iter().map(Joint::length).fold(f64::INFINITY, f64::min);
+    let span = span(structure);
     let mut falling = falling(analysis, load_factor, thickness);
     let mut frame = falling.frame();
     let mut frames = vec![read(&frame, thickness)];
@@ -158,58 +158,58 @@ fn freed(frame: &Frame, frames: &[MotionFrame], joint: usize) -> usize {
 }
 
 /// Between the middles of the springing joints; of half an arch, twice the half.
-fn span(arch: &Arch) -> f64 {
-    let (first, last) = (arch.joints[0].middle(), arch.joints[arch.joints.len() - 1].middle());
-    if arch.half { 2.0 * (last.x - first.x).abs() } else { (last - first).norm() }
+fn span(structure: &Structure) -> f64 {
+    let (first, last) = (structure.joints[0].middle(), structure.joints[structure.ring().len() - 1].middle());
+    if structure.is_half() { 2.0 * (last.x - first.x).abs() } else { (last - first).norm() }
 }
 
 /// True unless a bonded joint joins stones that can move.
-fn holds_together(arch: &Arch) -> bool {
-    let fixed = fixed(arch);
+fn holds_together(structure: &Structure) -> bool {
+    let fixed = fixed(structure);
     let bonded = |(k, joint): (usize, &Joint)| {
         let stands = |stone: Option<usize>| stone.and_then(|stone| fixed.get(stone)).is_none_or(|&fixed| fixed);
         joint.law != JointLaw::Bonded || (stands(k.checked_sub(1)) && stands(Some(k)))
     };
-    arch.joints.iter().enumerate().all(bonded)
+    structure.ring().iter().enumerate().all(bonded)
 }
 
 /// Stones that are bonded to the ground, directly or through others.
-fn fixed(arch: &Arch) -> Vec<bool> {
-    let n = arch.voussoirs.len();
-    let bonded = |k: &usize| arch.joints[*k].law == JointLaw::Bonded;
+fn fixed(structure: &Structure) -> Vec<bool> {
+    let n = structure.voussoirs().len();
+    let bonded = |k: &usize| structure.joints[*k].law == JointLaw::Bonded;
     let left = (0..n).take_while(bonded).count();
     let right = (1..=n).rev().take_while(bonded).count();
     (0..n).map(|k| k < left || k + right >= n).collect()
 }
 
 fn falling(analysis: &Analysis, load_factor: f64, thickness: f64) -> Falling {
-    let arch = &analysis.arch;
-    let stone = |two: &[Joint]| {
+    let structure = &analysis.structure;
+    let stone = |(k, two): (usize, &[Joint])| {
         let corners = [two[0].intrados, two[1].intrados, two[1].extrados, two[0].extrados];
-        Block::new(corners, analysis.stone.density)
+        Block::new(corners, structure.stone_of(k).density)
     };
-    let mut blocks: Vec<Block> = arch.joints.windows(2).map(stone).collect();
-    for (block, fixed) in blocks.iter_mut().zip(fixed(arch)) {
+    let mut blocks: Vec<Block> = structure.ring().windows(2).enumerate().map(stone).collect();
+    for (block, fixed) in blocks.iter_mut().zip(fixed(structure)) {
         block.fixed = fixed;
     }
     for (forces, factor) in [(&analysis.fixed, 1.0), (&analysis.scaled, load_factor)] {
-        forces.iter().for_each(|force| blocks[force.voussoir].push(force.at, force.force * factor));
+        forces.iter().for_each(|force| blocks[force.body].push(force.at, force.force * factor));
     }
-    let friction = |joint: &Joint| match joint.law {
-        JointLaw::Dry { friction, cohesion } => Friction { coefficient: friction, cohesion: cohesion * joint.length() },
-        JointLaw::Bonded | JointLaw::Mirror => Friction { coefficient: 0.0, cohesion: 0.0 },
+    let friction = |joint: &Joint| {
+        let [coefficient, cohesion] = joint.law.coulomb().unwrap_or_default();
+        Friction { coefficient, cohesion: cohesion * joint.length() }
     };
-    Falling::new(blocks, grounds(arch), arch.joints.iter().map(friction).collect(), thickness)
+    Falling::new(blocks, grounds(structure), structure.ring().iter().map(friction).collect(), thickness)
 }
 
 /// What the springing joints stand on: as wide as they are, and as deep as wide. The wall at the crown of half an arch
 /// goes on above and below.
-fn grounds(arch: &Arch) -> [Option<Corners>; 2] {
-    let [first, last] = [arch.joints[0], arch.joints[arch.joints.len() - 1]];
+fn grounds(structure: &Structure) -> [Option<Corners>; 2] {
+    let [first, last] = [structure.joints[0], structure.joints[structure.ring().len() - 1]];
     let back = first.normal() * -first.length();
     let left = [first.intrados + back, first.intrados, first.extrados, first.extrados + back];
     let on = last.normal() * last.length();
-    let beyond: Vec2 = last.tangent() * if arch.half { 10.0 * span(arch) } else { 0.0 };
+    let beyond: Vec2 = last.tangent() * if structure.is_half() { 10.0 * span(structure) } else { 0.0 };
     let (inner, outer) = (last.intrados - beyond, last.extrados + beyond);
     [Some(left), Some([inner, inner + on, outer + on, outer])]
 }

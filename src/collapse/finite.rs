@@ -87,7 +87,7 @@ impl Mechanism {
         let Mechanism { mode: _, hinges, slides, lift_offs, velocities } = self;
         let turning = |hinge: &Hinge| {
             let Hinge { joint: _, face: _, angle_from_springing, angle_from_crown, rotation } = hinge;
-            [*angle_from_springing, *angle_from_crown, *rotation]
+            [*angle_from_springing, *angle_from_crown, Some(*rotation)].into_iter().flatten()
         };
         finite("hinges", hinges.iter().flat_map(turning))?;
         finite("sliding joints", slides.iter().map(|Slide { joint: _, rate }| *rate))?;
@@ -199,12 +199,12 @@ impl MotionFrame {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::arch::Face;
     use crate::collapse::{Mode, MotionEnd, SettlementEnd, UpdatedEnd};
+    use crate::structure::Face;
 
     fn mechanism(rotation: f64, rate: f64) -> Mechanism {
         let hinge =
-            Hinge { joint: 0, face: Face::Intrados, angle_from_springing: 0.0, angle_from_crown: 0.0, rotation };
+            Hinge { joint: 0, face: Face::Intrados, angle_from_springing: Some(0.0), angle_from_crown: None, rotation };
         let slides = vec![Slide { joint: 1, rate }];
         Mechanism { mode: Mode::Sway, hinges: vec![hinge], slides, lift_offs: vec![], velocities: vec![] }
     }

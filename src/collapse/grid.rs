@@ -1,9 +1,9 @@
 //! The grid of subblocks in one stone.
 
 use super::SubblockStress;
-use crate::arch::{Joint, Sides};
 use crate::dda::{Block, Bond, Elasticity, Macroblock, Seam};
 use crate::geometry::{Region, Vec2, cross, perpendicular};
+use crate::structure::{Joint, Sides};
 
 /// A point this close to a line of the grid, as a share of a subblock, lies on it.
 pub(super) const ON_LINE: f64 = 1e-9;

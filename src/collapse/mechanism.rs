@@ -3,10 +3,10 @@
 use super::motion::Motion;
 use super::smallest_motion::{Column, smallest_motion};
 use super::{Face, Hinge, LiftOff, Mechanism, Mode, Slide};
-use crate::arch::{Arch, Joint, JointLaw, PointForce};
 use crate::dda::Heart;
 use crate::geometry::{Vec2, cross};
 use crate::limit::{Release, Resultant, releases};
+use crate::structure::{Joint, JointLaw, Loops, PointForce, Side, Structure};
 
 /// Releases slower than this share of the fastest do not move.
 const MOVES: f64 = 1e-6;
@@ -34,29 +34,31 @@ pub(super) type Released = (usize, Release);
 /// a corner's is none, and within which its shear is at capacity; a joint that carries next to nothing of what others do
 /// carries none. None, too, where the heart stands still.
 pub(super) fn from_statics(
-    arch: &Arch,
+    structure: &Structure,
     resultants: &[Resultant],
     slipping: &[Option<f64>],
     driving: &[PointForce],
     at_limit: f64,
     heart: &Heart,
 ) -> Option<Mechanism> {
-    let releases = all_releases(arch, resultants, slipping, at_limit);
-    let rates = smallest_motion(&columns(arch, &releases, driving), heart)?;
-    Some(describe(arch, &releases, &rates))
+    let loops = Loops::new(structure).ok()?;
+    let releases = all_releases(structure, resultants, slipping, at_limit);
+    let columns = columns(structure, &loops, &releases, driving);
+    let rates = smallest_motion(&columns, 3 * loops.len() + 1, heart)?;
+    Some(describe(structure, &loops, &releases, &rates))
 }
 
 /// What all joints at their limits let happen; see [`from_statics`].
 pub(super) fn all_releases(
-    arch: &Arch,
+    structure: &Structure,
     resultants: &[Resultant],
     slipping: &[Option<f64>],
     at_limit: f64,
 ) -> Vec<Released> {
     let none = NO_FORCE * at_limit * resultants.iter().map(Resultant::size).fold(0.0, f64::max);
     let of_joint = |(k, forces): (usize, &Resultant)| {
-        let mut found = releases(&arch.joints[k], forces, none.max(at_limit * forces.size()));
-        if let Some(sign) = slipping[k]
+        let mut found = releases(&structure.joints[k], forces, none.max(at_limit * forces.size()));
+        if let Some(sign) = slipping.get(k).copied().flatten()
             && !found.contains(&Release::Sliding(-sign))
         {
             found.push(Release::Sliding(-sign));
@@ -75,23 +77,26 @@ pub(super) fn released(mechanism: &Mechanism) -> Vec<Released> {
     hinges.chain(slides).chain(lift_offs).collect()
 }
 
-/// What each release does to the closure of the chain, and its power under the `driving` loads.
-pub(super) fn columns(arch: &Arch, releases: &[Released], driving: &[PointForce]) -> Vec<Column> {
-    let tails = tail_loads(arch, driving);
+/// What each release does to the closure of every loop (two velocities over the size of the structure, and a spin), and its power
+/// under the `driving` loads: what the joint carries of them down the tree does no work but in its own motion.
+fn columns(structure: &Structure, loops: &Loops, releases: &[Released], driving: &[PointForce]) -> Vec<Column> {
+    let carried = loops.carried(&on_bodies(structure, driving));
     let total = driving.iter().map(|f| f.force.norm()).sum::<f64>();
-    let size = arch.joints.iter().map(|j| j.middle().norm()).fold(0.0, f64::max);
+    let size = structure.joints.iter().map(|j| j.middle().norm()).fold(0.0, f64::max);
     let column = |&(k, release): &Released| {
-        let motion = relative_motion(arch, k, release);
-        let ([fx, fy, moment], closure) = (tails[k], motion.velocity / size);
-        let power = (fx * motion.velocity.x + fy * motion.velocity.y + moment * motion.spin) / (total * size);
-        Column::new(closure.x, closure.y, motion.spin, power)
+        let motion = relative_motion(structure, k, release);
+        let ([fx, fy, moment], closure) = (carried[k], motion.velocity / size);
+        let power = -(fx * motion.velocity.x + fy * motion.velocity.y + moment * motion.spin) / (total * size);
+        let parts = [closure.x, closure.y, motion.spin];
+        let round = |&(number, sign): &(usize, f64)| [0, 1, 2].map(|i| (3 * number + i, sign * parts[i]));
+        loops.through(k).iter().flat_map(round).chain([(3 * loops.len(), power)]).collect()
     };
     releases.iter().map(column).collect()
 }
 
-/// Motion of everything after joint `k` relative to everything before it, for a release of unit rate.
-fn relative_motion(arch: &Arch, k: usize, release: Release) -> Motion {
-    let joint = &arch.joints[k];
+/// Motion of what lies after joint `k` relative to what lies before it, for a release of unit rate.
+fn relative_motion(structure: &Structure, k: usize, release: Release) -> Motion {
+    let joint = &structure.joints[k];
     match release {
         // Clockwise about the intrados, counter-clockwise about the extrados: the other end opens.
         Release::Rotation(Face::Intrados) => Motion::about(joint.intrados, -1.0),
@@ -100,27 +105,24 @@ fn relative_motion(arch: &Arch, k: usize, release: Release) -> Motion {
     }
 }
 
-/// Resultant (F_x, F_y, M about the origin) of the loads on all stones after joint k.
-fn tail_loads(arch: &Arch, loads: &[PointForce]) -> Vec<[f64; 3]> {
-    let mut tails = vec![[0.0; 3]; arch.joints.len()];
+/// Resultant (F_x, F_y, M about the origin) of the loads on every body.
+fn on_bodies(structure: &Structure, loads: &[PointForce]) -> Vec<[f64; 3]> {
+    let mut sums = vec![[0.0; 3]; structure.bodies.len()];
     for f in loads {
         let part = [f.force.x, f.force.y, cross(f.at, f.force)];
-        tails[f.voussoir] = std::array::from_fn(|i| tails[f.voussoir][i] + part[i]);
+        sums[f.body] = std::array::from_fn(|i| sums[f.body][i] + part[i]);
     }
-    for k in (0..tails.len() - 1).rev() {
-        tails[k] = std::array::from_fn(|i| tails[k][i] + tails[k + 1][i]);
-    }
-    tails
+    sums
 }
 
 /// The mechanism of these releases at their rates.
-pub(super) fn describe(arch: &Arch, releases: &[Released], rates: &[f64]) -> Mechanism {
+pub(super) fn describe(structure: &Structure, loops: &Loops, releases: &[Released], rates: &[f64]) -> Mechanism {
     let fastest = rates.iter().copied().fold(0.0, f64::max);
-    let joints = arch.joints.len();
+    let joints = structure.joints.len();
     let (mut relative, mut openings, mut slid) =
         (vec![Motion::STILL; joints], vec![[0.0; 2]; joints], vec![0.0; joints]);
     for (&(k, release), &rate) in releases.iter().zip(rates) {
-        relative[k] = relative[k].plus(relative_motion(arch, k, release), rate);
+        relative[k] = relative[k].plus(relative_motion(structure, k, release), rate);
         match release {
             _ if rate <= MOVES * fastest => {}
             Release::Rotation(Face::Intrados) => openings[k][1] += rate,
@@ -128,39 +130,51 @@ pub(super) fn describe(arch: &Arch, releases: &[Released], rates: &[f64]) -> Mec
             Release::Sliding(sign) => slid[k] += sign * rate,
         }
     }
-    let mut motion = Motion::STILL;
-    let along = relative[..arch.voussoirs.len()].iter().map(|&r| {
-        motion = motion.plus(r, 1.0);
-        motion
-    });
-    assemble(arch, &along.collect::<Vec<_>>(), &openings, &slid, &vec![false; joints])
+    let relative: Vec<_> = relative.iter().map(|m| [m.velocity.x, m.velocity.y, m.spin]).collect();
+    let motions = loops.motions(&relative);
+    let motion = |&[x, y, spin]: &[f64; 3]| Motion { velocity: Vec2::new(x, y), spin };
+    let motions: Vec<_> = motions[..structure.voussoirs().len()].iter().map(motion).collect();
+    assemble(structure, &motions, &openings, &slid, &vec![false; joints])
 }
 
 /// Reads a mechanism off velocities of the stones; for paths whose peak is not a mechanism of the joints at their limits.
-pub(super) fn from_velocities(arch: &Arch, motions: &[Motion]) -> Mechanism {
-    let relative = |k: usize| {
-        let before = if k == 0 { Motion::STILL } else { motions[k - 1] };
-        motions.get(k).copied().unwrap_or(Motion::STILL).plus(before, -1.0)
-    };
-    let corners = |(k, joint): (usize, &Joint)| {
+pub(super) fn from_velocities(structure: &Structure, motions: &[Motion]) -> Mechanism {
+    let corners = |joint: &Joint| {
+        let [before, after] = joint.between.map(|side| motion_of(side, motions).unwrap_or(Motion::STILL));
         let rate = |v: Vec2| [v.dot(&joint.normal()), v.dot(&joint.tangent())];
-        [joint.intrados, joint.extrados].map(|corner| rate(relative(k).at(corner)))
+        [joint.intrados, joint.extrados].map(|corner| rate(after.plus(before, -1.0).at(corner)))
     };
-    let rates: Vec<_> = arch.joints.iter().enumerate().map(corners).collect();
-    read_off(arch, motions, &rates, &vec![false; rates.len()], ELASTIC)
+    let rates: Vec<_> = structure.ring().iter().map(corners).collect();
+    read_off(structure, motions, &rates, &vec![false; rates.len()], ELASTIC)
+}
+
+/// Motion of what lies on a side of a joint, if it moves.
+fn motion_of(side: Side, motions: &[Motion]) -> Option<Motion> {
+    motions.get(side.body()?).copied()
 }
 
 /// Reads a mechanism off the rates of gap and slip at the corners of every joint, intrados first; `apart`: whether it carries
 /// no force, being open at both ends.
-pub(super) fn from_rates(arch: &Arch, motions: &[Motion], rates: &[[[f64; 2]; 2]], apart: &[bool]) -> Mechanism {
-    read_off(arch, motions, rates, apart, MOVING_ELASTIC)
+pub(super) fn from_rates(
+    structure: &Structure,
+    motions: &[Motion],
+    rates: &[[[f64; 2]; 2]],
+    apart: &[bool],
+) -> Mechanism {
+    read_off(structure, motions, rates, apart, MOVING_ELASTIC)
 }
 
 /// Elastic strain and rounding are no joint motion: below this share of the fastest corner nothing opens or slides.
-fn read_off(arch: &Arch, motions: &[Motion], rates: &[[[f64; 2]; 2]], apart: &[bool], elastic: f64) -> Mechanism {
-    let corners = arch.joints.iter().skip(1).zip(motions);
-    let speed = |(joint, m): (&Joint, &Motion)| m.at(joint.intrados).norm().max(m.at(joint.extrados).norm());
-    let still = elastic * corners.map(speed).fold(0.0, f64::max);
+fn read_off(
+    structure: &Structure,
+    motions: &[Motion],
+    rates: &[[[f64; 2]; 2]],
+    apart: &[bool],
+    elastic: f64,
+) -> Mechanism {
+    let moving = structure.ring().iter().filter_map(|joint| Some((joint, motion_of(joint.between[0], motions)?)));
+    let speed = |(joint, m): (&Joint, Motion)| m.at(joint.intrados).norm().max(m.at(joint.extrados).norm());
+    let still = elastic * moving.map(speed).fold(0.0, f64::max);
     let moves = |rate: f64| if rate.abs() < still { 0.0 } else { rate };
     let opening = |((joint, [[i, _], [e, _]]), &apart): ((&Joint, &[[f64; 2]; 2]), &bool)| {
         let (i, e) = (moves(*i) / joint.length(), moves(*e) / joint.length());
@@ -174,16 +188,22 @@ fn read_off(arch: &Arch, motions: &[Motion], rates: &[[[f64; 2]; 2]], apart: &[b
         JointLaw::Bonded => 0.0,
         _ => moves(0.5 * (i + e)),
     };
-    let openings: Vec<_> = arch.joints.iter().zip(rates).zip(apart).map(opening).collect();
-    let slid: Vec<_> = arch.joints.iter().zip(rates).map(slide).collect();
-    assemble(arch, motions, &openings, &slid, apart)
+    let openings: Vec<_> = structure.ring().iter().zip(rates).zip(apart).map(opening).collect();
+    let slid: Vec<_> = structure.ring().iter().zip(rates).map(slide).collect();
+    assemble(structure, motions, &openings, &slid, apart)
 }
 
 /// A mechanism from the motions of stones and joints: `openings` about the extrados and about the intrados, rad; `slid`, m.
 /// Joints that open about both, or are `apart`, lift off; along the joint they may slide as they do.
-fn assemble(arch: &Arch, motions: &[Motion], openings: &[[f64; 2]], slid: &[f64], apart: &[bool]) -> Mechanism {
+fn assemble(
+    structure: &Structure,
+    motions: &[Motion],
+    openings: &[[f64; 2]],
+    slid: &[f64],
+    apart: &[bool],
+) -> Mechanism {
     let lifts = |k: usize| apart[k] || (openings[k][0] > 0.0 && openings[k][1] > 0.0);
-    let lifted = lift_offs(arch, openings, lifts);
+    let lifted = lift_offs(structure, openings, lifts);
     let turning = || openings.iter().enumerate().filter(|&(k, o)| !lifts(k) && o[0] != o[1]);
     let hinge_rate = turning().flat_map(|(_, o)| *o).fold(0.0, f64::max);
     let slide_rate = slid.iter().map(|s| s.abs()).fold(0.0, f64::max);
@@ -193,41 +213,40 @@ fn assemble(arch: &Arch, motions: &[Motion], openings: &[[f64; 2]], slid: &[f64]
     let hinges = turning().map(|(joint, o)| {
         // Open at the intrados, pressed at the extrados, and the other way round.
         let face = if o[0] > o[1] { Face::Extrados } else { Face::Intrados };
-        let (angle_from_springing, angle_from_crown) = angles(arch, joint);
+        let (angle_from_springing, angle_from_crown) = angles(structure, joint).unzip();
         Hinge { joint, face, angle_from_springing, angle_from_crown, rotation: (o[0] - o[1]).abs() * scale }
     });
-    let wall = if arch.half { arch.joints.len() - 1 } else { arch.joints.len() };
-    let sliding = slid.iter().enumerate().filter(|&(k, &s)| s != 0.0 && k != wall);
+    let sliding = slid.iter().enumerate().filter(|&(k, &s)| s != 0.0 && !structure.joints[k].is_symmetry());
     let slides: Vec<Slide> = sliding.map(|(joint, &s)| Slide { joint, rate: s * scale }).collect();
     let motions: Vec<Motion> = motions.iter().map(|&m| Motion::STILL.plus(m, scale)).collect();
-    let velocities = arch.voussoirs.iter().zip(&motions).map(|(v, m)| {
+    let velocities = structure.voussoirs().iter().zip(&motions).map(|(v, m)| {
         let velocity = m.at(v.region.centroid);
         [velocity.x, velocity.y, m.spin]
     });
-    let opening = turning().map(|(k, o)| (o[0] - o[1]).abs() * arch.joints[k].length()).fold(lift_rate, f64::max);
+    let opening = turning().map(|(k, o)| (o[0] - o[1]).abs() * structure.joints[k].length()).fold(lift_rate, f64::max);
     let fastest_slide = slides.iter().map(|s| s.rate.abs()).fold(0.0, f64::max);
-    let mode = if fastest_slide > opening * scale { Mode::Sliding } else { crown_mode(arch, &motions) };
+    let mode = if fastest_slide > opening * scale { Mode::Sliding } else { crown_mode(structure, &motions) };
     let by = |l: LiftOff| LiftOff { intrados: l.intrados * scale, extrados: l.extrados * scale, ..l };
     let lift_offs = lifted.into_iter().map(by).collect();
     Mechanism { mode, hinges: hinges.collect(), slides, lift_offs, velocities: velocities.collect() }
 }
 
 /// The joints that lift off and move, with the rates at which their ends open, m.
-fn lift_offs(arch: &Arch, openings: &[[f64; 2]], lifts: impl Fn(usize) -> bool) -> Vec<LiftOff> {
+fn lift_offs(structure: &Structure, openings: &[[f64; 2]], lifts: impl Fn(usize) -> bool) -> Vec<LiftOff> {
     let moving = openings.iter().enumerate().filter(|&(k, o)| lifts(k) && *o != [0.0; 2]);
     let rates = |(joint, o): (usize, &[f64; 2])| {
-        let [intrados, extrados] = o.map(|rate| rate * arch.joints[joint].length());
+        let [intrados, extrados] = o.map(|rate| rate * structure.joints[joint].length());
         LiftOff { joint, intrados, extrados }
     };
     moving.map(rates).collect()
 }
 
 /// Which way the crown goes.
-fn crown_mode(arch: &Arch, motions: &[Motion]) -> Mode {
-    let [a, b] = crown(arch);
-    let top = 0.5 * (arch.voussoirs[a].region.centroid + arch.voussoirs[b].region.centroid);
+fn crown_mode(structure: &Structure, motions: &[Motion]) -> Mode {
+    let [a, b] = crown(structure);
+    let top = 0.5 * (structure.bodies[a].region.centroid + structure.bodies[b].region.centroid);
     let velocity = 0.5 * (motions[a].at(top) + motions[b].at(top));
-    if velocity.x.abs() > velocity.y.abs() && !arch.half {
+    if velocity.x.abs() > velocity.y.abs() && !structure.is_half() {
         Mode::Sway
     } else if velocity.y > 0.0 {
         Mode::CrownRises
@@ -237,45 +256,45 @@ fn crown_mode(arch: &Arch, motions: &[Motion]) -> Mode {
 }
 
 /// The voussoirs whose mean is the crown: the highest stone twice, or the two that are equally high.
-pub(super) fn crown(arch: &Arch) -> [usize; 2] {
-    let heights: Vec<f64> = arch.voussoirs.iter().map(|v| v.region.centroid.y).collect();
+pub(super) fn crown(structure: &Structure) -> [usize; 2] {
+    let heights: Vec<f64> = structure.voussoirs().iter().map(|v| v.region.centroid.y).collect();
     let (low, high) = heights.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &y| (l.min(y), h.max(y)));
     let top = |y: &f64| *y >= high - 1e-9 * (high - low);
     [heights.iter().position(top), heights.iter().rposition(top)].map(|place| place.unwrap_or(0))
 }
 
-/// Angles of a joint's middle about the angle centre: from the nearer springing, and from the crown (left negative), rad.
-fn angles(arch: &Arch, joint: usize) -> (f64, f64) {
+/// Angles of a joint's middle about the angle centre of its span: from the nearer springing, and from the crown (left
+/// negative), rad; None of a joint of no span.
+fn angles(structure: &Structure, joint: usize) -> Option<(f64, f64)> {
+    let span = structure.span_of(joint)?;
     let from_vertical = |k: usize| {
-        let r = arch.joints[k].middle() - arch.angle_centre;
+        let r = structure.joints[k].middle() - span.angle_centre;
         r.x.atan2(r.y)
     };
     let here = from_vertical(joint);
-    let last = arch.joints.len() - 1;
-    let left = (here - from_vertical(0)).abs();
-    let right = if arch.half { f64::INFINITY } else { (from_vertical(last) - here).abs() };
-    (left.min(right), here)
+    // A plane of symmetry is no springing.
+    let springings =
+        [span.joints.start, span.joints.end - 1].into_iter().filter(|&k| !structure.joints[k].is_symmetry());
+    let nearest = springings.map(|k| (from_vertical(k) - here).abs()).fold(f64::INFINITY, f64::min);
+    Some((nearest, here))
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::motion::motion_at;
     use super::*;
-    use crate::arch::{Sides, Voussoir};
-    use crate::geometry::Region;
+    use crate::arch::{assemble, straight_voussoirs};
+    use crate::structure::Stone;
 
-    fn semicircle(n: usize) -> Arch {
+    fn semicircle(n: usize) -> Structure {
         let law = JointLaw::Dry { friction: 0.7, cohesion: 0.0 };
-        let joints: Vec<Joint> = (0..=n)
+        let ends: Vec<[Vec2; 2]> = (0..=n)
             .map(|k| {
                 let (sin, cos) = (std::f64::consts::PI * (1.0 - k as f64 / n as f64)).sin_cos();
-                let ray = Vec2::new(cos, sin);
-                Joint { intrados: ray * 0.9, extrados: ray * 1.1, law }
+                [0.9, 1.1].map(|radius| radius * Vec2::new(cos, sin))
             })
             .collect();
-        let region = |w: &[Joint]| Region::polygon(&[w[0].extrados, w[0].intrados, w[1].intrados, w[1].extrados]);
-        let voussoirs = joints.windows(2).map(|w| Voussoir { region: region(w), sides: Sides::Straight }).collect();
-        Arch { voussoirs, joints, abutments: [None, None], half: false, angle_centre: Vec2::zeros() }
+        assemble(&ends, straight_voussoirs(&ends).unwrap(), Stone::default(), law, Vec2::zeros())
     }
 
     /// Joint forces with hinges at the given joints and faces, pressed in the middle elsewhere.
@@ -288,41 +307,63 @@ mod tests {
         all
     }
 
-    fn crown_load(arch: &Arch) -> Vec<PointForce> {
-        let n = arch.voussoirs.len();
-        let down =
-            |voussoir| PointForce { voussoir, at: Vec2::new(0.0, 1.1), force: Vec2::new(0.0, -1.0), spread: false };
+    fn crown_load(structure: &Structure) -> Vec<PointForce> {
+        let n = structure.voussoirs().len();
+        let down = |voussoir| PointForce {
+            body: voussoir,
+            at: Vec2::new(0.0, 1.1),
+            force: Vec2::new(0.0, -1.0),
+            spread: false,
+        };
         vec![down((n - 1) / 2), down(n / 2)]
     }
 
     #[test]
     fn a_symmetric_set_of_five_hinges_falls_symmetrically_and_closes() {
         use Face::{Extrados, Intrados};
-        let arch = semicircle(12);
+        let structure = semicircle(12);
         let set = [(0, Extrados), (3, Intrados), (6, Extrados), (9, Intrados), (12, Extrados)];
         let none = vec![None; 13];
         let mechanism =
-            from_statics(&arch, &resultants(12, &set), &none, &crown_load(&arch), 1e-8, &Heart::unwatched()).unwrap();
+            from_statics(&structure, &resultants(12, &set), &none, &crown_load(&structure), 1e-8, &Heart::unwatched())
+                .unwrap();
         let found: Vec<_> = mechanism.hinges.iter().map(|h| (h.joint, h.face)).collect();
         assert_eq!(found, set);
         assert_eq!(mechanism.mode, Mode::CrownDescends);
         for (h, mirror) in mechanism.hinges.iter().zip(mechanism.hinges.iter().rev()) {
             assert!((h.rotation - mirror.rotation).abs() < 1e-9);
-            assert!((h.angle_from_crown + mirror.angle_from_crown).abs() < 1e-12);
+            assert!((h.angle_from_crown.unwrap() + mirror.angle_from_crown.unwrap()).abs() < 1e-12);
         }
         // The last stone turns about its hinge on the right springing: the chain closes.
-        let ([u, v, spin], centroid) = (mechanism.velocities[11], arch.voussoirs[11].region.centroid);
-        let at_hinge = motion_at(centroid, Vec2::new(u, v), spin).at(arch.joints[12].extrados);
+        let ([u, v, spin], centroid) = (mechanism.velocities[11], structure.bodies[11].region.centroid);
+        let at_hinge = motion_at(centroid, Vec2::new(u, v), spin).at(structure.joints[12].extrados);
         assert!(at_hinge.norm() < 1e-9);
     }
 
     #[test]
     fn three_hinges_are_no_mechanism() {
-        let arch = semicircle(12);
+        let structure = semicircle(12);
         let set = [(0, Face::Extrados), (6, Face::Extrados), (12, Face::Extrados)];
         assert_eq!(
-            from_statics(&arch, &resultants(12, &set), &[None; 13], &crown_load(&arch), 1e-8, &Heart::unwatched()),
+            from_statics(
+                &structure,
+                &resultants(12, &set),
+                &[None; 13],
+                &crown_load(&structure),
+                1e-8,
+                &Heart::unwatched()
+            ),
             None
         );
+    }
+
+    #[test]
+    fn joints_of_no_span_have_no_angle() {
+        let mut structure = semicircle(12);
+        let (from_springing, from_crown) = angles(&structure, 2).unwrap();
+        assert!((from_springing - std::f64::consts::PI / 6.0).abs() < 1e-12);
+        assert!((from_crown + std::f64::consts::PI / 3.0).abs() < 1e-12);
+        structure.spans.clear();
+        assert_eq!(angles(&structure, 2), None);
     }
 }

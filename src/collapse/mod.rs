@@ -32,7 +32,7 @@ pub use digits::Digits;
 pub use plan::LOAD_PIECES;
 pub use report::*;
 
-use crate::arch::{Arch, PointForce, Stone};
+use crate::structure::{PointForce, Stone, Structure};
 use pulse::watched;
 use std::ops::ControlFlow;
 
@@ -210,10 +210,8 @@ pub enum Answer {
 pub struct Analysis {
     /// What is wanted.
     pub aim: Aim,
-    /// The arch.
-    pub arch: Arch,
-    /// Its stone.
-    pub stone: Stone,
+    /// The structure, with its stones.
+    pub structure: Structure,
     /// Plane stress or plane strain.
     pub plane: PlaneModel,
     /// Contact penalty as a multiple of Young's modulus (per metre of depth and contact point).
@@ -320,6 +318,9 @@ pub enum AnalysisError {
     /// Some stone is held by nothing.
     #[error("{0}; the stones cannot be told apart from loose ones")]
     Loose(#[from] crate::dda::Loose),
+    /// Some body is not connected to the ground.
+    #[error("{0}; join it to a body that is, or support it")]
+    Unconnected(crate::structure::Unconnected),
     /// A number in the report is not finite.
     #[error("the analysis produced a number that is not finite ({what}); check the units of the request")]
     NotFinite {

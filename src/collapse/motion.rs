@@ -40,8 +40,8 @@ pub(super) fn power(analysis: &Analysis, mechanism: &Mechanism, load_factor: f64
     let (mut done, mut possible) = (0.0, f64::MIN_POSITIVE);
     let fastest = mechanism.velocities.iter().map(|[u, v, _]| u.hypot(*v)).fold(0.0, f64::max);
     for (force, factor) in loads {
-        let [u, v, spin] = mechanism.velocities[force.voussoir];
-        let centroid = analysis.arch.voussoirs[force.voussoir].region.centroid;
+        let [u, v, spin] = mechanism.velocities[force.body];
+        let centroid = analysis.structure.bodies[force.body].region.centroid;
         let velocity = motion_at(centroid, Vec2::new(u, v), spin).at(force.at);
         done += factor * force.force.dot(&velocity);
         possible += (factor * force.force.norm() * fastest).abs();

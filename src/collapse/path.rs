@@ -3,8 +3,8 @@
 use super::discretise::{Model, Scatter};
 use super::record::Recorder;
 use super::{AnalysisError, Cost, Unfollowed};
-use crate::arch::PointForce;
 use crate::dda::{Drive, End, Lost, Patience, Peak, Tracer, Violation, covering};
+use crate::structure::PointForce;
 use std::ops::ControlFlow;
 
 /// An arch falls that has to give up this share of its load to stay in equilibrium, if it moves visibly as it does; or to move

@@ -16,7 +16,7 @@ pub use mesh::LOAD_PIECES;
 
 use super::pulse::Pulse;
 use super::{Accuracy, Analysis, AnalysisError, CollapseReport, Direction, Estimate, Outcome, PathEnd, Plan};
-use crate::arch::is_symmetric;
+use crate::structure::is_symmetric;
 
 /// Why there is no stress to refine.
 const NO_LOAD: &str = "No load is known under which it stands, so there is no stress to be found.";
@@ -80,10 +80,10 @@ fn on_finer_meshes(
     plan.why.extend([why_half(analysis, half.is_some()), found.why]);
     (plan.stress, plan.first_yield, plan.meshes) = (Some(found.stress), found.first_yield, found.meshes);
     (plan.half, plan.subblocks) = match half {
-        Some(_) => (true, unfold::subblocks(&analysis.arch, &found.subblocks)),
+        Some(_) => (true, unfold::subblocks(&analysis.structure, &found.subblocks)),
         None => (false, found.subblocks),
     };
-    Ok(if plan.half { unfold::whole(&analysis.arch, found.report, &rigid) } else { found.report })
+    Ok(if plan.half { unfold::whole(&analysis.structure, found.report, &rigid) } else { found.report })
 }
 
 /// The same question on another mesh.
@@ -136,16 +136,16 @@ fn why_load(report: &CollapseReport) -> String {
 
 /// The left half, where the arch, its loads and the mechanism found are symmetric and no joint slides in it.
 fn half_of(analysis: &Analysis, rigid: &CollapseReport) -> Option<Analysis> {
-    let (arch, axis) = (&analysis.arch, analysis.arch.axis());
-    let symmetric = |forces: &[_]| is_symmetric(forces, arch.voussoirs.len(), axis);
+    let (structure, axis) = (&analysis.structure, analysis.structure.axis());
+    let symmetric = |forces: &[_]| is_symmetric(forces, structure.voussoirs().len(), axis);
     let ends = rigid.end.iter().chain(&rigid.other_end);
-    let whole = !arch.half && arch.asymmetry().is_none();
+    let whole = !structure.is_half() && structure.asymmetry().is_none();
     if !(whole && symmetric(&analysis.fixed) && symmetric(&analysis.scaled) && { ends }.all(falls_evenly)) {
         return None;
     }
-    let half = arch.left_half(None);
-    let [fixed, scaled] = [&analysis.fixed, &analysis.scaled].map(|forces| arch.on_left_half(&half, forces));
-    Some(Analysis { arch: half, fixed, scaled, ..analysis.clone() })
+    let half = structure.left_half(None);
+    let [fixed, scaled] = [&analysis.fixed, &analysis.scaled].map(|forces| structure.on_left_half(&half, forces));
+    Some(Analysis { structure: half, fixed, scaled, ..analysis.clone() })
 }
 
 /// True where nothing slides and every stone moves as the mirror image of its partner.
@@ -161,7 +161,7 @@ fn falls_evenly(end: &PathEnd) -> bool {
 fn why_half(analysis: &Analysis, half: bool) -> String {
     match half {
         true => "Arch, loads and mechanism are symmetric: half the arch is modelled for the stress.",
-        false if analysis.arch.half => "The arch is half an arch already.",
+        false if analysis.structure.is_half() => "The arch is half an arch already.",
         false => {
             "Arch, loads or mechanism are not symmetric, or joints slide: the whole arch is modelled for the stress."
         }

@@ -57,14 +57,14 @@ impl<'a> Recorder<'a> {
             share: analysis.share,
             start,
             sign,
-            crown: mechanism::crown(&analysis.arch),
+            crown: mechanism::crown(&analysis.structure),
             recent: VecDeque::new(),
             farthest: start,
             last: None,
             steps_done: 0,
             history: Vec::new(),
             asked: std::iter::once(1.0).chain(fields).map(|load_factor| (load_factor, None)).collect(),
-            yielding: Yielding::new(model, analysis.stone.compressive_strength),
+            yielding: Yielding::new(model, analysis.structure.least_strength()),
         }
     }
 

@@ -7,7 +7,7 @@ mod strength;
 mod unfollowed;
 mod updated;
 
-pub use crate::arch::Face;
+pub use crate::structure::Face;
 pub use falling::*;
 pub use plan::*;
 pub use settlement::*;
@@ -61,10 +61,11 @@ pub struct Hinge {
     pub joint: usize,
     /// Face at which the joint stays pressed (the axis of rotation); it opens at the other.
     pub face: Face,
-    /// Angle of the joint from the nearer springing, about the arch's angle centre, rad.
-    pub angle_from_springing: f64,
-    /// Angle of the joint from the crown, negative on the left, rad.
-    pub angle_from_crown: f64,
+    /// Angle of the joint from the nearer springing of its span, about the angle centre of that, rad; None of a joint of no
+    /// span.
+    pub angle_from_springing: Option<f64>,
+    /// Angle of the joint from the crown of its span, negative on the left, rad; None of a joint of no span.
+    pub angle_from_crown: Option<f64>,
     /// Relative rotation rate in the mechanism (largest of all hinges = 1), positive.
     pub rotation: f64,
 }

@@ -2,16 +2,16 @@
 
 use super::doubt::Doubt;
 use super::{AnalysisError, CollapseReport, Outcome};
-use crate::arch::Arch;
+use crate::structure::Structure;
 
 /// The load path needs joints of at least this share of the arch's extent. Measured on catenaries of 8 and 20 stones: path and
 /// limit window agree to 1e-8 down to 2.5e-5, no path was found from 1.3e-5 down, and mechanisms were none from 1e-7 down.
 const SLENDEREST: f64 = 1e-5;
 
 /// A doubt about an arch all of whose joints are too short for its size.
-pub(super) fn too_slender(arch: &Arch) -> Option<Doubt> {
-    let joints = || arch.joints.iter();
-    let size = joints().map(|joint| (joint.middle() - arch.joints[0].middle()).norm()).fold(0.0, f64::max);
+pub(super) fn too_slender(structure: &Structure) -> Option<Doubt> {
+    let joints = || structure.ring().iter();
+    let size = joints().map(|joint| (joint.middle() - structure.joints[0].middle()).norm()).fold(0.0, f64::max);
     let thickest = joints().map(|joint| joint.length()).fold(0.0, f64::max);
     (thickest < SLENDEREST * size).then(|| Doubt::Slender { thickness: thickest, share: thickest / size })
 }

@@ -11,9 +11,9 @@ use super::{
     Analysis, AnalysisError, Cost, Geometry, SettlementEnd, SettlementPath, SettlementPoint, SettlementReport,
     SpringingMovement, Unfollowed, ending,
 };
-use crate::arch::Arch;
 use crate::dda::{Drive, End, Movement, Patience, Tracer};
 use crate::geometry::Vec2;
+use crate::structure::Structure;
 use std::ops::ControlFlow;
 
 /// The springings stay where they are while stones find another seat: hinges may move from joint to joint, and a joint that
@@ -61,7 +61,7 @@ fn attempt(
     let zeros = vec![0.0; base.len()];
     let turned = [model.turned[0].clone(), zeros.clone()];
     let target = largest(movements, model.size);
-    let mut ground = ground(&analysis.arch, movements.map(|by| by.times(1.0 / target)));
+    let mut ground = ground(&analysis.structure, movements.map(|by| by.times(1.0 / target)));
     ground[0].velocity.y += uneven(&model, weight, attempt) * model.size;
     let drive = Drive { base, rate: zeros, turned, ground, ..Drive::default() };
     let followed = trace(analysis, &model, geometry, Driven { drive, target }, weight, cost, &mut see);
@@ -124,7 +124,7 @@ fn trace<'m>(
             points.clear();
         }
         let share = tracer.parameter() / target;
-        points.push(point(model, &analysis.arch, tracer, share));
+        points.push(point(model, &analysis.structure, tracer, share));
         see(tracer, share)
     };
     let end = match geometry {
@@ -146,7 +146,7 @@ fn describe(analysis: &Analysis, model: &Model, geometry: Geometry, followed: Fo
     let share = if stood == Moved::Stands { tracer.parameter() / target } else { 0.0 };
     let reached = points.iter().position(|at| at.share >= share);
     points.truncate(reached.unwrap_or(points.len()));
-    points.push(point(model, &analysis.arch, &tracer, share));
+    points.push(point(model, &analysis.structure, &tracer, share));
     let end = match (stood, end) {
         _ if why.is_some() => SettlementEnd::CannotTell,
         (Moved::Falls(_), _) => SettlementEnd::FallsAsLoaded,
@@ -213,8 +213,8 @@ fn uneven(model: &Model, weight: f64, attempt: Attempt) -> f64 {
 }
 
 /// Movements of the ground at both ends of the chain, per unit of the parameter.
-fn ground(arch: &Arch, movements: [SpringingMovement; 2]) -> [Movement; 2] {
-    let springings = [arch.joints.first(), arch.joints.last()];
+fn ground(structure: &Structure, movements: [SpringingMovement; 2]) -> [Movement; 2] {
+    let springings = [structure.ring().first(), structure.ring().last()];
     // Outwards is to the left on the left, and a rotation that opens the intrados there turns clockwise.
     std::array::from_fn(|end| {
         let (sign, by) = (if end == 0 { -1.0 } else { 1.0 }, movements[end]);
@@ -226,8 +226,8 @@ fn ground(arch: &Arch, movements: [SpringingMovement; 2]) -> [Movement; 2] {
     })
 }
 
-fn point(model: &Model, arch: &Arch, tracer: &Tracer, share: f64) -> SettlementPoint {
+fn point(model: &Model, structure: &Structure, tracer: &Tracer, share: f64) -> SettlementPoint {
     let left = tracer.force_through(model.first_voussoir);
     let right = tracer.force_through(model.first_voussoir + model.voussoirs);
-    SettlementPoint { share, thrust: left.x, left: left.y, right: (!arch.half).then_some(-right.y) }
+    SettlementPoint { share, thrust: left.x, left: left.y, right: (!structure.is_half()).then_some(-right.y) }
 }

@@ -120,7 +120,7 @@ fn describe(
     let (end, share) = end.unwrap_or((UpdatedEnd::CannotTell, None));
     let falls = matches!(end, UpdatedEnd::Collapse | UpdatedEnd::FallsAsLoaded);
     let of = |voussoir: usize| tracer.mean_motion(model.first_voussoir + voussoir).displacement;
-    let [left, right] = mechanism::crown(&analysis.arch);
+    let [left, right] = mechanism::crown(&analysis.structure);
     let largest = (0..model.voussoirs).map(|v| of(v).norm()).fold(0.0, f64::max);
     UpdatedGeometry {
         end,

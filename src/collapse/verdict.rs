@@ -15,8 +15,8 @@ use super::{
     Aim, Analysis, AnalysisError, CollapseReport, Cost, Crushing, Direction, Geometry, LimitWindow, Outcome,
     SettlementEnd, SpringingMovement, ThrustRange, UpdatedGeometry, falling, plan, rounding, safety, settlement,
 };
-use crate::arch::{Joint, JointLaw};
 use crate::dda::{End, Tracer};
+use crate::structure::{Joint, JointLaw};
 use std::ops::ControlFlow;
 
 /// Note on an arch of which nothing is asked but whether it stands.
@@ -91,7 +91,7 @@ impl<'a> Question<'a> {
         pulse.check()?;
         let thrust_range = thrust.map(|[lowest, highest]| ThrustRange { lowest, highest });
         let weight = fixed + scaled * start.abs();
-        let crushing = certificate.crushing(analysis.stone.compressive_strength, pulse)?;
+        let crushing = certificate.crushing(analysis.structure.least_strength(), pulse)?;
         Ok(Question { analysis, pulse, certificate, thrust_range, crushing, sign, start, cap, weight })
     }
 
@@ -120,7 +120,7 @@ impl<'a> Question<'a> {
 
     /// The answer of the first attempt that is not in doubt, or of the one least so.
     fn solve(&self) -> Result<CollapseReport, AnalysisError> {
-        let slender = rounding::too_slender(&self.analysis.arch);
+        let slender = rounding::too_slender(&self.analysis.structure);
         let attempted = match slender {
             Some(doubt) => Attempted { report: self.blank(0), doubt: Some(doubt) },
             None => self.attempts()?,
@@ -226,7 +226,7 @@ impl<'a> Question<'a> {
         let slenderness = model.grids.iter().map(|grid| grid.slenderness()).fold(1.0, f64::max);
         let several = self.analysis.mesh.subblocks.iter().any(|&subblocks| subblocks != [1, 1]);
         let cohesive = |joint: &Joint| matches!(joint.law, JointLaw::Dry { cohesion, .. } if cohesion > 0.0);
-        mesh_notes(slenderness, several, self.analysis.arch.joints.iter().any(cohesive))
+        mesh_notes(slenderness, several, self.analysis.structure.ring().iter().any(cohesive))
     }
 
     /// A report of nothing but the limit window, on a model of so many `unknowns`.

@@ -150,6 +150,11 @@ impl StaticTheorem {
         &self.joints[k]
     }
 
+    /// Loops of the structure.
+    pub fn loops(&self) -> &Loops {
+        &self.loops
+    }
+
     /// Number of joints.
     pub fn joints(&self) -> usize {
         self.joints.len()

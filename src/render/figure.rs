@@ -1,9 +1,9 @@
 //! One picture of an arch at collapse: stones, hinges, slides, thrust line, and how it moves.
 
 use super::canvas::{Canvas, WIDTH};
-use crate::arch::{Arch, JointLaw};
 use crate::collapse::{Face, PathEnd};
 use crate::geometry::{Vec2, cross, perpendicular};
+use crate::structure::{JointLaw, Structure};
 
 /// Largest movement of the drawn mechanism, as a share of the arch's extent in plan.
 const MOVEMENT: f64 = 0.08;
@@ -32,23 +32,23 @@ text{font-family:Inter,'Helvetica Neue',Helvetica,Arial,sans-serif;fill:#1d1d1f}
 ";
 
 /// Draws an arch as it falls. `caption` stands above it; its first line is the title.
-pub fn svg(arch: &Arch, end: &PathEnd, caption: &str) -> String {
-    let pieces = moved_pieces(arch, end);
-    let (low, high) = extent(arch, &pieces);
+pub fn svg(structure: &Structure, end: &PathEnd, caption: &str) -> String {
+    let pieces = moved_pieces(structure, end);
+    let (low, high) = extent(structure, &pieces);
     let lines: Vec<&str> = caption.lines().collect();
     let head = if lines.is_empty() { 48.0 } else { 58.0 + 22.0 * lines.len() as f64 };
     let mut canvas = Canvas::new(low, high, head);
-    draw_supports(&mut canvas, arch);
-    for k in 0..arch.voussoirs.len() {
-        canvas.polygon("stone", &corners(arch, k));
+    draw_supports(&mut canvas, structure);
+    for k in 0..structure.voussoirs().len() {
+        canvas.polygon("stone", &corners(structure, k));
     }
     for piece in &pieces {
         canvas.polygon("ghost", piece);
     }
-    canvas.polyline("thrust", &thrust_line(arch, end));
-    draw_lift_offs(&mut canvas, arch, end);
-    draw_slides(&mut canvas, arch, end);
-    draw_hinges(&mut canvas, arch, end);
+    canvas.polyline("thrust", &thrust_line(structure, end));
+    draw_lift_offs(&mut canvas, structure, end);
+    draw_slides(&mut canvas, structure, end);
+    draw_hinges(&mut canvas, structure, end);
     for (i, line) in lines.iter().enumerate() {
         let (class, drop) = if i == 0 { ("title", 0.0) } else { ("line", 2.0) };
         canvas.text(class, Vec2::new(40.0, 40.0 + drop + 22.0 * i as f64), line);
@@ -57,30 +57,30 @@ pub fn svg(arch: &Arch, end: &PathEnd, caption: &str) -> String {
     canvas.finish(lines.first().unwrap_or(&"Arch at collapse"), STYLE)
 }
 
-fn corners(arch: &Arch, k: usize) -> [Vec2; 4] {
-    let (a, b) = (&arch.joints[k], &arch.joints[k + 1]);
+fn corners(structure: &Structure, k: usize) -> [Vec2; 4] {
+    let (a, b) = (&structure.joints[k], &structure.joints[k + 1]);
     [a.intrados, a.extrados, b.extrados, b.intrados]
 }
 
 /// Extent of the arch in plan, m.
-fn plan_size(arch: &Arch) -> f64 {
-    let xs = || arch.joints.iter().flat_map(|joint| [joint.intrados.x, joint.extrados.x]);
+fn plan_size(structure: &Structure) -> f64 {
+    let xs = || structure.ring().iter().flat_map(|joint| [joint.intrados.x, joint.extrados.x]);
     xs().fold(f64::NEG_INFINITY, f64::max) - xs().fold(f64::INFINITY, f64::min)
 }
 
 /// Outlines of the parts that move as one (between hinges and slides), moved; parts at rest are left out.
-fn moved_pieces(arch: &Arch, end: &PathEnd) -> Vec<Vec<Vec2>> {
+fn moved_pieces(structure: &Structure, end: &PathEnd) -> Vec<Vec<Vec2>> {
     let mechanism = &end.mechanism;
     let velocity = |k: usize, p: Vec2| {
         let [u, v, w] = mechanism.velocities[k];
-        Vec2::new(u, v) + w * perpendicular(p - arch.voussoirs[k].region.centroid)
+        Vec2::new(u, v) + w * perpendicular(p - structure.bodies[k].region.centroid)
     };
-    let count = arch.voussoirs.len().min(mechanism.velocities.len());
-    let fastest = (0..count).flat_map(|k| corners(arch, k).map(|p| velocity(k, p).norm())).fold(0.0, f64::max);
+    let count = structure.voussoirs().len().min(mechanism.velocities.len());
+    let fastest = (0..count).flat_map(|k| corners(structure, k).map(|p| velocity(k, p).norm())).fold(0.0, f64::max);
     if !(fastest > 0.0 && fastest.is_finite()) {
         return Vec::new();
     }
-    let scale = MOVEMENT * plan_size(arch) / fastest;
+    let scale = MOVEMENT * plan_size(structure) / fastest;
     let breaks = |joint: usize| {
         mechanism.hinges.iter().any(|h| h.joint == joint)
             || mechanism.slides.iter().any(|s| s.joint == joint)
@@ -92,13 +92,15 @@ fn moved_pieces(arch: &Arch, end: &PathEnd) -> Vec<Vec<Vec2>> {
         if last + 1 < count && !breaks(last + 1) {
             continue;
         }
-        let moves = (first..=last).any(|k| corners(arch, k).iter().any(|&p| velocity(k, p).norm() > 1e-3 * fastest));
+        let moves =
+            (first..=last).any(|k| corners(structure, k).iter().any(|&p| velocity(k, p).norm() > 1e-3 * fastest));
         if moves {
             let moved = |k: usize, p: Vec2| p + scale * velocity(k, p);
-            let outer =
-                (first..=last).flat_map(|k| corners(arch, k)[1..3].iter().map(|&p| moved(k, p)).collect::<Vec<_>>());
-            let inner =
-                (first..=last).rev().flat_map(|k| [corners(arch, k)[3], corners(arch, k)[0]].map(|p| moved(k, p)));
+            let outer = (first..=last)
+                .flat_map(|k| corners(structure, k)[1..3].iter().map(|&p| moved(k, p)).collect::<Vec<_>>());
+            let inner = (first..=last)
+                .rev()
+                .flat_map(|k| [corners(structure, k)[3], corners(structure, k)[0]].map(|p| moved(k, p)));
             pieces.push(outer.chain(inner).collect());
         }
         first = last + 1;
@@ -106,29 +108,28 @@ fn moved_pieces(arch: &Arch, end: &PathEnd) -> Vec<Vec<Vec2>> {
     pieces
 }
 
-fn extent(arch: &Arch, pieces: &[Vec<Vec2>]) -> (Vec2, Vec2) {
-    let joints = arch.joints.iter().chain(arch.abutments.iter().flatten().map(|abutment| &abutment.base));
-    let ends = joints.flat_map(|joint| [joint.intrados, joint.extrados]);
+fn extent(structure: &Structure, pieces: &[Vec<Vec2>]) -> (Vec2, Vec2) {
+    let ends = structure.joints.iter().flat_map(|joint| [joint.intrados, joint.extrados]);
     let all = ends.chain(pieces.iter().flatten().copied());
     let none = (Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY));
     all.fold(none, |(low, high), p| (low.inf(&p), high.sup(&p)))
 }
 
 /// Where the thrust crosses each joint; joints without thrust, or with it far outside, are left out.
-fn thrust_line(arch: &Arch, end: &PathEnd) -> Vec<Vec2> {
+fn thrust_line(structure: &Structure, end: &PathEnd) -> Vec<Vec2> {
     let near = |t: &&crate::collapse::Thrust| {
-        t.normal > 0.0 && t.eccentricity.abs() <= FARTHEST_THRUST * arch.joints[t.joint].length()
+        t.normal > 0.0 && t.eccentricity.abs() <= FARTHEST_THRUST * structure.joints[t.joint].length()
     };
     end.thrust_line.iter().filter(near).map(|thrust| thrust.at).collect()
 }
 
 /// Abutments, and hatched ground under whatever the arch stands on (a wall beside a half arch); an axis where a stone
 /// is cut on it.
-fn draw_supports(canvas: &mut Canvas, arch: &Arch) {
-    let Some((first, last)) = arch.joints.first().zip(arch.joints.last()) else { return };
-    for (springing, abutment, sign) in [(first, &arch.abutments[0], -1.0), (last, &arch.abutments[1], 1.0)] {
-        if let Some(abutment) = abutment {
-            let base = &abutment.base;
+fn draw_supports(canvas: &mut Canvas, structure: &Structure) {
+    let Some((first, last)) = structure.ring().first().zip(structure.ring().last()) else { return };
+    let bases = structure.abutments().map(|abutment| abutment.map(|abutment| &structure.joints[abutment.base]));
+    for (springing, base, sign) in [(first, bases[0], -1.0), (last, bases[1], 1.0)] {
+        if let Some(base) = base {
             canvas.polygon("abutment", &[springing.intrados, springing.extrados, base.extrados, base.intrados]);
         }
         if springing.law == JointLaw::Mirror {
@@ -137,7 +138,7 @@ fn draw_supports(canvas: &mut Canvas, arch: &Arch) {
             canvas.line("axis", a - 16.0 * along, b + 16.0 * along);
             continue;
         }
-        let held = abutment.as_ref().map_or(springing, |abutment| &abutment.base);
+        let held = base.unwrap_or(springing);
         let (a, b) = (canvas.place(held.intrados), canvas.place(held.extrados));
         let along = (b - a).normalize();
         let out = sign * held.normal();
@@ -153,9 +154,9 @@ fn draw_supports(canvas: &mut Canvas, arch: &Arch) {
     }
 }
 
-fn draw_hinges(canvas: &mut Canvas, arch: &Arch, end: &PathEnd) {
+fn draw_hinges(canvas: &mut Canvas, structure: &Structure, end: &PathEnd) {
     for hinge in &end.mechanism.hinges {
-        let joint = &arch.joints[hinge.joint];
+        let joint = &structure.joints[hinge.joint];
         let (at, other) = match hinge.face {
             Face::Intrados => (joint.intrados, joint.extrados),
             Face::Extrados => (joint.extrados, joint.intrados),
@@ -168,9 +169,9 @@ fn draw_hinges(canvas: &mut Canvas, arch: &Arch, end: &PathEnd) {
 }
 
 /// Every joint that parts altogether, dashed.
-fn draw_lift_offs(canvas: &mut Canvas, arch: &Arch, end: &PathEnd) {
+fn draw_lift_offs(canvas: &mut Canvas, structure: &Structure, end: &PathEnd) {
     for lift_off in &end.mechanism.lift_offs {
-        let joint = &arch.joints[lift_off.joint];
+        let joint = &structure.joints[lift_off.joint];
         let (from, to) = (canvas.place(joint.intrados), canvas.place(joint.extrados));
         canvas.line("parting", from, to);
         let label = to + 20.0 * (to - from).normalize() + Vec2::new(0.0, 5.0);
@@ -179,9 +180,9 @@ fn draw_lift_offs(canvas: &mut Canvas, arch: &Arch, end: &PathEnd) {
 }
 
 /// Two half arrows along every sliding joint: the stone after it goes with the one, the stone before with the other.
-fn draw_slides(canvas: &mut Canvas, arch: &Arch, end: &PathEnd) {
+fn draw_slides(canvas: &mut Canvas, structure: &Structure, end: &PathEnd) {
     for slide in &end.mechanism.slides {
-        let joint = &arch.joints[slide.joint];
+        let joint = &structure.joints[slide.joint];
         let flip = |v: Vec2| Vec2::new(v.x, -v.y);
         let (along, normal) = (flip(joint.tangent()), flip(joint.normal()));
         let middle = canvas.place(joint.middle());

@@ -1,38 +1,28 @@
 use super::*;
-use crate::arch::{Joint, JointLaw, Sides, Voussoir};
+use crate::arch::{assemble, straight_voussoirs};
 use crate::collapse::{Hinge, LiftOff, Mechanism, Mode, Slide, Thrust};
-use crate::geometry::Region;
 use crate::render::checks::{attributes, well_formed};
+use crate::structure::Stone;
 use std::f64::consts::PI;
 
 /// A semicircle of `n` voussoirs that turns about four hinges; `mirror` swaps left and right.
-fn example(n: usize, hinges: [usize; 4], mirror: bool) -> (Arch, PathEnd) {
+fn example(n: usize, hinges: [usize; 4], mirror: bool) -> (Structure, PathEnd) {
     let law = JointLaw::Dry { friction: 0.6, cohesion: 0.0 };
     let polar = |r: f64, k: usize| {
         let angle = PI * (1.0 - k as f64 / n as f64);
         r * Vec2::new(angle.cos(), angle.sin())
     };
-    let joints: Vec<Joint> =
-        (0..=n).map(|k| Joint { intrados: polar(4.25, k), extrados: polar(5.0, k), law }).collect();
-    let stone = |k: usize| Voussoir {
-        region: Region::polygon(&[
-            joints[k].extrados,
-            joints[k].intrados,
-            joints[k + 1].intrados,
-            joints[k + 1].extrados,
-        ]),
-        sides: Sides::Straight,
+    let ends: Vec<[Vec2; 2]> = (0..=n).map(|k| [polar(4.25, k), polar(5.0, k)]).collect();
+    let structure = assemble(&ends, straight_voussoirs(&ends).unwrap(), Stone::default(), law, Vec2::zeros());
+    let at = |i: usize| {
+        if i.is_multiple_of(2) { structure.joints[hinges[i]].intrados } else { structure.joints[hinges[i]].extrados }
     };
-    let voussoirs: Vec<Voussoir> = (0..n).map(stone).collect();
-    let arch = Arch { voussoirs, joints, abutments: [None, None], half: false, angle_centre: Vec2::zeros() };
-    let at =
-        |i: usize| if i.is_multiple_of(2) { arch.joints[hinges[i]].intrados } else { arch.joints[hinges[i]].extrados };
     let [a, b, c, d] = [0, 1, 2, 3].map(at);
     // Four-bar linkage: the middle bar turns about where the lines through the outer bars meet.
     let (p, q) = (b - a, c - d);
     let pole = a + p * (cross(d - a, q) / cross(p, q));
     let turn = |about: Vec2, w: f64, k: usize| {
-        let v = w * perpendicular(arch.voussoirs[k].region.centroid - about);
+        let v = w * perpendicular(structure.bodies[k].region.centroid - about);
         [v.x, v.y, w]
     };
     let ratio = |near: Vec2, far: Vec2| (near - pole).dot(&(near - far)) / (near - far).norm_squared();
@@ -45,13 +35,13 @@ fn example(n: usize, hinges: [usize; 4], mirror: bool) -> (Arch, PathEnd) {
     let hinge = |(i, &joint): (usize, &usize)| Hinge {
         joint,
         face: if i.is_multiple_of(2) { Face::Intrados } else { Face::Extrados },
-        angle_from_springing: 0.0,
-        angle_from_crown: 0.0,
+        angle_from_springing: Some(0.0),
+        angle_from_crown: Some(0.0),
         rotation: 1.0,
     };
     let thrust = |joint: usize| {
         let e = 0.34 * (2.0 * PI * joint as f64 / n as f64).sin();
-        let j = &arch.joints[joint];
+        let j = &structure.joints[joint];
         Thrust { joint, normal: 1.0, shear: 0.0, eccentricity: e, at: j.middle() + e * j.tangent() }
     };
     let mechanism = Mechanism {
@@ -63,18 +53,18 @@ fn example(n: usize, hinges: [usize; 4], mirror: bool) -> (Arch, PathEnd) {
     };
     let end =
         PathEnd { load_factor: 1.0, range: None, residual: 0.0, mechanism, thrust_line: (0..=n).map(thrust).collect() };
-    if mirror { mirrored(arch, end) } else { (arch, end) }
+    if mirror { mirrored(structure, end) } else { (structure, end) }
 }
 
-fn mirrored(mut arch: Arch, mut end: PathEnd) -> (Arch, PathEnd) {
-    let n = arch.voussoirs.len();
+fn mirrored(mut structure: Structure, mut end: PathEnd) -> (Structure, PathEnd) {
+    let n = structure.voussoirs().len();
     let flip = |p: Vec2| Vec2::new(-p.x, p.y);
-    arch.joints.reverse();
-    arch.voussoirs.reverse();
-    for joint in &mut arch.joints {
+    structure.joints.reverse();
+    structure.bodies.reverse();
+    for joint in &mut structure.joints {
         (joint.intrados, joint.extrados) = (flip(joint.intrados), flip(joint.extrados));
     }
-    for stone in &mut arch.voussoirs {
+    for stone in &mut structure.bodies {
         stone.region.centroid = flip(stone.region.centroid);
     }
     end.mechanism.velocities.reverse();
@@ -82,13 +72,13 @@ fn mirrored(mut arch: Arch, mut end: PathEnd) -> (Arch, PathEnd) {
     end.mechanism.hinges.iter_mut().for_each(|h| h.joint = n - h.joint);
     end.mechanism.slides.iter_mut().for_each(|s| *s = Slide { joint: n - s.joint, rate: -s.rate });
     end.thrust_line.iter_mut().for_each(|t| (t.joint, t.at) = (n - t.joint, flip(t.at)));
-    (arch, end)
+    (structure, end)
 }
 
 #[test]
 fn the_document_is_well_formed_and_finite() {
-    let (arch, end) = example(17, [1, 6, 11, 16], false);
-    let svg = svg(&arch, &end, "Load < 2 & more\nsecond line");
+    let (structure, end) = example(17, [1, 6, 11, 16], false);
+    let svg = svg(&structure, &end, "Load < 2 & more\nsecond line");
     well_formed(&svg);
     assert!(svg.contains("Load &lt; 2 &amp; more"));
     assert_eq!(svg.matches("class=\"stone\"").count(), 17);
@@ -98,9 +88,9 @@ fn the_document_is_well_formed_and_finite() {
 
 #[test]
 fn a_joint_that_parts_is_drawn() {
-    let (arch, mut end) = example(17, [1, 6, 11, 16], false);
+    let (structure, mut end) = example(17, [1, 6, 11, 16], false);
     end.mechanism.lift_offs.push(LiftOff { joint: 8, intrados: 0.1, extrados: 0.2 });
-    let svg = svg(&arch, &end, "");
+    let svg = svg(&structure, &end, "");
     // The joint and the legend; the stones part there.
     assert_eq!(svg.matches("class=\"parting\"").count(), 2);
     assert_eq!(svg.matches("class=\"ghost\"").count(), 4 + 1);
@@ -109,8 +99,8 @@ fn a_joint_that_parts_is_drawn() {
 #[test]
 fn a_mirrored_arch_gives_a_mirrored_figure() {
     let draw = |mirror| {
-        let (arch, end) = example(17, [1, 6, 10, 15], mirror);
-        let svg = svg(&arch, &end, "");
+        let (structure, end) = example(17, [1, 6, 10, 15], mirror);
+        let svg = svg(&structure, &end, "");
         let mut xs: Vec<f64> = attributes(&svg, "points")
             .iter()
             .flat_map(|points| {
@@ -128,15 +118,15 @@ fn a_mirrored_arch_gives_a_mirrored_figure() {
 
 #[test]
 fn the_same_arch_gives_the_same_bytes() {
-    let (arch, end) = example(9, [0, 3, 6, 9], false);
-    assert_eq!(svg(&arch, &end, "x"), svg(&arch, &end, "x"));
+    let (structure, end) = example(9, [0, 3, 6, 9], false);
+    assert_eq!(svg(&structure, &end, "x"), svg(&structure, &end, "x"));
 }
 
 #[test]
 fn an_arch_at_rest_is_drawn_without_a_ghost() {
-    let (arch, mut end) = example(9, [0, 3, 6, 9], false);
+    let (structure, mut end) = example(9, [0, 3, 6, 9], false);
     end.mechanism.velocities.clear();
-    assert_eq!(svg(&arch, &end, "").matches("class=\"ghost\"").count(), 1);
+    assert_eq!(svg(&structure, &end, "").matches("class=\"ghost\"").count(), 1);
 }
 
 #[test]

@@ -3,9 +3,14 @@
 //! Nothing here knows how a structure was built or how it will be solved. All quantities are SI, per metre of depth; x runs
 //! to the right, y upwards.
 
-pub mod loops;
+mod half;
+pub mod load;
+mod loops;
+mod ring;
 
+pub use half::is_symmetric;
 pub use loops::{Loops, Unconnected};
+pub use ring::Abutment;
 
 use crate::geometry::{Region, Vec2};
 use std::ops::Range;
@@ -72,6 +77,12 @@ pub enum Face {
     Extrados,
 }
 
+impl std::fmt::Display for Face {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(if *self == Face::Intrados { "intrados" } else { "extrados" })
+    }
+}
+
 /// How two neighbouring stones hold on to each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum JointLaw {
@@ -89,6 +100,18 @@ pub enum JointLaw {
     Wall,
     /// Plane of symmetry through a stone, no joint: carries any normal force and bending, tension too, and no shear.
     Mirror,
+}
+
+impl JointLaw {
+    /// Friction coefficient and cohesion, Pa, of a joint that can open and slide (a wall has none of either); None of one that
+    /// only transmits.
+    pub fn coulomb(self) -> Option<[f64; 2]> {
+        match self {
+            JointLaw::Dry { friction, cohesion } => Some([friction, cohesion]),
+            JointLaw::Wall => Some([0.0; 2]),
+            JointLaw::Bonded | JointLaw::Mirror => None,
+        }
+    }
 }
 
 /// The contact between two bodies, or a body and the ground: a straight segment.

@@ -2,8 +2,8 @@
 
 use super::oracle::{Bond, Problem, Push, Seam};
 use serde_json::Value;
-use voussoir::arch::{JointLaw, PointForce};
 use voussoir::collapse::{Analysis, CollapseReport, Unwatched, run};
+use voussoir::structure::{JointLaw, PointForce};
 
 /// Reads a request as the service does.
 ///
@@ -24,9 +24,9 @@ pub fn solve(request: &Value) -> CollapseReport {
 
 /// The numbers the oracle needs.
 pub fn problem(analysis: &Analysis) -> Problem {
-    let arch = &analysis.arch;
-    let mut seams: Vec<Seam> = arch
-        .joints
+    let arch = &analysis.structure;
+    let seams: Vec<Seam> = arch
+        .ring()
         .iter()
         .map(|joint| Seam {
             intrados: joint.intrados.into(),
@@ -35,13 +35,12 @@ pub fn problem(analysis: &Analysis) -> Problem {
                 JointLaw::Dry { friction, cohesion } => Bond::Dry { friction, cohesion },
                 JointLaw::Bonded => Bond::Bonded,
                 JointLaw::Mirror => Bond::Mirror,
+                // Smooth: the wall at the crown of half an arch.
+                JointLaw::Wall => Bond::Dry { friction: 0.0, cohesion: 0.0 },
             },
         })
         .collect();
-    if let Some(crown) = seams.last_mut().filter(|crown| arch.half && crown.bond != Bond::Mirror) {
-        crown.bond = Bond::Dry { friction: 0.0, cohesion: 0.0 };
-    }
-    let push = |f: &PointForce| Push { block: f.voussoir, at: f.at.into(), force: f.force.into() };
+    let push = |f: &PointForce| Push { block: f.body, at: f.at.into(), force: f.force.into() };
     let pushes = |forces: &[PointForce]| forces.iter().map(push).collect();
     Problem { seams, fixed: pushes(&analysis.fixed), scaled: pushes(&analysis.scaled), ..Problem::default() }
 }

@@ -1,9 +1,9 @@
 //! A motion after collapse, measured from its frames alone.
 
 use super::state::{larger, weight};
-use voussoir::arch::{Arch, JointLaw};
 use voussoir::collapse::{Analysis, FallingMotion, MotionContact, MotionFrame};
 use voussoir::geometry::{Region, Vec2, cross, perpendicular};
+use voussoir::structure::Structure;
 
 /// What was measured on a motion.
 #[derive(Debug, Clone, Copy, Default)]
@@ -27,14 +27,14 @@ pub struct Measured {
 type Corners = [Vec2; 4];
 
 /// Corners of every stone in a frame.
-pub fn stones(arch: &Arch, frame: &MotionFrame) -> Vec<Corners> {
-    let place = |(k, two): (usize, &[voussoir::arch::Joint])| {
+pub fn stones(arch: &Structure, frame: &MotionFrame) -> Vec<Corners> {
+    let place = |(k, two): (usize, &[voussoir::structure::Joint])| {
         let corners = [two[0].intrados, two[1].intrados, two[1].extrados, two[0].extrados];
         let centroid = Region::polygon(&corners).centroid;
         let (sin, cos) = frame.rotations[k].sin_cos();
         corners.map(|c| frame.centroids[k] + (c - centroid) * cos + perpendicular(c - centroid) * sin)
     };
-    arch.joints.windows(2).enumerate().map(place).collect()
+    arch.ring().windows(2).enumerate().map(place).collect()
 }
 
 /// How deep two convex stones have entered each other; negative for a distance along some side.
@@ -56,16 +56,14 @@ fn near(a: &Corners, b: &Corners) -> bool {
 }
 
 /// Shear beyond friction and half the joint's cohesion, N/m.
-fn beyond(arch: &Arch, contact: &MotionContact) -> f64 {
+fn beyond(arch: &Structure, contact: &MotionContact) -> f64 {
     let joint = &arch.joints[contact.joint];
-    let JointLaw::Dry { friction, cohesion } = joint.law else { return 0.0 };
-    // A wall at the crown of half an arch is smooth.
-    let friction = if arch.half && contact.joint + 1 == arch.joints.len() { 0.0 } else { friction };
+    let Some([friction, cohesion]) = joint.law.coulomb() else { return 0.0 };
     contact.tangential.abs() - friction * contact.normal - 0.5 * cohesion * joint.length()
 }
 
 pub fn measure(analysis: &Analysis, motion: &FallingMotion) -> Measured {
-    let (arch, loads) = (&analysis.arch, weight(analysis, motion.load_factor));
+    let (arch, loads) = (&analysis.structure, weight(analysis, motion.load_factor));
     let mut measured = Measured { frames: motion.frames.len(), work: f64::INFINITY, ..Measured::default() };
     let start: Vec<f64> = stones(arch, &motion.frames[0]).iter().map(|c| Region::polygon(c).area).collect();
     let most = motion.frames.iter().map(|f| f.work).fold(f64::MIN_POSITIVE, f64::max);

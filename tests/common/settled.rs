@@ -70,10 +70,10 @@ struct Joint {
 /// Judges the end of a path whose ground has moved by `ground` (left and right), at a friction coefficient; an opening of less
 /// than `closed`, as a share of the joint's length, is none.
 pub fn judge(analysis: &Analysis, path: &SettlementPath, ground: [Vec2; 2], friction: f64, closed: f64) -> Faults {
-    let arch = &analysis.arch;
+    let arch = &analysis.structure;
     let still = |shift: Vec2| Motion { centre: Vec2::zeros(), shift, turn: 0.0 };
     let mut motions = vec![still(ground[0])];
-    motions.extend(arch.voussoirs.iter().zip(&path.displacements).map(|(stone, &[x, y, turn])| Motion {
+    motions.extend(arch.voussoirs().iter().zip(&path.displacements).map(|(stone, &[x, y, turn])| Motion {
         centre: stone.region.centroid,
         shift: Vec2::new(x, y),
         turn,
@@ -81,12 +81,12 @@ pub fn judge(analysis: &Analysis, path: &SettlementPath, ground: [Vec2; 2], fric
     motions.push(still(ground[1]));
     let weight: f64 = analysis.fixed.iter().map(|f| f.force.norm()).sum();
     let (mut faults, mut joints) = (Faults::default(), Vec::new());
-    for (k, (built, carried)) in arch.joints.iter().zip(&path.thrust_line).enumerate() {
+    for (k, (built, carried)) in arch.ring().iter().zip(&path.thrust_line).enumerate() {
         let [before, after] = [motions[k], motions[k + 1]];
         // The ground's normal turns with the ground, that between stones by the mean.
         let turn = match k {
             0 => before.turn,
-            _ if k + 1 == arch.joints.len() => after.turn,
+            _ if k + 1 == arch.ring().len() => after.turn,
             _ => 0.5 * (before.turn + after.turn),
         };
         let (along, length) = (turned(built.tangent(), turn), built.length());
@@ -116,9 +116,9 @@ pub fn judge(analysis: &Analysis, path: &SettlementPath, ground: [Vec2; 2], fric
         joints.push(Joint { along, force: normal * carried.normal + along * carried.shear, at });
     }
     for (k, pair) in joints.windows(2).enumerate() {
-        let loads: Vec<_> = analysis.fixed.iter().filter(|f| f.voussoir == k).collect();
+        let loads: Vec<_> = analysis.fixed.iter().filter(|f| f.body == k).collect();
         let sum = pair[0].force - pair[1].force + loads.iter().map(|f| f.force).sum::<Vec2>();
-        let centre = motions[k + 1].of(arch.voussoirs[k].region.centroid);
+        let centre = motions[k + 1].of(arch.bodies[k].region.centroid);
         let about = |at: Vec2, force: Vec2| cross(at - centre, force);
         let moment = about(pair[0].at, pair[0].force) - about(pair[1].at, pair[1].force)
             + loads.iter().map(|f| about(motions[k + 1].of(f.at), f.force)).sum::<f64>();

@@ -6,8 +6,8 @@ use super::full_solution::{self, Gap};
 use super::oracle::{Aim, Bond, Limit, Problem, Seam};
 use super::{door, sliding_arch};
 use serde_json::Value;
-use voussoir::arch::Face;
 use voussoir::collapse::{Analysis, CollapseReport, Direction, PathEnd, Unwatched, run};
+use voussoir::structure::Face;
 
 /// Load factors that differ by less than this share of their size, or of that at which the scaled loads are as large as the
 /// fixed ones, are the same.
@@ -59,7 +59,7 @@ pub fn check(request: &Value) -> Vec<Checked> {
 impl Checked {
     fn new(analysis: &Analysis, report: &CollapseReport, end: &PathEnd, sign: f64) -> Checked {
         let problem = door::problem(analysis);
-        let centroids: Vec<_> = analysis.arch.voussoirs.iter().map(|v| v.region.centroid.into()).collect();
+        let centroids: Vec<_> = analysis.structure.voussoirs().iter().map(|v| v.region.centroid.into()).collect();
         let window = report.limit_window.map_or([f64::NAN; 2], |window| [window.lowest, window.highest]);
         let exhaustive = (centroids.len() <= EXHAUSTED && problem.seams.iter().all(plain))
             .then(|| exhaustive::least(&problem, report.start, sign));

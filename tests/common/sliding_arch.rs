@@ -3,8 +3,8 @@
 use super::dice::Dice;
 use super::random_profile::profile;
 use serde_json::{Value, json};
-use voussoir::arch::{Joint, JointLaw, PointForce};
 use voussoir::collapse::Analysis;
+use voussoir::structure::{Joint, JointLaw, PointForce};
 
 /// The request of a seed: 3 to 30 stones, dry joints without cohesion, self weight and one live load. Half of the arches are as
 /// stout as arches of few stones often are; some of them are refused, because their joints cross.
@@ -68,12 +68,12 @@ pub fn variants(analysis: &Analysis, load_factor: f64) -> Vec<Variant> {
     }
     // Cohesion is shared out to the points of a joint, and those that open lose theirs: there the mesh is part of the law.
     let dry = |joint: &Joint| !matches!(joint.law, JointLaw::Dry { cohesion, .. } if cohesion > 0.0);
-    if analysis.arch.joints.iter().all(dry) {
+    if analysis.structure.ring().iter().all(dry) {
         for subblocks in [[2, 1], [3, 2]] {
             add(&|analysis| analysis.mesh.subblocks.fill(subblocks));
         }
         // Points added in one stone shift the numbers that scatter the stiffness of all joints after it.
-        for stone in 0..5.min(analysis.arch.voussoirs.len()) {
+        for stone in 0..5.min(analysis.structure.voussoirs().len()) {
             add(&|analysis| analysis.mesh.subblocks[stone] = [2, 1]);
         }
     }

@@ -2,9 +2,9 @@
 //!
 //! All figures are shares of the loads: the sum of the sizes of all forces at the state's load factor.
 
-use voussoir::arch::{Arch, Joint, JointLaw, PointForce};
 use voussoir::collapse::{Analysis, CollapseReport, ContactForce, Method, PathEnd, Snapshot};
 use voussoir::geometry::Vec2;
+use voussoir::structure::{Joint, JointLaw, PointForce, Structure};
 
 /// Gap at which cohesion is lost, as a multiple of cohesion over the contact's own stiffness (the README's figure).
 const REACH: f64 = 10.0;
@@ -92,7 +92,7 @@ pub fn weight(analysis: &Analysis, factor: f64) -> f64 {
 pub fn broken(analysis: &Analysis, state: &Snapshot) -> Broken {
     let stones = stones(analysis, state);
     let mut all = Broken { balance: stones[0], stress: stones[1], ..Broken::default() };
-    for (k, joint) in analysis.arch.joints.iter().enumerate() {
+    for (k, joint) in analysis.structure.ring().iter().enumerate() {
         let places: Vec<f64> = at_joint(state, k).map(|contact| contact.position).collect();
         for (j, contact) in at_joint(state, k).enumerate() {
             all = all.join(of_contact(analysis, k, joint, share(&places, j), contact));
@@ -116,16 +116,16 @@ fn share(places: &[f64], j: usize) -> f64 {
 /// Tension, friction and overlap of one contact, N/m.
 fn of_contact(analysis: &Analysis, k: usize, joint: &Joint, share: f64, contact: &ContactForce) -> Broken {
     let ContactForce { normal, tangential, gap, .. } = *contact;
-    let arch = &analysis.arch;
-    let last = k + 1 == arch.joints.len();
-    let JointLaw::Dry { friction, cohesion } = joint.law else {
+    let arch = &analysis.structure;
+    let last = k + 1 == arch.ring().len();
+    let Some([friction, cohesion]) = joint.law.coulomb() else {
         let shear = if joint.law == JointLaw::Mirror { tangential.abs() } else { 0.0 };
         return Broken { friction: shear, ..Broken::default() };
     };
-    let ground = |end: usize, here: bool| here && arch.abutments[end].is_none();
+    let ground = |end: usize, here: bool| here && arch.abutments()[end].is_none();
     let links = if ground(0, k == 0) || ground(1, last) { 1.0 } else { 2.0 };
-    let stiffer = if arch.half && last { CROWN } else { 1.0 };
-    let stiffness = 2.0 * stiffer * share * analysis.penalty_ratio * analysis.stone.youngs_modulus;
+    let stiffer = if arch.is_half() && last { CROWN } else { 1.0 };
+    let stiffness = 2.0 * stiffer * share * analysis.penalty_ratio * analysis.structure.stones[0].youngs_modulus;
     let held = share * cohesion * joint.length();
     let reach = REACH * held * (1.0 - links / LINK) / stiffness;
     let bound = match gap > 0.0 {
@@ -144,9 +144,9 @@ fn of_contact(analysis: &Analysis, k: usize, joint: &Joint, share: f64, contact:
 /// Force or moment over the joint's length that is missing on any stone, and force times length that is missing between
 /// its mean stress and the forces on it, over the joint's length; N/m.
 fn stones(analysis: &Analysis, state: &Snapshot) -> [f64; 2] {
-    let arch = &analysis.arch;
+    let arch = &analysis.structure;
     let mut worst = [0.0; 2];
-    for (k, stone) in arch.voussoirs.iter().enumerate() {
+    for (k, stone) in arch.voussoirs().iter().enumerate() {
         let contacts = state.contacts.iter().filter(|contact| contact.joint == k || contact.joint == k + 1);
         let pushed = contacts.map(|contact| {
             let joint = &arch.joints[contact.joint];
@@ -168,23 +168,23 @@ fn stones(analysis: &Analysis, state: &Snapshot) -> [f64; 2] {
 /// Judges the thrust line at the end of a path: stones out of balance, and a thrust outside its joint or beyond friction (with
 /// all of the joint's cohesion, as limit analysis has it).
 pub fn broken_line(analysis: &Analysis, end: &PathEnd) -> Broken {
-    let arch = &analysis.arch;
+    let arch = &analysis.structure;
     let mut all = Broken::default();
-    for (joint, thrust) in arch.joints.iter().zip(&end.thrust_line) {
-        let JointLaw::Dry { friction, cohesion } = joint.law else { continue };
+    for (joint, thrust) in arch.ring().iter().zip(&end.thrust_line) {
+        let Some([friction, cohesion]) = joint.law.coulomb() else { continue };
         let ([normal, shear], half) = ([thrust.normal, thrust.shear], 0.5 * joint.length());
         let outside = normal * (thrust.eccentricity.abs() - half) / half;
         let beyond = shear.abs() - friction * normal - cohesion * joint.length();
         let here = Broken { tension: larger(-normal, outside), friction: beyond, ..Broken::default() };
         all = all.join(here);
     }
-    for k in 0..arch.voussoirs.len() {
+    for k in 0..arch.voussoirs().len() {
         let joint = |k: usize, sign: f64| {
             let (joint, thrust) = (&arch.joints[k], &end.thrust_line[k]);
             (thrust.at, (joint.normal() * thrust.normal + joint.tangent() * thrust.shear) * sign)
         };
         let forces = [joint(k, 1.0), joint(k + 1, -1.0)].into_iter().chain(loads_on(analysis, k, end.load_factor));
-        let (sum, first) = moments(forces, arch.voussoirs[k].region.centroid);
+        let (sum, first) = moments(forces, arch.bodies[k].region.centroid);
         let moment = (first[1][0] - first[0][1]) / arch.joints[k].length();
         all.balance = [sum.x, sum.y, moment].into_iter().map(f64::abs).fold(all.balance, larger);
     }
@@ -195,11 +195,11 @@ pub fn broken_line(analysis: &Analysis, end: &PathEnd) -> Broken {
 fn loads_on(analysis: &Analysis, stone: usize, factor: f64) -> impl Iterator<Item = (Vec2, Vec2)> {
     let both = [(&analysis.fixed, 1.0), (&analysis.scaled, factor)].into_iter();
     both.flat_map(move |(loads, times)| {
-        loads.iter().filter(move |load| load.voussoir == stone).map(move |load| (load, times))
+        loads.iter().filter(move |load| load.body == stone).map(move |load| (load, times))
     })
     // What is spread over the stone does no work in a uniform strain about its centroid.
     .map(move |(load, times)| {
-        (if load.spread { analysis.arch.voussoirs[stone].region.centroid } else { load.at }, load.force * times)
+        (if load.spread { analysis.structure.bodies[stone].region.centroid } else { load.at }, load.force * times)
     })
 }
 
@@ -216,13 +216,13 @@ fn moments(forces: impl Iterator<Item = (Vec2, Vec2)>, about: Vec2) -> (Vec2, [[
 
 /// How far a state is from its mirror image about the axis of the arch: displacements, rotations, forces and openings, and
 /// stresses, each as a share of the largest of its kind.
-pub fn leaning(arch: &Arch, state: &Snapshot) -> [f64; 2] {
+pub fn leaning(arch: &Structure, state: &Snapshot) -> [f64; 2] {
     mirrored_apart(arch, state, state)
 }
 
 /// The same for a state and the mirror image of another.
-pub fn mirrored_apart(arch: &Arch, one: &Snapshot, other: &Snapshot) -> [f64; 2] {
-    let n = arch.joints.len() - 1;
+pub fn mirrored_apart(arch: &Structure, one: &Snapshot, other: &Snapshot) -> [f64; 2] {
+    let n = arch.ring().len() - 1;
     let pairs = one.blocks.iter().zip(other.blocks.iter().rev());
     let moved = pairs.clone().flat_map(|(a, b)| {
         let (u, v) = (a.displacement, b.displacement);

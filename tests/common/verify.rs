@@ -55,7 +55,7 @@ pub fn check(seed: u64, with_oracle: bool) -> Checked {
             return checked;
         }
     };
-    checked.voussoirs = analysis.arch.voussoirs.len();
+    checked.voussoirs = analysis.structure.voussoirs().len();
     let start = Instant::now();
     let result = catch_unwind(AssertUnwindSafe(|| run(&analysis, &mut Unwatched)));
     checked.seconds = start.elapsed().as_secs_f64();
@@ -80,7 +80,7 @@ pub fn said(panic: &(dyn std::any::Any + Send)) -> String {
 
 /// Fixed over scaled loads: the size of a load factor that matters.
 fn balance(analysis: &Analysis) -> f64 {
-    let total = |forces: &[voussoir::arch::PointForce]| forces.iter().map(|f| f.force.norm()).sum::<f64>();
+    let total = |forces: &[voussoir::structure::PointForce]| forces.iter().map(|f| f.force.norm()).sum::<f64>();
     let (fixed, scaled) = (total(&analysis.fixed), total(&analysis.scaled));
     if fixed > 0.0 && scaled > 0.0 { fixed / scaled } else { 1.0 }
 }
@@ -140,7 +140,7 @@ impl Checked {
     }
 
     fn measure_motion(&mut self, analysis: &Analysis, end: &PathEnd, sign: f64) {
-        let centroids: Vec<_> = analysis.arch.voussoirs.iter().map(|v| v.region.centroid.into()).collect();
+        let centroids: Vec<_> = analysis.structure.voussoirs().iter().map(|v| v.region.centroid.into()).collect();
         if end.mechanism.velocities.len() != centroids.len() {
             return self.complaints.push("the mechanism has no velocities".into());
         }

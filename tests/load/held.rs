@@ -6,8 +6,8 @@ use voussoir::api::fault::Fault;
 use voussoir::api::read::read_question;
 use voussoir::api::request::Request;
 use voussoir::api::response::JobResult;
-use voussoir::arch::{Arch, JointLaw, PointForce};
 use voussoir::collapse::{self, Analysis, LoadStep, Question, Stop, Watch};
+use voussoir::structure::{JointLaw, PointForce, Structure};
 
 /// Reads a body; what was asked, where it was not refused.
 pub fn read(body: &[u8]) -> Option<(Request, Question)> {
@@ -60,42 +60,35 @@ fn is_finite(question: &Question) -> bool {
 }
 
 fn analysis_is_finite(analysis: &Analysis) -> bool {
-    let stone = &analysis.stone;
-    let numbers = [
-        stone.density,
-        stone.youngs_modulus,
-        stone.poissons_ratio,
-        stone.friction_angle,
-        stone.cohesion,
-        stone.compressive_strength,
-        analysis.penalty_ratio,
-        analysis.shear_penalty_ratio,
-        analysis.cap.unwrap_or(0.0),
-        analysis.share,
-    ];
+    let of_stones = analysis.structure.stones.iter().flat_map(|stone| {
+        [
+            stone.density,
+            stone.youngs_modulus,
+            stone.poissons_ratio,
+            stone.friction_angle,
+            stone.cohesion,
+            stone.compressive_strength,
+        ]
+    });
+    let numbers = [analysis.penalty_ratio, analysis.shear_penalty_ratio, analysis.cap.unwrap_or(0.0), analysis.share];
     let force = |force: &PointForce| force.at.iter().chain(force.force.iter()).all(|number| number.is_finite());
-    numbers.iter().all(|number| number.is_finite())
+    numbers.into_iter().chain(of_stones).all(f64::is_finite)
         && analysis.fixed.iter().chain(&analysis.scaled).all(force)
-        && arch_is_finite(&analysis.arch)
+        && arch_is_finite(&analysis.structure)
 }
 
-fn arch_is_finite(arch: &Arch) -> bool {
+fn arch_is_finite(arch: &Structure) -> bool {
     let law = |law: &JointLaw| match law {
         JointLaw::Dry { friction, cohesion } => friction.is_finite() && cohesion.is_finite(),
         _ => true,
     };
-    let abutments = arch.abutments.iter().flatten();
-    abutments
-        .into_iter()
-        .all(|abutment| abutment.region.area > 0.0 && abutment.region.centroid.iter().all(|x| x.is_finite()))
-        && arch.joints.iter().all(|joint| {
-            joint.intrados.iter().chain(joint.extrados.iter()).all(|number| number.is_finite()) && law(&joint.law)
-        })
-        && arch.voussoirs.iter().all(|voussoir| {
-            voussoir.region.area > 0.0
-                && voussoir.region.area.is_finite()
-                && voussoir.region.centroid.iter().all(|number| number.is_finite())
-        })
+    arch.joints.iter().all(|joint| {
+        joint.intrados.iter().chain(joint.extrados.iter()).all(|number| number.is_finite()) && law(&joint.law)
+    }) && arch.bodies.iter().all(|body| {
+        body.region.area > 0.0
+            && body.region.area.is_finite()
+            && body.region.centroid.iter().all(|number| number.is_finite())
+    })
 }
 
 /// How an analysis ended.
@@ -109,7 +102,7 @@ pub enum Solved {
 /// Whether a question is answered in no time.
 pub fn is_small(question: &Question) -> bool {
     let small = |analysis: &Analysis| {
-        analysis.arch.voussoirs.len() <= 60
+        analysis.structure.voussoirs().len() <= 60
             && analysis.mesh.subblocks.iter().map(|[radial, along]| radial * along).sum::<usize>() <= 200
             && analysis.motion.is_none_or(|motion| motion.most_frames <= 30)
     };

@@ -49,7 +49,7 @@ impl Solved {
 
     /// Sum of the sizes of all loads at a load factor, N/m: what forces are measured against.
     pub fn weight(&self, factor: f64) -> f64 {
-        let total = |forces: &[voussoir::arch::PointForce]| forces.iter().map(|f| f.force.norm()).sum::<f64>();
+        let total = |forces: &[voussoir::structure::PointForce]| forces.iter().map(|f| f.force.norm()).sum::<f64>();
         total(&self.analysis.fixed) + factor.abs() * total(&self.analysis.scaled)
     }
 }
@@ -77,7 +77,7 @@ fn size(profile: &Value) -> [f64; 2] {
         "arch": {"profile": profile, "voussoirs": 8, "thickness": {"constant_m": 0.01}},
         "loads": [{"load": {"self_weight": {}}}],
     });
-    let joints = door::analysis(&probe).unwrap().arch.joints;
+    let joints = door::analysis(&probe).unwrap().structure.ring().to_vec();
     [joints[8].middle().x, joints.iter().map(|j| j.middle().y).fold(0.0, f64::max)]
 }
 
@@ -127,7 +127,7 @@ pub fn scene(friction: [f64; 2]) -> impl Strategy<Value = Scene> {
 /// The same with corners up to 4 per cent of the thickness off, so that nothing is symmetric.
 pub fn surveyed(friction: [f64; 2]) -> impl Strategy<Value = Scene> {
     (scene(friction), prop::collection::vec(-1.0..1.0, 4 * 33)).prop_map(|(scene, noise)| {
-        let joints = door::analysis(&scene.request).unwrap().arch.joints;
+        let joints = door::analysis(&scene.request).unwrap().structure.ring().to_vec();
         let point = |p: voussoir::geometry::Vec2, k: usize, length: f64| {
             let off = 0.04 * length.min(0.5 * (joints[1].middle() - joints[0].middle()).norm());
             [p.x + off * noise[k], p.y + off * noise[k + 1]]
@@ -177,7 +177,7 @@ impl Scene {
 
     /// The mirror image about x = 0, as surveyed points, under mirrored loads.
     pub fn mirrored(&self) -> Scene {
-        let joints = door::analysis(&self.request).unwrap().arch.joints;
+        let joints = door::analysis(&self.request).unwrap().structure.ring().to_vec();
         let flip = |p: voussoir::geometry::Vec2| [-p.x, p.y];
         let ends: Vec<_> = joints.iter().rev().map(|j| [flip(j.intrados), flip(j.extrados)]).collect();
         let mut scene = self.with_joints(&ends);

@@ -1,9 +1,9 @@
 //! Statics of an answer, worked out anew from its own numbers: every stone in equilibrium, every joint within its law.
 
 use super::scene::Solved;
-use voussoir::arch::{Joint, JointLaw};
 use voussoir::collapse::{Face, PathEnd, Snapshot};
 use voussoir::geometry::Vec2;
+use voussoir::structure::Joint;
 
 /// Force and moment about a point, the moment over a length.
 type Wrench = [f64; 3];
@@ -22,12 +22,12 @@ fn add(sum: &mut Wrench, part: Wrench, sign: f64) {
 fn imbalance(solved: &Solved, factor: f64, joint: impl Fn(usize, Vec2, f64) -> Wrench) -> f64 {
     let analysis = &solved.analysis;
     let mut worst = 0f64;
-    for (k, stone) in analysis.arch.voussoirs.iter().enumerate() {
-        let (about, length) = (stone.region.centroid, analysis.arch.joints[k].length());
+    for (k, stone) in analysis.structure.voussoirs().iter().enumerate() {
+        let (about, length) = (stone.region.centroid, analysis.structure.joints[k].length());
         let mut sum = joint(k, about, length);
         add(&mut sum, joint(k + 1, about, length), -1.0);
         for (loads, times) in [(&analysis.fixed, 1.0), (&analysis.scaled, factor)] {
-            for load in loads.iter().filter(|load| load.voussoir == k) {
+            for load in loads.iter().filter(|load| load.body == k) {
                 add(&mut sum, wrench(load.force * times, load.at, about, length), 1.0);
             }
         }
@@ -38,7 +38,7 @@ fn imbalance(solved: &Solved, factor: f64, joint: impl Fn(usize, Vec2, f64) -> W
 
 /// Imbalance of the stones under the thrust line at the end of a path.
 pub fn of_thrust_line(solved: &Solved, end: &PathEnd) -> f64 {
-    let joints = &solved.analysis.arch.joints;
+    let joints = &solved.analysis.structure.ring();
     imbalance(solved, end.load_factor, |k, about, length| {
         let (joint, thrust) = (&joints[k], &end.thrust_line[k]);
         let force = joint.normal() * thrust.normal + joint.tangent() * thrust.shear;
@@ -48,7 +48,7 @@ pub fn of_thrust_line(solved: &Solved, end: &PathEnd) -> f64 {
 
 /// Imbalance of the stones under the contact forces of a snapshot.
 pub fn of_snapshot(solved: &Solved, snapshot: &Snapshot) -> f64 {
-    let joints = &solved.analysis.arch.joints;
+    let joints = &solved.analysis.structure.ring();
     imbalance(solved, snapshot.load_factor, |k, about, length| {
         let mut sum = [0.0; 3];
         for contact in snapshot.contacts.iter().filter(|contact| contact.joint == k) {
@@ -65,8 +65,8 @@ pub fn of_snapshot(solved: &Solved, snapshot: &Snapshot) -> f64 {
 /// point of it lies from where its eccentricity says, as a share of the joint.
 pub fn excess(solved: &Solved, end: &PathEnd) -> [f64; 3] {
     let mut worst = [0f64; 3];
-    for (joint, thrust) in solved.analysis.arch.joints.iter().zip(&end.thrust_line) {
-        let JointLaw::Dry { friction, cohesion } = joint.law else { continue };
+    for (joint, thrust) in solved.analysis.structure.ring().iter().zip(&end.thrust_line) {
+        let Some([friction, cohesion]) = joint.law.coulomb() else { continue };
         let (half, normal) = (0.5 * joint.length(), thrust.normal);
         let outside = (normal * thrust.eccentricity.abs() - normal * half) / half;
         let slipping = thrust.shear.abs() - friction * normal - cohesion * joint.length();
@@ -79,7 +79,7 @@ pub fn excess(solved: &Solved, end: &PathEnd) -> [f64; 3] {
 
 /// Velocity of the point `at` moving with stone `k`; the ground on either side stands still.
 fn velocity(solved: &Solved, end: &PathEnd, k: Option<usize>, at: Vec2) -> (Vec2, f64) {
-    let stones = &solved.analysis.arch.voussoirs;
+    let stones = &solved.analysis.structure.voussoirs();
     match k {
         Some(k) if k < stones.len() => {
             let ([u, v, spin], arm) = (end.mechanism.velocities[k], at - stones[k].region.centroid);
@@ -92,10 +92,10 @@ fn velocity(solved: &Solved, end: &PathEnd, k: Option<usize>, at: Vec2) -> (Vec2
 /// How far the velocities of the stones are from what hinges, slides and joints that part say, joint by joint: the velocity of
 /// the stone after a joint relative to the one before it, at the hinge's face or at both ends, over the joint's length.
 pub fn inconsistency(solved: &Solved, end: &PathEnd) -> f64 {
-    let arch = &solved.analysis.arch;
+    let arch = &solved.analysis.structure;
     let mut worst = 0f64;
-    for (k, joint) in arch.joints.iter().enumerate() {
-        let wall = arch.half && k == arch.voussoirs.len();
+    for (k, joint) in arch.ring().iter().enumerate() {
+        let wall = arch.is_half() && k == arch.voussoirs().len();
         let hinge = end.mechanism.hinges.iter().find(|hinge| hinge.joint == k);
         let slide = end.mechanism.slides.iter().find(|slide| slide.joint == k).map_or(0.0, |slide| slide.rate);
         let lift_off = end.mechanism.lift_offs.iter().find(|lift_off| lift_off.joint == k);

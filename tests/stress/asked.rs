@@ -1,8 +1,8 @@
 //! The curved beam to an accuracy, against the exact stress, which has no part in finding the mesh.
 
 use crate::exact::{Ring, tresca};
-use voussoir::arch::Stone;
 use voussoir::collapse::{Answer, CurvedBeam, PlaneModel, Question, Seams, Unwatched, answer};
+use voussoir::structure::Stone;
 
 #[path = "../common/dice.rs"]
 mod dice;

@@ -1,8 +1,8 @@
 //! The curved beam of section 3.3 of the paper, cut into subblocks.
 
 use crate::exact::{PAPER, Ring, tresca};
-use voussoir::arch::Stone;
 use voussoir::collapse::{Answer, BeamReport, CurvedBeam, PlaneModel, Question, Seams, Unwatched, answer};
+use voussoir::structure::Stone;
 
 /// Exact strain energy of the paper's beam, J/m (`curved_beam_exact.json`).
 const ENERGY: f64 = 0.808_161_67;

@@ -73,7 +73,7 @@ fn worst_cut(analysis: &Analysis, report: &CollapseReport, loaded: usize, [radia
     let step = 2.0 * HALF.to_radians() / COUNT as f64;
     let mut worst = 0f64;
     for k in (0..COUNT).filter(|&k| k != loaded) {
-        let joint = &analysis.arch.joints[k];
+        let joint = &analysis.structure.joints[k];
         let at_joint: Vec2 = contacts
             .iter()
             .filter(|contact| contact.joint == k)
@@ -114,7 +114,7 @@ fn a_cut_through_a_column_of_subblocks_carries_the_thrust() {
 
 /// Stress couple in the middle column of subblocks of stone `k`, N m per metre of depth.
 fn couple(analysis: &Analysis, report: &CollapseReport, k: usize, [radial, along]: [usize; 2]) -> f64 {
-    let middle = analysis.arch.joints[k].middle() + analysis.arch.joints[k + 1].middle();
+    let middle = analysis.structure.joints[k].middle() + analysis.structure.joints[k + 1].middle();
     let forward = Vec2::new(middle.y, -middle.x).normalize();
     let (thickness, cells) = (RADII[1] - RADII[0], radial as f64);
     let of_column = report.stress_fields[0].subblocks.iter().filter(|s| s.voussoir == k && s.place[1] == along / 2);

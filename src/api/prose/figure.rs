@@ -21,5 +21,5 @@ pub fn figure(question: &Question, answer: &Answer, result: &JobResult) -> Resul
     if report.outcome == Outcome::StandsInWindow {
         caption.push_str(&format!("\nDrawn: {}.", wording::shown(result)));
     }
-    Ok(svg(&analysis.arch, end, &caption))
+    Ok(svg(&analysis.structure, end, &caption))
 }

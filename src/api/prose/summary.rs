@@ -134,14 +134,15 @@ fn window_end(text: &mut String, name: &str, limit: Option<Limit<'_>>, result: &
 }
 
 fn hinges(hinges: &[HingeBody]) -> Option<Table> {
+    let degrees = |angle: Option<f64>| angle.map_or("-".to_owned(), |angle| format!("{angle:.2}"));
     let mut table = bare();
     table.set_header(["joint", "pressed at", "deg from springing", "deg from crown", "rotation"]);
     table.add_rows(hinges.iter().map(|hinge| {
         [
             hinge.joint.to_string(),
             word(&hinge.face),
-            format!("{:.2}", hinge.angle_from_springing_deg),
-            format!("{:.2}", hinge.angle_from_crown_deg),
+            degrees(hinge.angle_from_springing_deg),
+            degrees(hinge.angle_from_crown_deg),
             format!("{:.4}", hinge.rotation),
         ]
     }));

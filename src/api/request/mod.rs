@@ -17,8 +17,8 @@ pub use mesh::*;
 pub use motion::*;
 pub use question::*;
 
-use crate::arch::Stone;
 use crate::collapse::DEFAULT_PENALTY_RATIO;
+use crate::structure::Stone;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 

@@ -60,9 +60,13 @@ pub struct HingeBody {
     /// Face at which it opens.
     pub opens: FaceWord,
     /// Position: angle from the nearer springing, about the arch's angle centre.
-    pub angle_from_springing_deg: f64,
+    #[schema(value_type = f64, required = true)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub angle_from_springing_deg: Option<f64>,
     /// Position: angle from the crown, negative on the left.
-    pub angle_from_crown_deg: f64,
+    #[schema(value_type = f64, required = true)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub angle_from_crown_deg: Option<f64>,
     /// Relative rotation rate in the mechanism; the largest of all hinges is 1.
     pub rotation: f64,
 }
@@ -152,8 +156,8 @@ impl From<&Hinge> for HingeBody {
             joint: hinge.joint,
             face,
             opens: face.other(),
-            angle_from_springing_deg: hinge.angle_from_springing.to_degrees(),
-            angle_from_crown_deg: hinge.angle_from_crown.to_degrees(),
+            angle_from_springing_deg: hinge.angle_from_springing.map(f64::to_degrees),
+            angle_from_crown_deg: hinge.angle_from_crown.map(f64::to_degrees),
             rotation: hinge.rotation,
         }
     }

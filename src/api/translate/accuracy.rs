@@ -5,11 +5,11 @@ use crate::api::request::{
     AccuracyRequest, AimRequest, AnalysisRequest, GeometryRequest, MAX_SUBBLOCKS, MethodRequest, SeamsRequest,
     SubblocksRequest,
 };
-use crate::arch::{Arch, Sides};
 use crate::collapse::Accuracy;
+use crate::structure::{Sides, Structure};
 
 /// The accuracy asked for, where one is.
-pub fn accuracy(request: &AnalysisRequest, arch: Option<&Arch>, faults: &mut Faults) -> Option<Accuracy> {
+pub fn accuracy(request: &AnalysisRequest, structure: Option<&Structure>, faults: &mut Faults) -> Option<Accuracy> {
     let asked = request.accuracy.as_ref()?;
     let accuracy = checked(asked, faults);
     let detail = "an accuracy is reached by steps no one chooses: set method to `event_path`";
@@ -27,7 +27,9 @@ pub fn accuracy(request: &AnalysisRequest, arch: Option<&Arch>, faults: &mut Fau
         faults.require(own, "/mesh/subblocks", detail);
         let detail = "stress converges with split seams only: set seams to `split`, or leave accuracy.stress out";
         faults.require(request.mesh.seams == SeamsRequest::Split, "/mesh/seams", detail);
-        if let Some(k) = arch.and_then(|arch| arch.voussoirs.iter().position(|stone| stone.sides == Sides::Compound)) {
+        if let Some(k) = structure
+            .and_then(|structure| structure.voussoirs().iter().position(|stone| stone.sides == Sides::Compound))
+        {
             let detail = format!(
                 "a curved side of voussoir {k} is of more than one arc, which cannot be cut into subblocks: place joints \
                  where the arcs meet, set curved_sides to false, or leave accuracy.stress out"

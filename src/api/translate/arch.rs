@@ -2,6 +2,7 @@
 
 use super::MAX_LENGTH_M;
 use super::profile::profile;
+use super::stone::joint_law;
 use crate::api::fault::{Faults, Shown};
 use crate::api::request::{
     ArchRequest, ExtradosCircle, JointsRequest, LineRequest, ProfileRequest, SpringingJoints, Surveyed,
@@ -9,9 +10,10 @@ use crate::api::request::{
 };
 use crate::arch::profile::Profile;
 use crate::arch::ring::{JointEnds, JointLines, Line, Ring, Thickness, stations};
-use crate::arch::{Arch, ArchFault, Joint, JointLaw, MAX_VOUSSOIRS, straight_voussoirs};
+use crate::arch::{ArchFault, MAX_VOUSSOIRS, assemble, stand_on_abutments, straight_voussoirs};
 use crate::collapse::Digits;
 use crate::geometry::Vec2;
+use crate::structure::{Joint, JointLaw, Stone, Structure};
 
 /// Least height of an abutment over the thickness it carries: far below, its area and stiffness cannot be told.
 const LEAST_ABUTMENT: f64 = 1e-6;
@@ -20,7 +22,7 @@ const LEAST_ABUTMENT: f64 = 1e-6;
 const MAX_STONE_FAULTS: usize = 20;
 
 /// The whole arch (never halved here), or faults.
-pub fn arch(request: &ArchRequest, law: JointLaw, faults: &mut Faults) -> Option<Arch> {
+pub fn arch(request: &ArchRequest, stone: Stone, faults: &mut Faults) -> Option<Structure> {
     let before = faults.len();
     if let Some(abutments) = &request.abutments {
         faults.within("/arch/abutments/height_m", abutments.height_m, 0.0, MAX_LENGTH_M);
@@ -42,7 +44,7 @@ pub fn arch(request: &ArchRequest, law: JointLaw, faults: &mut Faults) -> Option
     if faults.len() > before {
         return None;
     }
-    let mut arch = Arch::assemble(&ends, voussoirs, law, centre);
+    let mut arch = assemble(&ends, voussoirs, stone, joint_law(&stone), centre);
     if request.springing_joints == SpringingJoints::Bonded {
         let last = arch.joints.len() - 1;
         arch.joints[0].law = JointLaw::Bonded;
@@ -60,7 +62,7 @@ pub fn arch(request: &ArchRequest, law: JointLaw, faults: &mut Faults) -> Option
         if !faults.require(height >= least, "/arch/abutments/height_m", detail) {
             return None;
         }
-        arch.stand_on_abutments(height);
+        stand_on_abutments(&mut arch, height);
     }
     Some(arch)
 }

@@ -3,17 +3,18 @@
 use super::loads::{Forces, as_fill};
 use crate::api::fault::Faults;
 use crate::api::request::{LoadEntry, LoadRequest};
-use crate::arch::{Arch, GRAVITY};
 use crate::geometry::Vec2;
+use crate::structure::load::Fill;
+use crate::structure::{GRAVITY, Structure};
 
 /// Adds what all fill among `entries` does in the acceleration `entry`. The force has the coefficients of both, and is scaled
 /// where one of the two is. A fill that does not fit the arch has a fault of its own.
-pub fn add(entries: &[LoadEntry], entry: &LoadEntry, arch: &Arch, pieces: &[usize], forces: &mut Forces) {
+pub fn add(entries: &[LoadEntry], entry: &LoadEntry, structure: &Structure, pieces: &[usize], forces: &mut Forces) {
     let LoadRequest::BodyAcceleration(body) = &entry.load else { return };
     let acceleration = GRAVITY * Vec2::new(body.x_g, body.y_g);
     for (other, fill) in fills(entries) {
         let acceleration = entry.coefficient * other.coefficient * acceleration;
-        let carried = fill.inertia(arch, pieces, acceleration).unwrap_or_default();
+        let carried = fill.inertia(structure, pieces, acceleration).unwrap_or_default();
         forces.of(entry.scaled || other.scaled).extend(carried);
     }
 }
@@ -37,7 +38,7 @@ pub fn check(entries: &[LoadEntry], faults: &mut Faults) {
     faults.add(format!("/loads/{acceleration}/scaled"), detail);
 }
 
-fn fills(entries: &[LoadEntry]) -> impl Iterator<Item = (&LoadEntry, crate::arch::load::Fill)> {
+fn fills(entries: &[LoadEntry]) -> impl Iterator<Item = (&LoadEntry, Fill)> {
     entries.iter().filter_map(|entry| match &entry.load {
         LoadRequest::FillPressure(fill) => Some((entry, as_fill(fill))),
         _ => None,

@@ -3,10 +3,11 @@
 use super::{MAX_DENSITY_KG_M3, MAX_FACTOR, MAX_FORCE_N_PER_M, MAX_LENGTH_M, MAX_STRESS_PA, friction_angle, inertia};
 use crate::api::fault::{Faults, Shown};
 use crate::api::request::{FillPressure, LateralPressure, LoadEntry, LoadRequest, PatchLoad, PointLoad};
-use crate::arch::load::{Band, Fill, Load, LoadFault, Place};
-use crate::arch::{Arch, GRAVITY, MAX_VOUSSOIRS, PointForce};
+use crate::arch::MAX_VOUSSOIRS;
 use crate::collapse::Digits;
 use crate::geometry::Vec2;
+use crate::structure::load::{Band, Fill, Load, LoadFault, Place};
+use crate::structure::{GRAVITY, PointForce, Structure};
 
 /// Most loads of one request.
 pub const MAX_LOADS: usize = 1000;
@@ -48,13 +49,7 @@ impl Forces {
 }
 
 /// The forces on the whole arch where there is one, with its extrados sides cut into `pieces` each.
-pub fn loads(
-    entries: &[LoadEntry],
-    arch: Option<&Arch>,
-    pieces: &[usize],
-    density: f64,
-    faults: &mut Faults,
-) -> Forces {
+pub fn loads(entries: &[LoadEntry], whole: Option<&Structure>, pieces: &[usize], faults: &mut Faults) -> Forces {
     let mut all = Forces::default();
     faults.require(
         !entries.is_empty(),
@@ -77,14 +72,14 @@ pub fn loads(
     for (i, entry) in entries.iter().enumerate() {
         let before = faults.len();
         check(&format!("/loads/{i}"), entry, faults);
-        let Some(arch) = arch.filter(|_| faults.len() == before) else { continue };
-        match load(&entry.load, density).on_pieces(arch, pieces, entry.coefficient) {
+        let Some(structure) = whole.filter(|_| faults.len() == before) else { continue };
+        match load(&entry.load).on_pieces(structure, pieces, entry.coefficient) {
             Ok(forces) if forces.is_empty() => {
                 faults.add(format!("/loads/{i}"), "this load puts no force on the arch: correct it or leave it out");
             }
             Ok(forces) => {
                 all.of(entry.scaled).extend(forces);
-                inertia::add(entries, entry, arch, pieces, &mut all);
+                inertia::add(entries, entry, structure, pieces, &mut all);
             }
             Err(fault) => {
                 faults.add(place(i, &entry.load, fault), format!("{fault}: correct it or leave the load out"));
@@ -108,9 +103,9 @@ fn place(i: usize, load: &LoadRequest, fault: LoadFault) -> String {
 }
 
 /// A load in SI; of a point load with two places, the abscissa counts.
-pub fn load(request: &LoadRequest, density: f64) -> Load {
+pub fn load(request: &LoadRequest) -> Load {
     match request {
-        LoadRequest::SelfWeight(_) => Load::SelfWeight(density),
+        LoadRequest::SelfWeight(_) => Load::SelfWeight,
         LoadRequest::FillPressure(fill) => Load::Fill(as_fill(fill)),
         LoadRequest::LateralPressure(lateral) => {
             let band = |band: &crate::api::request::PressureBand| Band {
@@ -122,7 +117,7 @@ pub fn load(request: &LoadRequest, density: f64) -> Load {
         }
         LoadRequest::PointLoad(point) => {
             let place = match (point.x_m, point.voussoir) {
-                (None, Some(voussoir)) => Place::Voussoir(voussoir),
+                (None, Some(voussoir)) => Place::Body(voussoir),
                 (x, _) => Place::Abscissa(x.unwrap_or(0.0)),
             };
             Load::Point(point.force_n_per_m, place)
@@ -130,7 +125,7 @@ pub fn load(request: &LoadRequest, density: f64) -> Load {
         LoadRequest::PatchLoad(patch) => {
             Load::Patch { force: patch.force_n_per_m, centre: patch.centre_x_m, width: patch.width_m }
         }
-        LoadRequest::BodyAcceleration(body) => Load::BodyAcceleration(density, GRAVITY * Vec2::new(body.x_g, body.y_g)),
+        LoadRequest::BodyAcceleration(body) => Load::BodyAcceleration(GRAVITY * Vec2::new(body.x_g, body.y_g)),
     }
 }
 

@@ -6,8 +6,9 @@ use crate::api::request::{
     MAX_FIELDS, MAX_SUBBLOCKS, MAX_SUBBLOCKS_EACH_WAY, MeshRequest, ReportRequest, SeamsRequest, StressFieldRequest,
     Subblocks, SubblocksRequest,
 };
-use crate::arch::{Arch, MAX_VOUSSOIRS, Sides};
+use crate::arch::MAX_VOUSSOIRS;
 use crate::collapse::{FieldAt, Seams};
+use crate::structure::{Sides, Structure};
 
 /// Most subblocks in all stress fields of one answer together.
 const MAX_FIELD_SUBBLOCKS: usize = 400_000;
@@ -21,12 +22,12 @@ const PER_VOUSSOIR: &str = "/mesh/subblocks/per_voussoir";
 /// Subblocks of every voussoir of the whole arch, of which the first `analysed` count; one each where there are faults.
 pub fn subblocks(
     request: &MeshRequest,
-    whole: Option<&Arch>,
+    whole: Option<&Structure>,
     analysed: Option<usize>,
     faults: &mut Faults,
 ) -> Vec<[usize; 2]> {
     let before = faults.len();
-    let voussoirs = whole.map(|arch| arch.voussoirs.len());
+    let voussoirs = whole.map(|whole| whole.voussoirs().len());
     let given = match &request.subblocks {
         SubblocksRequest::Uniform(each) => {
             check(UNIFORM, *each, faults);
@@ -45,8 +46,8 @@ pub fn subblocks(
             list.iter().map(|each| [each.radial, each.along]).collect()
         }
     };
-    if let Some(arch) = whole.filter(|_| faults.len() == before) {
-        check_sides(request, arch, &given, faults);
+    if let Some(whole) = whole.filter(|_| faults.len() == before) {
+        check_sides(request, whole, &given, faults);
         let total = total(given.iter().take(analysed.unwrap_or(usize::MAX)));
         let detail = format!("{total} subblocks in all: keep to {MAX_SUBBLOCKS} by a coarser mesh or fewer voussoirs");
         faults.require(total <= MAX_SUBBLOCKS, "/mesh/subblocks", detail);
@@ -67,11 +68,11 @@ pub fn check(here: &str, subblocks: Subblocks, faults: &mut Faults) {
 }
 
 /// A voussoir with several arcs on a side has no sectors to be cut into.
-fn check_sides(request: &MeshRequest, arch: &Arch, subblocks: &[[usize; 2]], faults: &mut Faults) {
-    let compound = |k: &usize| arch.voussoirs[*k].sides == Sides::Compound && subblocks[*k] != [1, 1];
+fn check_sides(request: &MeshRequest, structure: &Structure, subblocks: &[[usize; 2]], faults: &mut Faults) {
+    let compound = |k: &usize| structure.bodies[*k].sides == Sides::Compound && subblocks[*k] != [1, 1];
     let uniform = matches!(request.subblocks, SubblocksRequest::Uniform(_));
     let most = if uniform { 1 } else { MAX_VOUSSOIR_FAULTS };
-    for k in (0..arch.voussoirs.len()).filter(compound).take(most) {
+    for k in (0..structure.voussoirs().len()).filter(compound).take(most) {
         let pointer = if uniform { UNIFORM.to_owned() } else { format!("{PER_VOUSSOIR}/{k}") };
         let detail = format!(
             "a curved side of voussoir {k} is of more than one arc, which cannot be cut into subblocks: place joints \

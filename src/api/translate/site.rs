@@ -1,22 +1,22 @@
 //! What all analyses of one request share.
 
-use super::stone::{check_overrides, joint_law, override_joints, stone};
+use super::stone::{check_overrides, override_joints, stone};
 use super::{MAX_FACTOR, MAX_LENGTH_M, accuracy, arch, check_text, half, loads, mesh, motion};
 use crate::api::fault::Faults;
 use crate::api::request::{AimRequest, AnalysisRequest, DirectionRequest, GeometryRequest, LoadEntry, MethodRequest};
-use crate::arch::{Arch, MAX_VOUSSOIRS, PointForce, Stone};
+use crate::arch::MAX_VOUSSOIRS;
 use crate::collapse::{Accuracy, Analysis, Direction, FieldAt, Geometry, LOAD_PIECES, Mesh, Method, MotionAsked};
 use crate::geometry::Vec2;
+use crate::structure::{PointForce, Structure};
 
 /// Everything of a request but its loads.
 pub struct Site<'a> {
     /// The request.
     pub request: &'a AnalysisRequest,
-    stone: Stone,
     /// The whole arch, where it can be built.
-    whole: Option<Arch>,
-    /// The arch that is analysed: the whole one or its left half.
-    arch: Option<Arch>,
+    whole: Option<Structure>,
+    /// What is analysed: the whole arch or its left half.
+    structure: Option<Structure>,
     /// Subblocks of every voussoir of the whole arch, radial and along; those of its half where a keystone is cut.
     subblocks: Vec<[usize; 2]>,
     /// The voussoir that is cut in half.
@@ -33,22 +33,22 @@ impl<'a> Site<'a> {
         check_text("/name", request.name.as_deref().unwrap_or(""), faults);
         check_text("/load_factor/unit", &request.load_factor.unit, faults);
         let stone = stone(&request.stone, faults);
-        let mut whole = arch::arch(&request.arch, joint_law(&stone), faults);
+        let mut whole = arch::arch(&request.arch, stone, faults);
         check_overrides(request, whole.as_ref(), faults);
-        if let Some(arch) = &mut whole {
-            override_joints(request, arch);
+        if let Some(whole) = &mut whole {
+            override_joints(request, whole);
         }
-        let arch = match request.arch.half {
-            true => whole.as_ref().map(|arch| half::halved(arch, &request.arch, faults)),
+        let structure = match request.arch.half {
+            true => whole.as_ref().map(|whole| half::halved(whole, &request.arch, faults)),
             false => whole.clone(),
         };
-        let analysed = arch.as_ref().map(|arch| arch.voussoirs.len());
+        let analysed = structure.as_ref().map(|structure| structure.voussoirs().len());
         let mut subblocks = mesh::subblocks(&request.mesh, whole.as_ref(), analysed, faults);
-        let cut = whole.as_ref().filter(|_| request.arch.half).and_then(Arch::keystone);
+        let cut = whole.as_ref().filter(|_| request.arch.half).and_then(Structure::keystone);
         if let Some([_, along]) = cut.and_then(|keystone| subblocks.get_mut(keystone)) {
             *along = along.div_ceil(2);
         }
-        let joints = arch.as_ref().map_or(usize::MAX, |arch| arch.joints.len());
+        let joints = structure.as_ref().map_or(usize::MAX, |structure| structure.ring().len());
         let method = method(&request.method, joints, faults);
         check_load_factor(request, faults);
         check_method(request, faults);
@@ -59,7 +59,7 @@ impl<'a> Site<'a> {
         let pieces = refined.map_or(pieces, |accuracy| accuracy.most_subblocks);
         let fields = mesh::fields(&request.report, pieces, faults);
         let motion = motion::motion(request, analysed.unwrap_or(0), faults);
-        Site { request, stone, whole, arch, subblocks, cut, method, accuracy, fields, motion }
+        Site { request, whole, structure, subblocks, cut, method, accuracy, fields, motion }
     }
 
     /// Into how many pieces the extrados side of every voussoir of the whole arch is cut.
@@ -73,7 +73,7 @@ impl<'a> Site<'a> {
 
     /// Distance of the whole arch's joints farthest apart, m; none where it cannot be built.
     pub fn size(&self) -> Option<f64> {
-        let ends = |arch: &Arch| arch.joints.iter().flat_map(|j| [j.intrados, j.extrados]).collect::<Vec<_>>();
+        let ends = |whole: &Structure| whole.ring().iter().flat_map(|j| [j.intrados, j.extrados]).collect::<Vec<_>>();
         let ends = ends(self.whole.as_ref()?);
         let from = |a: &Vec2| ends.iter().map(|b| (a - b).norm()).fold(0.0, f64::max);
         ends.iter().map(from).reduce(f64::max)
@@ -81,26 +81,25 @@ impl<'a> Site<'a> {
 
     /// Subblocks of every voussoir that is analysed.
     pub fn subblocks(&self) -> &[[usize; 2]] {
-        let analysed = self.arch.as_ref().map_or(0, |arch| arch.voussoirs.len());
+        let analysed = self.structure.as_ref().map_or(0, |structure| structure.voussoirs().len());
         &self.subblocks[..analysed.min(self.subblocks.len())]
     }
 
     /// The analysis under these loads; none where the arch cannot be built.
     pub fn analysis(&self, entries: &[LoadEntry], faults: &mut Faults) -> Option<Analysis> {
         let request = self.request;
-        let forces = loads::loads(entries, self.whole.as_ref(), &self.pieces(), self.stone.density, faults);
+        let forces = loads::loads(entries, self.whole.as_ref(), &self.pieces(), faults);
         if let Some(whole) = self.whole.as_ref().filter(|_| request.arch.half) {
-            half::check_loads(request, entries, whole, faults);
+            half::check_loads(entries, whole, faults);
         }
-        let arch = self.arch.as_ref()?;
+        let structure = self.structure.as_ref()?;
         let halve = |forces: Vec<PointForce>| match self.whole.as_ref().filter(|_| request.arch.half) {
-            Some(whole) => whole.on_left_half(arch, &forces),
+            Some(whole) => whole.on_left_half(structure, &forces),
             None => forces,
         };
         Some(Analysis {
             fixed: halve(forces.fixed),
             scaled: halve(forces.scaled),
-            stone: self.stone,
             plane: request.stone.plane.into(),
             penalty_ratio: request.stone.penalty_ratio,
             shear_penalty_ratio: request.stone.shear_penalty_ratio,
@@ -114,7 +113,7 @@ impl<'a> Site<'a> {
             fields: self.fields.clone(),
             motion: self.motion,
             aim: (&request.analysis).into(),
-            arch: arch.clone(),
+            structure: structure.clone(),
         })
     }
 }

@@ -3,8 +3,9 @@
 use super::{MAX_DENSITY_KG_M3, MAX_STRESS_PA};
 use crate::api::fault::{Faults, child};
 use crate::api::request::{AnalysisRequest, PlaneRequest, SpringingJoints, StoneRequest};
-use crate::arch::{Arch, JointLaw, MAX_VOUSSOIRS, Stone};
+use crate::arch::MAX_VOUSSOIRS;
 use crate::collapse::PlaneModel;
+use crate::structure::{JointLaw, Stone, Structure};
 
 /// The stone in SI.
 pub fn stone(request: &StoneRequest, faults: &mut Faults) -> Stone {
@@ -56,7 +57,7 @@ pub fn joint_law(stone: &Stone) -> JointLaw {
 }
 
 /// Whether the overrides fit the arch.
-pub fn check_overrides(request: &AnalysisRequest, arch: Option<&Arch>, faults: &mut Faults) {
+pub fn check_overrides(request: &AnalysisRequest, structure: Option<&Structure>, faults: &mut Faults) {
     faults.listing("/joint_overrides", request.joint_overrides.len(), 0..=MAX_VOUSSOIRS + 1, "overrides");
     let mut seen = std::collections::BTreeSet::new();
     for (i, item) in request.joint_overrides.iter().enumerate() {
@@ -66,7 +67,7 @@ pub fn check_overrides(request: &AnalysisRequest, arch: Option<&Arch>, faults: &
             faults.add(&joint, format!("joint {} is overridden twice: keep one", item.joint));
         }
         let numbered = faults.counted(&joint, item.joint, 0..=MAX_VOUSSOIRS, "joints");
-        if let Some(last) = arch.map(|arch| arch.joints.len() - 1).filter(|_| numbered) {
+        if let Some(last) = structure.map(|structure| structure.ring().len() - 1).filter(|_| numbered) {
             let detail = format!("there is no joint {}; joints run from 0 to {last}", item.joint);
             faults.require(item.joint <= last, &joint, detail);
             let glued = request.arch.springing_joints == SpringingJoints::Bonded && [0, last].contains(&item.joint);
@@ -88,9 +89,9 @@ pub fn check_overrides(request: &AnalysisRequest, arch: Option<&Arch>, faults: &
 }
 
 /// Gives joints their own law.
-pub fn override_joints(request: &AnalysisRequest, arch: &mut Arch) {
+pub fn override_joints(request: &AnalysisRequest, structure: &mut Structure) {
     for item in &request.joint_overrides {
-        let Some(joint) = arch.joints.get_mut(item.joint) else { continue };
+        let Some(joint) = structure.joints.get_mut(item.joint) else { continue };
         if let JointLaw::Dry { friction, cohesion } = &mut joint.law {
             *friction = item.friction_angle_deg.map_or(*friction, |angle| angle.to_radians().tan());
             *cohesion = item.cohesion_pa.unwrap_or(*cohesion);

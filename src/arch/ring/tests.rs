@@ -12,7 +12,7 @@ fn ring(profile: Profile, thickness: f64, n: usize) -> Ring {
     }
 }
 
-fn area(voussoirs: &[Voussoir]) -> f64 {
+fn area(voussoirs: &[Body]) -> f64 {
     voussoirs.iter().map(|voussoir| voussoir.region.area).sum()
 }
 
@@ -166,7 +166,7 @@ fn curved_voussoirs_are_annular_sectors() {
     let (inner, outer, angle) = (9.25f64, 10.75f64, opening / n as f64);
     let arm = 2.0 / 3.0 * (outer.powi(3) - inner.powi(3)) / (outer.powi(2) - inner.powi(2)) * (0.5 * angle).sin() * 2.0
         / angle;
-    for (k, Voussoir { region, sides }) in regions.iter().enumerate() {
+    for (k, Body { region, sides, .. }) in regions.iter().enumerate() {
         let Sides::Arcs { centre } = sides else { panic!("{k}: {sides:?}") };
         for (face, radius) in [(0, inner), (1, outer)] {
             assert!(ends[k..k + 2].iter().all(|joint| ((joint[face] - centre).norm() - radius).abs() < 1e-12));

@@ -1,20 +1,15 @@
 use super::*;
-use crate::arch::{Arch, Joint, Sides, Voussoir};
+use crate::arch::{assemble, straight_voussoirs};
 use crate::collapse::{Mechanism, Mode, Slide, Thrust};
-use crate::geometry::{Region, Vec2};
+use crate::geometry::Vec2;
+use crate::structure::{JointLaw, Stone};
 
 /// A stone between two upright joints 1 m high, and a limit window from -1 to `limit`.
 fn certificate(limit: f64) -> Certificate {
-    let joint = |x| Joint {
-        intrados: Vec2::new(x, 0.0),
-        extrados: Vec2::new(x, 1.0),
-        law: JointLaw::Dry { friction: 0.5, cohesion: 0.0 },
-    };
-    let joints = vec![joint(0.0), joint(1.0)];
-    let corners = [joints[0].extrados, joints[0].intrados, joints[1].intrados, joints[1].extrados];
-    let voussoirs = vec![Voussoir { region: Region::polygon(&corners), sides: Sides::Straight }];
-    let arch = Arch { voussoirs, joints, abutments: [None, None], half: false, angle_centre: Vec2::zeros() };
-    let theorem = StaticTheorem::new(&arch, &[], &[]);
+    let law = JointLaw::Dry { friction: 0.5, cohesion: 0.0 };
+    let ends = [0.0, 1.0].map(|x| [0.0, 1.0].map(|y| Vec2::new(x, y)));
+    let structure = assemble(&ends, straight_voussoirs(&ends).unwrap(), Stone::default(), law, Vec2::zeros());
+    let theorem = StaticTheorem::new(&structure, &[], &[]).unwrap();
     Certificate { theorem, window: Some([-1.0, limit]), solved: true, any_fixed: true }
 }
 

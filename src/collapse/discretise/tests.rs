@@ -1,7 +1,7 @@
 use super::*;
 use crate::arch::profile::Profile;
 use crate::arch::ring::{JointLines, Line, Ring, Thickness, stations};
-use crate::arch::{Arch, straight_voussoirs};
+use crate::arch::{assemble, straight_voussoirs};
 use crate::collapse::pulse::watched;
 use crate::collapse::{Aim, Direction, Mesh, Method, Unwatched};
 use crate::geometry::perpendicular;
@@ -21,8 +21,7 @@ fn semicircle(n: usize, subblocks: [usize; 2], curved: bool) -> Analysis {
     let law = JointLaw::Dry { friction: 0.6, cohesion: 0.0 };
     Analysis {
         aim: Aim::Collapse,
-        arch: Arch::assemble(&ends, stones, law, Vec2::zeros()),
-        stone: Stone::default(),
+        structure: assemble(&ends, stones, Stone::default(), law, Vec2::zeros()),
         plane: PlaneModel::Stress,
         penalty_ratio: 10.0,
         shear_penalty_ratio: 1.0,
@@ -61,7 +60,7 @@ fn the_subblocks_of_a_stone_tile_it() {
     for curved in [false, true] {
         let analysis = semicircle(7, [5, 4], curved);
         let grids = watched(&mut Unwatched, |pulse| Ok(discretise(&analysis, 1, pulse)?.grids)).unwrap();
-        for (grid, stone) in grids.iter().zip(&analysis.arch.voussoirs) {
+        for (grid, stone) in grids.iter().zip(analysis.structure.voussoirs()) {
             let all = grid.cells().map(|(i, j)| grid.region(i, j)).reduce(Region::join).unwrap();
             assert!((all.area / stone.region.area - 1.0).abs() < 1e-12);
             assert!((all.centroid - stone.region.centroid).norm() < 1e-12 * 10.0);
@@ -113,13 +112,26 @@ fn an_arch_is_its_own_mirror_image_where_nothing_tells_the_sides_apart() {
             assert!(symmetric(&semicircle(n, mesh, false))? && symmetric(&semicircle(n, mesh, true))?);
         }
         let [mut rough, mut fine, mut flat] = [(); 3].map(|()| semicircle(7, [1, 1], false));
-        rough.arch.joints[2].law = JointLaw::Dry { friction: 0.61, cohesion: 0.0 };
+        rough.structure.joints[2].law = JointLaw::Dry { friction: 0.61, cohesion: 0.0 };
         fine.mesh.subblocks[5] = [1, 2];
-        flat.arch.joints[3].extrados.y += 1e-3;
+        flat.structure.joints[3].extrados.y += 1e-3;
         for analysis in [&rough, &fine, &flat] {
             assert!(!symmetric(analysis)?);
         }
         Ok(())
     })
     .unwrap();
+}
+
+#[test]
+fn a_joint_between_two_stones_is_as_soft_as_the_softer() {
+    let mut analysis = semicircle(6, [1, 1], false);
+    let soft = Stone { youngs_modulus: 2e8, ..Stone::default() };
+    analysis.structure.stones.push(soft);
+    analysis.structure.bodies[3].stone = 1;
+    let normal = |k: usize| penalties(&analysis, &analysis.structure.joints[k])[0];
+    let hard = 10.0 * Stone::default().youngs_modulus;
+    assert_eq!([2, 3, 4, 5].map(normal), [hard, 2e9, 2e9, hard]);
+    // The soft stone is of another kind, and so are its neighbours, which have a soft joint each.
+    assert_eq!(kinds(&analysis), 4);
 }

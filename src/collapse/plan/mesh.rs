@@ -1,6 +1,6 @@
 //! Meshes of one voussoir that nest, from coarse to fine, of subblocks that are about square.
 
-use crate::arch::{Arch, JointLaw};
+use crate::structure::{JointLaw, Structure};
 
 /// Into how many pieces the loads on the extrados side of every voussoir have to be cut for any of these meshes: their
 /// numbers along divide it.
@@ -19,8 +19,8 @@ const SHORTER: f64 = 0.7;
 
 /// Subblocks, radial and along, of ever finer meshes of voussoir `k`: each has whole subblocks of the next in every one of
 /// its own.
-pub(super) fn ladder(arch: &Arch, k: usize) -> Vec<[usize; 2]> {
-    let [before, after] = [&arch.joints[k], &arch.joints[k + 1]];
+pub(super) fn ladder(structure: &Structure, k: usize) -> Vec<[usize; 2]> {
+    let [before, after] = [&structure.joints[k], &structure.joints[k + 1]];
     let along = 0.5 * ((after.intrados - before.intrados).norm() + (after.extrados - before.extrados).norm());
     // A stone that is cut in two on the axis has half of the pieces.
     let pieces = if after.law == JointLaw::Mirror { LOAD_PIECES / 2 } else { LOAD_PIECES };

@@ -44,7 +44,7 @@ pub(super) fn solve(
     asked: f64,
     pulse: &Pulse,
 ) -> Result<Result<Refined, String>, AnalysisError> {
-    let ladders: Vec<_> = (0..analysis.arch.voussoirs.len()).map(|k| ladder(&analysis.arch, k)).collect();
+    let ladders: Vec<_> = (0..analysis.structure.voussoirs().len()).map(|k| ladder(&analysis.structure, k)).collect();
     let coarsest: Vec<_> = ladders.iter().map(|ladder| ladder[0]).collect();
     let fewest = total(&coarsest);
     if fewest > most {

@@ -6,21 +6,21 @@
 use super::super::{
     BlockState, CollapseReport, ContactForce, Crushing, HistoryPoint, Snapshot, StressField, SubblockStress,
 };
-use crate::arch::Arch;
 use crate::geometry::{Vec2, mirrored};
+use crate::structure::Structure;
 
 /// Subblocks of every voussoir of the whole arch.
-pub(super) fn subblocks(arch: &Arch, half: &[[usize; 2]]) -> Vec<[usize; 2]> {
+pub(super) fn subblocks(structure: &Structure, half: &[[usize; 2]]) -> Vec<[usize; 2]> {
     let mut left = half.to_vec();
-    if let Some(k) = arch.keystone() {
+    if let Some(k) = structure.keystone() {
         left[k][1] *= 2;
     }
-    (0..arch.voussoirs.len()).map(|k| left[k.min(arch.voussoirs.len() - 1 - k)]).collect()
+    (0..structure.voussoirs().len()).map(|k| left[k.min(structure.voussoirs().len() - 1 - k)]).collect()
 }
 
 /// The answer for the whole `arch`: `rigid`, but for what depends on the mesh, which `half` has.
-pub(super) fn whole(arch: &Arch, half: CollapseReport, rigid: &CollapseReport) -> CollapseReport {
-    let snapshot = |snapshot: Option<Snapshot>| snapshot.map(|left| unfolded(arch, &left));
+pub(super) fn whole(structure: &Structure, half: CollapseReport, rigid: &CollapseReport) -> CollapseReport {
+    let snapshot = |snapshot: Option<Snapshot>| snapshot.map(|left| unfolded(structure, &left));
     let mut notes = rigid.notes.clone();
     notes.extend(half.notes.into_iter().filter(|note| !rigid.notes.contains(note)));
     let elastic = half.crushing.and_then(|crushing| crushing.elastic);
@@ -28,7 +28,7 @@ pub(super) fn whole(arch: &Arch, half: CollapseReport, rigid: &CollapseReport) -
         near_collapse: snapshot(half.near_collapse),
         at_unit_load: snapshot(half.at_unit_load),
         at_start: snapshot(half.at_start),
-        stress_fields: half.stress_fields.iter().map(|field| unfolded_field(arch, field)).collect(),
+        stress_fields: half.stress_fields.iter().map(|field| unfolded_field(structure, field)).collect(),
         crushing: rigid.crushing.clone().map(|crushing| Crushing { elastic, ..crushing }),
         history: half.history.into_iter().map(on_axis).collect(),
         cost: half.cost,
@@ -42,8 +42,8 @@ fn on_axis(point: HistoryPoint) -> HistoryPoint {
     HistoryPoint { crown: Vec2::new(0.0, point.crown.y), ..point }
 }
 
-fn unfolded(arch: &Arch, left: &Snapshot) -> Snapshot {
-    let (n, keystone) = (arch.voussoirs.len(), arch.keystone());
+fn unfolded(structure: &Structure, left: &Snapshot) -> Snapshot {
+    let (n, keystone) = (structure.voussoirs().len(), structure.keystone());
     let block = |k: usize| match (keystone == Some(k), k < n.div_ceil(2)) {
         (true, _) => mean(left.blocks[k]),
         (_, true) => left.blocks[k],
@@ -68,14 +68,14 @@ fn mean(block: BlockState) -> BlockState {
     BlockState { displacement: Vec2::new(0.0, block.displacement.y), rotation: 0.0, stress: [x, y, 0.0] }
 }
 
-fn unfolded_field(arch: &Arch, left: &StressField) -> StressField {
-    let (n, axis) = (arch.voussoirs.len(), arch.axis());
+fn unfolded_field(structure: &Structure, left: &StressField) -> StressField {
+    let (n, axis) = (structure.voussoirs().len(), structure.axis());
     let start = |voussoir: usize| left.subblocks.partition_point(|subblock| subblock.voussoir < voussoir);
     let mut subblocks = left.subblocks.clone();
     for k in (0..n.div_ceil(2)).rev() {
         let cells = &left.subblocks[start(k)..start(k + 1)];
         let [radial, along] = cells.last().map_or([1, 1], |last| last.place.map(|i| i + 1));
-        let whole = if arch.keystone() == Some(k) { 2 * along } else { along };
+        let whole = if structure.keystone() == Some(k) { 2 * along } else { along };
         let columns = cells.chunks(radial).rev().flatten();
         subblocks.extend(columns.map(|subblock| SubblockStress {
             voussoir: n - 1 - k,

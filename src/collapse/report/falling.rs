@@ -1,7 +1,7 @@
 //! How the arch moves on after it has begun to fall.
 
-use crate::arch::Face;
 use crate::geometry::Vec2;
+use crate::structure::Face;
 
 /// How a motion ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -52,7 +52,7 @@ impl Question<'_> {
     fn at_zero(&self, mut report: CollapseReport, fall: PathEnd) -> CollapseReport {
         let thrust_line = match any_fixed(self.analysis) {
             true => Vec::new(),
-            false => ending::no_thrust(&self.analysis.arch),
+            false => ending::no_thrust(&self.analysis.structure),
         };
         report.outcome = Outcome::Collapse;
         report.end = Some(PathEnd { load_factor: 0.0, thrust_line, ..fall });

@@ -114,7 +114,7 @@ impl Question<'_> {
             // The path's own mechanism is the smallest motion of its joints, where it has one at its peak.
             if search.is_beyond(path, found.load_factor, SAME) || *later {
                 end.mechanism = found.mechanism;
-                end.thrust_line = ending::thrust_line(&analysis.arch, &found.forces);
+                end.thrust_line = ending::thrust_line(&analysis.structure, &found.forces);
                 *later = false;
             }
             end.load_factor = found.load_factor;

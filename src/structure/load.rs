@@ -1,12 +1,12 @@
-//! Loads: what stands on an arch or shakes it, as forces on its voussoirs.
+//! Loads: what stands on a structure or shakes it, as forces on its bodies.
 //!
-//! Pressures act on the straight extrados sides, from left to right: `F_x = +integral q_h dy`,
+//! Pressures act on the straight surfaces (of an arch, its extrados sides), from left to right: `F_x = +integral q_h dy`,
 //! `F_y = -integral q_v dx` with their signs (eq. (2) of the paper), so that both flanks are pushed inwards and an
 //! overhanging side is pushed up.
 
 mod columns;
 
-use super::{Arch, GRAVITY, PointForce};
+use super::{Body, GRAVITY, PointForce, Structure, Surface};
 use crate::geometry::Vec2;
 
 /// Fill and embankment, eq. (7) of the paper: `q_v = (H - y) g rho_f + h_e g rho_e`, `q_h = K q_v`.
@@ -31,24 +31,24 @@ pub struct Band {
     pub from: f64,
     /// Upper end, m.
     pub to: f64,
-    /// Pressure towards the arch, Pa.
+    /// Pressure towards the structure, Pa.
     pub pressure: f64,
 }
 
 /// Where a vertical point load stands.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Place {
-    /// On the topmost extrados side at this abscissa, m.
+    /// On the topmost surface at this abscissa, m.
     Abscissa(f64),
-    /// In the middle of the extrados side of this voussoir.
-    Voussoir(usize),
+    /// In the middle of the surface of this body.
+    Body(usize),
 }
 
-/// A load on an arch.
+/// A load on a structure.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Load {
-    /// Weight of the stones; their density in kg/m3.
-    SelfWeight(f64),
+    /// Weight of the bodies.
+    SelfWeight,
     /// Pressure of fill and embankment.
     Fill(Fill),
     /// Horizontal pressure in bands of height.
@@ -64,11 +64,11 @@ pub enum Load {
         /// Plan width, m.
         width: f64,
     },
-    /// Density times this acceleration, m/s2, on every stone; density in kg/m3.
-    BodyAcceleration(f64, Vec2),
+    /// Density times this acceleration, m/s2, on every body.
+    BodyAcceleration(Vec2),
 }
 
-/// Why a load cannot be put on an arch.
+/// Why a load cannot be put on a structure.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum LoadFault {
     /// An embankment needs fill (or a level) under it everywhere.
@@ -85,7 +85,7 @@ pub enum LoadFault {
         /// Right end, m.
         to: f64,
     },
-    /// There is no such voussoir.
+    /// There is no such body with a surface.
     #[error("there is no voussoir of this number; they run from 0 to {last}")]
     NoSuchVoussoir {
         /// Number of the last one.
@@ -97,29 +97,34 @@ pub enum LoadFault {
 const GAUSS_2: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
 
 impl Load {
-    /// The forces on the voussoirs, each multiplied by `coefficient`.
+    /// The forces on the bodies, each multiplied by `coefficient`.
     ///
     /// # Errors
-    /// When the load does not fit the arch.
-    pub fn on(&self, arch: &Arch, coefficient: f64) -> Result<Vec<PointForce>, LoadFault> {
-        self.on_pieces(arch, &vec![1; arch.voussoirs.len()], coefficient)
+    /// When the load does not fit the structure.
+    pub fn on(&self, structure: &Structure, coefficient: f64) -> Result<Vec<PointForce>, LoadFault> {
+        self.on_pieces(structure, &vec![1; structure.bodies.len()], coefficient)
     }
 
-    /// The same with the extrados side of every voussoir cut into so many equal pieces: each gets its own share of a
-    /// pressure, with its moment.
+    /// The same with the surfaces of every body cut into so many equal pieces (those of bodies beyond the list are not cut): each
+    /// gets its own share of a pressure, with its moment.
     ///
     /// # Errors
-    /// When the load does not fit the arch.
-    pub fn on_pieces(&self, arch: &Arch, pieces: &[usize], coefficient: f64) -> Result<Vec<PointForce>, LoadFault> {
-        let sides = cut_sides(arch, pieces);
+    /// When the load does not fit the structure.
+    pub fn on_pieces(
+        &self,
+        structure: &Structure,
+        pieces: &[usize],
+        coefficient: f64,
+    ) -> Result<Vec<PointForce>, LoadFault> {
+        let sides = cut_sides(structure, pieces);
         let mut forces = match self {
-            Load::SelfWeight(density) => body_force(arch, *density, Vec2::new(0.0, -GRAVITY)),
-            Load::BodyAcceleration(density, acceleration) => body_force(arch, *density, *acceleration),
-            Load::Fill(fill) => fill.on(arch, &sides)?,
+            Load::SelfWeight => body_force(structure, Vec2::new(0.0, -GRAVITY)),
+            Load::BodyAcceleration(acceleration) => body_force(structure, *acceleration),
+            Load::Fill(fill) => fill.on(structure, &sides)?,
             Load::Lateral(bands) => lateral(&sides, bands),
-            Load::Point(force, Place::Abscissa(x)) => point_load(arch, *force, *x)?,
-            Load::Point(force, Place::Voussoir(k)) => vec![middle_load(arch, *force, *k)?],
-            Load::Patch { force, centre, width } => patch_load(arch, &sides, *force, *centre, *width)?,
+            Load::Point(force, Place::Abscissa(x)) => point_load(structure, *force, *x)?,
+            Load::Point(force, Place::Body(k)) => vec![middle_load(structure, *force, *k)?],
+            Load::Patch { force, centre, width } => patch_load(structure, &sides, *force, *centre, *width)?,
         };
         for force in &mut forces {
             force.force *= coefficient;
@@ -129,16 +134,22 @@ impl Load {
     }
 }
 
-/// A piece of the extrados side of a voussoir, from left to right.
+/// A piece of the surface of a body, from left to right.
 type Side = (usize, Vec2, Vec2);
 
-/// The extrados sides, each cut into equal pieces.
-fn cut_sides(arch: &Arch, pieces: &[usize]) -> Vec<Side> {
-    let side = |k: usize| {
-        let (a, b) = arch.extrados_side(k);
-        (k, a, b)
-    };
-    pieces.iter().enumerate().flat_map(|(k, &count)| cut(side(k), count)).collect()
+impl From<&Surface> for Side {
+    fn from(&Surface { body, ends: [a, b] }: &Surface) -> Self {
+        (body, a, b)
+    }
+}
+
+/// The surfaces, those of body `k` cut into `pieces[k]` equal pieces each, or left whole where that says nothing of it.
+fn cut_sides(structure: &Structure, pieces: &[usize]) -> Vec<Side> {
+    structure.surfaces.iter().flat_map(|surface| cut(surface.into(), pieces_of(pieces, surface.body))).collect()
+}
+
+fn pieces_of(pieces: &[usize], body: usize) -> usize {
+    pieces.get(body).copied().unwrap_or(1)
 }
 
 /// A side cut into equal pieces.
@@ -148,28 +159,28 @@ fn cut((k, a, b): Side, count: usize) -> impl Iterator<Item = Side> {
     (0..count).map(move |i| (k, end(i), end(i + 1)))
 }
 
-fn body_force(arch: &Arch, density: f64, acceleration: Vec2) -> Vec<PointForce> {
-    let force = |(voussoir, stone): (usize, &super::Voussoir)| PointForce {
-        voussoir,
-        at: stone.region.centroid,
-        force: density * stone.region.area * acceleration,
+fn body_force(structure: &Structure, acceleration: Vec2) -> Vec<PointForce> {
+    let force = |(k, body): (usize, &Body)| PointForce {
+        body: k,
+        at: body.region.centroid,
+        force: structure.stone_of(k).density * body.region.area * acceleration,
         spread: true,
     };
-    arch.voussoirs.iter().enumerate().map(force).collect()
+    structure.bodies.iter().enumerate().map(force).collect()
 }
 
 impl Fill {
     /// Whether the embankment has fill, or a level, under it everywhere.
-    fn fits(&self, arch: &Arch) -> Result<(), LoadFault> {
-        let top = arch.joints.iter().map(|joint| joint.extrados.y).fold(f64::NEG_INFINITY, f64::max);
+    fn fits(&self, structure: &Structure) -> Result<(), LoadFault> {
+        let top = ends(structure).map(|end| end.y).fold(f64::NEG_INFINITY, f64::max);
         match self.height {
             Some(level) if self.embankment > 0.0 && top > level => Err(LoadFault::ArchAboveFill { top }),
             _ => Ok(()),
         }
     }
 
-    fn on(&self, arch: &Arch, sides: &[Side]) -> Result<Vec<PointForce>, LoadFault> {
-        self.fits(arch)?;
+    fn on(&self, structure: &Structure, sides: &[Side]) -> Result<Vec<PointForce>, LoadFault> {
+        self.fits(structure)?;
         let level = self.height.unwrap_or(f64::NEG_INFINITY);
         let above = self.embankment * self.embankment_density * GRAVITY;
         let mut forces = Vec::new();
@@ -184,13 +195,13 @@ impl Fill {
         Ok(forces)
     }
 
-    /// Forces of a pressure that is linear in height on the stretch `a`-`b` of the side of voussoir `k`.
-    fn push(&self, voussoir: usize, a: Vec2, b: Vec2, pressure: impl Fn(f64) -> f64) -> [PointForce; 2] {
+    /// Forces of a pressure that is linear in height on the stretch `a`-`b` of the surface of a body.
+    fn push(&self, body: usize, a: Vec2, b: Vec2, pressure: impl Fn(f64) -> f64) -> [PointForce; 2] {
         GAUSS_2.map(|share| {
             let at = a + share * (b - a);
             let vertical = 0.5 * pressure(at.y);
             let force = Vec2::new(self.lateral_ratio * vertical * (b.y - a.y), -vertical * (b.x - a.x));
-            PointForce { voussoir, at, force, spread: false }
+            PointForce { body, at, force, spread: false }
         })
     }
 }
@@ -214,11 +225,11 @@ fn clip(a: Vec2, b: Vec2, low: f64, high: f64) -> Option<(Vec2, Vec2)> {
 
 fn lateral(sides: &[Side], bands: &[Band]) -> Vec<PointForce> {
     let mut forces = Vec::new();
-    for &(voussoir, a, b) in sides {
+    for &(body, a, b) in sides {
         for band in bands {
             if let Some((a, b)) = clip(a, b, band.from, band.to) {
                 let force = Vec2::new(band.pressure * (b.y - a.y), 0.0);
-                forces.push(PointForce { voussoir, at: 0.5 * (a + b), force, spread: false });
+                forces.push(PointForce { body, at: 0.5 * (a + b), force, spread: false });
             }
         }
     }
@@ -229,63 +240,72 @@ fn down(force: f64) -> Vec2 {
     Vec2::new(0.0, -force)
 }
 
-fn middle_load(arch: &Arch, force: f64, voussoir: usize) -> Result<PointForce, LoadFault> {
-    if voussoir >= arch.voussoirs.len() {
-        return Err(LoadFault::NoSuchVoussoir { last: arch.voussoirs.len() - 1 });
-    }
-    let (a, b) = arch.extrados_side(voussoir);
-    Ok(PointForce { voussoir, at: 0.5 * (a + b), force: down(force), spread: false })
+fn middle_load(structure: &Structure, force: f64, body: usize) -> Result<PointForce, LoadFault> {
+    let Some(surface) = structure.surfaces.iter().find(|surface| surface.body == body) else {
+        let last = structure.surfaces.iter().map(|surface| surface.body).max().unwrap_or(0);
+        return Err(LoadFault::NoSuchVoussoir { last });
+    };
+    let [a, b] = surface.ends;
+    Ok(PointForce { body, at: 0.5 * (a + b), force: down(force), spread: false })
 }
 
-/// How far the extrados reaches in plan, m.
-fn plan(arch: &Arch) -> (f64, f64) {
-    let xs = || arch.joints.iter().map(|joint| joint.extrados.x);
+/// The ends of all surfaces, m.
+fn ends(structure: &Structure) -> impl Iterator<Item = Vec2> {
+    structure.surfaces.iter().flat_map(|surface| surface.ends)
+}
+
+/// How far the surfaces reach in plan, m.
+fn plan(structure: &Structure) -> (f64, f64) {
+    let xs = || ends(structure).map(|end| end.x);
     (xs().fold(f64::INFINITY, f64::min), xs().fold(f64::NEG_INFINITY, f64::max))
 }
 
-/// The sides one can stand on: those that run to the right.
-fn upper_sides(arch: &Arch) -> impl Iterator<Item = Side> {
-    cut_sides(arch, &vec![1; arch.voussoirs.len()]).into_iter().filter(|(_, a, b)| b.x > a.x)
-}
-
-/// A vertical load at abscissa `x`, on the topmost side; over a joint, each neighbour takes half.
-fn point_load(arch: &Arch, force: f64, x: f64) -> Result<Vec<PointForce>, LoadFault> {
-    let (from, to) = plan(arch);
+/// A vertical load at abscissa `x`, on the topmost surface that runs to the right; over an end that it shares with its
+/// neighbour, each takes half.
+fn point_load(structure: &Structure, force: f64, x: f64) -> Result<Vec<PointForce>, LoadFault> {
+    let (from, to) = plan(structure);
     let near = 1e-9 * (to - from);
-    let height = |a: Vec2, b: Vec2| a.y + (b.y - a.y) * ((x - a.x) / (b.x - a.x)).clamp(0.0, 1.0);
-    let under: Vec<_> = upper_sides(arch)
-        .filter(|(_, a, b)| x >= a.x - near && x <= b.x + near)
-        .map(|(k, a, b)| (k, height(a, b)))
-        .collect();
+    let surfaces = &structure.surfaces;
+    let height = |[a, b]: [Vec2; 2]| a.y + (b.y - a.y) * ((x - a.x) / (b.x - a.x)).clamp(0.0, 1.0);
+    let bears = |[a, b]: [Vec2; 2]| b.x > a.x && x >= a.x - near && x <= b.x + near;
+    let under: Vec<(usize, f64)> =
+        (0..surfaces.len()).filter(|&i| bears(surfaces[i].ends)).map(|i| (i, height(surfaces[i].ends))).collect();
     let &(top, y) = under.iter().max_by(|a, b| a.1.total_cmp(&b.1)).ok_or(LoadFault::OffTheArch { from, to })?;
-    let over = |joint: usize| (arch.joints[joint].extrados.x - x).abs() <= near;
-    let stands_too = |&&(k, _): &&(usize, f64)| (k + 1 == top && over(top)) || (k == top + 1 && over(k));
+    // Over the end that surface `i` shares with the next.
+    let over_end = |i: usize| {
+        let [end, start] = [surfaces[i].ends[1], surfaces[i + 1].ends[0]];
+        (end - start).norm() <= near && (end.x - x).abs() <= near
+    };
+    let stands_too = |&&(i, _): &&(usize, f64)| (i + 1 == top && over_end(i)) || (i == top + 1 && over_end(top));
     let mut bearers = vec![top];
-    bearers.extend(under.iter().filter(stands_too).map(|&(k, _)| k));
+    bearers.extend(under.iter().filter(stands_too).map(|&(i, _)| i));
     bearers.sort_unstable();
-    let share = force / bearers.len() as f64;
-    Ok(bearers
-        .into_iter()
-        .map(|voussoir| PointForce { voussoir, at: Vec2::new(x, y), force: down(share), spread: false })
-        .collect())
+    let (at, share) = (Vec2::new(x, y), down(force / bearers.len() as f64));
+    Ok(bearers.into_iter().map(|i| PointForce { body: surfaces[i].body, at, force: share, spread: false }).collect())
 }
 
 /// A vertical load spread over a plan width; every side takes what lies over it, in the middle of its share.
-fn patch_load(arch: &Arch, sides: &[Side], force: f64, centre: f64, width: f64) -> Result<Vec<PointForce>, LoadFault> {
+fn patch_load(
+    structure: &Structure,
+    sides: &[Side],
+    force: f64,
+    centre: f64,
+    width: f64,
+) -> Result<Vec<PointForce>, LoadFault> {
     let (left, right) = (centre - 0.5 * width, centre + 0.5 * width);
     let mut forces = Vec::new();
     let mut covered = 0.0;
-    for &(voussoir, a, b) in sides.iter().filter(|(_, a, b)| b.x > a.x) {
+    for &(body, a, b) in sides.iter().filter(|(_, a, b)| b.x > a.x) {
         let (from, to) = (left.max(a.x), right.min(b.x));
         if to > from {
             covered += to - from;
             let x = 0.5 * (from + to);
             let at = Vec2::new(x, a.y + (b.y - a.y) * ((x - a.x) / (b.x - a.x)));
-            forces.push(PointForce { voussoir, at, force: down(force * (to - from) / width), spread: false });
+            forces.push(PointForce { body, at, force: down(force * (to - from) / width), spread: false });
         }
     }
     if (covered - width).abs() > 1e-9 * width.max(right.abs()) {
-        let (from, to) = plan(arch);
+        let (from, to) = plan(structure);
         return Err(LoadFault::OffTheArch { from, to });
     }
     Ok(forces)

@@ -1,13 +1,14 @@
 //! Half a symmetric arch: whether it is symmetric, its left half, and the loads on that.
+//!
+//! Of a structure of one ring, with the abutment blocks beside it.
 
-use super::ring::JointEnds;
-use super::{Arch, Joint, JointLaw, PointForce, Sides, Voussoir};
+use super::{Body, Joint, JointLaw, PointForce, Side, Sides, Span, Structure, Surface};
 use crate::geometry::{Region, Vec2, cross, mirrored};
 
-impl Arch {
+impl Structure {
     /// The first joint that is not the mirror image (in place and law) of its partner; `None` for a symmetric arch.
     pub fn asymmetry(&self) -> Option<usize> {
-        let (n, axis) = (self.joints.len() - 1, self.axis());
+        let (n, axis) = (self.ring().len() - 1, self.axis());
         let size = (self.joints[0].middle() - self.joints[n].middle()).norm().max(self.joints[0].length());
         (0..=n / 2).find(|&k| {
             let (a, b) = (&self.joints[k], &self.joints[n - k]);
@@ -19,56 +20,79 @@ impl Arch {
 
     /// Abscissa of the vertical through the middle between the springings, m.
     pub fn axis(&self) -> f64 {
-        0.5 * (self.joints[0].middle().x + self.joints[self.joints.len() - 1].middle().x)
+        0.5 * (self.joints[0].middle().x + self.joints[self.ring().len() - 1].middle().x)
     }
 
     /// The stone on the axis of a symmetric arch; none where a joint is there.
     pub fn keystone(&self) -> Option<usize> {
-        let n = self.voussoirs.len();
+        let n = self.voussoirs().len();
         (!n.is_multiple_of(2)).then_some(n / 2)
     }
 
     /// The left half of a symmetric arch.
     ///
-    /// A crown joint rests on a frictionless wall. A keystone is cut in two on the axis, and the cut on a mirror plane;
+    /// A crown joint lies on a frictionless wall. A keystone is cut in two on the axis, and the cut lies on a mirror plane;
     /// `curved` is its left half with the ends of the cut, needed where its sides are of more than one arc.
-    pub fn left_half(&self, curved: Option<(Voussoir, JointEnds)>) -> Arch {
-        let n = self.voussoirs.len() / 2;
-        let (mut joints, mut voussoirs) = (self.joints[..=n].to_vec(), self.voussoirs[..n].to_vec());
-        if self.keystone().is_some() {
+    pub fn left_half(&self, curved: Option<(Body, [Vec2; 2])>) -> Structure {
+        let (n, cut) = (self.voussoirs().len() / 2, self.keystone().is_some());
+        let (mut joints, mut bodies) = (self.joints[..=n].to_vec(), self.bodies[..n].to_vec());
+        let mut surfaces: Vec<Surface> = self.surfaces.iter().copied().filter(|surface| surface.body < n).collect();
+        if cut {
             let (stone, [intrados, extrados]) = curved.unwrap_or_else(|| self.half_of(n));
-            joints.push(Joint { intrados, extrados, law: JointLaw::Mirror });
-            voussoirs.push(stone);
+            joints.push(Joint {
+                between: [Side::Body(n), Side::Support(1)],
+                intrados,
+                extrados,
+                law: JointLaw::Mirror,
+            });
+            surfaces.push(Surface { body: n, ends: [stone.corners[3], stone.corners[2]] });
+            bodies.push(stone);
         } else {
-            joints[n].law = JointLaw::Dry { friction: 0.0, cohesion: 0.0 };
+            joints[n] = Joint { between: [joints[n].between[0], Side::Support(1)], law: JointLaw::Wall, ..joints[n] };
         }
-        Arch { voussoirs, joints, abutments: [self.abutments[0], None], half: true, angle_centre: self.angle_centre }
+        let spans = self
+            .spans
+            .iter()
+            .map(|span| Span { bodies: 0..bodies.len(), joints: 0..joints.len(), ..span.clone() })
+            .collect();
+        if let [Some(abutment), _] = self.abutments() {
+            let block = Side::Body(bodies.len());
+            joints[0].between[0] = block;
+            joints.push(Joint { between: [Side::Support(0), block], ..self.joints[abutment.base] });
+            bodies.push(self.bodies[abutment.body].clone());
+        }
+        Structure { stones: self.stones.clone(), bodies, joints, spans, surfaces, supports: self.supports }
     }
 
     /// Left half of a stone on the axis whose sides are straight or arcs about a point of the axis, and the ends of the cut.
-    fn half_of(&self, k: usize) -> (Voussoir, JointEnds) {
-        let ([a, b, c, d], sides) = (self.corners(k), self.voussoirs[k].sides);
+    fn half_of(&self, k: usize) -> (Body, [Vec2; 2]) {
+        let [left, right] = [&self.joints[k], &self.joints[k + 1]];
+        let ([a, b, c, d], sides) =
+            ([left.intrados, right.intrados, right.extrados, left.extrados], self.bodies[k].sides);
         let on_axis = |y: f64| Vec2::new(self.axis(), y);
+        let body = |cut: [Vec2; 2], region: Region| {
+            let corners = vec![a, cut[0], cut[1], d];
+            (Body { corners, sides, region, stone: self.bodies[k].stone }, cut)
+        };
         let Sides::Arcs { centre } = sides else {
             let cut = [0.5 * (a + b), 0.5 * (d + c)].map(|end| on_axis(end.y));
-            return (Voussoir { region: Region::polygon(&[a, cut[0], cut[1], d]), sides }, cut);
+            return body(cut, Region::polygon(&[a, cut[0], cut[1], d]));
         };
         let cut = [a, d].map(|end| on_axis(centre.y + (end - centre).norm()));
         let segments = [Region::segment(centre, a, cut[0]), Region::segment(centre, cut[1], d)];
-        let region = segments.into_iter().fold(Region::polygon(&[a, cut[0], cut[1], d]), Region::join);
-        (Voussoir { region, sides }, cut)
+        body(cut, segments.into_iter().fold(Region::polygon(&[a, cut[0], cut[1], d]), Region::join))
     }
 
     /// Of symmetric `forces` on the whole of an arch, what its left half `half` carries.
-    pub fn on_left_half(&self, half: &Arch, forces: &[PointForce]) -> Vec<PointForce> {
+    pub fn on_left_half(&self, half: &Structure, forces: &[PointForce]) -> Vec<PointForce> {
         let axis = self.axis();
         let share = |force: &PointForce| {
-            if self.keystone() != Some(force.voussoir) {
+            if self.keystone() != Some(force.body) {
                 return *force;
             }
             // The mirror image of what acts right of the axis acts left of it; half of either is half of both.
             let (at, push) = if force.spread {
-                (half.voussoirs[force.voussoir].region.centroid, force.force)
+                (half.bodies[force.body].region.centroid, force.force)
             } else if force.at.x > axis {
                 (mirrored(force.at, axis), mirrored(force.force, 0.0))
             } else {
@@ -76,7 +100,7 @@ impl Arch {
             };
             PointForce { at, force: 0.5 * push, ..*force }
         };
-        forces.iter().filter(|force| force.voussoir < half.voussoirs.len()).map(share).collect()
+        forces.iter().filter(|force| force.body < half.voussoirs().len()).map(share).collect()
     }
 }
 
@@ -87,7 +111,7 @@ pub fn is_symmetric(forces: &[PointForce], voussoirs: usize, axis: f64) -> bool 
     let mut scale = [0.0f64; 2];
     for force in forces {
         let arm = force.at - origin;
-        let sum = &mut sums[force.voussoir];
+        let sum = &mut sums[force.body];
         sum[0] += force.force.x;
         sum[1] += force.force.y;
         sum[2] += cross(arm, force.force);

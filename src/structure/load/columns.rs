@@ -1,31 +1,35 @@
-//! Mass of fill: what stands on the extrados is shaken with the arch.
+//! Mass of fill: what stands on the surfaces is shaken with the structure.
 //!
-//! Over every point of a side that looks up stands a column of fill, to the top of the fill, and of embankment above it.
+//! Over every point of a surface that looks up stands a column of fill, to the top of the fill, and of embankment above it.
 //! In an acceleration it pushes with its mass times the acceleration, at half the height of its fill and of its
-//! embankment, and the stone below carries that. Sides that overhang carry no column.
+//! embankment, and the body below carries that. Surfaces that overhang carry no column.
 
-use super::{Fill, GAUSS_2, LoadFault, Side, clip, cut};
-use crate::arch::{Arch, PointForce};
+use super::super::{PointForce, Structure};
+use super::{Fill, GAUSS_2, LoadFault, Side, clip, cut, pieces_of};
 use crate::geometry::{Vec2, perpendicular};
 
 impl Fill {
-    /// The forces of fill and embankment on the voussoirs below them in an `acceleration`, m/s2, N/m; the extrados side of
-    /// voussoir `k` is cut into `pieces[k]` equal pieces.
+    /// The forces of fill and embankment on the bodies below them in an `acceleration`, m/s2, N/m; the surfaces of body `k` are
+    /// cut into `pieces[k]` equal pieces each.
     ///
-    /// Force and moment on every voussoir are those of its columns. They reach it through its side: the force where each
+    /// Force and moment on every body are those of its columns. They reach it through its side: the force where each
     /// column stands, and the moment of the horizontal part, whose arm is half the column's height, as a pressure normal
     /// to the side, linear along it and without resultant.
     ///
     /// # Errors
-    /// When the fill does not fit the arch.
-    pub fn inertia(&self, arch: &Arch, pieces: &[usize], acceleration: Vec2) -> Result<Vec<PointForce>, LoadFault> {
-        self.fits(arch)?;
+    /// When the fill does not fit the structure.
+    pub fn inertia(
+        &self,
+        structure: &Structure,
+        pieces: &[usize],
+        acceleration: Vec2,
+    ) -> Result<Vec<PointForce>, LoadFault> {
+        self.fits(structure)?;
         let mut forces = Vec::new();
-        for (k, &count) in pieces.iter().enumerate() {
-            let (a, b) = arch.extrados_side(k);
-            let Some(foot) = self.foot((k, a, b)) else { continue };
+        for surface in &structure.surfaces {
+            let Some(foot) = self.foot(surface.into()) else { continue };
             let moment = -acceleration.x * self.along(foot, |depth| self.first_moment(depth));
-            let stretches = cut((k, a, b), count).filter_map(|piece| self.foot(piece));
+            let stretches = cut(surface.into(), pieces_of(pieces, surface.body)).filter_map(|piece| self.foot(piece));
             forces.extend(stretches.flat_map(|piece| self.carried(piece, foot, acceleration, moment)));
         }
         forces.retain(|force| force.force != Vec2::zeros());
@@ -45,14 +49,14 @@ impl Fill {
 
     /// What a piece of a foot carries: its columns' force, and its share of the pressure that carries the foot's `moment`.
     fn carried(&self, piece: Side, foot: Side, acceleration: Vec2, moment: f64) -> [PointForce; 2] {
-        let ((voussoir, a, b), (_, from, to)) = (piece, foot);
+        let ((body, a, b), (_, from, to)) = (piece, foot);
         let (length, middle) = ((to - from).norm(), 0.5 * (from + to));
         let (along, slope) = ((to - from) / length, 12.0 * moment / length.powi(3));
         GAUSS_2.map(|share| {
             let at = a + share * (b - a);
             let mass = 0.5 * (b.x - a.x) * self.mass(self.depth(at));
             let pressed = 0.5 * (b - a).norm() * slope * along.dot(&(at - middle)) * perpendicular(along);
-            PointForce { voussoir, at, force: mass * acceleration + pressed, spread: false }
+            PointForce { body, at, force: mass * acceleration + pressed, spread: false }
         })
     }
 

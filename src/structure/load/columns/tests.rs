@@ -1,7 +1,7 @@
-use super::super::tests::{LAW, arch_of, close, fill, ring, wrench};
+use super::super::tests::{LAW, STONE, arch_of, close, fill, ring, wrench};
 use super::*;
 use crate::arch::profile::Profile;
-use crate::arch::straight_voussoirs;
+use crate::arch::{assemble, straight_voussoirs};
 use crate::geometry::cross;
 use std::f64::consts::PI;
 
@@ -11,9 +11,9 @@ fn whole_wrench(forces: &[PointForce]) -> [f64; 3] {
 }
 
 /// One stone whose extrados runs straight from `a` to `b`.
-fn straight_side(a: Vec2, b: Vec2) -> Arch {
+fn straight_side(a: Vec2, b: Vec2) -> Structure {
     let ends = [[a - Vec2::new(0.0, 1.0), a], [b - Vec2::new(0.0, 1.0), b]];
-    Arch::assemble(&ends, straight_voussoirs(&ends).unwrap(), LAW, Vec2::zeros())
+    assemble(&ends, straight_voussoirs(&ends).unwrap(), STONE, LAW, Vec2::zeros())
 }
 
 #[test]
@@ -73,11 +73,11 @@ fn sides_that_overhang_or_stand_above_the_fill_carry_no_column() {
     let arch = arch_of(&ring(Profile::circular(2.0, 4.2), 0.5, 21));
     let forces = fill(Some(2.0)).inertia(&arch, &[1; 21], Vec2::new(1.0, 0.0)).unwrap();
     for k in 0..21 {
-        let (a, b) = arch.extrados_side(k);
+        let [a, b] = arch.surfaces[k].ends;
         let carries = b.x > a.x && a.y.min(b.y) < 2.0;
-        assert_eq!(forces.iter().any(|force| force.voussoir == k), carries, "{k}");
+        assert_eq!(forces.iter().any(|force| force.body == k), carries, "{k}");
     }
-    let carries = |k: usize| forces.iter().any(|force| force.voussoir == k);
+    let carries = |k: usize| forces.iter().any(|force| force.body == k);
     assert_eq!([0, 3, 10].map(carries), [false, true, false]);
 }
 
@@ -90,7 +90,7 @@ fn pieces_of_a_side_carry_together_the_columns_of_the_side() {
         let [whole, cut] = [&[1; 12], &pieces[..]].map(|pieces| load.inertia(&arch, pieces, acceleration).unwrap());
         // On the side, so that a mesh takes them where they stand.
         assert!(cut.iter().all(|force| {
-            let (a, b) = arch.extrados_side(force.voussoir);
+            let [a, b] = arch.surfaces[force.body].ends;
             cross(b - a, force.at - a).abs() < 1e-12
         }));
         for k in 0..12 {

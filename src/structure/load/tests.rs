@@ -1,15 +1,24 @@
 use super::*;
 use crate::arch::profile::Profile;
 use crate::arch::ring::{JointLines, Line, Ring, Thickness, stations};
-use crate::arch::{JointLaw, is_symmetric, straight_voussoirs};
-use crate::geometry::cross;
+use crate::arch::{assemble, stand_on_abutments, straight_voussoirs};
+use crate::geometry::{Region, cross};
+use crate::structure::{JointLaw, Side, Stone, is_symmetric};
 use std::f64::consts::PI;
 
 pub(super) const LAW: JointLaw = JointLaw::Dry { friction: 0.5, cohesion: 0.0 };
+pub(super) const STONE: Stone = Stone {
+    density: 2000.0,
+    youngs_modulus: 1e9,
+    poissons_ratio: 0.2,
+    friction_angle: 0.5,
+    cohesion: 0.0,
+    compressive_strength: 1e7,
+};
 
-pub(super) fn arch_of(ring: &Ring) -> Arch {
+pub(super) fn arch_of(ring: &Ring) -> Structure {
     let ends = ring.set_out().unwrap();
-    Arch::assemble(&ends, straight_voussoirs(&ends).unwrap(), LAW, Vec2::zeros())
+    assemble(&ends, straight_voussoirs(&ends).unwrap(), STONE, LAW, Vec2::zeros())
 }
 
 pub(super) fn ring(profile: Profile, thickness: f64, n: usize) -> Ring {
@@ -27,7 +36,7 @@ fn sum(forces: &[PointForce]) -> Vec2 {
 }
 
 fn left(forces: &[PointForce], n: usize) -> Vec2 {
-    forces.iter().filter(|force| force.voussoir < n / 2).map(|force| force.force).sum()
+    forces.iter().filter(|force| force.body < n / 2).map(|force| force.force).sum()
 }
 
 pub(super) fn fill(height: Option<f64>) -> Fill {
@@ -97,14 +106,14 @@ fn pressure_of_deep_fill_is_even_on_an_overhanging_arch() {
 fn moments_of_a_linear_pressure_are_exact() {
     let arch = arch_of(&ring(Profile::circular(2.0, 2.0), 0.5, 3));
     let forces = Load::Fill(fill(Some(5.0))).on(&arch, 1.0).unwrap();
-    let (a, b) = arch.extrados_side(0);
+    let [a, b] = arch.surfaces[0].ends;
     let (mut moment, steps) = (0.0, 4000);
     for i in 0..steps {
         let at = a + (b - a) * ((f64::from(i) + 0.5) / f64::from(steps));
         let (q, d) = ((5.0 - at.y) * 1600.0 * GRAVITY, (b - a) / f64::from(steps));
         moment += cross(at, Vec2::new(0.5 * q * d.y, -q * d.x));
     }
-    let here: f64 = forces.iter().filter(|force| force.voussoir == 0).map(|force| cross(force.at, force.force)).sum();
+    let here: f64 = forces.iter().filter(|force| force.body == 0).map(|force| cross(force.at, force.force)).sum();
     close(here / moment, 1.0, 1e-7);
 }
 
@@ -136,22 +145,22 @@ fn a_point_load_over_a_joint_is_shared() {
     let arch = arch_of(&ring(Profile::circular(2.0, PI), 0.5, 12));
     let at = |x: f64| Load::Point(100.0, Place::Abscissa(x)).on(&arch, 1.0).unwrap();
     let crown = at(0.0);
-    assert_eq!(crown.iter().map(|force| (force.voussoir, force.force.y)).collect::<Vec<_>>(), [(5, -50.0), (6, -50.0)]);
+    assert_eq!(crown.iter().map(|force| (force.body, force.force.y)).collect::<Vec<_>>(), [(5, -50.0), (6, -50.0)]);
     assert!(is_symmetric(&crown, 12, arch.axis()));
     let beside = at(0.01);
-    assert_eq!((beside.len(), beside[0].voussoir, beside[0].force.y), (1, 6, -100.0));
-    assert_eq!(at(-2.25)[0].voussoir, 0);
+    assert_eq!((beside.len(), beside[0].body, beside[0].force.y), (1, 6, -100.0));
+    assert_eq!(at(-2.25)[0].body, 0);
     assert!(!is_symmetric(&beside, 12, 0.0));
     assert!(Load::Point(1.0, Place::Abscissa(2.3)).on(&arch, 1.0).is_err());
-    assert!(Load::Point(1.0, Place::Voussoir(12)).on(&arch, 1.0).is_err());
-    let middle = Load::Point(1.0, Place::Voussoir(3)).on(&arch, -2.0).unwrap();
-    assert_eq!((middle[0].force.y, middle[0].at), (2.0, 0.5 * (arch.extrados_side(3).0 + arch.extrados_side(3).1)));
+    assert!(Load::Point(1.0, Place::Body(12)).on(&arch, 1.0).is_err());
+    let middle = Load::Point(1.0, Place::Body(3)).on(&arch, -2.0).unwrap();
+    assert_eq!((middle[0].force.y, middle[0].at), (2.0, 0.5 * (arch.surfaces[3].ends[0] + arch.surfaces[3].ends[1])));
 }
 
 #[test]
 fn loads_on_an_overhanging_arch_stand_on_its_top() {
     let arch = arch_of(&ring(Profile::circular(2.0, 4.4), 0.5, 20));
-    let widest = arch.joints.iter().map(|joint| joint.extrados.x).fold(f64::INFINITY, f64::min);
+    let widest = arch.ring().iter().map(|joint| joint.extrados.x).fold(f64::INFINITY, f64::min);
     for x in [widest, widest + 1e-3, widest + 0.1] {
         let forces = Load::Point(1.0, Place::Abscissa(x)).on(&arch, 1.0).unwrap();
         assert!(forces.iter().all(|force| force.at.y > 0.5 && force.at.y > arch.joints[0].extrados.y));
@@ -171,40 +180,74 @@ fn a_patch_beyond_the_arch_is_refused() {
 #[test]
 fn body_forces_are_mass_times_acceleration() {
     let arch = arch_of(&ring(Profile::circular(2.0, 2.0), 0.5, 5));
-    let area: f64 = arch.voussoirs.iter().map(|stone| stone.region.area).sum();
-    close(sum(&Load::SelfWeight(2000.0).on(&arch, 1.0).unwrap()).y, -2000.0 * GRAVITY * area, 1e-9);
-    let shaken = Load::BodyAcceleration(2000.0, Vec2::new(3.0, 0.5)).on(&arch, 1.0).unwrap();
-    assert!((sum(&shaken) - 2000.0 * area * Vec2::new(3.0, 0.5)).norm() < 1e-9);
+    let area: f64 = arch.bodies.iter().map(|stone| stone.region.area).sum();
+    close(sum(&Load::SelfWeight.on(&arch, 1.0).unwrap()).y, -STONE.density * GRAVITY * area, 1e-9);
+    let shaken = Load::BodyAcceleration(Vec2::new(3.0, 0.5)).on(&arch, 1.0).unwrap();
+    assert!((sum(&shaken) - STONE.density * area * Vec2::new(3.0, 0.5)).norm() < 1e-9);
     assert!(!is_symmetric(&shaken, 5, 0.0));
 }
 
 #[test]
 fn abutments_lie_outside_the_springings_and_the_half_is_the_left_one() {
     let mut arch = arch_of(&ring(Profile::circular(2.0, 2.4), 0.5, 6));
-    arch.stand_on_abutments(0.7);
-    for (abutment, joint, sign) in
-        [(&arch.abutments[0], arch.joints[0], -0.7), (&arch.abutments[1], arch.joints[6], 0.7)]
-    {
-        let abutment = abutment.as_ref().unwrap();
-        close(abutment.region.area, 0.35, 1e-14);
-        let middle = joint.middle() + 0.5 * sign * joint.normal();
-        assert!((abutment.region.centroid - middle).norm() < 1e-14 && abutment.base.law == JointLaw::Bonded);
-        assert!(abutment.base.middle().y < joint.middle().y);
+    let alone = arch.clone();
+    stand_on_abutments(&mut arch, 0.7);
+    assert_eq!((arch.voussoirs(), arch.ring().len(), arch.abutments().len()), (alone.voussoirs(), 7, 2));
+    for (side, springing, sign) in [(0, arch.joints[0], -0.7), (1, arch.joints[6], 0.7)] {
+        let abutment = arch.abutments()[side].unwrap();
+        let (body, base) = (&arch.bodies[abutment.body], arch.joints[abutment.base]);
+        close(body.region.area, 0.35, 1e-14);
+        let outline = Region::polygon(&body.corners);
+        close(outline.area, 0.35, 1e-14);
+        let middle = springing.middle() + 0.5 * sign * springing.normal();
+        assert!((body.region.centroid - middle).norm() < 1e-14 && base.law == JointLaw::Bonded);
+        assert!((outline.centroid - middle).norm() < 1e-14);
+        assert!(base.middle().y < springing.middle().y);
+        // Normals run from left to right.
+        assert!((base.normal() - springing.normal()).norm() < 1e-14);
+        let (block, voussoir) = (Side::Body(abutment.body), Side::Body([0, 5][side]));
+        let from_ground = [[Side::Support(0), block, voussoir], [voussoir, block, Side::Support(1)]][side];
+        let joints = if side == 0 { [base, springing] } else { [springing, base] };
+        assert_eq!(
+            joints.map(|joint| joint.between),
+            [[from_ground[0], from_ground[1]], [from_ground[1], from_ground[2]]]
+        );
+    }
+    // They carry no load, their own weight neither.
+    for load in [Load::SelfWeight, Load::BodyAcceleration(Vec2::new(1.0, 2.0)), Load::Fill(fill(Some(9.0)))] {
+        assert_eq!(load.on(&arch, 1.0).unwrap(), load.on(&alone, 1.0).unwrap());
     }
     assert_eq!(arch.asymmetry(), None);
+    assert!(!arch.is_half());
     let half = arch.left_half(None);
-    assert_eq!((half.voussoirs.len(), half.joints.len(), half.half), (3, 4, true));
-    assert_eq!(half.joints[3].law, JointLaw::Dry { friction: 0.0, cohesion: 0.0 });
-    assert!(half.abutments[0].is_some() && half.abutments[1].is_none());
+    assert_eq!((half.voussoirs().len(), half.ring().len(), half.is_half()), (3, 4, true));
+    assert_eq!((half.joints[3].law, half.joints[3].between), (JointLaw::Wall, [Side::Body(2), Side::Support(1)]));
+    assert_eq!((half.surfaces.len(), half.bodies.len(), half.joints.len()), (3, 4, 5));
+    assert!(half.abutments()[0].is_some() && half.abutments()[1].is_none());
+    assert_eq!(half.joints[4].between, [Side::Support(0), Side::Body(3)]);
+    assert_eq!(half.joints[0].between, [Side::Body(3), Side::Body(0)]);
     arch.joints[1].extrados.x -= 0.01;
     assert_eq!(arch.asymmetry(), Some(1));
+}
+
+#[test]
+fn surfaces_that_do_not_touch_share_no_load() {
+    // Over the step between two level surfaces the upper one bears, whichever of the two it is.
+    let level = |body: usize, from: f64, y: f64| Surface { body, ends: [Vec2::new(from, y), Vec2::new(from + 1.0, y)] };
+    let mut structure = arch_of(&ring(Profile::circular(2.0, 2.4), 0.5, 2));
+    for (heights, bearers) in [([1.0, 2.0], vec![1]), ([2.0, 1.0], vec![0]), ([1.0, 1.0], vec![0, 1])] {
+        structure.surfaces = vec![level(0, 0.0, heights[0]), level(1, 1.0, heights[1])];
+        let forces = Load::Point(3.0, Place::Abscissa(1.0)).on(&structure, 1.0).unwrap();
+        assert_eq!(forces.iter().map(|force| force.body).collect::<Vec<_>>(), bearers);
+        close(sum(&forces).y, -3.0, 1e-15);
+    }
 }
 
 /// Force and moment about the origin on voussoir `k`.
 pub(super) fn wrench(forces: &[PointForce], k: usize) -> [f64; 3] {
     forces
         .iter()
-        .filter(|f| f.voussoir == k)
+        .filter(|f| f.body == k)
         .fold([0.0; 3], |w, f| [w[0] + f.force.x, w[1] + f.force.y, w[2] + crate::geometry::cross(f.at, f.force)])
 }
 
@@ -232,7 +275,7 @@ fn pieces_of_a_side_carry_together_what_the_side_carries() {
 fn a_triangular_pressure_on_a_piece_has_its_own_resultant() {
     // Fill up to y = 1 on a vertical side from y = 0 to 1, in four pieces: the lowest carries 7/32 of q_h at its foot.
     let ends = [[Vec2::new(0.0, 0.0), Vec2::new(-1.0, 0.0)], [Vec2::new(0.0, 1.0), Vec2::new(-1.0, 1.0)]];
-    let arch = Arch::assemble(&ends, straight_voussoirs(&ends).unwrap(), LAW, Vec2::zeros());
+    let arch = assemble(&ends, straight_voussoirs(&ends).unwrap(), STONE, LAW, Vec2::zeros());
     let forces = Load::Fill(fill(Some(1.0))).on_pieces(&arch, &[4], 1.0).unwrap();
     let lowest: f64 = forces.iter().filter(|f| f.at.y < 0.25).map(|f| f.force.x).sum();
     let all: f64 = forces.iter().map(|f| f.force.x).sum();
@@ -242,7 +285,7 @@ fn a_triangular_pressure_on_a_piece_has_its_own_resultant() {
 #[test]
 fn an_embankment_presses_on_a_level_side_at_the_top_of_the_fill() {
     let ends = [[Vec2::new(0.0, 0.0), Vec2::new(0.0, 1.0)], [Vec2::new(2.0, 0.0), Vec2::new(2.0, 1.0)]];
-    let arch = Arch::assemble(&ends, straight_voussoirs(&ends).unwrap(), LAW, Vec2::zeros());
+    let arch = assemble(&ends, straight_voussoirs(&ends).unwrap(), STONE, LAW, Vec2::zeros());
     let load = Fill { embankment: 0.5, embankment_density: 1000.0, ..fill(Some(1.0)) };
     let forces = Load::Fill(load).on(&arch, 1.0).unwrap();
     close(sum(&forces).y, -0.5 * 1000.0 * GRAVITY * 2.0, 1e-9);

@@ -1,0 +1,59 @@
+//! A structure of one arch ring, with or without abutment blocks beside it.
+
+use super::{Body, Joint, Side, Span, Stone, Structure};
+
+/// A block between a springing joint and the ground, and the joint that it stands on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Abutment {
+    /// Which body.
+    pub body: usize,
+    /// Which joint.
+    pub base: usize,
+}
+
+impl Structure {
+    /// The bodies up to the last voussoir of the last span: all but the abutment blocks; all where there is no span.
+    pub fn voussoirs(&self) -> &[Body] {
+        &self.bodies[..self.spans.last().map_or(self.bodies.len(), |span| span.bodies.end)]
+    }
+
+    /// The joints up to the last one of the last span: all but those below abutment blocks; all where there is no span.
+    pub fn ring(&self) -> &[Joint] {
+        &self.joints[..self.spans.last().map_or(self.joints.len(), |span| span.joints.end)]
+    }
+
+    /// The span that joint `joint` belongs to.
+    pub fn span_of(&self, joint: usize) -> Option<&Span> {
+        self.spans.iter().find(|span| span.joints.contains(&joint))
+    }
+
+    /// True for one half of a symmetric structure: some joint lies on the plane of symmetry.
+    pub fn is_half(&self) -> bool {
+        self.joints.iter().any(Joint::is_symmetry)
+    }
+
+    /// What a body is made of.
+    pub fn stone_of(&self, body: usize) -> &Stone {
+        &self.stones[self.bodies[body].stone]
+    }
+
+    /// Compressive strength of the weakest stone, Pa.
+    pub fn least_strength(&self) -> f64 {
+        self.stones.iter().map(|stone| stone.compressive_strength).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The stones on both sides of a joint.
+    pub fn stones_at(&self, joint: &Joint) -> impl Iterator<Item = &Stone> {
+        joint.between.into_iter().filter_map(Side::body).map(|body| self.stone_of(body))
+    }
+
+    /// The abutment blocks beyond the first and beyond the last joint of the ring, where there are any.
+    pub fn abutments(&self) -> [Option<Abutment>; 2] {
+        [(0, 0), (self.ring().len() - 1, 1)].map(|(springing, before_or_after)| {
+            let body = self.joints[springing].between[before_or_after].body()?;
+            let below = |k: usize| self.joints[k].between.contains(&Side::Body(body));
+            let base = (self.ring().len()..self.joints.len()).find(|&k| below(k))?;
+            Some(Abutment { body, base })
+        })
+    }
+}
