@@ -44,6 +44,7 @@ impl Certificate {
     pub(super) fn new(analysis: &Analysis, pulse: &Pulse) -> Result<Self, AnalysisError> {
         pulse.go_on()?;
         let theorem = StaticTheorem::new(&analysis.structure, &analysis.fixed, &analysis.scaled);
+        let theorem = theorem.map_err(|bodies| AnalysisError::Unconnected(bodies[0]))?;
         let window = theorem.window(&|| pulse.beat());
         pulse.check()?;
         let solved = window.is_ok();
@@ -101,7 +102,8 @@ impl Certificate {
 
     /// What limit analysis says of stone of this strength, Pa.
     pub(super) fn crushing(&self, strength: f64, pulse: &Pulse) -> Result<Crushing, AnalysisError> {
-        let found = self.theorem.crushing_window(strength, &|| pulse.beat());
+        let strengths = vec![strength; self.theorem.joints()];
+        let found = self.theorem.crushing_window(&strengths, &|| pulse.beat());
         pulse.check()?;
         let plastic_section = found.ok().map(|window| {
             let (ends, joints) = window.map(|CrushingWindow { ends, joints }| (ends, joints)).unzip();

@@ -6,7 +6,7 @@ use super::{Face, Hinge, LiftOff, Mechanism, Mode, Slide};
 use crate::dda::Heart;
 use crate::geometry::{Vec2, cross};
 use crate::limit::{Release, Resultant, releases};
-use crate::structure::{Joint, JointLaw, PointForce, Structure};
+use crate::structure::{Joint, JointLaw, Loops, PointForce, Side, Structure};
 
 /// Releases slower than this share of the fastest do not move.
 const MOVES: f64 = 1e-6;
@@ -41,9 +41,11 @@ pub(super) fn from_statics(
     at_limit: f64,
     heart: &Heart,
 ) -> Option<Mechanism> {
+    let loops = Loops::new(structure).ok()?;
     let releases = all_releases(structure, resultants, slipping, at_limit);
-    let rates = smallest_motion(&columns(structure, &releases, driving), heart)?;
-    Some(describe(structure, &releases, &rates))
+    let columns = columns(structure, &loops, &releases, driving);
+    let rates = smallest_motion(&columns, 3 * loops.len() + 1, heart)?;
+    Some(describe(structure, &loops, &releases, &rates))
 }
 
 /// What all joints at their limits let happen; see [`from_statics`].
@@ -56,7 +58,7 @@ pub(super) fn all_releases(
     let none = NO_FORCE * at_limit * resultants.iter().map(Resultant::size).fold(0.0, f64::max);
     let of_joint = |(k, forces): (usize, &Resultant)| {
         let mut found = releases(&structure.joints[k], forces, none.max(at_limit * forces.size()));
-        if let Some(sign) = slipping[k]
+        if let Some(sign) = slipping.get(k).copied().flatten()
             && !found.contains(&Release::Sliding(-sign))
         {
             found.push(Release::Sliding(-sign));
@@ -75,21 +77,24 @@ pub(super) fn released(mechanism: &Mechanism) -> Vec<Released> {
     hinges.chain(slides).chain(lift_offs).collect()
 }
 
-/// What each release does to the closure of the chain, and its power under the `driving` loads.
-pub(super) fn columns(structure: &Structure, releases: &[Released], driving: &[PointForce]) -> Vec<Column> {
-    let tails = tail_loads(structure, driving);
+/// What each release does to the closure of every loop (two velocities over the size of the structure, and a spin), and its power
+/// under the `driving` loads: what the joint carries of them down the tree does no work but in its own motion.
+fn columns(structure: &Structure, loops: &Loops, releases: &[Released], driving: &[PointForce]) -> Vec<Column> {
+    let carried = loops.carried(&on_bodies(structure, driving));
     let total = driving.iter().map(|f| f.force.norm()).sum::<f64>();
-    let size = structure.ring().iter().map(|j| j.middle().norm()).fold(0.0, f64::max);
+    let size = structure.joints.iter().map(|j| j.middle().norm()).fold(0.0, f64::max);
     let column = |&(k, release): &Released| {
         let motion = relative_motion(structure, k, release);
-        let ([fx, fy, moment], closure) = (tails[k], motion.velocity / size);
-        let power = (fx * motion.velocity.x + fy * motion.velocity.y + moment * motion.spin) / (total * size);
-        Column::new(closure.x, closure.y, motion.spin, power)
+        let ([fx, fy, moment], closure) = (carried[k], motion.velocity / size);
+        let power = -(fx * motion.velocity.x + fy * motion.velocity.y + moment * motion.spin) / (total * size);
+        let parts = [closure.x, closure.y, motion.spin];
+        let round = |&(number, sign): &(usize, f64)| [0, 1, 2].map(|i| (3 * number + i, sign * parts[i]));
+        loops.through(k).iter().flat_map(round).chain([(3 * loops.len(), power)]).collect()
     };
     releases.iter().map(column).collect()
 }
 
-/// Motion of everything after joint `k` relative to everything before it, for a release of unit rate.
+/// Motion of what lies after joint `k` relative to what lies before it, for a release of unit rate.
 fn relative_motion(structure: &Structure, k: usize, release: Release) -> Motion {
     let joint = &structure.joints[k];
     match release {
@@ -100,23 +105,20 @@ fn relative_motion(structure: &Structure, k: usize, release: Release) -> Motion 
     }
 }
 
-/// Resultant (F_x, F_y, M about the origin) of the loads on all stones after joint k.
-fn tail_loads(structure: &Structure, loads: &[PointForce]) -> Vec<[f64; 3]> {
-    let mut tails = vec![[0.0; 3]; structure.ring().len()];
+/// Resultant (F_x, F_y, M about the origin) of the loads on every body.
+fn on_bodies(structure: &Structure, loads: &[PointForce]) -> Vec<[f64; 3]> {
+    let mut sums = vec![[0.0; 3]; structure.bodies.len()];
     for f in loads {
         let part = [f.force.x, f.force.y, cross(f.at, f.force)];
-        tails[f.body] = std::array::from_fn(|i| tails[f.body][i] + part[i]);
+        sums[f.body] = std::array::from_fn(|i| sums[f.body][i] + part[i]);
     }
-    for k in (0..tails.len() - 1).rev() {
-        tails[k] = std::array::from_fn(|i| tails[k][i] + tails[k + 1][i]);
-    }
-    tails
+    sums
 }
 
 /// The mechanism of these releases at their rates.
-pub(super) fn describe(structure: &Structure, releases: &[Released], rates: &[f64]) -> Mechanism {
+pub(super) fn describe(structure: &Structure, loops: &Loops, releases: &[Released], rates: &[f64]) -> Mechanism {
     let fastest = rates.iter().copied().fold(0.0, f64::max);
-    let joints = structure.ring().len();
+    let joints = structure.joints.len();
     let (mut relative, mut openings, mut slid) =
         (vec![Motion::STILL; joints], vec![[0.0; 2]; joints], vec![0.0; joints]);
     for (&(k, release), &rate) in releases.iter().zip(rates) {
@@ -128,26 +130,27 @@ pub(super) fn describe(structure: &Structure, releases: &[Released], rates: &[f6
             Release::Sliding(sign) => slid[k] += sign * rate,
         }
     }
-    let mut motion = Motion::STILL;
-    let along = relative[..structure.voussoirs().len()].iter().map(|&r| {
-        motion = motion.plus(r, 1.0);
-        motion
-    });
-    assemble(structure, &along.collect::<Vec<_>>(), &openings, &slid, &vec![false; joints])
+    let relative: Vec<_> = relative.iter().map(|m| [m.velocity.x, m.velocity.y, m.spin]).collect();
+    let motions = loops.motions(&relative);
+    let motion = |&[x, y, spin]: &[f64; 3]| Motion { velocity: Vec2::new(x, y), spin };
+    let motions: Vec<_> = motions[..structure.voussoirs().len()].iter().map(motion).collect();
+    assemble(structure, &motions, &openings, &slid, &vec![false; joints])
 }
 
 /// Reads a mechanism off velocities of the stones; for paths whose peak is not a mechanism of the joints at their limits.
 pub(super) fn from_velocities(structure: &Structure, motions: &[Motion]) -> Mechanism {
-    let relative = |k: usize| {
-        let before = if k == 0 { Motion::STILL } else { motions[k - 1] };
-        motions.get(k).copied().unwrap_or(Motion::STILL).plus(before, -1.0)
-    };
-    let corners = |(k, joint): (usize, &Joint)| {
+    let corners = |joint: &Joint| {
+        let [before, after] = joint.between.map(|side| motion_of(side, motions).unwrap_or(Motion::STILL));
         let rate = |v: Vec2| [v.dot(&joint.normal()), v.dot(&joint.tangent())];
-        [joint.intrados, joint.extrados].map(|corner| rate(relative(k).at(corner)))
+        [joint.intrados, joint.extrados].map(|corner| rate(after.plus(before, -1.0).at(corner)))
     };
-    let rates: Vec<_> = structure.ring().iter().enumerate().map(corners).collect();
+    let rates: Vec<_> = structure.ring().iter().map(corners).collect();
     read_off(structure, motions, &rates, &vec![false; rates.len()], ELASTIC)
+}
+
+/// Motion of what lies on a side of a joint, if it moves.
+fn motion_of(side: Side, motions: &[Motion]) -> Option<Motion> {
+    motions.get(side.body()?).copied()
 }
 
 /// Reads a mechanism off the rates of gap and slip at the corners of every joint, intrados first; `apart`: whether it carries
@@ -169,9 +172,9 @@ fn read_off(
     apart: &[bool],
     elastic: f64,
 ) -> Mechanism {
-    let corners = structure.ring().iter().skip(1).zip(motions);
-    let speed = |(joint, m): (&Joint, &Motion)| m.at(joint.intrados).norm().max(m.at(joint.extrados).norm());
-    let still = elastic * corners.map(speed).fold(0.0, f64::max);
+    let moving = structure.ring().iter().filter_map(|joint| Some((joint, motion_of(joint.between[0], motions)?)));
+    let speed = |(joint, m): (&Joint, Motion)| m.at(joint.intrados).norm().max(m.at(joint.extrados).norm());
+    let still = elastic * moving.map(speed).fold(0.0, f64::max);
     let moves = |rate: f64| if rate.abs() < still { 0.0 } else { rate };
     let opening = |((joint, [[i, _], [e, _]]), &apart): ((&Joint, &[[f64; 2]; 2]), &bool)| {
         let (i, e) = (moves(*i) / joint.length(), moves(*e) / joint.length());

@@ -318,6 +318,9 @@ pub enum AnalysisError {
     /// Some stone is held by nothing.
     #[error("{0}; the stones cannot be told apart from loose ones")]
     Loose(#[from] crate::dda::Loose),
+    /// Some body is not connected to the ground.
+    #[error("{0}; join it to a body that is, or support it")]
+    Unconnected(crate::structure::Unconnected),
     /// A number in the report is not finite.
     #[error("the analysis produced a number that is not finite ({what}); check the units of the request")]
     NotFinite {

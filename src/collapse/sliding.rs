@@ -6,12 +6,11 @@
 //! move there, each with a programme of its own: mechanisms are exchanged until none is found that gives less.
 
 use super::discretise::Scatter;
-use super::mechanism::{Released, all_releases, columns, describe};
+use super::mechanism::{Released, all_releases, describe};
 use super::pulse::Pulse;
-use super::smallest_motion::Column;
 use super::{Analysis, Mechanism};
-use crate::limit::{Equilibrium, Release, Resultant, StaticTheorem, cheapest_motion};
-use crate::structure::{Face, PointForce};
+use crate::limit::{Equilibrium, Release, Resultant, StaticTheorem};
+use crate::structure::Face;
 use std::collections::BTreeSet;
 
 /// So many motions in turn that give nothing lower end the search.
@@ -46,7 +45,7 @@ impl Search<'_> {
         let mut best: Option<(Equilibrium, Vec<Released>, Vec<f64>)> = None;
         let mut costs = Scatter::new(0x51DE);
         for released in at_limits {
-            let mut released = self.with_columns(released.clone());
+            let mut released = released.clone();
             let mut quiet = 0;
             while quiet < QUIET {
                 quiet += 1;
@@ -60,7 +59,7 @@ impl Search<'_> {
                 };
                 if best.as_ref().is_none_or(|(least, ..)| self.is_beyond(least.load_factor, found.load_factor, SAME)) {
                     quiet = 0;
-                    released = self.with_columns(self.at_limits(&found));
+                    released = self.at_limits(&found);
                     best = Some((found, moving, rates));
                 }
             }
@@ -68,7 +67,7 @@ impl Search<'_> {
         let solution = best.map(|(equilibrium, moving, rates)| FullSolution {
             load_factor: equilibrium.load_factor,
             forces: self.theorem.resultants(&equilibrium),
-            mechanism: describe(&self.analysis.structure, &moving, &rates),
+            mechanism: describe(&self.analysis.structure, self.theorem.loops(), &moving, &rates),
         });
         (solution, seen.len())
     }
@@ -79,22 +78,10 @@ impl Search<'_> {
         found.ok().flatten().filter(|_| greatest.is_finite()).map(|equilibrium| self.at_limits(&equilibrium))
     }
 
-    /// Releases with what each does to the closure of the chain, and its power under the scaled loads.
-    fn with_columns(&self, released: Vec<Released>) -> (Vec<Released>, Vec<Column>) {
-        let forward = |f: &PointForce| PointForce { force: f.force * self.sign, ..*f };
-        let driving: Vec<PointForce> = self.analysis.scaled.iter().map(forward).collect();
-        let columns = columns(&self.analysis.structure, &released, &driving);
-        (released, columns)
-    }
-
     /// One of the motions that these releases allow, and in which the scaled loads do work: those that move, at their rates.
-    fn motion(
-        &self,
-        (released, columns): &(Vec<Released>, Vec<Column>),
-        costs: &mut Scatter,
-    ) -> Option<(Vec<Released>, Vec<f64>)> {
-        let costs: Vec<f64> = columns.iter().map(|_| 1.0 + 0.99 * costs.next()).collect();
-        let rates = cheapest_motion(columns, &costs, &|| self.pulse.beat())?;
+    fn motion(&self, released: &[Released], costs: &mut Scatter) -> Option<(Vec<Released>, Vec<f64>)> {
+        let costs: Vec<f64> = released.iter().map(|_| 1.0 + 0.99 * costs.next()).collect();
+        let rates = self.theorem.cheapest_motion(released, &costs, self.sign, &|| self.pulse.beat())?;
         Some(released.iter().zip(rates).filter(|(_, rate)| *rate > 0.0).unzip())
     }
 

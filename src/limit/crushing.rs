@@ -5,8 +5,11 @@
 //! two parabolas a joint, which bound a convex set. Tangents of them are added to the linear programme of the rigid
 //! arch until its answer lies on or within every parabola (cutting planes, Kelley 1960).
 
-use super::linear_program::{Beat, Inequality, Optimum, Row, maximise};
+use super::linear_program::Beat;
+use super::programme::{Objective, Outcome, Programme};
+use super::static_theorem::{Equilibrium, Limit};
 use super::{StaticTheorem, Unsolved};
+use crate::structure::JointLaw;
 
 /// A parabola may be violated by this, relative to the loads and to the size of the point: ten times what the linear
 /// programme grants its own rows, so that every cut moves the point.
@@ -37,112 +40,95 @@ struct Section {
     joint: usize,
     /// f t, N/m.
     capacity: f64,
-    /// Normal force, N/m, at intrados and extrados, over (unknowns; 1).
-    corners: [(Row, f64); 2],
-    /// Their sum.
-    normal: (Row, f64),
 }
 
 impl Section {
-    /// Half space below the tangent at N = `at` f t, of unit normal: F - a N + a^2 f t / 2 >= 0 for a corner force F.
-    fn tangents(&self, at: f64) -> [Inequality; 2] {
-        self.corners.map(|corner| {
-            let row = corner.0 - self.normal.0 * at;
-            let constant = corner.1 - self.normal.1 * at + 0.5 * at * at * self.capacity;
-            Inequality { row: row / row.norm(), constant: constant / row.norm() }
-        })
+    /// Half spaces below the tangents at N = `at` f t: F - a N + a^2 f t / 2 >= 0 for either corner force F.
+    fn tangents(&self, at: f64, theorem: &StaticTheorem) -> [Limit; 2] {
+        [[1.0 - at, -at, 0.0], [-at, 1.0 - at, 0.0]]
+            .map(|weights| theorem.limit(self.joint, weights, 0.5 * at * at * self.capacity))
     }
 
-    /// Normal force, N/m.
-    fn normal(&self, point: &Row) -> f64 {
-        self.normal.0.dot(point) + self.normal.1
-    }
-
-    /// Tangents at a point's normal force; their value there is that of the parabola.
-    fn tangents_at(&self, point: &Row) -> [Inequality; 2] {
-        self.tangents(self.normal(point) / self.capacity)
+    /// Tangents at an equilibrium's normal force; their slack there is that of the parabola.
+    fn tangents_at(&self, equilibrium: &Equilibrium, theorem: &StaticTheorem) -> [Limit; 2] {
+        self.tangents(equilibrium.forces[self.joint].normal() / self.capacity, theorem)
     }
 }
 
-/// Slack of an inequality at a point relative to the loads and the size of the point; negative where violated.
-fn slack(inequality: &Inequality, point: &Row) -> f64 {
-    let size = 1.0 + inequality.row.abs().dot(&point.abs());
-    (inequality.row.dot(point) + inequality.constant) / size
+/// Slack of a limit in an equilibrium relative to the loads and to its forces; negative where violated.
+fn slack(limit: &Limit, equilibrium: &Equilibrium) -> f64 {
+    limit.slack(&equilibrium.forces) / equilibrium.size
 }
 
 impl StaticTheorem {
-    /// Limit window with dry joints of compressive strength `strength`, Pa; None where nothing is in equilibrium.
+    /// Limit window with dry joints of the compressive strength `strengths[joint]`, Pa; None where nothing is in equilibrium.
     ///
     /// # Errors
-    /// When rounding, or `beat`, kept the cutting planes from an answer, or the strength is not positive.
-    pub fn crushing_window(&self, strength: f64, beat: Beat) -> Result<Option<CrushingWindow>, Unsolved> {
-        if strength.is_nan() || strength <= 0.0 {
+    /// When rounding, or `beat`, kept the cutting planes from an answer, or a strength is not positive.
+    pub fn crushing_window(&self, strengths: &[f64], beat: Beat) -> Result<Option<CrushingWindow>, Unsolved> {
+        if strengths.len() != self.joints.len() || !strengths.iter().all(|&strength| strength > 0.0) {
             return Err(Unsolved);
         }
-        let sections = self.sections(strength);
-        let mut inequalities = self.inequalities.clone();
-        inequalities.extend(sections.iter().flat_map(|section| FIRST_CUTS.map(|at| section.tangents(at))).flatten());
+        let sections = self.sections(strengths);
+        let mut programme = Programme::new(self);
+        let first = |section: &Section| FIRST_CUTS.map(|at| section.tangents(at, self));
+        programme.limits = sections.iter().flat_map(first).flatten().collect();
         let mut window = CrushingWindow { ends: [0.0; 2], joints: [Vec::new(), Vec::new()] };
         for (end, sign) in [-1.0, 1.0].into_iter().enumerate() {
-            let objective = Row::new(0.0, 0.0, 0.0, sign);
-            match cut_until_inside(objective, &mut inequalities, &sections, beat)? {
-                Optimum::At(value, point) => {
-                    window.ends[end] = sign * value * self.factor;
-                    window.joints[end] = self.crushed(&sections, &point);
+            match cut_until_inside(&Objective::load_factor(sign), &mut programme, &sections, beat)? {
+                Outcome::At(equilibrium, _) => {
+                    window.ends[end] = equilibrium.load_factor;
+                    window.joints[end] = self.crushed(&sections, &equilibrium);
                 }
-                Optimum::Unbounded(_) => window.ends[end] = sign * f64::INFINITY,
-                Optimum::Infeasible | Optimum::Lost => return Ok(None),
+                Outcome::Unbounded(_) => window.ends[end] = sign * f64::INFINITY,
+                Outcome::Infeasible | Outcome::Lost => return Ok(None),
             }
         }
         Ok(Some(window))
     }
 
-    fn sections(&self, strength: f64) -> Vec<Section> {
-        let dry = self.joints.iter().enumerate().filter(|(_, joint)| joint.law.coulomb().is_some());
-        dry.map(|(k, joint)| {
-            let [intrados, extrados, _] = self.forces[k];
-            Section {
-                joint: k,
-                capacity: strength * joint.length(),
-                corners: [intrados, extrados],
-                normal: (intrados.0 + extrados.0, intrados.1 + extrados.1),
-            }
-        })
-        .collect()
+    /// Joints of infinite strength are none.
+    fn sections(&self, strengths: &[f64]) -> Vec<Section> {
+        let dry = |(joint, strength): (usize, &f64)| {
+            let bounded = matches!(self.joints[joint].law, JointLaw::Dry { .. }) && strength.is_finite();
+            bounded.then(|| Section { joint, capacity: strength * self.joints[joint].length() })
+        };
+        strengths.iter().enumerate().filter_map(dry).collect()
     }
 
-    /// Joints with a parabola active at a point.
-    fn crushed(&self, sections: &[Section], point: &Row) -> Vec<usize> {
+    /// Joints with a parabola active in an equilibrium.
+    fn crushed(&self, sections: &[Section], equilibrium: &Equilibrium) -> Vec<usize> {
         let active = |section: &&Section| {
-            section.normal(point) > LOADED * self.force
-                && section.tangents_at(point).iter().any(|tangent| slack(tangent, point) < ACTIVE)
+            equilibrium.forces[section.joint].normal() > LOADED * self.force
+                && section.tangents_at(equilibrium, self).iter().any(|tangent| slack(tangent, equilibrium) < ACTIVE)
         };
         sections.iter().filter(active).map(|section| section.joint).collect()
     }
 }
 
-/// Maximises over `inequalities` and the parabolas, adding the tangents that this takes. Never `Lost`.
+/// Maximises over the limits and the parabolas, adding the tangents that this takes. Never `Lost`.
 fn cut_until_inside(
-    objective: Row,
-    inequalities: &mut Vec<Inequality>,
+    objective: &Objective,
+    programme: &mut Programme,
     sections: &[Section],
     beat: Beat,
-) -> Result<Optimum, Unsolved> {
+) -> Result<Outcome, Unsolved> {
     let mut nearly = None;
     for _ in 0..MOST_ROUNDS {
-        let optimum = maximise(objective, inequalities, beat);
-        let point = match optimum {
-            Optimum::At(_, point) | Optimum::Unbounded(point) => point,
-            Optimum::Infeasible => return Ok(optimum),
-            Optimum::Lost => return nearly.ok_or(Unsolved),
+        let outcome = programme.maximise(objective, beat);
+        let equilibrium = match &outcome {
+            Outcome::At(equilibrium, _) | Outcome::Unbounded(equilibrium) => equilibrium,
+            Outcome::Infeasible => return Ok(outcome),
+            Outcome::Lost => return nearly.ok_or(Unsolved),
         };
-        let tangents = || sections.iter().flat_map(|section| section.tangents_at(&point));
-        let worst = tangents().map(|tangent| slack(&tangent, &point)).fold(0.0, f64::min);
+        let tangents = || sections.iter().flat_map(|section| section.tangents_at(equilibrium, programme.theorem));
+        let worst = tangents().map(|tangent| slack(&tangent, equilibrium)).fold(0.0, f64::min);
         if worst >= -VIOLATED {
-            return Ok(optimum);
+            return Ok(outcome);
         }
-        nearly = (worst >= -NEARLY).then_some(optimum);
-        inequalities.extend(tangents().filter(|tangent| slack(tangent, &point) < -VIOLATED));
+        let cuts: Vec<Limit> = tangents().filter(|tangent| slack(tangent, equilibrium) < -VIOLATED).collect();
+        nearly = (worst >= -NEARLY).then_some(outcome);
+        programme.limits.extend(cuts);
     }
     nearly.ok_or(Unsolved)
 }

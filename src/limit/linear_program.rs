@@ -1,43 +1,22 @@
-//! Linear programs with a handful of unknowns and very many inequalities, solved exactly by the dual simplex method.
+//! Linear programs with few unknowns and very many inequalities, solved exactly by the dual simplex method.
 
-use nalgebra::{SMatrix, SVector};
 use std::ops::ControlFlow;
 
-/// Unknowns of every program here: three redundants and the load factor.
-pub const UNKNOWNS: usize = 4;
-/// A point or a row.
-pub type Row = SVector<f64, UNKNOWNS>;
-type Basis = SMatrix<f64, UNKNOWNS, UNKNOWNS>;
-
-/// The half space `row . x + constant >= 0`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Inequality {
-    /// Normal, pointing inside.
-    pub row: Row,
-    /// Constant.
-    pub constant: f64,
-}
-
-/// Outcome of a maximisation.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Optimum {
-    /// The largest value and where it is reached.
-    At(f64, Row),
-    /// Larger than any bound; the best point of the box.
-    Unbounded(Row),
-    /// No point satisfies all inequalities.
-    Infeasible,
-    /// Rounding kept the method from an answer, or who asked for it no longer wants one.
-    Lost,
-}
-
+/// Rows that are multiplied at a time.
+const LANES: usize = 4;
 /// Unknowns are looked for within this box; the rows are expected to be scaled so that answers are of order one.
 const BOX: f64 = 1e9;
 /// A row (of unit length) may be violated by this, relative to the size of the point.
 const TOLERANCE: f64 = 1e-12;
-
-/// Far above what the method needs (about ten pivots); reached only if rounding defeats the tie rule.
+/// Weights of the entering row below this are none.
+const NO_WEIGHT: f64 = 1e-13;
+/// Ratios of a multiplier to a weight that differ by less than this share of them, or by rounding of the multipliers, are equal.
+const TIE: f64 = 1e-11;
+const ROUNDING: f64 = 1e-14;
+/// Far above what the method needs (two to five pivots an unknown); reached only if rounding defeats the tie rule.
 const MOST_PIVOTS: usize = 10_000;
+/// Pivots after which the inverse is computed anew.
+const REFRESH: usize = 32;
 
 /// Asked at every pivot whether to go on. Where it breaks, what is returned is no answer.
 pub type Beat<'b> = &'b dyn Fn() -> ControlFlow<()>;
@@ -47,89 +26,346 @@ pub fn unwatched() -> ControlFlow<()> {
     ControlFlow::Continue(())
 }
 
-/// Maximises `objective . x` over all `inequalities`, whose rows must have unit length.
+/// Half spaces `row . x + constant >= 0` whose rows have unit length and point inside.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HalfSpaces {
+    unknowns: usize,
+    rows: usize,
+    /// Four rows at a time: their coefficients of every unknown, then their constants.
+    tiles: Vec<[f64; LANES]>,
+}
+
+impl HalfSpaces {
+    /// None, over so many unknowns.
+    pub fn new(unknowns: usize) -> Self {
+        HalfSpaces { unknowns, rows: 0, tiles: Vec::new() }
+    }
+
+    /// Number of unknowns.
+    pub fn unknowns(&self) -> usize {
+        self.unknowns
+    }
+
+    /// Number of half spaces.
+    pub fn len(&self) -> usize {
+        self.rows
+    }
+
+    /// Adds `row . x + constant >= 0`, scaled to unit length.
+    pub fn push(&mut self, row: &[f64], constant: f64) {
+        let norm = norm(row);
+        let lane = self.rows % LANES;
+        if lane == 0 {
+            // Rows that fill a tile up are never violated.
+            self.tiles.extend(std::iter::repeat_n([0.0; LANES], self.unknowns));
+            self.tiles.push([1.0; LANES]);
+        }
+        let start = self.tiles.len() - self.unknowns - 1;
+        for (tile, value) in self.tiles[start..].iter_mut().zip(row.iter().chain([&constant])) {
+            tile[lane] = value / norm;
+        }
+        self.rows += 1;
+    }
+
+    /// Shifts every half space outwards.
+    pub fn relax(&mut self, by: f64) {
+        let constants = self.tiles.chunks_exact_mut(self.unknowns + 1).map(|tile| &mut tile[self.unknowns]);
+        constants.flatten().for_each(|constant| *constant += by);
+    }
+
+    /// Coefficient `j` of a row, its constant if `j` is the number of unknowns.
+    fn entry(&self, row: usize, j: usize) -> f64 {
+        self.tiles[row / LANES * (self.unknowns + 1) + j][row % LANES]
+    }
+}
+
+/// Outcome of a maximisation.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Optimum {
+    /// The largest value, where it is reached, and the rows that hold it there with their multipliers y > 0:
+    /// objective = - sum y row.
+    At(f64, Vec<f64>, Vec<(usize, f64)>),
+    /// Larger than any bound; the best point of the box.
+    Unbounded(Vec<f64>),
+    /// No point satisfies all inequalities.
+    Infeasible,
+    /// Rounding kept the method from an answer, or who asked for it no longer wants one.
+    Lost,
+}
+
+/// Maximises `objective . x` over all `half_spaces`.
 ///
 /// Dual simplex from a corner of a large box: of the constraints in the basis one leaves for the most violated one,
-/// until none is violated. Ties are broken lexicographically, as if the objective were perturbed by
-/// (e, e^2, e^3, e^4), so that the method cannot cycle (Dantzig, Orden and Wolfe 1955).
-pub fn maximise(objective: Row, inequalities: &[Inequality], beat: Beat) -> Optimum {
-    solve(objective, inequalities, beat).0
-}
-
-/// Multipliers y >= 0 of the `inequalities` at the optimum, objective = - sum y row: the solution of the dual programme, at most
-/// four of them not zero. None unless there is an optimum.
-pub fn multipliers_at_optimum(objective: Row, inequalities: &[Inequality], beat: Beat) -> Option<Vec<f64>> {
-    let (Optimum::At(..), basis) = solve(objective, inequalities, beat) else { return None };
-    let inverse = Basis::from_fn(|i, j| basis[i].inequality.row[j]).try_inverse()?;
-    let mut all = vec![0.0; inequalities.len()];
-    for (active, multiplier) in basis.iter().zip(multipliers(&inverse, objective)) {
-        if let Some(place) = active.place {
-            all[place] = multiplier[0].max(0.0);
-        }
-    }
-    Some(all)
-}
-
-/// A constraint of the basis: which of the inequalities it is, none where it is a wall of the box.
-#[derive(Debug, Clone, Copy)]
-struct Active {
-    inequality: Inequality,
-    place: Option<usize>,
-}
-
-fn solve(objective: Row, inequalities: &[Inequality], beat: Beat) -> (Optimum, [Active; UNKNOWNS]) {
-    let bound = |i: usize, sign: f64| Inequality { row: Row::ith(i, -sign), constant: BOX };
-    let wall = |i: usize, sign: f64| Active { inequality: bound(i, sign), place: None };
-    // At the starting corner every unknown is at the bound its (perturbed) objective pushes it to.
-    let mut basis: [Active; UNKNOWNS] = std::array::from_fn(|i| wall(i, corner_sign(objective[i])));
-    let walls: Vec<Inequality> = (0..UNKNOWNS).flat_map(|i| [bound(i, 1.0), bound(i, -1.0)]).collect();
-    for _ in 0..MOST_PIVOTS {
+/// until none is violated. Ties are broken lexicographically, as if the objective were perturbed by (e, e^2, e^3, ...),
+/// so that the method cannot cycle (Dantzig, Orden and Wolfe 1955). Of the multipliers at most as many as there are unknowns
+/// are not zero.
+pub fn maximise(objective: &[f64], half_spaces: &HalfSpaces, beat: Beat) -> Optimum {
+    let mut basis = Basis::new(objective, half_spaces);
+    for pivot in 1..=MOST_PIVOTS {
         if beat().is_break() {
-            return (Optimum::Lost, basis);
+            return Optimum::Lost;
         }
-        let rows = Basis::from_fn(|i, j| basis[i].inequality.row[j]);
-        let Some(inverse) = rows.try_inverse() else { return (Optimum::Lost, basis) };
-        let point = -inverse * Row::from_fn(|i, _| basis[i].inequality.constant);
-        let dual = multipliers(&inverse, objective);
-        let Some(entering) = most_violated(&point, inequalities, &walls) else {
-            let at_wall = basis.iter().zip(dual).any(|(active, y)| active.place.is_none() && y[0] > TOLERANCE);
-            let optimum = if at_wall { Optimum::Unbounded(point) } else { Optimum::At(objective.dot(&point), point) };
-            return (optimum, basis);
+        let found = basis.most_violated();
+        let Violation::Worst(entering) = found else {
+            match found {
+                Violation::NotANumber => return Optimum::Lost,
+                _ if basis.fresh => return basis.optimum(),
+                _ => {}
+            }
+            if !basis.refresh() {
+                return Optimum::Lost;
+            }
+            continue;
         };
-        // Weights with which the entering row is a combination of the rows in the basis.
-        let weights = inverse.transpose() * entering.inequality.row;
-        let Some(leaving) = leaving(&weights, &dual) else { return (Optimum::Infeasible, basis) };
-        basis[leaving] = entering;
-    }
-    (Optimum::Lost, basis)
-}
-
-fn most_violated(point: &Row, inequalities: &[Inequality], walls: &[Inequality]) -> Option<Active> {
-    let size = point.abs();
-    let mut worst = (0.0, None);
-    let all = inequalities.iter().enumerate().map(|(place, inequality)| (Some(place), inequality));
-    for (place, &inequality) in all.chain(walls.iter().map(|wall| (None, wall))) {
-        let value = inequality.row.dot(point) + inequality.constant;
-        // A value that is no number is taken for a violation, which ends in `Lost`.
-        if value.is_nan() {
-            return Some(Active { inequality, place });
+        basis.weigh(entering);
+        match basis.leaving() {
+            Some(leaving) => basis.exchange(leaving, entering),
+            None if basis.fresh => return Optimum::Infeasible,
+            None => {
+                if !basis.refresh() {
+                    return Optimum::Lost;
+                }
+            }
         }
-        if value < worst.0 && value < -TOLERANCE * (1.0 + inequality.row.abs().dot(&size)) {
-            worst = (value, Some(Active { inequality, place }));
+        if pivot % REFRESH == 0 && !basis.refresh() {
+            return Optimum::Lost;
         }
     }
-    worst.1
+    Optimum::Lost
 }
 
-/// A multiplier with those of the four perturbations of the objective.
-type Multiplier = [f64; UNKNOWNS + 1];
+/// A constraint: a row of the half spaces, or a wall of the box.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Constraint {
+    Row(usize),
+    /// sign x + BOX >= 0 for this unknown.
+    Wall(usize, f64),
+}
 
-/// Multipliers y >= 0 of the rows in the basis: objective = - sum y_i row_i.
-fn multipliers(inverse: &Basis, objective: Row) -> [Multiplier; UNKNOWNS] {
-    let y = -inverse.transpose() * objective;
-    std::array::from_fn(|i| {
-        std::array::from_fn(|k| if k == 0 { y[i] } else { -inverse[(k - 1, i)] * corner_sign(objective[k - 1]) })
-    })
+enum Violation {
+    None,
+    Worst(Constraint),
+    NotANumber,
+}
+
+/// As many constraints as there are unknowns, the point where they meet, and scratch memory.
+struct Basis<'p> {
+    objective: &'p [f64],
+    half_spaces: &'p HalfSpaces,
+    constraints: Vec<Constraint>,
+    /// Columns of the inverse of the matrix of the constraints' rows, one after the other.
+    inverse: Vec<f64>,
+    point: Vec<f64>,
+    /// Multipliers y >= 0: objective = - sum y row.
+    dual: Vec<f64>,
+    /// The entering row, how much it is violated, and its weights as a combination of the rows in the basis.
+    row: Vec<f64>,
+    violation: f64,
+    weights: Vec<f64>,
+    /// Whether the inverse was computed from the rows themselves.
+    fresh: bool,
+    matrix: Vec<f64>,
+}
+
+impl<'p> Basis<'p> {
+    /// The corner of the box where every unknown is at the bound that its (perturbed) objective pushes it to.
+    fn new(objective: &'p [f64], half_spaces: &'p HalfSpaces) -> Self {
+        let n = half_spaces.unknowns;
+        let constraints = (0..n).map(|i| Constraint::Wall(i, -corner_sign(objective[i]))).collect();
+        let [inverse, matrix] = [(); 2].map(|()| vec![0.0; n * n]);
+        let [point, dual, row, weights] = [(); 4].map(|()| vec![0.0; n]);
+        let mut basis = Basis {
+            objective,
+            half_spaces,
+            constraints,
+            inverse,
+            point,
+            dual,
+            row,
+            violation: 0.0,
+            weights,
+            fresh: true,
+            matrix,
+        };
+        for i in 0..n {
+            let sign = corner_sign(objective[i]);
+            basis.inverse[i * n + i] = -sign;
+            basis.point[i] = sign * BOX;
+            basis.dual[i] = sign * objective[i];
+        }
+        basis
+    }
+
+    /// Coefficient `j` of a constraint, its constant if `j` is the number of unknowns.
+    fn entry(&self, constraint: Constraint, j: usize) -> f64 {
+        match constraint {
+            Constraint::Row(row) => self.half_spaces.entry(row, j),
+            Constraint::Wall(_, _) if j == self.half_spaces.unknowns => BOX,
+            Constraint::Wall(unknown, sign) => {
+                if j == unknown {
+                    sign
+                } else {
+                    0.0
+                }
+            }
+        }
+    }
+
+    fn most_violated(&mut self) -> Violation {
+        let (n, mut worst, mut found) = (self.half_spaces.unknowns, 0.0, Violation::None);
+        for (number, tile) in self.half_spaces.tiles.chunks_exact(n + 1).enumerate() {
+            let mut values = tile[n];
+            for (column, x) in tile.iter().zip(&self.point) {
+                for lane in 0..LANES {
+                    values[lane] += column[lane] * x;
+                }
+            }
+            if values.iter().all(|value| *value >= worst) {
+                continue;
+            }
+            for (lane, &value) in values.iter().enumerate() {
+                // A value that is no number is taken for a violation, which ends in `Lost`.
+                if value.is_nan() {
+                    return Violation::NotANumber;
+                }
+                let size = || tile.iter().zip(&self.point).map(|(column, x)| (column[lane] * x).abs()).sum::<f64>();
+                if value < worst && value < -TOLERANCE * (1.0 + size()) {
+                    (worst, found) = (value, Violation::Worst(Constraint::Row(number * LANES + lane)));
+                }
+            }
+        }
+        for (unknown, x) in self.point.iter().enumerate() {
+            let value = BOX - x.abs();
+            if value < worst && value < -TOLERANCE * (1.0 + x.abs()) {
+                (worst, found) = (value, Violation::Worst(Constraint::Wall(unknown, -x.signum())));
+            }
+        }
+        self.violation = worst;
+        found
+    }
+
+    /// Weights with which the entering row is a combination of the rows in the basis.
+    fn weigh(&mut self, entering: Constraint) {
+        let n = self.half_spaces.unknowns;
+        for j in 0..n {
+            self.row[j] = self.entry(entering, j);
+        }
+        for (weight, column) in self.weights.iter_mut().zip(self.inverse.chunks_exact(n)) {
+            *weight = dot(column, &self.row);
+        }
+    }
+
+    /// The constraint that leaves: the smallest ratio of multiplier over weight, ties broken lexicographically.
+    fn leaving(&self) -> Option<usize> {
+        let n = self.half_spaces.unknowns;
+        let largest = self.weights.iter().fold(1.0, |largest: f64, weight| largest.max(weight.abs()));
+        // The multiplier itself, then those of the perturbations of the objective.
+        let ratio = |i: usize, k: usize| {
+            let multiplier = match k {
+                0 => self.dual[i],
+                _ => -self.inverse[i * n + k - 1] * corner_sign(self.objective[k - 1]),
+            };
+            multiplier / self.weights[i]
+        };
+        (0..n).filter(|&i| self.weights[i] > NO_WEIGHT * largest).min_by(|&a, &b| {
+            let ratios = (0..=n).map(|k| (ratio(a, k), ratio(b, k)));
+            let rounding = ROUNDING * (1.0 / self.weights[a] + 1.0 / self.weights[b]);
+            let differing = ratios.into_iter().find(|(x, y)| (x - y).abs() > TIE * (x.abs() + y.abs()) + rounding);
+            differing.map_or(a.cmp(&b), |(x, y)| x.total_cmp(&y))
+        })
+    }
+
+    /// Puts the entering constraint in the place of the leaving one.
+    fn exchange(&mut self, leaving: usize, entering: Constraint) {
+        let n = self.half_spaces.unknowns;
+        let pivot = 1.0 / self.weights[leaving];
+        let (before, rest) = self.inverse.split_at_mut(leaving * n);
+        let (column, after) = rest.split_at_mut(n);
+        column.iter_mut().for_each(|x| *x *= pivot);
+        let y = self.dual[leaving] * pivot;
+        let others = before.chunks_exact_mut(n).enumerate();
+        let others = others.chain(after.chunks_exact_mut(n).enumerate().map(|(i, other)| (i + leaving + 1, other)));
+        for (i, other) in others {
+            let weight = self.weights[i];
+            other.iter_mut().zip(&*column).for_each(|(x, c)| *x -= weight * c);
+            self.dual[i] -= weight * y;
+        }
+        self.dual[leaving] = y;
+        self.point.iter_mut().zip(&*column).for_each(|(x, c)| *x -= self.violation * c);
+        self.constraints[leaving] = entering;
+        self.fresh = false;
+    }
+
+    /// Computes inverse, point and multipliers from the rows themselves; false where the rows depend on each other.
+    fn refresh(&mut self) -> bool {
+        let n = self.half_spaces.unknowns;
+        for i in 0..n {
+            for j in 0..n {
+                self.matrix[i * n + j] = self.entry(self.constraints[i], j);
+            }
+        }
+        if !invert_transposed(&mut self.matrix, &mut self.inverse, n) {
+            return false;
+        }
+        self.point.fill(0.0);
+        for i in 0..n {
+            let constant = self.entry(self.constraints[i], n);
+            let column = &self.inverse[i * n..(i + 1) * n];
+            self.point.iter_mut().zip(column).for_each(|(x, c)| *x -= constant * c);
+            self.dual[i] = -dot(column, self.objective);
+        }
+        self.fresh = true;
+        true
+    }
+
+    fn optimum(self) -> Optimum {
+        let is_wall = |constraint: &Constraint| matches!(constraint, Constraint::Wall(..));
+        let pairs = || self.constraints.iter().zip(&self.dual);
+        if pairs().any(|(constraint, &y)| is_wall(constraint) && y > TOLERANCE) {
+            return Optimum::Unbounded(self.point);
+        }
+        let held = pairs().filter_map(|(constraint, &y)| match *constraint {
+            Constraint::Row(row) if y > 0.0 => Some((row, y)),
+            _ => None,
+        });
+        let held = held.collect();
+        Optimum::At(dot(self.objective, &self.point), self.point, held)
+    }
+}
+
+/// The transposed inverse of a square matrix stored by rows, by Gauss-Jordan elimination with row exchanges.
+fn invert_transposed(matrix: &mut [f64], inverse: &mut [f64], n: usize) -> bool {
+    // `inverse` is built by rows like the matrix and turned over at the end.
+    inverse.fill(0.0);
+    (0..n).for_each(|i| inverse[i * n + i] = 1.0);
+    for k in 0..n {
+        let largest = (k..n).max_by(|&a, &b| matrix[a * n + k].abs().total_cmp(&matrix[b * n + k].abs()));
+        let Some(pivot) = largest.filter(|&i| matrix[i * n + k] != 0.0 && matrix[i * n + k].is_finite()) else {
+            return false;
+        };
+        for m in [&mut *matrix, &mut *inverse] {
+            (0..n).for_each(|j| m.swap(k * n + j, pivot * n + j));
+        }
+        let scale = 1.0 / matrix[k * n + k];
+        for m in [&mut *matrix, &mut *inverse] {
+            m[k * n..(k + 1) * n].iter_mut().for_each(|x| *x *= scale);
+        }
+        for i in (0..n).filter(|&i| i != k) {
+            let by = matrix[i * n + k];
+            if by == 0.0 {
+                continue;
+            }
+            for m in [&mut *matrix, &mut *inverse] {
+                for j in 0..n {
+                    m[i * n + j] -= by * m[k * n + j];
+                }
+            }
+        }
+    }
+    for i in 0..n {
+        (0..i).for_each(|j| inverse.swap(i * n + j, j * n + i));
+    }
+    true
 }
 
 /// Which way an unknown with this coefficient is pushed at the start.
@@ -137,54 +373,15 @@ fn corner_sign(coefficient: f64) -> f64 {
     if coefficient < 0.0 { -1.0 } else { 1.0 }
 }
 
-/// The row that leaves: the smallest ratio of multiplier over weight, ties broken lexicographically.
-fn leaving(weights: &Row, dual: &[Multiplier; UNKNOWNS]) -> Option<usize> {
-    let candidates = (0..UNKNOWNS).filter(|&i| weights[i] > 1e-13);
-    candidates.min_by(|&a, &b| {
-        let ratios = (0..=UNKNOWNS).map(|k| (dual[a][k] / weights[a], dual[b][k] / weights[b]));
-        let differing = ratios.into_iter().find(|(x, y)| (x - y).abs() > 1e-11 * (x.abs() + y.abs()) + 1e-15);
-        differing.map_or(a.cmp(&b), |(x, y)| x.total_cmp(&y))
-    })
+/// The scalar product.
+pub fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// The Euclidean norm.
+pub fn norm(a: &[f64]) -> f64 {
+    dot(a, a).sqrt()
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn half_space(row: [f64; UNKNOWNS], constant: f64) -> Inequality {
-        let row = Row::from(row);
-        Inequality { row: row / row.norm(), constant: constant / row.norm() }
-    }
-
-    #[test]
-    fn finds_the_corner_of_a_simplex() {
-        let mut rows: Vec<_> = (0..UNKNOWNS).map(|i| Inequality { row: Row::ith(i, 1.0), constant: 0.0 }).collect();
-        rows.push(half_space([-1.0, -2.0, -3.0, -4.0], 12.0));
-        let Optimum::At(value, point) = maximise(Row::from([1.0, 1.0, 1.0, 1.0]), &rows, &unwatched) else { panic!() };
-        assert!((value - 12.0).abs() < 1e-12 && (point[0] - 12.0).abs() < 1e-12);
-    }
-
-    #[test]
-    fn tells_empty_and_unbounded_sets() {
-        let x_between =
-            |low: f64, high: f64| [half_space([1.0, 0.0, 0.0, 0.0], -low), half_space([-1.0, 0.0, 0.0, 0.0], high)];
-        assert_eq!(maximise(Row::ith(3, 1.0), &x_between(2.0, 1.0), &unwatched), Optimum::Infeasible);
-        assert!(matches!(maximise(Row::ith(3, 1.0), &x_between(1.0, 2.0), &unwatched), Optimum::Unbounded(_)));
-        assert!(
-            matches!(maximise(Row::ith(0, -1.0), &x_between(1.0, 2.0), &unwatched), Optimum::At(v, _) if (v + 1.0).abs() < 1e-12)
-        );
-    }
-
-    #[test]
-    fn a_heavily_tied_vertex_does_not_cycle() {
-        // A cone of 400 half spaces through one point, the objective along its axis.
-        let rows: Vec<_> = (0..400)
-            .map(|i| {
-                let a = f64::from(i) * 0.7;
-                half_space([a.cos(), a.sin(), (1.7 * a).cos(), -1.0], 1.0)
-            })
-            .collect();
-        let Optimum::At(value, _) = maximise(Row::ith(3, 1.0), &rows, &unwatched) else { panic!() };
-        assert!((value - 1.0).abs() < 1e-12);
-    }
-}
+mod tests;

@@ -1,15 +1,21 @@
-//! Rigid-block limit analysis of a single arch: the certificate of every answer.
+//! Rigid-block limit analysis of any structure: the certificate of every answer.
 //!
-//! An arch between two supports has three redundants. With the force and moment at one springing and the load factor
-//! as unknowns, the resultant at every joint is known, and "no tension, no sliding" at every joint is the whole static
-//! theorem (associated friction): a linear program in four unknowns, solved exactly. Joints of finite strength add parabolas, cut off by planes.
+//! With the force and moment round every independent loop and the load factor as unknowns, the resultant at every joint is
+//! known, and "no tension, no sliding" at every joint is the whole static theorem (associated friction): a linear program, in
+//! four unknowns for a single arch. Joints of finite strength add parabolas, cut off by planes.
 
 mod crushing;
+mod interior_point;
 mod linear_program;
 mod non_dilating;
+mod programme;
+mod sparse;
 mod static_theorem;
 
 pub use crushing::CrushingWindow;
-pub use linear_program::{Beat, Row, unwatched};
-pub use non_dilating::{Release, cheapest_motion, releases};
+pub use linear_program::{Beat, unwatched};
+pub use non_dilating::{Release, releases};
 pub use static_theorem::{Condition, Equilibrium, Resultant, StaticTheorem, Unsolved};
+
+#[cfg(test)]
+mod scenes;

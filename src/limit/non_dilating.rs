@@ -2,11 +2,12 @@
 //!
 //! Limit analysis lets a sliding joint open as it slides (associated friction); masonry does not. Without dilation a
 //! mechanism is a full solution wherever the joints that move are at their limits and all others are admissible: no force at
-//! the end that opens, shear at its bound against the motion. These are linear conditions on the four unknowns of the
-//! static theorem, and what they leave open is a whole range of load factors. Its least value is a linear programme.
+//! the end that opens, shear at its bound against the motion. These are linear conditions on the unknowns of the static
+//! theorem, and what they leave open is a whole range of load factors. Its least value is a linear programme.
 
-use super::linear_program::{Beat, Inequality, Optimum, Row, UNKNOWNS, maximise, multipliers_at_optimum};
-use super::static_theorem::{Equilibrium, Resultant, StaticTheorem, Unsolved};
+use super::linear_program::Beat;
+use super::programme::{Objective, Outcome, Programme};
+use super::static_theorem::{Equilibrium, Limit, Resultant, StaticTheorem, Unsolved};
 use crate::structure::{Face, Joint, JointLaw};
 
 /// Rates below this share of the fastest are none.
@@ -24,9 +25,9 @@ pub enum Release {
 /// What a joint that carries `forces` lets happen; a corner's force up to `none`, N/m, is none, and shear as near to its capacity
 /// is at it.
 pub fn releases(joint: &Joint, forces: &Resultant, none: f64) -> Vec<Release> {
-    let [friction, cohesion] = match joint.law {
-        JointLaw::Dry { friction, cohesion } => [friction, cohesion],
-        JointLaw::Wall => [0.0; 2],
+    let (friction, cohesion) = match joint.law {
+        JointLaw::Dry { friction, cohesion } => (friction, cohesion),
+        JointLaw::Wall => (0.0, 0.0),
         JointLaw::Mirror => return vec![Release::Sliding(1.0), Release::Sliding(-1.0)],
         JointLaw::Bonded => return Vec::new(),
     };
@@ -55,55 +56,73 @@ impl StaticTheorem {
         sign: f64,
         beat: Beat,
     ) -> Result<Option<Equilibrium>, Unsolved> {
-        let mut inequalities = self.inequalities.clone();
+        let mut programme = Programme::new(self);
         for &(joint, release) in moving {
             let turns =
                 |&(other, release): &(usize, Release)| other == joint && matches!(release, Release::Rotation(_));
-            self.add_limits(joint, release, moving.iter().any(turns), &mut inequalities);
+            programme.limits.extend(self.at_limit(joint, release, moving.iter().any(turns)));
         }
-        inequalities.push(Inequality { row: Row::new(0.0, 0.0, 0.0, sign), constant: -sign * start / self.factor });
-        match maximise(Row::new(0.0, 0.0, 0.0, -sign), &inequalities, beat) {
-            Optimum::At(_, unknowns) => Ok(Some(self.equilibrium(unknowns))),
-            Optimum::Infeasible => Ok(None),
-            Optimum::Unbounded(_) | Optimum::Lost => Err(Unsolved),
+        programme.bounds[if sign > 0.0 { 0 } else { 1 }] = start;
+        match programme.maximise(&Objective::load_factor(-sign), beat) {
+            Outcome::At(equilibrium, _) => Ok(Some(equilibrium)),
+            Outcome::Infeasible => Ok(None),
+            Outcome::Unbounded(_) | Outcome::Lost => Err(Unsolved),
         }
     }
 
     /// What `joint` at the limit of `release` is held to; `turns`: some end of it opens.
-    fn add_limits(&self, joint: usize, release: Release, turns: bool, inequalities: &mut Vec<Inequality>) {
-        let Some([friction, cohesion]) = self.joints[joint].law.coulomb() else { return };
-        let [intrados, extrados, shear] = self.forces[joint];
-        let (row, constant) = match release {
-            Release::Rotation(Face::Intrados) => extrados,
-            Release::Rotation(Face::Extrados) => intrados,
+    fn at_limit(&self, joint: usize, release: Release, turns: bool) -> Option<Limit> {
+        let (friction, cohesion) = match self.joints[joint].law {
+            JointLaw::Dry { friction, cohesion } => (friction, cohesion),
+            JointLaw::Wall => (0.0, 0.0),
+            JointLaw::Mirror | JointLaw::Bonded => return None,
+        };
+        // That none of them is negative is among the limits already.
+        Some(match release {
+            Release::Rotation(Face::Intrados) => self.limit(joint, [0.0, -1.0, 0.0], 0.0),
+            Release::Rotation(Face::Extrados) => self.limit(joint, [-1.0, 0.0, 0.0], 0.0),
             // Capacity left when the stone after the joint slides the way of `sign`, which the shear opposes.
             Release::Sliding(sign) => {
                 let adhesion = if turns { 0.0 } else { cohesion * self.joints[joint].length() };
-                let row = (intrados.0 + extrados.0) * friction + shear.0 * sign;
-                (row, (intrados.1 + extrados.1) * friction + shear.1 * sign + adhesion)
+                self.limit(joint, [-friction, -friction, -sign], -adhesion)
             }
-        };
-        // That none of them is negative is among the inequalities already.
-        let norm = row.norm();
-        inequalities.push(Inequality { row: -row / norm, constant: -constant / norm });
+        })
     }
-}
 
-/// Rates x >= 0 of least cost, the costs being positive, at which the `columns` (closure of the chain and power, per unit
-/// rate) add up to no gap and power 1: a corner of all such motions, with at most four rates that are not zero. None where
-/// there is no motion, or `beat` broke.
-///
-/// The dual asks for the largest y_4 with a . y <= cost for every column a: a programme in four unknowns again, whose
-/// multipliers are the rates.
-pub fn cheapest_motion(columns: &[Row], costs: &[f64], beat: Beat) -> Option<Vec<f64>> {
-    let size = |column: &Row| column.norm();
-    let half_space =
-        |(column, cost): (&Row, &f64)| Inequality { row: -column / size(column), constant: cost / size(column) };
-    let dual: Vec<Inequality> = columns.iter().zip(costs).map(half_space).collect();
-    let rates = multipliers_at_optimum(Row::ith(UNKNOWNS - 1, 1.0), &dual, beat)?;
-    let rates: Vec<f64> = rates.iter().zip(columns).map(|(rate, column)| rate / size(column)).collect();
-    let fastest = rates.iter().copied().fold(0.0, f64::max);
-    Some(rates.into_iter().map(|rate| if rate > MOVES * fastest { rate } else { 0.0 }).collect())
+    /// Rates x >= 0 of least cost, the costs being positive, at which these `releases` move every body without a gap elsewhere
+    /// and the scaled loads, in the direction of `sign`, do work: a corner of all such motions, with at most as many rates that
+    /// are not zero as there are unknowns. None where there is no motion, or `beat` broke.
+    ///
+    /// The dual asks for the largest load whose forces do no more work in any release than it costs, the joints carrying
+    /// whatever else they may: a programme over the forces again, whose multipliers are the rates.
+    pub fn cheapest_motion(
+        &self,
+        releases: &[(usize, Release)],
+        costs: &[f64],
+        sign: f64,
+        beat: Beat,
+    ) -> Option<Vec<f64>> {
+        let programme = self.motion_programme(releases, costs);
+        let Outcome::At(_, rates) = programme.maximise(&Objective::load_factor(sign), beat) else { return None };
+        let fastest = rates.iter().copied().fold(0.0, f64::max);
+        Some(rates.into_iter().map(|rate| if rate > MOVES * fastest { rate } else { 0.0 }).collect())
+    }
+
+    /// Forces under the scaled loads that do no more work in any release than it costs.
+    pub(super) fn motion_programme(&self, releases: &[(usize, Release)], costs: &[f64]) -> Programme<'_> {
+        let mut programme = Programme::unlimited(self);
+        let bound = |(&(joint, release), cost): (&(usize, Release), &f64)| {
+            let length = self.joints[joint].length();
+            let work = match release {
+                Release::Rotation(Face::Intrados) => [0.0, length, 0.0],
+                Release::Rotation(Face::Extrados) => [length, 0.0, 0.0],
+                Release::Sliding(sign) => [0.0, 0.0, sign],
+            };
+            Limit { joint, weights: work.map(|w| w / self.force), constant: *cost }
+        };
+        programme.limits = releases.iter().zip(costs).map(bound).collect();
+        programme
+    }
 }
 
 #[cfg(test)]

@@ -1,12 +1,15 @@
-//! The static theorem of one arch in four unknowns.
+//! The static theorem of any structure: forces round its loops, and what every joint then carries.
 
-use super::linear_program::{Beat, Inequality, Optimum, Row, UNKNOWNS, maximise};
+use super::linear_program::{Beat, norm};
+use super::programme::{Objective, Outcome, Programme, Rows};
 use crate::geometry::{Vec2, cross};
-use crate::structure::{Joint, JointLaw, PointForce, Structure};
+use crate::structure::{Joint, JointLaw, Loops, PointForce, Side, Structure, Unconnected};
 use nalgebra::{DMatrix, DVector};
 
-/// Iterations after which a singular value decomposition of four columns has failed (it needs about ten).
-const MOST_SWEEPS: usize = 1000;
+/// Iterations after which a singular value decomposition has failed (it needs about ten an unknown at most).
+const MOST_SWEEPS: usize = 10_000;
+/// Most unknowns for which the dense simplex method is the faster one.
+pub(super) const FEW_UNKNOWNS: usize = 60;
 
 /// Forces that one joint carries.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,6 +32,11 @@ impl Resultant {
     pub fn size(&self) -> f64 {
         self.normal().abs().max(self.shear.abs())
     }
+
+    /// The weighted sum of the three.
+    pub(super) fn weighted(&self, weights: &[f64; 3]) -> f64 {
+        weights[0] * self.intrados + weights[1] * self.extrados + weights[2] * self.shear
+    }
 }
 
 /// A linear condition on the forces of one joint: the weighted sum of them and of the constant vanishes.
@@ -42,18 +50,57 @@ pub struct Condition {
     pub constant: f64,
 }
 
-/// Equilibrium of the whole arch with the redundants and the load factor left open.
+/// Equilibrium of the whole structure with the redundants and the load factor left open.
 ///
-/// Unknowns are (F_x, F_y, M) of the force that the left springing exerts on the arch, in units of `force` and
-/// `force * length` about `origin`, and the load factor in units of `factor`.
+/// Unknowns are, for every loop, (F_x, F_y, M) of the force that goes round it through its closing joint, in units of `force`
+/// and `force * length` about the loop's middle, and the load factor in units of `factor`. Of a single ring that is the force of
+/// the left springing.
 #[derive(Debug, Clone)]
 pub struct StaticTheorem {
     pub(super) joints: Vec<Joint>,
-    /// Intrados force, extrados force and shear of each joint as rows over (unknowns; 1), N/m.
-    pub(super) forces: Vec<[(Row, f64); 3]>,
-    pub(super) inequalities: Vec<Inequality>,
+    pub(super) loops: Loops,
+    /// Of every loop.
+    frames: Vec<Frame>,
+    /// Of all joints.
+    pub(super) frame: Frame,
+    /// What fixed loads, and scaled loads of load factor 1, add to the three forces of every joint down the tree, N/m.
+    pub(super) carried: [Vec<[f64; 3]>; 2],
+    /// The same loads on every body: F_x, F_y and M about the middle of all joints.
+    pub(super) loads: [Vec<[f64; 3]>; 2],
+    pub(super) limits: Vec<Limit>,
+    /// The limits over the unknowns, where these are few.
+    pub(super) rows: Option<Rows>,
     pub(super) force: f64,
     pub(super) factor: f64,
+}
+
+/// Where moments are taken about, and the length that makes forces of them, m.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Frame {
+    pub origin: Vec2,
+    length: f64,
+}
+
+impl Frame {
+    fn of<'j>(joints: impl Iterator<Item = &'j Joint> + Clone) -> Self {
+        let origin = joints.clone().map(Joint::middle).sum::<Vec2>() / joints.clone().count() as f64;
+        Frame { origin, length: joints.map(|j| (j.middle() - origin).norm()).fold(0.0, f64::max) }
+    }
+}
+
+/// The half space `weights . (intrados, extrados, shear) + constant >= 0` of one joint's forces, in units of the loads.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Limit {
+    pub joint: usize,
+    pub weights: [f64; 3],
+    pub constant: f64,
+}
+
+impl Limit {
+    /// What is left to the limit; negative where it is violated.
+    pub(super) fn slack(&self, forces: &[Resultant]) -> f64 {
+        forces[self.joint].weighted(&self.weights) + self.constant
+    }
 }
 
 /// The linear programme could not be solved.
@@ -61,73 +108,107 @@ pub struct StaticTheorem {
 pub struct Unsolved;
 
 /// A point of the static theorem.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Equilibrium {
-    unknowns: Row,
+    /// Forces of every joint.
+    pub(super) forces: Vec<Resultant>,
     /// Load factor.
     pub load_factor: f64,
+    /// Size of the forces in units of the loads, which rounding is measured by.
+    pub(super) size: f64,
 }
 
 impl StaticTheorem {
-    /// The theorem of an arch under fixed loads and loads scaled by the load factor.
-    pub fn new(structure: &Structure, fixed: &[PointForce], scaled: &[PointForce]) -> Self {
-        let origin = structure.ring().iter().map(Joint::middle).sum::<Vec2>() / structure.ring().len() as f64;
-        let length = structure.ring().iter().map(|j| (j.middle() - origin).norm()).fold(0.0, f64::max);
+    /// The theorem of a structure under fixed loads and loads scaled by the load factor.
+    ///
+    /// # Errors
+    /// Every body that is not connected to the ground.
+    pub fn new(structure: &Structure, fixed: &[PointForce], scaled: &[PointForce]) -> Result<Self, Vec<Unconnected>> {
+        let loops = Loops::new(structure)?;
+        let joints = structure.joints.clone();
+        let frame = Frame::of(joints.iter());
+        let frames = loops.joints().iter().map(|of| Frame::of(of.iter().map(|&k| &joints[k]))).collect();
         let total = |loads: &[PointForce]| loads.iter().map(|l| l.force.norm()).sum::<f64>();
         let (total_fixed, total_scaled) = (total(fixed), total(scaled));
         let force = [total_fixed, total_scaled, 1.0].into_iter().find(|&f| f > 0.0).unwrap_or(1.0);
         let factor = if total_scaled > 0.0 { force / total_scaled } else { 1.0 };
-
-        let (steady, growing) = (cumulative(structure, fixed, origin), cumulative(structure, scaled, origin));
-        let mut theorem = StaticTheorem {
-            joints: structure.ring().to_vec(),
-            forces: Vec::new(),
-            inequalities: Vec::new(),
-            force,
-            factor,
-        };
-        for (k, joint) in structure.ring().iter().enumerate() {
-            let component = |functional: [f64; 3]| {
-                let row = Row::new(
-                    functional[0] * force,
-                    functional[1] * force,
-                    functional[2] * force * length,
-                    dot(functional, growing[k]) * factor,
-                );
-                (row, dot(functional, steady[k]))
-            };
-            theorem.forces.push(joint_functionals(joint, origin).map(component));
-            theorem.add_inequalities(k);
-        }
-        theorem
+        let loads = [fixed, scaled].map(|loads| on_bodies(structure.bodies.len(), loads, frame.origin));
+        let functionals: Vec<_> = joints.iter().map(|joint| joint_functionals(joint, frame.origin)).collect();
+        let carried = [0, 1].map(|which: usize| {
+            let carried = loops.carried(&loads[which]);
+            functionals.iter().zip(carried).map(|(of, wrench)| of.map(|row| dot(row, wrench))).collect()
+        });
+        let (limits, rows) = (Vec::new(), None);
+        let mut theorem = StaticTheorem { joints, loops, frames, frame, carried, loads, limits, rows, force, factor };
+        theorem.limits = (0..theorem.joints.len()).flat_map(|k| theorem.limits_of(k)).collect();
+        theorem.rows = theorem.has_few_unknowns().then(|| Rows::of_laws(&theorem));
+        Ok(theorem)
     }
 
-    /// Joint `k` of the arch.
+    /// Joint `k` of the structure.
     pub fn joint(&self, k: usize) -> &Joint {
         &self.joints[k]
     }
 
-    fn add_inequalities(&mut self, k: usize) {
-        let [intrados, extrados, shear] = self.forces[k];
-        let capacity = |friction: f64, adhesion: f64, sign: f64| {
-            (
-                (intrados.0 + extrados.0) * friction + shear.0 * sign,
-                (intrados.1 + extrados.1) * friction + shear.1 * sign + adhesion,
-            )
-        };
+    /// Loops of the structure.
+    pub fn loops(&self) -> &Loops {
+        &self.loops
+    }
+
+    /// Number of joints.
+    pub fn joints(&self) -> usize {
+        self.joints.len()
+    }
+
+    /// Three for every loop, and the load factor.
+    pub fn unknowns(&self) -> usize {
+        3 * self.loops.len() + 1
+    }
+
+    pub(super) fn has_few_unknowns(&self) -> bool {
+        self.unknowns() <= FEW_UNKNOWNS
+    }
+
+    /// What the law of joint `k` asks of its forces.
+    fn limits_of(&self, k: usize) -> Vec<Limit> {
+        let capacity = |friction: f64, adhesion: f64| [1.0, -1.0].map(|sign| ([friction, friction, sign], adhesion));
+        let pressed = [([1.0, 0.0, 0.0], 0.0), ([0.0, 1.0, 0.0], 0.0)];
         let conditions = match self.joints[k].law {
-            law @ (JointLaw::Dry { .. } | JointLaw::Wall) => {
-                let [friction, cohesion] = law.coulomb().unwrap_or_default();
-                let adhesion = cohesion * self.joints[k].length();
-                vec![intrados, extrados, capacity(friction, adhesion, 1.0), capacity(friction, adhesion, -1.0)]
+            JointLaw::Dry { friction, cohesion } => {
+                [pressed, capacity(friction, cohesion * self.joints[k].length())].concat()
             }
-            JointLaw::Mirror => vec![capacity(0.0, 0.0, 1.0), capacity(0.0, 0.0, -1.0)],
+            JointLaw::Wall => [pressed, capacity(0.0, 0.0)].concat(),
+            JointLaw::Mirror => capacity(0.0, 0.0).to_vec(),
             JointLaw::Bonded => Vec::new(),
         };
-        for (row, constant) in conditions {
-            let norm = row.norm();
-            self.inequalities.push(Inequality { row: row / norm, constant: constant / norm });
+        conditions.into_iter().map(|(weights, constant)| self.limit(k, weights, constant)).collect()
+    }
+
+    /// A limit in units of the loads: of unit length as a functional of the force and moment that the joint passes on, in units
+    /// of `force` and `force` times the size of the structure, and of what the scaled loads add.
+    pub(super) fn limit(&self, joint: usize, weights: [f64; 3], constant: f64) -> Limit {
+        let functionals = joint_functionals(&self.joints[joint], self.frame.origin);
+        let component = |i: usize| (0..3).map(|c| weights[c] * functionals[c][i]).sum::<f64>() * self.force;
+        let grown = dot(weights, self.carried[1][joint]) * self.factor;
+        let squares = [component(0), component(1), component(2) * self.frame.length, grown].map(|x| x * x);
+        let scale = squares.iter().sum::<f64>().sqrt();
+        Limit { joint, weights: weights.map(|w| w / scale), constant: constant / scale }
+    }
+
+    /// `weights . (intrados, extrados, shear)` of a joint over (unknowns; 1), added to `row`.
+    pub(super) fn add_row(&self, joint: usize, weights: [f64; 3], row: &mut [f64]) {
+        for &(number, sign) in self.loops.through(joint) {
+            let Frame { origin, length } = self.frames[number];
+            let functionals = joint_functionals(&self.joints[joint], origin);
+            let units = [self.force, self.force, self.force * length];
+            for i in 0..3 {
+                let component = (0..3).map(|c| weights[c] * functionals[c][i]).sum::<f64>();
+                row[3 * number + i] += sign * component * units[i];
+            }
         }
+        let last = self.unknowns() - 1;
+        row[last] += dot(weights, self.carried[1][joint]) * self.factor;
+        row[last + 1] += dot(weights, self.carried[0][joint]);
     }
 
     /// Lowest and highest load factor in equilibrium, infinite where unbounded; None when there is none at all.
@@ -135,68 +216,100 @@ impl StaticTheorem {
     /// # Errors
     /// When rounding, or `beat`, kept the linear programme from an answer.
     pub fn window(&self, beat: Beat) -> Result<Option<[f64; 2]>, Unsolved> {
-        let end = |sign: f64| match maximise(Row::new(0.0, 0.0, 0.0, sign), &self.inequalities, beat) {
-            Optimum::At(value, _) => Ok(Some(sign * value * self.factor)),
-            Optimum::Unbounded(_) => Ok(Some(sign * f64::INFINITY)),
-            Optimum::Infeasible => Ok(None),
-            Optimum::Lost => Err(Unsolved),
+        let end = |sign: f64| match Programme::new(self).maximise(&Objective::load_factor(sign), beat) {
+            Outcome::At(equilibrium, _) => Ok(Some(equilibrium.load_factor)),
+            Outcome::Unbounded(_) => Ok(Some(sign * f64::INFINITY)),
+            Outcome::Infeasible => Ok(None),
+            Outcome::Lost => Err(Unsolved),
         };
         Ok(end(-1.0)?.zip(end(1.0)?).map(|(low, high)| [low, high]))
     }
 
     /// True where an equilibrium at load factor `at` violates no condition by more than `slack`, a share of the loads.
     pub fn nearly_stands(&self, at: f64, slack: f64, beat: Beat) -> bool {
-        let mut relaxed = self.pinned(at);
-        relaxed.iter_mut().for_each(|inequality| inequality.constant += slack);
-        matches!(maximise(Row::new(1.0, 0.0, 0.0, 0.0), &relaxed, beat), Optimum::At(..) | Optimum::Unbounded(_))
+        let mut programme = Programme::new(self);
+        programme.bounds = [at - slack * self.factor, at + slack * self.factor];
+        programme.slack = slack;
+        matches!(programme.maximise(&Objective::load_factor(1.0), beat), Outcome::At(..) | Outcome::Unbounded(_))
     }
 
-    /// The inequalities with the load factor held at `at`.
-    fn pinned(&self, at: f64) -> Vec<Inequality> {
-        let mut inequalities = self.inequalities.clone();
-        let row = Row::new(0.0, 0.0, 0.0, 1.0);
-        inequalities.push(Inequality { row, constant: -at / self.factor });
-        inequalities.push(Inequality { row: -row, constant: at / self.factor });
-        inequalities
-    }
-
-    /// Least and greatest horizontal thrust of the left springing at load factor `at`, N/m; None when nothing stands.
+    /// Least and greatest horizontal thrust of the first support at load factor `at`, N/m; None when nothing stands.
     pub fn thrust_range(&self, at: f64, beat: Beat) -> Option<[f64; 2]> {
-        let inequalities = self.pinned(at);
-        let end = |sign: f64| match maximise(Row::new(sign, 0.0, 0.0, 0.0), &inequalities, beat) {
-            Optimum::At(value, _) => Some(sign * value * self.force),
-            Optimum::Unbounded(_) => Some(sign * f64::INFINITY),
-            Optimum::Infeasible | Optimum::Lost => None,
+        self.thrust_range_of(0, at, beat)
+    }
+
+    /// Least and greatest horizontal force of a support on the structure at load factor `at`, N/m; None when nothing stands.
+    pub fn thrust_range_of(&self, support: usize, at: f64, beat: Beat) -> Option<[f64; 2]> {
+        let mut programme = Programme::new(self);
+        programme.bounds = [at; 2];
+        let thrust = |sign: f64| {
+            let on_support = |(k, joint): (usize, &Joint)| {
+                let way = sign
+                    * joint
+                        .between
+                        .iter()
+                        .position(|side| *side == Side::Support(support))
+                        .map(|at| 1.0 - 2.0 * at as f64)?;
+                let (n, t) = (joint.normal(), joint.tangent());
+                Some((k, [way * n.x, way * n.x, way * t.x]))
+            };
+            Objective { load_factor: 0.0, forces: self.joints.iter().enumerate().filter_map(on_support).collect() }
+        };
+        let end = |sign: f64| match programme.maximise(&thrust(sign), beat) {
+            Outcome::At(equilibrium, _) => Some(sign * thrust(sign).value(&equilibrium)),
+            Outcome::Unbounded(_) => Some(sign * f64::INFINITY),
+            Outcome::Infeasible | Outcome::Lost => None,
         };
         Some([end(-1.0)?, end(1.0)?])
     }
 
-    /// The equilibrium that satisfies all `conditions` (least squares); None unless they fix all four unknowns.
+    /// The equilibrium that satisfies all `conditions` (least squares); None unless they fix all unknowns.
     pub fn solve(&self, conditions: &[Condition]) -> Option<Equilibrium> {
-        let rows: Vec<(Row, f64)> = conditions
-            .iter()
-            .map(|condition| {
-                let parts = self.forces[condition.joint].iter().zip(condition.weights);
-                let (row, constant) = parts
-                    .fold((Row::zeros(), condition.constant), |(row, c), (part, w)| (row + part.0 * w, c + part.1 * w));
-                (row / row.norm(), constant / row.norm())
-            })
-            .collect();
-        if rows.len() < UNKNOWNS || rows.iter().any(|(row, _)| !row.iter().all(|x| x.is_finite())) {
+        let n = self.unknowns();
+        if conditions.len() < n {
             return None;
         }
-        let a = DMatrix::from_fn(rows.len(), UNKNOWNS, |i, j| rows[i].0[j]);
-        let b = DVector::from_fn(rows.len(), |i, _| -rows[i].1);
+        let mut rows = vec![0.0; conditions.len() * (n + 1)];
+        for (row, condition) in rows.chunks_exact_mut(n + 1).zip(conditions) {
+            self.add_row(condition.joint, condition.weights, row);
+            row[n] += condition.constant;
+            let size = norm(&row[..n]);
+            row.iter_mut().for_each(|x| *x /= size);
+        }
+        if !rows.iter().all(|x| x.is_finite()) {
+            return None;
+        }
+        let a = DMatrix::from_fn(conditions.len(), n, |i, j| rows[i * (n + 1) + j]);
+        let b = DVector::from_fn(conditions.len(), |i, _| -rows[i * (n + 1) + n]);
         let svd = a.try_svd(true, true, f64::EPSILON, MOST_SWEEPS)?;
-        if svd.rank(1e-9) < UNKNOWNS {
+        if svd.rank(1e-9) < n {
             return None;
         }
         let x = svd.solve(&b, 0.0).ok()?;
-        Some(self.equilibrium(Row::from_fn(|i, _| x[i])))
+        Some(self.equilibrium(x.as_slice()))
     }
 
-    pub(super) fn equilibrium(&self, unknowns: Row) -> Equilibrium {
-        Equilibrium { unknowns, load_factor: unknowns[3] * self.factor }
+    /// The equilibrium of these unknowns.
+    pub(super) fn equilibrium(&self, unknowns: &[f64]) -> Equilibrium {
+        let n = unknowns.len() - 1;
+        let force = |k: usize| {
+            let [fixed, scaled] = [&self.carried[0][k], &self.carried[1][k]];
+            let factor = unknowns[n] * self.factor;
+            let mut forces: [f64; 3] = std::array::from_fn(|c| fixed[c] + factor * scaled[c]);
+            for &(number, sign) in self.loops.through(k) {
+                let Frame { origin, length } = self.frames[number];
+                let x = &unknowns[3 * number..3 * number + 3];
+                let wrench = [x[0], x[1], x[2] * length].map(|component| sign * self.force * component);
+                let functionals = joint_functionals(&self.joints[k], origin);
+                forces = std::array::from_fn(|c| forces[c] + dot(functionals[c], wrench));
+            }
+            Resultant { intrados: forces[0], extrados: forces[1], shear: forces[2] }
+        };
+        Equilibrium {
+            forces: (0..self.joints.len()).map(force).collect(),
+            load_factor: unknowns[n] * self.factor,
+            size: 1.0 + norm(unknowns),
+        }
     }
 
     /// Load factor at which the scaled loads are as large as the fixed ones.
@@ -206,35 +319,29 @@ impl StaticTheorem {
 
     /// Forces of every joint in an equilibrium.
     pub fn resultants(&self, equilibrium: &Equilibrium) -> Vec<Resultant> {
-        let value = |(row, constant): &(Row, f64)| row.dot(&equilibrium.unknowns) + constant;
-        let joint = |[i, e, s]: &[(Row, f64); 3]| Resultant { intrados: value(i), extrados: value(e), shear: value(s) };
-        self.forces.iter().map(joint).collect()
+        equilibrium.forces.clone()
     }
 
     /// Smallest slack of any inequality in an equilibrium, in units of the loads' scale (negative: violated).
     pub fn slack(&self, equilibrium: &Equilibrium) -> f64 {
-        let slack = |i: &Inequality| i.row.dot(&equilibrium.unknowns) + i.constant;
-        self.inequalities.iter().map(slack).fold(f64::INFINITY, f64::min)
+        self.limits.iter().map(|limit| limit.slack(&equilibrium.forces)).fold(f64::INFINITY, f64::min)
     }
 }
 
-/// What the loads on stones 0..k add to (F_x, F_y, M about `origin`) at joint k.
-fn cumulative(structure: &Structure, loads: &[PointForce], origin: Vec2) -> Vec<[f64; 3]> {
-    let mut sums = vec![[0.0; 3]; structure.ring().len()];
+/// What loads add to (F_x, F_y, M about `origin`) of every body.
+fn on_bodies(bodies: usize, loads: &[PointForce], origin: Vec2) -> Vec<[f64; 3]> {
+    let mut sums = vec![[0.0; 3]; bodies];
     for load in loads {
         let part = [load.force.x, load.force.y, cross(load.at - origin, load.force)];
-        let after = &mut sums[load.body + 1];
-        *after = std::array::from_fn(|i| after[i] + part[i]);
-    }
-    for k in 1..sums.len() {
-        sums[k] = std::array::from_fn(|i| sums[k][i] + sums[k - 1][i]);
+        let sum = &mut sums[load.body];
+        *sum = std::array::from_fn(|i| sum[i] + part[i]);
     }
     sums
 }
 
-/// Intrados force, extrados force and shear as functionals of the resultant (F_x, F_y, M about `origin`) that the
-/// stone before the joint exerts on the stone after it.
-fn joint_functionals(joint: &Joint, origin: Vec2) -> [[f64; 3]; 3] {
+/// Intrados force, extrados force and shear as functionals of the resultant (F_x, F_y, M about `origin`) that what lies
+/// before the joint exerts on what lies after it.
+pub(super) fn joint_functionals(joint: &Joint, origin: Vec2) -> [[f64; 3]; 3] {
     let (t, length) = (joint.tangent(), joint.length());
     // Moment about a point p is M - (p - origin) x F; the extrados force has the lever `length` about the intrados end.
     let moment_about = |p: Vec2| {

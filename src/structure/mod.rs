@@ -5,9 +5,11 @@
 
 mod half;
 pub mod load;
+mod loops;
 mod ring;
 
 pub use half::is_symmetric;
+pub use loops::{Loops, Unconnected};
 pub use ring::Abutment;
 
 use crate::geometry::{Region, Vec2};

@@ -19,7 +19,7 @@ const SMALL: f64 = 1e-3;
 const HARD: f64 = 1e30;
 
 fn theorem(analysis: &Analysis) -> StaticTheorem {
-    StaticTheorem::new(&analysis.structure, &analysis.fixed, &analysis.scaled)
+    StaticTheorem::new(&analysis.structure, &analysis.fixed, &analysis.scaled).unwrap()
 }
 
 /// Half the loads over the mean joint, Pa: about the mean stress at a springing.
@@ -48,11 +48,15 @@ fn compare(seed: u64) -> Result<Found, String> {
     let theorem = theorem(&analysis);
     let strength = mean_stress(&analysis) * Dice::new(seed).decades(1.0, 300.0);
     let plain = theorem.window(&unwatched).map_err(|_| "plain window unsolved")?;
-    let hard = theorem.crushing_window(HARD, &unwatched).map_err(|_| "hard window unsolved")?;
+    let hard =
+        theorem.crushing_window(&vec![HARD; theorem.joints()], &unwatched).map_err(|_| "hard window unsolved")?;
     if hard.as_ref().map(|window| window.ends) != plain {
         return Err(format!("hard {hard:?}, plain {plain:?}"));
     }
-    let ours = theorem.crushing_window(strength, &unwatched).map_err(|_| "unsolved")?.map(|window| window.ends);
+    let ours = theorem
+        .crushing_window(&vec![strength; theorem.joints()], &unwatched)
+        .map_err(|_| "unsolved")?
+        .map(|window| window.ends);
     let problem = crate::common::oracle::Problem { strength: Some(strength), ..door::problem(&analysis) };
     let give = problem.give();
     if give.abs() < BALANCE {
@@ -194,7 +198,8 @@ fn hold(title: &str, rows: &[[f64; 3]], request: impl Fn(f64) -> Value) {
         let analysis = door::analysis(&request(abscissa)).unwrap();
         let theorem = theorem(&analysis);
         let plain = theorem.window(&unwatched).unwrap();
-        let crushing = theorem.crushing_window(STRENGTH, &unwatched).unwrap().map(|window| window.ends);
+        let crushing =
+            theorem.crushing_window(&vec![STRENGTH; theorem.joints()], &unwatched).unwrap().map(|window| window.ends);
         let problem = crate::common::oracle::Problem { strength: Some(STRENGTH), ..door::problem(&analysis) };
         let cones = if problem.give() < 0.0 { problem.window() } else { None };
         let same = match (crushing, cones) {

@@ -137,8 +137,9 @@ fn on_collapse(scene: &CollapseScene, model: &Model) -> Result<(Found, Timed), S
     let (found, timed) = match &model.way {
         Way::LimitWindow => {
             let Analysis { structure, fixed, scaled, .. } = analysis(&scene.request, &Value::Null)?;
-            let (window, time) = timed(|| StaticTheorem::new(&structure, &fixed, &scaled).window(&unwatched));
-            let highest = window.ok().flatten().map(|[_, highest]| highest);
+            let (window, time) =
+                timed(|| Some(StaticTheorem::new(&structure, &fixed, &scaled).ok()?.window(&unwatched)));
+            let highest = window.and_then(Result::ok).flatten().map(|[_, highest]| highest);
             (highest.map(|highest| (highest, false)).ok_or_else(|| "no window".to_owned()), time)
         }
         Way::Analysis(fields) => {

@@ -9,7 +9,7 @@ fn certificate(limit: f64) -> Certificate {
     let law = JointLaw::Dry { friction: 0.5, cohesion: 0.0 };
     let ends = [0.0, 1.0].map(|x| [0.0, 1.0].map(|y| Vec2::new(x, y)));
     let structure = assemble(&ends, straight_voussoirs(&ends).unwrap(), Stone::default(), law, Vec2::zeros());
-    let theorem = StaticTheorem::new(&structure, &[], &[]);
+    let theorem = StaticTheorem::new(&structure, &[], &[]).unwrap();
     Certificate { theorem, window: Some([-1.0, limit]), solved: true, any_fixed: true }
 }
 

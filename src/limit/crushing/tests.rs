@@ -1,21 +1,25 @@
-use super::super::static_theorem::tests::{loads, skewed};
+use super::super::scenes::ring;
+use super::super::static_theorem::tests::{arch, loads};
 use super::*;
-use crate::arch::{assemble, straight_voussoirs};
 use crate::geometry::Vec2;
 use crate::limit::unwatched;
-use crate::structure::{JointLaw, PointForce, Stone};
+use crate::structure::PointForce;
 
 /// Strength at which nothing crushes, Pa.
 const HARD: f64 = 1e30;
+
+/// The same strength in every joint.
+fn evenly(theorem: &StaticTheorem, strength: f64) -> Result<Option<CrushingWindow>, Unsolved> {
+    theorem.crushing_window(&vec![strength; theorem.joints()], &unwatched)
+}
 
 /// One stone between two level joints of length 1 m, all but smooth, under a load of `factor` 1 N/m at `off` from
 /// their middles.
 fn column(off: f64, strength: f64) -> CrushingWindow {
     let law = JointLaw::Dry { friction: 1e-3, cohesion: 0.0 };
-    let ends = [0.0, 1.0].map(|y| [0.5, -0.5].map(|x| Vec2::new(x, y)));
-    let structure = assemble(&ends, straight_voussoirs(&ends).unwrap(), Stone::default(), law, Vec2::zeros());
+    let structure = ring(&[0.0, 1.0].map(|y| [Vec2::new(0.5, y), Vec2::new(-0.5, y)]), law);
     let load = PointForce { body: 0, at: Vec2::new(off, 0.5), force: Vec2::new(0.0, -1.0), spread: false };
-    StaticTheorem::new(&structure, &[], &[load]).crushing_window(strength, &unwatched).unwrap().unwrap()
+    evenly(&StaticTheorem::new(&structure, &[], &[load]).unwrap(), strength).unwrap().unwrap()
 }
 
 /// Joints below and above bear N and n, P = N - n. Both on their parabolas, e P = t (N + n) / 2 - (N^2 + n^2) / 2 f,
@@ -35,27 +39,27 @@ fn a_column_carries_its_strength_times_what_is_left_of_its_joints() {
 
 #[test]
 fn a_hard_stone_leaves_the_plain_window() {
-    let mut structure = skewed();
-    let [fixed, scaled] = loads(&structure);
-    let hard = |theorem: &StaticTheorem| theorem.crushing_window(HARD, &unwatched).unwrap().map(|window| window.ends);
+    let mut arch = arch();
+    let [fixed, scaled] = loads(&arch);
+    let hard = |theorem: &StaticTheorem| evenly(theorem, HARD).unwrap().map(|window| window.ends);
     let upwards: Vec<_> = fixed.iter().map(|f| PointForce { force: -f.force * 10.0, ..*f }).collect();
     for (fixed, scaled) in [(&fixed, &scaled), (&fixed, &fixed), (&scaled, &fixed), (&upwards, &vec![])] {
-        let theorem = StaticTheorem::new(&structure, fixed, scaled);
+        let theorem = StaticTheorem::new(&arch, fixed, scaled).unwrap();
         assert_eq!(hard(&theorem), theorem.window(&unwatched).unwrap());
     }
-    structure.joints.iter_mut().for_each(|joint| joint.law = JointLaw::Bonded);
-    let bonded = StaticTheorem::new(&structure, &fixed, &scaled).crushing_window(1.0, &unwatched).unwrap().unwrap();
+    arch.joints.iter_mut().for_each(|joint| joint.law = JointLaw::Bonded);
+    let bonded = evenly(&StaticTheorem::new(&arch, &fixed, &scaled).unwrap(), 1.0).unwrap().unwrap();
     assert_eq!(bonded.ends, [f64::NEG_INFINITY, f64::INFINITY]);
     assert!(bonded.joints.iter().all(Vec::is_empty));
 }
 
 #[test]
 fn a_stronger_stone_bears_more() {
-    let structure = skewed();
-    let [fixed, scaled] = loads(&structure);
-    let theorem = StaticTheorem::new(&structure, &fixed, &scaled);
+    let arch = arch();
+    let [fixed, scaled] = loads(&arch);
+    let theorem = StaticTheorem::new(&arch, &fixed, &scaled).unwrap();
     let [low, high] = theorem.window(&unwatched).unwrap().unwrap();
-    let windows: Vec<_> = (0..60).map(|k| theorem.crushing_window(1.2f64.powi(k), &unwatched).unwrap()).collect();
+    let windows: Vec<_> = (0..60).map(|k| evenly(&theorem, 1.2f64.powi(k)).unwrap()).collect();
     assert!(windows[0].is_none());
     let found: Vec<_> = windows.iter().skip_while(|window| window.is_none()).collect();
     assert!(found.len() > 40 && found.iter().all(|window| window.is_some()));
@@ -69,24 +73,21 @@ fn a_stronger_stone_bears_more() {
 
 #[test]
 fn crushed_joints_leave_just_the_length_they_need() {
-    let structure = skewed();
-    let [fixed, _] = loads(&structure);
-    let theorem = StaticTheorem::new(&structure, &fixed, &fixed);
-    let window = theorem.crushing_window(500.0, &unwatched).unwrap().unwrap();
+    let arch = arch();
+    let [fixed, _] = loads(&arch);
+    let theorem = StaticTheorem::new(&arch, &fixed, &fixed).unwrap();
+    let window = evenly(&theorem, 500.0).unwrap().unwrap();
     assert_eq!(theorem.window(&unwatched).unwrap().unwrap()[1], f64::INFINITY);
     assert!(window.ends[1].is_finite() && window.joints[1].len() >= 2, "{window:?}");
 }
 
 #[test]
 fn a_strength_that_is_none_is_refused() {
-    let structure = skewed();
-    let [fixed, scaled] = loads(&structure);
-    let theorem = StaticTheorem::new(&structure, &fixed, &scaled);
+    let arch = arch();
+    let [fixed, scaled] = loads(&arch);
+    let theorem = StaticTheorem::new(&arch, &fixed, &scaled).unwrap();
     for strength in [0.0, -1.0, f64::NAN] {
-        assert_eq!(theorem.crushing_window(strength, &unwatched), Err(Unsolved));
+        assert_eq!(evenly(&theorem, strength), Err(Unsolved));
     }
-    assert_eq!(
-        theorem.crushing_window(f64::INFINITY, &unwatched).unwrap().unwrap().ends,
-        theorem.window(&unwatched).unwrap().unwrap()
-    );
+    assert_eq!(evenly(&theorem, f64::INFINITY).unwrap().unwrap().ends, theorem.window(&unwatched).unwrap().unwrap());
 }

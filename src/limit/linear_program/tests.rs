@@ -1,0 +1,73 @@
+use super::*;
+
+const UNKNOWNS: usize = 4;
+
+fn half_spaces(rows: &[([f64; UNKNOWNS], f64)]) -> HalfSpaces {
+    let mut all = HalfSpaces::new(UNKNOWNS);
+    rows.iter().for_each(|(row, constant)| all.push(row, *constant));
+    all
+}
+
+fn unit(i: usize, value: f64) -> [f64; UNKNOWNS] {
+    std::array::from_fn(|j| if i == j { value } else { 0.0 })
+}
+
+#[test]
+fn finds_the_corner_of_a_simplex() {
+    let mut rows: Vec<_> = (0..UNKNOWNS).map(|i| (unit(i, 1.0), 0.0)).collect();
+    rows.push(([-1.0, -2.0, -3.0, -4.0], 12.0));
+    let Optimum::At(value, point, held) = maximise(&[1.0; 4], &half_spaces(&rows), &unwatched) else { panic!() };
+    assert!((value - 12.0).abs() < 1e-12 && (point[0] - 12.0).abs() < 1e-12);
+    // Objective = - sum y row, with the rows of unit length.
+    let multiplier = |row| held.iter().find(|(k, _)| *k == row).map_or(0.0, |held| held.1);
+    assert!((multiplier(4) - 30f64.sqrt()).abs() < 1e-12);
+    assert!((multiplier(3) - 3.0).abs() < 1e-12 && multiplier(0) == 0.0);
+}
+
+#[test]
+fn tells_empty_and_unbounded_sets() {
+    let x_between = |low: f64, high: f64| half_spaces(&[(unit(0, 1.0), -low), (unit(0, -1.0), high)]);
+    assert_eq!(maximise(&unit(3, 1.0), &x_between(2.0, 1.0), &unwatched), Optimum::Infeasible);
+    assert!(matches!(maximise(&unit(3, 1.0), &x_between(1.0, 2.0), &unwatched), Optimum::Unbounded(_)));
+    let least = maximise(&unit(0, -1.0), &x_between(1.0, 2.0), &unwatched);
+    assert!(matches!(least, Optimum::At(v, ..) if (v + 1.0).abs() < 1e-12));
+}
+
+#[test]
+fn a_heavily_tied_vertex_does_not_cycle() {
+    // A cone of 400 half spaces through one point, the objective along its axis.
+    let cone = |i: i32| {
+        let a = f64::from(i) * 0.7;
+        ([a.cos(), a.sin(), (1.7 * a).cos(), -1.0], 1.0)
+    };
+    let rows: Vec<_> = (0..400).map(cone).collect();
+    let Optimum::At(value, ..) = maximise(&unit(3, 1.0), &half_spaces(&rows), &unwatched) else { panic!() };
+    assert!((value - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn what_is_no_number_is_no_answer() {
+    let rows = half_spaces(&[(unit(0, f64::NAN), 1.0)]);
+    assert_eq!(maximise(&unit(3, 1.0), &rows, &unwatched), Optimum::Lost);
+}
+
+/// The largest sum of unknowns within a ball's many tangent planes is at its top, whatever their number: the ball's radius
+/// times the root of the number of unknowns, as one of the planes touches there.
+#[test]
+fn many_unknowns_are_solved_as_four() {
+    for n in [1, 2, 7, 20, 40] {
+        let mut half_spaces = HalfSpaces::new(n);
+        let mut seed = 7u64;
+        let mut random = || {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (seed >> 11) as f64 / (1u64 << 53) as f64 - 0.5
+        };
+        for _ in 0..30 * n {
+            let row: Vec<f64> = (0..n).map(|_| random()).collect();
+            half_spaces.push(&row, norm(&row));
+        }
+        half_spaces.push(&vec![-1.0; n], (n as f64).sqrt());
+        let Optimum::At(value, ..) = maximise(&vec![1.0; n], &half_spaces, &unwatched) else { panic!("{n}") };
+        assert!((value / (n as f64).sqrt() - 1.0).abs() < 1e-12, "{n}: {value}");
+    }
+}

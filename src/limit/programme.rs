@@ -1,0 +1,187 @@
+//! Linear programmes over the forces of all joints in equilibrium with the loads, and the solver that suits them.
+
+use super::linear_program::{self, Beat, HalfSpaces, Optimum, norm};
+use super::static_theorem::{Equilibrium, Limit, StaticTheorem};
+
+/// Rows shorter than this, in units of the loads, are none: the unknowns do not reach the limit.
+const NO_ROW: f64 = 1e-12;
+
+/// What is to be as large as possible.
+#[derive(Debug, Clone)]
+pub(super) struct Objective {
+    /// Weight of the load factor.
+    pub load_factor: f64,
+    /// Weights of intrados force, extrados force and shear of joints.
+    pub forces: Vec<(usize, [f64; 3])>,
+}
+
+impl Objective {
+    /// The load factor in the direction of `sign`.
+    pub(super) fn load_factor(sign: f64) -> Self {
+        Objective { load_factor: sign, forces: Vec::new() }
+    }
+
+    pub(super) fn value(&self, at: &Equilibrium) -> f64 {
+        let forces = self.forces.iter().map(|(joint, weights)| at.forces[*joint].weighted(weights));
+        self.load_factor * at.load_factor + forces.sum::<f64>()
+    }
+}
+
+/// What comes of a programme.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Outcome {
+    /// The best equilibrium, and the multipliers y >= 0 of the programme's own limits (in proportion to each other).
+    At(Equilibrium, Vec<f64>),
+    /// Better than any bound; a very good equilibrium.
+    Unbounded(Equilibrium),
+    /// Nothing is in equilibrium.
+    Infeasible,
+    /// Rounding kept the method from an answer, or who asked for it no longer wants one.
+    Lost,
+}
+
+/// All equilibria that violate neither the laws of the joints nor some more limits.
+#[derive(Debug, Clone)]
+pub(super) struct Programme<'t> {
+    pub theorem: &'t StaticTheorem,
+    /// Whether the laws of the joints hold, and the fixed loads act.
+    pub complete: bool,
+    /// Limits besides those.
+    pub limits: Vec<Limit>,
+    /// Bounds of the load factor.
+    pub bounds: [f64; 2],
+    /// By how much every limit may be violated, in units of the loads.
+    pub slack: f64,
+}
+
+impl<'t> Programme<'t> {
+    /// All admissible equilibria.
+    pub(super) fn new(theorem: &'t StaticTheorem) -> Self {
+        let bounds = [f64::NEG_INFINITY, f64::INFINITY];
+        Programme { theorem, complete: true, limits: Vec::new(), bounds, slack: 0.0 }
+    }
+
+    /// The equilibria under the scaled loads alone, whatever the joints carry.
+    pub(super) fn unlimited(theorem: &'t StaticTheorem) -> Self {
+        Programme { complete: false, ..Programme::new(theorem) }
+    }
+
+    pub(super) fn maximise(&self, objective: &Objective, beat: Beat) -> Outcome {
+        if self.theorem.has_few_unknowns() {
+            self.maximise_densely(objective, beat)
+        } else {
+            self.maximise_sparsely(objective, beat)
+        }
+    }
+
+    /// The exact method in loop space.
+    pub(super) fn maximise_densely(&self, objective: &Objective, beat: Beat) -> Outcome {
+        let theorem = self.theorem;
+        let (mut rows, first) = match (&theorem.rows, self.complete) {
+            (Some(rows), true) if self.is_plain() => return self.solve(objective, rows, rows.half_spaces.len(), beat),
+            (_, false) => (Rows::new(theorem.unknowns()), 0),
+            (Some(rows), true) => (rows.clone(), rows.half_spaces.len()),
+            (None, true) => {
+                let rows = Rows::of_laws(theorem);
+                let first = rows.half_spaces.len();
+                (rows, first)
+            }
+        };
+        self.limits.iter().for_each(|limit| rows.push(theorem, limit, self.complete));
+        rows.bound(self.bounds.map(|bound| bound / theorem.factor));
+        if self.slack != 0.0 {
+            rows.half_spaces.relax(self.slack);
+        }
+        self.solve(objective, &rows, first, beat)
+    }
+
+    /// Whether nothing is asked besides the laws of the joints.
+    fn is_plain(&self) -> bool {
+        self.limits.is_empty() && self.bounds.iter().all(|bound| bound.is_infinite()) && self.slack == 0.0
+    }
+
+    /// Rows from `first` on are those of the programme's own limits.
+    fn solve(&self, objective: &Objective, rows: &Rows, first: usize, beat: Beat) -> Outcome {
+        let (theorem, n) = (self.theorem, self.theorem.unknowns());
+        if rows.contradicted(self.slack) {
+            return Outcome::Infeasible;
+        }
+        let mut row = vec![0.0; n + 1];
+        objective.forces.iter().for_each(|&(joint, weights)| theorem.add_row(joint, weights, &mut row));
+        row.iter_mut().for_each(|x| *x /= theorem.force);
+        row[n - 1] += objective.load_factor;
+        match linear_program::maximise(&row[..n], &rows.half_spaces, beat) {
+            Optimum::At(_, point, held) => {
+                let mut multipliers = vec![0.0; self.limits.len()];
+                for (row, multiplier) in held {
+                    if let Some((limit, scale)) = rows.limits.get(row.wrapping_sub(first)) {
+                        multipliers[*limit] = multiplier * scale;
+                    }
+                }
+                Outcome::At(theorem.equilibrium(&point), multipliers)
+            }
+            Optimum::Unbounded(point) => Outcome::Unbounded(theorem.equilibrium(&point)),
+            Optimum::Infeasible => Outcome::Infeasible,
+            Optimum::Lost => Outcome::Lost,
+        }
+    }
+}
+
+/// Limits over the unknowns of the static theorem.
+#[derive(Debug, Clone)]
+pub(super) struct Rows {
+    half_spaces: HalfSpaces,
+    /// Of every row of a programme's own limits: which of them it is, and by what it was scaled to unit length.
+    limits: Vec<(usize, f64)>,
+    /// How many such limits there were.
+    given: usize,
+    /// Smallest constant of a limit that the unknowns do not reach, in units of the loads.
+    unreached: f64,
+}
+
+impl Rows {
+    fn new(unknowns: usize) -> Self {
+        Rows { half_spaces: HalfSpaces::new(unknowns), limits: Vec::new(), given: 0, unreached: f64::INFINITY }
+    }
+
+    /// Those that the laws of the joints set.
+    pub(super) fn of_laws(theorem: &StaticTheorem) -> Self {
+        let mut rows = Rows::new(theorem.unknowns());
+        theorem.limits.iter().for_each(|limit| rows.push(theorem, limit, true));
+        (rows.limits, rows.given) = (Vec::new(), 0);
+        rows
+    }
+
+    /// Adds a limit, under the fixed loads too if it is `complete`.
+    fn push(&mut self, theorem: &StaticTheorem, limit: &Limit, complete: bool) {
+        let n = theorem.unknowns();
+        let mut row = vec![0.0; n + 1];
+        theorem.add_row(limit.joint, limit.weights, &mut row);
+        let constant = if complete { row[n] } else { 0.0 } + limit.constant;
+        let norm = norm(&row[..n]);
+        if norm > NO_ROW {
+            self.half_spaces.push(&row[..n], constant);
+            self.limits.push((self.given, 1.0 / norm));
+        } else {
+            self.unreached = self.unreached.min(constant);
+        }
+        self.given += 1;
+    }
+
+    /// Bounds of the last unknown.
+    fn bound(&mut self, [low, high]: [f64; 2]) {
+        let mut row = vec![0.0; self.half_spaces.unknowns()];
+        let last = row.len() - 1;
+        for (sign, bound) in [(1.0, low), (-1.0, high)] {
+            if bound.is_finite() {
+                row[last] = sign;
+                self.half_spaces.push(&row, -sign * bound);
+            }
+        }
+    }
+
+    /// True where a limit that the unknowns do not reach is violated.
+    fn contradicted(&self, slack: f64) -> bool {
+        self.unreached + slack < -NO_ROW
+    }
+}

@@ -1,0 +1,243 @@
+//! A programme over the forces of all joints in equilibrium form, for the sparse solver.
+
+use super::interior_point::{Found, Row, Sparse, Square, minimise};
+use super::linear_program::Beat;
+use super::programme::{Objective, Outcome, Programme};
+use super::static_theorem::{Equilibrium, Limit, Resultant, StaticTheorem};
+use crate::geometry::{Vec2, cross};
+
+/// Error of an optimum, relative to its value, that is taken for none.
+const SOLVED: f64 = 1e-9;
+/// Limits of one joint whose normals and constants differ by less than this are opposite.
+const OPPOSITE: f64 = 1e-13;
+/// Joint forces are measured in so many times the largest load on a body.
+const LOADED: f64 = 10.0;
+/// Rows shorter than this are none.
+const NO_ROW: f64 = 1e-12;
+
+/// A joint whose forces are `origin` and any combination of `basis`, in units of the loads.
+struct Forces {
+    origin: [f64; 3],
+    basis: Vec<[f64; 3]>,
+}
+
+impl Programme<'_> {
+    /// The interior point method over the forces of every joint and the equilibrium of every body.
+    pub(super) fn maximise_sparsely(&self, objective: &Objective, beat: Beat) -> Outcome {
+        let theorem = self.theorem;
+        let unit = unit(theorem);
+        // Without loads that grow the load factor is any.
+        let grows = theorem.loads[1].iter().flatten().any(|load| *load != 0.0);
+        let pinned = if !grows { Some(0.0) } else { Some(self.bounds[0]).filter(|at| *at == self.bounds[1]) };
+        let mut limits: Vec<Vec<(Limit, Option<usize>)>> = vec![Vec::new(); theorem.joints.len()];
+        let own = self.limits.iter().enumerate().map(|(k, limit)| (*limit, Some(k)));
+        let laws = theorem.limits.iter().map(|limit| (*limit, None)).filter(|_| self.complete);
+        for (limit, place) in laws.chain(own) {
+            let limit =
+                Limit { weights: limit.weights.map(|w| w * unit), constant: limit.constant + self.slack, ..limit };
+            limits[limit.joint].push((limit, place));
+        }
+        let forces: Vec<Forces> = limits.iter().map(|limits| held(limits)).collect();
+        let Some((rows, places)) = self.rows(&limits, &forces, pinned) else { return Outcome::Infeasible };
+        let programme = self.assemble(objective, &forces, rows, pinned, unit);
+        match minimise(&programme, beat) {
+            Found::Optimum { x, z, error } if error < SOLVED => {
+                let mut multipliers = vec![0.0; self.limits.len()];
+                for ((place, scale), z) in places.iter().zip(&z) {
+                    place.iter().for_each(|&limit| multipliers[limit] = z * scale);
+                }
+                let equilibrium = self.equilibrium(&x, &forces, pinned, unit);
+                let bounded = grows || objective.load_factor == 0.0;
+                if bounded { Outcome::At(equilibrium, multipliers) } else { Outcome::Unbounded(equilibrium) }
+            }
+            Found::Unbounded => {
+                Outcome::Unbounded(self.equilibrium(&vec![0.0; programme.cost.len()], &forces, pinned, unit))
+            }
+            Found::Infeasible => Outcome::Infeasible,
+            Found::Optimum { .. } | Found::Lost => Outcome::Lost,
+        }
+    }
+
+    /// Rows of unit length over every joint's basis and for the bounds, with the limit of this programme that each comes from and
+    /// its scale. None where a limit that no force reaches is violated.
+    #[allow(clippy::type_complexity)]
+    fn rows(
+        &self,
+        limits: &[Vec<(Limit, Option<usize>)>],
+        forces: &[Forces],
+        pinned: Option<f64>,
+    ) -> Option<(Vec<Row>, Vec<(Option<usize>, f64)>)> {
+        let (mut rows, mut places) = (Vec::new(), Vec::new());
+        for (block, (limits, forces)) in limits.iter().zip(forces).enumerate() {
+            for (limit, place) in limits {
+                let a: [f64; 3] =
+                    std::array::from_fn(|i| forces.basis.get(i).map_or(0.0, |basis| dot(limit.weights, *basis)));
+                let constant = limit.constant + dot(limit.weights, forces.origin);
+                let (norm, size) = (dot(a, a).sqrt(), dot(limit.weights, limit.weights).sqrt());
+                if norm > NO_ROW * size {
+                    rows.push(Row { block, a: a.map(|x| x / norm), constant: constant / norm });
+                    places.push((*place, 1.0 / norm));
+                } else if constant < -NO_ROW * size.max(1.0) {
+                    return None;
+                }
+            }
+        }
+        for (sign, bound) in [(1.0, self.bounds[0]), (-1.0, self.bounds[1])] {
+            if bound.is_finite() && pinned.is_none() {
+                let constant = -sign * bound / self.theorem.factor;
+                rows.push(Row { block: forces.len(), a: [sign, 0.0, 0.0], constant });
+                places.push((None, 1.0));
+            }
+        }
+        Some((rows, places))
+    }
+
+    fn assemble(
+        &self,
+        objective: &Objective,
+        forces: &[Forces],
+        rows: Vec<Row>,
+        pinned: Option<f64>,
+        unit: f64,
+    ) -> Sparse {
+        let theorem = self.theorem;
+        let bodies = theorem.loads[0].len();
+        let frames = frames(theorem, bodies);
+        let mut right = vec![0.0; 3 * bodies];
+        let mut growth = right.clone();
+        for (body, &(reference, length)) in frames.iter().enumerate() {
+            let about = |[x, y, moment]: [f64; 3]| {
+                let arm = reference - theorem.frame.origin;
+                [x, y, (moment - cross(arm, Vec2::new(x, y))) / length].map(|component| component / unit)
+            };
+            let fixed = if self.complete { about(theorem.loads[0][body]) } else { [0.0; 3] };
+            let scaled = about(theorem.loads[1][body]).map(|component| component * theorem.factor);
+            for i in 0..3 {
+                right[3 * body + i] -= fixed[i];
+                match pinned {
+                    Some(at) => right[3 * body + i] -= scaled[i] * at / theorem.factor,
+                    None => growth[3 * body + i] = scaled[i],
+                }
+            }
+        }
+        let mut blocks = Vec::new();
+        for (joint, forces) in theorem.joints.iter().zip(forces) {
+            let (normal, tangent) = (joint.normal(), joint.tangent());
+            let mut block = Vec::new();
+            for (side, sign) in joint.between.iter().zip([-1.0, 1.0]) {
+                let Some(body) = side.body() else { continue };
+                let (reference, length) = frames[body];
+                let column = |at: Vec2, force: Vec2| [force.x, force.y, cross(at - reference, force) / length];
+                let columns =
+                    [column(joint.intrados, normal), column(joint.extrados, normal), column(joint.intrados, tangent)];
+                let effect = |f: [f64; 3]| -> [f64; 3] {
+                    std::array::from_fn(|i| sign * (0..3).map(|c| columns[c][i] * f[c]).sum::<f64>())
+                };
+                effect(forces.origin).iter().enumerate().for_each(|(i, value)| right[3 * body + i] -= value);
+                let mut square: Square = [[0.0; 3]; 3];
+                for (j, basis) in forces.basis.iter().enumerate() {
+                    effect(*basis).iter().enumerate().for_each(|(i, value)| square[i][j] = *value);
+                }
+                block.push((body, square));
+            }
+            blocks.push(block);
+        }
+        let mut cost = vec![0.0; 3 * blocks.len() + 1];
+        for (joint, weights) in &objective.forces {
+            forces[*joint].basis.iter().enumerate().for_each(|(i, basis)| cost[3 * joint + i] -= dot(*weights, *basis));
+        }
+        if pinned.is_none() {
+            cost[3 * blocks.len()] = -objective.load_factor;
+        }
+        Sparse { blocks, bodies, rows, growth, right, cost }
+    }
+
+    fn equilibrium(&self, x: &[f64], forces: &[Forces], pinned: Option<f64>, unit: f64) -> Equilibrium {
+        let resultant = |(of, x): (&Forces, &[f64])| {
+            let [intrados, extrados, shear] = std::array::from_fn(|c| {
+                unit * (of.origin[c] + of.basis.iter().zip(x).map(|(basis, x)| basis[c] * x).sum::<f64>())
+            });
+            Resultant { intrados, extrados, shear }
+        };
+        let forces: Vec<Resultant> = forces.iter().zip(x.chunks(3)).map(resultant).collect();
+        let largest = forces.iter().map(Resultant::size).fold(0.0, f64::max);
+        let load_factor = pinned.unwrap_or(x[x.len() - 1] * self.theorem.factor);
+        Equilibrium { load_factor, size: 1.0 + largest / self.theorem.force, forces }
+    }
+}
+
+/// Unit of joint forces, N/m: of the order of what one joint carries.
+fn unit(theorem: &StaticTheorem) -> f64 {
+    let shares = theorem
+        .loads
+        .iter()
+        .zip([1.0, theorem.factor])
+        .flat_map(|(loads, by)| loads.iter().map(move |[x, y, _]| x.hypot(*y) * by));
+    let largest = shares.fold(0.0, f64::max);
+    if largest > 0.0 { theorem.force.min(LOADED * largest) } else { theorem.force }
+}
+
+/// Reference point and length of every body: the middle of its joints and their reach.
+fn frames(theorem: &StaticTheorem, bodies: usize) -> Vec<(Vec2, f64)> {
+    let mut ends: Vec<Vec<Vec2>> = vec![Vec::new(); bodies];
+    for joint in &theorem.joints {
+        let both = joint.between.iter().filter_map(|side| side.body());
+        both.for_each(|body| ends[body].extend([joint.intrados, joint.extrados]));
+    }
+    let frame = |ends: &Vec<Vec2>| {
+        let middle = ends.iter().sum::<Vec2>() / ends.len() as f64;
+        (middle, ends.iter().map(|end| (end - middle).norm()).fold(0.0, f64::max))
+    };
+    ends.iter().map(frame).collect()
+}
+
+/// Forces that pairs of opposite limits leave: each pair is an equation.
+fn held(limits: &[(Limit, Option<usize>)]) -> Forces {
+    let mut equations: Vec<([f64; 3], f64)> = Vec::new();
+    for (i, (a, _)) in limits.iter().enumerate() {
+        let size = dot(a.weights, a.weights).sqrt();
+        let opposite = |(b, _): &&(Limit, Option<usize>)| {
+            let scale = size / dot(b.weights, b.weights).sqrt();
+            let sum: f64 = (0..3).map(|c| (a.weights[c] + scale * b.weights[c]).abs()).sum();
+            sum < OPPOSITE * size && (a.constant + scale * b.constant).abs() < OPPOSITE * size
+        };
+        if limits[i + 1..].iter().any(|other| opposite(&other)) {
+            equations.push((a.weights.map(|w| w / size), a.constant / size));
+        }
+    }
+    // Orthogonal directions of the equations, then what is left of the axes.
+    let (mut origin, mut held, mut basis) = ([0.0; 3], Vec::<[f64; 3]>::new(), Vec::new());
+    for (weights, constant) in equations {
+        let rest = without(weights, &held);
+        let norm = dot(rest, rest).sqrt();
+        if norm > 1e-9 {
+            let missing = (constant + dot(weights, origin)) / norm;
+            let direction = rest.map(|x| x / norm);
+            origin = std::array::from_fn(|c| origin[c] - missing * direction[c]);
+            held.push(direction);
+        }
+    }
+    let mut taken = held.clone();
+    while taken.len() < 3 {
+        let rests = [0, 1, 2].map(|axis| without(std::array::from_fn(|c| if c == axis { 1.0 } else { 0.0 }), &taken));
+        let longest = rests.into_iter().max_by(|a, b| dot(*a, *a).total_cmp(&dot(*b, *b))).unwrap_or([0.0; 3]);
+        let norm = dot(longest, longest).sqrt();
+        basis.push(longest.map(|x| x / norm));
+        taken.push(longest.map(|x| x / norm));
+    }
+    Forces { origin, basis }
+}
+
+fn without(v: [f64; 3], directions: &[[f64; 3]]) -> [f64; 3] {
+    directions.iter().fold(v, |v, direction| {
+        let along = dot(v, *direction);
+        std::array::from_fn(|c| v[c] - along * direction[c])
+    })
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+#[cfg(test)]
+mod tests;
