@@ -16,6 +16,9 @@ use crate::common::rigid_blocks::{
 /// Interior point and simplex agree to this share (and absolutely below 1).
 const SAME: f64 = 1e-7;
 
+/// Random scenes with more blocks are left to the interior point: the simplex method is dense.
+const MOST_BLOCKS: usize = 100;
+
 fn highest(problem: &Problem) -> f64 {
     interior_point::solve(problem, Aim::Highest).factor(Aim::Highest).unwrap()
 }
@@ -107,18 +110,12 @@ fn published_walls_are_reproduced() {
         let problem = published.scene().problem();
         assert_eq!((problem.blocks.len(), problem.contacts.len()), (published.blocks, published.joints));
         let found = highest(&problem);
-        println!("wall {}: {found:.7}, {:.6} given", published.number, published.associated);
+        let again = simplex::solve(&problem, Aim::Highest).factor(Aim::Highest).unwrap();
+        println!("wall {}: {found:.10} {again:.10}, {:.6} given", published.number, published.associated);
+        assert!((found / again - 1.0).abs() < SAME, "wall {}: {found} {again}", published.number);
         assert!((found / published.associated - 1.0).abs() < 2e-6, "wall {}: {found}", published.number);
         assert!(published.least_found < published.published * 1.001 && published.published < found);
     }
-}
-
-/// The wall of 33 blocks by simplex; larger ones take long in a debug build.
-#[test]
-fn a_published_wall_by_simplex() {
-    let problem = PUBLISHED[0].scene().problem();
-    let found = simplex::solve(&problem, Aim::Highest).factor(Aim::Highest).unwrap();
-    assert!((found / highest(&problem) - 1.0).abs() < SAME, "{found}");
 }
 
 /// Both solvers on scenes of every kind; the forces of both are in equilibrium and keep to the law.
@@ -129,7 +126,7 @@ fn interior_point_and_simplex_agree() {
         let (mut finite, mut infinite, mut none, mut worst) = (0, 0, 0, 0.0f64);
         for seed in 0..40 {
             let problem = scene(seed).problem();
-            if problem.blocks.len() > 45 {
+            if problem.blocks.len() > MOST_BLOCKS {
                 continue;
             }
             for aim in [Aim::Lowest, Aim::Highest] {
