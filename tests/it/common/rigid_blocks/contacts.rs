@@ -26,19 +26,28 @@ pub fn overlap(first: [Point; 2], second: [Point; 2], tolerance: f64) -> Option<
     (to - from > tolerance).then(|| [at(from), at(to)])
 }
 
-/// All contacts between blocks and, where `ground` names sides as (block, side), with the ground. The friction coefficient is that
-/// of all.
+/// All contacts, with one friction coefficient: first those with the ground, which is before them, in the order of `ground` as
+/// (block, side); then those between blocks, by the lower number, which is before them, by the higher one, and by the place along
+/// the outline of the lower.
 pub fn found(blocks: &[Vec<Point>], ground: &[(usize, usize)], friction: f64) -> Vec<Contact> {
     let coordinates = || blocks.iter().flatten().flatten().copied();
     let size = coordinates().fold(f64::MIN, f64::max) - coordinates().fold(f64::MAX, f64::min);
     let contact = |between, ends| Contact { between, ends, friction, cohesion: 0.0 };
-    let mut contacts: Vec<Contact> =
-        ground.iter().map(|&(block, k)| contact([Some(block), None], side(&blocks[block], k))).collect();
+    let mut contacts: Vec<Contact> = ground
+        .iter()
+        .map(|&(block, k)| {
+            let [from, to] = side(&blocks[block], k);
+            contact([None, Some(block)], [to, from])
+        })
+        .collect();
     for (i, one) in blocks.iter().enumerate() {
         for (j, other) in blocks.iter().enumerate().skip(i + 1) {
             for k in 0..one.len() {
-                let parts = (0..other.len()).filter_map(|l| overlap(side(one, k), side(other, l), TOUCH * size));
-                contacts.extend(parts.map(|ends| contact([Some(i), Some(j)], ends)));
+                let at = |l| overlap(side(one, k), side(other, l), TOUCH * size);
+                let mut parts: Vec<_> = (0..other.len()).filter_map(at).collect();
+                let place = |ends: &[Point; 2]| (ends[0][0] - one[k][0]).hypot(ends[0][1] - one[k][1]);
+                parts.sort_by(|a, b| place(a).total_cmp(&place(b)));
+                contacts.extend(parts.into_iter().map(|ends| contact([Some(i), Some(j)], ends)));
             }
         }
     }

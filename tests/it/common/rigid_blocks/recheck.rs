@@ -22,6 +22,17 @@ impl Reported {
     }
 }
 
+/// What an answer on the wire reports of the joints where it ends, in their order: its `thrust_line`, which has these very signs.
+#[cfg(feature = "server")]
+pub fn of_answer(answer: &serde_json::Value) -> Vec<Reported> {
+    let column = |name: &str| {
+        let values = answer["thrust_line"][name].as_array().unwrap_or_else(|| panic!("no thrust_line/{name}"));
+        values.iter().map(|value| value.as_f64().expect("a number")).collect::<Vec<_>>()
+    };
+    let rows = column("normal_n_per_m").into_iter().zip(column("shear_n_per_m")).zip(column("eccentricity_m"));
+    rows.map(|((normal, shear), eccentricity)| Reported { normal, shear, eccentricity }).collect()
+}
+
 /// The worst of all, as a share of the sum of all loads; moments are over the size of their block.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Worst {

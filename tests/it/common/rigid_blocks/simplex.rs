@@ -10,6 +10,10 @@ use super::{Aim, Answer, Forces, Problem};
 
 /// Numbers smaller than this are rounding: the programme is scaled to order one.
 const ZERO: f64 = 1e-10;
+/// Amounts that differ by less are equal.
+const ROUNDING: f64 = 1e-12;
+/// Coefficients below this are no pivots.
+const SMALL_PIVOT: f64 = 1e-9;
 /// The certificate holds to this.
 const CERTAIN: f64 = 1e-9;
 /// Steps without gain after which Bland's rule is taken.
@@ -189,11 +193,15 @@ impl Simplex {
         if last && let Some(row) = (0..column.len()).find(|&i| self.basis[i] >= n && column[i].abs() > 1e-7) {
             return Some(row);
         }
-        let ratio = |i: usize| self.x[i].max(0.0) / column[i];
-        let rows = || (0..column.len()).filter(|&i| column[i] > ZERO);
-        let least = rows().map(ratio).fold(f64::INFINITY, f64::min);
-        let tied = rows().filter(|&i| ratio(i) <= least + 1e-13);
-        if bland { tied.min_by_key(|&i| self.basis[i]) } else { tied.max_by(|&a, &b| column[a].total_cmp(&column[b])) }
+        // Rows that are at their end to within rounding all count as first, so that there is a choice of pivots (Harris 1973).
+        let amount = |i: usize| self.x[i].max(0.0);
+        let rows = || (0..column.len()).filter(|&i| column[i] > SMALL_PIVOT);
+        let least = rows().map(|i| (amount(i) + ROUNDING) / column[i]).fold(f64::INFINITY, f64::min);
+        let tied = || rows().filter(|&i| amount(i) / column[i] <= least);
+        let largest = tied().map(|i| column[i]).fold(0.0, f64::max);
+        // Bland's rule, among pivots that can be divided by.
+        let fair = tied().filter(|&i| column[i] >= if bland { 1e-3 * largest } else { largest });
+        fair.min_by_key(|&i| self.basis[i])
     }
 
     fn pivot(&mut self, entering: usize, leaving: usize, column: &[f64]) {
