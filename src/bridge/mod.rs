@@ -10,7 +10,7 @@ mod check;
 mod fault;
 mod set_out;
 
-pub use fault::{BridgeFault, MAX_BODIES};
+pub use fault::{BridgeFault, MAX_BODIES, MAX_RINGS};
 
 use crate::arch::profile::Profile;
 use crate::geometry::{Region, Vec2};
