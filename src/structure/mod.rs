@@ -40,6 +40,16 @@ impl Default for Stone {
     }
 }
 
+impl Stone {
+    /// The dry joint with another stone: the lower friction and the lower cohesion of both.
+    pub fn dry_joint_with(&self, other: &Stone) -> JointLaw {
+        JointLaw::Dry {
+            friction: self.friction_angle.min(other.friction_angle).tan(),
+            cohesion: self.cohesion.min(other.cohesion),
+        }
+    }
+}
+
 /// What lies on one side of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Side {
@@ -85,13 +95,6 @@ pub enum JointLaw {
     Wall,
     /// Plane of symmetry through a stone, no joint: carries any normal force and bending, tension too, and no shear.
     Mirror,
-}
-
-impl JointLaw {
-    /// The dry joint between two stones: the lower friction and the lower cohesion of both.
-    pub fn dry(a: &Stone, b: &Stone) -> JointLaw {
-        JointLaw::Dry { friction: a.friction_angle.min(b.friction_angle).tan(), cohesion: a.cohesion.min(b.cohesion) }
-    }
 }
 
 /// The contact between two bodies, or a body and the ground: a straight segment.
