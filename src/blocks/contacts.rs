@@ -94,7 +94,7 @@ pub(super) fn found(
         for meeting in meetings(&outlines[a].runs, &outlines[b], tolerance) {
             if meeting.touches(tolerance) {
                 let between = [Side::Body(a), Side::Body(b)];
-                joints.push(joint(between, meeting.ends, JointLaw::dry(stones[0], stones[1])));
+                joints.push(joint(between, meeting.ends, stones[0].dry_joint_with(stones[1])));
             } else if let Some((at, gap)) = meeting.near_miss(tolerance) {
                 let between = [a, b].map(|body| blocks.polygons[body].name.clone());
                 faults.push(BlocksFault::NearMiss { between, at, gap, tolerance });

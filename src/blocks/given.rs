@@ -70,7 +70,7 @@ pub(super) fn grounds(
 /// The joint between a support and a face of a body, given in the sense of the body's outline.
 fn ground(blocks: &Blocks, support: usize, body: usize, run: Run) -> Joint {
     let stone = &blocks.stones[blocks.polygons[body].stone];
-    joint([Side::Support(support), Side::Body(body)], [run.to, run.from], JointLaw::dry(stone, stone))
+    joint([Side::Support(support), Side::Body(body)], [run.to, run.from], stone.dry_joint_with(stone))
 }
 
 fn whole_side(

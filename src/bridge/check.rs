@@ -1,6 +1,6 @@
 //! Numbers out of range.
 
-use super::fault::{BridgeFault, MAX_BODIES};
+use super::fault::{BridgeFault, MAX_BODIES, MAX_RINGS};
 use super::{Bridge, BridgeEnd};
 use std::f64::consts::FRAC_PI_2;
 
@@ -77,6 +77,11 @@ impl Bridge {
         for (j, span) in self.spans.iter().enumerate() {
             if span.rings.is_empty() {
                 checks.faults.push(BridgeFault::NoRings { place: format!("spans[{j}].rings") });
+            }
+            if span.rings.len() > MAX_RINGS {
+                checks
+                    .faults
+                    .push(BridgeFault::TooManyRings { place: format!("spans[{j}].rings"), rings: span.rings.len() });
             }
             for (m, ring) in span.rings.iter().enumerate() {
                 let place = |field: &str| format!("spans[{j}].rings[{m}].{field}");

@@ -5,6 +5,9 @@ use crate::arch::ArchFault;
 /// Most bodies of a bridge.
 pub const MAX_BODIES: usize = 2001;
 
+/// Most rings of a span.
+pub const MAX_RINGS: usize = 20;
+
 /// Why a bridge cannot be built. Places name the fields, counted from 0.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum BridgeFault {
@@ -16,6 +19,14 @@ pub enum BridgeFault {
     NoRings {
         /// The field.
         place: String,
+    },
+    /// More rings than are allowed.
+    #[error("{place}: {rings} rings are too many: at most {MAX_RINGS}")]
+    TooManyRings {
+        /// The field.
+        place: String,
+        /// How many there are.
+        rings: usize,
     },
     /// Not one pier between every two spans.
     #[error("piers: {piers} for {spans} spans: give one pier between every two spans, {} in all", .spans - 1)]

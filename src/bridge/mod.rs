@@ -10,7 +10,7 @@ mod check;
 mod fault;
 mod set_out;
 
-pub use fault::{BridgeFault, MAX_BODIES};
+pub use fault::{BridgeFault, MAX_BODIES, MAX_RINGS};
 
 use crate::arch::profile::Profile;
 use crate::geometry::{Region, Vec2};
@@ -196,7 +196,7 @@ impl Works<'_> {
 
     /// A dry joint with the law of the weaker of its stones; the first end, to the second's right, as seen from what lies before.
     fn join(&mut self, between: [Side; 2], ends: [Vec2; 2], stones: [usize; 2]) {
-        let law = JointLaw::dry(&self.bridge.stones[stones[0]], &self.bridge.stones[stones[1]]);
+        let law = self.bridge.stones[stones[0]].dry_joint_with(&self.bridge.stones[stones[1]]);
         self.structure.joints.push(Joint { between, intrados: ends[0], extrados: ends[1], law });
     }
 

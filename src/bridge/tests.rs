@@ -233,6 +233,8 @@ fn every_number_out_of_range_is_named() {
     assert!(counted[0].to_string().contains("0 for 2 spans") && counted[0].to_string().contains("1 in all"));
     let empty = faults(&bridge(vec![span(segmental(), &[])], Vec::new()));
     assert_eq!(empty, [BridgeFault::NoRings { place: "spans[0].rings".to_owned() }]);
+    let thick = faults(&bridge(vec![span(segmental(), &[ring(0.1, 9); MAX_RINGS + 1])], Vec::new()));
+    assert_eq!(thick, [BridgeFault::TooManyRings { place: "spans[0].rings".to_owned(), rings: MAX_RINGS + 1 }]);
     let many = faults(&bridge(vec![span(segmental(), &[ring(0.4, MAX_BODIES + 1)])], Vec::new()));
     assert_eq!(many, [BridgeFault::TooManyBodies { bodies: MAX_BODIES + 1 }]);
 }

@@ -59,7 +59,7 @@ impl Front {
     /// Multiplications of eliminating, and of solving with the factors.
     pub fn work(&self) -> [usize; 2] {
         let [removed, kept] = self.sizes;
-        [removed * (removed * removed + 2 * removed * kept + kept * kept), removed * (removed + 2 * kept)]
+        [removed * (removed * removed / 3 + removed * kept + kept * kept), removed * (removed + 2 * kept)]
     }
 }
 

@@ -49,6 +49,16 @@ impl Default for Stone {
     }
 }
 
+impl Stone {
+    /// The dry joint with another stone: the lower friction and the lower cohesion of both.
+    pub fn dry_joint_with(&self, other: &Stone) -> JointLaw {
+        JointLaw::Dry {
+            friction: self.friction_angle.min(other.friction_angle).tan(),
+            cohesion: self.cohesion.min(other.cohesion),
+        }
+    }
+}
+
 /// What lies on one side of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Side {
@@ -111,11 +121,6 @@ impl JointLaw {
             JointLaw::Wall => Some([0.0; 2]),
             JointLaw::Bonded | JointLaw::Mirror => None,
         }
-    }
-
-    /// The dry joint between two stones: the lower friction and the lower cohesion of both.
-    pub fn dry(a: &Stone, b: &Stone) -> JointLaw {
-        JointLaw::Dry { friction: a.friction_angle.min(b.friction_angle).tan(), cohesion: a.cohesion.min(b.cohesion) }
     }
 }
 

@@ -9,6 +9,8 @@ use crate::dda::moving::{Bearing, Placed};
 /// the path is given up.
 const CORRECT: f64 = 1e-11;
 const GIVE_UP: f64 = 1e-6;
+/// And above which factors that were updated are made anew.
+const REFINE: f64 = 1e-9;
 /// Work of renewing an entry of the matrix's diagonal and those beside it, in multiplications.
 const RENEWED: usize = 8;
 
@@ -18,22 +20,32 @@ impl Tracer<'_> {
     pub(super) fn keep_equilibrium(&mut self) -> bool {
         let mut worst = self.find_residual();
         if worst > CORRECT && !self.is_mechanism() {
-            let mut corrections = vec![0.0; self.residual.len()];
-            if self.factor.solve(&self.residual, &mut corrections, self.heart).is_err() {
-                return false;
-            }
-            self.updates.apply(self.assembly, &self.states, |_| [0.0; 2], &mut corrections);
-            self.correct_by(&corrections, 1.0);
-            let corrected = self.find_residual();
-            // Next to a mechanism the correction of mere rounding may lead far across borders.
-            if corrected > worst {
-                self.correct_by(&corrections, -1.0);
-                self.find_residual();
-            }
-            worst = worst.min(corrected);
+            let Some(corrected) = self.corrected(worst) else { return false };
+            worst = corrected;
+        }
+        // What updates of the factors leave is too coarse: new ones do better.
+        if worst > REFINE && self.updates.are_some() {
+            self.renew_factors();
+            let Some(corrected) = self.corrected(worst) else { return false };
+            worst = corrected;
         }
         self.worst_residual = self.worst_residual.max(worst / self.loads_grown());
         worst < GIVE_UP
+    }
+
+    /// Corrects the displacements for their residual, unless that makes it worse; the residual that is left, none where stopped.
+    fn corrected(&mut self, worst: f64) -> Option<f64> {
+        let mut corrections = vec![0.0; self.residual.len()];
+        self.factor.solve(&self.residual, &mut corrections, self.heart).ok()?;
+        self.updates.apply(self.assembly, &self.states, |_| [0.0; 2], &mut corrections);
+        self.correct_by(&corrections, 1.0);
+        let corrected = self.find_residual();
+        // Next to a mechanism the correction of mere rounding may lead far across borders.
+        if corrected > worst {
+            self.correct_by(&corrections, -1.0);
+            self.find_residual();
+        }
+        Some(worst.min(corrected))
     }
 
     fn correct_by(&mut self, corrections: &[f64], sign: f64) {

@@ -302,12 +302,8 @@ impl Tracer<'_> {
 
     /// Linearises where the assembly is and goes on the way it went.
     pub(super) fn renew_tangent(&mut self) {
-        let before = self.direction.clone();
         self.linearise();
-        self.solve_tangent();
-        if self.direction.iter().zip(&before).map(|(a, b)| a * b).sum::<f64>() < 0.0 {
-            self.turn_round();
-        }
+        self.renew_factors();
     }
 
     /// Renews the stiffness of bodies and interfaces where they are now.

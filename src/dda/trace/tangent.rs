@@ -48,6 +48,11 @@ pub(super) struct Updates {
 }
 
 impl Updates {
+    /// True where contacts have changed since the last factorisation.
+    pub(super) fn are_some(&self) -> bool {
+        !self.responses.is_empty()
+    }
+
     /// Takes `x`, which solves the factored system, to the solution of the changed one, in which gaps also drift by
     /// themselves. Returns the pivot ratio of the small system.
     pub(super) fn apply(
@@ -98,6 +103,15 @@ impl Tracer<'_> {
         }
         self.factorisations += 1;
         self.scale_tangent();
+    }
+
+    /// Factors the matrix as it is now and goes on the way it went.
+    pub(super) fn renew_factors(&mut self) {
+        let before = self.direction.clone();
+        self.solve_tangent();
+        if self.direction.iter().zip(&before).map(|(a, b)| a * b).sum::<f64>() < 0.0 {
+            self.turn_round();
+        }
     }
 
     /// Makes the direction's largest entry 1 m.
