@@ -19,7 +19,7 @@ impl Tracer<'_> {
     /// equilibrium is lost.
     pub(super) fn keep_equilibrium(&mut self) -> bool {
         let mut worst = self.find_residual();
-        if worst > CORRECT && !self.is_mechanism() {
+        if worst > if self.is_mechanism() { REFINE } else { CORRECT } {
             let Some(corrected) = self.corrected(worst) else { return false };
             worst = corrected;
         }
