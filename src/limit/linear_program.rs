@@ -139,11 +139,11 @@ impl<'p> Basis<'p> {
             fresh: true,
             matrix,
         };
-        for i in 0..n {
-            let sign = corner_sign(objective[i]);
+        for (i, coefficient) in objective.iter().enumerate() {
+            let sign = corner_sign(*coefficient);
             basis.inverse[i * n + i] = -sign;
             basis.point[i] = sign * BOX;
-            basis.dual[i] = sign * objective[i];
+            basis.dual[i] = sign * coefficient;
         }
         basis
     }

@@ -78,7 +78,7 @@ impl<'p> Newton<'p> {
                 scaled[row.block].push([*weight, a, b, c]);
             }
         }
-        let roots: Vec<Square> = scaled.iter_mut().map(|rows| inverse_root(rows)).collect();
+        let roots: Vec<Square> = scaled.iter_mut().map(|rows| inverse_root(rows.as_mut_slice())).collect();
         let factors = factor(programme, pattern, &roots)?;
         let mut newton = Newton { programme, weights, roots, factors, growth: Vec::new(), schur: 0.0 };
         newton.growth = newton.solve_bodies(&programme.growth);
@@ -157,7 +157,7 @@ impl<'p> Newton<'p> {
 /// C with C C' = (sum of w a a')^-1 from rows (w, sqrt(w) a), by an orthogonal decomposition of the rows, the heaviest first and
 /// the longest column first, so that a light row keeps its digits beside a heavy one. A direction that no row reaches is held
 /// by a ridge.
-fn inverse_root(rows: &mut Vec<[f64; 4]>) -> Square {
+fn inverse_root(rows: &mut [[f64; 4]]) -> Square {
     rows.sort_by(|a, b| b[0].total_cmp(&a[0]));
     let size = rows.iter().map(|row| row[1..].iter().fold(0.0, |m: f64, x| m.max(x.abs()))).fold(0.0, f64::max);
     let ridge = if size > 0.0 { size * RIDGE.sqrt() } else { UNREACHED };
