@@ -9,7 +9,6 @@ use super::linear_program::Beat;
 use super::programme::{Objective, Outcome, Programme};
 use super::static_theorem::{Equilibrium, Limit};
 use super::{StaticTheorem, Unsolved};
-use crate::structure::JointLaw;
 
 /// A parabola may be violated by this, relative to the loads and to the size of the point: ten times what the linear
 /// programme grants its own rows, so that every cut moves the point.
@@ -55,9 +54,19 @@ impl Section {
     }
 }
 
-/// Slack of a limit in an equilibrium relative to the loads and to its forces; negative where violated.
-fn slack(limit: &Limit, equilibrium: &Equilibrium) -> f64 {
-    limit.slack(&equilibrium.forces) / equilibrium.size
+/// Slack of a limit in an equilibrium relative to the loads and to what its parts come to, over the unknowns where these were
+/// solved for; negative where violated.
+fn slack(limit: &Limit, equilibrium: &Equilibrium, theorem: &StaticTheorem) -> f64 {
+    let forces = &equilibrium.forces[limit.joint];
+    let size = if equilibrium.unknowns.is_empty() {
+        let parts = [forces.intrados, forces.extrados, forces.shear];
+        parts.iter().zip(limit.weights).map(|(force, weight)| (force * weight).abs()).sum::<f64>()
+    } else {
+        let mut row = vec![0.0; theorem.unknowns() + 1];
+        theorem.add_row(limit.joint, limit.weights, &mut row);
+        row.iter().zip(&equilibrium.unknowns).map(|(a, x)| (a * x).abs()).sum::<f64>()
+    };
+    limit.slack(&equilibrium.forces) / (1.0 + size)
 }
 
 impl StaticTheorem {
@@ -90,7 +99,7 @@ impl StaticTheorem {
     /// Joints of infinite strength are none.
     fn sections(&self, strengths: &[f64]) -> Vec<Section> {
         let dry = |(joint, strength): (usize, &f64)| {
-            let bounded = matches!(self.joints[joint].law, JointLaw::Dry { .. }) && strength.is_finite();
+            let bounded = self.joints[joint].law.coulomb().is_some() && strength.is_finite();
             bounded.then(|| Section { joint, capacity: strength * self.joints[joint].length() })
         };
         strengths.iter().enumerate().filter_map(dry).collect()
@@ -100,7 +109,10 @@ impl StaticTheorem {
     fn crushed(&self, sections: &[Section], equilibrium: &Equilibrium) -> Vec<usize> {
         let active = |section: &&Section| {
             equilibrium.forces[section.joint].normal() > LOADED * self.force
-                && section.tangents_at(equilibrium, self).iter().any(|tangent| slack(tangent, equilibrium) < ACTIVE)
+                && section
+                    .tangents_at(equilibrium, self)
+                    .iter()
+                    .any(|tangent| slack(tangent, equilibrium, self) < ACTIVE)
         };
         sections.iter().filter(active).map(|section| section.joint).collect()
     }
@@ -122,11 +134,12 @@ fn cut_until_inside(
             Outcome::Lost => return nearly.ok_or(Unsolved),
         };
         let tangents = || sections.iter().flat_map(|section| section.tangents_at(equilibrium, programme.theorem));
-        let worst = tangents().map(|tangent| slack(&tangent, equilibrium)).fold(0.0, f64::min);
+        let worst = tangents().map(|tangent| slack(&tangent, equilibrium, programme.theorem)).fold(0.0, f64::min);
         if worst >= -VIOLATED {
             return Ok(outcome);
         }
-        let cuts: Vec<Limit> = tangents().filter(|tangent| slack(tangent, equilibrium) < -VIOLATED).collect();
+        let cuts: Vec<Limit> =
+            tangents().filter(|tangent| slack(tangent, equilibrium, programme.theorem) < -VIOLATED).collect();
         nearly = (worst >= -NEARLY).then_some(outcome);
         programme.limits.extend(cuts);
     }

@@ -1,16 +1,14 @@
-//! Linear programmes with many sparse unknowns: a primal-dual interior point method; the only file of this room that knows faer.
+//! Linear programmes with many sparse unknowns: a primal-dual interior point method.
 //!
 //! Minimise c x over E x = b and s = A x + h >= 0. Unknowns come in blocks of three, one a joint, and a last one, the load
 //! factor; rows of A touch one block, rows of E come in blocks of three, one a body. The method works on the homogeneous
 //! self-dual embedding (Ye, Todd and Mizuno 1994; steps after Mehrotra 1992), which ends in an optimum or in a proof that there is
 //! none, and never needs a point to start from. Eliminating s, z and x leaves S = sum E_j H_j^-1 E_j', as sparse as bodies touch.
 
+mod newton;
+
 use super::linear_program::{Beat, dot};
-use faer::linalg::solvers::Solve;
-use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
-use faer::sparse::{SparseColMat, SymbolicSparseColMat};
-use faer::{Mat, Side};
-use std::collections::BTreeMap;
+use newton::{Newton, Pattern};
 
 /// Iterations after which the method has failed (it needs 10 to 40).
 const MOST_ITERATIONS: usize = 120;
@@ -25,12 +23,6 @@ const PATIENCE: usize = 20;
 /// So much worse than a best point that is as near as this to the optimum: rounding has won.
 const BLOWN_UP: f64 = 1e4;
 const NEAR: f64 = 1e-6;
-/// Root of the curvature of a block without rows.
-const UNREACHED: f64 = 1e-4;
-/// Corrections of a solution of the Newton system.
-const REFINEMENTS: usize = 3;
-/// Added to the Hessian of a block that its rows leave singular, relative to its largest entry.
-const RIDGE: f64 = 1e-10;
 
 /// A 3 x 3 matrix by rows.
 pub type Square = [[f64; 3]; 3];
@@ -81,6 +73,14 @@ struct Point {
     z: Vec<f64>,
     tau: f64,
     kappa: f64,
+}
+
+impl Point {
+    fn start(programme: &Sparse) -> Self {
+        let ones = vec![1.0; programme.rows.len()];
+        let (x, y) = (vec![0.0; programme.unknowns()], vec![0.0; 3 * programme.bodies]);
+        Point { x, y, s: ones.clone(), z: ones, tau: 1.0, kappa: 1.0 }
+    }
 }
 
 impl Sparse {
@@ -135,232 +135,6 @@ impl Sparse {
     }
 }
 
-/// The pattern of S and its elimination order, found once.
-struct Pattern {
-    columns: Vec<usize>,
-    rows: Vec<usize>,
-    /// Of every pair of bodies with a block in the lower triangle: where the block's columns start.
-    places: BTreeMap<(usize, usize), [usize; 3]>,
-    order: SymbolicLlt<usize>,
-}
-
-impl Pattern {
-    fn new(programme: &Sparse) -> Option<Self> {
-        let n = programme.bodies;
-        let mut below: Vec<Vec<usize>> = (0..n).map(|body| vec![body]).collect();
-        for block in &programme.blocks {
-            for (a, _) in block {
-                block.iter().filter(|(b, _)| b > a).for_each(|(b, _)| below[*a].push(*b));
-            }
-        }
-        let (mut columns, mut rows, mut places) = (vec![0], Vec::new(), BTreeMap::new());
-        for (a, neighbours) in below.iter_mut().enumerate() {
-            neighbours.sort_unstable();
-            neighbours.dedup();
-            for column in 0..3 {
-                for &b in neighbours.iter() {
-                    places.entry((b, a)).or_insert([0; 3])[column] = rows.len();
-                    rows.extend(3 * b..3 * b + 3);
-                }
-                columns.push(rows.len());
-            }
-        }
-        let symbolic = SymbolicSparseColMat::new_checked(3 * n, 3 * n, columns.clone(), None, rows.clone());
-        let order = SymbolicLlt::try_new(symbolic.as_ref(), Side::Lower).ok()?;
-        Some(Pattern { columns, rows, places, order })
-    }
-}
-
-/// The Newton system at a point, factored.
-struct Newton<'p> {
-    programme: &'p Sparse,
-    /// z / s of every row.
-    weights: Vec<f64>,
-    /// C of every block, H^-1 = C C'.
-    roots: Vec<Square>,
-    factors: Llt<usize, f64>,
-    /// S^-1 growth, and the curvature of the load factor without the rest.
-    growth: Vec<f64>,
-    schur: f64,
-}
-
-impl<'p> Newton<'p> {
-    fn new(programme: &'p Sparse, pattern: &Pattern, point: &Point) -> Option<Self> {
-        let weights: Vec<f64> = point.z.iter().zip(&point.s).map(|(z, s)| z / s).collect();
-        let n = programme.blocks.len();
-        let mut scaled: Vec<Vec<[f64; 4]>> = vec![Vec::new(); n];
-        let mut last = 0.0;
-        for (row, weight) in programme.rows.iter().zip(&weights) {
-            if row.block == n {
-                last += weight * row.a[0] * row.a[0];
-            } else {
-                let [a, b, c] = row.a.map(|a| a * weight.sqrt());
-                scaled[row.block].push([*weight, a, b, c]);
-            }
-        }
-        let roots: Vec<Square> = scaled.iter_mut().map(|rows| inverse_root(rows)).collect();
-        let factors = factor(programme, pattern, &roots)?;
-        let mut newton = Newton { programme, weights, roots, factors, growth: Vec::new(), schur: 0.0 };
-        newton.growth = newton.solve_bodies(&programme.growth);
-        newton.schur = last + dot(&programme.growth, &newton.growth);
-        if last == 0.0 && programme.growth.iter().all(|g| *g == 0.0) {
-            // Nothing depends on the load factor.
-            newton.schur = 1.0;
-        }
-        (newton.schur > 0.0 && newton.schur.is_finite()).then_some(newton)
-    }
-
-    fn solve_bodies(&self, right: &[f64]) -> Vec<f64> {
-        let x = self.factors.solve(&Mat::from_fn(right.len(), 1, |i, _| right[i]));
-        (0..right.len()).map(|i| x[(i, 0)]).collect()
-    }
-
-    /// H^-1 of the blocks times `right`; the entry of the load factor stays.
-    fn invert_blocks(&self, right: &[f64]) -> Vec<f64> {
-        let mut x = right.to_vec();
-        for (root, x) in self.roots.iter().zip(x.chunks_exact_mut(3)) {
-            let half: [f64; 3] = std::array::from_fn(|j| (0..3).map(|i| root[i][j] * x[i]).sum());
-            (0..3).for_each(|i| x[i] = (0..3).map(|j| root[i][j] * half[j]).sum());
-        }
-        x
-    }
-
-    /// H x + E' y = first, E x = second; once, with what rounding leaves.
-    fn solve_once(&self, first: &[f64], second: &[f64]) -> (Vec<f64>, Vec<f64>) {
-        let n = 3 * self.programme.blocks.len();
-        let mut free = self.invert_blocks(first);
-        free[n] = 0.0;
-        let right: Vec<f64> = self.programme.balance(&free).iter().zip(second).map(|(e, r)| e - r).collect();
-        let base = self.solve_bodies(&right);
-        let load_factor = (first[n] - dot(&self.programme.growth, &base)) / self.schur;
-        let y: Vec<f64> = base.iter().zip(&self.growth).map(|(a, v)| a + load_factor * v).collect();
-        let moved = self.programme.motion(&y);
-        let right: Vec<f64> = first.iter().zip(moved).map(|(r, m)| r - m).collect();
-        let mut x = self.invert_blocks(&right);
-        x[n] = load_factor;
-        (x, y)
-    }
-
-    /// The same, corrected as long as that helps.
-    fn solve(&self, first: &[f64], second: &[f64]) -> (Vec<f64>, Vec<f64>) {
-        let (mut x, mut y) = (vec![0.0; first.len()], vec![0.0; second.len()]);
-        let (mut rest, mut others) = (first.to_vec(), second.to_vec());
-        // Either kind of equation by its own size.
-        let sizes = [largest(first), largest(second)].map(|size| if size > 0.0 { size } else { 1.0 });
-        let size = |rest: &[f64], others: &[f64]| (largest(rest) / sizes[0]).max(largest(others) / sizes[1]);
-        let mut left = f64::INFINITY;
-        for _ in 0..=REFINEMENTS {
-            let (dx, dy) = self.solve_once(&rest, &others);
-            let [next_x, next_y] = [(&x, &dx), (&y, &dy)].map(|(a, d)| sum(a, d, 1.0));
-            let (next_rest, next_others) = self.residuals(first, second, &next_x, &next_y);
-            let next = size(&next_rest, &next_others);
-            if next.is_nan() || next >= left {
-                break;
-            }
-            (x, y, rest, others) = (next_x, next_y, next_rest, next_others);
-            if next > 0.5 * left || next == 0.0 {
-                break;
-            }
-            left = next;
-        }
-        (x, y)
-    }
-
-    fn residuals(&self, first: &[f64], second: &[f64], x: &[f64], y: &[f64]) -> (Vec<f64>, Vec<f64>) {
-        let weighted: Vec<f64> = self.programme.rows_times(x).iter().zip(&self.weights).map(|(a, w)| a * w).collect();
-        let mut rest = sum(first, &self.programme.motion(y), -1.0);
-        self.programme.add_transposed(&weighted, -1.0, &mut rest);
-        (rest, sum(second, &self.programme.balance(x), -1.0))
-    }
-}
-
-/// C with C C' = (sum of w a a')^-1 from rows (w, sqrt(w) a), by an orthogonal decomposition of the rows, the heaviest first and
-/// the longest column first, so that a light row keeps its digits beside a heavy one. A direction that no row reaches is held
-/// by a ridge.
-fn inverse_root(rows: &mut Vec<[f64; 4]>) -> Square {
-    rows.sort_by(|a, b| b[0].total_cmp(&a[0]));
-    let size = rows.iter().map(|row| row[1..].iter().fold(0.0, |m: f64, x| m.max(x.abs()))).fold(0.0, f64::max);
-    let ridge = if size > 0.0 { size * RIDGE.sqrt() } else { UNREACHED };
-    let mut m: Vec<[f64; 3]> = rows.iter().map(|row| [row[1], row[2], row[3]]).collect();
-    let mut order = [0, 1, 2];
-    let mut r: Square = [[0.0; 3]; 3];
-    for k in 0..3 {
-        let length = |m: &[[f64; 3]], c: usize| m.iter().skip(k).map(|row| row[c] * row[c]).sum::<f64>();
-        let longest = (k..3).max_by(|&a, &b| length(&m, a).total_cmp(&length(&m, b))).unwrap_or(k);
-        m.iter_mut().for_each(|row| row.swap(k, longest));
-        r.iter_mut().take(k).for_each(|row| row.swap(k, longest));
-        order.swap(k, longest);
-        let alpha = length(&m, k).sqrt();
-        if k >= m.len() || alpha <= SMALLEST * size || alpha == 0.0 {
-            (k..3).for_each(|i| r[i][i] = ridge);
-            break;
-        }
-        let alpha = if m[k][k] > 0.0 { -alpha } else { alpha };
-        let mut v: Vec<f64> = m[k..].iter().map(|row| row[k]).collect();
-        v[0] -= alpha;
-        let square = dot(&v, &v);
-        for c in k..3 {
-            let by = 2.0 * v.iter().zip(&m[k..]).map(|(v, row)| v * row[c]).sum::<f64>() / square;
-            v.iter().zip(&mut m[k..]).for_each(|(v, row)| row[c] -= by * v);
-            r[k][c] = m[k][c];
-        }
-        r[k][k] = alpha;
-    }
-    // C = P R^-1, column by column.
-    let mut root = [[0.0; 3]; 3];
-    for c in 0..3 {
-        let mut x = [0.0; 3];
-        for i in (0..=c).rev() {
-            let known: f64 = (i + 1..=c).map(|j| r[i][j] * x[j]).sum();
-            x[i] = (f64::from(u8::from(i == c)) - known) / r[i][i];
-        }
-        (0..3).for_each(|i| root[order[i]][c] = x[i]);
-    }
-    root
-}
-
-/// A column shorter than this share of the longest row is none.
-const SMALLEST: f64 = 1e-14;
-
-/// S = sum E C C' E', factored; a share of its diagonal is added where rounding makes it indefinite.
-fn factor(programme: &Sparse, pattern: &Pattern, roots: &[Square]) -> Option<Llt<usize, f64>> {
-    let n = 3 * programme.bodies;
-    let mut values = vec![0.0; pattern.rows.len()];
-    for (block, root) in programme.blocks.iter().zip(roots) {
-        let product = |e: &Square| -> Square {
-            std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| e[i][k] * root[k][j]).sum()))
-        };
-        let halves: Vec<(usize, Square)> = block.iter().map(|(body, e)| (*body, product(e))).collect();
-        for (a, left) in &halves {
-            for (b, right) in halves.iter().filter(|(b, _)| b >= a) {
-                let starts = pattern.places[&(*b, *a)];
-                for (column, start) in starts.into_iter().enumerate() {
-                    for row in 0..3 {
-                        values[start + row] += dot(&right[row], &left[column]);
-                    }
-                }
-            }
-        }
-    }
-    for ridge in [0.0, 1e-14, 1e-12, 1e-10, 1e-8] {
-        let mut shifted = values.clone();
-        // The diagonal is the first entry of a column at and below it.
-        for column in 0..n {
-            let start = pattern.columns[column] + column % 3;
-            shifted[start] *= 1.0 + ridge;
-            if shifted[start] == 0.0 {
-                shifted[start] = 1.0;
-            }
-        }
-        let symbolic = SymbolicSparseColMat::new_checked(n, n, pattern.columns.clone(), None, pattern.rows.clone());
-        let matrix = SparseColMat::new(symbolic, shifted);
-        if let Ok(factors) = Llt::try_new_with_symbolic(pattern.order.clone(), matrix.as_ref(), Side::Lower) {
-            return Some(factors);
-        }
-    }
-    None
-}
-
 /// Residuals of the embedding's linear equations: 0 = ...
 struct Residuals {
     x: Vec<f64>,
@@ -385,15 +159,7 @@ impl Residuals {
 pub fn minimise(programme: &Sparse, beat: Beat) -> Found {
     let Some(pattern) = Pattern::new(programme) else { return Found::Lost };
     let constants = programme.constants();
-    let rows = programme.rows.len();
-    let mut point = Point {
-        x: vec![0.0; programme.unknowns()],
-        y: vec![0.0; 3 * programme.bodies],
-        s: vec![1.0; rows],
-        z: vec![1.0; rows],
-        tau: 1.0,
-        kappa: 1.0,
-    };
+    let mut point = Point::start(programme);
     let (mut best, mut since) = (None::<(f64, Vec<f64>, Vec<f64>)>, 0);
     for _ in 0..MOST_ITERATIONS {
         if beat().is_break() {
@@ -420,7 +186,8 @@ pub fn minimise(programme: &Sparse, beat: Beat) -> Found {
             break;
         }
         let Some(newton) = Newton::new(programme, &pattern, &point) else { break };
-        step(programme, &constants, &newton, &residuals, &mut point);
+        let direction = Directions::new(programme, &constants, &newton, &residuals, &point).corrected();
+        advance(&mut point, &direction);
     }
     best.map_or(Found::Lost, |(error, x, z)| Found::Optimum { x, z, error })
 }
@@ -450,49 +217,89 @@ fn without_optimum(programme: &Sparse, constants: &[f64], point: &Point, residua
     (descent > 0.0 && primal < PROVEN * descent && point.tau < 1e-3 * point.kappa).then_some(Found::Unbounded)
 }
 
-/// One predictor and corrector step.
-fn step(programme: &Sparse, constants: &[f64], newton: &Newton, residuals: &Residuals, point: &mut Point) {
-    let rows = point.s.len();
-    let mu = (dot(&point.s, &point.z) + point.tau * point.kappa) / (rows as f64 + 1.0);
-    let weighted = |v: &[f64]| v.iter().zip(&newton.weights).map(|(v, w)| v * w).collect::<Vec<f64>>();
-    // What one unit of tau adds.
-    let mut first: Vec<f64> = programme.cost.iter().map(|c| -c).collect();
-    programme.add_transposed(&weighted(constants), -1.0, &mut first);
-    let (x2, y2) = newton.solve(&first, &programme.right);
-    let z2: Vec<f64> = weighted(&sum(&programme.rows_times(&x2), constants, 1.0)).iter().map(|z| -z).collect();
-    let pivot = -point.kappa / point.tau + dot(&programme.cost, &x2) + dot(&programme.right, &y2) + dot(constants, &z2);
-    let direction = |share: f64, complementarity: &[f64], last: f64| -> Point {
+/// What all directions from a point have in common.
+struct Directions<'s> {
+    programme: &'s Sparse,
+    constants: &'s [f64],
+    newton: &'s Newton<'s>,
+    residuals: &'s Residuals,
+    point: &'s Point,
+    /// What one unit of tau adds to x, y and z.
+    unit: [Vec<f64>; 3],
+    pivot: f64,
+}
+
+impl<'s> Directions<'s> {
+    fn new(
+        programme: &'s Sparse,
+        constants: &'s [f64],
+        newton: &'s Newton<'s>,
+        residuals: &'s Residuals,
+        point: &'s Point,
+    ) -> Self {
+        let mut directions =
+            Directions { programme, constants, newton, residuals, point, unit: Default::default(), pivot: 0.0 };
+        let mut first: Vec<f64> = programme.cost.iter().map(|c| -c).collect();
+        programme.add_transposed(&directions.weighted(constants), -1.0, &mut first);
+        let (x, y) = newton.solve(&first, &programme.right);
+        let moved = directions.weighted(&sum(&programme.rows_times(&x), constants, 1.0));
+        let z: Vec<f64> = moved.iter().map(|z| -z).collect();
+        directions.pivot = -point.kappa / point.tau + directions.value(&x, &y, &z);
+        directions.unit = [x, y, z];
+        directions
+    }
+
+    fn weighted(&self, v: &[f64]) -> Vec<f64> {
+        v.iter().zip(&self.newton.weights).map(|(v, w)| v * w).collect()
+    }
+
+    /// c x + b y + h z.
+    fn value(&self, x: &[f64], y: &[f64], z: &[f64]) -> f64 {
+        dot(&self.programme.cost, x) + dot(&self.programme.right, y) + dot(self.constants, z)
+    }
+
+    /// The direction that takes away a share of the residuals and leads the products s z to their present value and
+    /// `complementarity`, and that of tau and kappa to theirs and `last`.
+    fn towards(&self, share: f64, complementarity: &[f64], last: f64) -> Point {
+        let (programme, point) = (self.programme, self.point);
         let scaled = |v: &[f64]| v.iter().map(|r| -share * r).collect::<Vec<f64>>();
-        let (qx, qy, qs, qt) =
-            (scaled(&residuals.x), scaled(&residuals.y), scaled(&residuals.s), -share * residuals.tau);
+        let [mut first, second, rows] =
+            [&self.residuals.x, &self.residuals.y, &self.residuals.s].map(|residual| scaled(residual));
         let over: Vec<f64> = complementarity.iter().zip(&point.s).map(|(c, s)| c / s).collect();
-        let mut first = qx;
-        programme.add_transposed(&sum(&over, &weighted(&qs), -1.0), 1.0, &mut first);
-        let (x1, y1) = newton.solve(&first, &qy);
-        let moved = sum(&programme.rows_times(&x1), &qs, 1.0);
-        let z1 = sum(&over, &weighted(&moved), -1.0);
-        let rest = qt - last / point.tau - dot(&programme.cost, &x1) - dot(&programme.right, &y1) - dot(constants, &z1);
-        let tau = rest / pivot;
-        let (x, y, z) = (sum(&x1, &x2, tau), sum(&y1, &y2, tau), sum(&z1, &z2, tau));
-        let s = sum(&sum(&programme.rows_times(&x), constants, tau), &qs, 1.0);
+        programme.add_transposed(&sum(&over, &self.weighted(&rows), -1.0), 1.0, &mut first);
+        let (x, y) = self.newton.solve(&first, &second);
+        let z = sum(&over, &self.weighted(&sum(&programme.rows_times(&x), &rows, 1.0)), -1.0);
+        let rest = -share * self.residuals.tau - last / point.tau - self.value(&x, &y, &z);
+        let tau = rest / self.pivot;
+        let [x, y, z] = [(x, 0), (y, 1), (z, 2)].map(|(v, i)| sum(&v, &self.unit[i], tau));
+        let s = sum(&sum(&programme.rows_times(&x), self.constants, tau), &rows, 1.0);
         Point { x, y, s, z, tau, kappa: (last - point.kappa * tau) / point.tau }
-    };
-    let products: Vec<f64> = point.s.iter().zip(&point.z).map(|(s, z)| -s * z).collect();
-    let affine = direction(1.0, &products, -point.tau * point.kappa);
-    let reach = longest(point, &affine).min(1.0);
-    let centring = (1.0 - reach).powi(3);
-    let corrected = |i: usize| products[i] - affine.s[i] * affine.z[i] + centring * mu;
-    let complementarity: Vec<f64> = (0..rows).map(corrected).collect();
-    let last = -point.tau * point.kappa - affine.tau * affine.kappa + centring * mu;
-    let chosen = direction(1.0 - centring, &complementarity, last);
-    let length = (STEP * longest(point, &chosen)).min(1.0);
-    let advance = |v: &mut Vec<f64>, d: &[f64]| v.iter_mut().zip(d).for_each(|(v, d)| *v += length * d);
-    advance(&mut point.x, &chosen.x);
-    advance(&mut point.y, &chosen.y);
-    advance(&mut point.s, &chosen.s);
-    advance(&mut point.z, &chosen.z);
-    point.tau += length * chosen.tau;
-    point.kappa += length * chosen.kappa;
+    }
+
+    /// Predictor and corrector (Mehrotra 1992).
+    fn corrected(&self) -> Point {
+        let point = self.point;
+        let mu = (dot(&point.s, &point.z) + point.tau * point.kappa) / (point.s.len() as f64 + 1.0);
+        let products: Vec<f64> = point.s.iter().zip(&point.z).map(|(s, z)| -s * z).collect();
+        let affine = self.towards(1.0, &products, -point.tau * point.kappa);
+        let centring = (1.0 - longest(point, &affine).min(1.0)).powi(3);
+        let corrected = |(i, product): (usize, &f64)| product - affine.s[i] * affine.z[i] + centring * mu;
+        let complementarity: Vec<f64> = products.iter().enumerate().map(corrected).collect();
+        let last = -point.tau * point.kappa - affine.tau * affine.kappa + centring * mu;
+        self.towards(1.0 - centring, &complementarity, last)
+    }
+}
+
+/// Goes almost to the boundary.
+fn advance(point: &mut Point, direction: &Point) {
+    let length = (STEP * longest(point, direction)).min(1.0);
+    let add = |v: &mut Vec<f64>, d: &[f64]| v.iter_mut().zip(d).for_each(|(v, d)| *v += length * d);
+    add(&mut point.x, &direction.x);
+    add(&mut point.y, &direction.y);
+    add(&mut point.s, &direction.s);
+    add(&mut point.z, &direction.z);
+    point.tau += length * direction.tau;
+    point.kappa += length * direction.kappa;
 }
 
 /// How far a direction leads before something positive vanishes.

@@ -1,18 +1,23 @@
 //! Linear programs with few unknowns and very many inequalities, solved exactly by the dual simplex method.
 
+mod half_spaces;
+
+pub use half_spaces::HalfSpaces;
+
+use half_spaces::LANES;
 use std::ops::ControlFlow;
 
-/// Rows that are multiplied at a time.
-const LANES: usize = 4;
 /// Unknowns are looked for within this box; the rows are expected to be scaled so that answers are of order one.
 const BOX: f64 = 1e9;
 /// A row (of unit length) may be violated by this, relative to the size of the point.
 const TOLERANCE: f64 = 1e-12;
 /// Weights of the entering row below this are none.
 const NO_WEIGHT: f64 = 1e-13;
-/// Ratios of a multiplier to a weight that differ by less than this share of them, or by rounding of the multipliers, are equal.
+/// Ratios of a multiplier to a weight that differ by less than this share of them are equal.
 const TIE: f64 = 1e-11;
-const ROUNDING: f64 = 1e-14;
+/// So are those that differ by rounding, of few unknowns and of more, whose multipliers gather it over many pivots.
+const ROUNDING: [f64; 2] = [1e-15, 1e-14];
+const FEW: usize = 4;
 /// Far above what the method needs (two to five pivots an unknown); reached only if rounding defeats the tie rule.
 const MOST_PIVOTS: usize = 10_000;
 /// Pivots after which the inverse is computed anew.
@@ -24,59 +29,6 @@ pub type Beat<'b> = &'b dyn Fn() -> ControlFlow<()>;
 /// Always goes on.
 pub fn unwatched() -> ControlFlow<()> {
     ControlFlow::Continue(())
-}
-
-/// Half spaces `row . x + constant >= 0` whose rows have unit length and point inside.
-#[derive(Debug, Clone, PartialEq)]
-pub struct HalfSpaces {
-    unknowns: usize,
-    rows: usize,
-    /// Four rows at a time: their coefficients of every unknown, then their constants.
-    tiles: Vec<[f64; LANES]>,
-}
-
-impl HalfSpaces {
-    /// None, over so many unknowns.
-    pub fn new(unknowns: usize) -> Self {
-        HalfSpaces { unknowns, rows: 0, tiles: Vec::new() }
-    }
-
-    /// Number of unknowns.
-    pub fn unknowns(&self) -> usize {
-        self.unknowns
-    }
-
-    /// Number of half spaces.
-    pub fn len(&self) -> usize {
-        self.rows
-    }
-
-    /// Adds `row . x + constant >= 0`, scaled to unit length.
-    pub fn push(&mut self, row: &[f64], constant: f64) {
-        let norm = norm(row);
-        let lane = self.rows % LANES;
-        if lane == 0 {
-            // Rows that fill a tile up are never violated.
-            self.tiles.extend(std::iter::repeat_n([0.0; LANES], self.unknowns));
-            self.tiles.push([1.0; LANES]);
-        }
-        let start = self.tiles.len() - self.unknowns - 1;
-        for (tile, value) in self.tiles[start..].iter_mut().zip(row.iter().chain([&constant])) {
-            tile[lane] = value / norm;
-        }
-        self.rows += 1;
-    }
-
-    /// Shifts every half space outwards.
-    pub fn relax(&mut self, by: f64) {
-        let constants = self.tiles.chunks_exact_mut(self.unknowns + 1).map(|tile| &mut tile[self.unknowns]);
-        constants.flatten().for_each(|constant| *constant += by);
-    }
-
-    /// Coefficient `j` of a row, its constant if `j` is the number of unknowns.
-    fn entry(&self, row: usize, j: usize) -> f64 {
-        self.tiles[row / LANES * (self.unknowns + 1) + j][row % LANES]
-    }
 }
 
 /// Outcome of a maximisation.
@@ -187,11 +139,11 @@ impl<'p> Basis<'p> {
             fresh: true,
             matrix,
         };
-        for i in 0..n {
-            let sign = corner_sign(objective[i]);
+        for (i, coefficient) in objective.iter().enumerate() {
+            let sign = corner_sign(*coefficient);
             basis.inverse[i * n + i] = -sign;
             basis.point[i] = sign * BOX;
-            basis.dual[i] = sign * objective[i];
+            basis.dual[i] = sign * coefficient;
         }
         basis
     }
@@ -269,7 +221,10 @@ impl<'p> Basis<'p> {
         };
         (0..n).filter(|&i| self.weights[i] > NO_WEIGHT * largest).min_by(|&a, &b| {
             let ratios = (0..=n).map(|k| (ratio(a, k), ratio(b, k)));
-            let rounding = ROUNDING * (1.0 / self.weights[a] + 1.0 / self.weights[b]);
+            let rounding = match n <= FEW {
+                true => ROUNDING[0],
+                false => ROUNDING[1] * (1.0 / self.weights[a] + 1.0 / self.weights[b]),
+            };
             let differing = ratios.into_iter().find(|(x, y)| (x - y).abs() > TIE * (x.abs() + y.abs()) + rounding);
             differing.map_or(a.cmp(&b), |(x, y)| x.total_cmp(&y))
         })

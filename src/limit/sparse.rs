@@ -160,9 +160,8 @@ impl Programme<'_> {
             Resultant { intrados, extrados, shear }
         };
         let forces: Vec<Resultant> = forces.iter().zip(x.chunks(3)).map(resultant).collect();
-        let largest = forces.iter().map(Resultant::size).fold(0.0, f64::max);
         let load_factor = pinned.unwrap_or(x[x.len() - 1] * self.theorem.factor);
-        Equilibrium { load_factor, size: 1.0 + largest / self.theorem.force, forces }
+        Equilibrium { load_factor, unknowns: Vec::new(), forces }
     }
 }
 

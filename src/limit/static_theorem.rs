@@ -114,8 +114,8 @@ pub struct Equilibrium {
     pub(super) forces: Vec<Resultant>,
     /// Load factor.
     pub load_factor: f64,
-    /// Size of the forces in units of the loads, which rounding is measured by.
-    pub(super) size: f64,
+    /// Unknowns of the static theorem, where it was found over them.
+    pub(super) unknowns: Vec<f64>,
 }
 
 impl StaticTheorem {
@@ -308,7 +308,7 @@ impl StaticTheorem {
         Equilibrium {
             forces: (0..self.joints.len()).map(force).collect(),
             load_factor: unknowns[n] * self.factor,
-            size: 1.0 + norm(unknowns),
+            unknowns: unknowns.to_vec(),
         }
     }
 

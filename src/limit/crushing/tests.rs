@@ -3,7 +3,7 @@ use super::super::static_theorem::tests::{arch, loads};
 use super::*;
 use crate::geometry::Vec2;
 use crate::limit::unwatched;
-use crate::structure::PointForce;
+use crate::structure::{JointLaw, PointForce};
 
 /// Strength at which nothing crushes, Pa.
 const HARD: f64 = 1e30;

@@ -22,12 +22,8 @@ fn both(structure: &Structure, [fixed, scaled]: &[Vec<PointForce>; 2]) -> [[f64;
     let programme = Programme::new(&theorem);
     [-1.0, 1.0].map(|sign| {
         let objective = Objective::load_factor(sign);
-        let clock = std::time::Instant::now();
         let dense = value(&programme.maximise_densely(&objective, &unwatched));
-        let first = clock.elapsed();
-        let clock = std::time::Instant::now();
         let sparse = value(&programme.maximise_sparsely(&objective, &unwatched));
-        println!("{} unknowns: dense {first:?} {dense}, sparse {:?} {sparse}", theorem.unknowns(), clock.elapsed());
         [dense, sparse]
     })
 }
@@ -123,22 +119,14 @@ fn both_solvers_find_the_same_cheapest_motion() {
 
 #[test]
 fn a_large_wall_is_solved() {
-    for (columns, count) in [(20, 10), (50, 40)] {
+    for (columns, count) in [(20, 10), (30, 20)] {
         let whole = vec![1.0; columns];
         let halves = [&[0.5][..], &vec![1.0; columns - 1], &[0.5]].concat();
         let rows: Vec<&[f64]> = (0..count).map(|k| if k % 2 == 0 { &whole[..] } else { &halves[..] }).collect();
         let wall = wall(&rows, 0.5, DRY);
         let [fixed, scaled] = seismic(&wall);
-        let clock = std::time::Instant::now();
         let theorem = StaticTheorem::new(&wall, &fixed, &scaled).unwrap();
-        let built = clock.elapsed();
         let window = theorem.window(&unwatched).unwrap().unwrap();
-        println!(
-            "{} bodies, {} joints: {window:?} {built:?} {:?}",
-            wall.bodies.len(),
-            wall.joints.len(),
-            clock.elapsed()
-        );
         assert!((window[0] + window[1]).abs() < 1e-8);
     }
 }

@@ -1,0 +1,242 @@
+//! The Newton system of the interior point method; the only file of this room that knows faer.
+
+use super::super::linear_program::dot;
+use super::{Point, Sparse, Square, largest, sum};
+use faer::linalg::solvers::Solve;
+use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
+use faer::sparse::{SparseColMat, SymbolicSparseColMat};
+use faer::{Mat, Side};
+use std::collections::BTreeMap;
+
+/// Root of the curvature of a block without rows.
+const UNREACHED: f64 = 1e-4;
+/// Corrections of a solution of the Newton system.
+const REFINEMENTS: usize = 3;
+/// Added to the Hessian of a block that its rows leave singular, relative to its largest entry.
+const RIDGE: f64 = 1e-10;
+
+/// The pattern of S and its elimination order, found once.
+pub(super) struct Pattern {
+    columns: Vec<usize>,
+    rows: Vec<usize>,
+    /// Of every pair of bodies with a block in the lower triangle: where the block's columns start.
+    places: BTreeMap<(usize, usize), [usize; 3]>,
+    order: SymbolicLlt<usize>,
+}
+
+impl Pattern {
+    pub(super) fn new(programme: &Sparse) -> Option<Self> {
+        let n = programme.bodies;
+        let mut below: Vec<Vec<usize>> = (0..n).map(|body| vec![body]).collect();
+        for block in &programme.blocks {
+            for (a, _) in block {
+                block.iter().filter(|(b, _)| b > a).for_each(|(b, _)| below[*a].push(*b));
+            }
+        }
+        let (mut columns, mut rows, mut places) = (vec![0], Vec::new(), BTreeMap::new());
+        for (a, neighbours) in below.iter_mut().enumerate() {
+            neighbours.sort_unstable();
+            neighbours.dedup();
+            for column in 0..3 {
+                for &b in neighbours.iter() {
+                    places.entry((b, a)).or_insert([0; 3])[column] = rows.len();
+                    rows.extend(3 * b..3 * b + 3);
+                }
+                columns.push(rows.len());
+            }
+        }
+        let symbolic = SymbolicSparseColMat::new_checked(3 * n, 3 * n, columns.clone(), None, rows.clone());
+        let order = SymbolicLlt::try_new(symbolic.as_ref(), Side::Lower).ok()?;
+        Some(Pattern { columns, rows, places, order })
+    }
+}
+
+/// The Newton system at a point, factored.
+pub(super) struct Newton<'p> {
+    programme: &'p Sparse,
+    /// z / s of every row.
+    pub(super) weights: Vec<f64>,
+    /// C of every block, H^-1 = C C'.
+    roots: Vec<Square>,
+    factors: Llt<usize, f64>,
+    /// S^-1 growth, and the curvature of the load factor without the rest.
+    growth: Vec<f64>,
+    schur: f64,
+}
+
+impl<'p> Newton<'p> {
+    pub(super) fn new(programme: &'p Sparse, pattern: &Pattern, point: &Point) -> Option<Self> {
+        let weights: Vec<f64> = point.z.iter().zip(&point.s).map(|(z, s)| z / s).collect();
+        let n = programme.blocks.len();
+        let mut scaled: Vec<Vec<[f64; 4]>> = vec![Vec::new(); n];
+        let mut last = 0.0;
+        for (row, weight) in programme.rows.iter().zip(&weights) {
+            if row.block == n {
+                last += weight * row.a[0] * row.a[0];
+            } else {
+                let [a, b, c] = row.a.map(|a| a * weight.sqrt());
+                scaled[row.block].push([*weight, a, b, c]);
+            }
+        }
+        let roots: Vec<Square> = scaled.iter_mut().map(|rows| inverse_root(rows.as_mut_slice())).collect();
+        let factors = factor(programme, pattern, &roots)?;
+        let mut newton = Newton { programme, weights, roots, factors, growth: Vec::new(), schur: 0.0 };
+        newton.growth = newton.solve_bodies(&programme.growth);
+        newton.schur = last + dot(&programme.growth, &newton.growth);
+        if last == 0.0 && programme.growth.iter().all(|g| *g == 0.0) {
+            // Nothing depends on the load factor.
+            newton.schur = 1.0;
+        }
+        (newton.schur > 0.0 && newton.schur.is_finite()).then_some(newton)
+    }
+
+    fn solve_bodies(&self, right: &[f64]) -> Vec<f64> {
+        let x = self.factors.solve(&Mat::from_fn(right.len(), 1, |i, _| right[i]));
+        (0..right.len()).map(|i| x[(i, 0)]).collect()
+    }
+
+    /// H^-1 of the blocks times `right`; the entry of the load factor stays.
+    fn invert_blocks(&self, right: &[f64]) -> Vec<f64> {
+        let mut x = right.to_vec();
+        for (root, x) in self.roots.iter().zip(x.chunks_exact_mut(3)) {
+            let half: [f64; 3] = std::array::from_fn(|j| (0..3).map(|i| root[i][j] * x[i]).sum());
+            (0..3).for_each(|i| x[i] = (0..3).map(|j| root[i][j] * half[j]).sum());
+        }
+        x
+    }
+
+    /// H x + E' y = first, E x = second; once, with what rounding leaves.
+    fn solve_once(&self, first: &[f64], second: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let n = 3 * self.programme.blocks.len();
+        let mut free = self.invert_blocks(first);
+        free[n] = 0.0;
+        let right: Vec<f64> = self.programme.balance(&free).iter().zip(second).map(|(e, r)| e - r).collect();
+        let base = self.solve_bodies(&right);
+        let load_factor = (first[n] - dot(&self.programme.growth, &base)) / self.schur;
+        let y: Vec<f64> = base.iter().zip(&self.growth).map(|(a, v)| a + load_factor * v).collect();
+        let moved = self.programme.motion(&y);
+        let right: Vec<f64> = first.iter().zip(moved).map(|(r, m)| r - m).collect();
+        let mut x = self.invert_blocks(&right);
+        x[n] = load_factor;
+        (x, y)
+    }
+
+    /// The same, corrected as long as that helps.
+    pub(super) fn solve(&self, first: &[f64], second: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let (mut x, mut y) = (vec![0.0; first.len()], vec![0.0; second.len()]);
+        let (mut rest, mut others) = (first.to_vec(), second.to_vec());
+        // Either kind of equation by its own size.
+        let sizes = [largest(first), largest(second)].map(|size| if size > 0.0 { size } else { 1.0 });
+        let size = |rest: &[f64], others: &[f64]| (largest(rest) / sizes[0]).max(largest(others) / sizes[1]);
+        let mut left = f64::INFINITY;
+        for _ in 0..=REFINEMENTS {
+            let (dx, dy) = self.solve_once(&rest, &others);
+            let [next_x, next_y] = [(&x, &dx), (&y, &dy)].map(|(a, d)| sum(a, d, 1.0));
+            let (next_rest, next_others) = self.residuals(first, second, &next_x, &next_y);
+            let next = size(&next_rest, &next_others);
+            if next.is_nan() || next >= left {
+                break;
+            }
+            (x, y, rest, others) = (next_x, next_y, next_rest, next_others);
+            if next > 0.5 * left || next == 0.0 {
+                break;
+            }
+            left = next;
+        }
+        (x, y)
+    }
+
+    fn residuals(&self, first: &[f64], second: &[f64], x: &[f64], y: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let weighted: Vec<f64> = self.programme.rows_times(x).iter().zip(&self.weights).map(|(a, w)| a * w).collect();
+        let mut rest = sum(first, &self.programme.motion(y), -1.0);
+        self.programme.add_transposed(&weighted, -1.0, &mut rest);
+        (rest, sum(second, &self.programme.balance(x), -1.0))
+    }
+}
+
+/// C with C C' = (sum of w a a')^-1 from rows (w, sqrt(w) a), by an orthogonal decomposition of the rows, the heaviest first and
+/// the longest column first, so that a light row keeps its digits beside a heavy one. A direction that no row reaches is held
+/// by a ridge.
+fn inverse_root(rows: &mut [[f64; 4]]) -> Square {
+    rows.sort_by(|a, b| b[0].total_cmp(&a[0]));
+    let size = rows.iter().map(|row| row[1..].iter().fold(0.0, |m: f64, x| m.max(x.abs()))).fold(0.0, f64::max);
+    let ridge = if size > 0.0 { size * RIDGE.sqrt() } else { UNREACHED };
+    let mut m: Vec<[f64; 3]> = rows.iter().map(|row| [row[1], row[2], row[3]]).collect();
+    let mut order = [0, 1, 2];
+    let mut r: Square = [[0.0; 3]; 3];
+    for k in 0..3 {
+        let length = |m: &[[f64; 3]], c: usize| m.iter().skip(k).map(|row| row[c] * row[c]).sum::<f64>();
+        let longest = (k..3).max_by(|&a, &b| length(&m, a).total_cmp(&length(&m, b))).unwrap_or(k);
+        m.iter_mut().for_each(|row| row.swap(k, longest));
+        r.iter_mut().take(k).for_each(|row| row.swap(k, longest));
+        order.swap(k, longest);
+        let alpha = length(&m, k).sqrt();
+        if k >= m.len() || alpha <= SMALLEST * size || alpha == 0.0 {
+            (k..3).for_each(|i| r[i][i] = ridge);
+            break;
+        }
+        let alpha = if m[k][k] > 0.0 { -alpha } else { alpha };
+        let mut v: Vec<f64> = m[k..].iter().map(|row| row[k]).collect();
+        v[0] -= alpha;
+        let square = dot(&v, &v);
+        for c in k..3 {
+            let by = 2.0 * v.iter().zip(&m[k..]).map(|(v, row)| v * row[c]).sum::<f64>() / square;
+            v.iter().zip(&mut m[k..]).for_each(|(v, row)| row[c] -= by * v);
+            r[k][c] = m[k][c];
+        }
+        r[k][k] = alpha;
+    }
+    // C = P R^-1, column by column.
+    let mut root = [[0.0; 3]; 3];
+    for c in 0..3 {
+        let mut x = [0.0; 3];
+        for i in (0..=c).rev() {
+            let known: f64 = (i + 1..=c).map(|j| r[i][j] * x[j]).sum();
+            x[i] = (f64::from(u8::from(i == c)) - known) / r[i][i];
+        }
+        (0..3).for_each(|i| root[order[i]][c] = x[i]);
+    }
+    root
+}
+
+/// A column shorter than this share of the longest row is none.
+const SMALLEST: f64 = 1e-14;
+
+/// S = sum E C C' E', factored; a share of its diagonal is added where rounding makes it indefinite.
+fn factor(programme: &Sparse, pattern: &Pattern, roots: &[Square]) -> Option<Llt<usize, f64>> {
+    let n = 3 * programme.bodies;
+    let mut values = vec![0.0; pattern.rows.len()];
+    for (block, root) in programme.blocks.iter().zip(roots) {
+        let product = |e: &Square| -> Square {
+            std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| e[i][k] * root[k][j]).sum()))
+        };
+        let halves: Vec<(usize, Square)> = block.iter().map(|(body, e)| (*body, product(e))).collect();
+        for (a, left) in &halves {
+            for (b, right) in halves.iter().filter(|(b, _)| b >= a) {
+                let starts = pattern.places[&(*b, *a)];
+                for (column, start) in starts.into_iter().enumerate() {
+                    for row in 0..3 {
+                        values[start + row] += dot(&right[row], &left[column]);
+                    }
+                }
+            }
+        }
+    }
+    for ridge in [0.0, 1e-14, 1e-12, 1e-10, 1e-8] {
+        let mut shifted = values.clone();
+        // The diagonal is the first entry of a column at and below it.
+        for column in 0..n {
+            let start = pattern.columns[column] + column % 3;
+            shifted[start] *= 1.0 + ridge;
+            if shifted[start] == 0.0 {
+                shifted[start] = 1.0;
+            }
+        }
+        let symbolic = SymbolicSparseColMat::new_checked(n, n, pattern.columns.clone(), None, pattern.rows.clone());
+        let matrix = SparseColMat::new(symbolic, shifted);
+        if let Ok(factors) = Llt::try_new_with_symbolic(pattern.order.clone(), matrix.as_ref(), Side::Lower) {
+            return Some(factors);
+        }
+    }
+    None
+}
