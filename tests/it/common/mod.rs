@@ -31,6 +31,7 @@ pub mod sliding;
 #[cfg(feature = "server")]
 pub mod sliding_arch;
 pub mod state;
+pub mod structures;
 #[cfg(feature = "server")]
 pub mod table;
 pub mod three_hinges;
