@@ -1,6 +1,7 @@
 //! From a structure to an assembly of blocks: the only door between masonry and mechanics.
 
 use super::grid::{Grid, ON_LINE};
+use super::path::Attempt;
 use super::pulse::Pulse;
 use super::{Analysis, AnalysisError, Geometry, PlaneModel, Seams};
 use crate::dda::{
@@ -8,10 +9,6 @@ use crate::dda::{
 };
 use crate::geometry::{Region, Vec2};
 use crate::structure::{Joint, JointLaw, PointForce, Side, Stone};
-
-/// Relative scatter of the contact stiffnesses. Ties between contacts of a symmetric arch need something to break
-/// them; stiffness does not move a rigid limit load, and 1e-4 is far below what anyone knows of a joint.
-const STIFFNESS_SCATTER: f64 = 1e-4;
 
 /// Stiffness of the link between a contact point and a stone, over that of the joint there. In series, contact and
 /// links (one towards the ground, two between stones) make up the joint's own.
@@ -72,10 +69,14 @@ impl Scatter {
 }
 
 /// Cuts every body of the structure into the subblocks of a macroblock.
-pub(super) fn discretise<'p>(analysis: &Analysis, seed: u64, pulse: &'p Pulse<'p>) -> Result<Model<'p>, AnalysisError> {
+pub(super) fn discretise<'p>(
+    analysis: &Analysis,
+    attempt: Attempt,
+    pulse: &'p Pulse<'p>,
+) -> Result<Model<'p>, AnalysisError> {
     let structure = &analysis.structure;
     let mut grids = grids(analysis);
-    let assembly = assembly(analysis, &grids, seed, pulse)?;
+    let assembly = assembly(analysis, &grids, attempt, pulse)?;
     let (bodies, joints) = (structure.voussoirs().len(), structure.ring().len());
     let positions = structure.ring().iter().map(|joint| places(joint.law, around(joint, &grids))).collect();
     let on_subblocks = |force: &PointForce| pushes(force, &grids);
@@ -105,7 +106,7 @@ pub(super) fn discretise<'p>(analysis: &Analysis, seed: u64, pulse: &'p Pulse<'p
 }
 
 /// The bodies cut like this, joined as the structure says, their contacts scattered.
-fn assembly(analysis: &Analysis, grids: &[Grid], seed: u64, pulse: &Pulse) -> Result<Assembly, AnalysisError> {
+fn assembly(analysis: &Analysis, grids: &[Grid], attempt: Attempt, pulse: &Pulse) -> Result<Assembly, AnalysisError> {
     let structure = &analysis.structure;
     let mut macroblocks = Vec::with_capacity(grids.len());
     for (body, grid) in grids.iter().enumerate() {
@@ -126,8 +127,8 @@ fn assembly(analysis: &Analysis, grids: &[Grid], seed: u64, pulse: &Pulse) -> Re
         Unbuilt::Loose(loose) => loose.into(),
         Unbuilt::Stopped(_) => pulse.stopped(),
     })?;
-    let mut scatter = Scatter::new(seed);
-    assembly.scatter(|| [(); 2].map(|()| 1.0 + STIFFNESS_SCATTER * scatter.next()));
+    let mut scatter = Scatter::new(attempt.seed);
+    assembly.scatter(|| [(); 2].map(|()| 1.0 + attempt.scatter * scatter.next()));
     Ok(assembly)
 }
 

@@ -27,7 +27,13 @@ pub(super) struct Attempt {
     pub seed: u64,
     /// Load disturbance as a share of the largest load on a node.
     pub disturbance: f64,
+    /// Relative scatter of the contact stiffnesses.
+    pub scatter: f64,
 }
+
+/// Relative scatter of the contact stiffnesses in the first attempts. Ties between contacts need something to break them;
+/// stiffness does not move a rigid limit load, and 1e-4 is far below what anyone knows of a joint.
+const STIFFNESS_SCATTER: f64 = 1e-4;
 
 /// Attempts made before a path is given up. The disturbance grows, since a tie that survives one may need a larger.
 pub(super) const ATTEMPTS: usize = 6;
@@ -37,7 +43,9 @@ const MOVING_ATTEMPTS: usize = 3;
 
 impl Attempt {
     pub(super) fn number(i: usize) -> Self {
-        Attempt { seed: 1 + i as u64, disturbance: 1e-9 * 30f64.powi(i.saturating_sub(1).min(2) as i32) }
+        let disturbance = 1e-9 * 30f64.powi(i.saturating_sub(1).min(2) as i32);
+        // Where joints slide, paths that part early may end where others do not.
+        Attempt { seed: 1 + i as u64, disturbance, scatter: STIFFNESS_SCATTER * 10f64.powi(i as i32 / 2) }
     }
 }
 

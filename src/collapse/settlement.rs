@@ -55,7 +55,7 @@ fn attempt(
     cost: &mut Cost,
     pulse: &Pulse,
 ) -> Result<Option<SettlementPath>, AnalysisError> {
-    let model = discretise(analysis, attempt.seed, pulse)?;
+    let model = discretise(analysis, attempt, pulse)?;
     let base = disturbed(&model, 0.0, attempt);
     let mut see = |tracer: &Tracer, share: f64| pulse.step(share, tracer.events());
     let zeros = vec![0.0; base.len()];

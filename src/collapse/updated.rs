@@ -66,7 +66,7 @@ fn attempt(
     cost: &mut Cost,
     pulse: &Pulse,
 ) -> Result<UpdatedGeometry, AnalysisError> {
-    let model = discretise(analysis, attempt.seed, pulse)?;
+    let model = discretise(analysis, attempt, pulse)?;
     let fixed = disturbed(&model, course.start, attempt);
     let see = |tracer: &Tracer, load_factor: f64| pulse.step(load_factor, tracer.events());
     let at_start = &mut |t: &Tracer| see(t, course.start);

@@ -150,7 +150,7 @@ impl<'a> Question<'a> {
 
     fn attempt(&self, attempt: Attempt) -> Result<Attempted, AnalysisError> {
         let analysis = self.analysis;
-        let model = discretise(analysis, attempt.seed, self.pulse)?;
+        let model = discretise(analysis, attempt, self.pulse)?;
         let fixed = disturbed(&model, self.start, attempt);
         let mut progress = |tracer: &Tracer, load_factor: f64| self.pulse.step(load_factor, tracer.events());
         let mut report = self.blank(model.assembly.unknowns());

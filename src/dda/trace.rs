@@ -62,6 +62,9 @@ const BLURRED: f64 = 16.0 * f64::EPSILON;
 /// An assembly that moves by so many sizes while its load gains less than `SOFT` for each goes on for ever; and equilibrium that is
 /// lost to rounding so far away is none that it could reach.
 const FAR: f64 = 100.0;
+/// One that has moved by this share of its size in a soft direction, its load hardly gaining, until equilibrium is lost to rounding
+/// has fallen.
+const VISIBLE: f64 = 0.01;
 /// So many steps of length zero in a row, and as many more per contact, mean that ties do not resolve.
 const MOST_ZERO_STEPS: [usize; 2] = [60, 4];
 /// A path has at most so many events, and so many more per contact; real ones have about one per contact.
@@ -267,11 +270,25 @@ impl<'a> Tracer<'a> {
             if zero_steps > most_zero_steps || self.events > most_events {
                 return End::Lost;
             }
+            let residual = self.worst_residual;
             if !self.keep_equilibrium() {
-                let moved = self.displacements.iter().fold(0.0, |most: f64, d| most.max(d.abs()));
-                let rises = self.rate > 0.0 && !self.is_mechanism();
-                return if rises && moved > far { End::Rising } else { End::Lost };
+                return self.lost_equilibrium(drift, residual);
             }
+        }
+    }
+
+    /// What it means that equilibrium is lost to rounding: far out on a path that rises, nothing; in a soft direction in which it
+    /// has moved visibly, that the assembly has fallen; `residual` is the worst before.
+    fn lost_equilibrium(&mut self, drift: Drift, residual: f64) -> End {
+        let moved = self.displacements.iter().fold(0.0, |most: f64, d| most.max(d.abs()));
+        match self.is_mechanism() {
+            false if self.rate > 0.0 && moved > FAR * self.size => End::Rising,
+            true if drift.moved() > VISIBLE * self.size => {
+                self.worst_residual = residual;
+                self.note_peak(true);
+                End::Mechanism
+            }
+            _ => End::Lost,
         }
     }
 

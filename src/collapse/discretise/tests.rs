@@ -41,7 +41,7 @@ fn semicircle(n: usize, subblocks: [usize; 2], curved: bool) -> Analysis {
 
 /// Of so many kinds are its stones.
 fn kinds(analysis: &Analysis) -> usize {
-    watched(&mut Unwatched, |pulse| Ok(discretise(analysis, 1, pulse)?.assembly.kinds())).unwrap()
+    watched(&mut Unwatched, |pulse| Ok(discretise(analysis, Attempt::number(0), pulse)?.assembly.kinds())).unwrap()
 }
 
 #[test]
@@ -59,7 +59,8 @@ fn stones_of_one_shape_are_condensed_once() {
 fn the_subblocks_of_a_stone_tile_it() {
     for curved in [false, true] {
         let analysis = semicircle(7, [5, 4], curved);
-        let grids = watched(&mut Unwatched, |pulse| Ok(discretise(&analysis, 1, pulse)?.grids)).unwrap();
+        let grids =
+            watched(&mut Unwatched, |pulse| Ok(discretise(&analysis, Attempt::number(0), pulse)?.grids)).unwrap();
         for (grid, stone) in grids.iter().zip(analysis.structure.voussoirs()) {
             let all = grid.cells().map(|(i, j)| grid.region(i, j)).reduce(Region::join).unwrap();
             assert!((all.area / stone.region.area - 1.0).abs() < 1e-12);
@@ -85,7 +86,7 @@ fn moved(chain: &crate::dda::Assembly, field: impl Fn(Vec2) -> Vec2) -> Vec<f64>
 #[test]
 fn the_mirror_image_of_a_motion_is_that_of_a_chain_and_its_nodes() {
     watched(&mut Unwatched, |pulse| {
-        let model = discretise(&semicircle(7, [2, 2], false), 1, pulse)?;
+        let model = discretise(&semicircle(7, [2, 2], false), Attempt::number(0), pulse)?;
         let chain = &model.assembly;
         assert!(model.symmetric);
         let turns = |at: Vec2| Vec2::new(2.0 - at.y, at.x);
@@ -107,7 +108,8 @@ fn the_mirror_image_of_a_motion_is_that_of_a_chain_and_its_nodes() {
 #[test]
 fn an_arch_is_its_own_mirror_image_where_nothing_tells_the_sides_apart() {
     watched(&mut Unwatched, |pulse| {
-        let symmetric = |analysis: &Analysis| discretise(analysis, 1, pulse).map(|model| model.symmetric);
+        let symmetric =
+            |analysis: &Analysis| discretise(analysis, Attempt::number(0), pulse).map(|model| model.symmetric);
         for (n, mesh) in [(7, [1, 1]), (8, [1, 1]), (7, [3, 2]), (8, [2, 3])] {
             assert!(symmetric(&semicircle(n, mesh, false))? && symmetric(&semicircle(n, mesh, true))?);
         }

@@ -14,6 +14,11 @@ impl Drift {
     pub(super) fn at(parameter: f64) -> Self {
         Drift { from: parameter, moved: 0.0 }
     }
+
+    /// How far it has moved, m.
+    pub(super) fn moved(self) -> f64 {
+        self.moved
+    }
 }
 
 impl Tracer<'_> {

@@ -5,7 +5,8 @@ use super::rigid_blocks::scene::Scene;
 use super::rigid_blocks::{Push, bridge, portal, wall};
 use voussoir::blocks::{Blocks, Joints, Polygon, Rest, Support};
 use voussoir::collapse::{
-    Aim, Analysis, CollapseReport, Direction, Geometry, Mesh, Method, Outcome, PathEnd, PlaneModel, Seams, Unwatched, run,
+    Aim, Analysis, CollapseReport, Direction, Geometry, Mesh, Method, Outcome, PathEnd, PlaneModel, Seams, Unwatched,
+    run,
 };
 use voussoir::geometry::Vec2;
 use voussoir::structure::{PointForce, Stone};
@@ -105,7 +106,7 @@ fn judged(scene: &Scene, report: &CollapseReport) -> Judged {
     let wrong = |what: String| Judged::Wrong(format!("{what}; outcome {:?}, oracle {window:?}", report.outcome));
     let stands = window.is_some_and(|(low, high)| low <= SAME && high >= -SAME);
     if report.outcome == Outcome::CannotTell {
-        return Judged::CannotTell(report.notes.join(" "));
+        return Judged::CannotTell(format!("{}; oracle {window:?}", report.notes.join(" ")));
     }
     let ours = report.limit_window.as_ref().map(|window| (window.lowest, window.highest));
     let agree = match (ours, window) {
