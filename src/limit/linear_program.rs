@@ -20,8 +20,10 @@ const ROUNDING: [f64; 2] = [1e-15, 1e-14];
 const FEW: usize = 4;
 /// Far above what the method needs (two to five pivots an unknown); reached only if rounding defeats the tie rule.
 const MOST_PIVOTS: usize = 10_000;
-/// Pivots after which the inverse is computed anew.
+/// Pivots after which the inverse is computed anew; and where weights between these shares of the largest may be rounding of an
+/// inverse that was carried on, which would put rows into the basis that depend on each other.
 const REFRESH: usize = 32;
+const DOUBTFUL: [f64; 2] = [1e-14, 1e-9];
 
 /// Asked at every pivot whether to go on. Where it breaks, what is returned is no answer.
 pub type Beat<'b> = &'b dyn Fn() -> ControlFlow<()>;
@@ -70,6 +72,12 @@ pub fn maximise(objective: &[f64], half_spaces: &HalfSpaces, beat: Beat) -> Opti
             continue;
         };
         basis.weigh(entering);
+        if basis.is_doubtful() {
+            if !basis.refresh() {
+                return Optimum::Lost;
+            }
+            continue;
+        }
         match basis.leaving() {
             Some(leaving) => basis.exchange(leaving, entering),
             None if basis.fresh => return Optimum::Infeasible,
@@ -205,6 +213,13 @@ impl<'p> Basis<'p> {
         for (weight, column) in self.weights.iter_mut().zip(self.inverse.chunks_exact(n)) {
             *weight = dot(column, &self.row);
         }
+    }
+
+    /// Whether the inverse was carried on and some weight may be rounding.
+    fn is_doubtful(&self) -> bool {
+        let largest = self.weights.iter().fold(1.0, |largest: f64, weight| largest.max(weight.abs()));
+        let [low, high] = DOUBTFUL.map(|share| share * largest);
+        !self.fresh && self.weights.iter().any(|weight| weight.abs() > low && weight.abs() < high)
     }
 
     /// The constraint that leaves: the smallest ratio of multiplier over weight, ties broken lexicographically.

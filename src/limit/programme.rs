@@ -6,6 +6,9 @@ use super::static_theorem::{Equilibrium, Limit, StaticTheorem};
 /// Rows shorter than this, in units of the loads, are none: the unknowns do not reach the limit.
 const NO_ROW: f64 = 1e-12;
 
+/// A limit that the unknowns do not reach may be violated by this, in units of the loads: rounding of the loads themselves.
+const UNREACHED: f64 = 1e-10;
+
 /// What is to be as large as possible.
 #[derive(Debug, Clone)]
 pub(super) struct Objective {
@@ -182,6 +185,6 @@ impl Rows {
 
     /// True where a limit that the unknowns do not reach is violated.
     fn contradicted(&self, slack: f64) -> bool {
-        self.unreached + slack < -NO_ROW
+        self.unreached + slack < -UNREACHED
     }
 }
