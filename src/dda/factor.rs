@@ -181,13 +181,14 @@ impl<'t> Factor<'t> {
             add_up(entries, size, &self.tree.runs[source.runs.clone()], width, &mut rows);
         }
         let (above, below) = rows.split_at_mut(removed * width);
-        self.pivots[number].factor(above, kept, self.ahead.get_mut(number));
+        let ends = &self.tree.ends[front.ends.clone()];
+        self.pivots[number].factor(above, kept, self.ahead.get_mut(number), ends);
         reduce(below, self.ahead.get(number), front.sizes);
         self.lower.get_mut(number).copy_from_slice(below);
         let fed = self.tree.feeding(number).map(|other| self.ratio[other]);
         self.ratio[number] = fed.fold(self.pivots[number].ratio, f64::min);
         self.current[number] = true;
-        self.eliminated += front.faces;
+        self.eliminated += front.ends.len();
         self.scratch.rows = rows;
     }
 

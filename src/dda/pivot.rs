@@ -11,7 +11,7 @@ pub(super) struct Pivot {
     /// L below the (unit) diagonal, U above it, reciprocal pivots on it, row by row.
     rows: Vec<f64>,
     order: Vec<usize>,
-    /// Smallest over largest pivot.
+    /// Smallest over largest pivot within a group of columns.
     pub(super) ratio: f64,
 }
 
@@ -22,21 +22,22 @@ impl Pivot {
     }
 
     /// Factors a and solves a X = b for all `columns` of b in the same sweep, given as `rows` of [a | b], which are used up; X goes
-    /// to `solved`, row by row.
-    pub(super) fn factor(&mut self, rows: &mut [f64], columns: usize, solved: &mut [f64]) {
+    /// to `solved`, row by row. `ends` of the groups of columns within which pivots are compared: what is left for later ones
+    /// may be softer by far.
+    pub(super) fn factor(&mut self, rows: &mut [f64], columns: usize, solved: &mut [f64], ends: &[usize]) {
         match (self.n, columns) {
             (0, _) => self.ratio = f64::INFINITY,
             // Two contact points a joint: shapes known to the compiler run several times faster.
-            (4, 4) => self.factor_of(4, 4, rows, solved),
-            (8, 0) => self.factor_of(8, 0, rows, solved),
-            (n, columns) => self.factor_of(n, columns, rows, solved),
+            (4, 4) => self.factor_of(4, 4, rows, solved, ends),
+            (8, 0) => self.factor_of(8, 0, rows, solved, ends),
+            (n, columns) => self.factor_of(n, columns, rows, solved, ends),
         }
     }
 
     /// Rows of [a | b] are kept together: an elimination step is one operation on neighbours, which compilers turn into
     /// vector instructions.
     #[inline(always)]
-    fn factor_of(&mut self, n: usize, columns: usize, rows: &mut [f64], b: &mut [f64]) {
+    fn factor_of(&mut self, n: usize, columns: usize, rows: &mut [f64], b: &mut [f64], ends: &[usize]) {
         let width = n + columns;
         let rows = &mut rows[..n * width];
         self.rows.resize(n * n, 0.0);
@@ -44,7 +45,9 @@ impl Pivot {
         self.order.iter_mut().enumerate().for_each(|(i, place)| *place = i);
         let of_a = rows.chunks_exact(width).flat_map(|row| &row[..n]);
         let scale = of_a.fold(f64::MIN_POSITIVE / f64::EPSILON, |scale, x| scale.max(x.abs()));
-        let (mut smallest, mut largest) = (f64::INFINITY, 0f64);
+        self.ratio = f64::INFINITY;
+        let (mut smallest, mut largest, mut ends) = (f64::INFINITY, 0f64, ends.iter());
+        let mut end = ends.next();
         for k in 0..n {
             let size = |i: usize| rows[i * width + k].abs();
             let best = (k + 1..n).fold(k, |best, i| if size(i) > size(best) { i } else { best });
@@ -57,6 +60,10 @@ impl Pivot {
             // mechanism, which is what the caller looks for.
             let pivot = if rows[k * width + k] == 0.0 { scale * f64::EPSILON } else { rows[k * width + k] };
             (smallest, largest) = (smallest.min(pivot.abs()), largest.max(pivot.abs()));
+            if end.is_none_or(|&end| k + 1 >= end) {
+                self.ratio = self.ratio.min(smallest / largest);
+                (smallest, largest, end) = (f64::INFINITY, 0.0, ends.next());
+            }
             let reciprocal = 1.0 / pivot;
             let (above, below) = rows.split_at_mut((k + 1) * width);
             let pivot_row = &mut above[k * width..];
@@ -69,7 +76,6 @@ impl Pivot {
                 }
             }
         }
-        self.ratio = smallest / largest;
         for i in (0..n).rev() {
             let (above, below) = rows.split_at_mut((i + 1) * width);
             let row = &mut above[i * width..];

@@ -51,8 +51,8 @@ pub struct Front {
     pub kept: Range<usize>,
     /// What is added up in it.
     pub sources: Range<usize>,
-    /// Faces that are eliminated.
-    pub faces: usize,
+    /// Where every face that is eliminated ends in the front.
+    pub ends: Range<usize>,
 }
 
 impl Front {
@@ -70,6 +70,7 @@ pub struct Tree {
     pub fronts: Vec<Front>,
     pub sources: Vec<Source>,
     pub runs: Vec<Run>,
+    pub ends: Vec<usize>,
     /// Edges that lead into every clique, as their fronts.
     pub into: Vec<Vec<usize>>,
     /// The clique of every element.
@@ -145,6 +146,9 @@ impl Tree {
         };
         let (removed, size) = lay(&mut self.runs, faces[0]);
         let (stays, all) = lay(&mut self.runs, faces[1]);
+        let first_end = self.ends.len();
+        let full = faces[0].iter().filter(|&&face| !pattern.range(face).is_empty());
+        self.ends.extend(full.map(|&face| place[face] + pattern.range(face).len()));
         let first = self.sources.len();
         let of_elements = elements.iter().map(|&e| (Origin::Element(e), pattern.faces[e].as_slice()));
         let incoming = self.into[clique].iter().filter(|&&front| to.is_none_or(|to| front != to ^ 1));
@@ -167,7 +171,7 @@ impl Tree {
             removed,
             kept: stays,
             sources: first..self.sources.len(),
-            faces: faces[0].len(),
+            ends: first_end..self.ends.len(),
         });
     }
 

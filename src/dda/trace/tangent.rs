@@ -76,7 +76,7 @@ impl Updates {
             system[i * (n + 1)] += 1.0;
         }
         let mut pivot = Pivot::new(n);
-        pivot.factor(&mut system, 0, &mut []);
+        pivot.factor(&mut system, 0, &mut [], &[n]);
         pivot.solve(&mut forces, &mut Vec::new());
         for (force, response) in forces.iter().zip(&self.responses) {
             x.iter_mut().zip(&response.nodes).for_each(|(x, z)| *x += force * z);
