@@ -35,6 +35,7 @@ fn example(n: usize, hinges: [usize; 4], mirror: bool) -> (Structure, PathEnd) {
     let hinge = |(i, &joint): (usize, &usize)| Hinge {
         joint,
         face: if i.is_multiple_of(2) { Face::Intrados } else { Face::Extrados },
+        at: at(i),
         angle_from_springing: Some(0.0),
         angle_from_crown: Some(0.0),
         rotation: 1.0,
@@ -48,7 +49,7 @@ fn example(n: usize, hinges: [usize; 4], mirror: bool) -> (Structure, PathEnd) {
         mode: Mode::Sway,
         hinges: hinges.iter().enumerate().map(hinge).collect(),
         lift_offs: Vec::new(),
-        slides: vec![Slide { joint: n, rate: 0.1 }],
+        slides: vec![Slide { joint: n, at: Vec2::zeros(), rate: 0.1 }],
         velocities: velocities.collect(),
     };
     let end =
@@ -70,7 +71,7 @@ fn mirrored(mut structure: Structure, mut end: PathEnd) -> (Structure, PathEnd) 
     end.mechanism.velocities.reverse();
     end.mechanism.velocities.iter_mut().for_each(|v| *v = [-v[0], v[1], -v[2]]);
     end.mechanism.hinges.iter_mut().for_each(|h| h.joint = n - h.joint);
-    end.mechanism.slides.iter_mut().for_each(|s| *s = Slide { joint: n - s.joint, rate: -s.rate });
+    end.mechanism.slides.iter_mut().for_each(|s| *s = Slide { joint: n - s.joint, at: s.at, rate: -s.rate });
     end.thrust_line.iter_mut().for_each(|t| (t.joint, t.at) = (n - t.joint, flip(t.at)));
     (structure, end)
 }
@@ -89,7 +90,7 @@ fn the_document_is_well_formed_and_finite() {
 #[test]
 fn a_joint_that_parts_is_drawn() {
     let (structure, mut end) = example(17, [1, 6, 11, 16], false);
-    end.mechanism.lift_offs.push(LiftOff { joint: 8, intrados: 0.1, extrados: 0.2 });
+    end.mechanism.lift_offs.push(LiftOff { joint: 8, at: Vec2::zeros(), intrados: 0.1, extrados: 0.2 });
     let svg = svg(&structure, &end, "");
     // The joint and the legend; the stones part there.
     assert_eq!(svg.matches("class=\"parting\"").count(), 2);

@@ -1,5 +1,6 @@
 //! The answer as a person reads it.
 
+use super::noun::in_its_words;
 use super::wording::{self, Limit, word};
 use super::{moving, plan, safety, sliding};
 use crate::api::response::{AnalysisResult, HingeBody, LiftOffBody, OutcomeWord, SlideBody};
@@ -43,7 +44,7 @@ pub fn summary(result: &AnalysisResult, wall_time: Duration) -> String {
     for note in result.notes.iter().chain(of_safety.filter(|note| !result.notes.contains(note))) {
         paragraph(&mut text, &format!("Note: {note}"));
     }
-    paragraph(&mut text, explanation(result));
+    paragraph(&mut text, &in_its_words(&result.request, explanation(result)));
     if result.crushing.is_some() {
         paragraph(&mut text, safety::EXPLANATION);
     }
@@ -55,7 +56,8 @@ fn facts(result: &AnalysisResult, wall_time: Duration) -> Table {
     let mut fact = |name: &str, value: String| {
         table.add_row([name, &value]);
     };
-    fact("arch", wording::arch(&result.request.arch));
+    let (name, structure) = wording::structure(&result.request);
+    fact(name, structure);
     if let Some(mesh) = safety::mesh(&result.request.mesh) {
         fact("mesh", mesh);
     }
@@ -105,7 +107,10 @@ fn collapse_facts(result: &AnalysisResult) -> Vec<(&'static str, String)> {
         if result.safety.is_none() {
             lines.push(("governed by", word(&collapse.governed_by)));
         }
-        lines.push(("residual", format!("{:.1e} of the arch's weight", collapse.residual)));
+        lines.push((
+            "residual",
+            in_its_words(&result.request, &format!("{:.1e} of the arch's weight", collapse.residual)),
+        ));
     }
     lines
 }
@@ -176,7 +181,7 @@ fn springings(result: &AnalysisResult) -> Option<Table> {
     // Round-off of a balance of large forces is no force.
     let force = |value: f64| Digits(if value.abs() > ROUND_OFF * most { value / 1e3 } else { 0.0 }).to_string();
     table.add_rows([0, last].map(|k| {
-        let crown = if result.request.arch.half && k == last { " (crown)" } else { "" };
+        let crown = if result.request.half() && k == last { " (crown)" } else { "" };
         let [normal, shear] = [thrust.normal_n_per_m[k], thrust.shear_n_per_m[k]].map(force);
         [format!("{}{crown}", thrust.joint[k]), normal, shear, Digits(thrust.eccentricity_m[k]).to_string()]
     }));

@@ -1,8 +1,10 @@
 //! An answer in sentences.
 
+use super::noun::{in_its_words, noun};
 use super::{moving, safety, sliding};
 use crate::api::request::{
-    ArchRequest, DirectionRequest, FillPressure, LoadEntry, LoadRequest, PointLoad, ProfileRequest,
+    AnalysisRequest, ArchRequest, BridgeRequest, DirectionRequest, FillPressure, LoadEntry, LoadRequest, PointLoad,
+    ProfileRequest,
 };
 use crate::api::response::{
     AnalysisResult, Collapse, HingeBody, LiftOffBody, MethodWord, MotionBody, OutcomeWord, SlideBody,
@@ -57,6 +59,11 @@ const VISIBLE: f64 = 1e-3;
 
 /// One sentence.
 pub fn headline(result: &AnalysisResult) -> String {
+    in_its_words(&result.request, &of_an_arch(result))
+}
+
+/// The same, said of an arch.
+fn of_an_arch(result: &AnalysisResult) -> String {
     if let Some(safety) = &result.safety {
         return safety::headline(result, safety);
     }
@@ -219,8 +226,29 @@ pub fn unit(result: &AnalysisResult) -> &str {
     }
 }
 
+/// What the structure is called, and the structure in a few words.
+pub fn structure(request: &AnalysisRequest) -> (&'static str, String) {
+    let words = match request {
+        AnalysisRequest { arch: Some(request), .. } => arch(request),
+        AnalysisRequest { bridge: Some(request), .. } => bridge(request),
+        AnalysisRequest { blocks: Some(request), .. } => {
+            format!("blocks: {}, supports: {}", request.polygons.len(), request.supports.len())
+        }
+        _ => "-".to_owned(),
+    };
+    (noun(request), words)
+}
+
+fn bridge(bridge: &BridgeRequest) -> String {
+    let rings = bridge.spans.iter().map(|span| span.rings.len().to_string()).collect::<Vec<_>>().join(", ");
+    let backing =
+        bridge.backing.as_ref().map_or(String::new(), |b| format!(", backing up to y = {} m", Digits(b.level_m)));
+    let spans = if bridge.spans.len() == 1 { "span" } else { "spans" };
+    format!("{} {spans}, rings in each: {rings}{backing}", bridge.spans.len())
+}
+
 /// The arch in a few words.
-pub fn arch(arch: &ArchRequest) -> String {
+fn arch(arch: &ArchRequest) -> String {
     let (shape, joints) = match &arch.profile {
         ProfileRequest::Circular(_) => ("circular", 0),
         ProfileRequest::Pointed(_) => ("pointed", 0),
@@ -273,6 +301,11 @@ fn load(load: &LoadRequest) -> String {
         LoadRequest::PatchLoad(patch) => {
             let [force, width, centre] = [patch.force_n_per_m, patch.width_m, patch.centre_x_m].map(Digits);
             format!("{force} N per metre of depth, spread over a width of {width} m about x = {centre} m")
+        }
+        LoadRequest::PointForce(force) => {
+            let [fx, fy] = force.force_n_per_m.map(Digits);
+            let [x, y] = force.at_m.map(Digits);
+            format!("({fx}, {fy}) N per metre of depth on {} at ({x}, {y}) m", force.block)
         }
         LoadRequest::BodyAcceleration(body) => {
             format!("acceleration of {} g to the right, {} g upwards", Digits(body.x_g), Digits(body.y_g))
