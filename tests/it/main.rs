@@ -16,6 +16,8 @@ mod atlas;
 #[cfg(feature = "server")]
 mod bad_requests;
 #[cfg(feature = "server")]
+mod bad_structures;
+#[cfg(feature = "server")]
 mod cases;
 #[cfg(feature = "server")]
 mod chart;

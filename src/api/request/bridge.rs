@@ -1,6 +1,6 @@
 //! A bridge of arch spans.
 
-use super::ProfileRequest;
+use super::{Circular, Elliptical, MultiCentre, Pointed, ProfileRequest};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -35,11 +35,36 @@ pub struct BridgeRequest {
 /// One span.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct SpanRequest {
-    /// The intrados of the lowest ring; not `surveyed`.
-    pub profile: ProfileRequest,
+    /// The intrados of the lowest ring.
+    pub profile: SpanProfile,
     /// From the lowest outwards. Each stands on the extrados of the one below.
     #[schema(min_items = 1, max_items = 20)]
     pub rings: Vec<RingRequest>,
+}
+
+/// The curve that a span follows, symmetric about its middle, from the springing level y = 0.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SpanProfile {
+    /// An arc of a circle.
+    Circular(Circular),
+    /// Two arcs that meet at an apex.
+    Pointed(Pointed),
+    /// Half an ellipse.
+    Elliptical(Elliptical),
+    /// Tangent arcs, such as an oval or a basket handle.
+    MultiCentre(MultiCentre),
+}
+
+impl From<SpanProfile> for ProfileRequest {
+    fn from(profile: SpanProfile) -> Self {
+        match profile {
+            SpanProfile::Circular(circular) => ProfileRequest::Circular(circular),
+            SpanProfile::Pointed(pointed) => ProfileRequest::Pointed(pointed),
+            SpanProfile::Elliptical(ellipse) => ProfileRequest::Elliptical(ellipse),
+            SpanProfile::MultiCentre(oval) => ProfileRequest::MultiCentre(oval),
+        }
+    }
 }
 
 /// One ring of a span. Its joints are normal to the profile.

@@ -73,6 +73,9 @@ fn given(list: &[GivenJointRequest], faults: &mut Faults) -> Vec<GivenJoint> {
     let mut joints = Vec::with_capacity(list.len());
     for (j, joint) in list.iter().enumerate() {
         let here = child(GIVEN, &j.to_string());
+        for (k, name) in joint.between.iter().enumerate() {
+            check_text(&format!("{here}/between/{k}"), name, faults);
+        }
         check_points(&child(&here, "ends_m"), &joint.ends_m, faults);
         if let Some(angle) = joint.friction_angle_deg {
             friction_angle(&child(&here, "friction_angle_deg"), angle, faults);

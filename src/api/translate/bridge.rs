@@ -5,9 +5,7 @@ use super::profile::profile;
 use super::stone::{Stones, friction_angle};
 use super::structure::Layout;
 use crate::api::fault::{Faults, child};
-use crate::api::request::{
-    BridgeAbutment, BridgeRequest, MAX_RINGS, MAX_SPANS, PierRequest, ProfileRequest, RingRequest, SpanRequest,
-};
+use crate::api::request::{BridgeAbutment, BridgeRequest, MAX_RINGS, MAX_SPANS, PierRequest, RingRequest, SpanRequest};
 use crate::bridge::{Backing, Bridge, BridgeEnd, BridgeFault, BridgeSpan, MAX_BODIES, Pier, RingCourse};
 
 const SPANS: &str = "/bridge/spans";
@@ -58,10 +56,7 @@ fn spans(list: &[SpanRequest], stones: &Stones<'_>, faults: &mut Faults) -> Opti
     let one = |(j, span): (usize, &SpanRequest)| {
         let here = child(SPANS, &j.to_string());
         let place = child(&here, "profile");
-        let detail = "a span of a bridge follows a curve: give another profile, or give the bridge as blocks";
-        let curve = !matches!(span.profile, ProfileRequest::Surveyed(_));
-        faults.require(curve, child(&place, "surveyed"), detail);
-        let profile = profile(&span.profile, &place, faults);
+        let profile = profile(&span.profile.clone().into(), &place, faults);
         let here = child(&here, "rings");
         let listed = faults.listing(&here, span.rings.len(), 1..=MAX_RINGS, "rings");
         let rings = span.rings.iter().enumerate().take(MAX_RINGS);

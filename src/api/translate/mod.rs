@@ -73,9 +73,9 @@ fn structure_question(request: &AnalysisRequest, faults: &mut Faults) -> Option<
 }
 
 /// Whether a text is short enough and stands on one line.
-fn check_text(pointer: &str, text: &str, faults: &mut Faults) {
+fn check_text(pointer: &str, text: &str, faults: &mut Faults) -> bool {
     let detail = format!("this text is too long: shorten it to {MAX_TEXT} characters");
-    faults.require(text.chars().count() <= MAX_TEXT, pointer, detail);
+    let short = faults.require(text.chars().count() <= MAX_TEXT, pointer, detail);
     let detail = "this text has a line break or another control character: leave it out";
-    faults.require(!text.chars().any(|c| c.is_ascii_control()), pointer, detail);
+    faults.require(!text.chars().any(|c| c.is_ascii_control()), pointer, detail) && short
 }

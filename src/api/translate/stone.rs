@@ -26,8 +26,8 @@ impl<'a> Stones<'a> {
         }
         for (i, named) in request.stones.iter().enumerate() {
             let here = child("/stones", &i.to_string());
-            check_text(&child(&here, "name"), &named.name, faults);
-            if stones.names.insert(&named.name, i + 1).is_some() {
+            let named_well = check_text(&child(&here, "name"), &named.name, faults);
+            if stones.names.insert(&named.name, i + 1).is_some() && named_well {
                 let detail = format!("{:?} is the name of a stone before it: give this one another", named.name);
                 faults.add(child(&here, "name"), detail);
             }
@@ -46,7 +46,7 @@ impl<'a> Stones<'a> {
 
     /// The number of the stone of this name; none: that of `stone`.
     pub fn named(&self, name: Option<&str>, pointer: &str, faults: &mut Faults) -> usize {
-        let Some(name) = name else { return 0 };
+        let Some(name) = name.filter(|name| check_text(pointer, name, faults)) else { return 0 };
         self.names.get(name).copied().unwrap_or_else(|| {
             let detail = format!("there is no stone {name:?} in `stones`: add it, correct the name, or leave this out");
             faults.add(pointer, detail);
