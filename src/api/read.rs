@@ -118,7 +118,9 @@ fn beam_misfit(pointer: &str) -> &'static str {
         "/motion",
     ];
     match OF_A_STRUCTURE.contains(&pointer) {
-        true => "this goes with a structure, not with curved_beam: leave this out, or leave out curved_beam",
+        true => {
+            "this goes with an arch, a bridge or blocks, not with curved_beam: leave this out, or leave out curved_beam"
+        }
         false => misfit(pointer),
     }
 }

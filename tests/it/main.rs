@@ -86,4 +86,6 @@ mod states;
 mod stopping;
 mod stress;
 #[cfg(feature = "server")]
+mod structure_cases;
+#[cfg(feature = "server")]
 mod support;

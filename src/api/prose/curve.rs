@@ -1,5 +1,6 @@
 //! A safety curve as a person reads it.
 
+use super::given;
 use super::noun::in_its_words;
 use super::safety::{mesh, reach, zone};
 use super::summary::{append, bare, paragraph};
@@ -58,13 +59,13 @@ fn facts(result: &SafetyCurveResult, wall_time: Duration) -> Table {
     let mut fact = |name: &str, value: String| {
         table.add_row([name, &value]);
     };
-    let (name, structure) = wording::structure(request);
+    let (name, structure) = given::structure(request);
     fact(name, structure);
     if let Some(mesh) = mesh(&request.mesh) {
         fact("mesh", mesh);
     }
-    fact("fixed loads", wording::loads(&request.loads, false));
-    fact("scaled loads", wording::loads(&request.loads, true));
+    fact("fixed loads", given::loads(&request.loads, false));
+    fact("scaled loads", given::loads(&request.loads, true));
     fact("strength", format!("{} MPa", Digits(request.stone.compressive_strength_pa / 1e6)));
     fact("crushing by", word(&result.crushing));
     fact("time", format!("{:.3} ms", wall_time.as_secs_f64() * 1e3));

@@ -3,6 +3,8 @@
 mod beam;
 mod curve;
 mod figure;
+mod given;
+mod joints;
 mod moving;
 mod noun;
 mod plan;

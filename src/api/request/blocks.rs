@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-/// Most joints given one by one.
-pub const MAX_GIVEN_JOINTS: usize = 20_000;
+/// Most joints given one by one: about four for each block.
+pub const MAX_GIVEN_JOINTS: usize = 8000;
 
 /// Blocks, the joints between them, and the ground they stand on. x runs to the right, y upwards, in m.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
@@ -47,7 +47,7 @@ pub enum BlockJointsRequest {
     /// Wherever straight sides of two blocks meet; friction and cohesion are those of the weaker stone.
     #[default]
     Found,
-    /// These, and those on supports: blocks that meet elsewhere do not know of each other.
+    /// These, at most 8000, and those on supports: blocks that meet elsewhere do not know of each other.
     Given(Vec<GivenJointRequest>),
 }
 

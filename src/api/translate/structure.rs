@@ -30,7 +30,7 @@ pub fn layout(request: &AnalysisRequest, stones: &Stones<'_>, faults: &mut Fault
     match given.as_slice() {
         [_] => {}
         [] => {
-            faults.add("/arch", "there is no structure: add one of arch, bridge and blocks");
+            faults.add("/arch", "arch, bridge and blocks are all missing: add one of them");
             return None;
         }
         [first, others @ ..] => {

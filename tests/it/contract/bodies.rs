@@ -100,7 +100,7 @@ fn blocks() -> Value {
                 {"name": "high", "corners_m": corners(1.0)}
             ],
             "joints": "found",
-            "supports": [{"name": "ground", "sides": [{"block": "low", "side": 0}], "segments_m": []}],
+            "supports": [{"name": "ground", "sides": [{"block": "low", "side": 0}]}],
             "tolerance_m": 1e-6
         },
         "stones": [{
