@@ -163,7 +163,7 @@ fn bridges_that_do_not_fit_are_pointed_at() {
         ("piers/0/batter", json!(1.5), p("piers/0/batter"), "from 0 to 1"),
         ("abutments", json!({"left": {"height_m": 0}}), p("abutments/left/height_m"), "greater than 0"),
         ("abutments", json!({"right": {"height_m": 3, "width_m": 0.1}}), p("abutments/right/width_m"), "make it wider"),
-        ("backing", json!({"level_m": 0}), p("backing/level_m"), "it has to lie above"),
+        ("backing", json!({"level_m": 0}), p("backing/level_m"), "it needs to lie above"),
         ("backing", json!({"level_m": 0.9, "stone": "brick"}), p("backing/stone"), "correct the name"),
         ("ring_friction_angle_deg", json!(90), p("ring_friction_angle_deg"), "less than 90"),
     ];

@@ -140,35 +140,15 @@ fn names_of_supports(bridge: &Bridge) -> Vec<String> {
     std::iter::once("ground.left".to_owned()).chain(piers).chain(["ground.right".to_owned()]).collect()
 }
 
-/// A fault with the pointer to where it is best mended, and its remedy.
+/// A fault with the pointer to where it is best mended, and its remedy. The builder's words begin with the place that it names.
 fn placed(fault: &BridgeFault) -> (String, String) {
     use BridgeFault as F;
     let words = fault.to_string();
-    let place = match fault {
-        F::NoSpans => return (SPANS.to_owned(), words),
-        F::PierCount { .. } => return (PIERS.to_owned(), words),
-        F::TooManyBodies { .. } => return (SPANS.to_owned(), words),
-        F::BackingLevel { level, least, most } => {
-            let detail = format!(
-                "{level} m is not over the haunches: it has to lie above {least:.6} m, the highest springing of an extrados, \
-                 and below {most:.6} m, the lowest crown of one"
-            );
-            return ("/bridge/backing/level_m".to_owned(), detail);
-        }
-        F::NoRings { place }
-        | F::BadNumber { place, .. }
-        | F::UnknownStone { place, .. }
-        | F::Arch { place, .. }
-        | F::BadProfile { place }
-        | F::InsideOut { place, .. }
-        | F::SpringingsCross { place }
-        | F::PierTooNarrow { place, .. }
-        | F::AbutmentTooNarrow { place, .. }
-        | F::TooLow { place, .. }
-        | F::FeetMeet { place }
-        | F::BackingPinched { place, .. } => place,
-    };
-    let rest = words.strip_prefix(place.as_str()).unwrap_or(&words);
+    if let F::TooManyBodies { .. } = fault {
+        return (SPANS.to_owned(), words);
+    }
+    let names = |c: char| c.is_ascii_alphanumeric() || "_[].".contains(c);
+    let (place, rest) = words.split_at(words.find(|c| !names(c)).unwrap_or(0));
     let rest = match rest.strip_prefix(": ") {
         Some(rest) => rest.to_owned(),
         None => format!("this{rest}"),
