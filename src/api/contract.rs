@@ -1,7 +1,8 @@
 //! What the derives of the request cannot say in the OpenAPI document: that unknown fields are refused, bounds of what
 //! has no field of its own, and examples.
 
-use super::translate::{MAX_FACTOR, MAX_LENGTH_M};
+use super::request::{MAX_GIVEN_JOINTS, MAX_TEXT};
+use super::translate::{MAX_FACTOR, MAX_FORCE_N_PER_M, MAX_LENGTH_M};
 use crate::arch::MAX_VOUSSOIRS;
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -13,13 +14,17 @@ use utoipa::openapi::{OpenApi, RefOr, Schema};
 /// The schema of a body.
 const BODY: &str = "Request";
 
+/// A text without line breaks and other control characters.
+const ONE_LINE: &str = "^[^\\x00-\\x1f\\x7f]*$";
+
 /// Ready requests, by name.
-const EXAMPLES: [(&str, &str); 8] = [
+const EXAMPLES: [(&str, &str); 9] = [
     ("first-arch", include_str!("../../cases/first-arch/request.json")),
     ("to-an-accuracy", include_str!("../../cases/accuracy/request.json")),
     ("half-arch", include_str!("../../cases/half-arch/request.json")),
     ("buried-arch", include_str!("../../cases/paper/table-2/17-joints/request.json")),
     ("motion-after-collapse", include_str!("../../cases/paper/figure-8/request.json")),
+    ("two-span-bridge", include_str!("../../cases/two-span-bridge/request.json")),
     ("safety-curve", include_str!("../../cases/paper/figure-13/request.json")),
     ("settlement", include_str!("../../cases/settlement/request.json")),
     ("curved-beam", include_str!("../../cases/paper/section-3-3/sectors/7x7/request.json")),
@@ -94,9 +99,32 @@ fn bound_members(components: &mut Components) {
     number(components, "CurveRequest", &["abscissae", ITEM], positive(MAX_FACTOR));
     number(components, "StressFieldRequest", &["load_factor"], either_way(MAX_FACTOR));
     length(components, "SubblocksRequest", &["per_voussoir"], [2, MAX_VOUSSOIRS]);
-    for (name, path) in
-        [("Surveyed", &["intrados_m", ITEM][..]), ("Surveyed", &["extrados_m", ITEM]), ("Rays", &["centre_m"])]
+    length(components, "BlockJointsRequest", &["given"], [0, MAX_GIVEN_JOINTS]);
+    let pairs = [
+        ("GivenJointRequest", &["between"][..]),
+        ("GivenJointRequest", &["ends_m"]),
+        ("SupportRequest", &["segments_m", ITEM]),
+        ("PointForceLoad", &["force_n_per_m"]),
+    ];
+    for (name, path) in pairs {
+        length(components, name, path, [2, 2]);
+    }
+    if let Some(Schema::Object(name)) =
+        components.schemas.get_mut("GivenJointRequest").and_then(|schema| member(schema, &["between", ITEM]))
     {
+        (name.max_length, name.pattern) = (Some(MAX_TEXT), Some(ONE_LINE.to_owned()));
+    }
+    number(components, "PointForceLoad", &["force_n_per_m", ITEM], either_way(MAX_FORCE_N_PER_M));
+    let points = [
+        ("Surveyed", &["intrados_m", ITEM][..]),
+        ("Surveyed", &["extrados_m", ITEM]),
+        ("Rays", &["centre_m"]),
+        ("PolygonRequest", &["corners_m", ITEM]),
+        ("GivenJointRequest", &["ends_m", ITEM]),
+        ("SupportRequest", &["segments_m", ITEM, ITEM]),
+        ("PointForceLoad", &["at_m"]),
+    ];
+    for (name, path) in points {
         length(components, name, path, [2, 2]);
         number(components, name, &[path, &[ITEM]].concat(), either_way(MAX_LENGTH_M));
     }

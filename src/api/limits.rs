@@ -1,7 +1,7 @@
 //! How much one request may ask for.
 
 use super::fault::{Fault, Faults};
-use super::request::{MAX_SUBBLOCKS_EACH_WAY, ProfileRequest, Request};
+use super::request::{AnalysisRequest, MAX_SUBBLOCKS_EACH_WAY, ProfileRequest, Request};
 use crate::collapse::{Analysis, Question};
 use std::time::Duration;
 
@@ -12,7 +12,7 @@ pub struct Limits {
     pub body: usize,
     /// Time in which a body has to arrive.
     pub request_time: Duration,
-    /// Most voussoirs of an arch.
+    /// Most voussoirs of an arch, or bodies of any structure.
     pub voussoirs: usize,
     /// Most subblocks of an analysis.
     pub subblocks: usize,
@@ -28,17 +28,15 @@ impl Limits {
         let mut faults = Faults::default();
         let (voussoirs, subblocks) = size(question);
         let place = match request {
-            Request::Arch(request) if matches!(request.arch.profile, ProfileRequest::Surveyed(_)) => {
-                "/arch/profile/surveyed/intrados_m"
-            }
-            _ => "/arch/voussoirs",
+            Request::Structure(request) => place_of_stones(request),
+            Request::CurvedBeam(_) => "",
         };
         let most = self.voussoirs;
         let detail = format!("{voussoirs} voussoirs: this service takes at most {most}; use fewer");
         faults.require(voussoirs <= most, place, detail);
         let most = self.subblocks;
         let (place, remedy) = match request {
-            Request::Arch(request) if request.accuracy.is_some_and(|accuracy| accuracy.stress.is_some()) => {
+            Request::Structure(request) if request.accuracy.is_some_and(|accuracy| accuracy.stress.is_some()) => {
                 ("/accuracy/subblocks", "allow fewer")
             }
             Request::CurvedBeam(request) if request.accuracy.is_some() => {
@@ -49,6 +47,16 @@ impl Limits {
         let detail = format!("{subblocks} subblocks in all: this service takes at most {most}; {remedy}");
         faults.require(subblocks <= most, place, detail);
         faults.into_vec()
+    }
+}
+
+/// Where the number of stones is given.
+fn place_of_stones(request: &AnalysisRequest) -> &'static str {
+    match (&request.arch, &request.bridge) {
+        (Some(arch), _) if matches!(arch.profile, ProfileRequest::Surveyed(_)) => "/arch/profile/surveyed/intrados_m",
+        (Some(_), _) => "/arch/voussoirs",
+        (None, Some(_)) => "/bridge/spans",
+        (None, None) => "/blocks/polygons",
     }
 }
 

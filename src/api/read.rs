@@ -54,15 +54,16 @@ fn follows(fault: &Fault, structural: &[Fault]) -> bool {
     structural.iter().any(|first| lies_under(&fault.pointer, &first.pointer) || around(&first.pointer))
 }
 
-/// Reads a request for one analysis of an arch, for those who want nothing else.
+/// Reads a request for one analysis of a structure, for those who want nothing else.
 ///
 /// # Errors
 /// As [`read_question`]; one fault where a curve or a curved beam is asked for.
 pub fn read_analysis(body: &[u8]) -> Result<(AnalysisRequest, Analysis), Vec<Fault>> {
     match read_question(body)? {
-        (Request::Arch(request), Question::One(analysis)) => Ok((*request, *analysis)),
+        (Request::Structure(request), Question::One(analysis)) => Ok((*request, *analysis)),
         _ => {
-            let detail = "this asks for more or other than one analysis of an arch: leave out curve and curved_beam";
+            let detail =
+                "this asks for more or other than one analysis of a structure: leave out curve and curved_beam";
             Err(vec![Fault { pointer: String::new(), detail: detail.to_owned() }])
         }
     }
@@ -89,7 +90,7 @@ fn read_structure(body: &[u8]) -> (Option<Request>, Faults) {
         }
         None => {
             let request = read_tree(tree, misfit, &mut faults);
-            request.map(|request| Request::Arch(Box::new(with_defaults(request))))
+            request.map(|request| Request::Structure(Box::new(with_defaults(request))))
         }
     };
     (request, faults)
@@ -102,8 +103,11 @@ fn misfit(_pointer: &str) -> &'static str {
 
 /// What to do about a field that does not belong beside `curved_beam`.
 fn beam_misfit(pointer: &str) -> &'static str {
-    const OF_AN_ARCH: [&str; 9] = [
+    const OF_A_STRUCTURE: [&str; 12] = [
         "/arch",
+        "/bridge",
+        "/blocks",
+        "/stones",
         "/joint_overrides",
         "/loads",
         "/analysis",
@@ -113,8 +117,10 @@ fn beam_misfit(pointer: &str) -> &'static str {
         "/report",
         "/motion",
     ];
-    match OF_AN_ARCH.contains(&pointer) {
-        true => "this goes with an arch, not with curved_beam: leave this out, or leave out curved_beam",
+    match OF_A_STRUCTURE.contains(&pointer) {
+        true => {
+            "this goes with an arch, a bridge or blocks, not with curved_beam: leave this out, or leave out curved_beam"
+        }
         false => misfit(pointer),
     }
 }
@@ -238,19 +244,30 @@ fn ignored_pointer(path: &serde_ignored::Path<'_>, tree: &Value) -> String {
 }
 
 /// Values of which one fits in any place of a request.
-fn stand_ins() -> [Value; 8] {
+fn stand_ins() -> [Value; 12] {
     // Has every required field of every object.
-    let any_object = json!({
+    let mut any_object = json!({
         "profile": {"circular": {}}, "span_m": 1, "rise_m": 1, "arcs": [], "radius_m": 1, "angle_deg": 1,
         "intrados_m": [], "extrados_m": [], "crown_m": 1, "springing_m": 1, "centre_y_m": 1, "centre_m": [1, 1],
         "height_m": 1, "joint": 1, "load": {"self_weight": {}}, "step": 1, "bands": [], "from_m": 1, "to_m": 1,
         "pressure_pa": 1, "force_n_per_m": 1, "centre_x_m": 1, "width_m": 1, "radial": 1, "along": 1, "abscissae": [],
         "inner_radius_m": 1, "outer_radius_m": 1, "end_shear_n_per_m": 1,
     });
+    let of_blocks = json!({
+        "name": "", "block": "", "side": 1, "polygons": [], "supports": [], "corners_m": [], "between": ["", ""],
+        "ends_m": [[1, 1], [1, 1]], "spans": [], "rings": [], "thickness_m": 1, "voussoirs": 1, "top_width_m": 1,
+        "level_m": 1,
+    });
+    if let (Value::Object(fields), Value::Object(more)) = (&mut any_object, of_blocks) {
+        fields.extend(more);
+    }
+    let force = json!({"block": "", "at_m": [1, 1], "force_n_per_m": [1, 1]});
     let alternatives =
         [json!({"circular": {}}), json!({"constant_m": 1}), json!({"self_weight": {}}), json!({"load_factor": 1})];
     let [profile, thickness, load, field] = alternatives;
-    [json!(1), json!([]), json!([1, 1]), any_object, profile, thickness, load, field]
+    let lists = [json!(["", ""]), json!([[1, 1], [1, 1]])];
+    let [names, ends] = lists;
+    [json!(1), json!([]), json!([1, 1]), any_object, profile, thickness, load, field, json!(""), names, ends, force]
 }
 
 /// Puts a neutral value in the place of a fault, or of what contains it, so that the reading gets past it; says
@@ -298,8 +315,7 @@ fn gets_past<R: DeserializeOwned>(tree: &Value, pointer: &str) -> bool {
 }
 
 fn with_defaults(mut request: AnalysisRequest) -> AnalysisRequest {
-    let arch = &mut request.arch;
-    if !matches!(arch.profile, ProfileRequest::Surveyed(_)) {
+    if let Some(arch) = request.arch.as_mut().filter(|arch| !matches!(arch.profile, ProfileRequest::Surveyed(_))) {
         arch.line.get_or_insert(LineRequest::default());
         arch.joints.get_or_insert(JointsRequest::default());
     }

@@ -11,6 +11,7 @@ mod result;
 mod safety;
 mod settlement;
 mod stress;
+mod structure;
 mod updated;
 mod words;
 
@@ -28,16 +29,19 @@ pub use stress::{
     CrushedSubblock, CrushingBody, ElasticCrushingBody, PlasticCrushingBody, StressFieldBody, SubblockColumns,
     mesh_in_words,
 };
+pub use structure::{BodyBody, JointBody, StructureBody};
 pub use updated::{UpdatedBody, UpdatedEndWord};
 pub use words::{CrushingWord, FaceWord, GovernedBy, GovernsWord, MethodWord, ModeWord, OutcomeWord, ZoneWord};
 
+use super::prose::in_its_words;
 use super::request::AnalysisRequest;
+use super::translate;
 use crate::collapse::{CollapseReport, Cost, LimitWindow, ThrustRange};
 use serde::Serialize;
 use std::io;
 use utoipa::ToSchema;
 
-/// The answer to a request for one analysis of an arch.
+/// The answer to a request for one analysis of a structure.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct AnalysisResult {
     /// What happened.
@@ -55,11 +59,13 @@ pub struct AnalysisResult {
     pub limit_window_load_factor: Option<[Option<f64>; 2]>,
     /// Least and greatest horizontal thrust under the fixed loads.
     pub thrust_range: Option<ThrustRangeBody>,
-    /// Hinges from left to right.
+    /// Bodies and joints of a bridge or of blocks; null of an arch, whose voussoirs and joints are counted from the left.
+    pub structure: Option<StructureBody>,
+    /// Hinges in the order of their joints.
     pub hinges: Vec<HingeBody>,
-    /// Sliding joints from left to right.
+    /// Sliding joints in their order.
     pub slides: Vec<SlideBody>,
-    /// Joints that part altogether, from left to right.
+    /// Joints that part altogether, in their order.
     pub lift_offs: Vec<LiftOffBody>,
     /// Resultant per joint at collapse; null where nothing collapses.
     pub thrust_line: Option<ThrustColumns>,
@@ -175,6 +181,7 @@ impl AnalysisResult {
             limit_window: window.map(|window| scale.window(window)),
             limit_window_load_factor: window.map(|window| Scale::LOAD_FACTOR.window(window)),
             thrust_range: report.thrust_range.map(Into::into),
+            structure: translate::named(request).map(StructureBody::from),
             hinges,
             slides,
             lift_offs,
@@ -197,7 +204,10 @@ impl AnalysisResult {
             history: HistoryColumns::new(&report.history, &scale),
             plan,
             cost: report.cost.into(),
-            notes: report.notes.iter().cloned().chain(assumptions::assumptions(request)).collect(),
+            notes: { report.notes.iter().cloned() }
+                .chain(assumptions::assumptions(request))
+                .map(|note| in_its_words(request, &note))
+                .collect(),
             request: request.clone(),
         }
     }

@@ -119,7 +119,7 @@ impl Finished {
 
     fn near_collapse(&self) -> Option<f64> {
         let Answer::One(report) = &*self.answer else { return None };
-        let Request::Arch(request) = &*self.job.request else { return None };
+        let Request::Structure(request) = &*self.job.request else { return None };
         let asked = request.report.stress_fields.contains(&StressFieldRequest::NearCollapse);
         report.near_collapse.as_ref().filter(|_| asked).map(|near| near.load_factor)
     }

@@ -86,12 +86,13 @@ impl Mechanism {
     fn check_finite(&self) -> Checked {
         let Mechanism { mode: _, hinges, slides, lift_offs, velocities } = self;
         let turning = |hinge: &Hinge| {
-            let Hinge { joint: _, face: _, angle_from_springing, angle_from_crown, rotation } = hinge;
-            [*angle_from_springing, *angle_from_crown, Some(*rotation)].into_iter().flatten()
+            let Hinge { joint: _, face: _, at, angle_from_springing, angle_from_crown, rotation } = hinge;
+            let known = [Some(at.x), Some(at.y), Some(*rotation)];
+            known.into_iter().chain([*angle_from_springing, *angle_from_crown]).flatten()
         };
         finite("hinges", hinges.iter().flat_map(turning))?;
-        finite("sliding joints", slides.iter().map(|Slide { joint: _, rate }| *rate))?;
-        let parting = |LiftOff { joint: _, intrados, extrados }: &LiftOff| [*intrados, *extrados];
+        finite("sliding joints", slides.iter().flat_map(|Slide { joint: _, at, rate }| [at.x, at.y, *rate]))?;
+        let parting = |LiftOff { joint: _, at, intrados, extrados }: &LiftOff| [at.x, at.y, *intrados, *extrados];
         finite("joints that part", lift_offs.iter().flat_map(parting))?;
         finite("mechanism", velocities.iter().flatten().copied())
     }
@@ -203,9 +204,10 @@ mod tests {
     use crate::structure::Face;
 
     fn mechanism(rotation: f64, rate: f64) -> Mechanism {
+        let (angle_from_springing, at) = (Some(0.0), Vec2::zeros());
         let hinge =
-            Hinge { joint: 0, face: Face::Intrados, angle_from_springing: Some(0.0), angle_from_crown: None, rotation };
-        let slides = vec![Slide { joint: 1, rate }];
+            Hinge { joint: 0, face: Face::Intrados, at, angle_from_springing, angle_from_crown: None, rotation };
+        let slides = vec![Slide { joint: 1, at, rate }];
         Mechanism { mode: Mode::Sway, hinges: vec![hinge], slides, lift_offs: vec![], velocities: vec![] }
     }
 

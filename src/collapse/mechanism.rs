@@ -214,10 +214,12 @@ fn assemble(
         // Open at the intrados, pressed at the extrados, and the other way round.
         let face = if o[0] > o[1] { Face::Extrados } else { Face::Intrados };
         let (angle_from_springing, angle_from_crown) = angles(structure, joint).unzip();
-        Hinge { joint, face, angle_from_springing, angle_from_crown, rotation: (o[0] - o[1]).abs() * scale }
+        let at = structure.joints[joint].end(face);
+        Hinge { joint, face, at, angle_from_springing, angle_from_crown, rotation: (o[0] - o[1]).abs() * scale }
     });
     let sliding = slid.iter().enumerate().filter(|&(k, &s)| s != 0.0 && !structure.joints[k].is_symmetry());
-    let slides: Vec<Slide> = sliding.map(|(joint, &s)| Slide { joint, rate: s * scale }).collect();
+    let slide = |(joint, &s)| Slide { joint, at: structure.joints[joint].middle(), rate: s * scale };
+    let slides: Vec<Slide> = sliding.map(slide).collect();
     let motions: Vec<Motion> = motions.iter().map(|&m| Motion::STILL.plus(m, scale)).collect();
     let velocities = structure.voussoirs().iter().zip(&motions).map(|(v, m)| {
         let velocity = m.at(v.region.centroid);
@@ -225,7 +227,11 @@ fn assemble(
     });
     let opening = turning().map(|(k, o)| (o[0] - o[1]).abs() * structure.joints[k].length()).fold(lift_rate, f64::max);
     let fastest_slide = slides.iter().map(|s| s.rate.abs()).fold(0.0, f64::max);
-    let mode = if fastest_slide > opening * scale { Mode::Sliding } else { crown_mode(structure, &motions) };
+    let mode = match fastest_slide > opening * scale {
+        true => Mode::Sliding,
+        false if structure.spans.is_empty() => Mode::Overturning,
+        false => crown_mode(structure, &motions),
+    };
     let by = |l: LiftOff| LiftOff { intrados: l.intrados * scale, extrados: l.extrados * scale, ..l };
     let lift_offs = lifted.into_iter().map(by).collect();
     Mechanism { mode, hinges: hinges.collect(), slides, lift_offs, velocities: velocities.collect() }
@@ -236,7 +242,7 @@ fn lift_offs(structure: &Structure, openings: &[[f64; 2]], lifts: impl Fn(usize)
     let moving = openings.iter().enumerate().filter(|&(k, o)| lifts(k) && *o != [0.0; 2]);
     let rates = |(joint, o): (usize, &[f64; 2])| {
         let [intrados, extrados] = o.map(|rate| rate * structure.joints[joint].length());
-        LiftOff { joint, intrados, extrados }
+        LiftOff { joint, at: structure.joints[joint].middle(), intrados, extrados }
     };
     moving.map(rates).collect()
 }

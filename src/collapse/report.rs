@@ -52,6 +52,8 @@ pub enum Mode {
     Sway,
     /// Joints slide more than they open.
     Sliding,
+    /// Bodies of a structure without spans turn over.
+    Overturning,
 }
 
 /// A joint pressed at one face and opening at the other.
@@ -61,6 +63,8 @@ pub struct Hinge {
     pub joint: usize,
     /// Face at which the joint stays pressed (the axis of rotation); it opens at the other.
     pub face: Face,
+    /// The point that it turns about: the end of the joint on that face, m.
+    pub at: Vec2,
     /// Angle of the joint from the nearer springing of its span, about the angle centre of that, rad; None of a joint of no
     /// span.
     pub angle_from_springing: Option<f64>,
@@ -75,6 +79,8 @@ pub struct Hinge {
 pub struct Slide {
     /// Joint number.
     pub joint: usize,
+    /// The joint's middle, m.
+    pub at: Vec2,
     /// Sliding rate of the stone after the joint towards the extrados, relative to the one before it, in the
     /// mechanism's scale (m per rad of the largest hinge rotation; largest slide = 1 where no hinge turns).
     pub rate: f64,
@@ -85,6 +91,8 @@ pub struct Slide {
 pub struct LiftOff {
     /// Joint number.
     pub joint: usize,
+    /// The joint's middle, m.
+    pub at: Vec2,
     /// Rate at which its end on the intrados opens, in the mechanism's scale (m per rad of the largest hinge rotation; largest
     /// slide = 1 where no hinge turns, largest opening = 1 where nothing slides either).
     pub intrados: f64,

@@ -1,9 +1,12 @@
-//! One picture of an arch at collapse: stones, hinges, slides, thrust line, and how it moves.
+//! One picture of a structure at collapse: stones, hinges, slides, thrust, and how it moves.
+
+mod bodies;
 
 use super::canvas::{Canvas, WIDTH};
 use crate::collapse::{Face, PathEnd};
 use crate::geometry::{Vec2, cross, perpendicular};
-use crate::structure::{JointLaw, Structure};
+use crate::structure::{Joint, JointLaw, Structure};
+use std::ops::Range;
 
 /// Largest movement of the drawn mechanism, as a share of the arch's extent in plan.
 const MOVEMENT: f64 = 0.08;
@@ -31,21 +34,30 @@ text{font-family:Inter,'Helvetica Neue',Helvetica,Arial,sans-serif;fill:#1d1d1f}
 .centred{font-size:13px;fill:#55524d;text-anchor:middle}
 ";
 
-/// Draws an arch as it falls. `caption` stands above it; its first line is the title.
+/// Draws a structure as it falls. `caption` stands above it; its first line is the title.
 pub fn svg(structure: &Structure, end: &PathEnd, caption: &str) -> String {
-    let pieces = moved_pieces(structure, end);
+    let arch = is_arch(structure);
+    let pieces = if arch { moved_pieces(structure, end) } else { bodies::moved(structure, end) };
     let (low, high) = extent(structure, &pieces);
     let lines: Vec<&str> = caption.lines().collect();
     let head = if lines.is_empty() { 48.0 } else { 58.0 + 22.0 * lines.len() as f64 };
     let mut canvas = Canvas::new(low, high, head);
-    draw_supports(&mut canvas, structure);
-    for k in 0..structure.voussoirs().len() {
-        canvas.polygon("stone", &corners(structure, k));
+    if arch {
+        draw_supports(&mut canvas, structure);
+        for k in 0..structure.voussoirs().len() {
+            canvas.polygon("stone", &corners(structure, k));
+        }
+    } else {
+        bodies::draw(&mut canvas, structure);
     }
     for piece in &pieces {
         canvas.polygon("ghost", piece);
     }
-    canvas.polyline("thrust", &thrust_line(structure, end));
+    if arch {
+        canvas.polyline("thrust", &thrust_line(structure, end, 0..structure.ring().len()));
+    } else {
+        bodies::draw_thrust(&mut canvas, structure, end);
+    }
     draw_lift_offs(&mut canvas, structure, end);
     draw_slides(&mut canvas, structure, end);
     draw_hinges(&mut canvas, structure, end);
@@ -53,8 +65,20 @@ pub fn svg(structure: &Structure, end: &PathEnd, caption: &str) -> String {
         let (class, drop) = if i == 0 { ("title", 0.0) } else { ("line", 2.0) };
         canvas.text(class, Vec2::new(40.0, 40.0 + drop + 22.0 * i as f64), line);
     }
-    draw_foot(&mut canvas, end);
-    canvas.finish(lines.first().unwrap_or(&"Arch at collapse"), STYLE)
+    draw_foot(&mut canvas, end, if arch { "thrust line" } else { "joint forces" });
+    match arch {
+        true => canvas.finish(lines.first().unwrap_or(&"Arch at collapse"), STYLE),
+        false => {
+            let title = lines.first().unwrap_or(&"Structure at collapse");
+            canvas.finish(title, &format!("{STYLE}{}", bodies::STYLE))
+        }
+    }
+}
+
+/// True for one ring of voussoirs from springing to springing, with or without abutment blocks.
+fn is_arch(structure: &Structure) -> bool {
+    let [span] = structure.spans.as_slice() else { return false };
+    span.bodies == (0..structure.voussoirs().len()) && span.joints == (0..structure.ring().len())
 }
 
 fn corners(structure: &Structure, k: usize) -> [Vec2; 4] {
@@ -110,15 +134,19 @@ fn moved_pieces(structure: &Structure, end: &PathEnd) -> Vec<Vec<Vec2>> {
 
 fn extent(structure: &Structure, pieces: &[Vec<Vec2>]) -> (Vec2, Vec2) {
     let ends = structure.joints.iter().flat_map(|joint| [joint.intrados, joint.extrados]);
-    let all = ends.chain(pieces.iter().flatten().copied());
+    let bodies = if is_arch(structure) { &[] } else { structure.bodies.as_slice() };
+    let corners = bodies.iter().flat_map(|body| body.corners.iter().copied());
+    let all = ends.chain(corners).chain(pieces.iter().flatten().copied());
     let none = (Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY));
     all.fold(none, |(low, high), p| (low.inf(&p), high.sup(&p)))
 }
 
-/// Where the thrust crosses each joint; joints without thrust, or with it far outside, are left out.
-fn thrust_line(structure: &Structure, end: &PathEnd) -> Vec<Vec2> {
+/// Where the thrust crosses each of these joints; joints without thrust, or with it far outside, are left out.
+fn thrust_line(structure: &Structure, end: &PathEnd, joints: Range<usize>) -> Vec<Vec2> {
     let near = |t: &&crate::collapse::Thrust| {
-        t.normal > 0.0 && t.eccentricity.abs() <= FARTHEST_THRUST * structure.joints[t.joint].length()
+        joints.contains(&t.joint)
+            && t.normal > 0.0
+            && t.eccentricity.abs() <= FARTHEST_THRUST * structure.joints[t.joint].length()
     };
     end.thrust_line.iter().filter(near).map(|thrust| thrust.at).collect()
 }
@@ -138,19 +166,23 @@ fn draw_supports(canvas: &mut Canvas, structure: &Structure) {
             canvas.line("axis", a - 16.0 * along, b + 16.0 * along);
             continue;
         }
-        let held = base.unwrap_or(springing);
-        let (a, b) = (canvas.place(held.intrados), canvas.place(held.extrados));
-        let along = (b - a).normalize();
-        let out = sign * held.normal();
-        let out = Vec2::new(out.x, -out.y);
-        let (a, b) = (a - 8.0 * along, b + 8.0 * along);
-        canvas.line("ground", a, b);
-        let strokes = ((b - a).norm() / 9.0).floor().max(1.0);
-        let mirror = if out.x.abs() > 0.7 { 1.0 } else { sign };
-        for i in 0..=strokes as usize {
-            let from = a + (b - a) * (i as f64 / strokes);
-            canvas.line("hatch", from, from + 8.0 * out + 6.0 * mirror * cross(out, along).signum() * along);
-        }
+        draw_ground(canvas, base.unwrap_or(springing), sign);
+    }
+}
+
+/// Hatched ground at a joint: before it (sign -1) or after it (sign 1).
+fn draw_ground(canvas: &mut Canvas, held: &Joint, sign: f64) {
+    let (a, b) = (canvas.place(held.intrados), canvas.place(held.extrados));
+    let along = (b - a).normalize();
+    let out = sign * held.normal();
+    let out = Vec2::new(out.x, -out.y);
+    let (a, b) = (a - 8.0 * along, b + 8.0 * along);
+    canvas.line("ground", a, b);
+    let strokes = ((b - a).norm() / 9.0).floor().max(1.0);
+    let mirror = if out.x.abs() > 0.7 { 1.0 } else { sign };
+    for i in 0..=strokes as usize {
+        let from = a + (b - a) * (i as f64 / strokes);
+        canvas.line("hatch", from, from + 8.0 * out + 6.0 * mirror * cross(out, along).signum() * along);
     }
 }
 
@@ -199,7 +231,7 @@ fn draw_slides(canvas: &mut Canvas, structure: &Structure, end: &PathEnd) {
 }
 
 /// Scale bar on the left, legend on the right.
-fn draw_foot(canvas: &mut Canvas, end: &PathEnd) {
+fn draw_foot(canvas: &mut Canvas, end: &PathEnd, thrust: &str) {
     let y = canvas.height() - 28.0;
     let (length, words) = scale_bar(180.0 / canvas.scale());
     let (a, b) = (Vec2::new(40.0, y), Vec2::new(40.0 + length * canvas.scale(), y));
@@ -218,7 +250,7 @@ fn draw_foot(canvas: &mut Canvas, end: &PathEnd) {
     let at = entry(canvas, "movement, enlarged", 160.0);
     canvas.rectangle("ghost", at - Vec2::new(13.0, 7.0), Vec2::new(26.0, 14.0));
     if !end.thrust_line.is_empty() {
-        let at = entry(canvas, "thrust line", 120.0);
+        let at = entry(canvas, thrust, 120.0);
         canvas.line("thrust", at - half, at + half);
     }
     if !end.mechanism.lift_offs.is_empty() {

@@ -35,6 +35,7 @@ fn example(n: usize, hinges: [usize; 4], mirror: bool) -> (Structure, PathEnd) {
     let hinge = |(i, &joint): (usize, &usize)| Hinge {
         joint,
         face: if i.is_multiple_of(2) { Face::Intrados } else { Face::Extrados },
+        at: at(i),
         angle_from_springing: Some(0.0),
         angle_from_crown: Some(0.0),
         rotation: 1.0,
@@ -48,7 +49,7 @@ fn example(n: usize, hinges: [usize; 4], mirror: bool) -> (Structure, PathEnd) {
         mode: Mode::Sway,
         hinges: hinges.iter().enumerate().map(hinge).collect(),
         lift_offs: Vec::new(),
-        slides: vec![Slide { joint: n, rate: 0.1 }],
+        slides: vec![Slide { joint: n, at: Vec2::zeros(), rate: 0.1 }],
         velocities: velocities.collect(),
     };
     let end =
@@ -70,7 +71,7 @@ fn mirrored(mut structure: Structure, mut end: PathEnd) -> (Structure, PathEnd) 
     end.mechanism.velocities.reverse();
     end.mechanism.velocities.iter_mut().for_each(|v| *v = [-v[0], v[1], -v[2]]);
     end.mechanism.hinges.iter_mut().for_each(|h| h.joint = n - h.joint);
-    end.mechanism.slides.iter_mut().for_each(|s| *s = Slide { joint: n - s.joint, rate: -s.rate });
+    end.mechanism.slides.iter_mut().for_each(|s| *s = Slide { joint: n - s.joint, at: s.at, rate: -s.rate });
     end.thrust_line.iter_mut().for_each(|t| (t.joint, t.at) = (n - t.joint, flip(t.at)));
     (structure, end)
 }
@@ -89,7 +90,7 @@ fn the_document_is_well_formed_and_finite() {
 #[test]
 fn a_joint_that_parts_is_drawn() {
     let (structure, mut end) = example(17, [1, 6, 11, 16], false);
-    end.mechanism.lift_offs.push(LiftOff { joint: 8, intrados: 0.1, extrados: 0.2 });
+    end.mechanism.lift_offs.push(LiftOff { joint: 8, at: Vec2::zeros(), intrados: 0.1, extrados: 0.2 });
     let svg = svg(&structure, &end, "");
     // The joint and the legend; the stones part there.
     assert_eq!(svg.matches("class=\"parting\"").count(), 2);
@@ -135,4 +136,56 @@ fn scale_bars_are_round() {
     assert_eq!(scale_bar(0.99), (0.5, "0.5 m".to_owned()));
     assert_eq!(scale_bar(0.012).1, "0.01 m");
     assert_eq!(scale_bar(64.0).1, "50 m");
+}
+
+/// Three blocks on the ground; the upper two turn about the right corner of the lowest.
+fn wall() -> (Structure, PathEnd) {
+    let corners = |y: f64| [[0.0, y], [1.0, y], [1.0, y + 2.0], [0.0, y + 2.0]].map(Vec2::from).to_vec();
+    let block = |k: usize| crate::blocks::Polygon { name: format!("b{k}"), corners: corners(2.0 * k as f64), stone: 0 };
+    let carries = vec![crate::blocks::Rest::Side { polygon: "b0".into(), side: 0 }];
+    let blocks = crate::blocks::Blocks {
+        polygons: (0..3).map(block).collect(),
+        joints: crate::blocks::Joints::Found,
+        supports: vec![crate::blocks::Support { name: "ground".into(), carries }],
+        tolerance: None,
+        stones: vec![Stone::default()],
+    };
+    let structure = blocks.build().unwrap();
+    let foot = Vec2::new(1.0, 2.0);
+    let joint = (0..3).find(|&k| structure.joints[k].middle().y == 2.0).unwrap();
+    let face = if structure.joints[joint].intrados == foot { Face::Intrados } else { Face::Extrados };
+    let hinge = Hinge { joint, face, at: foot, angle_from_springing: None, angle_from_crown: None, rotation: 1.0 };
+    let turned = |k: usize| {
+        let v = -perpendicular(structure.bodies[k].region.centroid - foot);
+        [v.x, v.y, -1.0]
+    };
+    let mechanism = Mechanism {
+        mode: Mode::Overturning,
+        hinges: vec![hinge],
+        lift_offs: Vec::new(),
+        slides: Vec::new(),
+        velocities: vec![[0.0; 3], turned(1), turned(2)],
+    };
+    let thrust =
+        |k: usize| Thrust { joint: k, normal: 1.0, shear: 0.0, eccentricity: 0.0, at: structure.joints[k].middle() };
+    let thrust_line = (0..3).map(thrust).collect();
+    let end = PathEnd { load_factor: 1.0, range: None, residual: 0.0, mechanism, thrust_line };
+    (structure, end)
+}
+
+#[test]
+fn a_wall_is_drawn_body_by_body() {
+    let (structure, end) = wall();
+    let svg = svg(&structure, &end, "");
+    well_formed(&svg);
+    assert!(svg.contains("<title>Structure at collapse</title>"));
+    let count = |class: &str| svg.matches(&format!("class=\"{class}\"")).count();
+    // Two blocks move, and the legend shows one more; so it does of the hinge.
+    assert_eq!((count("stone"), count("ghost"), count("ground"), count("resultant")), (3, 2 + 1, 1, 3));
+    assert_eq!(svg.matches("<circle class=\"hinge\"").count(), 1 + 1);
+    // The hinge is drawn where it turns: between the stones, at the right side of the lowest.
+    let corner = |points: &String| points.split(' ').nth(2).unwrap().to_owned();
+    let stones: Vec<String> = attributes(&svg, "points");
+    let [x, y] = [attributes(&svg, "cx"), attributes(&svg, "cy")].map(|all| all[3].clone());
+    assert_eq!(corner(&stones[0]), format!("{x},{y}"));
 }

@@ -148,6 +148,14 @@ impl Joint {
         0.5 * (self.intrados + self.extrados)
     }
 
+    /// Its end on a face, m.
+    pub fn end(&self, face: Face) -> Vec2 {
+        match face {
+            Face::Intrados => self.intrados,
+            Face::Extrados => self.extrados,
+        }
+    }
+
     /// Unit vector along the joint, from its first end to its second.
     pub fn tangent(&self) -> Vec2 {
         (self.extrados - self.intrados).normalize()

@@ -45,7 +45,7 @@ fn solve_prints_a_curve_and_draws_none() {
     }
     let output = fed(&["solve", "-", "--figure", "no/such/figure.svg"], &curve().to_string());
     assert_eq!(output.status.code(), Some(1));
-    assert!(String::from_utf8_lossy(&output.stderr).contains("no figure: only one arch"));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("no figure: only one structure"));
     let mut request = beam();
     request["mesh"] = serde_json::json!({"subblocks": {"uniform": {"radial": 0, "along": 1}}});
     let output = fed(&["solve", "-"], &request.to_string());

@@ -16,6 +16,8 @@ mod atlas;
 #[cfg(feature = "server")]
 mod bad_requests;
 #[cfg(feature = "server")]
+mod bad_structures;
+#[cfg(feature = "server")]
 mod cases;
 #[cfg(feature = "server")]
 mod chart;
@@ -83,5 +85,7 @@ mod states;
 #[cfg(feature = "server")]
 mod stopping;
 mod stress;
+#[cfg(feature = "server")]
+mod structure_cases;
 #[cfg(feature = "server")]
 mod support;

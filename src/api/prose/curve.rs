@@ -1,5 +1,7 @@
 //! A safety curve as a person reads it.
 
+use super::given;
+use super::noun::in_its_words;
 use super::safety::{mesh, reach, zone};
 use super::summary::{append, bare, paragraph};
 use super::wording::{self, word};
@@ -32,7 +34,10 @@ fn headline(result: &SafetyCurveResult) -> String {
     };
     let least = result.points.iter().filter_map(factor).min_by(|a, b| a.0.total_cmp(&b.0));
     match (unsafe_at, least) {
-        (Some(point), _) => format!("The arch does not stand at abscissa {}.", place(result, point.abscissa)),
+        (Some(point), _) => {
+            let at = place(result, point.abscissa);
+            in_its_words(&result.request, &format!("The arch does not stand at abscissa {at}."))
+        }
         (None, Some((factor, abscissa, governs))) => {
             let what = if governs == GovernsWord::Crushing { "crushing" } else { "instability" };
             let (factor, at) = (Digits(factor), place(result, abscissa));
@@ -54,12 +59,13 @@ fn facts(result: &SafetyCurveResult, wall_time: Duration) -> Table {
     let mut fact = |name: &str, value: String| {
         table.add_row([name, &value]);
     };
-    fact("arch", wording::arch(&request.arch));
+    let (name, structure) = given::structure(request);
+    fact(name, structure);
     if let Some(mesh) = mesh(&request.mesh) {
         fact("mesh", mesh);
     }
-    fact("fixed loads", wording::loads(&request.loads, false));
-    fact("scaled loads", wording::loads(&request.loads, true));
+    fact("fixed loads", given::loads(&request.loads, false));
+    fact("scaled loads", given::loads(&request.loads, true));
     fact("strength", format!("{} MPa", Digits(request.stone.compressive_strength_pa / 1e6)));
     fact("crushing by", word(&result.crushing));
     fact("time", format!("{:.3} ms", wall_time.as_secs_f64() * 1e3));

@@ -1,5 +1,6 @@
 //! The answer as a picture.
 
+use super::noun::noun;
 use super::wording;
 use crate::api::response::JobResult;
 use crate::collapse::{Answer, Outcome, Question};
@@ -11,12 +12,16 @@ use crate::render::figure::svg;
 /// Why there is no picture.
 pub fn figure(question: &Question, answer: &Answer, result: &JobResult) -> Result<String, String> {
     let (Question::One(analysis), Answer::One(report), JobResult::Analysis(result)) = (question, answer, result) else {
-        return Err("no figure: only one arch that falls is drawn, no curve and no curved beam".to_owned());
+        return Err("no figure: only one structure that falls is drawn, no curve and no curved beam".to_owned());
     };
     let Some(end) = report.end.as_ref().or(report.other_end.as_ref()) else {
         return Err(format!("no figure: nothing moves (outcome: {})", wording::word(&result.outcome)));
     };
-    let name = result.request.name.as_deref().unwrap_or("Arch");
+    let name = result.request.name.as_deref().unwrap_or(match noun(&result.request) {
+        "arch" => "Arch",
+        "bridge" => "Bridge",
+        _ => "Structure",
+    });
     let mut caption = format!("{name}\n{}", wording::wrapped(&wording::headline(result)));
     if report.outcome == Outcome::StandsInWindow {
         caption.push_str(&format!("\nDrawn: {}.", wording::shown(result)));

@@ -3,7 +3,10 @@
 mod beam;
 mod curve;
 mod figure;
+mod given;
+mod joints;
 mod moving;
+mod noun;
 mod plan;
 mod safety;
 mod sliding;
@@ -11,6 +14,7 @@ mod summary;
 mod wording;
 
 pub use figure::figure;
+pub use noun::in_its_words;
 
 use super::response::JobResult;
 use std::time::Duration;

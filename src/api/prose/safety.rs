@@ -113,21 +113,24 @@ pub const EXPLANATION: &str = "First yield: the equivalent stress of Tresca reac
     depends on the mesh. Plastic section: what limit analysis allows where no joint carries more than the strength.";
 
 fn first_yield(result: &AnalysisResult, elastic: &ElasticCrushingBody) -> String {
-    let at = elastic.subblock.as_ref().map(|subblock| format!(", in {}", place(subblock))).unwrap_or_default();
+    let at = elastic.subblock.as_ref().map(|subblock| format!(", in {}", place(result, subblock))).unwrap_or_default();
     match (elastic.at_start, elastic.intensity) {
         (true, _) => format!("at the start of the path already{at}"),
         (false, Some(intensity)) => format!("at {} {}{at}", Digits(intensity), wording::unit(result)),
         (false, None) => match &elastic.subblock {
             Some(largest) => {
                 let stress = Digits(largest.tresca_pa / 1e6);
-                format!("not reached; largest equivalent stress {stress} MPa, in {}", place(largest))
+                format!("not reached; largest equivalent stress {stress} MPa, in {}", place(result, largest))
             }
             None => "not reached".to_owned(),
         },
     }
 }
 
-fn place(subblock: &CrushedSubblock) -> String {
+fn place(result: &AnalysisResult, subblock: &CrushedSubblock) -> String {
+    if let Some(body) = result.structure.as_ref().and_then(|structure| structure.bodies.get(subblock.voussoir)) {
+        return body.name.clone();
+    }
     format!("voussoir {}, subblock {}, {} (radial, along)", subblock.voussoir, subblock.radial, subblock.along)
 }
 

@@ -1,36 +1,36 @@
 //! The answer as a person reads it.
 
+use super::noun::in_its_words;
 use super::wording::{self, Limit, word};
-use super::{moving, plan, safety, sliding};
-use crate::api::response::{AnalysisResult, HingeBody, LiftOffBody, OutcomeWord, SlideBody};
+use super::{given, joints, moving, plan, safety, sliding};
+use crate::api::response::{AnalysisResult, OutcomeWord};
 use crate::collapse::Digits;
 use comfy_table::{Table, presets};
 use std::fmt::Write;
 use std::time::Duration;
-
-/// Forces below this share of the largest are round-off.
-const ROUND_OFF: f64 = 1e-12;
 
 /// Everything but the rows of numbers per stone and joint.
 pub fn summary(result: &AnalysisResult, wall_time: Duration) -> String {
     let name = result.request.name.as_ref().map(|name| format!("{name}\n\n")).unwrap_or_default();
     let headline = wording::wrapped(&wording::headline(result));
     let mut text = format!("{name}{headline}\n\n{}\n", facts(result, wall_time).trim_fmt());
+    let structure = result.structure.as_ref();
     if result.outcome == OutcomeWord::StandsInWindow {
         for (name, limit) in ["Lower", "Upper"].into_iter().zip(wording::limits(result)) {
             window_end(&mut text, name, limit, result);
         }
     } else {
-        append(&mut text, "Hinges", hinges(&result.hinges));
-        append(&mut text, "Sliding joints", slides(&result.slides));
-        append(&mut text, "Joints that part altogether", lift_offs(&result.lift_offs));
+        append(&mut text, "Hinges", joints::hinges(&result.hinges, structure));
+        append(&mut text, "Sliding joints", joints::slides(&result.slides, structure));
+        append(&mut text, "Joints that part altogether", joints::lift_offs(&result.lift_offs, structure));
     }
     let at = if result.outcome == OutcomeWord::StandsInWindow {
         format!("the {}", wording::shown(result))
     } else {
         "the end of the path".to_owned()
     };
-    append(&mut text, &format!("Outer joints at {at}, forces per metre of depth"), springings(result));
+    let (name, outer) = joints::outer(result);
+    append(&mut text, &format!("{name} at {at}, forces per metre of depth"), outer);
     let of_safety = result.safety.iter().flat_map(|safety| &safety.notes);
     for (name, motion) in [("", &result.motion), (" from the other end", &result.other_motion)] {
         if let Some(motion) = motion {
@@ -43,7 +43,7 @@ pub fn summary(result: &AnalysisResult, wall_time: Duration) -> String {
     for note in result.notes.iter().chain(of_safety.filter(|note| !result.notes.contains(note))) {
         paragraph(&mut text, &format!("Note: {note}"));
     }
-    paragraph(&mut text, explanation(result));
+    paragraph(&mut text, &in_its_words(&result.request, explanation(result)));
     if result.crushing.is_some() {
         paragraph(&mut text, safety::EXPLANATION);
     }
@@ -55,15 +55,16 @@ fn facts(result: &AnalysisResult, wall_time: Duration) -> Table {
     let mut fact = |name: &str, value: String| {
         table.add_row([name, &value]);
     };
-    fact("arch", wording::arch(&result.request.arch));
+    let (name, structure) = given::structure(&result.request);
+    fact(name, structure);
     if let Some(mesh) = safety::mesh(&result.request.mesh) {
         fact("mesh", mesh);
     }
     for (name, value) in result.plan.iter().flat_map(plan::facts) {
         fact(name, value);
     }
-    fact("fixed loads", wording::loads(&result.request.loads, false));
-    fact("scaled loads", wording::loads(&result.request.loads, true));
+    fact("fixed loads", given::loads(&result.request.loads, false));
+    fact("scaled loads", given::loads(&result.request.loads, true));
     if result.request.loads.iter().any(|load| load.scaled) {
         let one = Digits(result.request.load_factor.intensity_per_unit);
         fact("", format!("(at load factor 1, which is intensity {one} {})", wording::unit(result)));
@@ -105,7 +106,10 @@ fn collapse_facts(result: &AnalysisResult) -> Vec<(&'static str, String)> {
         if result.safety.is_none() {
             lines.push(("governed by", word(&collapse.governed_by)));
         }
-        lines.push(("residual", format!("{:.1e} of the arch's weight", collapse.residual)));
+        lines.push((
+            "residual",
+            in_its_words(&result.request, &format!("{:.1e} of the arch's weight", collapse.residual)),
+        ));
     }
     lines
 }
@@ -124,63 +128,17 @@ fn window_end(text: &mut String, name: &str, limit: Option<Limit<'_>>, result: &
     let Some(limit) = limit else {
         return paragraph(text, &format!("{name} end: none was found."));
     };
-    let collapse = limit.collapse;
+    let (collapse, structure) = (limit.collapse, result.structure.as_ref());
     let at = wording::intensity(result, collapse);
     let range = sliding::fact(collapse, wording::unit(result)).map(|range| format!(" ({range})")).unwrap_or_default();
-    append(text, &format!("{name} end: {at}{range}, {}", word(&collapse.mode)), hinges(limit.hinges));
+    append(
+        text,
+        &format!("{name} end: {at}{range}, {}", word(&collapse.mode)),
+        joints::hinges(limit.hinges, structure),
+    );
     let end = format!("at the {} end", name.to_lowercase());
-    append(text, &format!("Sliding joints {end}"), slides(limit.slides));
-    append(text, &format!("Joints that part altogether {end}"), lift_offs(limit.lift_offs));
-}
-
-fn hinges(hinges: &[HingeBody]) -> Option<Table> {
-    let degrees = |angle: Option<f64>| angle.map_or("-".to_owned(), |angle| format!("{angle:.2}"));
-    let mut table = bare();
-    table.set_header(["joint", "pressed at", "deg from springing", "deg from crown", "rotation"]);
-    table.add_rows(hinges.iter().map(|hinge| {
-        [
-            hinge.joint.to_string(),
-            word(&hinge.face),
-            degrees(hinge.angle_from_springing_deg),
-            degrees(hinge.angle_from_crown_deg),
-            format!("{:.4}", hinge.rotation),
-        ]
-    }));
-    (!hinges.is_empty()).then_some(table)
-}
-
-fn slides(slides: &[SlideBody]) -> Option<Table> {
-    let mut table = bare();
-    table.set_header(["joint", "rate"]);
-    table.add_rows(slides.iter().map(|slide| [slide.joint.to_string(), format!("{:.4}", slide.rate)]));
-    (!slides.is_empty()).then_some(table)
-}
-
-fn lift_offs(lift_offs: &[LiftOffBody]) -> Option<Table> {
-    let mut table = bare();
-    table.set_header(["joint", "opens at intrados", "opens at extrados"]);
-    table.add_rows(lift_offs.iter().map(|lift_off| {
-        [lift_off.joint.to_string(), format!("{:.4}", lift_off.intrados), format!("{:.4}", lift_off.extrados)]
-    }));
-    (!lift_offs.is_empty()).then_some(table)
-}
-
-/// What the first and the last joint carry where the path ends.
-fn springings(result: &AnalysisResult) -> Option<Table> {
-    let other = || result.other_end.as_ref().map(|end| &end.thrust_line);
-    let thrust = result.thrust_line.as_ref().or_else(other)?;
-    let last = thrust.joint.len().checked_sub(1)?;
-    let mut table = bare();
-    table.set_header(["joint", "normal, kN", "shear, kN", "off the joint's middle, m"]);
-    let most = thrust.normal_n_per_m.iter().fold(0.0, |most: f64, normal| most.max(normal.abs()));
-    // Round-off of a balance of large forces is no force.
-    let force = |value: f64| Digits(if value.abs() > ROUND_OFF * most { value / 1e3 } else { 0.0 }).to_string();
-    table.add_rows([0, last].map(|k| {
-        let crown = if result.request.arch.half && k == last { " (crown)" } else { "" };
-        let [normal, shear] = [thrust.normal_n_per_m[k], thrust.shear_n_per_m[k]].map(force);
-        [format!("{}{crown}", thrust.joint[k]), normal, shear, Digits(thrust.eccentricity_m[k]).to_string()]
-    }));
-    Some(table)
+    append(text, &format!("Sliding joints {end}"), joints::slides(limit.slides, structure));
+    append(text, &format!("Joints that part altogether {end}"), joints::lift_offs(limit.lift_offs, structure));
 }
 
 /// A table without lines.

@@ -1,9 +1,8 @@
 //! An answer in sentences.
 
+use super::noun::in_its_words;
 use super::{moving, safety, sliding};
-use crate::api::request::{
-    ArchRequest, DirectionRequest, FillPressure, LoadEntry, LoadRequest, PointLoad, ProfileRequest,
-};
+use crate::api::request::DirectionRequest;
 use crate::api::response::{
     AnalysisResult, Collapse, HingeBody, LiftOffBody, MethodWord, MotionBody, OutcomeWord, SlideBody,
 };
@@ -57,6 +56,11 @@ const VISIBLE: f64 = 1e-3;
 
 /// One sentence.
 pub fn headline(result: &AnalysisResult) -> String {
+    in_its_words(&result.request, &of_an_arch(result))
+}
+
+/// The same, said of an arch.
+fn of_an_arch(result: &AnalysisResult) -> String {
     if let Some(safety) = &result.safety {
         return safety::headline(result, safety);
     }
@@ -216,96 +220,6 @@ pub fn unit(result: &AnalysisResult) -> &str {
         ("-", true) => "(load factor)",
         ("-", false) => "(no unit)",
         (unit, _) => unit,
-    }
-}
-
-/// The arch in a few words.
-pub fn arch(arch: &ArchRequest) -> String {
-    let (shape, joints) = match &arch.profile {
-        ProfileRequest::Circular(_) => ("circular", 0),
-        ProfileRequest::Pointed(_) => ("pointed", 0),
-        ProfileRequest::Elliptical(_) => ("elliptical", 0),
-        ProfileRequest::MultiCentre(_) => ("multi-centre", 0),
-        ProfileRequest::Surveyed(surveyed) => ("surveyed", surveyed.intrados_m.len()),
-    };
-    let count = arch.voussoirs.unwrap_or(joints.saturating_sub(1));
-    let half = match (arch.half, count.is_multiple_of(2)) {
-        (false, _) => "",
-        (true, true) => ", the left half of it against a frictionless wall",
-        (true, false) => ", the left half of it, the keystone cut on the axis",
-    };
-    format!("{shape}, {count} voussoirs, {} joints{half}", count + 1)
-}
-
-/// Most loads listed, beside fill, which always is.
-const LISTED: usize = 6;
-
-/// The fixed or the scaled loads, a line each.
-pub fn loads(entries: &[LoadEntry], scaled: bool) -> String {
-    let entries: Vec<&LoadEntry> = entries.iter().filter(|entry| entry.scaled == scaled).collect();
-    let listed = |(i, entry): &(usize, &&LoadEntry)| *i < LISTED || matches!(entry.load, LoadRequest::FillPressure(_));
-    let mut lines: Vec<String> = entries
-        .iter()
-        .enumerate()
-        .filter(listed)
-        .map(|(_, entry)| match (entry.coefficient == 1.0, entry.per_abscissa) {
-            (true, false) => load(&entry.load),
-            (false, false) => format!("{} times: {}", Digits(entry.coefficient), load(&entry.load)),
-            (true, true) => format!("abscissa times: {}", load(&entry.load)),
-            (false, true) => format!("{} times abscissa times: {}", Digits(entry.coefficient), load(&entry.load)),
-        })
-        .collect();
-    let more = entries.len() - lines.len();
-    if more > 0 {
-        lines.push(format!("and {more} more"));
-    }
-    if lines.is_empty() { "none".to_owned() } else { lines.join("\n") }
-}
-
-fn load(load: &LoadRequest) -> String {
-    match load {
-        LoadRequest::SelfWeight(_) => "self weight".to_owned(),
-        LoadRequest::FillPressure(pressure) => fill(pressure),
-        LoadRequest::LateralPressure(lateral) => format!("lateral pressure, bands of height: {}", lateral.bands.len()),
-        LoadRequest::PointLoad(point) => {
-            format!("{} N per metre of depth {}", Digits(point.force_n_per_m), place(point))
-        }
-        LoadRequest::PatchLoad(patch) => {
-            let [force, width, centre] = [patch.force_n_per_m, patch.width_m, patch.centre_x_m].map(Digits);
-            format!("{force} N per metre of depth, spread over a width of {width} m about x = {centre} m")
-        }
-        LoadRequest::BodyAcceleration(body) => {
-            format!("acceleration of {} g to the right, {} g upwards", Digits(body.x_g), Digits(body.y_g))
-        }
-    }
-}
-
-/// Fill with all that is assumed of it.
-fn fill(fill: &FillPressure) -> String {
-    let density = |density: f64| format!("{} kg/m3", Digits(density));
-    let level = fill.fill_height_m.map(|height| {
-        let density = density(fill.fill_density_kg_m3);
-        format!("fill of {density} up to y = {} m", Digits(height))
-    });
-    let above = (fill.embankment_thickness_m > 0.0).then(|| {
-        let (density, thickness) = (density(fill.embankment_density_kg_m3), Digits(fill.embankment_thickness_m));
-        let bare = if level.is_none() { " on the extrados" } else { "" };
-        format!("{thickness} m of embankment of {density}{bare}")
-    });
-    let what = level.into_iter().chain(above).collect::<Vec<_>>().join(" and ");
-    let ratio = Digits(fill.ratio());
-    let horizontal = match fill.fill_friction_angle_deg {
-        _ if fill.ratio() == 0.0 => "no horizontal pressure".to_owned(),
-        Some(angle) => format!("horizontal pressure {ratio} of the vertical (at rest, 1 - sin {} deg)", Digits(angle)),
-        None => format!("horizontal pressure {ratio} of the vertical (as given)"),
-    };
-    format!("{what}; {horizontal}")
-}
-
-fn place(point: &PointLoad) -> String {
-    match (point.x_m, point.voussoir) {
-        (None, Some(voussoir)) => format!("on voussoir {voussoir}"),
-        (x, _) => format!("at x = {} m", Digits(x.unwrap_or(0.0))),
     }
 }
 

@@ -36,6 +36,8 @@ pub enum LoadRequest {
     LateralPressure(LateralPressure),
     /// A vertical force at one point of the extrados.
     PointLoad(PointLoad),
+    /// A force in any direction at a point of a block; of a bridge or blocks.
+    PointForce(PointForceLoad),
     /// A vertical force spread over a plan width.
     PatchLoad(PatchLoad),
     /// The mass of stones and fill times an acceleration.
@@ -138,6 +140,18 @@ pub struct PointLoad {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(maximum = 2000)]
     pub voussoir: Option<usize>,
+}
+
+/// A force at a point of a block, in any direction.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct PointForceLoad {
+    /// The block's name: that of `blocks.polygons`, or of a body of the bridge as `structure.bodies` of an answer lists them.
+    #[schema(max_length = 200, pattern = "^[^\\x00-\\x1f\\x7f]*$")]
+    pub block: String,
+    /// Where it acts, [x, y], m; inside the block or on its sides.
+    pub at_m: [f64; 2],
+    /// Force per metre of depth to the right and upwards, N/m; not both 0.
+    pub force_n_per_m: [f64; 2],
 }
 
 /// A vertical force spread evenly over a plan width: every voussoir takes the share that lies over it, in the

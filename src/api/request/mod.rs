@@ -1,21 +1,27 @@
-//! The body of a request: one arch, its stone, its loads, and what is asked; or a curved beam. Lengths in m, other
-//! units in the names.
+//! The body of a request: one structure (an arch, a bridge or blocks), its stone, its loads, and what is asked; or a curved
+//! beam. Lengths in m, other units in the names.
 
 mod accuracy;
 mod arch;
 mod beam;
+mod blocks;
+mod bridge;
 mod loads;
 mod mesh;
 mod motion;
 mod question;
+mod stones;
 
 pub use accuracy::*;
 pub use arch::*;
 pub use beam::*;
+pub use blocks::*;
+pub use bridge::*;
 pub use loads::*;
 pub use mesh::*;
 pub use motion::*;
 pub use question::*;
+pub use stones::*;
 
 use crate::collapse::DEFAULT_PENALTY_RATIO;
 use crate::structure::Stone;
@@ -25,12 +31,12 @@ use utoipa::ToSchema;
 /// Longest `name` and `unit`, characters.
 pub const MAX_TEXT: usize = 200;
 
-/// A body: an arch, or a curved beam where it has `curved_beam`.
+/// A body: a structure (an arch, a bridge or blocks), or a curved beam where it has `curved_beam`.
 #[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
 #[serde(untagged)]
 pub enum Request {
-    /// An arch.
-    Arch(Box<AnalysisRequest>),
+    /// A structure.
+    Structure(Box<AnalysisRequest>),
     /// The curved beam of section 3.3 of the paper.
     CurvedBeam(Box<BeamRequest>),
 }
@@ -39,25 +45,36 @@ impl Request {
     /// What the request calls itself.
     pub fn name(&self) -> Option<&str> {
         match self {
-            Request::Arch(request) => request.name.as_deref(),
+            Request::Structure(request) => request.name.as_deref(),
             Request::CurvedBeam(request) => request.name.as_deref(),
         }
     }
 }
 
-/// One question: when does this arch fall, or how safe is it?
+/// One question: when does this structure fall, or how safe is it? It has exactly one of `arch`, `bridge` and `blocks`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct AnalysisRequest {
     /// A name to find it again, up to 200 characters.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(max_length = 200, pattern = "^[^\\x00-\\x1f\\x7f]*$")]
     pub name: Option<String>,
-    /// The arch. Springing level y = 0, mid-span x = 0.
-    pub arch: ArchRequest,
+    /// An arch. Springing level y = 0, mid-span x = 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub arch: Option<ArchRequest>,
+    /// A bridge of arch spans, each of one ring or more, on piers and abutments.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bridge: Option<BridgeRequest>,
+    /// Blocks given by their corners, such as a wall.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub blocks: Option<BlocksRequest>,
     /// The stone; what is left out is Table 1 of the paper.
     #[serde(default)]
     pub stone: StoneRequest,
-    /// Joints that differ from the rest.
+    /// Other stones, which parts of a bridge and blocks name. Not with `arch`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schema(max_items = 100)]
+    pub stones: Vec<NamedStone>,
+    /// Joints that differ from the rest; of an arch only.
     #[serde(default)]
     #[schema(max_items = 2002)]
     pub joint_overrides: Vec<JointOverride>,
@@ -88,6 +105,13 @@ pub struct AnalysisRequest {
     /// Asks how the arch moves on when it has begun to fall.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub motion: Option<MotionRequest>,
+}
+
+impl AnalysisRequest {
+    /// True where only the left half of an arch is asked about.
+    pub fn half(&self) -> bool {
+        self.arch.as_ref().is_some_and(|arch| arch.half)
+    }
 }
 
 /// Stone and joint material. Defaults: Table 1 of the paper.

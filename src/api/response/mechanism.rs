@@ -53,19 +53,17 @@ pub struct RangeBody {
 /// A joint pressed at one face and opening at the other.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct HingeBody {
-    /// Joint number, from 0 at the left springing.
+    /// Joint number: of an arch from 0 at the left springing, else the place in `structure.joints`.
     pub joint: usize,
     /// Face at which the joint stays pressed: the axis of rotation.
     pub face: FaceWord,
     /// Face at which it opens.
     pub opens: FaceWord,
-    /// Position: angle from the nearer springing, about the arch's angle centre.
-    #[schema(value_type = f64, required = true)]
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// The point that it turns about, [x, y]: the joint's end on `face`.
+    pub at_m: [f64; 2],
+    /// Position: angle from the nearer springing, about the angle centre of its span; null of a joint of no span.
     pub angle_from_springing_deg: Option<f64>,
-    /// Position: angle from the crown, negative on the left.
-    #[schema(value_type = f64, required = true)]
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Position: angle from the crown of its span, negative on the left; null of a joint of no span.
     pub angle_from_crown_deg: Option<f64>,
     /// Relative rotation rate in the mechanism; the largest of all hinges is 1.
     pub rotation: f64,
@@ -74,8 +72,10 @@ pub struct HingeBody {
 /// A joint that slides in the mechanism.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct SlideBody {
-    /// Joint number, from 0 at the left springing.
+    /// Joint number: of an arch from 0 at the left springing, else the place in `structure.joints`.
     pub joint: usize,
+    /// The joint's middle, [x, y].
+    pub at_m: [f64; 2],
     /// Rate at which the stone after the joint slides towards the extrados, in the mechanism's scale: metres per radian of
     /// the largest hinge rotation; where no hinge turns, the largest slide is 1.
     pub rate: f64,
@@ -84,8 +84,10 @@ pub struct SlideBody {
 /// A joint that parts altogether in the mechanism: it carries no force, and no point of it stays pressed.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct LiftOffBody {
-    /// Joint number, from 0 at the left springing.
+    /// Joint number: of an arch from 0 at the left springing, else the place in `structure.joints`.
     pub joint: usize,
+    /// The joint's middle, [x, y].
+    pub at_m: [f64; 2],
     /// Rate at which its end on the intrados opens (negative: closes), in the mechanism's scale: metres per radian of the
     /// largest hinge rotation; where no hinge turns, the largest slide is 1, and where nothing slides either, the largest
     /// opening.
@@ -155,6 +157,7 @@ impl From<&Hinge> for HingeBody {
         HingeBody {
             joint: hinge.joint,
             face,
+            at_m: hinge.at.into(),
             opens: face.other(),
             angle_from_springing_deg: hinge.angle_from_springing.map(f64::to_degrees),
             angle_from_crown_deg: hinge.angle_from_crown.map(f64::to_degrees),
@@ -165,13 +168,13 @@ impl From<&Hinge> for HingeBody {
 
 impl From<&LiftOff> for LiftOffBody {
     fn from(lift_off: &LiftOff) -> Self {
-        let &LiftOff { joint, intrados, extrados } = lift_off;
-        LiftOffBody { joint, intrados, extrados }
+        let &LiftOff { joint, at, intrados, extrados } = lift_off;
+        LiftOffBody { joint, at_m: at.into(), intrados, extrados }
     }
 }
 
 impl From<&Slide> for SlideBody {
     fn from(slide: &Slide) -> Self {
-        SlideBody { joint: slide.joint, rate: slide.rate }
+        SlideBody { joint: slide.joint, at_m: slide.at.into(), rate: slide.rate }
     }
 }

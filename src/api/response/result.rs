@@ -10,7 +10,7 @@ use utoipa::ToSchema;
 #[derive(Debug, Clone, Serialize, ToSchema)]
 #[serde(untagged)]
 pub enum JobResult {
-    /// Of one analysis of an arch.
+    /// Of one analysis of a structure.
     Analysis(Box<AnalysisResult>),
     /// Of a safety curve.
     SafetyCurve(Box<SafetyCurveResult>),
@@ -24,10 +24,10 @@ impl JobResult {
     pub fn new(request: &Request, answer: &Answer) -> Option<Self> {
         answer.check_finite().ok()?;
         match (request, answer) {
-            (Request::Arch(request), Answer::One(report)) => {
+            (Request::Structure(request), Answer::One(report)) => {
                 Some(JobResult::Analysis(Box::new(AnalysisResult::new(request, report))))
             }
-            (Request::Arch(request), Answer::Curve(points)) => {
+            (Request::Structure(request), Answer::Curve(points)) => {
                 SafetyCurveResult::new(request, points).map(|result| JobResult::SafetyCurve(Box::new(result)))
             }
             (Request::CurvedBeam(request), Answer::CurvedBeam(report)) => {

@@ -61,6 +61,8 @@ pub enum ModeWord {
     Sway,
     /// Joints slide more than they open.
     Sliding,
+    /// Blocks turn over, in a structure without spans.
+    Overturning,
 }
 
 /// What limits the safety factor.
@@ -174,6 +176,7 @@ impl From<Mode> for ModeWord {
             Mode::CrownDescends => ModeWord::CrownDescends,
             Mode::Sway => ModeWord::Sway,
             Mode::Sliding => ModeWord::Sliding,
+            Mode::Overturning => ModeWord::Overturning,
         }
     }
 }

@@ -145,7 +145,7 @@ fn check_point(here: &str, point: [f64; 2], faults: &mut Faults) {
 /// The ring of an arch that is not surveyed, or faults.
 pub fn ring(request: &ArchRequest, faults: &mut Faults) -> Option<Ring> {
     let before = faults.len();
-    let profile = profile(&request.profile, faults);
+    let profile = profile(&request.profile, "/arch/profile", faults);
     let line = request.line.unwrap_or_default();
     let thickness = thickness(request, line, profile.as_ref(), faults);
     let lengths = lengths(request, faults);

@@ -40,7 +40,7 @@ fn without_mirror_image(entries: &[LoadEntry], whole: &Structure, scaled: bool) 
     let (mut all, mut lopsided) = (Vec::new(), Vec::new());
     for (i, entry) in entries.iter().enumerate().filter(|(_, entry)| entry.scaled == scaled) {
         // A load that does not fit the arch has a fault of its own.
-        let Ok(forces) = loads::load(&entry.load).on(whole, entry.coefficient) else {
+        let Some(Ok(forces)) = loads::load(&entry.load).map(|load| load.on(whole, entry.coefficient)) else {
             return Vec::new();
         };
         if !symmetric(&forces) {

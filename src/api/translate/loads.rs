@@ -1,13 +1,18 @@
-//! The loads of a request as forces on voussoirs.
+//! The loads of a request as forces on bodies.
 
-use super::{MAX_DENSITY_KG_M3, MAX_FACTOR, MAX_FORCE_N_PER_M, MAX_LENGTH_M, MAX_STRESS_PA, friction_angle, inertia};
+use super::structure::Layout;
+use super::{
+    MAX_DENSITY_KG_M3, MAX_FACTOR, MAX_FORCE_N_PER_M, MAX_LENGTH_M, MAX_STRESS_PA, check_text, friction_angle, inertia,
+};
 use crate::api::fault::{Faults, Shown};
-use crate::api::request::{FillPressure, LateralPressure, LoadEntry, LoadRequest, PatchLoad, PointLoad};
+use crate::api::request::{
+    AnalysisRequest, FillPressure, LateralPressure, LoadEntry, LoadRequest, PatchLoad, PointForceLoad, PointLoad,
+};
 use crate::arch::MAX_VOUSSOIRS;
 use crate::collapse::Digits;
-use crate::geometry::Vec2;
+use crate::geometry::{Vec2, distance_from_segment, lies_inside};
 use crate::structure::load::{Band, Fill, Load, LoadFault, Place};
-use crate::structure::{GRAVITY, PointForce, Structure};
+use crate::structure::{GRAVITY, PointForce};
 
 /// Most loads of one request.
 pub const MAX_LOADS: usize = 1000;
@@ -48,8 +53,14 @@ impl Forces {
     }
 }
 
-/// The forces on the whole arch where there is one, with its extrados sides cut into `pieces` each.
-pub fn loads(entries: &[LoadEntry], whole: Option<&Structure>, pieces: &[usize], faults: &mut Faults) -> Forces {
+/// The forces on the whole structure where there is one, with the sides of its bodies cut into `pieces` each.
+pub fn loads(
+    request: &AnalysisRequest,
+    entries: &[LoadEntry],
+    whole: Option<&Layout>,
+    pieces: &[usize],
+    faults: &mut Faults,
+) -> Forces {
     let mut all = Forces::default();
     faults.require(
         !entries.is_empty(),
@@ -72,10 +83,18 @@ pub fn loads(entries: &[LoadEntry], whole: Option<&Structure>, pieces: &[usize],
     for (i, entry) in entries.iter().enumerate() {
         let before = faults.len();
         check(&format!("/loads/{i}"), entry, faults);
-        let Some(structure) = whole.filter(|_| faults.len() == before) else { continue };
-        match load(&entry.load).on_pieces(structure, pieces, entry.coefficient) {
+        check_fits(&format!("/loads/{i}/load"), &entry.load, request, faults);
+        let Some(layout) = whole.filter(|_| faults.len() == before) else { continue };
+        let structure = &layout.structure;
+        let Some(load) = load(&entry.load) else {
+            let force = point_force(&format!("/loads/{i}/load"), entry, layout, faults);
+            all.of(entry.scaled).extend(force);
+            continue;
+        };
+        match load.on_pieces(structure, pieces, entry.coefficient) {
             Ok(forces) if forces.is_empty() => {
-                faults.add(format!("/loads/{i}"), "this load puts no force on the arch: correct it or leave it out");
+                faults
+                    .add(format!("/loads/{i}"), "this load puts no force on the structure: correct it or leave it out");
             }
             Ok(forces) => {
                 all.of(entry.scaled).extend(forces);
@@ -102,9 +121,57 @@ fn place(i: usize, load: &LoadRequest, fault: LoadFault) -> String {
     format!("/loads/{i}/load/{field}")
 }
 
-/// A load in SI; of a point load with two places, the abscissa counts.
-pub fn load(request: &LoadRequest) -> Load {
-    match request {
+/// What cannot stand on this kind of structure.
+fn check_fits(here: &str, load: &LoadRequest, request: &AnalysisRequest, faults: &mut Faults) {
+    let name = match load {
+        LoadRequest::FillPressure(_) => "fill_pressure",
+        LoadRequest::LateralPressure(_) => "lateral_pressure",
+        LoadRequest::PointLoad(_) => "point_load",
+        LoadRequest::PatchLoad(_) => "patch_load",
+        LoadRequest::PointForce(_) => {
+            let detail = "the stones of an arch have no names: give a point_load instead";
+            faults.require(request.arch.is_none(), format!("{here}/point_force"), detail);
+            return;
+        }
+        LoadRequest::SelfWeight(_) | LoadRequest::BodyAcceleration(_) => return,
+    };
+    let detail = "blocks have no extrados for this to stand on: give a point_force on each block that carries it";
+    faults.require(request.blocks.is_none(), format!("{here}/{name}"), detail);
+    if let (LoadRequest::PointLoad(PointLoad { voussoir: Some(_), .. }), Some(_)) = (load, &request.bridge) {
+        let detail =
+            "a bridge has many voussoirs of this number: give x_m instead, or a point_force on a block by its name";
+        faults.add(format!("{here}/point_load/voussoir"), detail);
+    }
+}
+
+/// How far outside its block a force may act, as a share of the block's size.
+const ON_THE_BLOCK: f64 = 1e-6;
+
+/// A force on a named block.
+fn point_force(here: &str, entry: &LoadEntry, layout: &Layout, faults: &mut Faults) -> Option<PointForce> {
+    let LoadRequest::PointForce(given) = &entry.load else { return None };
+    let here = format!("{here}/point_force");
+    let Some(body) = layout.bodies.iter().position(|name| *name == given.block) else {
+        let detail = format!("there is no block {:?}: correct the name", given.block);
+        faults.add(format!("{here}/block"), detail);
+        return None;
+    };
+    let (at, corners) = (Vec2::from(given.at_m), &layout.structure.bodies[body].corners);
+    let sides = || corners.iter().zip(corners.iter().cycle().skip(1));
+    let size = sides().map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+    let near = || sides().any(|(&a, &b)| distance_from_segment(at, a, b) <= ON_THE_BLOCK * size);
+    let detail =
+        format!("this point lies outside block {:?}: move it onto the block that carries the force", given.block);
+    if !faults.require(lies_inside(at, corners) || near(), format!("{here}/at_m"), detail) {
+        return None;
+    }
+    Some(PointForce { body, at, force: entry.coefficient * Vec2::from(given.force_n_per_m), spread: false })
+}
+
+/// A load in SI; of a point load with two places, the abscissa counts. None of a force on a named block.
+pub fn load(request: &LoadRequest) -> Option<Load> {
+    Some(match request {
+        LoadRequest::PointForce(_) => return None,
         LoadRequest::SelfWeight(_) => Load::SelfWeight,
         LoadRequest::FillPressure(fill) => Load::Fill(as_fill(fill)),
         LoadRequest::LateralPressure(lateral) => {
@@ -126,7 +193,7 @@ pub fn load(request: &LoadRequest) -> Load {
             Load::Patch { force: patch.force_n_per_m, centre: patch.centre_x_m, width: patch.width_m }
         }
         LoadRequest::BodyAcceleration(body) => Load::BodyAcceleration(GRAVITY * Vec2::new(body.x_g, body.y_g)),
-    }
+    })
 }
 
 /// Fill in SI.
@@ -149,6 +216,7 @@ fn check(here: &str, entry: &LoadEntry, faults: &mut Faults) {
         LoadRequest::LateralPressure(lateral) => check_lateral(&format!("{here}/lateral_pressure"), lateral, faults),
         LoadRequest::PointLoad(point) => check_point(&format!("{here}/point_load"), point, faults),
         LoadRequest::PatchLoad(patch) => check_patch(&format!("{here}/patch_load"), patch, faults),
+        LoadRequest::PointForce(force) => check_force(&format!("{here}/point_force"), force, faults),
         LoadRequest::BodyAcceleration(body) => {
             for (name, value) in [("x_g", body.x_g), ("y_g", body.y_g)] {
                 faults.either_way(format!("{here}/body_acceleration/{name}"), value, MAX_FACTOR);
@@ -211,6 +279,16 @@ fn check_point(here: &str, point: &PointLoad, faults: &mut Faults) {
     }
     let one = point.x_m.is_some() != point.voussoir.is_some();
     faults.require(one, here, "give either x_m or voussoir, not both and not neither");
+}
+
+fn check_force(here: &str, force: &PointForceLoad, faults: &mut Faults) {
+    check_text(&format!("{here}/block"), &force.block, faults);
+    for (i, (at, part)) in force.at_m.into_iter().zip(force.force_n_per_m).enumerate() {
+        faults.either_way(format!("{here}/at_m/{i}"), at, MAX_LENGTH_M);
+        faults.either_way(format!("{here}/force_n_per_m/{i}"), part, MAX_FORCE_N_PER_M);
+    }
+    let detail = "0 both ways makes this load vanish: give another force or leave the load out";
+    faults.require(force.force_n_per_m != [0.0; 2], format!("{here}/force_n_per_m"), detail);
 }
 
 fn check_patch(here: &str, patch: &PatchLoad, faults: &mut Faults) {

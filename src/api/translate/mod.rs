@@ -3,6 +3,8 @@
 mod accuracy;
 mod arch;
 mod beam;
+mod blocks;
+mod bridge;
 mod half;
 mod inertia;
 mod loads;
@@ -13,12 +15,15 @@ mod safety;
 mod settlement;
 mod site;
 mod stone;
+mod structure;
 
 use super::fault::{Fault, Faults};
 use super::request::{AimRequest, AnalysisRequest, MAX_TEXT, Request};
 use crate::collapse::Question;
 use site::Site;
 use stone::friction_angle;
+
+pub use structure::{Layout, named};
 
 /// Largest length and coordinate, m.
 pub const MAX_LENGTH_M: f64 = 1e5;
@@ -38,7 +43,7 @@ pub const MAX_FACTOR: f64 = 1e12;
 pub fn translate(request: &Request) -> Result<Question, Vec<Fault>> {
     let mut faults = Faults::default();
     let question = match request {
-        Request::Arch(request) => arch_question(request, &mut faults),
+        Request::Structure(request) => structure_question(request, &mut faults),
         Request::CurvedBeam(request) => beam::beam(request, &mut faults).map(Question::CurvedBeam),
     };
     match question {
@@ -47,7 +52,7 @@ pub fn translate(request: &Request) -> Result<Question, Vec<Fault>> {
     }
 }
 
-fn arch_question(request: &AnalysisRequest, faults: &mut Faults) -> Option<Question> {
+fn structure_question(request: &AnalysisRequest, faults: &mut Faults) -> Option<Question> {
     let site = Site::new(request, faults);
     let curve = match &request.analysis {
         AimRequest::Collapse => None,
@@ -68,9 +73,9 @@ fn arch_question(request: &AnalysisRequest, faults: &mut Faults) -> Option<Quest
 }
 
 /// Whether a text is short enough and stands on one line.
-fn check_text(pointer: &str, text: &str, faults: &mut Faults) {
+fn check_text(pointer: &str, text: &str, faults: &mut Faults) -> bool {
     let detail = format!("this text is too long: shorten it to {MAX_TEXT} characters");
-    faults.require(text.chars().count() <= MAX_TEXT, pointer, detail);
+    let short = faults.require(text.chars().count() <= MAX_TEXT, pointer, detail);
     let detail = "this text has a line break or another control character: leave it out";
-    faults.require(!text.chars().any(|c| c.is_ascii_control()), pointer, detail);
+    faults.require(!text.chars().any(|c| c.is_ascii_control()), pointer, detail) && short
 }

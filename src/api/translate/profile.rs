@@ -1,18 +1,18 @@
 //! The profile line of a request.
 
 use super::MAX_LENGTH_M;
-use crate::api::fault::{Faults, Shown};
+use crate::api::fault::{Faults, Shown, child};
 use crate::api::request::{Circular, MultiCentre, Pointed, ProfileRequest};
 use crate::arch::MAX_VOUSSOIRS;
 use crate::arch::profile::Profile;
 
-/// The profile line; none for a surveyed arch, or with faults.
-pub fn profile(request: &ProfileRequest, faults: &mut Faults) -> Option<Profile> {
+/// The profile line that stands at `place`; none for a surveyed arch, or with faults.
+pub fn profile(request: &ProfileRequest, place: &str, faults: &mut Faults) -> Option<Profile> {
     match request {
-        ProfileRequest::Circular(circular) => circular_profile(circular, faults),
-        ProfileRequest::Pointed(pointed) => pointed_profile(pointed, faults),
+        ProfileRequest::Circular(circular) => circular_profile(circular, &child(place, "circular"), faults),
+        ProfileRequest::Pointed(pointed) => pointed_profile(pointed, &child(place, "pointed"), faults),
         ProfileRequest::Elliptical(ellipse) => {
-            let here = "/arch/profile/elliptical";
+            let here = child(place, "elliptical");
             let span = faults.within(format!("{here}/span_m"), ellipse.span_m, 0.0, MAX_LENGTH_M);
             let rise = faults.within(format!("{here}/rise_m"), ellipse.rise_m, 0.0, MAX_LENGTH_M);
             let ratio = 2.0 * ellipse.rise_m / ellipse.span_m;
@@ -21,7 +21,7 @@ pub fn profile(request: &ProfileRequest, faults: &mut Faults) -> Option<Profile>
             faults.require(measurable, format!("{here}/rise_m"), detail);
             (span && rise && measurable).then(|| Profile::elliptical(ellipse.span_m, ellipse.rise_m))
         }
-        ProfileRequest::MultiCentre(oval) => multi_centre_profile(oval, faults),
+        ProfileRequest::MultiCentre(oval) => multi_centre_profile(oval, &format!("{place}/multi_centre/arcs"), faults),
         ProfileRequest::Surveyed(_) => None,
     }
 }
@@ -56,8 +56,7 @@ fn sizes<const N: usize>(here: &str, given: [(&str, Option<f64>); N], faults: &m
     faults.len() == before
 }
 
-fn circular_profile(circular: &Circular, faults: &mut Faults) -> Option<Profile> {
-    let here = "/arch/profile/circular";
+fn circular_profile(circular: &Circular, here: &str, faults: &mut Faults) -> Option<Profile> {
     let by_radius = [("radius_m", circular.radius_m), ("opening_angle_deg", circular.opening_angle_deg)];
     let by_span = [("span_m", circular.span_m), ("rise_m", circular.rise_m)];
     let sized = sizes(here, [by_radius[0], by_span[0], by_span[1]], faults);
@@ -68,8 +67,7 @@ fn circular_profile(circular: &Circular, faults: &mut Faults) -> Option<Profile>
     (sized && opens).then(profile)
 }
 
-fn pointed_profile(pointed: &Pointed, faults: &mut Faults) -> Option<Profile> {
-    let here = "/arch/profile/pointed";
+fn pointed_profile(pointed: &Pointed, here: &str, faults: &mut Faults) -> Option<Profile> {
     let by_radius = [("radius_m", pointed.radius_m), ("centre_offset_m", pointed.centre_offset_m)];
     let by_span = [("span_m", pointed.span_m), ("rise_m", pointed.rise_m)];
     let sized = sizes(here, [by_radius[0], by_span[0], by_span[1]], faults);
@@ -88,9 +86,8 @@ fn pointed_profile(pointed: &Pointed, faults: &mut Faults) -> Option<Profile> {
     faults.require(y >= 0.5 * x, second, detail).then(|| Profile::pointed_by_span(x, y))
 }
 
-fn multi_centre_profile(oval: &MultiCentre, faults: &mut Faults) -> Option<Profile> {
-    let (here, before) = ("/arch/profile/multi_centre/arcs", faults.len());
-    let arcs = &oval.arcs;
+fn multi_centre_profile(oval: &MultiCentre, here: &str, faults: &mut Faults) -> Option<Profile> {
+    let (before, arcs) = (faults.len(), &oval.arcs);
     faults.listing(here, arcs.len(), 1..=MAX_VOUSSOIRS, "arcs");
     for (i, arc) in arcs.iter().enumerate() {
         faults.within(format!("{here}/{i}/radius_m"), arc.radius_m, 0.0, MAX_LENGTH_M);

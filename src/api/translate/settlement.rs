@@ -17,7 +17,7 @@ pub fn check(request: &AnalysisRequest, settlement: &SettlementRequest, site: &S
     let detail = "nothing moves: give left or right a movement, such as outwards_m";
     faults.require(sides.iter().any(|(_, movement)| !still(*movement)), "/analysis/settlement", detail);
     let detail = "the other half moves as the mirror image of this one: move left only, or set half to false";
-    faults.require(!request.arch.half || still(settlement.right), "/analysis/settlement/right", detail);
+    faults.require(!request.half() || still(settlement.right), "/analysis/settlement/right", detail);
     for (i, _) in request.loads.iter().enumerate().filter(|(_, entry)| entry.scaled) {
         let detail = "while springings move no load grows: set scaled to false, or leave the load out";
         faults.add(format!("/loads/{i}/scaled"), detail);

@@ -1,7 +1,8 @@
 //! What all analyses of one request share.
 
-use super::stone::{check_overrides, override_joints, stone};
-use super::{MAX_FACTOR, MAX_LENGTH_M, accuracy, arch, check_text, half, loads, mesh, motion};
+use super::stone::{Stones, check_overrides, override_joints};
+use super::structure::{self, Layout};
+use super::{MAX_FACTOR, MAX_LENGTH_M, accuracy, check_text, half, loads, mesh, motion};
 use crate::api::fault::Faults;
 use crate::api::request::{AimRequest, AnalysisRequest, DirectionRequest, GeometryRequest, LoadEntry, MethodRequest};
 use crate::arch::MAX_VOUSSOIRS;
@@ -13,11 +14,11 @@ use crate::structure::{PointForce, Structure};
 pub struct Site<'a> {
     /// The request.
     pub request: &'a AnalysisRequest,
-    /// The whole arch, where it can be built.
-    whole: Option<Structure>,
-    /// What is analysed: the whole arch or its left half.
+    /// The whole structure, where it can be built.
+    whole: Option<Layout>,
+    /// What is analysed: the whole structure, or the left half of an arch.
     structure: Option<Structure>,
-    /// Subblocks of every voussoir of the whole arch, radial and along; those of its half where a keystone is cut.
+    /// Subblocks of every body of the whole structure, radial and along; those of its half where a keystone is cut.
     subblocks: Vec<[usize; 2]>,
     /// The voussoir that is cut in half.
     cut: Option<usize>,
@@ -32,19 +33,23 @@ impl<'a> Site<'a> {
     pub fn new(request: &'a AnalysisRequest, faults: &mut Faults) -> Self {
         check_text("/name", request.name.as_deref().unwrap_or(""), faults);
         check_text("/load_factor/unit", &request.load_factor.unit, faults);
-        let stone = stone(&request.stone, faults);
-        let mut whole = arch::arch(&request.arch, stone, faults);
-        check_overrides(request, whole.as_ref(), faults);
-        if let Some(whole) = &mut whole {
-            override_joints(request, whole);
+        let stones = Stones::new(request, faults);
+        let mut layout = structure::layout(request, &stones, faults);
+        structure::check(request, faults);
+        if let Some(arch) = &request.arch {
+            check_overrides(request, arch, layout.as_ref().map(|layout| &layout.structure), faults);
         }
-        let structure = match request.arch.half {
-            true => whole.as_ref().map(|whole| half::halved(whole, &request.arch, faults)),
-            false => whole.clone(),
+        if let Some(layout) = &mut layout {
+            override_joints(request, &mut layout.structure);
+        }
+        let whole = layout.as_ref().map(|layout| &layout.structure);
+        let structure = match request.arch.as_ref().filter(|arch| arch.half) {
+            Some(arch) => whole.map(|whole| half::halved(whole, arch, faults)),
+            None => whole.cloned(),
         };
         let analysed = structure.as_ref().map(|structure| structure.voussoirs().len());
-        let mut subblocks = mesh::subblocks(&request.mesh, whole.as_ref(), analysed, faults);
-        let cut = whole.as_ref().filter(|_| request.arch.half).and_then(Structure::keystone);
+        let mut subblocks = mesh::subblocks(&request.mesh, whole, analysed, faults);
+        let cut = whole.filter(|_| request.half()).and_then(Structure::keystone);
         if let Some([_, along]) = cut.and_then(|keystone| subblocks.get_mut(keystone)) {
             *along = along.div_ceil(2);
         }
@@ -53,13 +58,13 @@ impl<'a> Site<'a> {
         check_load_factor(request, faults);
         check_method(request, faults);
         faults.inside("/report/share_of_collapse", request.report.share_of_collapse, 0.0, 1.0);
-        let accuracy = accuracy::accuracy(request, whole.as_ref(), faults);
+        let accuracy = accuracy::accuracy(request, whole, faults);
         let pieces = mesh::total(subblocks.iter().take(analysed.unwrap_or(0)));
         let refined = accuracy.filter(|accuracy| accuracy.stress.is_some());
         let pieces = refined.map_or(pieces, |accuracy| accuracy.most_subblocks);
         let fields = mesh::fields(&request.report, pieces, faults);
         let motion = motion::motion(request, analysed.unwrap_or(0), faults);
-        Site { request, whole, structure, subblocks, cut, method, accuracy, fields, motion }
+        Site { request, whole: layout, structure, subblocks, cut, method, accuracy, fields, motion }
     }
 
     /// Into how many pieces the extrados side of every voussoir of the whole arch is cut.
@@ -74,7 +79,7 @@ impl<'a> Site<'a> {
     /// Distance of the whole arch's joints farthest apart, m; none where it cannot be built.
     pub fn size(&self) -> Option<f64> {
         let ends = |whole: &Structure| whole.ring().iter().flat_map(|j| [j.intrados, j.extrados]).collect::<Vec<_>>();
-        let ends = ends(self.whole.as_ref()?);
+        let ends = ends(&self.whole.as_ref()?.structure);
         let from = |a: &Vec2| ends.iter().map(|b| (a - b).norm()).fold(0.0, f64::max);
         ends.iter().map(from).reduce(f64::max)
     }
@@ -85,16 +90,16 @@ impl<'a> Site<'a> {
         &self.subblocks[..analysed.min(self.subblocks.len())]
     }
 
-    /// The analysis under these loads; none where the arch cannot be built.
+    /// The analysis under these loads; none where the structure cannot be built.
     pub fn analysis(&self, entries: &[LoadEntry], faults: &mut Faults) -> Option<Analysis> {
         let request = self.request;
-        let forces = loads::loads(entries, self.whole.as_ref(), &self.pieces(), faults);
-        if let Some(whole) = self.whole.as_ref().filter(|_| request.arch.half) {
-            half::check_loads(entries, whole, faults);
+        let forces = loads::loads(request, entries, self.whole.as_ref(), &self.pieces(), faults);
+        if let Some(whole) = self.whole.as_ref().filter(|_| request.half()) {
+            half::check_loads(entries, &whole.structure, faults);
         }
         let structure = self.structure.as_ref()?;
-        let halve = |forces: Vec<PointForce>| match self.whole.as_ref().filter(|_| request.arch.half) {
-            Some(whole) => whole.on_left_half(structure, &forces),
+        let halve = |forces: Vec<PointForce>| match self.whole.as_ref().filter(|_| request.half()) {
+            Some(whole) => whole.structure.on_left_half(structure, &forces),
             None => forces,
         };
         Some(Analysis {

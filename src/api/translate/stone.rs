@@ -1,24 +1,76 @@
 //! Stone and joints of a request.
 
-use super::{MAX_DENSITY_KG_M3, MAX_STRESS_PA};
+use super::{MAX_DENSITY_KG_M3, MAX_STRESS_PA, check_text};
 use crate::api::fault::{Faults, child};
-use crate::api::request::{AnalysisRequest, PlaneRequest, SpringingJoints, StoneRequest};
+use crate::api::request::{
+    AnalysisRequest, ArchRequest, MAX_STONES, NamedStone, PlaneRequest, SpringingJoints, StoneRequest,
+};
 use crate::arch::MAX_VOUSSOIRS;
 use crate::collapse::PlaneModel;
 use crate::structure::{JointLaw, Stone, Structure};
+use std::collections::BTreeMap;
+
+/// All stones of a request in SI, `stone` first.
+pub struct Stones<'a> {
+    /// The first is `stone`, the others `stones` in order.
+    pub all: Vec<Stone>,
+    names: BTreeMap<&'a str, usize>,
+}
+
+impl<'a> Stones<'a> {
+    /// Checks and translates them.
+    pub fn new(request: &'a AnalysisRequest, faults: &mut Faults) -> Self {
+        let mut stones = Stones { all: vec![stone(&request.stone, faults)], names: BTreeMap::new() };
+        if !faults.listing("/stones", request.stones.len(), 0..=MAX_STONES, "stones") {
+            return stones;
+        }
+        for (i, named) in request.stones.iter().enumerate() {
+            let here = child("/stones", &i.to_string());
+            let named_well = check_text(&child(&here, "name"), &named.name, faults);
+            if stones.names.insert(&named.name, i + 1).is_some() && named_well {
+                let detail = format!("{:?} is the name of a stone before it: give this one another", named.name);
+                faults.add(child(&here, "name"), detail);
+            }
+            // What is wrong with `stone` is said once.
+            let whole = completed(named, &request.stone);
+            let mut own = Faults::default();
+            stones.all.push(material(&here, &whole, &mut own));
+            let given = serde_json::to_value(named).unwrap_or_default();
+            for fault in own.into_vec() {
+                let field = fault.pointer.strip_prefix(&format!("{here}/")).unwrap_or_default();
+                faults.require(given.get(field).is_none(), fault.pointer.as_str(), fault.detail.as_str());
+            }
+        }
+        stones
+    }
+
+    /// The number of the stone of this name; none: that of `stone`.
+    pub fn named(&self, name: Option<&str>, pointer: &str, faults: &mut Faults) -> usize {
+        let Some(name) = name.filter(|name| check_text(pointer, name, faults)) else { return 0 };
+        self.names.get(name).copied().unwrap_or_else(|| {
+            let detail = format!("there is no stone {name:?} in `stones`: add it, correct the name, or leave this out");
+            faults.add(pointer, detail);
+            0
+        })
+    }
+}
+
+/// A named stone, what it leaves out taken from `stone`.
+fn completed(named: &NamedStone, stone: &StoneRequest) -> StoneRequest {
+    StoneRequest {
+        density_kg_m3: named.density_kg_m3.unwrap_or(stone.density_kg_m3),
+        youngs_modulus_pa: named.youngs_modulus_pa.unwrap_or(stone.youngs_modulus_pa),
+        poissons_ratio: named.poissons_ratio.unwrap_or(stone.poissons_ratio),
+        friction_angle_deg: named.friction_angle_deg.unwrap_or(stone.friction_angle_deg),
+        cohesion_pa: named.cohesion_pa.unwrap_or(stone.cohesion_pa),
+        compressive_strength_pa: named.compressive_strength_pa.unwrap_or(stone.compressive_strength_pa),
+        ..stone.clone()
+    }
+}
 
 /// The stone in SI.
 pub fn stone(request: &StoneRequest, faults: &mut Faults) -> Stone {
-    let weighs = faults.within("/stone/density_kg_m3", request.density_kg_m3, 0.0, MAX_DENSITY_KG_M3);
-    faults.from_to("/stone/youngs_modulus_pa", request.youngs_modulus_pa, YOUNGS_MODULUS_PA[0], YOUNGS_MODULUS_PA[1]);
-    let nu = request.poissons_ratio;
-    faults.inside("/stone/poissons_ratio", nu, -1.0, 0.5);
-    friction_angle("/stone/friction_angle_deg", request.friction_angle_deg, faults);
-    faults.from_to("/stone/cohesion_pa", request.cohesion_pa, 0.0, MAX_STRESS_PA);
-    let strength = request.compressive_strength_pa;
-    let strong = (STRENGTH_PA[0]..=STRENGTH_PA[1]).contains(&strength);
-    let rule = "the strength is in Pa, from 1e3 to 1e30, and 10 MPa is 1e7";
-    faults.in_range(strong, "/stone/compressive_strength_pa", strength, rule);
+    let stone = material("/stone", request, faults);
     let [softest, stiffest] = PENALTY_RATIO;
     let rule = format!("it must be from {softest} to {stiffest}");
     for (name, ratio) in
@@ -26,6 +78,22 @@ pub fn stone(request: &StoneRequest, faults: &mut Faults) -> Stone {
     {
         faults.in_range((softest..=stiffest).contains(&ratio), format!("/stone/{name}"), ratio, &rule);
     }
+    stone
+}
+
+/// The material that stands at `here`.
+fn material(here: &str, request: &StoneRequest, faults: &mut Faults) -> Stone {
+    let weighs = faults.within(child(here, "density_kg_m3"), request.density_kg_m3, 0.0, MAX_DENSITY_KG_M3);
+    let [softest, stiffest] = YOUNGS_MODULUS_PA;
+    faults.from_to(child(here, "youngs_modulus_pa"), request.youngs_modulus_pa, softest, stiffest);
+    let nu = request.poissons_ratio;
+    faults.inside(child(here, "poissons_ratio"), nu, -1.0, 0.5);
+    friction_angle(&child(here, "friction_angle_deg"), request.friction_angle_deg, faults);
+    faults.from_to(child(here, "cohesion_pa"), request.cohesion_pa, 0.0, MAX_STRESS_PA);
+    let strength = request.compressive_strength_pa;
+    let strong = (STRENGTH_PA[0]..=STRENGTH_PA[1]).contains(&strength);
+    let rule = "the strength is in Pa, from 1e3 to 1e30, and 10 MPa is 1e7";
+    faults.in_range(strong, child(here, "compressive_strength_pa"), strength, rule);
     Stone {
         // A wrong density is one fault, not one for every load that it makes vanish.
         density: if weighs { request.density_kg_m3 } else { Stone::default().density },
@@ -57,7 +125,12 @@ pub fn joint_law(stone: &Stone) -> JointLaw {
 }
 
 /// Whether the overrides fit the arch.
-pub fn check_overrides(request: &AnalysisRequest, structure: Option<&Structure>, faults: &mut Faults) {
+pub fn check_overrides(
+    request: &AnalysisRequest,
+    arch: &ArchRequest,
+    structure: Option<&Structure>,
+    faults: &mut Faults,
+) {
     faults.listing("/joint_overrides", request.joint_overrides.len(), 0..=MAX_VOUSSOIRS + 1, "overrides");
     let mut seen = std::collections::BTreeSet::new();
     for (i, item) in request.joint_overrides.iter().enumerate() {
@@ -70,7 +143,7 @@ pub fn check_overrides(request: &AnalysisRequest, structure: Option<&Structure>,
         if let Some(last) = structure.map(|structure| structure.ring().len() - 1).filter(|_| numbered) {
             let detail = format!("there is no joint {}; joints run from 0 to {last}", item.joint);
             faults.require(item.joint <= last, &joint, detail);
-            let glued = request.arch.springing_joints == SpringingJoints::Bonded && [0, last].contains(&item.joint);
+            let glued = arch.springing_joints == SpringingJoints::Bonded && [0, last].contains(&item.joint);
             faults.require(
                 !glued,
                 &joint,

@@ -16,7 +16,7 @@ fn certificate(limit: f64) -> Certificate {
 /// A path that ends as the last joint slides under 100 N and a shear that opposes the sliding.
 fn slid(shear: f64, load_factor: f64) -> PathEnd {
     let thrust = |joint| Thrust { joint, normal: 100.0, shear, eccentricity: 0.0, at: Vec2::zeros() };
-    let slides = vec![Slide { joint: 1, rate: -1.0 }];
+    let slides = vec![Slide { joint: 1, at: crate::geometry::Vec2::zeros(), rate: -1.0 }];
     let mechanism =
         Mechanism { mode: Mode::Sliding, hinges: Vec::new(), slides, lift_offs: Vec::new(), velocities: Vec::new() };
     PathEnd { load_factor, range: None, residual: 0.0, mechanism, thrust_line: vec![thrust(0), thrust(1)] }

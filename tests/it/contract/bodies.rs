@@ -90,6 +90,71 @@ fn surveyed() -> Value {
     })
 }
 
+fn blocks() -> Value {
+    let corners = |y: f64| json!([[0, y], [1, y], [1, y + 1.0], [0, y + 1.0]]);
+    json!({
+        "name": "a wall",
+        "blocks": {
+            "polygons": [
+                {"name": "low", "corners_m": corners(0.0), "stone": "rubble"},
+                {"name": "high", "corners_m": corners(1.0)}
+            ],
+            "joints": "found",
+            "supports": [{"name": "ground", "sides": [{"block": "low", "side": 0}]}],
+            "tolerance_m": 1e-6
+        },
+        "stones": [{
+            "name": "rubble", "density_kg_m3": 1900, "youngs_modulus_pa": 1e9, "poissons_ratio": 0.2,
+            "friction_angle_deg": 25, "cohesion_pa": 10, "compressive_strength_pa": 1e6
+        }],
+        "loads": [
+            {"load": {"self_weight": {}}},
+            {"load": {"point_force": {"block": "high", "at_m": [0, 1.5], "force_n_per_m": [100, -10]}}, "scaled": true}
+        ]
+    })
+}
+
+fn given() -> Value {
+    let joints = json!([
+        {"between": ["low", "high"], "ends_m": [[0, 1], [1, 1]], "friction_angle_deg": 30, "cohesion_pa": 5, "bonded": false},
+        {"between": ["ground", "low"], "ends_m": [[0, 0], [1, 0]], "bonded": true}
+    ]);
+    let request = with(blocks(), "/blocks/joints", json!({"given": joints}));
+    let request = with(request, "/blocks/supports/0/sides", json!([]));
+    with(request, "/stones/0/name", json!("rubble"))
+}
+
+fn on_a_line() -> Value {
+    with(without(blocks(), "/blocks/supports/0/sides"), "/blocks/supports/0/segments_m", json!([[[-1, 0], [2, 0]]]))
+}
+
+fn bridge() -> Value {
+    let rings = || json!([{"thickness_m": 0.3, "springing_thickness_m": 0.4, "voussoirs": 7, "stone": "rubble"}]);
+    let span = |profile: Value| json!({"profile": profile, "rings": rings()});
+    let oval = json!({"multi_centre": {"arcs": [{"radius_m": 1, "angle_deg": 40}, {"radius_m": 2, "angle_deg": 50}]}});
+    let spans = vec![
+        span(json!({"circular": {"radius_m": 2, "opening_angle_deg": 150}})),
+        span(json!({"circular": {"span_m": 4, "rise_m": 1.5}})),
+        span(json!({"pointed": {"radius_m": 2, "centre_offset_m": 0.2}})),
+        span(json!({"pointed": {"span_m": 4, "rise_m": 2.2}})),
+        span(json!({"elliptical": {"span_m": 4, "rise_m": 1.5}})),
+        span(oval),
+    ];
+    let pier = json!({"top_width_m": 1.5, "height_m": 3, "courses": 2, "batter": 0.05, "stone": "rubble"});
+    let abutment = json!({"height_m": 2, "width_m": 1.5, "stone": "rubble"});
+    json!({
+        "bridge": {
+            "spans": spans, "piers": vec![pier; 5], "abutments": {"left": abutment, "right": abutment},
+            "backing": {"level_m": 1, "stone": "rubble"}, "ring_friction_angle_deg": 30
+        },
+        "stones": [{"name": "rubble"}],
+        "loads": [
+            {"load": {"self_weight": {}}},
+            {"load": {"point_load": {"force_n_per_m": 1000, "x_m": -5}}, "scaled": true}
+        ]
+    })
+}
+
 fn beam() -> Value {
     json!({
         "name": "a beam",
@@ -128,6 +193,10 @@ pub fn bodies() -> Vec<Value> {
         accurate(),
         settlement(),
         surveyed(),
+        blocks(),
+        given(),
+        on_a_line(),
+        bridge(),
         beam(),
         accurate_beam(),
     ]

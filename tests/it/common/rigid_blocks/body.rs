@@ -37,7 +37,7 @@ fn load(load: &Load) -> Value {
     match load {
         Load::Acceleration([x, y]) => json!({"body_acceleration": {"x_g": x, "y_g": y}}),
         Load::Point(push) => {
-            json!({"point_load": {"block": name(push.block), "at_m": push.at, "force_n_per_m": push.force}})
+            json!({"point_force": {"block": name(push.block), "at_m": push.at, "force_n_per_m": push.force}})
         }
     }
 }

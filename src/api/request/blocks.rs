@@ -1,0 +1,100 @@
+//! Blocks given by their corners: walls, buttresses, portals, arches drawn elsewhere.
+
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+/// Most joints given one by one: about four for each block.
+pub const MAX_GIVEN_JOINTS: usize = 8000;
+
+/// Blocks, the joints between them, and the ground they stand on. x runs to the right, y upwards, in m.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct BlocksRequest {
+    /// The blocks: at most 20,000 corners together.
+    #[schema(min_items = 1, max_items = 2001)]
+    pub polygons: Vec<PolygonRequest>,
+    /// Where the joints between blocks are.
+    #[serde(default)]
+    pub joints: BlockJointsRequest,
+    /// The ground.
+    #[schema(min_items = 1, max_items = 2001)]
+    pub supports: Vec<SupportRequest>,
+    /// How far points may be from where they are meant to be, m. Left out: a millionth of the longer side of the box round all
+    /// corners.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
+    pub tolerance_m: Option<f64>,
+}
+
+/// One block.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct PolygonRequest {
+    /// Its name, up to 200 characters; no other block and no support has it.
+    #[schema(max_length = 200, pattern = "^[^\\x00-\\x1f\\x7f]*$")]
+    pub name: String,
+    /// Corners [x, y] in order, in either sense, m. It need not be convex.
+    #[schema(min_items = 3, max_items = 200)]
+    pub corners_m: Vec<[f64; 2]>,
+    /// The name of one of `stones`; left out: `stone`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(max_length = 200, pattern = "^[^\\x00-\\x1f\\x7f]*$")]
+    pub stone: Option<String>,
+}
+
+/// Where the joints between blocks are.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum BlockJointsRequest {
+    /// Wherever straight sides of two blocks meet; friction and cohesion are those of the weaker stone.
+    #[default]
+    Found,
+    /// These, at most 8000, and those on supports: blocks that meet elsewhere do not know of each other.
+    Given(Vec<GivenJointRequest>),
+}
+
+/// A joint between two blocks, or a block and a support.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct GivenJointRequest {
+    /// Names of what it lies between.
+    pub between: [String; 2],
+    /// Its ends [x, y], m; both on one side of each block.
+    pub ends_m: [[f64; 2]; 2],
+    /// Friction angle, degrees. Left out: that of the weaker stone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(minimum = 0.0, exclusive_maximum = 90.0)]
+    pub friction_angle_deg: Option<f64>,
+    /// Cohesion, Pa. Left out: that of the weaker stone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(minimum = 0.0, exclusive_maximum = 1e15)]
+    pub cohesion_pa: Option<f64>,
+    /// True: glued, it neither opens nor slides.
+    #[serde(default)]
+    pub bonded: bool,
+}
+
+/// A piece of ground. Its joints have friction and cohesion of the stone that rests on it. At least one of its lists has an
+/// item, or a given joint names it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct SupportRequest {
+    /// Its name, up to 200 characters; no block and no other support has it.
+    #[schema(max_length = 200, pattern = "^[^\\x00-\\x1f\\x7f]*$")]
+    pub name: String,
+    /// Sides of blocks that rest on it.
+    #[serde(default)]
+    #[schema(max_items = 2001)]
+    pub sides: Vec<SideRequest>,
+    /// Straight lines of ground, from [x, y] to [x, y], m: all sides of blocks on them rest on it.
+    #[serde(default)]
+    #[schema(max_items = 2001)]
+    pub segments_m: Vec<[[f64; 2]; 2]>,
+}
+
+/// A whole side of a block.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct SideRequest {
+    /// The block's name.
+    #[schema(max_length = 200, pattern = "^[^\\x00-\\x1f\\x7f]*$")]
+    pub block: String,
+    /// From this corner to the next, counted from 0 as in `corners_m`.
+    #[schema(maximum = 199)]
+    pub side: usize,
+}

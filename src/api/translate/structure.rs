@@ -1,0 +1,98 @@
+//! The structure of a request, whichever word it is given in.
+
+use super::stone::Stones;
+use super::{arch, blocks, bridge};
+use crate::api::fault::Faults;
+use crate::api::request::{
+    AimRequest, AnalysisRequest, BlocksRequest, BridgeRequest, GeometryRequest, MeshRequest, MethodRequest,
+};
+use crate::structure::Structure;
+
+/// A structure, and what its bodies and supports are called; an arch has names for neither.
+#[derive(Debug, Clone)]
+pub struct Layout {
+    /// As it is analysed, but whole.
+    pub structure: Structure,
+    /// Names of the bodies.
+    pub bodies: Vec<String>,
+    /// Names of the supports.
+    pub supports: Vec<String>,
+}
+
+/// The three words for a structure, and whether each is given.
+fn words(request: &AnalysisRequest) -> [(&'static str, bool); 3] {
+    [("arch", request.arch.is_some()), ("bridge", request.bridge.is_some()), ("blocks", request.blocks.is_some())]
+}
+
+/// The structure of a request, or faults.
+pub fn layout(request: &AnalysisRequest, stones: &Stones<'_>, faults: &mut Faults) -> Option<Layout> {
+    let given: Vec<_> = words(request).into_iter().filter(|(_, given)| *given).map(|(word, _)| word).collect();
+    match given.as_slice() {
+        [_] => {}
+        [] => {
+            faults.add("/arch", "arch, bridge and blocks are all missing: add one of them");
+            return None;
+        }
+        [first, others @ ..] => {
+            for word in others {
+                faults.add(format!("/{word}"), format!("there is {first} too: leave one of them out"));
+            }
+            return None;
+        }
+    }
+    match request {
+        AnalysisRequest { bridge: Some(request), .. } => bridge::bridge(request, stones, faults),
+        AnalysisRequest { blocks: Some(request), .. } => blocks::blocks(request, stones, faults),
+        AnalysisRequest { arch: Some(request), .. } => {
+            let structure = arch::arch(request, stones.all[0], faults)?;
+            Some(Layout { structure, bodies: Vec::new(), supports: Vec::new() })
+        }
+        _ => None,
+    }
+}
+
+/// The structure of a bridge or of blocks, with its names; none of an arch.
+pub fn named(request: &AnalysisRequest) -> Option<Layout> {
+    let faults = &mut Faults::default();
+    let stones = Stones::new(request, faults);
+    let (bridge, blocks): (&Option<BridgeRequest>, &Option<BlocksRequest>) = (&request.bridge, &request.blocks);
+    (bridge.is_some() || blocks.is_some()).then(|| layout(request, &stones, faults)).flatten()
+}
+
+/// What can be asked of an arch only.
+pub fn check(request: &AnalysisRequest, faults: &mut Faults) {
+    if request.arch.is_some() {
+        let detail = "an arch is made of `stone` alone: leave this out, or give the arch as a bridge of one span";
+        faults.require(request.stones.is_empty(), "/stones", detail);
+        return;
+    }
+    let what = match (&request.bridge, &request.blocks) {
+        (Some(_), None) => "a bridge",
+        (None, Some(_)) => "blocks",
+        _ => return,
+    };
+    let first_order = request.geometry == GeometryRequest::FirstOrder;
+    let followed = request.method == MethodRequest::EventPath;
+    let stays = !matches!(request.analysis, AimRequest::Settlement(_));
+    let of_joints = match what {
+        "blocks" => "give them in blocks.joints.given",
+        _ => "give the parts of the bridge stones of their own",
+    };
+    let refusals = [
+        (request.accuracy.is_none(), "/accuracy", "the error of the answer is not estimated: leave accuracy out"),
+        (request.motion.is_none(), "/motion", "the motion after collapse is not followed: leave motion out"),
+        (stays, "/analysis/settlement", "supports cannot be moved: set analysis to `collapse`"),
+        (first_order, "/geometry", "the path on moving geometry is not followed: set geometry to `first_order`"),
+        (followed, "/method", "fixed steps are not taken: set method to `event_path`"),
+        (request.mesh == MeshRequest::default(), "/mesh", "every stone is one block: leave mesh out"),
+        (request.joint_overrides.is_empty(), "/joint_overrides", of_joints),
+        (
+            request.report.stress_fields.is_empty(),
+            "/report/stress_fields",
+            "there are no stress fields: leave them out",
+        ),
+    ];
+    for (allowed, pointer, detail) in refusals {
+        faults.require(allowed, pointer, format!("not yet for {what}: {detail}"));
+    }
+}
