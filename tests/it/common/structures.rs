@@ -5,7 +5,8 @@ use super::rigid_blocks::scene::Scene;
 use super::rigid_blocks::{Push, bridge, portal, wall};
 use voussoir::blocks::{Blocks, Joints, Polygon, Rest, Support};
 use voussoir::collapse::{
-    Aim, Analysis, CollapseReport, Direction, Geometry, Mesh, Method, Outcome, PathEnd, PlaneModel, Seams, Unwatched, run,
+    Aim, Analysis, CollapseReport, Direction, Geometry, Mesh, Method, Outcome, PathEnd, PlaneModel, Seams, Unwatched,
+    run,
 };
 use voussoir::geometry::Vec2;
 use voussoir::structure::{PointForce, Stone};
