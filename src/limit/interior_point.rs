@@ -14,8 +14,12 @@ use newton::{Newton, Pattern};
 const MOST_ITERATIONS: usize = 120;
 /// Residuals and gap at which it goes no further, relative to the size of the data and of the point.
 const ENOUGH: f64 = 1e-13;
-/// A proof that there is no optimum may be off by this.
+/// A proof that there is no optimum may be off by this: what is feasible, or no better, has a size of 1e9 at least.
 const PROVEN: f64 = 1e-9;
+/// The same where rounding stops the proof short of that and no optimum is near.
+const BARELY_PROVEN: f64 = 1e-7;
+/// Tau so much smaller than kappa: no optimum is to come, and no better proof.
+const VANISHED: f64 = 1e-13;
 /// Share of the way to the boundary that a step goes.
 const STEP: f64 = 0.99;
 /// Iterations without a better point after which rounding has won.
@@ -161,13 +165,20 @@ pub fn minimise(programme: &Sparse, beat: Beat) -> Found {
     let constants = programme.constants();
     let mut point = Point::start(programme);
     let (mut best, mut since) = (None::<(f64, Vec<f64>, Vec<f64>)>, 0);
+    let mut barely = None;
     for _ in 0..MOST_ITERATIONS {
         if beat().is_break() {
             return Found::Lost;
         }
         let residuals = Residuals::new(programme, &constants, &point);
-        if let Some(found) = without_optimum(programme, &constants, &point, &residuals) {
-            return found;
+        if let Some((found, off)) = without_optimum(programme, &constants, &point, &residuals) {
+            if off < PROVEN {
+                return found;
+            }
+            barely = barely.or(Some(found).filter(|_| off < BARELY_PROVEN));
+            if point.tau < VANISHED * point.kappa {
+                break;
+            }
         }
         let error = error(programme, &constants, &point, &residuals);
         if error.is_nan() {
@@ -189,7 +200,11 @@ pub fn minimise(programme: &Sparse, beat: Beat) -> Found {
         let direction = Directions::new(programme, &constants, &newton, &residuals, &point).corrected();
         advance(&mut point, &direction);
     }
-    best.map_or(Found::Lost, |(error, x, z)| Found::Optimum { x, z, error })
+    match (best, barely) {
+        (Some((error, x, z)), None) => Found::Optimum { x, z, error },
+        (Some((error, x, z)), _) if error < NEAR => Found::Optimum { x, z, error },
+        (_, barely) => barely.unwrap_or(Found::Lost),
+    }
 }
 
 /// Largest of the residuals and the gap, relative to the data and the point.
@@ -204,17 +219,24 @@ fn error(programme: &Sparse, constants: &[f64], point: &Point, residuals: &Resid
     [primal, dual, gap].into_iter().fold(0.0, |m, e| if e.is_nan() || e > m { e } else { m })
 }
 
-/// A proof that there is no optimum.
-fn without_optimum(programme: &Sparse, constants: &[f64], point: &Point, residuals: &Residuals) -> Option<Found> {
+/// A proof that there is no optimum, and how far it is off.
+fn without_optimum(
+    programme: &Sparse,
+    constants: &[f64],
+    point: &Point,
+    residuals: &Residuals,
+) -> Option<(Found, f64)> {
+    if point.tau >= 1e-3 * point.kappa {
+        return None;
+    }
     let bound = -(dot(&programme.right, &point.y) + dot(constants, &point.z));
     let descent = -dot(&programme.cost, &point.x);
     let dual = largest(&sum(&residuals.x, &programme.cost, -point.tau));
-    if bound > 0.0 && dual < PROVEN * bound && point.tau < 1e-3 * point.kappa {
-        return Some(Found::Infeasible);
-    }
     let primal =
         largest(&sum(&residuals.y, &programme.right, point.tau)).max(largest(&sum(&residuals.s, constants, point.tau)));
-    (descent > 0.0 && primal < PROVEN * descent && point.tau < 1e-3 * point.kappa).then_some(Found::Unbounded)
+    let infeasible = (bound > 0.0).then(|| (Found::Infeasible, dual / bound));
+    let unbounded = (descent > 0.0).then(|| (Found::Unbounded, primal / descent));
+    infeasible.into_iter().chain(unbounded).min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 /// What all directions from a point have in common.

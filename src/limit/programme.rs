@@ -8,13 +8,15 @@ const NO_ROW: f64 = 1e-12;
 
 /// A limit that the unknowns do not reach may be violated by this, in units of the loads: rounding of the loads themselves.
 const UNREACHED: f64 = 1e-10;
+/// Most unknowns for which the dense simplex method is tried where the sparse one fails.
+const MOST_DENSE: usize = 400;
 
 /// What is to be as large as possible.
 #[derive(Debug, Clone)]
 pub(super) struct Objective {
-    /// Weight of the load factor.
+    /// Weight of the load factor in units of `StaticTheorem::factor`.
     pub load_factor: f64,
-    /// Weights of intrados force, extrados force and shear of joints.
+    /// Weights of intrados force, extrados force and shear of joints, in units of `StaticTheorem::force`.
     pub forces: Vec<(usize, [f64; 3])>,
 }
 
@@ -69,11 +71,14 @@ impl<'t> Programme<'t> {
         Programme { complete: false, ..Programme::new(theorem) }
     }
 
+    /// By the method that suits the size; where rounding keeps that from an answer, by the other.
     pub(super) fn maximise(&self, objective: &Objective, beat: Beat) -> Outcome {
-        if self.theorem.has_few_unknowns() {
-            self.maximise_densely(objective, beat)
-        } else {
-            self.maximise_sparsely(objective, beat)
+        let few = self.theorem.has_few_unknowns();
+        let first = if few { self.maximise_densely(objective, beat) } else { self.maximise_sparsely(objective, beat) };
+        match first {
+            Outcome::Lost if few => self.maximise_sparsely(objective, beat),
+            Outcome::Lost if self.theorem.unknowns() <= MOST_DENSE => self.maximise_densely(objective, beat),
+            first => first,
         }
     }
 

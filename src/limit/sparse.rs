@@ -143,8 +143,10 @@ impl Programme<'_> {
             blocks.push(block);
         }
         let mut cost = vec![0.0; 3 * blocks.len() + 1];
+        let share = unit / theorem.force;
         for (joint, weights) in &objective.forces {
-            forces[*joint].basis.iter().enumerate().for_each(|(i, basis)| cost[3 * joint + i] -= dot(*weights, *basis));
+            let basis = forces[*joint].basis.iter().enumerate();
+            basis.for_each(|(i, basis)| cost[3 * joint + i] -= share * dot(*weights, *basis));
         }
         if pinned.is_none() {
             cost[3 * blocks.len()] = -objective.load_factor;
