@@ -126,7 +126,11 @@ pub struct Assembly {
     nodes: Vec<Range<usize>>,
     /// Bodies and interfaces as elements of a matrix over the faces: first all bodies, then all interfaces.
     pattern: Pattern,
+    /// The tree with bodies' cores, where there are any, and that of bodies as their faces alone.
     tree: Tree,
+    plain_tree: Option<Tree>,
+    /// Unknowns of all nodes.
+    unknowns: usize,
     /// Elastic stiffness of the bodies; nothing in the interfaces.
     elastic: Elements,
     /// The mirror image, where the assembly is its own.
@@ -163,6 +167,11 @@ impl Assembly {
     /// In which order unknowns are eliminated.
     pub(super) fn tree(&self) -> &Tree {
         &self.tree
+    }
+
+    /// The same where bodies are their faces alone, as on moving geometry.
+    pub(super) fn plain_tree(&self) -> &Tree {
+        self.plain_tree.as_ref().unwrap_or(&self.tree)
     }
 
     /// The element of interface `k` in a matrix.
@@ -320,3 +329,6 @@ impl Body {
         [cc * x + ss * y - 2.0 * cs * tau, ss * x + cc * y + 2.0 * cs * tau, cs * (x - y) + (cc - ss) * tau]
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -124,6 +124,24 @@ impl Condensed {
         Ok(Condensed { unknowns, ties, stiffness, rigid, factors })
     }
 
+    /// What ties some displacements of the nodes to the first subblock, as one matrix over both, the subblock's unknowns last,
+    /// row by row, N/m2.
+    pub(super) fn ties(&self, range: Range<usize>) -> Vec<f64> {
+        let (nodes, width) = (range.len(), range.len() + 6);
+        let mut matrix = vec![0.0; width * width];
+        for (i, tie) in self.ties[range].iter().enumerate() {
+            matrix[i * width + i] = tie.link;
+            for (_, load) in tie.loads.iter().filter(|_| tie.link > 0.0) {
+                for a in 0..6 {
+                    matrix[i * width + nodes + a] -= load[a];
+                    matrix[(nodes + a) * width + i] -= load[a];
+                    (0..6).for_each(|b| matrix[(nodes + a) * width + nodes + b] += load[a] * load[b] / tie.link);
+                }
+            }
+        }
+        matrix
+    }
+
     /// Stiffness S on the nodes, N/m2.
     pub fn stiffness(&self) -> &DMatrix<f64> {
         &self.stiffness

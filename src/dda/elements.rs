@@ -1,11 +1,14 @@
 //! A matrix as the sum of its elements: bodies, which tie their faces by elasticity, and interfaces, which tie the two faces
 //! at them by their contacts.
+//!
+//! A body of one subblock between many faces moves by six unknowns only. Its faces are then tied to these (its core) and not to
+//! each other, which keeps small what is eliminated together.
 
 use super::heart::Heart;
 use super::panels::Panels;
 use std::ops::Range;
 
-/// The unknowns, face by face, and the faces that every element ties.
+/// The unknowns, face by face and then core by core, and what every element ties. A core counts as a face.
 #[derive(Debug, Clone, Default)]
 pub struct Pattern {
     /// Unknowns before each face, and all of them.
@@ -23,6 +26,15 @@ impl Pattern {
     /// Number of all unknowns.
     pub fn unknowns(&self) -> usize {
         self.start[self.start.len() - 1]
+    }
+
+    /// Adds the core of a body, of six unknowns, with an element for every face of it, and one for itself.
+    pub fn add_core(&mut self, body: usize) {
+        let core = self.start.len() - 1;
+        self.start.push(self.unknowns() + 6);
+        let tied: Vec<Vec<usize>> = self.faces[body].iter().map(|&face| vec![face, core]).collect();
+        self.faces.extend(tied);
+        self.faces.push(vec![core]);
     }
 
     /// Number of unknowns of an element.

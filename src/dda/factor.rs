@@ -43,6 +43,8 @@ struct Sides {
 
 #[derive(Debug, Clone, Default)]
 struct Scratch {
+    /// All unknowns, those of cores too.
+    all: Vec<f64>,
     rows: Vec<f64>,
     load: Vec<f64>,
     work: Vec<f64>,
@@ -77,6 +79,11 @@ impl<'t> Factor<'t> {
             eliminated: 0,
             scratch: Scratch::default(),
         }
+    }
+
+    /// The same, counting on from so many faces eliminated before.
+    pub fn after(self, eliminated: usize) -> Self {
+        Factor { eliminated, ..self }
     }
 
     /// Notes that an element, or the kept right-hand side on its faces, changes. Until the next update the factors remain those
@@ -200,7 +207,11 @@ impl<'t> Factor<'t> {
         load.clear();
         load.resize(removed + kept, 0.0);
         for run in &self.tree.runs[front.removed.clone()] {
-            load[run.to..run.to + run.length].copy_from_slice(&b[run.from..run.from + run.length]);
+            // No load acts on cores.
+            let end = (run.from + run.length).min(b.len());
+            if run.from < end {
+                load[run.to..run.to + end - run.from].copy_from_slice(&b[run.from..end]);
+            }
         }
         for source in &self.tree.sources[front.sources.clone()] {
             let Origin::Front(other) = source.origin else { continue };
@@ -220,8 +231,19 @@ impl<'t> Factor<'t> {
         self.scratch.load = load;
     }
 
-    /// Substitutes back from the root to all leaves.
+    /// Substitutes back from the root to all leaves; of the unknowns the first are asked for.
     fn substitute_back(&mut self, x: &mut [f64]) {
+        if x.len() == self.tree.unknowns {
+            return self.substitute_all(x);
+        }
+        let mut all = std::mem::take(&mut self.scratch.all);
+        all.resize(self.tree.unknowns, 0.0);
+        self.substitute_all(&mut all);
+        x.copy_from_slice(&all[..x.len()]);
+        self.scratch.all = all;
+    }
+
+    fn substitute_all(&mut self, x: &mut [f64]) {
         let (mut order, mut load) = (std::mem::take(&mut self.scratch.order), std::mem::take(&mut self.scratch.load));
         let mut known = std::mem::take(&mut self.scratch.work);
         order.clear();

@@ -75,6 +75,8 @@ pub struct Tree {
     pub into: Vec<Vec<usize>>,
     /// The clique of every element.
     pub home: Vec<usize>,
+    /// Number of all unknowns.
+    pub unknowns: usize,
     edges: usize,
 }
 
@@ -86,16 +88,18 @@ struct Clique {
 }
 
 impl Tree {
-    /// The tree of a pattern.
-    pub fn new(pattern: &Pattern) -> Self {
-        let Ordered { cliques, of_face, turn } = cliques(pattern);
+    /// The tree of those elements of a pattern that are `wanted`.
+    pub fn new(pattern: &Pattern, wanted: impl Fn(usize) -> bool) -> Self {
+        let Ordered { cliques, of_face, turn } = cliques(pattern, &wanted);
         let mut tree = Tree { into: vec![Vec::new(); cliques.len()], ..Tree::default() };
         let mut place = vec![0; pattern.start.len() - 1];
         // The clique in which the first of an element's faces is eliminated has them all.
         let home = |faces: &Vec<usize>| faces.iter().min_by_key(|&&face| turn[face]).map_or(0, |&face| of_face[face]);
         tree.home = pattern.faces.iter().map(home).collect();
         let mut elements = vec![Vec::new(); cliques.len()];
-        tree.home.iter().enumerate().for_each(|(element, &clique)| elements[clique].push(element));
+        let homes = tree.home.iter().enumerate().filter(|(element, _)| wanted(*element));
+        homes.for_each(|(element, &clique)| elements[clique].push(element));
+        tree.unknowns = pattern.unknowns();
         let edges: Vec<[usize; 2]> =
             cliques.iter().enumerate().filter_map(|(c, clique)| clique.parent.map(|parent| [c, parent])).collect();
         tree.edges = edges.len();
@@ -226,10 +230,10 @@ struct Ordered {
 }
 
 /// The cliques of an elimination by least degree.
-fn cliques(pattern: &Pattern) -> Ordered {
+fn cliques(pattern: &Pattern, wanted: impl Fn(usize) -> bool) -> Ordered {
     let faces = pattern.start.len() - 1;
     let mut tied: Vec<Vec<usize>> = vec![Vec::new(); faces];
-    for element in &pattern.faces {
+    for element in pattern.faces.iter().enumerate().filter(|(number, _)| wanted(*number)).map(|(_, faces)| faces) {
         for &face in element {
             tied[face].extend(element.iter().filter(|&&other| other != face));
         }

@@ -125,7 +125,23 @@ impl AssemblyBuilder {
             nodes.push(begin..pattern.unknowns());
         }
         pattern.faces.extend(faces.iter().map(|sides| sides.iter().flatten().copied().collect()));
+        let (unknowns, elements) = (pattern.unknowns(), pattern.faces.len());
+        let kind_of = |body: usize| &kinds[bodies[body].kind];
+        let cored: Vec<usize> = (0..bodies.len()).filter(|&i| kind_of(i).has_core(of_bodies[i].len())).collect();
+        cored.iter().for_each(|&body| pattern.add_core(body));
         let mut elastic = Elements::zeros(&pattern);
+        let mut element = elements;
+        for &body in &cored {
+            let (kind, mut from) = (kind_of(body), 0);
+            for &(k, _) in &of_bodies[body] {
+                let to = from + 2 * self.interfaces[k].touches.len();
+                elastic.get_mut(element).copy_from_slice(&kind.condensed.ties(from..to));
+                (element, from) = (element + 1, to);
+            }
+            // Symmetric, so that columns are rows.
+            elastic.get_mut(element).copy_from_slice(kind.macroblock.blocks()[0].stiffness().as_slice());
+            element += 1;
+        }
         for (i, body) in bodies.iter().enumerate() {
             // Symmetric, so that columns are rows.
             let stiffness = kinds[body.kind].condensed.stiffness();
@@ -144,7 +160,9 @@ impl AssemblyBuilder {
             sites: touches().map(|t| Site { at: t.at, normal: t.normal }).collect(),
             interface: self.interfaces.iter().enumerate().flat_map(of_contact).collect(),
             beside: self.interfaces.iter().map(|interface| interface.between).collect(),
-            tree: Tree::new(&pattern),
+            tree: Tree::new(&pattern, |element| cored.binary_search(&element).is_err()),
+            plain_tree: (!cored.is_empty()).then(|| Tree::new(&pattern, |element| element < elements)),
+            unknowns,
             bodies,
             kinds,
             first,
@@ -162,6 +180,12 @@ impl AssemblyBuilder {
 }
 
 impl Kind {
+    /// Whether a body between so many faces is better eliminated by way of its own unknowns: where it has one subblock, more than
+    /// the two faces of a chain, and fewer unknowns than they.
+    fn has_core(&self, faces: usize) -> bool {
+        self.macroblock.blocks().len() == 1 && faces > 2 && 2 * self.nodes.len() > 6
+    }
+
     fn new(macroblock: Macroblock, nodes: Vec<Node>, heart: &Heart) -> Result<Self, Unbuilt> {
         let blocks = macroblock.blocks();
         let area: f64 = blocks.iter().map(|b| b.area()).sum();

@@ -10,7 +10,7 @@ use std::ops::Range;
 impl Assembly {
     /// Unknowns of all nodes together.
     pub fn node_unknowns(&self) -> usize {
-        self.pattern.unknowns()
+        self.unknowns
     }
 
     /// Unknowns of the nodes of body `i`.

@@ -9,6 +9,7 @@ use super::correct::{EQUILIBRIUM, FAILED, Hold};
 use super::lost::Lost;
 use super::point::Point;
 use super::{End, Tracer};
+use crate::dda::factor::Factor;
 use crate::dda::moving::{Placed, quarter};
 use crate::dda::trace::Drive;
 use std::ops::ControlFlow;
@@ -76,6 +77,7 @@ impl Tracer<'_> {
 
     fn let_go(&mut self, drive: Drive, parameter: f64, see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>) -> End {
         (self.drive, self.moving) = (drive.clone(), Some(Placed::new(self.assembly, self.heart)));
+        self.factor = Factor::new(self.assembly.plain_tree()).after(self.factor.eliminated());
         self.set_parameter(parameter);
         // Gaps on moving geometry differ from those at first order, and so may states.
         self.find_residual();
