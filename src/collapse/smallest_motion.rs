@@ -9,6 +9,8 @@ pub(super) type Column = Vec<(usize, f64)>;
 
 /// Work of looking at one entry of a column, in multiplications.
 const WORK: usize = 5;
+/// What rounding may leave of a value, as a share of it.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// Smallest rates x >= 0 (in the sum of squares) with closure 0 and power 1, of columns with so many `unknowns`.
 ///
@@ -48,7 +50,8 @@ pub(super) fn smallest_motion(columns: &[Column], unknowns: usize, heart: &Heart
         let step = hessian.lu().solve(&-&gradient)?;
         let (before, slope) = (value(&y), gradient.dot(&step));
         let mut length = 1.0;
-        while value(&(&y + &step * length)) > before + 1e-4 * length * slope + 1e-16 * before.abs() && length > 1e-12 {
+        while value(&(&y + &step * length)) > before + 1e-4 * length * slope + ROUNDING * before.abs() && length > 1e-12
+        {
             length *= 0.5;
             heart.work(work).ok()?;
         }

@@ -87,5 +87,6 @@ mod stopping;
 mod stress;
 #[cfg(feature = "server")]
 mod structure_cases;
+mod structures;
 #[cfg(feature = "server")]
 mod support;

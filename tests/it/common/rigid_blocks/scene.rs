@@ -39,6 +39,32 @@ impl Scene {
         found(&self.blocks, &ground, self.friction_angle_deg.to_radians().tan())
     }
 
+    /// The same seen in a mirror: x becomes -x.
+    pub fn mirrored(&self) -> Scene {
+        let image = |[x, y]: Point| [-x, y];
+        let push = |push: &Push| Push { at: image(push.at), force: image(push.force), ..*push };
+        let load = |load: &Load| match load {
+            Load::Point(at) => Load::Point(push(at)),
+            Load::Acceleration(g) => Load::Acceleration(image(*g)),
+        };
+        // Corners stay counter-clockwise; side i, from corner i to the next, becomes the one from the image of the next.
+        let block = |corners: &Vec<Point>| corners.iter().rev().copied().map(image).collect();
+        let side = |&(block, side): &(usize, usize)| {
+            let n = self.blocks[block].len();
+            (block, (2 * n - 2 - side) % n)
+        };
+        Scene {
+            blocks: self.blocks.iter().map(block).collect(),
+            supports: self
+                .supports
+                .iter()
+                .map(|support| Support { name: support.name.clone(), sides: support.sides.iter().map(side).collect() })
+                .collect(),
+            scaled: self.scaled.iter().map(load).collect(),
+            ..*self
+        }
+    }
+
     /// What the oracle solves.
     pub fn problem(&self) -> Problem {
         let accelerated = |g: Point| {
