@@ -32,7 +32,10 @@ pub fn read(body: &[u8]) -> Result<Request, Vec<Fault>> {
 /// # Errors
 /// All structural faults; where the structure can be read, all others too.
 pub fn read_question(body: &[u8]) -> Result<(Request, Question), Vec<Fault>> {
-    let (request, faults) = read_structure(body);
+    let (request, mut faults) = read_structure(body);
+    if request.is_none() && lacks_structure(body) {
+        faults.add("/arch", translate::NO_STRUCTURE);
+    }
     let mut faults = faults.into_vec();
     if let Some(request) = request {
         match translate::translate(&request) {
@@ -45,6 +48,15 @@ pub fn read_question(body: &[u8]) -> Result<(Request, Question), Vec<Fault>> {
         }
     }
     Err(listed(faults))
+}
+
+/// True for an object that is about nothing: what else is wrong with it may keep its translation from saying so.
+fn lacks_structure(body: &[u8]) -> bool {
+    let lacks = |tree: Value| {
+        let words = ["arch", "bridge", "blocks", "curved_beam"];
+        tree.is_object() && words.iter().all(|word| tree.get(word).is_none_or(Value::is_null))
+    };
+    tree::parse(body).is_ok_and(|(tree, _)| lacks(tree))
 }
 
 /// True for a fault that may come of a structural one: of what was not read as it was meant, or of an object that

@@ -57,7 +57,7 @@ pub struct AnalysisResult {
     pub limit_window: Option<[Option<f64>; 2]>,
     /// The same as load factors.
     pub limit_window_load_factor: Option<[Option<f64>; 2]>,
-    /// Least and greatest horizontal thrust under the fixed loads.
+    /// Least and greatest horizontal thrust at the first springing under the fixed loads; null of blocks, which have none.
     pub thrust_range: Option<ThrustRangeBody>,
     /// Bodies and joints of a bridge or of blocks; null of an arch, whose voussoirs and joints are counted from the left.
     pub structure: Option<StructureBody>,
@@ -180,7 +180,7 @@ impl AnalysisResult {
             collapse,
             limit_window: window.map(|window| scale.window(window)),
             limit_window_load_factor: window.map(|window| Scale::LOAD_FACTOR.window(window)),
-            thrust_range: report.thrust_range.map(Into::into),
+            thrust_range: report.thrust_range.filter(|_| request.blocks.is_none()).map(Into::into),
             structure: translate::named(request).map(StructureBody::from),
             hinges,
             slides,

@@ -54,6 +54,9 @@ fn good_ones_are_taken() {
 #[test]
 fn a_structure_is_given_in_one_word() {
     refused(&without(wall(), "/blocks"), "/arch", "add one of them");
+    let mut nothing: Vec<_> = faults(&json!({})).into_iter().map(|fault| fault.pointer).collect();
+    nothing.sort();
+    assert_eq!(nothing, ["/arch", "/loads"]);
     refused(
         &with(wall(), "/bridge", bridge()["bridge"].clone()),
         "/blocks",

@@ -23,7 +23,7 @@ use crate::collapse::Question;
 use site::Site;
 use stone::friction_angle;
 
-pub use structure::{Layout, named};
+pub use structure::{Layout, NO_STRUCTURE, named};
 
 /// Largest length and coordinate, m.
 pub const MAX_LENGTH_M: f64 = 1e5;

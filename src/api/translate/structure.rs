@@ -8,6 +8,9 @@ use crate::api::request::{
 };
 use crate::structure::Structure;
 
+/// The fault of a request without a structure.
+pub const NO_STRUCTURE: &str = "arch, bridge and blocks are all missing: add one of them";
+
 /// A structure, and what its bodies and supports are called; an arch has names for neither.
 #[derive(Debug, Clone)]
 pub struct Layout {
@@ -30,7 +33,7 @@ pub fn layout(request: &AnalysisRequest, stones: &Stones<'_>, faults: &mut Fault
     match given.as_slice() {
         [_] => {}
         [] => {
-            faults.add("/arch", "arch, bridge and blocks are all missing: add one of them");
+            faults.add("/arch", NO_STRUCTURE);
             return None;
         }
         [first, others @ ..] => {
