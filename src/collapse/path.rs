@@ -86,7 +86,7 @@ fn at(model: &Model, fixed: &[f64], load_factor: f64) -> Vec<f64> {
     fixed.iter().zip(&model.scaled.on_nodes).map(|(f, s)| f + s * load_factor).collect()
 }
 
-/// Brings the chain from its unstressed start to the loads at load factor `start`.
+/// Brings the structure from its unstressed start to the loads at load factor `start`.
 pub(super) fn stand<'a>(
     model: &'a Model<'a>,
     fixed: &[f64],
@@ -125,7 +125,7 @@ pub(super) enum Moved {
     Lost,
 }
 
-/// Brings the chain to the loads at load factor `start` on moving geometry: to where it stands at first order, and from
+/// Brings the structure to the loads at load factor `start` on moving geometry: to where it stands at first order, and from
 /// there by letting go what is out of balance on the moved arch. Where that fails, all loads grow together from a little,
 /// which tells how much of them the arch can bear; the work of the way that is left goes to `cost`.
 pub(super) fn stand_moved<'a>(
@@ -195,7 +195,7 @@ pub(super) fn lost(model: &Model, tracer: &Tracer) -> Unfollowed {
 /// Where a path went after its peak.
 #[derive(Debug, Clone)]
 pub(super) struct Fall {
-    /// Direction of its end, in which the chain moves on without resistance.
+    /// Direction of its end, in which the structure moves on without resistance.
     pub direction: Vec<f64>,
     /// True where it has run back past its start, and so ends in a mechanism of the other direction of loading.
     pub turned_back: bool,

@@ -212,7 +212,7 @@ fn uneven(model: &Model, weight: f64, attempt: Attempt) -> f64 {
     sign * digit
 }
 
-/// Movements of the ground at both ends of the chain, per unit of the parameter.
+/// Movements of the ground at both ends of the arch, per unit of the parameter.
 fn ground(structure: &Structure, movements: [SpringingMovement; 2]) -> [Movement; 2] {
     let springings = [structure.ring().first(), structure.ring().last()];
     // Outwards is to the left on the left, and a rotation that opens the intrados there turns clockwise.

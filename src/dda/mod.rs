@@ -5,12 +5,11 @@
 //! points on either side of every interface, along the contact's normal and tangent (its nodes). What happens inside
 //! follows from them.
 //!
-//! Nothing here knows that the assembly is an arch: a block on a slope, a stack and a portal are assemblies too.
+//! Nothing here knows that the assembly is an arch, a bridge or a wall.
 //!
 //! Signs, said once: compression is negative in stress; a contact's normal force `N` is positive in compression; a gap
-//! is positive when open; a tangential force `T` acts on the block after the contact, along the contact's tangent.
-//! Body `i` lies between interfaces `i` and `i + 1`; interface `k` joins body `k - 1` (before) to body `k` (after), and the
-//! rigid ground takes the place of a body that is not there.
+//! is positive when open; a tangential force `T` acts on the block after the contact, along the contact's tangent. An interface
+//! joins what lies before it to what lies after it: two bodies, or a body and the rigid ground.
 
 mod assembly;
 mod balance;

@@ -69,13 +69,13 @@ fn the_subblocks_of_a_stone_tile_it() {
     }
 }
 
-/// Displacements of the nodes of a chain that moves as `field` says.
-fn moved(chain: &crate::dda::Assembly, field: impl Fn(Vec2) -> Vec2) -> Vec<f64> {
-    let mut d = vec![0.0; chain.node_unknowns()];
-    for k in 0..chain.interfaces() {
-        for face in chain.faces(k).into_iter().flatten() {
-            for (p, i) in chain.at_interface(k).zip(face.step_by(2)) {
-                let (u, normal) = (field(chain.place(p)), chain.normal(p));
+/// Displacements of the nodes of an assembly that moves as `field` says.
+fn moved(assembly: &Assembly, field: impl Fn(Vec2) -> Vec2) -> Vec<f64> {
+    let mut d = vec![0.0; assembly.node_unknowns()];
+    for k in 0..assembly.interfaces() {
+        for face in assembly.faces(k).into_iter().flatten() {
+            for (p, i) in assembly.at_interface(k).zip(face.step_by(2)) {
+                let (u, normal) = (field(assembly.place(p)), assembly.normal(p));
                 (d[i], d[i + 1]) = (u.dot(&normal), u.dot(&perpendicular(normal)));
             }
         }
@@ -84,10 +84,10 @@ fn moved(chain: &crate::dda::Assembly, field: impl Fn(Vec2) -> Vec2) -> Vec<f64>
 }
 
 #[test]
-fn the_mirror_image_of_a_motion_is_that_of_a_chain_and_its_nodes() {
+fn the_mirror_image_of_a_motion_is_that_of_an_assembly_and_its_nodes() {
     watched(&mut Unwatched, |pulse| {
         let model = discretise(&semicircle(7, [2, 2], false), Attempt::number(0), pulse)?;
-        let chain = &model.assembly;
+        let assembly = &model.assembly;
         assert!(model.symmetric);
         let turns = |at: Vec2| Vec2::new(2.0 - at.y, at.x);
         let bends = |at: Vec2| Vec2::new(0.1 * at.x * at.y, 0.3 * at.y * at.y - at.x * at.x);
@@ -95,8 +95,8 @@ fn the_mirror_image_of_a_motion_is_that_of_a_chain_and_its_nodes() {
         let up = |_: Vec2| Vec2::y();
         let motions: [(&dyn Fn(Vec2) -> Vec2, f64); 4] = [(&right, -1.0), (&up, 1.0), (&turns, -1.0), (&bends, 1.0)];
         for (field, sign) in motions {
-            let d = moved(chain, field);
-            let image = chain.mirrored(&d);
+            let d = moved(assembly, field);
+            let image = assembly.mirrored(&d);
             let apart = image.iter().zip(&d).map(|(there, here)| (there - sign * here).abs()).fold(0.0, f64::max);
             assert!(apart < 1e-11, "{apart:e}");
         }
