@@ -98,7 +98,8 @@ fn read_structure(body: &[u8]) -> (Option<Request>, Faults) {
     let request = match tree.get("curved_beam") {
         Some(_) => {
             let request = read_tree::<BeamRequest>(tree, beam_misfit, &mut faults);
-            request.map(|request| Request::CurvedBeam(Box::new(request)))
+            let filled_in = |beam: BeamRequest| BeamRequest { stone: beam.stone.filled_in(true), ..beam };
+            request.map(|beam| Request::CurvedBeam(Box::new(filled_in(beam))))
         }
         None => {
             let request = read_tree(tree, misfit, &mut faults);
@@ -331,6 +332,7 @@ fn with_defaults(mut request: AnalysisRequest) -> AnalysisRequest {
         arch.line.get_or_insert(LineRequest::default());
         arch.joints.get_or_insert(JointsRequest::default());
     }
+    request.stone = request.stone.filled_in(request.arch.is_some());
     for entry in &mut request.loads {
         if let LoadRequest::FillPressure(fill) = &mut entry.load {
             fill.lateral_ratio = Some(fill.ratio());

@@ -106,7 +106,7 @@ impl<'a> Site<'a> {
             fixed: halve(forces.fixed),
             scaled: halve(forces.scaled),
             plane: request.stone.plane.into(),
-            penalty_ratio: request.stone.penalty_ratio,
+            penalty_ratio: request.stone.penalty_ratio_of(request.arch.is_some()),
             shear_penalty_ratio: request.stone.shear_penalty_ratio,
             direction: request.load_factor.direction.into(),
             cap: request.load_factor.cap,

@@ -73,9 +73,8 @@ pub fn stone(request: &StoneRequest, faults: &mut Faults) -> Stone {
     let stone = material("/stone", request, faults);
     let [softest, stiffest] = PENALTY_RATIO;
     let rule = format!("it must be from {softest} to {stiffest}");
-    for (name, ratio) in
-        [("penalty_ratio", request.penalty_ratio), ("shear_penalty_ratio", request.shear_penalty_ratio)]
-    {
+    let given = request.penalty_ratio.map(|ratio| ("penalty_ratio", ratio));
+    for (name, ratio) in given.into_iter().chain([("shear_penalty_ratio", request.shear_penalty_ratio)]) {
         faults.in_range((softest..=stiffest).contains(&ratio), format!("/stone/{name}"), ratio, &rule);
     }
     stone
