@@ -79,7 +79,12 @@ pub(super) fn released(mechanism: &Mechanism) -> Vec<Released> {
 
 /// What each release does to the closure of every loop (two velocities over the size of the structure, and a spin), and its power
 /// under the `driving` loads: what the joint carries of them down the tree does no work but in its own motion.
-fn columns(structure: &Structure, loops: &Loops, releases: &[Released], driving: &[PointForce]) -> Vec<Column> {
+pub(super) fn columns(
+    structure: &Structure,
+    loops: &Loops,
+    releases: &[Released],
+    driving: &[PointForce],
+) -> Vec<Column> {
     let carried = loops.carried(&on_bodies(structure, driving));
     let total = driving.iter().map(|f| f.force.norm()).sum::<f64>();
     let size = structure.joints.iter().map(|j| j.middle().norm()).fold(0.0, f64::max);

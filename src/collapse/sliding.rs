@@ -6,11 +6,12 @@
 //! move there, each with a programme of its own: mechanisms are exchanged until none is found that gives less.
 
 use super::discretise::Scatter;
-use super::mechanism::{Released, all_releases, describe};
+use super::mechanism::{Released, all_releases, columns, describe};
 use super::pulse::Pulse;
+use super::smallest_motion::nearest_motion;
 use super::{Analysis, Mechanism};
 use crate::limit::{Equilibrium, Release, Resultant, StaticTheorem};
-use crate::structure::Face;
+use crate::structure::{Face, PointForce};
 use std::collections::BTreeSet;
 
 /// So many motions in turn that give nothing lower end the search.
@@ -19,6 +20,15 @@ const QUIET: usize = 25;
 pub(super) const SAME: f64 = 1e-9;
 /// Share of a joint's force below which a corner's is none, in forces that a linear programme gives.
 const AT_LIMIT: f64 = 1e-9;
+
+/// The same at corners that an interior point method gives. What is let go there too much costs nothing but a vain try: each
+/// mechanism has its own programme, in which it is at its limits exactly.
+const NEAR_LIMIT: f64 = 1e-6;
+/// Random weights on the joint forces that lead to corners of the least equilibria, and, the larger ones, to others near.
+const TILTS: [f64; 4] = [1e-3, 1e-2, 1e-1, 1.0];
+/// So many corners in turn that give nothing lower, and so many in all, end the search where there are many loops.
+const QUIET_CORNERS: usize = 16;
+const MOST_CORNERS: usize = 48;
 
 /// What the search starts from, and which way.
 pub(super) struct Search<'a> {
@@ -41,35 +51,19 @@ impl Search<'_> {
     /// The least full solution found from joints that are at their limits together, in any of several states; and how many
     /// mechanisms were tried. None where no motion of theirs has admissible forces.
     pub(super) fn least(&self, at_limits: &[Vec<Released>]) -> (Option<FullSolution>, usize) {
-        let mut seen = BTreeSet::new();
-        let mut best: Option<(Equilibrium, Vec<Released>, Vec<f64>)> = None;
-        let mut costs = Scatter::new(0x51DE);
-        for released in at_limits {
-            let mut released = released.clone();
-            let mut quiet = 0;
-            while quiet < QUIET {
-                quiet += 1;
-                let Some((moving, rates)) = self.motion(&released, &mut costs) else { break };
-                if !seen.insert(key(&moving)) {
-                    continue;
-                }
-                let Ok(Some(found)) = self.theorem.least_load(&moving, self.start, self.sign, &|| self.pulse.beat())
-                else {
-                    continue;
-                };
-                if best.as_ref().is_none_or(|(least, ..)| self.is_beyond(least.load_factor, found.load_factor, SAME)) {
-                    quiet = 0;
-                    released = self.at_limits(&found);
-                    best = Some((found, moving, rates));
-                }
-            }
+        let mut hunt = Hunt { search: self, seen: BTreeSet::new(), best: None, scatter: Scatter::new(0x51DE) };
+        if self.has_loops() {
+            at_limits.iter().for_each(|released| _ = hunt.tries(released));
+            hunt.round_corners();
+        } else {
+            at_limits.iter().for_each(|released| hunt.exchange(released));
         }
-        let solution = best.map(|(equilibrium, moving, rates)| FullSolution {
+        let solution = hunt.best.map(|Candidate { equilibrium, moving, rates }| FullSolution {
             load_factor: equilibrium.load_factor,
             forces: self.theorem.resultants(&equilibrium),
             mechanism: describe(&self.analysis.structure, self.theorem.loops(), &moving, &rates),
         });
-        (solution, seen.len())
+        (solution, hunt.seen.len())
     }
 
     /// What is at its limits in an equilibrium at the end of the limit window.
@@ -80,20 +74,111 @@ impl Search<'_> {
 
     /// One of the motions that these releases allow, and in which the scaled loads do work: those that move, at their rates.
     fn motion(&self, released: &[Released], costs: &mut Scatter) -> Option<(Vec<Released>, Vec<f64>)> {
-        let costs: Vec<f64> = released.iter().map(|_| 1.0 + 0.99 * costs.next()).collect();
+        let cost = |random: f64| if self.has_loops() { 10f64.powf(random) } else { 1.0 + 0.99 * random };
+        let costs: Vec<f64> = released.iter().map(|_| cost(costs.next())).collect();
         let rates = self.theorem.cheapest_motion(released, &costs, self.sign, &|| self.pulse.beat())?;
         Some(released.iter().zip(rates).filter(|(_, rate)| *rate > 0.0).unzip())
     }
 
     fn at_limits(&self, equilibrium: &Equilibrium) -> Vec<Released> {
         let forces = self.theorem.resultants(equilibrium);
-        all_releases(&self.analysis.structure, &forces, &vec![None; forces.len()], AT_LIMIT)
+        let share = if self.has_loops() { NEAR_LIMIT } else { AT_LIMIT };
+        all_releases(&self.analysis.structure, &forces, &vec![None; forces.len()], share)
+    }
+
+    /// The motion of these releases next to rough `rates` that closes to rounding; None where there is none.
+    fn closed(&self, moving: &[Released], rates: &[f64]) -> Option<Vec<f64>> {
+        let (structure, loops) = (&self.analysis.structure, self.theorem.loops());
+        let driving: Vec<PointForce> =
+            self.analysis.scaled.iter().map(|load| PointForce { force: load.force * self.sign, ..*load }).collect();
+        nearest_motion(&columns(structure, loops, moving, &driving), 3 * loops.len() + 1, rates)
+    }
+
+    /// Whether there is more than the one loop of a single ring.
+    fn has_loops(&self) -> bool {
+        self.theorem.loops().len() > 1
     }
 
     /// True where a load factor lies beyond another, seen from the start, by more than this share of it (or of that at which the
     /// scaled loads are as large as the fixed ones).
     pub(super) fn is_beyond(&self, load_factor: f64, other: f64, share: f64) -> bool {
         self.sign * (load_factor - other) > share * other.abs().max(self.theorem.load_factor_scale())
+    }
+}
+
+/// The mechanisms tried so far and the best of them.
+struct Hunt<'s> {
+    search: &'s Search<'s>,
+    seen: BTreeSet<Vec<(usize, u8)>>,
+    best: Option<Candidate>,
+    scatter: Scatter,
+}
+
+/// The least equilibrium of a mechanism, and its rates.
+struct Candidate {
+    equilibrium: Equilibrium,
+    moving: Vec<Released>,
+    rates: Vec<f64>,
+}
+
+impl Hunt<'_> {
+    /// Tries one of the motions of these releases: whether it gives less than any before; None where nothing moves.
+    fn tries(&mut self, released: &[Released]) -> Option<bool> {
+        let search = self.search;
+        let (moving, mut rates) = search.motion(released, &mut self.scatter)?;
+        if !self.seen.insert(key(&moving)) {
+            return Some(false);
+        }
+        let found = search.theorem.least_load(&moving, search.start, search.sign, &|| search.pulse.beat());
+        let Ok(Some(equilibrium)) = found else { return Some(false) };
+        let best = self.best.as_ref().map(|best| best.equilibrium.load_factor);
+        if best.is_some_and(|best| !search.is_beyond(best, equilibrium.load_factor, SAME)) {
+            return Some(false);
+        }
+        if search.has_loops() {
+            let Some(closed) = search.closed(&moving, &rates) else { return Some(false) };
+            rates = closed;
+        }
+        self.best = Some(Candidate { equilibrium, moving, rates });
+        Some(true)
+    }
+
+    /// From one state on, whose programmes end in a corner of all equilibria.
+    fn exchange(&mut self, released: &[Released]) {
+        let (mut released, mut quiet) = (released.to_vec(), 0);
+        while quiet < QUIET {
+            quiet += 1;
+            match self.tries(&released) {
+                None => return,
+                Some(true) => {
+                    quiet = 0;
+                    released = self.best.as_ref().map_or(Vec::new(), |best| self.search.at_limits(&best.equilibrium));
+                }
+                Some(false) => {}
+            }
+        }
+    }
+
+    /// From random corners at and near the least equilibrium of the best mechanism.
+    fn round_corners(&mut self) {
+        let mut quiet = 0;
+        for round in 0..MOST_CORNERS {
+            let Some(best) = &self.best else { return };
+            let (search, moving) = (self.search, best.moving.clone());
+            let tilt = TILTS[round % TILTS.len()];
+            let tilts: Vec<[f64; 3]> =
+                (0..search.theorem.joints()).map(|_| [(); 3].map(|()| tilt * self.scatter.next())).collect();
+            let beat = &|| search.pulse.beat();
+            let corner = search.theorem.corner_near_least_load(&moving, search.start, search.sign, &tilts, beat);
+            let Ok(Some(corner)) = corner else { continue };
+            let mut released = search.at_limits(&corner);
+            let missing: Vec<Released> = moving.into_iter().filter(|release| !released.contains(release)).collect();
+            released.extend(missing);
+            quiet = if self.tries(&released) == Some(true) { 0 } else { quiet + 1 };
+            if quiet == QUIET_CORNERS || search.pulse.beat().is_break() {
+                return;
+            }
+        }
     }
 }
 

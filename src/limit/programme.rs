@@ -9,7 +9,7 @@ const NO_ROW: f64 = 1e-12;
 /// A limit that the unknowns do not reach may be violated by this, in units of the loads: rounding of the loads themselves.
 const UNREACHED: f64 = 1e-10;
 /// Most unknowns for which the dense simplex method is tried where the sparse one fails.
-const MOST_DENSE: usize = 400;
+const MOST_DENSE: usize = 200;
 
 /// What is to be as large as possible.
 #[derive(Debug, Clone)]
@@ -57,13 +57,15 @@ pub(super) struct Programme<'t> {
     pub bounds: [f64; 2],
     /// By how much every limit may be violated, in units of the loads.
     pub slack: f64,
+    /// Error of an optimum of many unknowns, relative to its value, that is put up with; None: no more than for a certificate.
+    pub error: Option<f64>,
 }
 
 impl<'t> Programme<'t> {
     /// All admissible equilibria.
     pub(super) fn new(theorem: &'t StaticTheorem) -> Self {
         let bounds = [f64::NEG_INFINITY, f64::INFINITY];
-        Programme { theorem, complete: true, limits: Vec::new(), bounds, slack: 0.0 }
+        Programme { theorem, complete: true, limits: Vec::new(), bounds, slack: 0.0, error: None }
     }
 
     /// The equilibria under the scaled loads alone, whatever the joints carry.

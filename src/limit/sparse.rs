@@ -41,7 +41,7 @@ impl Programme<'_> {
         let Some((rows, places)) = self.rows(&limits, &forces, pinned) else { return Outcome::Infeasible };
         let programme = self.assemble(objective, &forces, rows, pinned, unit);
         match minimise(&programme, beat) {
-            Found::Optimum { x, z, error } if error < SOLVED => {
+            Found::Optimum { x, z, error } if error < self.error.unwrap_or(SOLVED) => {
                 let mut multipliers = vec![0.0; self.limits.len()];
                 for ((place, scale), z) in places.iter().zip(&z) {
                     place.iter().for_each(|&limit| multipliers[limit] = z * scale);
