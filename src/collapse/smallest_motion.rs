@@ -71,7 +71,7 @@ const RIDGE: f64 = 1e-12;
 /// Closure and power may be off by this, relative to what the parts come to; corrections stop at the second.
 const CLOSED: [f64; 2] = [1e-9, 1e-14];
 /// Rates below minus this share of the fastest run backwards.
-const BACKWARDS: f64 = 1e-9;
+const BACKWARDS: f64 = 1e-4;
 
 /// Rates x >= 0 with closure 0 and power 1 next to `rates` that have them nearly, in proportion; None where the corrections (least
 /// squares by the normal equations, repeated) do not close them or some rate turns round.
@@ -116,7 +116,15 @@ pub(super) fn nearest_motion(columns: &[Column], unknowns: usize, rates: &[f64])
     if !x.iter().all(|&rate| rate >= -BACKWARDS * fastest) {
         return None;
     }
-    x.iter_mut().for_each(|rate| *rate = rate.max(0.0));
+    let forward: Vec<usize> = (0..count).filter(|&i| x[i] >= 0.0).collect();
+    if forward.len() < count {
+        // What barely turns round stands still.
+        let (kept, of_kept): (Vec<Column>, Vec<f64>) = forward.iter().map(|&i| (columns[i].clone(), x[i])).unzip();
+        let of_kept = nearest_motion(&kept, unknowns, &of_kept)?;
+        x.fill(0.0);
+        forward.iter().zip(of_kept).for_each(|(&i, rate)| x[i] = rate);
+        return Some(x);
+    }
     (off(&x, &missing(&x)) < CLOSED[0]).then_some(x)
 }
 

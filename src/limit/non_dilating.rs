@@ -14,7 +14,7 @@ use crate::structure::{Face, Joint, JointLaw};
 const MOVES: f64 = 1e-9;
 /// Error of the programme of motions of many loops that is put up with: joints that do not move carry any force, which costs the
 /// interior point method its last digits, while the rates tell long before which joints move.
-const ROUGH: f64 = 1e-4;
+const ROUGH: f64 = 1e-2;
 /// Rates of such a motion below this share of the fastest are none.
 const MOVES_ROUGHLY: f64 = 1e-7;
 
