@@ -157,6 +157,7 @@ impl<'p> Newton<'p> {
 /// C with C C' = (sum of w a a')^-1 from rows (w, sqrt(w) a), by an orthogonal decomposition of the rows, the heaviest first and
 /// the longest column first, so that a light row keeps its digits beside a heavy one. A direction that no row reaches is held
 /// by a ridge.
+#[allow(clippy::needless_range_loop, reason = "indices are the mathematics here")]
 fn inverse_root(rows: &mut [[f64; 4]]) -> Square {
     rows.sort_by(|a, b| b[0].total_cmp(&a[0]));
     let size = rows.iter().map(|row| row[1..].iter().fold(0.0, |m: f64, x| m.max(x.abs()))).fold(0.0, f64::max);
