@@ -119,8 +119,24 @@ impl Works<'_> {
                 covered[span][end] = Some(self.bed(body, span, end, &haunch));
             }
             self.bed_on_top(body, gap);
+            if gap == 0 || gap == self.spans.len() {
+                self.lean(body, usize::from(gap > 0), backing.level);
+            }
         }
         covered
+    }
+
+    /// The joint between the plumb back of the backing at an end of the bridge and the ground behind it, where the springings stand
+    /// on the ground: without it the backing would slide off the haunch.
+    fn lean(&mut self, body: usize, end: usize, level: f64) {
+        if self.bridge.ends[end] != BridgeEnd::Ground {
+            return;
+        }
+        let back = self.back_of_backing(end);
+        let ends = [self.span_at(end).outer_end(end).y, level].map(|y| Vec2::new(back, y));
+        let stone = self.structure.bodies[body].stone;
+        let (ground, body) = (self.ground(end), Side::Body(body));
+        self.join(if end == 0 { [ground, body] } else { [body, ground] }, ends, [stone; 2]);
     }
 
     /// Corners, counter-clockwise: along the extrados from left to right, then back along the level.

@@ -72,7 +72,7 @@ pub enum BridgeEnd {
 }
 
 /// Masonry over the haunches: a block above every pier, and one at each end from the extrados to a plumb back above the outer end
-/// of the springings, or above the back of the abutment.
+/// of the springings, with the ground behind it, or above the back of the abutment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Backing {
     /// Level of its top, m.
@@ -200,6 +200,11 @@ impl Works<'_> {
         self.structure.joints.push(Joint { between, intrados: ends[0], extrados: ends[1], law });
     }
 
+    /// The ground at the left (0) or right (1) end of the bridge.
+    fn ground(&self, end: usize) -> Side {
+        Side::Support(if end == 0 { 0 } else { self.bridge.piers.len() + 1 })
+    }
+
     /// What the left (0) or right (1) end of a span stands on, and its stone.
     fn under(&self, span: usize, end: usize) -> (Side, Option<usize>) {
         let pier = if end == 0 { span.checked_sub(1) } else { Some(span) };
@@ -208,7 +213,7 @@ impl Works<'_> {
         }
         match (self.numbers.ends[end], self.bridge.ends[end]) {
             (Some(body), BridgeEnd::Abutment { stone, .. }) => (Side::Body(body), Some(stone)),
-            _ => (Side::Support(if end == 0 { 0 } else { self.bridge.piers.len() + 1 }), None),
+            _ => (self.ground(end), None),
         }
     }
 

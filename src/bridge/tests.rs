@@ -186,6 +186,10 @@ fn backing_stands_on_the_haunches() {
         let top = body.corners.iter().map(|corner| corner.y).fold(f64::NEG_INFINITY, f64::max);
         assert!((top - 1.6).abs() < 1e-12);
     }
+    // At the end without an abutment block it leans on the ground from the springing to its top.
+    let on_ground = |joint: &&Joint| joint.between == [Side::Body(bodies - 1), Side::Support(2)];
+    let lean = structure.joints.iter().find(on_ground).unwrap();
+    assert!(lean.intrados.x == lean.extrados.x && lean.extrados.y == 1.6 && lean.normal() == Vec2::x());
     // The surfaces go on without a gap, and no level top but that of the backing is left.
     assert!(structure.surfaces.windows(2).all(|pair| (pair[1].ends[0] - pair[0].ends[1]).norm() < 1e-12));
     assert!(structure.surfaces.iter().all(|surface| surface.ends.iter().all(|end| end.y > 1.6 - 1e-12)));

@@ -17,6 +17,7 @@ mod atlas;
 mod bad_requests;
 #[cfg(feature = "server")]
 mod bad_structures;
+mod builders;
 #[cfg(feature = "server")]
 mod cases;
 #[cfg(feature = "server")]

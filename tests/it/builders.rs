@@ -1,5 +1,4 @@
 //! Builders against each other and against published walls: what one sets out, the polygons alone must give back.
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test stops at the first surprise")]
 
 mod arch;
 mod bridge;
