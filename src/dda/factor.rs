@@ -109,7 +109,7 @@ impl<'t> Factor<'t> {
             work += self.tree.fronts[front].work()[0];
             open.extend(self.tree.feeding(front).filter(|&front| !self.current[front]));
         }
-        [work, self.tree.solving()]
+        [work, self.tree.solving]
     }
 
     /// Factors what is not current and solves K x = b; `element` is that at whose clique elimination from all sides meets. `b`
@@ -156,7 +156,7 @@ impl<'t> Factor<'t> {
         self.scratch.order = order;
         self.substitute_back(x);
         std::mem::swap(&mut self.forward, &mut self.other);
-        heart.work(self.tree.solving())
+        heart.work(self.tree.solving)
     }
 
     /// Follows the fronts that feed those in `order`, where `wanted(current)` says so.
