@@ -10,8 +10,10 @@
 use divan::{Bencher, black_box};
 use serde_json::{Value, json};
 use voussoir::api::read::read_analysis;
-use voussoir::collapse::{Analysis, FieldAt, Unwatched, run};
-use voussoir::limit::{StaticTheorem, unwatched};
+use voussoir::budget::Budget;
+
+use voussoir::collapse::{Analysis, FieldAt, run};
+use voussoir::limit::StaticTheorem;
 
 /// Numbers of voussoirs.
 const SIZES: [usize; 4] = [9, 61, 201, 1001];
@@ -50,13 +52,13 @@ fn paper(joints: usize) -> Analysis {
 }
 
 fn collapse(bencher: Bencher, analysis: &Analysis) {
-    bencher.bench_local(|| run(black_box(analysis), &mut Unwatched));
+    bencher.bench_local(|| run(black_box(analysis), &Budget::unlimited()));
 }
 
 fn limit_window(bencher: Bencher, analysis: &Analysis) {
     let Analysis { structure, fixed, scaled, .. } = analysis;
     bencher.bench_local(|| {
-        StaticTheorem::new(black_box(structure), fixed, scaled).map(|theorem| theorem.window(&unwatched))
+        StaticTheorem::new(black_box(structure), fixed, scaled).map(|theorem| theorem.window(&Budget::unlimited()))
     });
 }
 

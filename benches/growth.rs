@@ -24,7 +24,9 @@ use serde_json::json;
 use std::process::Command;
 use std::time::Instant;
 use voussoir::api::read::read_analysis;
-use voussoir::collapse::{Analysis, Answer, Cost, CurvedBeam, FieldAt, PlaneModel, Question, Seams, Unwatched, answer};
+use voussoir::budget::Budget;
+
+use voussoir::collapse::{Analysis, Answer, Cost, CurvedBeam, FieldAt, PlaneModel, Question, Seams, answer};
 use voussoir::structure::JointLaw;
 
 /// Most runs of a row, and seconds after which no other is begun.
@@ -112,7 +114,7 @@ fn row(family: &str, voussoirs: usize, each_way: usize) {
     while seconds.is_empty() || seconds.len() < RUNS && begun.elapsed().as_secs_f64() < LONG_S {
         let start = processor_seconds();
         for _ in 0..batch {
-            cost = match answer(&question, &mut Unwatched).unwrap() {
+            cost = match answer(&question, &Budget::unlimited()).unwrap() {
                 Answer::One(report) => report.cost,
                 _ => Cost::default(),
             };

@@ -17,9 +17,10 @@ use common::folders::{cases, folders, name};
 use serde_json::{Value, json};
 use std::time::Instant;
 use voussoir::api::read::read_question;
+use voussoir::budget::Budget;
+
 use voussoir::collapse::{
-    Accuracy, Analysis, Answer, BeamReport, CollapseReport, CurvedBeam, FieldAt, Question, StressField, Unwatched,
-    answer, run,
+    Accuracy, Analysis, Answer, BeamReport, CollapseReport, CurvedBeam, FieldAt, Question, StressField, answer, run,
 };
 
 /// Subblocks across of the mesh that stands for the exact stress.
@@ -169,7 +170,7 @@ impl Scene {
 
 fn solve(beam: &CurvedBeam) -> (BeamReport, f64) {
     let start = Instant::now();
-    match answer(&Question::CurvedBeam(beam.clone()), &mut Unwatched) {
+    match answer(&Question::CurvedBeam(beam.clone()), &Budget::unlimited()) {
         Ok(Answer::CurvedBeam(report)) => (report, start.elapsed().as_secs_f64()),
         other => panic!("{other:?}"),
     }
@@ -185,7 +186,7 @@ impl Arch {
     fn new(analysis: Analysis) -> Option<Self> {
         let voussoirs = analysis.structure.voussoirs().len();
         let mut analysis = Analysis { accuracy: None, fields: Vec::new(), ..analysis };
-        let rigid = run(&analysis, &mut Unwatched).ok()?;
+        let rigid = run(&analysis, &Budget::unlimited()).ok()?;
         let collapse = rigid.end.as_ref().map_or(2.0, |end| end.load_factor);
         let at = 0.5 * (rigid.start + collapse);
         if rigid.at_start.is_none() || voussoirs > MOST_VOUSSOIRS {
@@ -208,14 +209,14 @@ impl Arch {
         let mut analysis = self.analysis.clone();
         analysis.mesh.subblocks = subblocks;
         let start = Instant::now();
-        (run(&analysis, &mut Unwatched).unwrap(), start.elapsed().as_secs_f64())
+        (run(&analysis, &Budget::unlimited()).unwrap(), start.elapsed().as_secs_f64())
     }
 
     fn found(&self, asked: f64) -> Option<(Tried, f64)> {
         let accuracy = Accuracy { collapse_intensity: None, stress: Some(asked), most_subblocks: 5000 };
         let analysis = Analysis { accuracy: Some(accuracy), ..self.analysis.clone() };
         let start = Instant::now();
-        let report = run(&analysis, &mut Unwatched).unwrap();
+        let report = run(&analysis, &Budget::unlimited()).unwrap();
         let (seconds, plan) = (start.elapsed().as_secs_f64(), report.plan?);
         let (subblocks, error) = (plan.meshes.last()?.subblocks, error(report.stress_fields.first()?, &self.exact));
         Some((Tried { subblocks, error, seconds }, plan.stress?.estimate?))

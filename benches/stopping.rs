@@ -1,4 +1,4 @@
-//! How long an analysis may go on before it asks whether it should: the longest time between two calls of its watch, for
+//! How long an analysis may go on before it asks whether it should: the longest time between two calls of its budget, for
 //! the longest requests of every kind that the service takes.
 //!
 //! `cargo bench --bench stopping`; words such as `-- beam motion` choose kinds, a path ending in `.json` is a request of
@@ -19,10 +19,13 @@ mod semicircle;
 use semicircle::{mesh, semicircle};
 use serde_json::{Value, json};
 use std::backtrace::Backtrace;
+use std::cell::RefCell;
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 use voussoir::api::read::read_question;
-use voussoir::collapse::{AnalysisError, Answer, LoadStep, Question, Stop, Watch, answer};
+use voussoir::budget::{Budget, LoadStep};
+
+use voussoir::collapse::{AnalysisError, Answer, Question, answer};
 
 /// Measures the time between calls, and stops the analysis when it has had its time.
 struct Stopwatch {
@@ -30,7 +33,7 @@ struct Stopwatch {
     last: Instant,
     most: Duration,
     slow: Duration,
-    beats: usize,
+    calls: usize,
     longest: Duration,
     /// The call before the longest wait, and what it told.
     after: (usize, Option<LoadStep>),
@@ -41,7 +44,7 @@ impl Stopwatch {
     fn new(most: Duration, slow: Duration) -> Self {
         let now = Instant::now();
         let (longest, after) = (Duration::ZERO, (0, None));
-        Stopwatch { start: now, last: now, most, slow, beats: 0, longest, after, step: None }
+        Stopwatch { start: now, last: now, most, slow, calls: 0, longest, after, step: None }
     }
 
     fn look(&mut self) {
@@ -50,17 +53,15 @@ impl Stopwatch {
             println!("{:.1} ms\n{}", 1e3 * (now - self.last).as_secs_f64(), Backtrace::force_capture());
         }
         if now - self.last > self.longest {
-            (self.longest, self.after) = (now - self.last, (self.beats, self.step));
+            (self.longest, self.after) = (now - self.last, (self.calls, self.step));
         }
         self.last = Instant::now();
     }
-}
 
-impl Watch for Stopwatch {
-    fn on_step(&mut self, step: &LoadStep) -> ControlFlow<Stop> {
+    fn see(&mut self, step: LoadStep) -> ControlFlow<()> {
         self.look();
-        (self.beats, self.step) = (self.beats + 1, Some(*step));
-        if self.start.elapsed() > self.most { ControlFlow::Break(Stop) } else { ControlFlow::Continue(()) }
+        (self.calls, self.step) = (self.calls + 1, Some(step));
+        if self.start.elapsed() > self.most { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 }
 
@@ -84,21 +85,22 @@ fn main() {
 fn measure(name: &str, body: &[u8], times: [f64; 2]) {
     let (_, question) = read_question(body).unwrap();
     let [most, slow] = times.map(Duration::from_secs_f64);
-    let mut watch = Stopwatch::new(most, slow);
-    let ended = run(&question, &mut watch);
+    let watch = RefCell::new(Stopwatch::new(most, slow));
+    let ended = run(&question, &Budget::new(&|step| watch.borrow_mut().see(step)));
+    let mut watch = watch.into_inner();
     watch.look();
     let (call, step) = watch.after;
     let place = step.map_or("start".to_owned(), |step| format!("{:.6}, {}", step.load_factor, step.events));
     let (longest, took) = (1e3 * watch.longest.as_secs_f64(), watch.start.elapsed().as_secs_f64());
-    println!("{name:<44} {longest:>10.1} {:>9} {took:>8.2}  {call} ({place}); {ended}", watch.beats);
+    println!("{name:<44} {longest:>10.1} {:>9} {took:>8.2}  {call} ({place}); {ended}", watch.calls);
 }
 
-fn run(question: &Question, watch: &mut dyn Watch) -> String {
-    match answer(question, watch) {
+fn run(question: &Question, budget: &Budget) -> String {
+    match answer(question, budget) {
         Ok(Answer::One(report)) => format!("{:?}", report.outcome),
         Ok(Answer::Curve(points)) => format!("{} points", points.len()),
         Ok(Answer::CurvedBeam(_)) => "beam".to_owned(),
-        Err(AnalysisError::Stopped { .. }) => "stopped".to_owned(),
+        Err(AnalysisError::Stopped(_)) => "stopped".to_owned(),
         Err(error) => error.to_string(),
     }
 }

@@ -5,6 +5,7 @@ pub mod api;
 pub mod arch;
 pub mod blocks;
 pub mod bridge;
+pub mod budget;
 pub mod collapse;
 pub mod dda;
 pub mod geometry;

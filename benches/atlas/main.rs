@@ -24,7 +24,9 @@ use ours::{Ours, ours};
 use std::path::PathBuf;
 use std::time::Instant;
 use theirs::{Theirs, theirs};
-use voussoir::collapse::{Unwatched, run};
+use voussoir::budget::Budget;
+
+use voussoir::collapse::run;
 
 /// A scene and what every method made of it.
 pub struct Row {
@@ -111,7 +113,7 @@ fn look(names: &[String]) {
             truth.window,
             theirs(&analysis, &truth, &ours)
         );
-        if let Ok(report) = run(&analysis, &mut Unwatched) {
+        if let Ok(report) = run(&analysis, &Budget::unlimited()) {
             println!("{:?} {:?} {:?}\n{:#?}", report.outcome, report.limit_window, report.cost, report.notes);
             report.end.iter().for_each(|end| println!("{:#?}", end.mechanism));
         }

@@ -7,7 +7,9 @@ use crate::common::door;
 use crate::common::verify::said;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
-use voussoir::collapse::{Aim, Analysis, CollapseReport, Outcome, Unwatched, run};
+use voussoir::budget::Budget;
+
+use voussoir::collapse::{Aim, Analysis, CollapseReport, Outcome, run};
 use voussoir::structure::{Joint, JointLaw};
 
 /// What our method made of a scene.
@@ -38,7 +40,7 @@ const SEEDS: [f64; 2] = [1e-9, -1e-9];
 /// Runs an analysis; the words of a panic or an error in place of a report.
 fn timed(analysis: &Analysis) -> (Result<CollapseReport, (bool, String)>, f64) {
     let start = Instant::now();
-    let result = catch_unwind(AssertUnwindSafe(|| run(analysis, &mut Unwatched)));
+    let result = catch_unwind(AssertUnwindSafe(|| run(analysis, &Budget::unlimited())));
     let result = match result {
         Err(panic) => Err((true, format!("panic: {}", said(&*panic)))),
         Ok(Err(error)) => Err((false, error.to_string())),

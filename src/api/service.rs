@@ -8,7 +8,9 @@ use super::outgoing::Outgoing;
 use super::request::Request;
 use super::response::{JobResult, weight};
 use super::translate;
-use crate::collapse::{AnalysisError, Answer, Question, Watch};
+use crate::budget::Budget;
+
+use crate::collapse::{AnalysisError, Answer, Question};
 use crate::jobs::{self, Failure, JobStore, Product};
 use axum::http::HeaderValue;
 use std::io;
@@ -17,7 +19,7 @@ use tokio::sync::Semaphore;
 use tokio_util::sync::CancellationToken;
 
 /// The mechanics, or what stands in for them in a test.
-pub type Analyse = fn(&Question, &mut dyn Watch) -> Result<Answer, AnalysisError>;
+pub type Analyse = fn(&Question, &Budget) -> Result<Answer, AnalysisError>;
 
 /// How the interface behaves.
 #[derive(Debug, Clone)]
@@ -54,7 +56,7 @@ impl Service {
     pub fn start(jobs: jobs::Limits, settings: Settings, analyse: Analyse) -> io::Result<Self> {
         let metrics = Metrics::default();
         let counted = metrics.clone();
-        let work = move |request: &Request, watch: &mut dyn Watch| perform(request, watch, analyse);
+        let work = move |request: &Request, budget: &Budget| perform(request, budget, analyse);
         let jobs = JobStore::start(jobs, work, move |job| counted.ended(job))?;
         let Settings { limits, tokens, origins } = settings;
         let streams = Arc::new(Semaphore::new(limits.streams));
@@ -65,10 +67,10 @@ impl Service {
 }
 
 /// What a worker does with a request. An answer counts as done only if it can be written down, every number finite.
-fn perform(request: &Request, watch: &mut dyn Watch, analyse: Analyse) -> Result<Product, Failure> {
+fn perform(request: &Request, budget: &Budget, analyse: Analyse) -> Result<Product, Failure> {
     // It was translated when it was accepted, so it can be again; meanwhile only the request had to be kept.
     let question = translate::translate(request).map_err(|_| Failure::Defect)?;
-    let answer = analyse(&question, watch)?;
+    let answer = analyse(&question, budget)?;
     let result = JobResult::new(request, &answer).ok_or(Failure::Defect)?;
     let bytes = weight(&result).map_err(|_| Failure::Defect)?;
     Ok(Product { answer, bytes })

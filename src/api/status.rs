@@ -3,7 +3,8 @@
 use super::problem::Problem;
 use super::request::Request;
 use super::timestamp::rfc3339;
-use crate::collapse::LoadStep;
+use crate::budget::LoadStep;
+
 use crate::jobs::{Job, JobId, State, Status};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;

@@ -11,7 +11,9 @@ use voussoir::api::fault::Fault;
 use voussoir::api::prose;
 use voussoir::api::read::read_question;
 use voussoir::api::response::JobResult;
-use voussoir::collapse::{self, Unwatched};
+use voussoir::budget::Budget;
+
+use voussoir::collapse;
 
 /// Exit code for a request that cannot be analysed.
 const FAULTY: u8 = 2;
@@ -27,7 +29,7 @@ pub fn solve(options: &Solve) -> ExitCode {
         Err(faults) => return refuse(&faults),
     };
     let clock = Instant::now();
-    let answer = match collapse::answer(&question, &mut Unwatched) {
+    let answer = match collapse::answer(&question, &Budget::unlimited()) {
         Ok(answer) => answer,
         Err(error) => return fail(error),
     };

@@ -2,7 +2,8 @@
 
 use super::discretise::{bond, elasticity};
 use super::grid::{Grid, Lines};
-use super::pulse::Pulse;
+use crate::budget::Budget;
+
 use super::{AnalysisError, BeamReport, CurvedBeam, DEFAULT_PENALTY_RATIO, PlaneModel, StressField, SubblockStress};
 use crate::dda::{Macroblock, free_response};
 use crate::geometry::{Region, Vec2};
@@ -77,16 +78,16 @@ impl Exact {
 }
 
 /// Solves the beam and holds it against the exact solution.
-pub(super) fn solve(beam: &CurvedBeam, pulse: &Pulse) -> Result<BeamReport, AnalysisError> {
-    pulse.go_on()?;
+pub(super) fn solve(beam: &CurvedBeam, budget: &Budget) -> Result<BeamReport, AnalysisError> {
+    budget.ask()?;
     let exact = Exact::new(beam);
     let (grid, body) = macroblock(beam);
-    pulse.go_on()?;
+    budget.ask()?;
     let load = end_loads(beam, &exact, &grid, &body);
     let unknowns = 6 * body.blocks().len();
-    let response = free_response(&body, &load, &pulse.heart).map_err(|_| pulse.stopped())?;
+    let response = free_response(&body, &load, budget)?;
     let displacements = response.ok_or(AnalysisError::NotFinite { what: "displacements of the curved beam" })?;
-    pulse.go_on()?;
+    budget.ask()?;
     let stresses: Vec<[f64; 3]> = body
         .blocks()
         .iter()

@@ -2,7 +2,8 @@
 
 use super::doubt::Doubt;
 use super::path::total;
-use super::pulse::Pulse;
+use crate::budget::Budget;
+
 use super::{Analysis, AnalysisError, Crushing, Digits, LimitWindow, LoadRange, PathEnd, PlasticCrushing};
 use crate::limit::{CrushingWindow, StaticTheorem};
 
@@ -41,12 +42,12 @@ pub(super) struct Certificate {
 }
 
 impl Certificate {
-    pub(super) fn new(analysis: &Analysis, pulse: &Pulse) -> Result<Self, AnalysisError> {
-        pulse.go_on()?;
+    pub(super) fn new(analysis: &Analysis, budget: &Budget) -> Result<Self, AnalysisError> {
+        budget.ask()?;
         let theorem = StaticTheorem::new(&analysis.structure, &analysis.fixed, &analysis.scaled);
         let theorem = theorem.map_err(|bodies| AnalysisError::Unconnected(bodies[0]))?;
-        let window = theorem.window(&|| pulse.beat());
-        pulse.check()?;
+        let window = theorem.window(budget);
+        budget.check()?;
         let solved = window.is_ok();
         let mut certificate = Certificate { theorem, window: None, solved, any_fixed: any_fixed(analysis) };
         certificate.window = window.ok().and_then(|window| certificate.tidy(window));
@@ -101,10 +102,10 @@ impl Certificate {
     }
 
     /// What limit analysis says of stone of this strength, Pa.
-    pub(super) fn crushing(&self, strength: f64, pulse: &Pulse) -> Result<Crushing, AnalysisError> {
+    pub(super) fn crushing(&self, strength: f64, budget: &Budget) -> Result<Crushing, AnalysisError> {
         let strengths = vec![strength; self.theorem.joints()];
-        let found = self.theorem.crushing_window(&strengths, &|| pulse.beat());
-        pulse.check()?;
+        let found = self.theorem.crushing_window(&strengths, budget);
+        budget.check()?;
         let plastic_section = found.ok().map(|window| {
             let (ends, joints) = window.map(|CrushingWindow { ends, joints }| (ends, joints)).unzip();
             let window = self.tidy(ends).map(|[lowest, highest]| LimitWindow { lowest, highest });
@@ -192,10 +193,10 @@ impl Certificate {
     }
 
     /// The arch fell at the start of the path; `loose`: some stone carries no load; `power` is what its loads do in the
-    /// mechanism, as a share of the most they could. No answer where the heart stands still.
-    pub(super) fn fallen(&self, start: f64, loose: bool, slides: bool, power: f64, pulse: &Pulse) -> Option<Doubt> {
+    /// mechanism, as a share of the most they could. No answer where the budget is spent.
+    pub(super) fn fallen(&self, start: f64, loose: bool, slides: bool, power: f64, budget: &Budget) -> Option<Doubt> {
         // The joints of unloaded stones carry nothing, which leaves the static theorem no room to be solved in.
-        if loose && !self.stands_at(start) && self.theorem.nearly_stands(start, MARGIN, &|| pulse.beat()) {
+        if loose && !self.stands_at(start) && self.theorem.nearly_stands(start, MARGIN, budget) {
             return Some(Doubt::LooseStones);
         }
         let doubt = match slides {

@@ -2,11 +2,10 @@
 
 use super::grid::{Grid, ON_LINE};
 use super::path::Attempt;
-use super::pulse::Pulse;
+use crate::budget::Budget;
+
 use super::{Analysis, AnalysisError, Geometry, PlaneModel, Seams};
-use crate::dda::{
-    Assembly, AssemblyBuilder, Beside, Bond, Elasticity, Law, Loads, MeanMotion, Push, Stopped, Touch, Unbuilt,
-};
+use crate::dda::{Assembly, AssemblyBuilder, Beside, Bond, Elasticity, Law, Loads, MeanMotion, Push, Touch};
 use crate::geometry::{Region, Vec2};
 use crate::structure::{Joint, JointLaw, PointForce, Side, Stone};
 
@@ -27,8 +26,8 @@ const SHAPE: usize = 200;
 
 /// An assembly of macroblocks, one for every body, with an interface for every joint, and the loads on it.
 pub(super) struct Model<'p> {
-    /// The watch on the analysis that it is for.
-    pub pulse: &'p Pulse<'p>,
+    /// What the analysis that it is for may take.
+    pub budget: &'p Budget<'p>,
     pub assembly: Assembly,
     /// Bodies and joints that are told of: all but abutment blocks.
     pub bodies: usize,
@@ -72,19 +71,18 @@ impl Scatter {
 pub(super) fn discretise<'p>(
     analysis: &Analysis,
     attempt: Attempt,
-    pulse: &'p Pulse<'p>,
+    budget: &'p Budget<'p>,
 ) -> Result<Model<'p>, AnalysisError> {
     let structure = &analysis.structure;
     let mut grids = grids(analysis);
-    let assembly = assembly(analysis, &grids, attempt, pulse)?;
+    let assembly = assembly(analysis, &grids, attempt, budget)?;
     let (bodies, joints) = (structure.voussoirs().len(), structure.ring().len());
     let positions = structure.ring().iter().map(|joint| places(joint.law, around(joint, &grids))).collect();
     let on_subblocks = |force: &PointForce| pushes(force, &grids);
-    let (heart, stopped) = (&pulse.heart, |_: Stopped| pulse.stopped());
-    let straight = |forces: &[PointForce]| assembly.loads(forces.iter().flat_map(on_subblocks), heart).map_err(stopped);
+    let straight = |forces: &[PointForce]| assembly.loads(forces.iter().flat_map(on_subblocks), budget);
     let turned = |forces: &[PointForce]| match analysis.geometry {
         Geometry::FirstOrder => Ok(Vec::new()),
-        Geometry::Updated => assembly.turned_loads(forces.iter().flat_map(on_subblocks), heart).map_err(stopped),
+        Geometry::Updated => assembly.turned_loads(forces.iter().flat_map(on_subblocks), budget),
     };
     let [fixed, scaled] = [straight(&analysis.fixed)?, straight(&analysis.scaled)?];
     let turned = [turned(&analysis.fixed)?, turned(&analysis.scaled)?];
@@ -94,7 +92,7 @@ pub(super) fn discretise<'p>(
         symmetric: !structure.is_half() && assembly.is_symmetric(),
         fixed,
         scaled,
-        pulse,
+        budget,
         bodies,
         joints,
         size: extent(structure.ring().iter().flat_map(|j| [j.intrados, j.extrados])),
@@ -106,14 +104,14 @@ pub(super) fn discretise<'p>(
 }
 
 /// The bodies cut like this, joined as the structure says, their contacts scattered.
-fn assembly(analysis: &Analysis, grids: &[Grid], attempt: Attempt, pulse: &Pulse) -> Result<Assembly, AnalysisError> {
+fn assembly(analysis: &Analysis, grids: &[Grid], attempt: Attempt, budget: &Budget) -> Result<Assembly, AnalysisError> {
     let structure = &analysis.structure;
     let mut macroblocks = Vec::with_capacity(grids.len());
     for (body, grid) in grids.iter().enumerate() {
         let stone = structure.stone_of(body);
         let bond = bond(analysis.mesh.seams, analysis.penalty_ratio * stone.youngs_modulus);
         macroblocks.push(grid.macroblock(elasticity(stone, analysis.plane), bond));
-        pulse.work(CUT * grid.radial * grid.along)?;
+        budget.work(CUT * grid.radial * grid.along)?;
     }
     let mut builder = AssemblyBuilder::new(macroblocks);
     for joint in &structure.joints {
@@ -123,10 +121,7 @@ fn assembly(analysis: &Analysis, grids: &[Grid], attempt: Attempt, pulse: &Pulse
         });
         builder.join(between, touches(joint, around(joint, grids), penalties(analysis, joint)));
     }
-    let mut assembly = builder.finish(&pulse.heart).map_err(|error| match error {
-        Unbuilt::Loose(loose) => loose.into(),
-        Unbuilt::Stopped(_) => pulse.stopped(),
-    })?;
+    let mut assembly = builder.finish(budget)?;
     let mut scatter = Scatter::new(attempt.seed);
     assembly.scatter(|| [(); 2].map(|()| 1.0 + attempt.scatter * scatter.next()));
     Ok(assembly)

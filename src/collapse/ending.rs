@@ -51,7 +51,7 @@ pub(super) fn at_peak(
     };
     let driving = driving(analysis, peak.parameter, sign);
     let slipping: Vec<Option<f64>> = (0..structure.ring().len()).map(|k| sliding_shear(model, k, peak)).collect();
-    let found = mechanism::from_statics(structure, &forces, &slipping, &driving, POLISHED, &model.pulse.heart);
+    let found = mechanism::from_statics(structure, &forces, &slipping, &driving, POLISHED, model.budget);
     let later = found.is_none();
     let mechanism = found.unwrap_or_else(|| {
         from_direction(model, structure, if fall.turned_back { &peak.direction } else { &fall.direction })
@@ -89,8 +89,8 @@ pub(super) fn at_fall(analysis: &Analysis, model: &Model, tracer: &Tracer, start
     let forces = tracer.contact_forces();
     let along_path = from_direction(model, structure, tracer.direction());
     let none = vec![None; structure.ring().len()];
-    let (carried, heart) = (resultants(model, |p| forces[p]), &model.pulse.heart);
-    let smallest = mechanism::from_statics(structure, &carried, &none, &driving, AS_BUILT, heart);
+    let (carried, budget) = (resultants(model, |p| forces[p]), model.budget);
+    let smallest = mechanism::from_statics(structure, &carried, &none, &driving, AS_BUILT, budget);
     let mechanism = smallest.filter(|m| along_path.slides.is_empty() && m.slides.is_empty()).unwrap_or(along_path);
     PathEnd { load_factor, range: None, residual: tracer.worst_residual(), mechanism, thrust_line: Vec::new() }
 }

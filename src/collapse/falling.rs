@@ -1,10 +1,11 @@
 //! Motion after collapse: from an arch, its loads and its report to rigid blocks on the move, and back to frames.
 
-use super::pulse::Pulse;
 use super::{
     Analysis, AnalysisError, CollapseReport, Digits, Direction, FallingMotion, MotionAsked, MotionContact, MotionEnd,
     MotionFrame, OpenHinge, Outcome, Slid,
 };
+use crate::budget::Budget;
+
 use crate::dda::falling::{Advance, Block, Corners, Falling, Frame, Friction};
 use crate::geometry::Vec2;
 use crate::structure::{Face, Joint, JointLaw, Structure};
@@ -31,7 +32,7 @@ const BEYOND: f64 = 1e-6;
 type Loading = (f64, f64);
 
 /// Moves the arch on from the collapse in a report, and from the other end of a window too.
-pub(super) fn follow(analysis: &Analysis, report: &mut CollapseReport, pulse: &Pulse) -> Result<(), AnalysisError> {
+pub(super) fn follow(analysis: &Analysis, report: &mut CollapseReport, budget: &Budget) -> Result<(), AnalysisError> {
     let Some(asked) = analysis.motion else { return Ok(()) };
     let as_built = matches!(report.outcome, Outcome::FallsAsBuilt | Outcome::SlidesAsBuilt);
     let falls = as_built || matches!(report.outcome, Outcome::Collapse | Outcome::StandsInWindow);
@@ -49,10 +50,10 @@ pub(super) fn follow(analysis: &Analysis, report: &mut CollapseReport, pulse: &P
         end.as_ref().map(|end| loadings(analysis, report, end.load_factor, sign))
     };
     if let Some(loadings) = of_end(true, report) {
-        report.motion = Some(first_to_begin(analysis, asked, &loadings, report, pulse)?);
+        report.motion = Some(first_to_begin(analysis, asked, &loadings, report, budget)?);
     }
     if let Some(loadings) = of_end(false, report) {
-        report.other_motion = Some(first_to_begin(analysis, asked, &loadings, report, pulse)?);
+        report.other_motion = Some(first_to_begin(analysis, asked, &loadings, report, budget)?);
     }
     let lost = |motion: &Option<FallingMotion>| motion.as_ref().is_some_and(|motion| motion.end == MotionEnd::Lost);
     if lost(&report.motion) || lost(&report.other_motion) {
@@ -94,13 +95,13 @@ fn first_to_begin(
     asked: MotionAsked,
     loadings: &[Loading],
     report: &CollapseReport,
-    pulse: &Pulse,
+    budget: &Budget,
 ) -> Result<FallingMotion, AnalysisError> {
-    let mut motion = run(analysis, asked, loadings[0], report, pulse)?;
+    let mut motion = run(analysis, asked, loadings[0], report, budget)?;
     for &loading in &loadings[1..] {
         let moved = motion.frames.last().map_or(0.0, |frame| frame.displacement);
         if motion.end == MotionEnd::AtRest && moved < BEGUN * motion.thickness {
-            motion = run(analysis, asked, loading, report, pulse)?;
+            motion = run(analysis, asked, loading, report, budget)?;
         }
     }
     Ok(motion)
@@ -111,7 +112,7 @@ fn run(
     asked: MotionAsked,
     (load_factor, overload): Loading,
     report: &CollapseReport,
-    pulse: &Pulse,
+    budget: &Budget,
 ) -> Result<FallingMotion, AnalysisError> {
     let structure = &analysis.structure;
     let thickness = structure.ring().iter().map(Joint::length).fold(f64::INFINITY, f64::min);
@@ -121,8 +122,8 @@ fn run(
     let mut frames = vec![read(&frame, thickness)];
     let end = loop {
         let events = report.cost.events + frames.len();
-        if pulse.step(load_factor, events).is_break() {
-            return Err(pulse.stopped());
+        if budget.step(load_factor, events).is_break() {
+            return Err(budget.stopped().into());
         }
         if let Some(joint) = falling.parted(&frame) {
             break MotionEnd::StoneFree { voussoir: freed(&frame, &frames, joint), joint };
@@ -133,8 +134,8 @@ fn run(
         if frames.len() > asked.most_frames {
             break MotionEnd::StepLimit;
         }
-        let advance = falling.advance(&pulse.heart);
-        pulse.check()?;
+        let advance = falling.advance(budget);
+        budget.check()?;
         match advance {
             Ok(Advance::Moved(next)) => frame = *next,
             Ok(Advance::Rest) => break MotionEnd::AtRest,

@@ -3,7 +3,8 @@
 use super::motion::Motion;
 use super::smallest_motion::{Column, smallest_motion};
 use super::{Face, Hinge, LiftOff, Mechanism, Mode, Slide};
-use crate::dda::Heart;
+use crate::budget::Budget;
+
 use crate::geometry::{Vec2, cross};
 use crate::limit::{Release, Resultant, releases};
 use crate::structure::{Joint, JointLaw, Loops, PointForce, Side, Structure};
@@ -32,19 +33,19 @@ pub(super) type Released = (usize, Release);
 /// `slipping` holds the sign of the shear where a joint is known to slide (a hinge that slides has only half of the
 /// joint's cohesion left, which the resultant alone does not tell). `at_limit` is the share of a joint's force below which
 /// a corner's is none, and within which its shear is at capacity; a joint that carries next to nothing of what others do
-/// carries none. None, too, where the heart stands still.
+/// carries none. None, too, where the budget is spent.
 pub(super) fn from_statics(
     structure: &Structure,
     resultants: &[Resultant],
     slipping: &[Option<f64>],
     driving: &[PointForce],
     at_limit: f64,
-    heart: &Heart,
+    budget: &Budget,
 ) -> Option<Mechanism> {
     let loops = Loops::new(structure).ok()?;
     let releases = all_releases(structure, resultants, slipping, at_limit);
     let columns = columns(structure, &loops, &releases, driving);
-    let rates = smallest_motion(&columns, 3 * loops.len() + 1, heart)?;
+    let rates = smallest_motion(&columns, 3 * loops.len() + 1, budget)?;
     Some(describe(structure, &loops, &releases, &rates))
 }
 
@@ -336,7 +337,7 @@ mod tests {
         let set = [(0, Extrados), (3, Intrados), (6, Extrados), (9, Intrados), (12, Extrados)];
         let none = vec![None; 13];
         let mechanism =
-            from_statics(&structure, &resultants(12, &set), &none, &crown_load(&structure), 1e-8, &Heart::unwatched())
+            from_statics(&structure, &resultants(12, &set), &none, &crown_load(&structure), 1e-8, &Budget::unlimited())
                 .unwrap();
         let found: Vec<_> = mechanism.hinges.iter().map(|h| (h.joint, h.face)).collect();
         assert_eq!(found, set);
@@ -362,7 +363,7 @@ mod tests {
                 &[None; 13],
                 &crown_load(&structure),
                 1e-8,
-                &Heart::unwatched()
+                &Budget::unlimited()
             ),
             None
         );

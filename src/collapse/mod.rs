@@ -14,7 +14,6 @@ mod mirror;
 mod motion;
 mod path;
 mod plan;
-mod pulse;
 mod record;
 pub mod report;
 mod rounding;
@@ -32,9 +31,9 @@ pub use digits::Digits;
 pub use plan::LOAD_PIECES;
 pub use report::*;
 
+use crate::budget::{Budget, Stopped};
+use crate::dda::Unbuilt;
 use crate::structure::{PointForce, Stone, Structure};
-use pulse::watched;
-use std::ops::ControlFlow;
 
 /// Contact penalty as a multiple of Young's modulus in Table 1 of the paper (1e10 N/m over 1e9 Pa).
 pub const DEFAULT_PENALTY_RATIO: f64 = 10.0;
@@ -266,49 +265,12 @@ pub struct CurvedBeam {
     pub curved_sides: bool,
 }
 
-/// Where an analysis stands.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LoadStep {
-    /// Load factor now.
-    pub load_factor: f64,
-    /// Contact events so far, on all paths of the analysis together.
-    pub events: usize,
-}
-
-/// Asked to stop by the watcher.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Stop;
-
-/// Sees an analysis go by and may stop it.
-pub trait Watch {
-    /// Called at every event of a path, and as a heartbeat wherever the analysis is at work for more than some
-    /// milliseconds: the last step is then told again, before the first one load factor 0 and no events.
-    ///
-    /// The analysis ends as soon as this breaks, with [`AnalysisError::Stopped`] at the step told last, and does not call it
-    /// again. How often it is called depends on the question alone, never on a clock.
-    fn on_step(&mut self, step: &LoadStep) -> ControlFlow<Stop>;
-}
-
-/// Watches nothing.
-pub struct Unwatched;
-
-impl Watch for Unwatched {
-    fn on_step(&mut self, _: &LoadStep) -> ControlFlow<Stop> {
-        ControlFlow::Continue(())
-    }
-}
-
 /// Why there is no report.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum AnalysisError {
-    /// The watcher asked to stop.
-    #[error("stopped at load factor {load_factor} after {events} events")]
-    Stopped {
-        /// Load factor reached.
-        load_factor: f64,
-        /// Events so far.
-        events: usize,
-    },
+    /// The budget is spent.
+    #[error(transparent)]
+    Stopped(#[from] Stopped),
     /// The fixed step is so small that the path cannot be walked in it.
     #[error("the load path has more than {most} of the fixed steps asked for; take a larger step")]
     TooManySteps {
@@ -329,16 +291,27 @@ pub enum AnalysisError {
     },
 }
 
+impl From<Unbuilt> for AnalysisError {
+    fn from(unbuilt: Unbuilt) -> Self {
+        match unbuilt {
+            Unbuilt::Loose(loose) => loose.into(),
+            Unbuilt::Stopped(stopped) => stopped.into(),
+        }
+    }
+}
+
 /// Answers a question.
 ///
 /// # Errors
-/// When stopped by `watch`, or when a result is not finite.
-pub fn answer(question: &Question, watch: &mut dyn Watch) -> Result<Answer, AnalysisError> {
-    let answer = watched(watch, |pulse| match question {
-        Question::One(analysis) => verdict::run(analysis, pulse).map(|report| Answer::One(Box::new(report))),
-        Question::Curve(points) => safety::curve(points, pulse).map(Answer::Curve),
-        Question::CurvedBeam(beam) => plan::beam(beam, pulse).map(Answer::CurvedBeam),
-    })?;
+/// When stopped by `budget`, or when a result is not finite.
+pub fn answer(question: &Question, budget: &Budget) -> Result<Answer, AnalysisError> {
+    let answer = match question {
+        Question::One(analysis) => verdict::run(analysis, budget).map(|report| Answer::One(Box::new(report))),
+        Question::Curve(points) => safety::curve(points, budget).map(Answer::Curve),
+        Question::CurvedBeam(beam) => plan::beam(beam, budget).map(Answer::CurvedBeam),
+    }?;
+    // Where it is spent there is no answer, whatever was computed.
+    budget.check()?;
     answer.check_finite()?;
     Ok(answer)
 }
@@ -346,9 +319,10 @@ pub fn answer(question: &Question, watch: &mut dyn Watch) -> Result<Answer, Anal
 /// Runs the analysis: limit window, then the load path from where it says the arch stands, then the comparison.
 ///
 /// # Errors
-/// When stopped by `watch`, or when a result is not finite.
-pub fn run(analysis: &Analysis, watch: &mut dyn Watch) -> Result<CollapseReport, AnalysisError> {
-    let report = watched(watch, |pulse| verdict::run(analysis, pulse))?;
+/// When stopped by `budget`, or when a result is not finite.
+pub fn run(analysis: &Analysis, budget: &Budget) -> Result<CollapseReport, AnalysisError> {
+    let report = verdict::run(analysis, budget)?;
+    budget.check()?;
     report.check_finite()?;
     Ok(report)
 }

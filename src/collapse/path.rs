@@ -98,7 +98,7 @@ pub(super) fn stand<'a>(
     // Deep enough that nothing has opened yet when the true loads begin to act.
     let preload = target.len() as f64 * largest(&target) / model.softest;
     let drive = covering(&model.assembly, &target, preload);
-    let mut tracer = Tracer::new(&model.assembly, drive, model.size, load_scale, &model.pulse.heart);
+    let mut tracer = Tracer::new(&model.assembly, drive, model.size, load_scale, model.budget);
     let end = match tracer.trace(1.0, see) {
         // Stones that have to move by many times the arch's size until they are held have fallen.
         End::Rising => End::Mechanism,
@@ -245,7 +245,7 @@ pub(super) fn follow(
     if recorder.too_many_steps() {
         return Leg::TooManySteps;
     }
-    let stopped = recorder.model.pulse.heart.check().is_err();
+    let stopped = recorder.model.budget.check().is_err();
     match (met, end) {
         _ if stopped => Leg::Stopped,
         (Some(load_factor), _) => Leg::Criterion(load_factor),

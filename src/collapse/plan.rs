@@ -14,8 +14,9 @@ mod unfold;
 pub(super) use beam::solve as beam;
 pub use mesh::LOAD_PIECES;
 
-use super::pulse::Pulse;
 use super::{Accuracy, Analysis, AnalysisError, CollapseReport, Direction, Estimate, Outcome, PathEnd, Plan};
+use crate::budget::Budget;
+
 use crate::structure::is_symmetric;
 
 /// Why there is no stress to refine.
@@ -31,7 +32,7 @@ pub(super) fn refined(
     analysis: &Analysis,
     accuracy: Accuracy,
     rigid: CollapseReport,
-    pulse: &Pulse,
+    budget: &Budget,
 ) -> Result<CollapseReport, AnalysisError> {
     let mut plan = Plan {
         half: false,
@@ -43,7 +44,7 @@ pub(super) fn refined(
         why: vec![why_load(&rigid)],
     };
     let mut report = match accuracy.stress {
-        Some(asked) => on_finer_meshes(analysis, accuracy.most_subblocks, asked, rigid, &mut plan, pulse)?,
+        Some(asked) => on_finer_meshes(analysis, accuracy.most_subblocks, asked, rigid, &mut plan, budget)?,
         None => {
             plan.why.push("No accuracy of the stress is asked for: the mesh is the request's own.".into());
             rigid
@@ -61,7 +62,7 @@ fn on_finer_meshes(
     asked: f64,
     rigid: CollapseReport,
     plan: &mut Plan,
-    pulse: &Pulse,
+    budget: &Budget,
 ) -> Result<CollapseReport, AnalysisError> {
     let stands = rigid.at_start.is_some() && rigid.outcome != Outcome::CannotTell;
     if !stands || rigid.stress_fields.is_empty() {
@@ -69,7 +70,7 @@ fn on_finer_meshes(
         return Ok(rigid);
     }
     let half = half_of(analysis, &rigid);
-    let mut found = match refine::solve(half.as_ref().unwrap_or(analysis), most, asked, pulse)? {
+    let mut found = match refine::solve(half.as_ref().unwrap_or(analysis), most, asked, budget)? {
         Ok(found) => found,
         Err(why) => {
             plan.why.push(why);

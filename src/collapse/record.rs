@@ -192,7 +192,7 @@ impl<'a> Recorder<'a> {
             let displacements = interpolate(before, now, at);
             self.model.assembly.gaps(&displacements, &mut gaps);
             // The path is stopped at the end of this event.
-            if self.model.pulse.heart.work(LOOK * gaps.len()).is_err() {
+            if self.model.budget.work(LOOK * gaps.len()).is_err() {
                 return None;
             }
             let open = (0..self.model.joints).filter(|&k| self.model.contacts(k).any(|p| gaps[p][0] > opening));
@@ -214,7 +214,7 @@ pub(super) fn snapshot(model: &Model, state: &Standing) -> Result<Snapshot, Anal
     let Standing { displacements, forces, .. } = state;
     let load_factor = state.load_factor;
     let block = |v: usize| {
-        model.pulse.work(model.work_of_stresses(v))?;
+        model.budget.work(model.work_of_stresses(v))?;
         let MeanMotion { displacement, rotation } = model.motion(v, load_factor, displacements);
         Ok(BlockState { displacement, rotation, stress: model.mean_stress(v, load_factor, displacements) })
     };
@@ -236,7 +236,7 @@ pub(super) fn snapshot(model: &Model, state: &Standing) -> Result<Snapshot, Anal
 pub(super) fn stress_field(model: &Model, load_factor: f64, state: &Standing) -> Result<StressField, AnalysisError> {
     let mut subblocks = Vec::new();
     for (voussoir, grid) in model.grids.iter().enumerate() {
-        model.pulse.work(model.work_of_stresses(voussoir))?;
+        model.budget.work(model.work_of_stresses(voussoir))?;
         subblocks.extend(grid.field(voussoir, &model.stresses(voussoir, load_factor, &state.displacements)));
     }
     if state.symmetric {

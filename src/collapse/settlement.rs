@@ -6,7 +6,8 @@
 
 use super::discretise::{Model, discretise};
 use super::path::{Attempt, Moved, disturbed, first_that_tells, lost, stand, stand_moved};
-use super::pulse::Pulse;
+use crate::budget::Budget;
+
 use super::{
     Analysis, AnalysisError, Cost, Geometry, SettlementEnd, SettlementPath, SettlementPoint, SettlementReport,
     SpringingMovement, Unfollowed, ending,
@@ -28,18 +29,18 @@ const UNBALANCED: f64 = 1e-6;
 /// Follows the movement; the work is added to `cost`. None where the arch does not stand before it.
 ///
 /// # Errors
-/// When stopped by `watch`.
+/// When stopped.
 pub(super) fn follow(
     analysis: &Analysis,
     movements: [SpringingMovement; 2],
     weight: f64,
     cost: &mut Cost,
-    pulse: &Pulse,
+    budget: &Budget,
 ) -> Result<Option<SettlementReport>, AnalysisError> {
     let mut path = |geometry: Geometry| -> Result<Option<SettlementPath>, AnalysisError> {
         let tells =
             |path: &Option<SettlementPath>| path.as_ref().is_some_and(|path| path.end != SettlementEnd::CannotTell);
-        first_that_tells(tells, |number| attempt(analysis, movements, geometry, weight, number, cost, pulse))
+        first_that_tells(tells, |number| attempt(analysis, movements, geometry, weight, number, cost, budget))
     };
     let Some(first_order) = path(Geometry::FirstOrder)? else { return Ok(None) };
     let updated = if analysis.geometry == Geometry::Updated { path(Geometry::Updated)? } else { None };
@@ -53,11 +54,11 @@ fn attempt(
     weight: f64,
     attempt: Attempt,
     cost: &mut Cost,
-    pulse: &Pulse,
+    budget: &Budget,
 ) -> Result<Option<SettlementPath>, AnalysisError> {
-    let model = discretise(analysis, attempt, pulse)?;
+    let model = discretise(analysis, attempt, budget)?;
     let base = disturbed(&model, 0.0, attempt);
-    let mut see = |tracer: &Tracer, share: f64| pulse.step(share, tracer.events());
+    let mut see = |tracer: &Tracer, share: f64| budget.step(share, tracer.events());
     let zeros = vec![0.0; base.len()];
     let turned = [model.turned[0].clone(), zeros.clone()];
     let target = largest(movements, model.size);
@@ -67,7 +68,7 @@ fn attempt(
     let followed = trace(analysis, &model, geometry, Driven { drive, target }, weight, cost, &mut see);
     cost.add(&followed.tracer, Cost::default());
     match followed.stood {
-        _ if followed.end == End::Stopped => Err(pulse.stopped()),
+        _ if followed.end == End::Stopped => Err(budget.stopped().into()),
         Moved::FallsAsBuilt => Ok(None),
         _ => Ok(Some(describe(analysis, &model, geometry, followed))),
     }

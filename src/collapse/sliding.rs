@@ -7,7 +7,8 @@
 
 use super::discretise::Scatter;
 use super::mechanism::{Released, all_releases, columns, describe};
-use super::pulse::Pulse;
+use crate::budget::Budget;
+
 use super::smallest_motion::nearest_motion;
 use super::{Analysis, Mechanism};
 use crate::limit::{Equilibrium, Release, Resultant, StaticTheorem};
@@ -34,7 +35,7 @@ const MOST_CORNERS: usize = 48;
 pub(super) struct Search<'a> {
     pub analysis: &'a Analysis,
     pub theorem: &'a StaticTheorem,
-    pub pulse: &'a Pulse<'a>,
+    pub budget: &'a Budget<'a>,
     /// Load factor from which the path goes, and +1 or -1 for its direction.
     pub start: f64,
     pub sign: f64,
@@ -68,7 +69,7 @@ impl Search<'_> {
 
     /// What is at its limits in an equilibrium at the end of the limit window.
     pub(super) fn at_window_end(&self, greatest: f64) -> Option<Vec<Released>> {
-        let found = self.theorem.least_load(&[], greatest, self.sign, &|| self.pulse.beat());
+        let found = self.theorem.least_load(&[], greatest, self.sign, self.budget);
         found.ok().flatten().filter(|_| greatest.is_finite()).map(|equilibrium| self.at_limits(&equilibrium))
     }
 
@@ -76,7 +77,7 @@ impl Search<'_> {
     fn motion(&self, released: &[Released], costs: &mut Scatter) -> Option<(Vec<Released>, Vec<f64>)> {
         let cost = |random: f64| if self.has_loops() { 10f64.powf(random) } else { 1.0 + 0.99 * random };
         let costs: Vec<f64> = released.iter().map(|_| cost(costs.next())).collect();
-        let rates = self.theorem.cheapest_motion(released, &costs, self.sign, &|| self.pulse.beat())?;
+        let rates = self.theorem.cheapest_motion(released, &costs, self.sign, self.budget)?;
         Some(released.iter().zip(rates).filter(|(_, rate)| *rate > 0.0).unzip())
     }
 
@@ -129,7 +130,7 @@ impl Hunt<'_> {
         if !self.seen.insert(key(&moving)) {
             return Some(false);
         }
-        let found = search.theorem.least_load(&moving, search.start, search.sign, &|| search.pulse.beat());
+        let found = search.theorem.least_load(&moving, search.start, search.sign, search.budget);
         let Ok(Some(equilibrium)) = found else { return Some(false) };
         let best = self.best.as_ref().map(|best| best.equilibrium.load_factor);
         if best.is_some_and(|best| !search.is_beyond(best, equilibrium.load_factor, SAME)) {
@@ -168,14 +169,14 @@ impl Hunt<'_> {
             let tilt = TILTS[round % TILTS.len()];
             let tilts: Vec<[f64; 3]> =
                 (0..search.theorem.joints()).map(|_| [(); 3].map(|()| tilt * self.scatter.next())).collect();
-            let beat = &|| search.pulse.beat();
-            let corner = search.theorem.corner_near_least_load(&moving, search.start, search.sign, &tilts, beat);
+            let corner =
+                search.theorem.corner_near_least_load(&moving, search.start, search.sign, &tilts, search.budget);
             let Ok(Some(corner)) = corner else { continue };
             let mut released = search.at_limits(&corner);
             let missing: Vec<Released> = moving.into_iter().filter(|release| !released.contains(release)).collect();
             released.extend(missing);
             quiet = if self.tries(&released) == Some(true) { 0 } else { quiet + 1 };
-            if quiet == QUIET_CORNERS || search.pulse.beat().is_break() {
+            if quiet == QUIET_CORNERS || search.budget.ask().is_err() {
                 return;
             }
         }

@@ -1,6 +1,6 @@
 //! The smallest of all motions that joints at their limits allow.
 
-use crate::dda::Heart;
+use crate::budget::Budget;
 use nalgebra::{DMatrix, DVector};
 
 /// Closure of the loops (two velocities and a spin each) and, last, power, per unit rate of a release: the entries that are not
@@ -15,8 +15,8 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// Smallest rates x >= 0 (in the sum of squares) with closure 0 and power 1, of columns with so many `unknowns`.
 ///
 /// The dual of this quadratic program is an unconstrained convex function of as many multipliers y with
-/// x = max(0, a . y); its stationary point is found by Newton's method with backtracking. None where the heart stands still.
-pub(super) fn smallest_motion(columns: &[Column], unknowns: usize, heart: &Heart) -> Option<Vec<f64>> {
+/// x = max(0, a . y); its stationary point is found by Newton's method with backtracking. None where the budget is spent.
+pub(super) fn smallest_motion(columns: &[Column], unknowns: usize, budget: &Budget) -> Option<Vec<f64>> {
     let last = unknowns - 1;
     let product = |a: &Column, y: &DVector<f64>| a.iter().map(|&(i, a)| a * y[i]).sum::<f64>();
     let rates = |y: &DVector<f64>| -> Vec<f64> { columns.iter().map(|a| product(a, y).max(0.0)).collect() };
@@ -48,16 +48,16 @@ pub(super) fn smallest_motion(columns: &[Column], unknowns: usize, heart: &Heart
         }
         let ridge = 1e-14 * hessian.trace().max(1e-6);
         (0..unknowns).for_each(|i| hessian[(i, i)] += ridge);
-        heart.work(unknowns.pow(3) / 3).ok()?;
+        budget.work(unknowns.pow(3) / 3).ok()?;
         let step = hessian.lu().solve(&-&gradient)?;
         let (before, slope) = (value(&y), gradient.dot(&step));
         let mut length = 1.0;
         while value(&(&y + &step * length)) > before + 1e-4 * length * slope + ROUNDING * before.abs() && length > 1e-12
         {
             length *= 0.5;
-            heart.work(work).ok()?;
+            budget.work(work).ok()?;
         }
-        heart.work(2 * work).ok()?;
+        budget.work(2 * work).ok()?;
         y += step * length;
         if !y.iter().all(|v| v.is_finite()) || y.norm() > 1e14 {
             return None;
@@ -153,7 +153,7 @@ mod tests {
             .map(|(i, &(x, y))| [x, y, if i % 2 == 0 { 1.0 } else { -1.0 }, 0.3 * i as f64 - 0.4])
             .map(|column| column.into_iter().enumerate().collect())
             .collect();
-        let x = smallest_motion(&columns, 4, &Heart::unwatched()).unwrap();
+        let x = smallest_motion(&columns, 4, &Budget::unlimited()).unwrap();
         let vector = |column: &Column| nalgebra::Vector4::from_fn(|i, _| column[i].1);
         let sum = columns.iter().zip(&x).fold(nalgebra::Vector4::zeros(), |s, (a, x)| s + vector(a) * *x);
         assert!((sum - nalgebra::Vector4::new(0.0, 0.0, 0.0, 1.0)).norm() < 1e-9 && x.iter().all(|&x| x >= 0.0));
@@ -182,13 +182,13 @@ mod tests {
             hinge(-0.3300416565703881, 0.7212522940671748, -1.0, 0.45647281010462076),
             hinge(-0.02513662460575543, -0.7359281540119466, 1.0, -0.4492751137070714),
         ];
-        let x = smallest_motion(&columns, 4, &Heart::unwatched()).unwrap();
+        let x = smallest_motion(&columns, 4, &Budget::unlimited()).unwrap();
         assert!((0..3).all(|i| (x[i] / x[5 - i] - 1.0).abs() < 1e-6), "{x:?}");
     }
 
     #[test]
     fn without_a_motion_there_is_none() {
         let columns = [[1.0, 0.0, 1.0, 1.0], [1.0; 4]].map(|column| column.into_iter().enumerate().collect());
-        assert_eq!(smallest_motion(&columns, 4, &Heart::unwatched()), None);
+        assert_eq!(smallest_motion(&columns, 4, &Budget::unlimited()), None);
     }
 }

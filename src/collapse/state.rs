@@ -71,8 +71,8 @@ impl<'m> States<'m> {
         let (displacements, contacts) = match self.balanced(load_factor, &loads, on_path)? {
             Some(displacements) => (displacements, assembly.exact_contacts()),
             None => {
-                let broken = missing(assembly, &loads, on_path, &model.pulse.heart);
-                let (amount, interface) = broken.map_err(|_| model.pulse.stopped())?;
+                let broken = missing(assembly, &loads, on_path, model.budget);
+                let (amount, interface) = broken?;
                 if amount > LAWFUL {
                     let joint = interface.min(model.joints - 1);
                     self.doubt.get_or_insert(Doubt::BreaksLaw { load_factor, joint, amount });
@@ -154,8 +154,8 @@ impl<'m> States<'m> {
     }
 
     fn newton(&mut self, loads: &[f64], on_path: &[f64], symmetric: bool) -> Result<Option<Balanced>, AnalysisError> {
-        let Model { assembly, pulse, size, .. } = self.model;
-        let found = balanced(assembly, *size, loads, on_path, symmetric, &pulse.heart).map_err(|_| pulse.stopped())?;
+        let Model { assembly, budget, size, .. } = self.model;
+        let found = balanced(assembly, *size, loads, on_path, symmetric, budget)?;
         if let Some(Balanced { factorisations, block_rows, .. }) = found {
             self.work = [self.work[0] + factorisations, self.work[1] + block_rows];
         }

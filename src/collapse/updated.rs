@@ -3,7 +3,8 @@
 use super::certificate::UNBALANCED;
 use super::discretise::{Model, discretise};
 use super::path::{Attempt, FALLEN, MOVED, Moved, disturbed, first_that_tells, lost, stand_moved};
-use super::pulse::Pulse;
+use crate::budget::Budget;
+
 use super::{Analysis, AnalysisError, Cost, Unfollowed, UpdatedEnd, UpdatedGeometry, ending, mechanism};
 use crate::dda::{Drive, End, Patience, Tracer};
 
@@ -48,15 +49,15 @@ impl Course {
 /// Follows the load path on moving geometry; the work is added to `cost`.
 ///
 /// # Errors
-/// When stopped by `watch`.
+/// When stopped.
 pub(super) fn follow(
     analysis: &Analysis,
     course: Course,
     cost: &mut Cost,
-    pulse: &Pulse,
+    budget: &Budget,
 ) -> Result<UpdatedGeometry, AnalysisError> {
     let tells = |answer: &UpdatedGeometry| answer.end != UpdatedEnd::CannotTell;
-    first_that_tells(tells, |number| attempt(analysis, course, number, cost, pulse))
+    first_that_tells(tells, |number| attempt(analysis, course, number, cost, budget))
 }
 
 fn attempt(
@@ -64,11 +65,11 @@ fn attempt(
     course: Course,
     attempt: Attempt,
     cost: &mut Cost,
-    pulse: &Pulse,
+    budget: &Budget,
 ) -> Result<UpdatedGeometry, AnalysisError> {
-    let model = discretise(analysis, attempt, pulse)?;
+    let model = discretise(analysis, attempt, budget)?;
     let fixed = disturbed(&model, course.start, attempt);
-    let see = |tracer: &Tracer, load_factor: f64| pulse.step(load_factor, tracer.events());
+    let see = |tracer: &Tracer, load_factor: f64| budget.step(load_factor, tracer.events());
     let at_start = &mut |t: &Tracer| see(t, course.start);
     let (mut tracer, stood) = stand_moved(&model, &fixed, course.start, course.weight, cost, at_start);
     let mut end = End::Stopped;
@@ -78,7 +79,7 @@ fn attempt(
     }
     cost.add(&tracer, Cost::default());
     if matches!((stood, end), (Moved::Stopped, _) | (Moved::Stands, End::Stopped)) {
-        return Err(pulse.stopped());
+        return Err(budget.stopped().into());
     }
     // A path that hardly rises, or comes back the way it went, and runs past its start has found the other end of the loads that
     // the arch can bear.

@@ -7,7 +7,8 @@ use super::certificate::{Certificate, any_fixed, loaded, mesh_notes};
 use super::discretise::{Model, discretise};
 use super::doubt::Doubt;
 use super::path::{ATTEMPTS, Attempt, disturbed, nothing_grows, stand, total};
-use super::pulse::Pulse;
+use crate::budget::Budget;
+
 use super::record::snapshot;
 use super::state::States;
 use super::updated::{self, Course};
@@ -28,7 +29,7 @@ const DEFAULT_CAP: f64 = 1e6;
 /// What all attempts at one analysis share.
 struct Question<'a> {
     analysis: &'a Analysis,
-    pulse: &'a Pulse<'a>,
+    budget: &'a Budget<'a>,
     certificate: Certificate,
     /// +1 where the load factor increases, -1 where it decreases.
     sign: f64,
@@ -51,15 +52,15 @@ struct Attempted {
 /// Is told of every event: the tracer and its load factor.
 type Progress<'w> = dyn FnMut(&Tracer, f64) -> ControlFlow<()> + 'w;
 
-pub(super) fn run(analysis: &Analysis, pulse: &Pulse) -> Result<CollapseReport, AnalysisError> {
-    let question = Question::new(analysis, pulse)?;
+pub(super) fn run(analysis: &Analysis, budget: &Budget) -> Result<CollapseReport, AnalysisError> {
+    let question = Question::new(analysis, budget)?;
     let report = question.answer()?;
     Ok(report.or_cannot_tell(question.blank(0)))
 }
 
 /// Limit window and load path on the mesh given; what follows from them is left to [`run`].
-pub(super) fn solve(analysis: &Analysis, pulse: &Pulse) -> Result<CollapseReport, AnalysisError> {
-    Question::new(analysis, pulse)?.solve()
+pub(super) fn solve(analysis: &Analysis, budget: &Budget) -> Result<CollapseReport, AnalysisError> {
+    Question::new(analysis, budget)?.solve()
 }
 impl Attempted {
     /// The less doubtful of two attempts, with the work of both.
@@ -73,8 +74,8 @@ impl Attempted {
 }
 
 impl<'a> Question<'a> {
-    fn new(analysis: &'a Analysis, pulse: &'a Pulse<'a>) -> Result<Self, AnalysisError> {
-        let certificate = Certificate::new(analysis, pulse)?;
+    fn new(analysis: &'a Analysis, budget: &'a Budget<'a>) -> Result<Self, AnalysisError> {
+        let certificate = Certificate::new(analysis, budget)?;
         let (fixed, scaled) = (total(&analysis.fixed), total(&analysis.scaled));
         let balance = if fixed > 0.0 && scaled > 0.0 { fixed / scaled } else { 1.0 };
         let sign = if analysis.direction == Direction::Increase { 1.0 } else { -1.0 };
@@ -87,20 +88,20 @@ impl<'a> Question<'a> {
             Aim::Collapse | Aim::Settlement(_) => certificate.start(settled, sign, cap),
             Aim::Safety { .. } => certificate.full_load(settled, cap),
         };
-        let thrust = any_fixed(analysis).then(|| certificate.theorem.thrust_range(0.0, &|| pulse.beat())).flatten();
-        pulse.check()?;
+        let thrust = any_fixed(analysis).then(|| certificate.theorem.thrust_range(0.0, budget)).flatten();
+        budget.check()?;
         let thrust_range = thrust.map(|[lowest, highest]| ThrustRange { lowest, highest });
         let weight = fixed + scaled * start.abs();
-        let crushing = certificate.crushing(analysis.structure.least_strength(), pulse)?;
-        Ok(Question { analysis, pulse, certificate, thrust_range, crushing, sign, start, cap, weight })
+        let crushing = certificate.crushing(analysis.structure.least_strength(), budget)?;
+        Ok(Question { analysis, budget, certificate, thrust_range, crushing, sign, start, cap, weight })
     }
 
     /// Limit window, load path and all that follows from them.
     fn answer(&self) -> Result<CollapseReport, AnalysisError> {
-        let (analysis, pulse) = (self.analysis, self.pulse);
+        let (analysis, budget) = (self.analysis, self.budget);
         let mut report = self.solve()?;
         if let Some(accuracy) = analysis.accuracy {
-            report = plan::refined(analysis, accuracy, report, pulse)?;
+            report = plan::refined(analysis, accuracy, report, budget)?;
         }
         report.settle_fields(analysis);
         let unbent = analysis.mesh.subblocks.iter().any(|[radial, _]| *radial == 1);
@@ -113,8 +114,8 @@ impl<'a> Question<'a> {
             Aim::Safety { crushing } => safety::judge(&mut report, crushing),
             Aim::Settlement(movements) => self.settle(&mut report, movements)?,
         }
-        falling::follow(analysis, &mut report, pulse)?;
-        pulse.go_on()?;
+        falling::follow(analysis, &mut report, budget)?;
+        budget.ask()?;
         Ok(report)
     }
 
@@ -150,16 +151,16 @@ impl<'a> Question<'a> {
 
     fn attempt(&self, attempt: Attempt) -> Result<Attempted, AnalysisError> {
         let analysis = self.analysis;
-        let model = discretise(analysis, attempt, self.pulse)?;
+        let model = discretise(analysis, attempt, self.budget)?;
         let fixed = disturbed(&model, self.start, attempt);
-        let mut progress = |tracer: &Tracer, load_factor: f64| self.pulse.step(load_factor, tracer.events());
+        let mut progress = |tracer: &Tracer, load_factor: f64| self.budget.step(load_factor, tracer.events());
         let mut report = self.blank(model.assembly.unknowns());
         report.notes = self.mesh_notes(&model);
         let (mut tracer, end) =
             stand(&model, &fixed, self.start, self.weight, &mut |t| progress(t, self.start * t.parameter()));
         report.cost.add(&tracer, Cost::default());
         match end {
-            End::Stopped => return Err(self.pulse.stopped()),
+            End::Stopped => return Err(self.budget.stopped().into()),
             End::Reached if self.certificate.stands_at(self.start) => {}
             End::Reached => return Ok(Attempted { report, doubt: Some(Doubt::StandsOutside) }),
             End::Mechanism => return self.fallen(report, &model, &tracer),
@@ -201,7 +202,7 @@ impl<'a> Question<'a> {
         let as_much = weight / total(&self.analysis.scaled).max(f64::MIN_POSITIVE);
         let rise = report.end.as_ref().map_or(as_much, |end| (end.on_path() - start).abs());
         let course = Course { start, sign, cap, rise, ends: report.end.is_some(), weight };
-        updated::follow(self.analysis, course, &mut report.cost, self.pulse).map(Some)
+        updated::follow(self.analysis, course, &mut report.cost, self.budget).map(Some)
     }
 
     /// What becomes of a standing arch as its springings move.
@@ -210,7 +211,7 @@ impl<'a> Question<'a> {
         if report.at_start.is_none() || report.outcome == Outcome::CannotTell {
             return Ok(());
         }
-        report.settlement = settlement::follow(self.analysis, movements, self.weight, &mut report.cost, self.pulse)?;
+        report.settlement = settlement::follow(self.analysis, movements, self.weight, &mut report.cost, self.budget)?;
         if report.outcome != Outcome::Crushes {
             let settlement = report.settlement.as_ref();
             report.outcome = match settlement.map(|s| s.updated.as_ref().unwrap_or(&s.first_order).end) {

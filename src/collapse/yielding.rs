@@ -80,7 +80,7 @@ impl<'a> Yielding<'a> {
         let (mut crossing, mut largest) = ((f64::INFINITY, 0, 0), (f64::NEG_INFINITY, 0, 0));
         for voussoir in 0..model.bodies {
             // The path is stopped at the end of this event.
-            if model.pulse.heart.work(model.work_of_stresses(voussoir)).is_err() {
+            if model.budget.work(model.work_of_stresses(voussoir)).is_err() {
                 return;
             }
             let here = &mut self.now[voussoir];

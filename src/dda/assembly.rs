@@ -11,7 +11,8 @@ use super::block::V6;
 use super::condense::{Condensed, Node};
 use super::contact::Contact;
 use super::elements::{Elements, Pattern};
-use super::heart::{Heart, Stopped};
+use crate::budget::{Budget, Stopped};
+
 use super::macroblock::Macroblock;
 use super::panels::add_applied_columns;
 use super::tree::Tree;
@@ -232,16 +233,16 @@ impl Assembly {
     ///
     /// # Errors
     /// When stopped.
-    pub fn loads(&self, pushes: impl IntoIterator<Item = Push>, heart: &Heart) -> Result<Loads, Stopped> {
+    pub fn loads(&self, pushes: impl IntoIterator<Item = Push>, budget: &Budget) -> Result<Loads, Stopped> {
         let mut loads = Loads { on_nodes: Vec::new(), mean: Vec::new(), stress: Vec::new() };
-        for (body, load) in self.bodies.iter().zip(self.on_blocks(pushes, heart)?) {
+        for (body, load) in self.bodies.iter().zip(self.on_blocks(pushes, budget)?) {
             let kind = &self.kinds[body.kind];
             let inner = kind.condensed.inner(&load);
             loads.on_nodes.extend(kind.condensed.on_nodes(&load, &inner).iter());
             let mean = &kind.mean * &inner;
             loads.mean.push([mean[0], mean[1], mean[2]]);
             loads.stress.push(stresses(&kind.stress, inner.as_slice()).as_slice().to_vec());
-            heart.work(SOLVED * load.len() * 2 * kind.nodes.len())?;
+            budget.work(SOLVED * load.len() * 2 * kind.nodes.len())?;
         }
         Ok(loads)
     }
@@ -250,19 +251,19 @@ impl Assembly {
     ///
     /// # Errors
     /// When stopped.
-    pub fn turned_loads(&self, pushes: impl IntoIterator<Item = Push>, heart: &Heart) -> Result<Vec<f64>, Stopped> {
+    pub fn turned_loads(&self, pushes: impl IntoIterator<Item = Push>, budget: &Budget) -> Result<Vec<f64>, Stopped> {
         let turned = pushes.into_iter().map(|push| Push { force: -perpendicular(push.force), ..push });
         let mut loads = Vec::new();
-        for (body, load) in self.bodies.iter().zip(self.on_blocks(turned, heart)?) {
+        for (body, load) in self.bodies.iter().zip(self.on_blocks(turned, budget)?) {
             let kind = &self.kinds[body.kind];
             loads.extend(kind.condensed.on_nodes(&load, &kind.condensed.inner(&load)).iter());
-            heart.work(SOLVED * load.len() * 2 * kind.nodes.len())?;
+            budget.work(SOLVED * load.len() * 2 * kind.nodes.len())?;
         }
         Ok(loads)
     }
 
     /// Generalised loads on the subblocks of every body, in its frame.
-    fn on_blocks(&self, pushes: impl IntoIterator<Item = Push>, heart: &Heart) -> Result<Vec<DVector<f64>>, Stopped> {
+    fn on_blocks(&self, pushes: impl IntoIterator<Item = Push>, budget: &Budget) -> Result<Vec<DVector<f64>>, Stopped> {
         let zeros = |b: &Body| DVector::zeros(6 * self.kinds[b.kind].macroblock.blocks().len());
         let mut on_blocks: Vec<DVector<f64>> = self.bodies.iter().map(zeros).collect();
         for push in pushes {
@@ -271,7 +272,7 @@ impl Assembly {
             let load: V6 = block.load(body.turned(push.at - body.origin), body.turned(push.force));
             let mut place = on_blocks[push.body].fixed_rows_mut::<6>(6 * push.subblock);
             place += load;
-            heart.work(PUSHED)?;
+            budget.work(PUSHED)?;
         }
         Ok(on_blocks)
     }

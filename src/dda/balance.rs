@@ -25,7 +25,8 @@ use super::assembly::Assembly;
 use super::contact::{Contact, State};
 use super::elements::Elements;
 use super::factor::Factor;
-use super::heart::{Heart, Stopped};
+use crate::budget::{Budget, Stopped};
+
 use super::trace::{Drive, End, Tracer};
 use std::ops::ControlFlow;
 
@@ -65,14 +66,14 @@ pub fn balanced(
     loads: &[f64],
     near: &[f64],
     symmetric: bool,
-    heart: &Heart,
+    budget: &Budget,
 ) -> Result<Option<Balanced>, Stopped> {
-    let found = by_newton(assembly, loads, near, symmetric, heart)?;
+    let found = by_newton(assembly, loads, near, symmetric, budget)?;
     if found.is_some() {
         return Ok(found);
     }
-    let traced = traced(assembly, size, loads, near, heart)?;
-    traced.map_or(Ok(None), |near| by_newton(assembly, loads, &near, symmetric, heart))
+    let traced = traced(assembly, size, loads, near, budget)?;
+    traced.map_or(Ok(None), |near| by_newton(assembly, loads, &near, symmetric, budget))
 }
 
 /// Newton's method from displacements `near`.
@@ -81,13 +82,13 @@ fn by_newton(
     loads: &[f64],
     near: &[f64],
     symmetric: bool,
-    heart: &Heart,
+    budget: &Budget,
 ) -> Result<Option<Balanced>, Stopped> {
-    let mut newton = Newton::new(assembly, symmetric, heart);
+    let mut newton = Newton::new(assembly, symmetric, budget);
     let mut d = if symmetric { assembly.symmetrised(near) } else { near.to_vec() };
     let (mut residual, mut best) = (vec![0.0; d.len()], (f64::INFINITY, Vec::new()));
     for _ in 0..STEPS {
-        assembly.unbalance(newton.contacts, loads, &d, &mut residual, heart)?;
+        assembly.unbalance(newton.contacts, loads, &d, &mut residual, budget)?;
         let share = share_of(&residual, loads);
         let settled = share <= EXACT || (share >= 0.5 * best.0 && best.0 <= BALANCED);
         let lost = share > LOST * best.0;
@@ -112,17 +113,17 @@ fn traced(
     size: f64,
     loads: &[f64],
     near: &[f64],
-    heart: &Heart,
+    budget: &Budget,
 ) -> Result<Option<Vec<f64>>, Stopped> {
     let mut exact = assembly.clone();
     exact.scatter(|| [1.0; 2]);
     let mut rate = vec![0.0; loads.len()];
-    exact.unbalance(exact.contacts(), loads, near, &mut rate, heart)?;
+    exact.unbalance(exact.contacts(), loads, near, &mut rate, budget)?;
     let base = loads.iter().zip(&rate).map(|(load, missing)| load - missing).collect();
     let drive = Drive { base, rate, ..Drive::default() };
-    let mut tracer = Tracer::starting_at(&exact, drive, near, size, total(loads), heart);
+    let mut tracer = Tracer::starting_at(&exact, drive, near, size, total(loads), budget);
     let reached = tracer.trace(1.0, &mut |_| ControlFlow::Continue(())) == End::Reached;
-    heart.check()?;
+    budget.check()?;
     Ok(reached.then(|| tracer.displacements().to_vec()))
 }
 
@@ -131,9 +132,9 @@ fn traced(
 ///
 /// # Errors
 /// When stopped.
-pub fn missing(assembly: &Assembly, loads: &[f64], d: &[f64], heart: &Heart) -> Result<(f64, usize), Stopped> {
+pub fn missing(assembly: &Assembly, loads: &[f64], d: &[f64], budget: &Budget) -> Result<(f64, usize), Stopped> {
     let mut residual = vec![0.0; d.len()];
-    assembly.unbalance(assembly.contacts(), loads, d, &mut residual, heart)?;
+    assembly.unbalance(assembly.contacts(), loads, d, &mut residual, budget)?;
     let at = |k: usize| {
         let faces = assembly.faces(k).into_iter().flatten();
         let entries = faces.flat_map(|face| &residual[face]);
@@ -160,7 +161,7 @@ struct Newton<'c> {
     assembly: &'c Assembly,
     contacts: &'c [Contact],
     symmetric: bool,
-    heart: &'c Heart<'c>,
+    budget: &'c Budget<'c>,
     matrix: Elements,
     factor: Factor<'c>,
     /// States in which the matrix is factored; none at first.
@@ -169,10 +170,10 @@ struct Newton<'c> {
 }
 
 impl<'c> Newton<'c> {
-    fn new(assembly: &'c Assembly, symmetric: bool, heart: &'c Heart<'c>) -> Self {
-        let (matrix, factor) = (assembly.elastic().copied(heart), Factor::new(assembly.tree()));
+    fn new(assembly: &'c Assembly, symmetric: bool, budget: &'c Budget<'c>) -> Self {
+        let (matrix, factor) = (assembly.elastic().copied(budget), Factor::new(assembly.tree()));
         let (states, contacts) = (Vec::new(), assembly.exact_contacts());
-        Newton { assembly, contacts, symmetric, heart, matrix, factor, states, factorisations: 0 }
+        Newton { assembly, contacts, symmetric, budget, matrix, factor, states, factorisations: 0 }
     }
 
     /// Adds the correction for a residual, by the tangent stiffness that the law has at displacements `d`.
@@ -181,11 +182,11 @@ impl<'c> Newton<'c> {
             self.contacts.iter().enumerate().map(|(p, contact)| contact.state_at(self.assembly.gap(p, d))).collect();
         let mut correction = vec![0.0; d.len()];
         if states == self.states {
-            self.factor.solve(residual, &mut correction, self.heart)?;
+            self.factor.solve(residual, &mut correction, self.budget)?;
         } else {
             self.states = states;
             self.assemble();
-            self.factor.update(&self.matrix, residual, &mut correction, self.middle(), self.heart)?;
+            self.factor.update(&self.matrix, residual, &mut correction, self.middle(), self.budget)?;
             self.factorisations += 1;
         }
         if self.symmetric {

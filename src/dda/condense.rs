@@ -7,7 +7,8 @@
 //! macroblock answers to forces at its nodes exactly as the whole one does.
 
 use super::block::{M6, V6};
-use super::heart::{Heart, Stopped};
+use crate::budget::{Budget, Stopped};
+
 use super::macroblock::Macroblock;
 use crate::geometry::Vec2;
 use faer::linalg::solvers::{Llt, Solve};
@@ -52,12 +53,12 @@ pub struct Condensed {
 }
 
 /// Why a macroblock cannot be condensed: its nodes do not hold it, so it is free to move.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error("a block is held by fewer than two contact points")]
 pub struct Loose;
 
 /// Why an assembly was not built.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum Unbuilt {
     /// A body is not held.
     #[error(transparent)]
@@ -94,13 +95,13 @@ impl Condensed {
     pub fn new(
         body: &Macroblock,
         nodes: &[Node],
-        heart: &Heart,
+        budget: &Budget,
         mut see: impl FnMut(usize, &[f64]),
     ) -> Result<Self, Unbuilt> {
         let ties: Vec<Tie> = nodes.iter().flat_map(|node| [0, 1].map(|axis| Tie::new(body, node, axis))).collect();
-        heart.beat()?;
+        budget.ask()?;
         let links = |add: &mut dyn FnMut(usize, usize, &M6)| ties.iter().for_each(|tie| tie.stiffness(add));
-        let factors = factor(body, links, heart)?.ok_or(Loose)?;
+        let factors = factor(body, links, budget)?.ok_or(Loose)?;
         let (unknowns, columns) = (6 * body.blocks().len(), ties.len());
         let mut raw = DMatrix::from_diagonal(&DVector::from_iterator(columns, ties.iter().map(|tie| tie.link)));
         for part in parts(columns) {
@@ -114,7 +115,7 @@ impl Condensed {
                 raw.column_mut(column).iter_mut().zip(&ties).for_each(|(entry, tie)| *entry -= tie.work(x));
                 see(column, x);
             }
-            heart.work(SOLVED * unknowns * part.len())?;
+            budget.work(SOLVED * unknowns * part.len())?;
         }
         let rigid = rigid_motions(body, nodes);
         let q = &rigid[0];
@@ -204,11 +205,11 @@ impl Tie {
 ///
 /// # Errors
 /// When stopped.
-pub fn free_response(body: &Macroblock, load: &DVector<f64>, heart: &Heart) -> Result<Option<DVector<f64>>, Stopped> {
+pub fn free_response(body: &Macroblock, load: &DVector<f64>, budget: &Budget) -> Result<Option<DVector<f64>>, Stopped> {
     let modulus = body.blocks()[0].youngs_modulus();
     // Three springs on three rigid motions: statically determinate, so that a load in equilibrium does not feel them.
     let springs = M6::from_diagonal(&V6::from([modulus, modulus, modulus, 0.0, 0.0, 0.0]));
-    let factors = factor(body, |add| add(0, 0, &springs), heart)?;
+    let factors = factor(body, |add| add(0, 0, &springs), budget)?;
     Ok(factors.map(|factors| solve_one(&factors, load)))
 }
 
@@ -216,14 +217,14 @@ pub fn free_response(body: &Macroblock, load: &DVector<f64>, heart: &Heart) -> R
 fn factor(
     body: &Macroblock,
     more: impl Fn(&mut dyn FnMut(usize, usize, &M6)),
-    heart: &Heart,
+    budget: &Budget,
 ) -> Result<Option<Factors>, Stopped> {
     let all = |add: &mut dyn FnMut(usize, usize, &M6)| {
         more(&mut *add);
         body.stiffness(|i, j, block| {
             add(i, j, block);
-            // Where this says to stop, the next beat does too.
-            let _ = heart.work(ADDED);
+            // Where this says to stop, asking the budget does too.
+            let _ = budget.work(ADDED);
         });
     };
     if body.blocks().len() == 1 {
@@ -231,13 +232,13 @@ fn factor(
         all(&mut |_, _, block| sum += block);
         return Ok(Mat::from_fn(6, 6, |i, j| sum[(i, j)]).llt(Side::Lower).ok().map(Factors::Dense));
     }
-    heart.beat()?;
-    let sparse = assemble(body.blocks().len(), all, heart)?;
-    heart.beat()?;
+    budget.ask()?;
+    let sparse = assemble(body.blocks().len(), all, budget)?;
+    budget.ask()?;
     let Ok(order) = SymbolicLlt::try_new(sparse.symbolic(), Side::Lower) else { return Ok(None) };
-    heart.beat()?;
+    budget.ask()?;
     let factors = SparseLlt::try_new_with_symbolic(order, sparse.as_ref(), Side::Lower);
-    heart.beat()?;
+    budget.ask()?;
     Ok(factors.ok().map(Factors::Sparse))
 }
 
@@ -246,7 +247,7 @@ fn factor(
 fn assemble(
     blocks: usize,
     all: impl Fn(&mut dyn FnMut(usize, usize, &M6)),
-    heart: &Heart,
+    budget: &Budget,
 ) -> Result<SparseColMat<usize, f64>, Stopped> {
     let mut below = vec![Vec::new(); blocks];
     all(&mut |i, j, _| {
@@ -254,7 +255,7 @@ fn assemble(
             below[j].push(i);
         }
     });
-    heart.beat()?;
+    budget.ask()?;
     let count = 36 * below.iter().map(Vec::len).sum::<usize>();
     let (mut start, mut ends, mut rows) = (Vec::with_capacity(blocks), vec![0], Vec::with_capacity(count));
     for below in &mut below {
@@ -264,9 +265,9 @@ fn assemble(
             rows.extend(below.iter().flat_map(|i| 6 * i..6 * i + 6));
             ends.push(rows.len());
         }
-        heart.work(PLACED * below.len())?;
+        budget.work(PLACED * below.len())?;
     }
-    heart.beat()?;
+    budget.ask()?;
     let mut values = vec![0.0; count];
     all(&mut |i, j, block| {
         if let Ok(place) = below[j].binary_search(&i) {
@@ -276,7 +277,7 @@ fn assemble(
             }
         }
     });
-    heart.beat()?;
+    budget.ask()?;
     let pattern = SymbolicSparseColMat::new_checked(6 * blocks, 6 * blocks, ends, None, rows);
     Ok(SparseColMat::new(pattern, values))
 }

@@ -4,8 +4,9 @@
 //! A body of one subblock between many faces moves by six unknowns only. Its faces are then tied to these (its core) and not to
 //! each other, which keeps small what is eliminated together.
 
-use super::heart::Heart;
 use super::panels::Panels;
+use crate::budget::Budget;
+
 use std::ops::Range;
 
 /// The unknowns, face by face and then core by core, and what every element ties. A core counts as a face.
@@ -55,8 +56,8 @@ impl Elements {
     }
 
     /// The same again; zero from where it was stopped.
-    pub fn copied(&self, heart: &Heart) -> Self {
-        Elements(self.0.copied(heart))
+    pub fn copied(&self, budget: &Budget) -> Self {
+        Elements(self.0.copied(budget))
     }
 
     /// Element `i`, row by row.

@@ -8,7 +8,8 @@
 //! Where blocks are large, the tracer goes on with these factors over several changes, see [`super::trace`].
 
 use super::elements::Elements;
-use super::heart::{Heart, Stopped};
+use crate::budget::{Budget, Stopped};
+
 use super::panels::{Panels, dot, subtract_applied};
 use super::pivot::Pivot;
 use super::tree::{Front, Origin, Run, Tree};
@@ -123,7 +124,7 @@ impl<'t> Factor<'t> {
         b: &[f64],
         x: &mut [f64],
         element: usize,
-        heart: &Heart,
+        budget: &Budget,
     ) -> Result<(), Stopped> {
         self.root = self.tree.root(self.tree.home[element]);
         let mut order = std::mem::take(&mut self.scratch.order);
@@ -133,7 +134,7 @@ impl<'t> Factor<'t> {
         for &front in order.iter().rev() {
             self.eliminate(k, front);
             self.forward_front(b, front);
-            heart.work(self.tree.fronts[front].work()[0])?;
+            budget.work(self.tree.fronts[front].work()[0])?;
         }
         self.scratch.order = order;
         self.substitute_back(x);
@@ -144,9 +145,9 @@ impl<'t> Factor<'t> {
     ///
     /// # Errors
     /// When stopped.
-    pub fn solve(&mut self, b: &[f64], x: &mut [f64], heart: &Heart) -> Result<(), Stopped> {
+    pub fn solve(&mut self, b: &[f64], x: &mut [f64], budget: &Budget) -> Result<(), Stopped> {
         // Where a factorisation was stopped there are no factors.
-        heart.check()?;
+        budget.check()?;
         let mut order = std::mem::take(&mut self.scratch.order);
         order.clear();
         order.push(self.root);
@@ -156,7 +157,7 @@ impl<'t> Factor<'t> {
         self.scratch.order = order;
         self.substitute_back(x);
         std::mem::swap(&mut self.forward, &mut self.other);
-        heart.work(self.tree.solving)
+        budget.work(self.tree.solving)
     }
 
     /// Follows the fronts that feed those in `order`, where `wanted(current)` says so.

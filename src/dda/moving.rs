@@ -13,7 +13,8 @@ mod twofold;
 use super::assembly::{Assembly, MeanMotion};
 use super::contact::force_change;
 use super::elements::Elements;
-use super::heart::{Heart, Stopped};
+use crate::budget::{Budget, Stopped};
+
 use super::trace::Drive;
 use crate::geometry::Vec2;
 use body::{Corotated, NodeLoads, Pose};
@@ -55,7 +56,7 @@ pub(super) struct Velocity<'d> {
 
 impl Placed {
     /// The assembly in its reference position.
-    pub fn new(assembly: &Assembly, heart: &Heart) -> Self {
+    pub fn new(assembly: &Assembly, budget: &Budget) -> Self {
         let corotated: Vec<Corotated> =
             (0..assembly.kinds()).map(|kind| Corotated::new(assembly.kind_nodes(kind))).collect();
         let still = vec![0.0; assembly.node_unknowns()];
@@ -63,7 +64,7 @@ impl Placed {
             poses: (0..assembly.bodies()).map(|i| corotated[assembly.kind_of(i)].at_rest()).collect(),
             frames: (0..assembly.interfaces()).map(|k| frame(assembly, k, &still, 0.0)).collect(),
             corotated,
-            bodies: assembly.elastic().copied(heart),
+            bodies: assembly.elastic().copied(budget),
             load_rate: still.clone(),
             loads: [still.clone(), still],
         }
@@ -81,7 +82,7 @@ impl Placed {
         parameter: Twofold,
         d: [&[f64]; 2],
         gaps: &mut [[f64; 2]],
-        heart: &Heart,
+        budget: &Budget,
     ) -> Result<(), Stopped> {
         let parts = [[&drive.base, &drive.rate], [&drive.turned[0], &drive.turned[1]]];
         for (load, [base, rate]) in self.loads.iter_mut().zip(parts) {
@@ -93,7 +94,7 @@ impl Placed {
             let [straight, turned] = self.loads.each_ref().map(|load| &load[nodes.clone()]);
             let d = d.map(|d| &d[nodes.clone()]);
             self.corotated[kind].pose(assembly.stiffness_of(i), d, NodeLoads { straight, turned }, pose);
-            heart.work(assembly.stiffness_of(i).len())?;
+            budget.work(assembly.stiffness_of(i).len())?;
         }
         for k in 0..assembly.interfaces() {
             let ground = drive.moving_ground(assembly, k);
@@ -125,14 +126,14 @@ impl Placed {
     ///
     /// # Errors
     /// When stopped.
-    pub fn linearise(&mut self, assembly: &Assembly, drive: &Drive, heart: &Heart) -> Result<(), Stopped> {
+    pub fn linearise(&mut self, assembly: &Assembly, drive: &Drive, budget: &Budget) -> Result<(), Stopped> {
         for (i, pose) in self.poses.iter().enumerate() {
             let (nodes, corotated) = (assembly.nodes_of(i), &self.corotated[assembly.kind_of(i)]);
             let n = nodes.len();
             corotated.stiffness(assembly.stiffness_of(i), pose, self.bodies.get_mut(i));
             let rate = NodeLoads { straight: &drive.rate[nodes.clone()], turned: &drive.turned[1][nodes.clone()] };
             corotated.load_rate(pose, rate, &mut self.load_rate[nodes]);
-            heart.work(LINEARISED * n * n)?;
+            budget.work(LINEARISED * n * n)?;
         }
         Ok(())
     }

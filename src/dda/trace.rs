@@ -27,7 +27,8 @@ use super::assembly::Assembly;
 use super::contact::State;
 use super::elements::Elements;
 use super::factor::Factor;
-use super::heart::Heart;
+use crate::budget::Budget;
+
 use super::moving::{Placed, Velocity};
 use drift::Drift;
 use event::Event;
@@ -75,7 +76,7 @@ const MOST_EVENTS: [usize; 2] = [200, 20];
 pub struct Tracer<'a> {
     assembly: &'a Assembly,
     /// Beats in long work between events.
-    heart: &'a Heart<'a>,
+    budget: &'a Budget<'a>,
     drive: Drive,
     /// Extent of the assembly and scale of its loads.
     size: f64,
@@ -132,12 +133,12 @@ impl<'a> Tracer<'a> {
     /// `size` is the assembly's extent in m, `load_scale` a load in N/m (its weight) that residuals are measured against.
     /// The drive must be in equilibrium there: `base` balances the offset's contact forces (see [`covering`]).
     ///
-    /// `heart` is asked between the calls of what sees a path go by, wherever it takes long from one to the next.
-    pub fn new(assembly: &'a Assembly, drive: Drive, size: f64, load_scale: f64, heart: &'a Heart<'a>) -> Self {
+    /// `budget` is asked between the calls of what sees a path go by, wherever it takes long from one to the next.
+    pub fn new(assembly: &'a Assembly, drive: Drive, size: f64, load_scale: f64, budget: &'a Budget<'a>) -> Self {
         let n = assembly.node_unknowns();
         let mut tracer = Tracer {
             assembly,
-            heart,
+            budget,
             drive,
             size,
             load_scale,
@@ -156,7 +157,7 @@ impl<'a> Tracer<'a> {
             lost: None,
             stuck: None,
             settling: vec![[0.0; 2]; assembly.contacts().len()],
-            matrix: assembly.elastic().copied(heart),
+            matrix: assembly.elastic().copied(budget),
             load_rate: vec![0.0; n],
             load_rate_scale: 0.0,
             factor: Factor::new(assembly.tree()),
@@ -183,9 +184,9 @@ impl<'a> Tracer<'a> {
         d: &[f64],
         size: f64,
         load_scale: f64,
-        heart: &'a Heart<'a>,
+        budget: &'a Budget<'a>,
     ) -> Self {
-        let mut tracer = Tracer::new(assembly, drive, size, load_scale, heart);
+        let mut tracer = Tracer::new(assembly, drive, size, load_scale, budget);
         tracer.displacements.copy_from_slice(d);
         tracer.find_residual();
         let law = assembly.contacts().iter().zip(&tracer.gaps);
@@ -222,9 +223,9 @@ impl<'a> Tracer<'a> {
         self.unless_stopped(end)
     }
 
-    /// An end that is none where the heart stands still.
+    /// An end that is none where the budget is spent.
     fn unless_stopped(&self, end: End) -> End {
-        if self.heart.check().is_ok() { end } else { End::Stopped }
+        if self.budget.check().is_ok() { end } else { End::Stopped }
     }
 
     /// Traces on the reference geometry, along straight lines.

@@ -1,7 +1,9 @@
 //! How far a job has come, and the wish to stop it: what its worker and everyone else share.
 
 use super::job::{Stand, State};
-use crate::collapse::{LoadStep, Stop, Watch};
+use crate::budget::LoadStep;
+
+use std::cell::Cell;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
@@ -63,25 +65,28 @@ impl Progress {
 pub(super) struct Observer<'a> {
     progress: &'a Progress,
     due: Option<Instant>,
-    /// True once the analysis has been told to stop because its time was over.
-    pub(super) overdue: bool,
+    overdue: Cell<bool>,
 }
 
 impl<'a> Observer<'a> {
-    /// Watches an analysis that begins now and may take so long.
+    /// Sees an analysis that begins now and may take so long.
     pub(super) fn new(progress: &'a Progress, limit: Duration) -> Self {
-        Observer { progress, due: Instant::now().checked_add(limit), overdue: false }
+        Observer { progress, due: Instant::now().checked_add(limit), overdue: Cell::new(false) }
     }
-}
 
-impl Watch for Observer<'_> {
-    fn on_step(&mut self, step: &LoadStep) -> ControlFlow<Stop> {
+    /// Notes a step; breaks where the job is cancelled, or its time is over.
+    pub(super) fn see(&self, step: LoadStep) -> ControlFlow<()> {
         self.progress.load_factor.store(step.load_factor.to_bits(), Ordering::Relaxed);
         self.progress.events.store(step.events.saturating_add(1), Ordering::Release);
-        self.overdue = self.due.is_some_and(|due| Instant::now() > due);
-        match self.overdue || self.progress.stop.load(Ordering::Relaxed) {
-            true => ControlFlow::Break(Stop),
+        self.overdue.set(self.due.is_some_and(|due| Instant::now() > due));
+        match self.overdue.get() || self.progress.stop.load(Ordering::Relaxed) {
+            true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
         }
+    }
+
+    /// True once the analysis has been told to stop because its time was over.
+    pub(super) fn overdue(&self) -> bool {
+        self.overdue.get()
     }
 }

@@ -3,13 +3,14 @@
 use super::job::{Failure, Job, JobId, Product, Status};
 use super::table::{Load, Refusal, Submission, Table};
 use super::{Limits, lock, worker};
-use crate::collapse::Watch;
+use crate::budget::Budget;
+
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
 /// What the workers do with a request.
-pub type Analyse<R> = dyn Fn(&R, &mut dyn Watch) -> Result<Product, Failure> + Send + Sync;
+pub type Analyse<R> = dyn Fn(&R, &Budget) -> Result<Product, Failure> + Send + Sync;
 
 /// Sees every job that has ended, once.
 pub type Ended<R> = dyn Fn(&Job<R>) + Send + Sync;
@@ -66,7 +67,7 @@ impl<R: PartialEq + Send + Sync + 'static> JobStore<R> {
     /// When the system gives no thread.
     pub fn start(
         limits: Limits,
-        analyse: impl Fn(&R, &mut dyn Watch) -> Result<Product, Failure> + Send + Sync + 'static,
+        analyse: impl Fn(&R, &Budget) -> Result<Product, Failure> + Send + Sync + 'static,
         ended: impl Fn(&Job<R>) + Send + Sync + 'static,
     ) -> std::io::Result<Self> {
         let shared = Arc::new(Shared {

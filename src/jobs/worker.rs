@@ -4,6 +4,8 @@ use super::job::{Failure, Job, State};
 use super::lock;
 use super::progress::Observer;
 use super::store::Shared;
+use crate::budget::{Budget, LoadStep, Stopped};
+
 use crate::collapse::AnalysisError;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, PoisonError};
@@ -16,7 +18,7 @@ pub(super) fn work<R>(shared: &Shared<R>) {
         tracing::info!("started");
         let (state, bytes) = attempt(shared, &job);
         match &state {
-            State::Failed(Failure::Analysis(error @ AnalysisError::Stopped { .. })) => tracing::info!("{error}"),
+            State::Failed(Failure::Analysis(error @ AnalysisError::Stopped(_))) => tracing::info!("{error}"),
             State::Failed(failure) => tracing::warn!(%failure, "failed"),
             _ => tracing::info!("ended"),
         }
@@ -40,11 +42,14 @@ fn next<R>(shared: &Shared<R>) -> Option<Job<R>> {
 /// Answers one request; whatever happens in it, there is a final state, and what keeping it costs.
 fn attempt<R>(shared: &Shared<R>, job: &Job<R>) -> (State, usize) {
     let limit = shared.limits.time;
-    let mut observer = Observer::new(&job.progress, limit);
+    let observer = Observer::new(&job.progress, limit);
+    let see = |step| observer.see(step);
     // The answer is built from the request alone and is lost with a panic, so nothing half-built is seen.
-    match catch_unwind(AssertUnwindSafe(|| (shared.analyse)(&job.request, &mut observer))) {
+    match catch_unwind(AssertUnwindSafe(|| (shared.analyse)(&job.request, &Budget::new(&see)))) {
         Ok(Ok(product)) => (State::Successful(Arc::new(product.answer)), product.bytes),
-        Ok(Err(Failure::Analysis(AnalysisError::Stopped { load_factor, events }))) if observer.overdue => {
+        Ok(Err(Failure::Analysis(AnalysisError::Stopped(Stopped(LoadStep { load_factor, events })))))
+            if observer.overdue() =>
+        {
             (State::Failed(Failure::Overdue { limit, load_factor, events }), 0)
         }
         Ok(Err(failure)) => (State::Failed(failure), 0),

@@ -5,10 +5,10 @@
 //! two parabolas a joint, which bound a convex set. Tangents of them are added to the linear programme of the rigid
 //! arch until its answer lies on or within every parabola (cutting planes, Kelley 1960).
 
-use super::linear_program::Beat;
 use super::programme::{Objective, Outcome, Programme};
 use super::static_theorem::{Equilibrium, Limit};
 use super::{StaticTheorem, Unsolved};
+use crate::budget::Budget;
 
 /// A parabola may be violated by this, relative to the loads and to the size of the point: ten times what the linear
 /// programme grants its own rows, so that every cut moves the point.
@@ -73,8 +73,8 @@ impl StaticTheorem {
     /// Limit window with dry joints of the compressive strength `strengths[joint]`, Pa; None where nothing is in equilibrium.
     ///
     /// # Errors
-    /// When rounding, or `beat`, kept the cutting planes from an answer, or a strength is not positive.
-    pub fn crushing_window(&self, strengths: &[f64], beat: Beat) -> Result<Option<CrushingWindow>, Unsolved> {
+    /// When rounding, or `budget`, kept the cutting planes from an answer, or a strength is not positive.
+    pub fn crushing_window(&self, strengths: &[f64], budget: &Budget) -> Result<Option<CrushingWindow>, Unsolved> {
         if strengths.len() != self.joints.len() || !strengths.iter().all(|&strength| strength > 0.0) {
             return Err(Unsolved);
         }
@@ -84,7 +84,7 @@ impl StaticTheorem {
         programme.limits = sections.iter().flat_map(first).flatten().collect();
         let mut window = CrushingWindow { ends: [0.0; 2], joints: [Vec::new(), Vec::new()] };
         for (end, sign) in [-1.0, 1.0].into_iter().enumerate() {
-            match cut_until_inside(&Objective::load_factor(sign), &mut programme, &sections, beat)? {
+            match cut_until_inside(&Objective::load_factor(sign), &mut programme, &sections, budget)? {
                 Outcome::At(equilibrium, _) => {
                     window.ends[end] = equilibrium.load_factor;
                     window.joints[end] = self.crushed(&sections, &equilibrium);
@@ -123,11 +123,11 @@ fn cut_until_inside(
     objective: &Objective,
     programme: &mut Programme,
     sections: &[Section],
-    beat: Beat,
+    budget: &Budget,
 ) -> Result<Outcome, Unsolved> {
     let mut nearly = None;
     for _ in 0..MOST_ROUNDS {
-        let outcome = programme.maximise(objective, beat);
+        let outcome = programme.maximise(objective, budget);
         let equilibrium = match &outcome {
             Outcome::At(equilibrium, _) | Outcome::Unbounded(equilibrium) => equilibrium,
             Outcome::Infeasible => return Ok(outcome),

@@ -7,7 +7,9 @@
 
 mod newton;
 
-use super::linear_program::{Beat, dot};
+use super::linear_program::dot;
+use crate::budget::Budget;
+
 use newton::{Newton, Pattern};
 
 /// Iterations after which the method has failed (it needs 10 to 40).
@@ -160,14 +162,14 @@ impl Residuals {
 }
 
 /// Solves a programme; an optimum's `error` bounds what is left of residuals and gap, relative to the data and the point.
-pub fn minimise(programme: &Sparse, beat: Beat) -> Found {
+pub fn minimise(programme: &Sparse, budget: &Budget) -> Found {
     let Some(pattern) = Pattern::new(programme) else { return Found::Lost };
     let constants = programme.constants();
     let mut point = Point::start(programme);
     let (mut best, mut since) = (None::<(f64, Vec<f64>, Vec<f64>)>, 0);
     let mut barely = None;
     for _ in 0..MOST_ITERATIONS {
-        if beat().is_break() {
+        if budget.ask().is_err() {
             return Found::Lost;
         }
         let residuals = Residuals::new(programme, &constants, &point);

@@ -4,8 +4,8 @@ mod half_spaces;
 
 pub use half_spaces::HalfSpaces;
 
+use crate::budget::Budget;
 use half_spaces::LANES;
-use std::ops::ControlFlow;
 
 /// Unknowns are looked for within this box; the rows are expected to be scaled so that answers are of order one.
 const BOX: f64 = 1e9;
@@ -24,14 +24,6 @@ const MOST_PIVOTS: usize = 10_000;
 /// inverse that was carried on, which would put rows into the basis that depend on each other.
 const REFRESH: usize = 32;
 const DOUBTFUL: [f64; 2] = [1e-14, 1e-9];
-
-/// Asked at every pivot whether to go on. Where it breaks, what is returned is no answer.
-pub type Beat<'b> = &'b dyn Fn() -> ControlFlow<()>;
-
-/// Always goes on.
-pub fn unwatched() -> ControlFlow<()> {
-    ControlFlow::Continue(())
-}
 
 /// Outcome of a maximisation.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,10 +45,10 @@ pub enum Optimum {
 /// until none is violated. Ties are broken lexicographically, as if the objective were perturbed by (e, e^2, e^3, ...),
 /// so that the method cannot cycle (Dantzig, Orden and Wolfe 1955). Of the multipliers at most as many as there are unknowns
 /// are not zero.
-pub fn maximise(objective: &[f64], half_spaces: &HalfSpaces, beat: Beat) -> Optimum {
+pub fn maximise(objective: &[f64], half_spaces: &HalfSpaces, budget: &Budget) -> Optimum {
     let mut basis = Basis::new(objective, half_spaces);
     for pivot in 1..=MOST_PIVOTS {
-        if beat().is_break() {
+        if budget.ask().is_err() {
             return Optimum::Lost;
         }
         let found = basis.most_violated();

@@ -13,7 +13,6 @@ mod sparse;
 mod static_theorem;
 
 pub use crushing::CrushingWindow;
-pub use linear_program::{Beat, unwatched};
 pub use non_dilating::{Release, releases};
 pub use static_theorem::{Condition, Equilibrium, Resultant, StaticTheorem, Unsolved};
 

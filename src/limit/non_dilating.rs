@@ -5,9 +5,10 @@
 //! the end that opens, shear at its bound against the motion. These are linear conditions on the unknowns of the static
 //! theorem, and what they leave open is a whole range of load factors. Its least value is a linear programme.
 
-use super::linear_program::Beat;
 use super::programme::{Objective, Outcome, Programme};
 use super::static_theorem::{Equilibrium, Limit, Resultant, StaticTheorem, Unsolved};
+use crate::budget::Budget;
+
 use crate::structure::{Face, Joint, JointLaw};
 
 /// Rates below this share of the fastest are none.
@@ -53,15 +54,15 @@ impl StaticTheorem {
     /// cohesion sits, so where it slides too, anything from none to all is admitted.
     ///
     /// # Errors
-    /// When rounding, or `beat`, kept the linear programme from an answer.
+    /// When rounding, or `budget`, kept the linear programme from an answer.
     pub fn least_load(
         &self,
         moving: &[(usize, Release)],
         start: f64,
         sign: f64,
-        beat: Beat,
+        budget: &Budget,
     ) -> Result<Option<Equilibrium>, Unsolved> {
-        self.corner_near_least_load(moving, start, sign, &[], beat)
+        self.corner_near_least_load(moving, start, sign, &[], budget)
     }
 
     /// The same with some weight on the forces of joints: `tilts` are those of the intrados force, the extrados force and the shear
@@ -71,14 +72,14 @@ impl StaticTheorem {
     /// may be are at their limits. Slight random weights lead to one of their corners, where as many as may be are.
     ///
     /// # Errors
-    /// When rounding, or `beat`, kept the linear programme from an answer.
+    /// When rounding, or `budget`, kept the linear programme from an answer.
     pub fn corner_near_least_load(
         &self,
         moving: &[(usize, Release)],
         start: f64,
         sign: f64,
         tilts: &[[f64; 3]],
-        beat: Beat,
+        budget: &Budget,
     ) -> Result<Option<Equilibrium>, Unsolved> {
         let mut programme = Programme::new(self);
         for &(joint, release) in moving {
@@ -88,7 +89,7 @@ impl StaticTheorem {
         }
         programme.bounds[if sign > 0.0 { 0 } else { 1 }] = start;
         let forces = tilts.iter().copied().enumerate().collect();
-        match programme.maximise(&Objective { load_factor: -sign, forces }, beat) {
+        match programme.maximise(&Objective { load_factor: -sign, forces }, budget) {
             Outcome::At(equilibrium, _) => Ok(Some(equilibrium)),
             Outcome::Infeasible => Ok(None),
             Outcome::Unbounded(_) | Outcome::Lost => Err(Unsolved),
@@ -116,7 +117,7 @@ impl StaticTheorem {
 
     /// Rates x >= 0 of least cost, the costs being positive, at which these `releases` move every body without a gap elsewhere
     /// and the scaled loads, in the direction of `sign`, do work: a corner of all such motions, with at most as many rates that
-    /// are not zero as there are unknowns. None where there is no motion, or `beat` broke.
+    /// are not zero as there are unknowns. None where there is no motion, or `budget` broke.
     ///
     /// Rates of a structure of many unknowns are rough: they tell which joints move, and roughly how.
     ///
@@ -127,10 +128,10 @@ impl StaticTheorem {
         releases: &[(usize, Release)],
         costs: &[f64],
         sign: f64,
-        beat: Beat,
+        budget: &Budget,
     ) -> Option<Vec<f64>> {
         let programme = self.motion_programme(releases, costs);
-        let Outcome::At(_, rates) = programme.maximise(&Objective::load_factor(sign), beat) else { return None };
+        let Outcome::At(_, rates) = programme.maximise(&Objective::load_factor(sign), budget) else { return None };
         let fastest = rates.iter().copied().fold(0.0, f64::max);
         let moves = if self.has_few_unknowns() { MOVES } else { MOVES_ROUGHLY };
         Some(rates.into_iter().map(|rate| if rate > moves * fastest { rate } else { 0.0 }).collect())

@@ -1,7 +1,8 @@
 //! Linear programmes over the forces of all joints in equilibrium with the loads, and the solver that suits them.
 
-use super::linear_program::{self, Beat, HalfSpaces, Optimum, norm};
+use super::linear_program::{self, HalfSpaces, Optimum, norm};
 use super::static_theorem::{Equilibrium, Limit, StaticTheorem};
+use crate::budget::Budget;
 
 /// Rows shorter than this, in units of the loads, are none: the unknowns do not reach the limit.
 const NO_ROW: f64 = 1e-12;
@@ -74,21 +75,24 @@ impl<'t> Programme<'t> {
     }
 
     /// By the method that suits the size; where rounding keeps that from an answer, by the other.
-    pub(super) fn maximise(&self, objective: &Objective, beat: Beat) -> Outcome {
+    pub(super) fn maximise(&self, objective: &Objective, budget: &Budget) -> Outcome {
         let few = self.theorem.has_few_unknowns();
-        let first = if few { self.maximise_densely(objective, beat) } else { self.maximise_sparsely(objective, beat) };
+        let first =
+            if few { self.maximise_densely(objective, budget) } else { self.maximise_sparsely(objective, budget) };
         match first {
-            Outcome::Lost if few => self.maximise_sparsely(objective, beat),
-            Outcome::Lost if self.theorem.unknowns() <= MOST_DENSE => self.maximise_densely(objective, beat),
+            Outcome::Lost if few => self.maximise_sparsely(objective, budget),
+            Outcome::Lost if self.theorem.unknowns() <= MOST_DENSE => self.maximise_densely(objective, budget),
             first => first,
         }
     }
 
     /// The exact method in loop space.
-    pub(super) fn maximise_densely(&self, objective: &Objective, beat: Beat) -> Outcome {
+    pub(super) fn maximise_densely(&self, objective: &Objective, budget: &Budget) -> Outcome {
         let theorem = self.theorem;
         let (mut rows, first) = match (&theorem.rows, self.complete) {
-            (Some(rows), true) if self.is_plain() => return self.solve(objective, rows, rows.half_spaces.len(), beat),
+            (Some(rows), true) if self.is_plain() => {
+                return self.solve(objective, rows, rows.half_spaces.len(), budget);
+            }
             (_, false) => (Rows::new(theorem.unknowns()), 0),
             (Some(rows), true) => (rows.clone(), rows.half_spaces.len()),
             (None, true) => {
@@ -102,7 +106,7 @@ impl<'t> Programme<'t> {
         if self.slack != 0.0 {
             rows.half_spaces.relax(self.slack);
         }
-        self.solve(objective, &rows, first, beat)
+        self.solve(objective, &rows, first, budget)
     }
 
     /// Whether nothing is asked besides the laws of the joints.
@@ -111,7 +115,7 @@ impl<'t> Programme<'t> {
     }
 
     /// Rows from `first` on are those of the programme's own limits.
-    fn solve(&self, objective: &Objective, rows: &Rows, first: usize, beat: Beat) -> Outcome {
+    fn solve(&self, objective: &Objective, rows: &Rows, first: usize, budget: &Budget) -> Outcome {
         let (theorem, n) = (self.theorem, self.theorem.unknowns());
         if rows.contradicted(self.slack) {
             return Outcome::Infeasible;
@@ -120,7 +124,7 @@ impl<'t> Programme<'t> {
         objective.forces.iter().for_each(|&(joint, weights)| theorem.add_row(joint, weights, &mut row));
         row.iter_mut().for_each(|x| *x /= theorem.force);
         row[n - 1] += objective.load_factor;
-        match linear_program::maximise(&row[..n], &rows.half_spaces, beat) {
+        match linear_program::maximise(&row[..n], &rows.half_spaces, budget) {
             Optimum::At(_, point, held) => {
                 let mut multipliers = vec![0.0; self.limits.len()];
                 for (row, multiplier) in held {

@@ -1,7 +1,8 @@
 //! A programme over the forces of all joints in equilibrium form, for the sparse solver.
 
 use super::interior_point::{Found, Row, Sparse, Square, minimise};
-use super::linear_program::Beat;
+use crate::budget::Budget;
+
 use super::programme::{Objective, Outcome, Programme};
 use super::static_theorem::{Equilibrium, Limit, Resultant, StaticTheorem};
 use crate::geometry::{Vec2, cross};
@@ -23,7 +24,7 @@ struct Forces {
 
 impl Programme<'_> {
     /// The interior point method over the forces of every joint and the equilibrium of every body.
-    pub(super) fn maximise_sparsely(&self, objective: &Objective, beat: Beat) -> Outcome {
+    pub(super) fn maximise_sparsely(&self, objective: &Objective, budget: &Budget) -> Outcome {
         let theorem = self.theorem;
         let unit = unit(theorem);
         // Without loads that grow the load factor is any.
@@ -40,7 +41,7 @@ impl Programme<'_> {
         let forces: Vec<Forces> = limits.iter().map(|limits| held(limits)).collect();
         let Some((rows, places)) = self.rows(&limits, &forces, pinned) else { return Outcome::Infeasible };
         let programme = self.assemble(objective, &forces, rows, pinned, unit);
-        match minimise(&programme, beat) {
+        match minimise(&programme, budget) {
             Found::Optimum { x, z, error } if error < self.error.unwrap_or(SOLVED) => {
                 let mut multipliers = vec![0.0; self.limits.len()];
                 for ((place, scale), z) in places.iter().zip(&z) {

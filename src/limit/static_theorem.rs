@@ -1,7 +1,9 @@
 //! The static theorem of any structure: forces round its loops, and what every joint then carries.
 
-use super::linear_program::{Beat, norm};
+use super::linear_program::norm;
 use super::programme::{Objective, Outcome, Programme, Rows};
+use crate::budget::Budget;
+
 use crate::geometry::{Vec2, cross};
 use crate::structure::{Joint, JointLaw, Loops, PointForce, Side, Structure, Unconnected};
 use nalgebra::{DMatrix, DVector};
@@ -214,9 +216,9 @@ impl StaticTheorem {
     /// Lowest and highest load factor in equilibrium, infinite where unbounded; None when there is none at all.
     ///
     /// # Errors
-    /// When rounding, or `beat`, kept the linear programme from an answer.
-    pub fn window(&self, beat: Beat) -> Result<Option<[f64; 2]>, Unsolved> {
-        let end = |sign: f64| match Programme::new(self).maximise(&Objective::load_factor(sign), beat) {
+    /// When rounding, or `budget`, kept the linear programme from an answer.
+    pub fn window(&self, budget: &Budget) -> Result<Option<[f64; 2]>, Unsolved> {
+        let end = |sign: f64| match Programme::new(self).maximise(&Objective::load_factor(sign), budget) {
             Outcome::At(equilibrium, _) => Ok(Some(equilibrium.load_factor)),
             Outcome::Unbounded(_) => Ok(Some(sign * f64::INFINITY)),
             Outcome::Infeasible => Ok(None),
@@ -226,20 +228,20 @@ impl StaticTheorem {
     }
 
     /// True where an equilibrium at load factor `at` violates no condition by more than `slack`, a share of the loads.
-    pub fn nearly_stands(&self, at: f64, slack: f64, beat: Beat) -> bool {
+    pub fn nearly_stands(&self, at: f64, slack: f64, budget: &Budget) -> bool {
         let mut programme = Programme::new(self);
         programme.bounds = [at - slack * self.factor, at + slack * self.factor];
         programme.slack = slack;
-        matches!(programme.maximise(&Objective::load_factor(1.0), beat), Outcome::At(..) | Outcome::Unbounded(_))
+        matches!(programme.maximise(&Objective::load_factor(1.0), budget), Outcome::At(..) | Outcome::Unbounded(_))
     }
 
     /// Least and greatest horizontal thrust of the first support at load factor `at`, N/m; None when nothing stands.
-    pub fn thrust_range(&self, at: f64, beat: Beat) -> Option<[f64; 2]> {
-        self.thrust_range_of(0, at, beat)
+    pub fn thrust_range(&self, at: f64, budget: &Budget) -> Option<[f64; 2]> {
+        self.thrust_range_of(0, at, budget)
     }
 
     /// Least and greatest horizontal force of a support on the structure at load factor `at`, N/m; None when nothing stands.
-    pub fn thrust_range_of(&self, support: usize, at: f64, beat: Beat) -> Option<[f64; 2]> {
+    pub fn thrust_range_of(&self, support: usize, at: f64, budget: &Budget) -> Option<[f64; 2]> {
         let mut programme = Programme::new(self);
         programme.bounds = [at; 2];
         let thrust = |sign: f64| {
@@ -255,7 +257,7 @@ impl StaticTheorem {
             };
             Objective { load_factor: 0.0, forces: self.joints.iter().enumerate().filter_map(on_support).collect() }
         };
-        let end = |sign: f64| match programme.maximise(&thrust(sign), beat) {
+        let end = |sign: f64| match programme.maximise(&thrust(sign), budget) {
             Outcome::At(equilibrium, _) => Some(sign * thrust(sign).value(&equilibrium)),
             Outcome::Unbounded(_) => Some(sign * f64::INFINITY),
             Outcome::Infeasible | Outcome::Lost => None,

@@ -23,7 +23,7 @@ fn collapse_loads_are_as_accurate_as_asked() {
         let asked = Dice::new(seed).decades(1e-7, 1e-2);
         let request = with(random_arch::request(seed), "accuracy", json!({"collapse_intensity": asked}));
         let analysis = door::analysis(&request).unwrap();
-        let report = voussoir::collapse::run(&analysis, &mut voussoir::collapse::Unwatched).unwrap();
+        let report = voussoir::collapse::run(&analysis, &voussoir::budget::Budget::unlimited()).unwrap();
         let estimate = report.plan.as_ref().unwrap().collapse_intensity.unwrap();
         assert_eq!(estimate.asked, asked);
         let (Outcome::Collapse, Some(end)) = (report.outcome, &report.end) else { continue };

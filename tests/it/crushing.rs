@@ -3,8 +3,10 @@
 use crate::common::dice::Dice;
 use crate::common::{door, random_arch};
 use serde_json::{Value, json};
+use voussoir::budget::Budget;
+
 use voussoir::collapse::Analysis;
-use voussoir::limit::{StaticTheorem, unwatched};
+use voussoir::limit::StaticTheorem;
 use voussoir::structure::{Joint, PointForce};
 
 /// How many random arches, from seed 0.
@@ -47,14 +49,15 @@ fn compare(seed: u64) -> Result<Found, String> {
     let analysis = door::analysis(&random_arch::request(seed))?;
     let theorem = theorem(&analysis);
     let strength = mean_stress(&analysis) * Dice::new(seed).decades(1.0, 300.0);
-    let plain = theorem.window(&unwatched).map_err(|_| "plain window unsolved")?;
-    let hard =
-        theorem.crushing_window(&vec![HARD; theorem.joints()], &unwatched).map_err(|_| "hard window unsolved")?;
+    let plain = theorem.window(&Budget::unlimited()).map_err(|_| "plain window unsolved")?;
+    let hard = theorem
+        .crushing_window(&vec![HARD; theorem.joints()], &Budget::unlimited())
+        .map_err(|_| "hard window unsolved")?;
     if hard.as_ref().map(|window| window.ends) != plain {
         return Err(format!("hard {hard:?}, plain {plain:?}"));
     }
     let ours = theorem
-        .crushing_window(&vec![strength; theorem.joints()], &unwatched)
+        .crushing_window(&vec![strength; theorem.joints()], &Budget::unlimited())
         .map_err(|_| "unsolved")?
         .map(|window| window.ends);
     let problem = crate::common::oracle::Problem { strength: Some(strength), ..door::problem(&analysis) };
@@ -197,9 +200,11 @@ fn hold(title: &str, rows: &[[f64; 3]], request: impl Fn(f64) -> Value) {
     for &[abscissa, rigid, plastic] in rows {
         let analysis = door::analysis(&request(abscissa)).unwrap();
         let theorem = theorem(&analysis);
-        let plain = theorem.window(&unwatched).unwrap();
-        let crushing =
-            theorem.crushing_window(&vec![STRENGTH; theorem.joints()], &unwatched).unwrap().map(|window| window.ends);
+        let plain = theorem.window(&Budget::unlimited()).unwrap();
+        let crushing = theorem
+            .crushing_window(&vec![STRENGTH; theorem.joints()], &Budget::unlimited())
+            .unwrap()
+            .map(|window| window.ends);
         let problem = crate::common::oracle::Problem { strength: Some(STRENGTH), ..door::problem(&analysis) };
         let cones = if problem.give() < 0.0 { problem.window() } else { None };
         let same = match (crushing, cones) {

@@ -6,7 +6,9 @@ use serde_json::json;
 use std::path::Path;
 use voussoir::api::read::read_analysis;
 use voussoir::api::response::AnalysisResult;
-use voussoir::collapse::{Analysis, Cost, Unwatched, run};
+use voussoir::budget::Budget;
+
+use voussoir::collapse::{Analysis, Cost, run};
 use voussoir::structure::JointLaw;
 
 /// Counts may grow by this much before a change has to explain itself.
@@ -45,7 +47,7 @@ const SEMICIRCLES: [(usize, usize, [usize; 3]); 2] = [(201, 1, [228, 233, 20724]
 fn solve(name: &str) -> (Vec<u8>, Cost) {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(name).join("request.json");
     let (request, analysis) = read_analysis(&std::fs::read(file).unwrap()).unwrap();
-    let report = run(&analysis, &mut Unwatched).unwrap();
+    let report = run(&analysis, &Budget::unlimited()).unwrap();
     (AnalysisResult::new(&request, &report).to_bytes().unwrap(), report.cost)
 }
 
@@ -76,7 +78,7 @@ fn arch(lengths: &[f64]) -> Analysis {
 }
 
 fn cost(analysis: &Analysis) -> Cost {
-    run(analysis, &mut Unwatched).unwrap().cost
+    run(analysis, &Budget::unlimited()).unwrap().cost
 }
 
 /// What has grown by more than [`ROOM`].

@@ -6,10 +6,9 @@ use serde_json::{Value, json};
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
-use voussoir::collapse::{
-    Analysis, AnalysisError, CollapseReport, FallingMotion, LoadStep, MotionEnd, MotionFrame, Stop, Unwatched, Watch,
-    run,
-};
+use voussoir::budget::{Budget, LoadStep, Stopped};
+
+use voussoir::collapse::{Analysis, AnalysisError, CollapseReport, FallingMotion, MotionEnd, MotionFrame, run};
 
 /// Deepest overlap of stones, share of the thickness.
 const OVERLAP: f64 = 1e-3;
@@ -34,7 +33,7 @@ fn case(name: &str) -> Value {
 
 fn solve(request: &Value) -> (Analysis, CollapseReport) {
     let analysis = door::analysis(request).unwrap_or_else(|faults| panic!("{faults}"));
-    let report = run(&analysis, &mut Unwatched).unwrap();
+    let report = run(&analysis, &Budget::unlimited()).unwrap();
     (analysis, report)
 }
 
@@ -225,7 +224,7 @@ fn sixty_one_stones_fall_in_less_than_300_steps() {
 fn a_motion_is_served_in_columns() {
     let body = case("paper/table-4").to_string();
     let (request, question) = voussoir::api::read::read_question(body.as_bytes()).unwrap();
-    let answer = voussoir::collapse::answer(&question, &mut Unwatched).unwrap();
+    let answer = voussoir::collapse::answer(&question, &Budget::unlimited()).unwrap();
     let bytes = voussoir::api::response::JobResult::new(&request, &answer).unwrap().to_bytes().unwrap();
     let served: Value = serde_json::from_slice(&bytes).unwrap();
     for key in ["motion", "other_motion"] {
@@ -269,20 +268,14 @@ fn a_motion_is_asked_for_and_bounded() {
     assert!(door::analysis(&short).unwrap_err().starts_with("/motion: "));
 }
 
-/// Stops at the first step after a collapse at this load factor.
-struct StopsBeyond(f64);
-
-impl Watch for StopsBeyond {
-    fn on_step(&mut self, step: &LoadStep) -> ControlFlow<Stop> {
-        if step.load_factor > self.0 { ControlFlow::Break(Stop) } else { ControlFlow::Continue(()) }
-    }
-}
-
 #[test]
 fn a_motion_can_be_stopped() {
     let analysis = door::analysis(&case("first-arch")).unwrap();
-    let stopped = run(&analysis, &mut StopsBeyond(244.0));
-    assert!(matches!(stopped, Err(AnalysisError::Stopped { load_factor, .. }) if load_factor > 244.0));
+    // At the first step after the collapse.
+    let see =
+        |step: LoadStep| if step.load_factor > 244.0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+    let stopped = run(&analysis, &Budget::new(&see));
+    assert!(matches!(stopped, Err(AnalysisError::Stopped(Stopped(step))) if step.load_factor > 244.0));
 }
 
 #[test]
@@ -291,7 +284,7 @@ fn a_load_so_small_that_its_factor_overflows_has_no_motion() {
     request["loads"][1]["load"]["point_load"]["force_n_per_m"] = json!(1e-320);
     request["method"] = json!({"fixed_steps": {"step": 1.0}});
     request["motion"] = json!({});
-    let error = run(&door::analysis(&request).unwrap(), &mut Unwatched);
+    let error = run(&door::analysis(&request).unwrap(), &Budget::unlimited());
     let told = match error {
         Ok(report) => report.motion.is_none_or(|motion| motion.load_factor.is_finite() && motion.overload.is_finite()),
         Err(error) => matches!(error, AnalysisError::NotFinite { .. } | AnalysisError::TooManySteps { .. }),

@@ -3,14 +3,16 @@
 use serde_json::{Value, json};
 use std::path::Path;
 use voussoir::api::read::read_analysis;
-use voussoir::collapse::{AnalysisError, CollapseReport, Unwatched, run};
+use voussoir::budget::Budget;
+
+use voussoir::collapse::{AnalysisError, CollapseReport, run};
 
 fn case(name: &str, change: impl Fn(&mut Value)) -> Result<CollapseReport, AnalysisError> {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(name).join("request.json");
     let mut request: Value = serde_json::from_slice(&std::fs::read(file).unwrap()).unwrap();
     change(&mut request);
     let (_, analysis) = read_analysis(&serde_json::to_vec(&request).unwrap()).unwrap();
-    run(&analysis, &mut Unwatched)
+    run(&analysis, &Budget::unlimited())
 }
 
 fn steps(step: f64, opening: f64) -> impl Fn(&mut Value) {

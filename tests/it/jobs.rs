@@ -5,7 +5,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
-use voussoir::collapse::{AnalysisError, Answer, LoadStep, SafetyPoint, Watch};
+use voussoir::budget::{Budget, LoadStep};
+
+use voussoir::collapse::{AnalysisError, Answer, SafetyPoint};
 use voussoir::jobs::{Dismissal, Failure, Job, JobId, JobStore, Limits, Product, Refusal, State, Status, Submission};
 
 const QUICK: f64 = 0.0;
@@ -17,9 +19,9 @@ const ERROR: f64 = 3.0;
 const ANSWER: usize = 1000;
 
 /// Does what the request says.
-fn stand_in(order: &f64, watch: &mut dyn Watch) -> Result<Product, Failure> {
+fn stand_in(order: &f64, budget: &Budget) -> Result<Product, Failure> {
     if *order == ENDLESS {
-        return endless(watch);
+        return endless(budget);
     }
     assert!(*order != PANIC, "asked to panic");
     if *order == ERROR {
@@ -29,13 +31,13 @@ fn stand_in(order: &f64, watch: &mut dyn Watch) -> Result<Product, Failure> {
 }
 
 /// Steps on until told to stop.
-fn endless(watch: &mut dyn Watch) -> Result<Product, Failure> {
+fn endless(budget: &Budget) -> Result<Product, Failure> {
     let mut step = LoadStep { load_factor: 0.0, events: 0 };
-    while watch.on_step(&step).is_continue() {
+    while budget.step(step.load_factor, step.events).is_continue() {
         step = LoadStep { load_factor: step.load_factor + 0.5, events: step.events + 1 };
         sleep(Duration::from_millis(1));
     }
-    Err(AnalysisError::Stopped { load_factor: step.load_factor, events: step.events }.into())
+    Err(AnalysisError::from(budget.stopped()).into())
 }
 
 fn answer() -> Answer {
@@ -181,7 +183,7 @@ fn jobs_that_have_not_ended_are_never_forgotten() {
 fn the_queue_is_first_in_first_out() {
     let seen = Arc::new(Mutex::new(Vec::new()));
     let log = seen.clone();
-    let note = move |order: &f64, _: &mut dyn Watch| {
+    let note = move |order: &f64, _: &Budget| {
         log.lock().unwrap().push(*order);
         Ok(Product { answer: answer(), bytes: ANSWER })
     };
@@ -218,7 +220,7 @@ fn shutdown_cancels_what_takes_too_long() {
 
 #[test]
 fn a_second_shutdown_waits_for_nothing() {
-    let deaf = |_: &f64, _: &mut dyn Watch| {
+    let deaf = |_: &f64, _: &Budget| {
         sleep(Duration::from_secs(4));
         Ok(Product { answer: answer(), bytes: ANSWER })
     };
@@ -235,9 +237,9 @@ fn a_second_shutdown_waits_for_nothing() {
 fn jobs_dismissed_at_any_moment_leave_the_workers_whole() {
     let (begun, over) = (Arc::new(AtomicUsize::new(0)), Arc::new(AtomicUsize::new(0)));
     let counters = (begun.clone(), over.clone());
-    let counted = move |order: &f64, watch: &mut dyn Watch| {
+    let counted = move |order: &f64, budget: &Budget| {
         counters.0.fetch_add(1, Ordering::SeqCst);
-        let result = stand_in(order, watch);
+        let result = stand_in(order, budget);
         counters.1.fetch_add(1, Ordering::SeqCst);
         result
     };

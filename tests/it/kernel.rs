@@ -4,9 +4,11 @@
 
 use crate::common::row::in_a_row;
 use std::ops::ControlFlow;
+use voussoir::budget::Budget;
+
 use voussoir::dda::{
-    Assembly, AssemblyBuilder, Block, Drive, Elasticity, End, Heart, Law, Loads, Push, Touch, Tracer, balanced,
-    covering, missing,
+    Assembly, AssemblyBuilder, Block, Drive, Elasticity, End, Law, Loads, Push, Touch, Tracer, balanced, covering,
+    missing,
 };
 use voussoir::geometry::{Region, Vec2};
 
@@ -63,7 +65,7 @@ fn chain(rectangles: &[Rectangle], faces: &[Face], friction: f64) -> Assembly {
         };
         builder.join(in_a_row(i, rectangles.len()), [face.left, face.right].into_iter().enumerate().map(touch));
     }
-    builder.finish(&Heart::unwatched()).unwrap()
+    builder.finish(&Budget::unlimited()).unwrap()
 }
 
 /// Blocks of equal size one on the other, each set off by `shift[i]` from the left.
@@ -88,7 +90,7 @@ fn body_loads(blocks: &[Rectangle], chain: &Assembly, acceleration: Vec2) -> Loa
         at: 0.5 * (r.low + r.high),
         force: acceleration * (WEIGHT_DENSITY * r.area()),
     };
-    chain.loads(blocks.iter().enumerate().map(push), &Heart::unwatched()).unwrap()
+    chain.loads(blocks.iter().enumerate().map(push), &Budget::unlimited()).unwrap()
 }
 
 fn weight(blocks: &[Rectangle]) -> f64 {
@@ -100,11 +102,11 @@ fn watch(_: &Tracer) -> ControlFlow<()> {
 }
 
 /// Brings the loads on; the tracer stands at them if the end says so.
-fn stand<'a>(blocks: &[Rectangle], chain: &'a Assembly, loads: &Loads, heart: &'a Heart<'a>) -> (Tracer<'a>, End) {
+fn stand<'a>(blocks: &[Rectangle], chain: &'a Assembly, loads: &Loads, budget: &'a Budget<'a>) -> (Tracer<'a>, End) {
     let loads = &loads.on_nodes;
     let largest = loads.iter().map(|l| l.abs()).fold(0.0, f64::max);
     let preload = loads.len() as f64 * largest / PENALTY;
-    let mut tracer = Tracer::new(chain, covering(chain, loads, preload), 10.0, weight(blocks), heart);
+    let mut tracer = Tracer::new(chain, covering(chain, loads, preload), 10.0, weight(blocks), budget);
     let end = tracer.trace(1.0, &mut watch);
     (tracer, end)
 }
@@ -112,8 +114,8 @@ fn stand<'a>(blocks: &[Rectangle], chain: &'a Assembly, loads: &Loads, heart: &'
 /// Horizontal acceleration in g at which the blocks fall.
 fn lateral_capacity(blocks: &[Rectangle], chain: &Assembly) -> f64 {
     let gravity = body_loads(blocks, chain, Vec2::new(0.0, -1.0));
-    let heart = Heart::unwatched();
-    let (mut tracer, end) = stand(blocks, chain, &gravity, &heart);
+    let budget = Budget::unlimited();
+    let (mut tracer, end) = stand(blocks, chain, &gravity, &budget);
     assert_eq!(end, End::Reached);
     let rate = body_loads(blocks, chain, Vec2::new(1.0, 0.0));
     tracer.drive_on(Drive { base: gravity.on_nodes, rate: rate.on_nodes, ..Drive::default() }, 0.0);
@@ -127,8 +129,8 @@ fn on_slope(b: f64, h: f64, slope_deg: f64, friction_deg: f64) -> &'static str {
     let (blocks, chain) = stack(&[0.0], b, h, friction_deg.to_radians().tan());
     let slope = slope_deg.to_radians();
     let loads = body_loads(&blocks, &chain, Vec2::new(slope.sin(), -slope.cos()));
-    let heart = Heart::unwatched();
-    let (tracer, end) = stand(&blocks, &chain, &loads, &heart);
+    let budget = Budget::unlimited();
+    let (tracer, end) = stand(&blocks, &chain, &loads, &budget);
     if end == End::Reached {
         return "stable";
     }
@@ -201,8 +203,8 @@ fn overhang_stands_just_below_the_harmonic_limit_and_falls_just_above() {
                 })
                 .collect();
             let chain = chain(&blocks, &faces, 0.7);
-            let heart = Heart::unwatched();
-            let (_, end) = stand(&blocks, &chain, &body_loads(&blocks, &chain, Vec2::new(0.0, -1.0)), &heart);
+            let budget = Budget::unlimited();
+            let (_, end) = stand(&blocks, &chain, &body_loads(&blocks, &chain, Vec2::new(0.0, -1.0)), &budget);
             assert_eq!(end, expected, "n={n} at {share} of the limit");
         }
     }
@@ -212,8 +214,8 @@ fn overhang_stands_just_below_the_harmonic_limit_and_falls_just_above() {
 fn a_pile_carries_its_weight_as_mean_stress_and_penetrates_by_n_over_2k() {
     let (blocks, chain) = stack(&[0.0; 4], 1.0, 0.5, 0.7);
     let loads = body_loads(&blocks, &chain, Vec2::new(0.0, -1.0));
-    let heart = Heart::unwatched();
-    let (tracer, end) = stand(&blocks, &chain, &loads, &heart);
+    let budget = Budget::unlimited();
+    let (tracer, end) = stand(&blocks, &chain, &loads, &budget);
     assert_eq!(end, End::Reached);
     for i in 0..4 {
         let above = (3 - i) as f64 * 0.5;
@@ -228,19 +230,19 @@ fn a_pile_carries_its_weight_as_mean_stress_and_penetrates_by_n_over_2k() {
 
 #[test]
 fn a_state_traced_with_scattered_stiffness_is_taken_to_that_of_the_chain_as_built() {
-    let heart = Heart::unwatched();
+    let budget = Budget::unlimited();
     // Pushed by 0.2 g, two blocks of 1 m press the floor's corners with (1 -+ 0.4) of a block's weight.
     let (blocks, chain) = stack(&[0.0, 0.0], 1.0, 1.0, 0.7);
     let loads = body_loads(&blocks, &chain, Vec2::new(0.2, -1.0));
-    let exact = stand(&blocks, &chain, &loads, &heart).0.displacements().to_vec();
+    let exact = stand(&blocks, &chain, &loads, &budget).0.displacements().to_vec();
     let mut scattered = chain.clone();
     let mut by = [1.01, 0.98, 1.02, 0.97, 1.0, 0.99, 1.03, 0.96].into_iter();
     scattered.scatter(|| [by.next().unwrap(), by.next().unwrap()]);
-    let near = stand(&blocks, &scattered, &loads, &heart).0.displacements().to_vec();
+    let near = stand(&blocks, &scattered, &loads, &budget).0.displacements().to_vec();
     let apart = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     let largest = exact.iter().map(|d| d.abs()).fold(0.0, f64::max);
     assert!(apart(&near, &exact) > 1e-3 * largest);
-    let found = balanced(&scattered, 10.0, &loads.on_nodes, &near, false, &heart).unwrap().unwrap();
+    let found = balanced(&scattered, 10.0, &loads.on_nodes, &near, false, &budget).unwrap().unwrap();
     assert!(apart(&found.displacements, &exact) < 1e-11 * largest && !found.free);
     let forces = scattered.contact_forces(scattered.exact_contacts(), &found.displacements);
     let of = |p: usize| forces[p].normal / (0.5 * weight(&blocks));
@@ -249,16 +251,16 @@ fn a_state_traced_with_scattered_stiffness_is_taken_to_that_of_the_chain_as_buil
 
 #[test]
 fn a_force_that_is_missing_is_told_with_its_interface() {
-    let heart = Heart::unwatched();
+    let budget = Budget::unlimited();
     let (blocks, chain) = stack(&[0.0, 0.0, 0.0], 1.0, 1.0, 0.7);
     let loads = body_loads(&blocks, &chain, -Vec2::y());
-    let tracer = stand(&blocks, &chain, &loads, &heart).0;
-    let (share, _) = missing(&chain, &loads.on_nodes, tracer.displacements(), &heart).unwrap();
+    let tracer = stand(&blocks, &chain, &loads, &budget).0;
+    let (share, _) = missing(&chain, &loads.on_nodes, tracer.displacements(), &budget).unwrap();
     assert!(share < 1e-12, "{share:e}");
     let mut other = loads.on_nodes.clone();
     let node = chain.faces(2)[1].clone().unwrap().start;
     other[node] -= 1000.0;
     let all: f64 = other.iter().map(|load| load.abs()).sum();
-    let (share, interface) = missing(&chain, &other, tracer.displacements(), &heart).unwrap();
+    let (share, interface) = missing(&chain, &other, tracer.displacements(), &budget).unwrap();
     assert!((share - 1000.0 / all).abs() < 1e-9 && interface == 2, "{share} at {interface}");
 }

@@ -6,10 +6,10 @@ use crate::common::row::in_a_row;
 use crate::common::wire::{ask, circular, paper_case_1};
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
-use voussoir::collapse::{CollapseReport, Outcome, Unwatched, UpdatedEnd, UpdatedGeometry, run};
-use voussoir::dda::{
-    Assembly, AssemblyBuilder, Block, Drive, Elasticity, End, Heart, Law, Patience, Push, Touch, Tracer,
-};
+use voussoir::budget::Budget;
+
+use voussoir::collapse::{CollapseReport, Outcome, UpdatedEnd, UpdatedGeometry, run};
+use voussoir::dda::{Assembly, AssemblyBuilder, Block, Drive, Elasticity, End, Law, Patience, Push, Touch, Tracer};
 use voussoir::geometry::{Region, Vec2, perpendicular};
 
 fn watch(_: &Tracer) -> ControlFlow<()> {
@@ -34,16 +34,16 @@ fn block(area: f64, centroid: Vec2, youngs_modulus: f64) -> Block {
 
 /// Load at which the first limit point of a chain lies, that starts unloaded.
 fn limit_point(chain: &Assembly, push: Push, size: f64) -> f64 {
-    let heart = Heart::unwatched();
-    let load = chain.loads([push], &heart).unwrap();
+    let budget = Budget::unlimited();
+    let load = chain.loads([push], &budget).unwrap();
     let zeros = vec![0.0; load.on_nodes.len()];
     let drive = Drive {
         base: zeros.clone(),
         rate: load.on_nodes.clone(),
-        turned: [zeros, chain.turned_loads([push], &heart).unwrap()],
+        turned: [zeros, chain.turned_loads([push], &budget).unwrap()],
         ..Drive::default()
     };
-    let mut tracer = Tracer::new(chain, drive.clone(), size, push.force.norm(), &heart);
+    let mut tracer = Tracer::new(chain, drive.clone(), size, push.force.norm(), &budget);
     assert_eq!(tracer.move_on(drive, 0.0, &mut watch), End::Reached);
     assert_eq!(
         tracer.trace_moving(
@@ -72,7 +72,7 @@ fn two_shallow_bars_snap_through_at_the_load_of_von_mises() {
             let pin = |side: f64| touch(at + perpendicular(normal) * (side * 5e-5), normal, 1e11, 1e12, Law::Bonded);
             builder.join(in_a_row(k, 2), [-1.0, 1.0].map(pin));
         }
-        let chain = builder.finish(&Heart::unwatched()).unwrap();
+        let chain = builder.finish(&Budget::unlimited()).unwrap();
         let push = Push { body: 0, subblock: 0, at: top, force: Vec2::new(0.0, -1e5) };
         let found = limit_point(&chain, push, 2.0 * a);
         let c = alpha.cos();
@@ -102,7 +102,7 @@ fn a_column_under_an_eccentric_load_falls_when_its_lever_reaches_the_edge() {
             };
             builder.join(in_a_row(i, n), [-0.5, 0.5].into_iter().enumerate().map(point));
         }
-        let chain = builder.finish(&Heart::unwatched()).unwrap();
+        let chain = builder.finish(&Budget::unlimited()).unwrap();
         let at = Vec2::new(eccentricity, n as f64 * height);
         let push = Push { body: n - 1, subblock: 0, at, force: Vec2::new(0.0, -1e5) };
         let found = limit_point(&chain, push, n as f64 * height);
@@ -174,7 +174,7 @@ fn random_arches_on_moving_geometry() {
         request["stone"]["youngs_modulus_pa"] = json!(1e11);
         request["geometry"] = json!("updated");
         let Ok(analysis) = crate::common::door::analysis(&request) else { continue };
-        let report = run(&analysis, &mut Unwatched).unwrap();
+        let report = run(&analysis, &Budget::unlimited()).unwrap();
         let (Some(updated), Outcome::Collapse, Some(end)) = (report.updated, report.outcome, report.end) else {
             continue;
         };
@@ -268,7 +268,7 @@ fn arches_that_slide_pass_no_limit_window_and_tend_to_first_order_as_stone_stiff
         let request = crate::common::random_arch::request(seed);
         let few = request["arch"]["voussoirs"].as_u64().is_some_and(|count| count <= 25);
         let Ok(arch) = crate::common::door::analysis(&request) else { continue };
-        let as_built = run(&arch, &mut Unwatched).unwrap();
+        let as_built = run(&arch, &Budget::unlimited()).unwrap();
         let slides = as_built.end.as_ref().is_some_and(|end| !end.mechanism.slides.is_empty());
         if !few || !slides || as_built.outcome != Outcome::Collapse {
             continue;

@@ -8,7 +8,9 @@ use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::thread;
-use voussoir::collapse::{Analysis, CollapseReport, Direction, Face, Outcome, PathEnd, Unwatched, run};
+use voussoir::budget::Budget;
+
+use voussoir::collapse::{Analysis, CollapseReport, Direction, Face, Outcome, PathEnd, run};
 
 /// A collapse load without sliding is the same on any mesh to this share; a sliding one passes the limit window by this.
 const EQUAL: f64 = 1e-6;
@@ -28,7 +30,7 @@ fn meshed(analysis: &Analysis, of: impl FnMut(usize) -> [usize; 2]) -> Analysis 
 }
 
 fn solve(analysis: &Analysis) -> Result<CollapseReport, String> {
-    match catch_unwind(AssertUnwindSafe(|| run(analysis, &mut Unwatched))) {
+    match catch_unwind(AssertUnwindSafe(|| run(analysis, &Budget::unlimited()))) {
         Ok(Ok(report)) => Ok(report),
         Ok(Err(error)) => Err(format!("error: {error}")),
         Err(_) => Err("panic".into()),

@@ -2,7 +2,9 @@
 
 use serde_json::{Value, json};
 use voussoir::api::read::read_question;
-use voussoir::collapse::{Answer, CollapseReport, Governs, Outcome, Question, Reach, Unwatched, answer, run};
+use voussoir::budget::Budget;
+
+use voussoir::collapse::{Answer, CollapseReport, Governs, Outcome, Question, Reach, answer, run};
 
 /// The oval under 2 m of embankment of `cases/paper/figure-11`, changed.
 fn oval(change: impl Fn(&mut Value)) -> CollapseReport {
@@ -10,7 +12,7 @@ fn oval(change: impl Fn(&mut Value)) -> CollapseReport {
     let mut request: Value = serde_json::from_slice(&std::fs::read(file).unwrap()).unwrap();
     change(&mut request);
     let (_, question) = read_question(request.to_string().as_bytes()).unwrap();
-    let Answer::One(report) = answer(&question, &mut Unwatched).unwrap() else { unreachable!("one analysis") };
+    let Answer::One(report) = answer(&question, &Budget::unlimited()).unwrap() else { unreachable!("one analysis") };
     *report
 }
 
@@ -120,11 +122,11 @@ fn half_an_arch_has_the_safety_of_the_whole() {
 fn a_curve_is_its_points_one_by_one() {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/cases/paper/figure-13/request.json");
     let (_, question) = read_question(&std::fs::read(file).unwrap()).unwrap();
-    let Answer::Curve(points) = answer(&question, &mut Unwatched).unwrap() else { unreachable!("a curve") };
+    let Answer::Curve(points) = answer(&question, &Budget::unlimited()).unwrap() else { unreachable!("a curve") };
     let Question::Curve(asked) = question else { unreachable!("a curve") };
     assert_eq!(points.len(), asked.len());
     for (point, asked) in points.iter().zip(&asked) {
-        let alone = run(&asked.analysis, &mut Unwatched).unwrap().safety.unwrap();
+        let alone = run(&asked.analysis, &Budget::unlimited()).unwrap().safety.unwrap();
         assert_eq!((point.abscissa, point.governing), (Some(asked.abscissa), alone.governing));
     }
 }

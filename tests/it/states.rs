@@ -7,7 +7,9 @@ use crate::common::state::{Broken, broken, broken_line, ends, larger, leaning, m
 use crate::common::{door, random_arch};
 use crate::half::symmetric;
 use serde_json::{Value, json};
-use voussoir::collapse::{Analysis, CollapseReport, Unwatched, run};
+use voussoir::budget::Budget;
+
+use voussoir::collapse::{Analysis, CollapseReport, run};
 
 /// A state may break the law by this share of the loads (issue 13: 1e-6).
 const LAWFUL: f64 = 1e-8;
@@ -19,7 +21,7 @@ const SYMMETRIC_ARCHES: u64 = 200;
 
 fn solve(request: &Value) -> (Analysis, CollapseReport) {
     let analysis = door::analysis(request).unwrap_or_else(|faults| panic!("{faults}{request}"));
-    let report = run(&analysis, &mut Unwatched).unwrap();
+    let report = run(&analysis, &Budget::unlimited()).unwrap();
     (analysis, report)
 }
 

@@ -1,31 +1,25 @@
-//! An analysis that is asked to stop stops there and then, wherever it is: the watch is asked in every long stretch of every
+//! An analysis that is asked to stop stops there and then, wherever it is: the budget is asked in every long stretch of every
 //! kind of request, and never again once it has said no. Times are measured in `benches/stopping.rs`.
 
 use crate::common::semicircle::{mesh, semicircle};
 use serde_json::{Value, json};
-use std::ops::ControlFlow;
-use std::ops::Range;
+use std::cell::RefCell;
+use std::ops::{ControlFlow, Range};
 use voussoir::api::read::read_question;
-use voussoir::collapse::{AnalysisError, Answer, LoadStep, Question, Stop, Watch, answer};
+use voussoir::budget::{Budget, LoadStep, Stopped};
 
-/// Keeps what it is told, and says stop at the `stops`-th call and at any after that.
-struct Witness {
-    told: Vec<LoadStep>,
-    stops: usize,
-}
+use voussoir::collapse::{AnalysisError, Answer, Question, answer};
 
-impl Watch for Witness {
-    fn on_step(&mut self, step: &LoadStep) -> ControlFlow<Stop> {
-        self.told.push(*step);
-        if self.told.len() > self.stops { ControlFlow::Break(Stop) } else { ControlFlow::Continue(()) }
-    }
-}
-
-/// What a request is answered, and what its watch is told.
+/// What a request is answered, and what it tells its budget, which is spent at the `stops`-th call and at any after that.
 fn watched(question: &Question, stops: usize) -> (Result<Answer, AnalysisError>, Vec<LoadStep>) {
-    let mut witness = Witness { told: Vec::new(), stops };
-    let result = answer(question, &mut witness);
-    (result, witness.told)
+    let told = RefCell::new(Vec::new());
+    let see = |step| {
+        let mut told = told.borrow_mut();
+        told.push(step);
+        if told.len() > stops { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    };
+    let result = answer(question, &Budget::new(&see));
+    (result, told.into_inner())
 }
 
 /// Runs a request to its end, and stops it at the first call, the last, and at others on the way; returns what was told.
@@ -37,8 +31,7 @@ fn stops_anywhere(request: &Value) -> Vec<LoadStep> {
     for stops in [0, 1, n / 7, n / 3, n / 2, 2 * n / 3, 6 * n / 7, n - 1] {
         let (result, told) = watched(&question, stops);
         assert_eq!(told.len(), stops + 1, "calls until it ended, stopped at call {stops} of {n}");
-        let LoadStep { load_factor, events } = told[stops];
-        assert_eq!(result, Err(AnalysisError::Stopped { load_factor, events }), "stopped at call {stops} of {n}");
+        assert_eq!(result, Err(Stopped(told[stops]).into()), "stopped at call {stops} of {n}");
         assert!(told[..] == all[..=stops], "the same calls every time");
     }
     all
@@ -143,9 +136,8 @@ fn while_loads_settle_before_springings_move() {
         assert!(calls.len() > 10, "{geometry}: {}", calls.len());
         for stops in calls {
             let (result, told) = watched(&question, stops);
-            let LoadStep { load_factor, events } = all[stops];
-            assert_eq!(result, Err(AnalysisError::Stopped { load_factor, events }), "{geometry}, call {stops}");
-            assert_eq!((told.len(), load_factor), (stops + 1, 0.0), "{geometry}");
+            assert_eq!(result, Err(Stopped(all[stops]).into()), "{geometry}, call {stops}");
+            assert_eq!((told.len(), all[stops].load_factor), (stops + 1, 0.0), "{geometry}");
         }
         before = all.len() - 1;
     }

@@ -6,7 +6,9 @@ use voussoir::api::fault::Fault;
 use voussoir::api::read::read_question;
 use voussoir::api::request::Request;
 use voussoir::api::response::JobResult;
-use voussoir::collapse::{self, Analysis, LoadStep, Question, Stop, Watch};
+use voussoir::budget::Budget;
+
+use voussoir::collapse::{self, Analysis, Question};
 use voussoir::structure::{JointLaw, PointForce, Structure};
 
 /// Reads a body; what was asked, where it was not refused.
@@ -113,19 +115,17 @@ pub fn is_small(question: &Question) -> bool {
     }
 }
 
-struct Patience(Cell<usize>);
-
-impl Watch for Patience {
-    fn on_step(&mut self, _: &LoadStep) -> ControlFlow<Stop> {
-        let left = self.0.get();
-        self.0.set(left.saturating_sub(1));
-        if left == 0 { ControlFlow::Break(Stop) } else { ControlFlow::Continue(()) }
-    }
-}
-
 /// Solves a question for so many steps; its answer has to be one by the schema, without `null` for a number.
 pub fn solve(request: &Request, question: &Question, steps: usize, schema: &Answers) -> Solved {
-    match collapse::answer(question, &mut Patience(Cell::new(steps))) {
+    let left = Cell::new(steps);
+    let see = |_| match left.get().checked_sub(1) {
+        None => ControlFlow::Break(()),
+        Some(less) => {
+            left.set(less);
+            ControlFlow::Continue(())
+        }
+    };
+    match collapse::answer(question, &Budget::new(&see)) {
         Ok(answer) => {
             let result = JobResult::new(request, &answer).expect("an answer without numbers that JSON cannot say");
             let bytes = result.to_bytes().expect("an answer can be written");
@@ -134,7 +134,7 @@ pub fn solve(request: &Request, question: &Question, steps: usize, schema: &Answ
             assert!(wrong.is_empty(), "no answer by the schema: {wrong:?}");
             Solved::Answered
         }
-        Err(collapse::AnalysisError::Stopped { .. }) => Solved::Stopped,
+        Err(collapse::AnalysisError::Stopped(_)) => Solved::Stopped,
         Err(error) => {
             assert!(!error.to_string().is_empty());
             Solved::Failed

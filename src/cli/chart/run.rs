@@ -7,8 +7,10 @@ use super::stress::Stresses;
 use super::table::{Kind, Row};
 use serde_json::Value;
 use voussoir::api::read::read_question;
-use voussoir::collapse::{self, Analysis, Answer, CollapseReport, Outcome, Question, Unwatched, UpdatedEnd};
-use voussoir::limit::{StaticTheorem, unwatched};
+use voussoir::budget::Budget;
+
+use voussoir::collapse::{self, Analysis, Answer, CollapseReport, Outcome, Question, UpdatedEnd};
+use voussoir::limit::StaticTheorem;
 
 /// What a model answers, or why it does not.
 type Found = Result<Measured, String>;
@@ -138,18 +140,18 @@ fn on_collapse(scene: &CollapseScene, model: &Model) -> Result<(Found, Timed), S
         Way::LimitWindow => {
             let Analysis { structure, fixed, scaled, .. } = analysis(&scene.request, &Value::Null)?;
             let (window, time) =
-                timed(|| Some(StaticTheorem::new(&structure, &fixed, &scaled).ok()?.window(&unwatched)));
+                timed(|| Some(StaticTheorem::new(&structure, &fixed, &scaled).ok()?.window(&Budget::unlimited())));
             let highest = window.and_then(Result::ok).flatten().map(|[_, highest]| highest);
             (highest.map(|highest| (highest, false)).ok_or_else(|| "no window".to_owned()), time)
         }
         Way::Analysis(fields) => {
             let analysis = analysis(&scene.request, fields)?;
-            let (report, time) = timed(|| collapse::run(&analysis, &mut Unwatched));
+            let (report, time) = timed(|| collapse::run(&analysis, &Budget::unlimited()));
             (report.map_err(|error| error.to_string()).and_then(|report| first_order(&report)), time)
         }
         Way::Updated(fields) => {
             let analysis = analysis(&scene.request, fields)?;
-            let (report, time) = timed(|| collapse::run(&analysis, &mut Unwatched));
+            let (report, time) = timed(|| collapse::run(&analysis, &Budget::unlimited()));
             (report.map_err(|error| error.to_string()).and_then(|report| on_moving_geometry(&report)), time)
         }
     };
@@ -184,7 +186,7 @@ fn on_moving_geometry(report: &CollapseReport) -> Result<(f64, bool), String> {
 fn on_stress(scene: &StressScene, model: &Model, reference: &mut Option<Stresses>) -> Result<(Found, Timed), String> {
     let Way::Analysis(fields) = &model.way else { return Err("gives no stress".to_owned()) };
     let question = question(&scene.request, fields)?;
-    let (answer, timed) = timed(|| collapse::answer(&question, &mut Unwatched));
+    let (answer, timed) = timed(|| collapse::answer(&question, &Budget::unlimited()));
     let found = match answer {
         Ok(Answer::CurvedBeam(beam)) => Ok((beam.error, beam.plan.is_some_and(|plan| !plan.stress.met))),
         Ok(Answer::One(report)) => match Stresses::new(&report) {
@@ -201,7 +203,7 @@ fn on_stress(scene: &StressScene, model: &Model, reference: &mut Option<Stresses
 fn fine<'r>(scene: &StressScene, reference: &'r mut Option<Stresses>) -> Result<&'r Stresses, String> {
     if reference.is_none() {
         let analysis = analysis(&scene.request, &mesh(super::stress::REFERENCE, "split"))?;
-        let report = collapse::run(&analysis, &mut Unwatched).map_err(|error| error.to_string())?;
+        let report = collapse::run(&analysis, &Budget::unlimited()).map_err(|error| error.to_string())?;
         *reference = Stresses::new(&report);
     }
     reference.as_ref().ok_or_else(|| "the reference gives no stresses".to_owned())

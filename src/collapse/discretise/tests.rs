@@ -2,8 +2,7 @@ use super::*;
 use crate::arch::profile::Profile;
 use crate::arch::ring::{JointLines, Line, Ring, Thickness, stations};
 use crate::arch::{assemble, straight_voussoirs};
-use crate::collapse::pulse::watched;
-use crate::collapse::{Aim, Direction, Mesh, Method, Unwatched};
+use crate::collapse::{Aim, Direction, Mesh, Method};
 use crate::geometry::perpendicular;
 
 /// A semicircle of `n` equal stones, cut into `subblocks` each, without loads.
@@ -39,9 +38,13 @@ fn semicircle(n: usize, subblocks: [usize; 2], curved: bool) -> Analysis {
     }
 }
 
+fn model<'p>(analysis: &Analysis, budget: &'p Budget<'p>) -> Model<'p> {
+    discretise(analysis, Attempt::number(0), budget).unwrap()
+}
+
 /// Of so many kinds are its stones.
 fn kinds(analysis: &Analysis) -> usize {
-    watched(&mut Unwatched, |pulse| Ok(discretise(analysis, Attempt::number(0), pulse)?.assembly.kinds())).unwrap()
+    model(analysis, &Budget::unlimited()).assembly.kinds()
 }
 
 #[test]
@@ -59,8 +62,7 @@ fn stones_of_one_shape_are_condensed_once() {
 fn the_subblocks_of_a_stone_tile_it() {
     for curved in [false, true] {
         let analysis = semicircle(7, [5, 4], curved);
-        let grids =
-            watched(&mut Unwatched, |pulse| Ok(discretise(&analysis, Attempt::number(0), pulse)?.grids)).unwrap();
+        let grids = model(&analysis, &Budget::unlimited()).grids;
         for (grid, stone) in grids.iter().zip(analysis.structure.voussoirs()) {
             let all = grid.cells().map(|(i, j)| grid.region(i, j)).reduce(Region::join).unwrap();
             assert!((all.area / stone.region.area - 1.0).abs() < 1e-12);
@@ -85,44 +87,37 @@ fn moved(assembly: &Assembly, field: impl Fn(Vec2) -> Vec2) -> Vec<f64> {
 
 #[test]
 fn the_mirror_image_of_a_motion_is_that_of_an_assembly_and_its_nodes() {
-    watched(&mut Unwatched, |pulse| {
-        let model = discretise(&semicircle(7, [2, 2], false), Attempt::number(0), pulse)?;
-        let assembly = &model.assembly;
-        assert!(model.symmetric);
-        let turns = |at: Vec2| Vec2::new(2.0 - at.y, at.x);
-        let bends = |at: Vec2| Vec2::new(0.1 * at.x * at.y, 0.3 * at.y * at.y - at.x * at.x);
-        let right = |_: Vec2| Vec2::x();
-        let up = |_: Vec2| Vec2::y();
-        let motions: [(&dyn Fn(Vec2) -> Vec2, f64); 4] = [(&right, -1.0), (&up, 1.0), (&turns, -1.0), (&bends, 1.0)];
-        for (field, sign) in motions {
-            let d = moved(assembly, field);
-            let image = assembly.mirrored(&d);
-            let apart = image.iter().zip(&d).map(|(there, here)| (there - sign * here).abs()).fold(0.0, f64::max);
-            assert!(apart < 1e-11, "{apart:e}");
-        }
-        Ok(())
-    })
-    .unwrap();
+    let budget = Budget::unlimited();
+    let model = model(&semicircle(7, [2, 2], false), &budget);
+    let assembly = &model.assembly;
+    assert!(model.symmetric);
+    let turns = |at: Vec2| Vec2::new(2.0 - at.y, at.x);
+    let bends = |at: Vec2| Vec2::new(0.1 * at.x * at.y, 0.3 * at.y * at.y - at.x * at.x);
+    let right = |_: Vec2| Vec2::x();
+    let up = |_: Vec2| Vec2::y();
+    let motions: [(&dyn Fn(Vec2) -> Vec2, f64); 4] = [(&right, -1.0), (&up, 1.0), (&turns, -1.0), (&bends, 1.0)];
+    for (field, sign) in motions {
+        let d = moved(assembly, field);
+        let image = assembly.mirrored(&d);
+        let apart = image.iter().zip(&d).map(|(there, here)| (there - sign * here).abs()).fold(0.0, f64::max);
+        assert!(apart < 1e-11, "{apart:e}");
+    }
 }
 
 #[test]
 fn an_arch_is_its_own_mirror_image_where_nothing_tells_the_sides_apart() {
-    watched(&mut Unwatched, |pulse| {
-        let symmetric =
-            |analysis: &Analysis| discretise(analysis, Attempt::number(0), pulse).map(|model| model.symmetric);
-        for (n, mesh) in [(7, [1, 1]), (8, [1, 1]), (7, [3, 2]), (8, [2, 3])] {
-            assert!(symmetric(&semicircle(n, mesh, false))? && symmetric(&semicircle(n, mesh, true))?);
-        }
-        let [mut rough, mut fine, mut flat] = [(); 3].map(|()| semicircle(7, [1, 1], false));
-        rough.structure.joints[2].law = JointLaw::Dry { friction: 0.61, cohesion: 0.0 };
-        fine.mesh.subblocks[5] = [1, 2];
-        flat.structure.joints[3].extrados.y += 1e-3;
-        for analysis in [&rough, &fine, &flat] {
-            assert!(!symmetric(analysis)?);
-        }
-        Ok(())
-    })
-    .unwrap();
+    let budget = Budget::unlimited();
+    let symmetric = |analysis: &Analysis| model(analysis, &budget).symmetric;
+    for (n, mesh) in [(7, [1, 1]), (8, [1, 1]), (7, [3, 2]), (8, [2, 3])] {
+        assert!(symmetric(&semicircle(n, mesh, false)) && symmetric(&semicircle(n, mesh, true)));
+    }
+    let [mut rough, mut fine, mut flat] = [(); 3].map(|()| semicircle(7, [1, 1], false));
+    rough.structure.joints[2].law = JointLaw::Dry { friction: 0.61, cohesion: 0.0 };
+    fine.mesh.subblocks[5] = [1, 2];
+    flat.structure.joints[3].extrados.y += 1e-3;
+    for analysis in [&rough, &fine, &flat] {
+        assert!(!symmetric(analysis));
+    }
 }
 
 #[test]

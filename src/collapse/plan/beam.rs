@@ -1,9 +1,10 @@
 //! The curved beam on the least mesh that is as accurate as asked.
 
-use super::super::pulse::Pulse;
 use super::super::{AnalysisError, BeamPlan, BeamReport, CurvedBeam, Estimate, MeshTried, StressField, beam};
 use super::estimate::{FieldErrors, Orders, differences};
 use super::mesh::rungs;
+use crate::budget::Budget;
+
 use std::f64::consts::FRAC_PI_4;
 
 /// Subblocks across in the first mesh of either series. Between them they pass 2, 3, 4, 6, 8, 12 and so on; each mesh is compared
@@ -56,8 +57,8 @@ fn off_centre(field: &StressField) -> f64 {
 }
 
 /// Solves the beam, on its own mesh or to the accuracy asked.
-pub(in super::super) fn solve(beam: &CurvedBeam, pulse: &Pulse) -> Result<BeamReport, AnalysisError> {
-    let Some(asked) = beam.accuracy else { return beam::solve(beam, pulse) };
+pub(in super::super) fn solve(beam: &CurvedBeam, budget: &Budget) -> Result<BeamReport, AnalysisError> {
+    let Some(asked) = beam.accuracy else { return beam::solve(beam, budget) };
     let length = FRAC_PI_4 * (beam.inner_radius + beam.outer_radius) / (beam.outer_radius - beam.inner_radius);
     let columns = (length / ASPECT).clamp(1.0, MOST_COLUMNS);
     let mut meshes: Vec<(usize, [usize; 2])> = Vec::new();
@@ -68,7 +69,7 @@ pub(in super::super) fn solve(beam: &CurvedBeam, pulse: &Pulse) -> Result<BeamRe
     let mut series = SERIES.map(|_| Series { coarse: None, errors: FieldErrors::new(1, ORDERS) });
     let (mut tried, mut last) = (Vec::new(), None);
     for (which, subblocks) in meshes {
-        let report = beam::solve(&CurvedBeam { subblocks, ..*beam }, pulse)?;
+        let report = beam::solve(&CurvedBeam { subblocks, ..*beam }, budget)?;
         let estimate = series[which].take(&report.field);
         tried.push(MeshTried { subblocks: subblocks[0] * subblocks[1], contact_points: None, stress: estimate });
         last = Some((subblocks, report, estimate));
@@ -76,7 +77,7 @@ pub(in super::super) fn solve(beam: &CurvedBeam, pulse: &Pulse) -> Result<BeamRe
             break;
         }
     }
-    let Some((subblocks, report, estimate)) = last else { return beam::solve(beam, pulse) };
+    let Some((subblocks, report, estimate)) = last else { return beam::solve(beam, budget) };
     let stress = Estimate { asked, estimate, met: estimate.is_some_and(|estimate| estimate <= asked) };
     Ok(BeamReport { plan: Some(BeamPlan { subblocks, stress, meshes: tried }), ..report })
 }

@@ -1,10 +1,10 @@
 //! Refines the mesh voussoir by voussoir until the stress is as accurate as asked.
 
-use super::super::pulse::Pulse;
 use super::super::{Analysis, AnalysisError, CollapseReport, Estimate, MeshTried, Outcome, verdict};
 use super::estimate::{FieldErrors, Orders, differences};
 use super::mesh::ladder;
 use super::with_mesh;
+use crate::budget::Budget;
 
 /// How stress converges next to joints that open, and to forces on points (measured: 0.3 next to a hinge, 1.1 elsewhere).
 const ORDERS: Orders = [0.4, 1.0];
@@ -42,7 +42,7 @@ pub(super) fn solve(
     analysis: &Analysis,
     most: usize,
     asked: f64,
-    pulse: &Pulse,
+    budget: &Budget,
 ) -> Result<Result<Refined, String>, AnalysisError> {
     let ladders: Vec<_> = (0..analysis.structure.voussoirs().len()).map(|k| ladder(&analysis.structure, k)).collect();
     let coarsest: Vec<_> = ladders.iter().map(|ladder| ladder[0]).collect();
@@ -50,7 +50,7 @@ pub(super) fn solve(
     if fewest > most {
         return Ok(Err(format!("The coarsest mesh that bends would have {fewest} subblocks, and {most} are allowed.")));
     }
-    let report = verdict::solve(&with_mesh(analysis, coarsest), pulse)?;
+    let report = verdict::solve(&with_mesh(analysis, coarsest), budget)?;
     if report.outcome == Outcome::CannotTell || report.stress_fields.is_empty() {
         return Ok(Err("On the coarsest mesh that bends the load path could not be followed.".into()));
     }
@@ -60,7 +60,7 @@ pub(super) fn solve(
         if let Some(why) = mesh.last_before(&levels, most) {
             break why;
         }
-        let report = verdict::solve(&with_mesh(analysis, mesh.subblocks(&levels)), pulse)?;
+        let report = verdict::solve(&with_mesh(analysis, mesh.subblocks(&levels)), budget)?;
         if report.outcome == Outcome::CannotTell || report.stress_fields.len() != mesh.errors.len() {
             break "On the next mesh the load path could not be followed to the same fields.".into();
         }

@@ -25,8 +25,8 @@ impl Question<'_> {
         fall.range = self.range_of(&fall);
         let power = motion::power(self.analysis, &fall.mechanism, self.start);
         let (loose, slides) = (!loaded(self.analysis)[1], !fall.mechanism.slides.is_empty());
-        let doubt = self.certificate.fallen(self.start, loose, slides, power, self.pulse);
-        self.pulse.check()?;
+        let doubt = self.certificate.fallen(self.start, loose, slides, power, self.budget);
+        self.budget.check()?;
         let doubt = doubt.or(self.certificate.standing_doubt(fall.residual));
         if self.certificate.ends_at_zero(self.sign) {
             report.notes.extend(doubt.is_none().then(|| ENDS_AT_ZERO.into()));

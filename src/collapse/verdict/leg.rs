@@ -36,7 +36,7 @@ impl Question<'_> {
         let residual = tracer.worst_residual();
         let mut peak_load = None;
         let (ending, turned_back) = match leg {
-            Leg::Stopped => return Err(self.pulse.stopped()),
+            Leg::Stopped => return Err(self.budget.stopped().into()),
             Leg::TooManySteps => return Err(AnalysisError::TooManySteps { most: MOST_STEPS }),
             Leg::Lost => return Ok(Some(Doubt::Lost)),
             Leg::Endless => {
@@ -52,7 +52,7 @@ impl Question<'_> {
             Leg::Peak(peak, fall) => {
                 let theorem = &self.certificate.theorem;
                 let mut ending = ending::at_peak(analysis, model, theorem, &peak, &fall, sign, residual);
-                self.pulse.check()?;
+                self.budget.check()?;
                 peak_load = Some(ending.end.load_factor);
                 ending.end.load_factor = self.read_off(ending.end.load_factor, sign);
                 (ending, fall.turned_back)
@@ -101,10 +101,10 @@ impl Question<'_> {
         let (analysis, theorem) = (self.analysis, &self.certificate.theorem);
         let Ending { end, later, at_limits } = ending;
         let (mut path, greatest) = (end.load_factor, self.certificate.end(sign).unwrap_or(0.0));
-        let search = Search { analysis, theorem, pulse: self.pulse, start: self.start, sign };
+        let search = Search { analysis, theorem, budget: self.budget, start: self.start, sign };
         at_limits.extend(search.at_window_end(greatest));
         let (found, mechanisms_tried) = search.least(at_limits);
-        self.pulse.check()?;
+        self.budget.check()?;
         let slides = found.filter(|found| !found.mechanism.slides.is_empty());
         if let Some(found) = slides.filter(|found| !search.is_beyond(found.load_factor, path, ending::POLISH)) {
             // A path that nothing polished carries the disturbance of its attempt: what is as near is the same load.

@@ -1,10 +1,12 @@
 //! Building an assembly: contact points, and stones of one shape condensed once.
 
 use super::{Assembly, Beside, Body, Kind, Site, stresses};
+use crate::budget::Budget;
+
 use crate::dda::condense::{Condensed, Loose, Node, Unbuilt};
 use crate::dda::contact::{Contact, Law};
 use crate::dda::elements::{Elements, Pattern};
-use crate::dda::heart::Heart;
+
 use crate::dda::macroblock::Macroblock;
 use crate::dda::tree::Tree;
 use crate::geometry::{Vec2, cross, perpendicular};
@@ -68,7 +70,7 @@ impl AssemblyBuilder {
     ///
     /// # Errors
     /// When a body is not held by two contact points at least, or when stopped.
-    pub fn finish(self, heart: &Heart) -> Result<Assembly, Unbuilt> {
+    pub fn finish(self, budget: &Budget) -> Result<Assembly, Unbuilt> {
         let of_bodies = self.interfaces_of_bodies();
         let mut kinds: Vec<Kind> = Vec::new();
         let mut bodies = Vec::new();
@@ -79,18 +81,18 @@ impl AssemblyBuilder {
             let (seen, nodes) = (macroblock.seen_from(origin, x_axis), seen_nodes(&nodes, origin, x_axis));
             let rounding = ROUNDING * (origin.amax() + extent(&nodes));
             // A kind is compared, or a new one made.
-            heart.work(WORK * (1 + kinds.len() + seen.blocks().len()))?;
+            budget.work(WORK * (1 + kinds.len() + seen.blocks().len()))?;
             let same = |kind: &Kind| alike(kind, &seen, &nodes, rounding);
             let kind = match kinds.iter().rposition(same) {
                 Some(kind) => kind,
                 None => {
-                    kinds.push(Kind::new(seen, nodes, heart)?);
+                    kinds.push(Kind::new(seen, nodes, budget)?);
                     kinds.len() - 1
                 }
             };
             bodies.push(Body { origin, x_axis, kind });
         }
-        self.put_together(&of_bodies, bodies, kinds, heart)
+        self.put_together(&of_bodies, bodies, kinds, budget)
     }
 
     /// The interfaces of every body, each with the side on which the body lies.
@@ -111,7 +113,7 @@ impl AssemblyBuilder {
         of_bodies: &[Vec<(usize, usize)>],
         bodies: Vec<Body>,
         kinds: Vec<Kind>,
-        heart: &Heart,
+        budget: &Budget,
     ) -> Result<Assembly, Unbuilt> {
         let (mut pattern, mut nodes) = (Pattern { start: vec![0], faces: Vec::new() }, Vec::new());
         let mut faces = vec![[None; 2]; self.interfaces.len()];
@@ -146,7 +148,7 @@ impl AssemblyBuilder {
             // Symmetric, so that columns are rows.
             let stiffness = kinds[body.kind].condensed.stiffness();
             elastic.get_mut(i).copy_from_slice(stiffness.as_slice());
-            heart.work(SET * stiffness.len())?;
+            budget.work(SET * stiffness.len())?;
         }
         let mut first = vec![0];
         self.interfaces.iter().for_each(|i| first.push(first[first.len() - 1] + i.touches.len()));
@@ -186,7 +188,7 @@ impl Kind {
         self.macroblock.blocks().len() == 1 && faces > 2 && 2 * self.nodes.len() > 6
     }
 
-    fn new(macroblock: Macroblock, nodes: Vec<Node>, heart: &Heart) -> Result<Self, Unbuilt> {
+    fn new(macroblock: Macroblock, nodes: Vec<Node>, budget: &Budget) -> Result<Self, Unbuilt> {
         let blocks = macroblock.blocks();
         let area: f64 = blocks.iter().map(|b| b.area()).sum();
         let mean = DMatrix::from_fn(3, 6 * blocks.len(), |i, j| {
@@ -199,7 +201,7 @@ impl Kind {
         let mut mean_of_nodes = DMatrix::zeros(3, columns);
         let kept = Some(3 * blocks.len()).filter(|rows| rows * columns <= MOST_KEPT);
         let mut stress_of_nodes = kept.map(|rows| DMatrix::zeros(rows, columns));
-        let condensed = Condensed::new(&macroblock, &nodes, heart, |j, d| {
+        let condensed = Condensed::new(&macroblock, &nodes, budget, |j, d| {
             mean_of_nodes.set_column(j, &(&mean * DVectorView::from_slice(d, d.len())));
             if let Some(of_nodes) = &mut stress_of_nodes {
                 of_nodes.set_column(j, &stresses(&stress, d));

@@ -1,9 +1,11 @@
 //! Forces at given displacements by the contact law alone, and the stiffness that contacts add to an assembly's matrix.
 
 use super::Assembly;
+use crate::budget::{Budget, Stopped};
+
 use crate::dda::contact::{Contact, ContactForce};
 use crate::dda::elements::Elements;
-use crate::dda::heart::{Heart, Stopped};
+
 use crate::dda::panels::subtract_applied;
 
 impl Assembly {
@@ -44,10 +46,10 @@ impl Assembly {
         loads: &[f64],
         d: &[f64],
         into: &mut [f64],
-        heart: &Heart,
+        budget: &Budget,
     ) -> Result<(), Stopped> {
         into.copy_from_slice(loads);
-        self.subtract_elastic(d, into, heart)?;
+        self.subtract_elastic(d, into, budget)?;
         for (p, contact) in contacts.iter().enumerate() {
             let [gap, slip] = self.gap(p, d);
             let force = contact.force(gap, slip);
@@ -64,12 +66,12 @@ impl Assembly {
         &self,
         d: &[f64],
         residual: &mut [f64],
-        heart: &Heart,
+        budget: &Budget,
     ) -> Result<(), Stopped> {
         for (i, nodes) in self.nodes.iter().enumerate() {
             let stiffness = self.elastic.get(i);
             subtract_applied(stiffness, &d[nodes.clone()], &mut residual[nodes.clone()]);
-            heart.work(stiffness.len())?;
+            budget.work(stiffness.len())?;
         }
         Ok(())
     }

@@ -1,4 +1,6 @@
 use super::*;
+use crate::budget::Budget;
+
 use crate::dda::elements::Pattern;
 use faer::linalg::solvers::Solve;
 
@@ -72,9 +74,9 @@ fn agrees_with_a_dense_solver_wherever_the_change_is() {
                 b[pattern.start[*face.unwrap()]] -= 0.3;
             }
             factor.invalidate(change);
-            factor.update(&k, &b, &mut x, change, &Heart::unwatched()).unwrap();
+            factor.update(&k, &b, &mut x, change, &Budget::unlimited()).unwrap();
             assert!(error(&pattern, &k, &b, &x) < 1e-13);
-            factor.solve(&other, &mut x, &Heart::unwatched()).unwrap();
+            factor.solve(&other, &mut x, &Budget::unlimited()).unwrap();
             assert!(error(&pattern, &k, &other, &x) < 1e-13);
             assert!(factor.pivot_ratio() > 1e-3);
         }
@@ -87,10 +89,10 @@ fn until_the_next_update_the_factors_are_those_of_the_last() {
     let (mut k, tree) = (matrix(pattern), Tree::new(pattern, |_| true));
     let (before, b, mut x) = (k.clone(), vec![1.0; pattern.unknowns()], vec![0.0; pattern.unknowns()]);
     let mut factor = Factor::new(&tree);
-    factor.update(&k, &b, &mut x, 2, &Heart::unwatched()).unwrap();
+    factor.update(&k, &b, &mut x, 2, &Budget::unlimited()).unwrap();
     k.get_mut(5)[0] += 2.0;
     factor.invalidate(5);
-    factor.solve(&b, &mut x, &Heart::unwatched()).unwrap();
+    factor.solve(&b, &mut x, &Budget::unlimited()).unwrap();
     assert!(error(pattern, &before, &b, &x) < 1e-13);
     assert!(error(pattern, &k, &b, &x) > 1e-3);
 }
@@ -104,7 +106,7 @@ fn a_change_costs_the_rows_between_it_and_the_last() {
     let mut cost = |element: usize| {
         let before = factor.eliminated();
         factor.invalidate(element);
-        factor.update(&k, &b, &mut x, element, &Heart::unwatched()).unwrap();
+        factor.update(&k, &b, &mut x, element, &Budget::unlimited()).unwrap();
         factor.eliminated() - before
     };
     // The two faces of the element last, and one for every element on the way.
@@ -138,6 +140,6 @@ fn a_singular_block_shows_in_the_pivot_ratio() {
     let mut k = Elements::zeros(&pattern);
     k.get_mut(0).copy_from_slice(&[1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 0.]);
     let mut factor = Factor::new(&tree);
-    factor.update(&k, &[0.0; 4], &mut [0.0; 4], 0, &Heart::unwatched()).unwrap();
+    factor.update(&k, &[0.0; 4], &mut [0.0; 4], 0, &Budget::unlimited()).unwrap();
     assert!(factor.pivot_ratio() < 1e-14);
 }

@@ -3,7 +3,8 @@
 use super::block::{Corners, Place};
 use super::contact::{Meeting, Touch, meeting, separation};
 use super::step::{Falling, OVERLAP};
-use crate::dda::heart::Heart;
+use crate::budget::Budget;
+
 use crate::geometry::Vec2;
 
 /// Work of seeing that two blocks lie apart, in multiplications.
@@ -40,15 +41,15 @@ impl Falling {
         all
     }
 
-    /// Two that are no neighbours and overlap, if there are any; none where the heart stands still.
-    pub(super) fn strangers(&self, places: &[Place], heart: &Heart) -> Option<[Option<usize>; 2]> {
+    /// Two that are no neighbours and overlap, if there are any; none where the budget is spent.
+    pub(super) fn strangers(&self, places: &[Place], budget: &Budget) -> Option<[Option<usize>; 2]> {
         let corners = self.corners(places);
         let mut all: Vec<(Option<usize>, Corners)> = self.grounds[0].into_iter().map(|c| (None, c)).collect();
         all.extend(corners.into_iter().enumerate().map(|(block, c)| (Some(block), c)));
         all.extend(self.grounds[1].into_iter().map(|c| (None, c)));
         let boxes: Vec<[Vec2; 2]> = all.iter().map(|(_, corners)| around(corners)).collect();
         for i in 0..all.len() {
-            heart.work(APART * all.len()).ok()?;
+            budget.work(APART * all.len()).ok()?;
             for j in i + 2..all.len() {
                 let [(a, of_a), (b, of_b)] = [&all[i], &all[j]];
                 let apart = boxes[i][0].x > boxes[j][1].x

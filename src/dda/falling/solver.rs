@@ -15,7 +15,8 @@
 
 use super::pair::{Contact, Pair, Targets};
 use super::tridiagonal::Tridiagonal;
-use crate::dda::heart::Heart;
+use crate::budget::Budget;
+
 use nalgebra::{Matrix3, Vector3};
 
 /// Iterations after which a step has failed; ten to twenty are usual.
@@ -88,16 +89,16 @@ impl Problem {
     /// Makes the step.
     ///
     /// # Errors
-    /// When the iteration converges from none of its starts, or where the heart stands still.
-    pub(super) fn solve(&self, heart: &Heart) -> Result<Solution, Unsolved> {
-        STARTS.iter().find_map(|&start| self.solve_from(start, heart).ok()).ok_or(Unsolved)
+    /// When the iteration converges from none of its starts, or where the budget is spent.
+    pub(super) fn solve(&self, budget: &Budget) -> Result<Solution, Unsolved> {
+        STARTS.iter().find_map(|&start| self.solve_from(start, budget).ok()).ok_or(Unsolved)
     }
 
-    fn solve_from(&self, start: [f64; 2], heart: &Heart) -> Result<Solution, Unsolved> {
+    fn solve_from(&self, start: [f64; 2], budget: &Budget) -> Result<Solution, Unsolved> {
         let mut increments = vec![Vector3::zeros(); self.load.len()];
         let mut pairs: Vec<Pair> = self.contacts.iter().map(|contact| contact.start(start)).collect();
         for _ in 0..MOST_ITERATIONS {
-            heart.work(ITERATED * self.contacts.len()).map_err(|_| Unsolved)?;
+            budget.work(ITERATED * self.contacts.len()).map_err(|_| Unsolved)?;
             let unbalanced = self.unbalanced(&increments, &pairs);
             let apart: Vec<[f64; 2]> =
                 self.contacts.iter().zip(&pairs).map(|(c, p)| c.residuals(p, &increments)).collect();
@@ -216,7 +217,7 @@ mod tests {
         };
         let load = vec![Vector3::new(load[0], -load[1], 0.0)];
         Problem { resistance: vec![Vector3::repeat(2.0)], load, contacts: vec![contact] }
-            .solve(&Heart::unwatched())
+            .solve(&Budget::unlimited())
             .unwrap()
     }
 

@@ -5,7 +5,7 @@ use super::contact::Meeting;
 use super::frame::{Advance, Carried, Frame, Stuck};
 use super::neighbours::{Placed, overlap};
 use super::trial::Trial;
-use crate::dda::heart::Heart;
+use crate::budget::Budget;
 
 /// Corners move by about this share of the thickness in a step. A larger one bends paths and overlaps more.
 const STRIDE: f64 = 0.02;
@@ -129,20 +129,20 @@ impl Falling {
     /// Makes a step.
     ///
     /// # Errors
-    /// When none is found, or the heart stands still.
-    pub fn advance(&mut self, heart: &Heart) -> Result<Advance, Stuck> {
+    /// When none is found, or the budget is spent.
+    pub fn advance(&mut self, budget: &Budget) -> Result<Advance, Stuck> {
         let contacts = self.touches(&self.meetings(&self.places));
         let (mut met, mut failures, mut longest) = (None, 0, f64::INFINITY);
         for _ in 0..MOST_TRIALS {
-            heart.check().map_err(|_| Stuck)?;
-            let Ok(trial) = self.attempt(&contacts, failures >= FAILURES, heart) else {
+            budget.check().map_err(|_| Stuck)?;
+            let Ok(trial) = self.attempt(&contacts, failures >= FAILURES, budget) else {
                 failures += 1;
                 longest = self.step;
                 self.step *= 0.5;
                 continue;
             };
             let meetings = self.meetings(&trial.places);
-            match self.judge(&trial, &meetings, heart) {
+            match self.judge(&trial, &meetings, budget) {
                 Verdict::Rests => return Ok(Advance::Rest),
                 Verdict::Meets(two) if trial.moved < NEAR * self.thickness => return Ok(Advance::Meet(two)),
                 Verdict::Meets(two) => {
@@ -163,7 +163,7 @@ impl Falling {
         met.map(Advance::Meet).ok_or(Stuck)
     }
 
-    fn judge(&self, trial: &Trial, meetings: &[Option<Meeting>], heart: &Heart) -> Verdict {
+    fn judge(&self, trial: &Trial, meetings: &[Option<Meeting>], budget: &Budget) -> Verdict {
         let (moved, stride) = (trial.moved / self.thickness, self.stride(trial));
         if trial.moved * self.mass < REST * self.loads * self.step && moved < SHORTEST {
             return Verdict::Rests;
@@ -171,7 +171,7 @@ impl Falling {
         if moved > LONGEST {
             return Verdict::TooLong(stride.clamp(0.01, 0.8));
         }
-        if let Some(two) = self.strangers(&trial.places, heart) {
+        if let Some(two) = self.strangers(&trial.places, budget) {
             return Verdict::Meets(two);
         }
         // A step against the loads has gone past an equilibrium; or it undoes an overlap, which takes little.

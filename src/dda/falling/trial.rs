@@ -6,7 +6,8 @@ use super::neighbours::Placed;
 use super::pair::Contact;
 use super::solver::{Problem, Solution};
 use super::step::Falling;
-use crate::dda::heart::Heart;
+use crate::budget::Budget;
+
 use crate::geometry::{cross, perpendicular};
 use nalgebra::Vector3;
 
@@ -29,13 +30,13 @@ impl Falling {
     /// The step of the present size, if it can be made.
     ///
     /// # Errors
-    /// When it cannot: try a shorter one, or `lagging` bounds on friction; and where the heart stands still.
-    pub(super) fn attempt(&self, contacts: &[Placed], lagging: bool, heart: &Heart) -> Result<Trial, Stuck> {
+    /// When it cannot: try a shorter one, or `lagging` bounds on friction; and where the budget is spent.
+    pub(super) fn attempt(&self, contacts: &[Placed], lagging: bool, budget: &Budget) -> Result<Trial, Stuck> {
         let mut problem = self.problem(contacts);
-        let solution = match problem.solve(heart) {
+        let solution = match problem.solve(budget) {
             Ok(solution) => solution,
             Err(_) if !lagging => return Err(Stuck),
-            Err(_) => self.with_given_bounds(&mut problem, contacts, heart)?,
+            Err(_) => self.with_given_bounds(&mut problem, contacts, budget)?,
         };
         let excess = contacts.iter().zip(&solution.forces).map(|(&(k, end, _), force)| {
             force[1].abs() - self.friction[k].coefficient * force[0] - self.cohesion(k, end)
@@ -58,7 +59,12 @@ impl Falling {
 
     /// The same step with bounds on friction that do not depend on it, brought up to date round by round. Each round is a
     /// convex programme.
-    fn with_given_bounds(&self, problem: &mut Problem, contacts: &[Placed], heart: &Heart) -> Result<Solution, Stuck> {
+    fn with_given_bounds(
+        &self,
+        problem: &mut Problem,
+        contacts: &[Placed],
+        budget: &Budget,
+    ) -> Result<Solution, Stuck> {
         let coefficient = |c: usize| self.friction[contacts[c].0].coefficient;
         let cohesion: Vec<f64> = problem.contacts.iter().map(|contact| contact.constant).collect();
         for (c, contact) in problem.contacts.iter_mut().enumerate() {
@@ -67,7 +73,7 @@ impl Falling {
         }
         let mut last = Err(Stuck);
         for _ in 0..ROUNDS {
-            let Ok(solution) = problem.solve(heart) else { break };
+            let Ok(solution) = problem.solve(budget) else { break };
             let mut change: f64 = 0.0;
             for (c, contact) in problem.contacts.iter_mut().enumerate() {
                 let bound = cohesion[c] + coefficient(c) * solution.forces[c][0];

@@ -1,9 +1,11 @@
 use super::body::{Corotated, NodeLoads};
 use super::interface::{Bearing, Frame, Stiffness};
 use super::turn::Turn;
+use crate::budget::Budget;
+
 use crate::dda::block::{Block, Elasticity};
 use crate::dda::condense::{Condensed, Node};
-use crate::dda::heart::Heart;
+
 use crate::geometry::{Region, Vec2, perpendicular};
 use nalgebra::DMatrix;
 
@@ -18,7 +20,7 @@ fn body() -> (Corotated, DMatrix<f64>, Vec<Node>) {
     let region = Region { area: 1.1, centroid: Vec2::new(0.5, 0.55) };
     let elasticity = Elasticity { youngs_modulus: 1e3, poissons_ratio: 0.2, plane_strain: false };
     let condensed =
-        Condensed::new(&Block::new(region, elasticity).into(), &nodes, &Heart::unwatched(), |_, _| {}).unwrap();
+        Condensed::new(&Block::new(region, elasticity).into(), &nodes, &Budget::unlimited(), |_, _| {}).unwrap();
     (Corotated::new(&nodes), condensed.stiffness().clone(), nodes)
 }
 

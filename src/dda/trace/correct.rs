@@ -75,7 +75,7 @@ impl Tracer<'_> {
                 self.renew_tangent();
             }
             (last, renewed) = (error, slow);
-            if self.factor.solve(&self.residual, &mut correction, self.heart).is_err() {
+            if self.factor.solve(&self.residual, &mut correction, self.budget).is_err() {
                 return false;
             }
             let along = match hold {

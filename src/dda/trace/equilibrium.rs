@@ -1,8 +1,10 @@
 //! Assembly of the tracer's matrix and the balance of forces on every node.
 
 use super::Tracer;
+use crate::budget::Stopped;
+
 use crate::dda::contact::State;
-use crate::dda::heart::Stopped;
+
 use crate::dda::moving::{Bearing, Placed};
 
 /// Equilibrium residual, as a share of the load scale, above which the displacements are corrected; and above which
@@ -36,7 +38,7 @@ impl Tracer<'_> {
     /// Corrects the displacements for their residual, unless that makes it worse; the residual that is left, none where stopped.
     fn corrected(&mut self, worst: f64) -> Option<f64> {
         let mut corrections = vec![0.0; self.residual.len()];
-        self.factor.solve(&self.residual, &mut corrections, self.heart).ok()?;
+        self.factor.solve(&self.residual, &mut corrections, self.budget).ok()?;
         self.updates.apply(self.assembly, &self.states, |_| [0.0; 2], &mut corrections);
         self.correct_by(&corrections, 1.0);
         let corrected = self.find_residual();
@@ -60,7 +62,7 @@ impl Tracer<'_> {
     }
 
     /// Fills `residual` with load minus resistance of every node; returns the largest entry over the load scale, which is
-    /// infinite where the heart stands still.
+    /// infinite where the budget is spent.
     pub(super) fn find_residual(&mut self) -> f64 {
         let found = match self.moving.take() {
             None => self.find_first_order_residual(),
@@ -81,7 +83,7 @@ impl Tracer<'_> {
     fn find_moving_residual(&mut self, moving: &mut Placed) -> Result<(), Stopped> {
         let assembly = self.assembly;
         let d = [self.displacements.as_slice(), &self.rests];
-        moving.place(assembly, &self.drive, self.exact_parameter(), d, &mut self.gaps, self.heart)?;
+        moving.place(assembly, &self.drive, self.exact_parameter(), d, &mut self.gaps, self.budget)?;
         self.residual.fill(0.0);
         for p in 0..self.states.len() {
             self.forces[p] = self.force_of(p);
@@ -94,7 +96,7 @@ impl Tracer<'_> {
         for (i, r) in self.residual.iter_mut().enumerate() {
             *r = self.drive.base[i] + self.drive.rate[i] * self.parameter;
         }
-        self.assembly.subtract_elastic(&self.displacements, &mut self.residual, self.heart)?;
+        self.assembly.subtract_elastic(&self.displacements, &mut self.residual, self.budget)?;
         for p in 0..self.states.len() {
             let ([gap, slip], settling) = (self.assembly.gap(p, &self.displacements), self.settling[p]);
             let offset = self.offset_of(p, self.drive.offset[0] + self.drive.offset[1] * self.parameter);
@@ -133,7 +135,7 @@ impl Tracer<'_> {
     pub(super) fn reassemble_all(&mut self) {
         for k in 0..self.assembly.interfaces() {
             self.reassemble(k);
-            if self.heart.work(RENEWED * self.matrix.get(self.assembly.element(k)).len()).is_err() {
+            if self.budget.work(RENEWED * self.matrix.get(self.assembly.element(k)).len()).is_err() {
                 return;
             }
         }

@@ -76,7 +76,7 @@ impl Tracer<'_> {
     }
 
     fn let_go(&mut self, drive: Drive, parameter: f64, see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>) -> End {
-        (self.drive, self.moving) = (drive.clone(), Some(Placed::new(self.assembly, self.heart)));
+        (self.drive, self.moving) = (drive.clone(), Some(Placed::new(self.assembly, self.budget)));
         self.factor = Factor::new(self.assembly.plain_tree()).after(self.factor.eliminated());
         self.set_parameter(parameter);
         // Gaps on moving geometry differ from those at first order, and so may states.
@@ -311,7 +311,7 @@ impl Tracer<'_> {
     /// Renews the stiffness of bodies and interfaces where they are now.
     fn linearise(&mut self) {
         if let Some(moving) = &mut self.moving {
-            if moving.linearise(self.assembly, &self.drive, self.heart).is_err() {
+            if moving.linearise(self.assembly, &self.drive, self.budget).is_err() {
                 return;
             }
             for i in 0..self.assembly.bodies() {

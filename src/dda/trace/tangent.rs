@@ -98,7 +98,7 @@ impl Tracer<'_> {
         self.updates.solution.clear();
         // Elimination from all sides meets where the last change was.
         let last = self.assembly.element(self.updates.last);
-        if self.factor.update(&self.matrix, &self.load_rate, &mut self.direction, last, self.heart).is_err() {
+        if self.factor.update(&self.matrix, &self.load_rate, &mut self.direction, last, self.budget).is_err() {
             return;
         }
         self.factorisations += 1;
@@ -147,7 +147,7 @@ impl Tracer<'_> {
             }
             let (mut force, mut nodes) = (vec![0.0; self.direction.len()], vec![0.0; self.direction.len()]);
             self.assembly.push(p, std::array::from_fn(|i| f64::from(i == axis)), &mut force);
-            self.factor.solve(&force, &mut nodes, self.heart).ok()?;
+            self.factor.solve(&force, &mut nodes, self.budget).ok()?;
             self.updates.responses.push(Response { contact: p, axis, factored, nodes });
         }
         Some(())
@@ -155,7 +155,7 @@ impl Tracer<'_> {
 
     /// Solves for the tangent with the responses that there are; none where a factorisation has to.
     fn update_tangent(&mut self) -> Option<()> {
-        self.heart.work(self.updates.responses.len() * self.direction.len()).ok()?;
+        self.budget.work(self.updates.responses.len() * self.direction.len()).ok()?;
         if self.updates.solution.is_empty() {
             self.updates.solution = self.direction.iter().map(|d| d / self.rate).collect();
         }

@@ -1,8 +1,10 @@
 use super::super::scenes::ring;
 use super::super::static_theorem::tests::{arch, loads};
 use super::*;
+use crate::budget::Budget;
+
 use crate::geometry::Vec2;
-use crate::limit::unwatched;
+
 use crate::structure::{JointLaw, PointForce};
 
 /// Strength at which nothing crushes, Pa.
@@ -10,7 +12,7 @@ const HARD: f64 = 1e30;
 
 /// The same strength in every joint.
 fn evenly(theorem: &StaticTheorem, strength: f64) -> Result<Option<CrushingWindow>, Unsolved> {
-    theorem.crushing_window(&vec![strength; theorem.joints()], &unwatched)
+    theorem.crushing_window(&vec![strength; theorem.joints()], &Budget::unlimited())
 }
 
 /// One stone between two level joints of length 1 m, all but smooth, under a load of `factor` 1 N/m at `off` from
@@ -45,7 +47,7 @@ fn a_hard_stone_leaves_the_plain_window() {
     let upwards: Vec<_> = fixed.iter().map(|f| PointForce { force: -f.force * 10.0, ..*f }).collect();
     for (fixed, scaled) in [(&fixed, &scaled), (&fixed, &fixed), (&scaled, &fixed), (&upwards, &vec![])] {
         let theorem = StaticTheorem::new(&arch, fixed, scaled).unwrap();
-        assert_eq!(hard(&theorem), theorem.window(&unwatched).unwrap());
+        assert_eq!(hard(&theorem), theorem.window(&Budget::unlimited()).unwrap());
     }
     arch.joints.iter_mut().for_each(|joint| joint.law = JointLaw::Bonded);
     let bonded = evenly(&StaticTheorem::new(&arch, &fixed, &scaled).unwrap(), 1.0).unwrap().unwrap();
@@ -58,7 +60,7 @@ fn a_stronger_stone_bears_more() {
     let arch = arch();
     let [fixed, scaled] = loads(&arch);
     let theorem = StaticTheorem::new(&arch, &fixed, &scaled).unwrap();
-    let [low, high] = theorem.window(&unwatched).unwrap().unwrap();
+    let [low, high] = theorem.window(&Budget::unlimited()).unwrap().unwrap();
     let windows: Vec<_> = (0..60).map(|k| evenly(&theorem, 1.2f64.powi(k)).unwrap()).collect();
     assert!(windows[0].is_none());
     let found: Vec<_> = windows.iter().skip_while(|window| window.is_none()).collect();
@@ -77,7 +79,7 @@ fn crushed_joints_leave_just_the_length_they_need() {
     let [fixed, _] = loads(&arch);
     let theorem = StaticTheorem::new(&arch, &fixed, &fixed).unwrap();
     let window = evenly(&theorem, 500.0).unwrap().unwrap();
-    assert_eq!(theorem.window(&unwatched).unwrap().unwrap()[1], f64::INFINITY);
+    assert_eq!(theorem.window(&Budget::unlimited()).unwrap().unwrap()[1], f64::INFINITY);
     assert!(window.ends[1].is_finite() && window.joints[1].len() >= 2, "{window:?}");
 }
 
@@ -89,5 +91,8 @@ fn a_strength_that_is_none_is_refused() {
     for strength in [0.0, -1.0, f64::NAN] {
         assert_eq!(evenly(&theorem, strength), Err(Unsolved));
     }
-    assert_eq!(evenly(&theorem, f64::INFINITY).unwrap().unwrap().ends, theorem.window(&unwatched).unwrap().unwrap());
+    assert_eq!(
+        evenly(&theorem, f64::INFINITY).unwrap().unwrap().ends,
+        theorem.window(&Budget::unlimited()).unwrap().unwrap()
+    );
 }

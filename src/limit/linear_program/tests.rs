@@ -1,4 +1,5 @@
 use super::*;
+use crate::budget::Budget;
 
 const UNKNOWNS: usize = 4;
 
@@ -16,7 +17,9 @@ fn unit(i: usize, value: f64) -> [f64; UNKNOWNS] {
 fn finds_the_corner_of_a_simplex() {
     let mut rows: Vec<_> = (0..UNKNOWNS).map(|i| (unit(i, 1.0), 0.0)).collect();
     rows.push(([-1.0, -2.0, -3.0, -4.0], 12.0));
-    let Optimum::At(value, point, held) = maximise(&[1.0; 4], &half_spaces(&rows), &unwatched) else { panic!() };
+    let Optimum::At(value, point, held) = maximise(&[1.0; 4], &half_spaces(&rows), &Budget::unlimited()) else {
+        panic!()
+    };
     assert!((value - 12.0).abs() < 1e-12 && (point[0] - 12.0).abs() < 1e-12);
     // Objective = - sum y row, with the rows of unit length.
     let multiplier = |row| held.iter().find(|(k, _)| *k == row).map_or(0.0, |held| held.1);
@@ -27,9 +30,9 @@ fn finds_the_corner_of_a_simplex() {
 #[test]
 fn tells_empty_and_unbounded_sets() {
     let x_between = |low: f64, high: f64| half_spaces(&[(unit(0, 1.0), -low), (unit(0, -1.0), high)]);
-    assert_eq!(maximise(&unit(3, 1.0), &x_between(2.0, 1.0), &unwatched), Optimum::Infeasible);
-    assert!(matches!(maximise(&unit(3, 1.0), &x_between(1.0, 2.0), &unwatched), Optimum::Unbounded(_)));
-    let least = maximise(&unit(0, -1.0), &x_between(1.0, 2.0), &unwatched);
+    assert_eq!(maximise(&unit(3, 1.0), &x_between(2.0, 1.0), &Budget::unlimited()), Optimum::Infeasible);
+    assert!(matches!(maximise(&unit(3, 1.0), &x_between(1.0, 2.0), &Budget::unlimited()), Optimum::Unbounded(_)));
+    let least = maximise(&unit(0, -1.0), &x_between(1.0, 2.0), &Budget::unlimited());
     assert!(matches!(least, Optimum::At(v, ..) if (v + 1.0).abs() < 1e-12));
 }
 
@@ -41,14 +44,14 @@ fn a_heavily_tied_vertex_does_not_cycle() {
         ([a.cos(), a.sin(), (1.7 * a).cos(), -1.0], 1.0)
     };
     let rows: Vec<_> = (0..400).map(cone).collect();
-    let Optimum::At(value, ..) = maximise(&unit(3, 1.0), &half_spaces(&rows), &unwatched) else { panic!() };
+    let Optimum::At(value, ..) = maximise(&unit(3, 1.0), &half_spaces(&rows), &Budget::unlimited()) else { panic!() };
     assert!((value - 1.0).abs() < 1e-12);
 }
 
 #[test]
 fn what_is_no_number_is_no_answer() {
     let rows = half_spaces(&[(unit(0, f64::NAN), 1.0)]);
-    assert_eq!(maximise(&unit(3, 1.0), &rows, &unwatched), Optimum::Lost);
+    assert_eq!(maximise(&unit(3, 1.0), &rows, &Budget::unlimited()), Optimum::Lost);
 }
 
 /// The largest sum of unknowns within a ball's many tangent planes is at its top, whatever their number: the ball's radius
@@ -67,7 +70,7 @@ fn many_unknowns_are_solved_as_four() {
             half_spaces.push(&row, norm(&row));
         }
         half_spaces.push(&vec![-1.0; n], (n as f64).sqrt());
-        let Optimum::At(value, ..) = maximise(&vec![1.0; n], &half_spaces, &unwatched) else { panic!("{n}") };
+        let Optimum::At(value, ..) = maximise(&vec![1.0; n], &half_spaces, &Budget::unlimited()) else { panic!("{n}") };
         assert!((value / (n as f64).sqrt() - 1.0).abs() < 1e-12, "{n}: {value}");
     }
 }

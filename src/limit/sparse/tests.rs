@@ -1,7 +1,8 @@
-use super::super::linear_program::unwatched;
 use super::super::scenes::{bridge, per_area, seismic, wall};
 use super::super::static_theorem::tests::{arch, ferris_tin_loi, loads};
 use super::*;
+use crate::budget::Budget;
+
 use crate::limit::Release;
 use crate::structure::{Face, JointLaw, PointForce, Structure};
 
@@ -22,8 +23,8 @@ fn both(structure: &Structure, [fixed, scaled]: &[Vec<PointForce>; 2]) -> [[f64;
     let programme = Programme::new(&theorem);
     [-1.0, 1.0].map(|sign| {
         let objective = Objective::load_factor(sign);
-        let dense = value(&programme.maximise_densely(&objective, &unwatched));
-        let sparse = value(&programme.maximise_sparsely(&objective, &unwatched));
+        let dense = value(&programme.maximise_densely(&objective, &Budget::unlimited()));
+        let sparse = value(&programme.maximise_sparsely(&objective, &Budget::unlimited()));
         [dense, sparse]
     })
 }
@@ -61,7 +62,7 @@ fn walls_that_never_fall_or_never_stand_are_told() {
     let mut structure = ferris_tin_loi(3);
     let [down, up] = [-1.0, 1.0].map(|y| per_area(&structure, Vec2::new(0.0, y)));
     let window = |structure: &Structure, fixed: &[PointForce], scaled: &[PointForce]| {
-        StaticTheorem::new(structure, fixed, scaled).unwrap().window(&unwatched)
+        StaticTheorem::new(structure, fixed, scaled).unwrap().window(&Budget::unlimited())
     };
     assert_eq!(window(&structure, &up, &[]), Ok(None));
     let [low, high] = window(&structure, &down, &down).unwrap().unwrap();
@@ -76,7 +77,7 @@ fn an_optimum_is_an_admissible_equilibrium() {
     let structure = ferris_tin_loi(2);
     let [fixed, scaled] = seismic(&structure);
     let theorem = StaticTheorem::new(&structure, &fixed, &scaled).unwrap();
-    let outcome = Programme::new(&theorem).maximise_sparsely(&Objective::load_factor(1.0), &unwatched);
+    let outcome = Programme::new(&theorem).maximise_sparsely(&Objective::load_factor(1.0), &Budget::unlimited());
     let Outcome::At(found, _) = outcome else { panic!() };
     assert!(theorem.slack(&found) > -1e-10, "{}", theorem.slack(&found));
     let mut sums = vec![[0.0; 3]; structure.bodies.len()];
@@ -110,7 +111,9 @@ fn both_solvers_find_the_same_cheapest_motion() {
     let costs: Vec<f64> = (0..releases.len()).map(|i| 1.0 + 0.9 * (1.7 * i as f64).sin()).collect();
     let programme = theorem.motion_programme(&releases, &costs);
     let [dense, sparse] = [Programme::maximise_densely, Programme::maximise_sparsely].map(|maximise| {
-        let Outcome::At(_, rates) = maximise(&programme, &Objective::load_factor(1.0), &unwatched) else { panic!() };
+        let Outcome::At(_, rates) = maximise(&programme, &Objective::load_factor(1.0), &Budget::unlimited()) else {
+            panic!()
+        };
         let cost: f64 = rates.iter().zip(&costs).map(|(rate, cost)| rate * cost).sum();
         rates.into_iter().map(|rate| rate / cost).collect::<Vec<_>>()
     });
@@ -126,7 +129,7 @@ fn a_large_wall_is_solved() {
         let wall = wall(&rows, 0.5, DRY);
         let [fixed, scaled] = seismic(&wall);
         let theorem = StaticTheorem::new(&wall, &fixed, &scaled).unwrap();
-        let window = theorem.window(&unwatched).unwrap().unwrap();
+        let window = theorem.window(&Budget::unlimited()).unwrap().unwrap();
         assert!((window[0] + window[1]).abs() < 1e-8);
     }
 }

@@ -5,12 +5,14 @@ use std::time::Duration;
 use voussoir::api::prose::prose;
 use voussoir::api::read::read_question;
 use voussoir::api::response::JobResult;
-use voussoir::collapse::{Unwatched, answer};
+use voussoir::budget::Budget;
+
+use voussoir::collapse::answer;
 
 /// Runs a request that has to be a good one.
 pub fn result(request: &Value) -> JobResult {
     let (request, question) = read_question(request.to_string().as_bytes()).unwrap();
-    JobResult::new(&request, &answer(&question, &mut Unwatched).unwrap()).unwrap()
+    JobResult::new(&request, &answer(&question, &Budget::unlimited()).unwrap()).unwrap()
 }
 
 /// Its answer as JSON.

@@ -2,7 +2,9 @@
 
 use super::oracle::{Bond, Problem, Push, Seam};
 use serde_json::Value;
-use voussoir::collapse::{Analysis, CollapseReport, Unwatched, run};
+use voussoir::budget::Budget;
+
+use voussoir::collapse::{Analysis, CollapseReport, run};
 use voussoir::structure::{JointLaw, PointForce};
 
 /// Reads a request as the service does.
@@ -19,7 +21,7 @@ pub fn analysis(request: &Value) -> Result<Analysis, String> {
 /// Runs a request that has to be a good one.
 pub fn solve(request: &Value) -> CollapseReport {
     let analysis = analysis(request).unwrap_or_else(|faults| panic!("{faults}{request}"));
-    run(&analysis, &mut Unwatched).unwrap_or_else(|error| panic!("{error}: {request}"))
+    run(&analysis, &Budget::unlimited()).unwrap_or_else(|error| panic!("{error}: {request}"))
 }
 
 /// The numbers the oracle needs.

@@ -6,7 +6,9 @@ use super::full_solution::{self, Gap};
 use super::oracle::{Aim, Bond, Limit, Problem, Seam};
 use super::{door, sliding_arch};
 use serde_json::Value;
-use voussoir::collapse::{Analysis, CollapseReport, Direction, PathEnd, Unwatched, run};
+use voussoir::budget::Budget;
+
+use voussoir::collapse::{Analysis, CollapseReport, Direction, PathEnd, run};
 use voussoir::structure::Face;
 
 /// Load factors that differ by less than this share of their size, or of that at which the scaled loads are as large as the
@@ -46,7 +48,7 @@ fn ends<'r>(analysis: &Analysis, report: &'r CollapseReport) -> Vec<(&'r PathEnd
 }
 
 fn answer(analysis: &Analysis) -> CollapseReport {
-    run(analysis, &mut Unwatched).unwrap_or_else(|error| panic!("{error}"))
+    run(analysis, &Budget::unlimited()).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Checks every end of the answer; none where the arch is refused, or does not fall.

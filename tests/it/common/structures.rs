@@ -4,9 +4,10 @@ use super::rigid_blocks::recheck::{Reported, recheck};
 use super::rigid_blocks::scene::Scene;
 use super::rigid_blocks::{Push, bridge, portal, wall};
 use voussoir::blocks::{Blocks, Joints, Polygon, Rest, Support};
+use voussoir::budget::Budget;
+
 use voussoir::collapse::{
-    Aim, Analysis, CollapseReport, Direction, Geometry, Mesh, Method, Outcome, PathEnd, PlaneModel, Seams, Unwatched,
-    run,
+    Aim, Analysis, CollapseReport, Direction, Geometry, Mesh, Method, Outcome, PathEnd, PlaneModel, Seams, run,
 };
 use voussoir::geometry::Vec2;
 use voussoir::structure::{PointForce, Stone};
@@ -95,7 +96,7 @@ pub fn analysis(scene: &Scene) -> Analysis {
 
 /// Solves a scene and judges the answer.
 pub fn judge(scene: &Scene) -> (Judged, Option<CollapseReport>) {
-    match run(&analysis(scene), &mut Unwatched) {
+    match run(&analysis(scene), &Budget::unlimited()) {
         Ok(report) => (judged(scene, &report), Some(report)),
         Err(error) => (Judged::Wrong(error.to_string()), None),
     }

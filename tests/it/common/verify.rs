@@ -3,7 +3,9 @@
 use super::{door, motion, oracle::Problem, random_arch};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
-use voussoir::collapse::{Analysis, CollapseReport, Direction, LimitWindow, Outcome, PathEnd, Unwatched, run};
+use voussoir::budget::Budget;
+
+use voussoir::collapse::{Analysis, CollapseReport, Direction, LimitWindow, Outcome, PathEnd, run};
 
 /// The intensity may pass the limit window by this share.
 pub const ABOVE: f64 = 1e-6;
@@ -57,7 +59,7 @@ pub fn check(seed: u64, with_oracle: bool) -> Checked {
     };
     checked.voussoirs = analysis.structure.voussoirs().len();
     let start = Instant::now();
-    let result = catch_unwind(AssertUnwindSafe(|| run(&analysis, &mut Unwatched)));
+    let result = catch_unwind(AssertUnwindSafe(|| run(&analysis, &Budget::unlimited())));
     checked.seconds = start.elapsed().as_secs_f64();
     match result {
         Err(panic) => checked.complaints.push(format!("panic: {}", said(&*panic))),

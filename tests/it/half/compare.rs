@@ -3,7 +3,9 @@
 use serde_json::Value;
 use voussoir::api::read::read_question;
 use voussoir::api::response::JobResult;
-use voussoir::collapse::{self, Unwatched};
+use voussoir::budget::Budget;
+
+use voussoir::collapse;
 
 /// The answer on the wire.
 ///
@@ -12,7 +14,7 @@ use voussoir::collapse::{self, Unwatched};
 pub fn solve(request: &Value) -> Result<Value, String> {
     let (request, question) = read_question(request.to_string().as_bytes())
         .map_err(|faults| faults.iter().map(|f| format!("{}: {}\n", f.pointer, f.detail)).collect::<String>())?;
-    let answer = collapse::answer(&question, &mut Unwatched).unwrap();
+    let answer = collapse::answer(&question, &Budget::unlimited()).unwrap();
     Ok(serde_json::from_slice(&JobResult::new(&request, &answer).unwrap().to_bytes().unwrap()).unwrap())
 }
 

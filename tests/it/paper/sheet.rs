@@ -4,7 +4,9 @@ use serde_json::{Value, json};
 use std::path::Path;
 use voussoir::api::read::read_question;
 use voussoir::api::response::JobResult;
-use voussoir::collapse::{self, Unwatched};
+use voussoir::budget::Budget;
+
+use voussoir::collapse;
 
 /// A file of a case of the paper.
 fn file(case: &str, name: &str) -> Value {
@@ -25,7 +27,7 @@ pub fn expected(case: &str) -> Value {
 /// The answer; none where the request is refused.
 pub fn answered(request: &Value) -> Option<Value> {
     let (request, question) = read_question(request.to_string().as_bytes()).ok()?;
-    let answer = collapse::answer(&question, &mut Unwatched).unwrap();
+    let answer = collapse::answer(&question, &Budget::unlimited()).unwrap();
     Some(serde_json::from_slice(&JobResult::new(&request, &answer).unwrap().to_bytes().unwrap()).unwrap())
 }
 

@@ -1,7 +1,9 @@
 //! The curved beam of section 3.3 of the paper, cut into subblocks.
 
 use super::exact::{PAPER, Ring, tresca};
-use voussoir::collapse::{Answer, BeamReport, CurvedBeam, PlaneModel, Question, Seams, Unwatched, answer};
+use voussoir::budget::Budget;
+
+use voussoir::collapse::{Answer, BeamReport, CurvedBeam, PlaneModel, Question, Seams, answer};
 use voussoir::structure::Stone;
 
 /// Exact strain energy of the paper's beam, J/m (`curved_beam_exact.json`).
@@ -13,7 +15,7 @@ fn beam(ring: Ring, n: usize, seams: Seams, curved_sides: bool) -> BeamReport {
     let (shear, plane, subblocks) = (ring.shear, PlaneModel::Stress, [n, n]);
     let beam =
         CurvedBeam { inner_radius, outer_radius, shear, stone, plane, subblocks, accuracy: None, seams, curved_sides };
-    match answer(&Question::CurvedBeam(beam), &mut Unwatched).unwrap() {
+    match answer(&Question::CurvedBeam(beam), &Budget::unlimited()).unwrap() {
         Answer::CurvedBeam(report) => report,
         other => panic!("{other:?}"),
     }

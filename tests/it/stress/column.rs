@@ -4,7 +4,9 @@ use super::mesh::{Mesh, STONE};
 use crate::common::row::in_a_row;
 use nalgebra::{DMatrix, DVector};
 use std::ops::ControlFlow;
-use voussoir::dda::{Assembly, AssemblyBuilder, Bond, Drive, End, Heart, Law, Loads, Push, Touch, Tracer};
+use voussoir::budget::Budget;
+
+use voussoir::dda::{Assembly, AssemblyBuilder, Bond, Drive, End, Law, Loads, Push, Touch, Tracer};
 use voussoir::geometry::Vec2;
 
 const PENALTY: f64 = 1e10;
@@ -56,18 +58,18 @@ pub fn bonded(stones: &[Mesh], faces: &[[Vec2; 2]], smooth: Option<usize>) -> Gl
     for k in 0..faces.len() {
         builder.join(in_a_row(k, stones.len()), touches.iter().filter(|t| t.0 == k).map(|t| t.1));
     }
-    Glued { stones: stones.to_vec(), chain: builder.finish(&Heart::unwatched()).unwrap(), touches }
+    Glued { stones: stones.to_vec(), chain: builder.finish(&Budget::unlimited()).unwrap(), touches }
 }
 
 impl Glued {
     /// The chain's own answer to forces on subblocks.
     pub fn solve(&self, pushes: &[Push]) -> Solved<'_> {
-        let heart = Heart::unwatched();
-        let loads = self.chain.loads(pushes.iter().copied(), &heart).unwrap();
+        let budget = Budget::unlimited();
+        let loads = self.chain.loads(pushes.iter().copied(), &budget).unwrap();
         let scale = pushes.iter().map(|p| p.force.norm()).sum();
         let base = vec![0.0; loads.on_nodes.len()];
         let drive = Drive { base, rate: loads.on_nodes.clone(), ..Drive::default() };
-        let mut tracer = Tracer::new(&self.chain, drive, 10.0, scale, &heart);
+        let mut tracer = Tracer::new(&self.chain, drive, 10.0, scale, &budget);
         assert_eq!(tracer.trace(1.0, &mut |_| ControlFlow::Continue(())), End::Reached);
         Solved { glued: self, displacements: tracer.displacements().to_vec(), loads }
     }

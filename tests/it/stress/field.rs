@@ -2,7 +2,9 @@
 
 use std::f64::consts::FRAC_PI_2;
 use voussoir::api::read::read_analysis;
-use voussoir::collapse::{Analysis, CollapseReport, FieldAt, Unwatched, run};
+use voussoir::budget::Budget;
+
+use voussoir::collapse::{Analysis, CollapseReport, FieldAt, run};
 use voussoir::geometry::Vec2;
 
 /// Stones of the arch, its radii, half its opening angle in degrees.
@@ -29,7 +31,7 @@ fn solved(loaded: usize, mesh: [usize; 2], penalty_ratio: f64) -> (Analysis, Col
     analysis.penalty_ratio = penalty_ratio;
     analysis.mesh.subblocks = vec![mesh; COUNT];
     analysis.fields = vec![FieldAt::LoadFactor(1.0)];
-    let report = run(&analysis, &mut Unwatched).unwrap();
+    let report = run(&analysis, &Budget::unlimited()).unwrap();
     assert_eq!(report.stress_fields.len(), 1, "{:?}", report.notes);
     (analysis, report)
 }

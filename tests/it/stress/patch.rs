@@ -3,7 +3,9 @@
 use super::column::bonded;
 use super::mesh::Mesh;
 use nalgebra::{DMatrix, DVector};
-use voussoir::dda::{Bond, Condensed, Heart, Node, Push, free_response};
+use voussoir::budget::Budget;
+
+use voussoir::dda::{Bond, Condensed, Node, Push, free_response};
 use voussoir::geometry::Vec2;
 
 /// sigma_x, sigma_y, tau_xy, Pa.
@@ -25,7 +27,7 @@ fn miss(stresses: impl IntoIterator<Item = [f64; 3]>, expected: [f64; 3]) -> f64
 fn free_miss(mesh: &Mesh, bond: Bond, state: [f64; 3]) -> f64 {
     let loads = mesh.uniform_tractions(state);
     let load = DVector::from_iterator(6 * loads.len(), loads.iter().flat_map(|l| l.iter().copied()));
-    let d = free_response(&mesh.macroblock(bond), &load, &Heart::unwatched()).unwrap().unwrap();
+    let d = free_response(&mesh.macroblock(bond), &load, &Budget::unlimited()).unwrap().unwrap();
     let stress = |(i, b): (usize, &voussoir::dda::Block)| b.stress(&d.fixed_rows::<6>(6 * i).into_owned());
     miss(mesh.blocks.iter().enumerate().map(stress), state)
 }
@@ -114,7 +116,7 @@ fn rigid_motions_cost_no_force() {
         let mesh = Mesh::voussoir(cells, radii, angles, arcs);
         let ends = angles.map(|angle| radii.map(|r| Vec2::new(angle.cos(), angle.sin()) * r));
         let nodes = nodes(&mesh, ends);
-        let condensed = Condensed::new(&mesh.macroblock(bond), &nodes, &Heart::unwatched(), |_, _| {}).unwrap();
+        let condensed = Condensed::new(&mesh.macroblock(bond), &nodes, &Budget::unlimited(), |_, _| {}).unwrap();
         let motion = |m: usize, at: Vec2| [Vec2::x(), Vec2::y(), Vec2::new(-at.y, at.x)][m];
         let of_nodes =
             DMatrix::from_fn(2 * nodes.len(), 3, |i, m| motion(m, nodes[i / 2].at).dot(&nodes[i / 2].axes[i % 2]));

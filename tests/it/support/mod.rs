@@ -11,7 +11,9 @@ use std::time::{Duration, Instant};
 use tokio::net::TcpListener;
 use tokio::runtime::Runtime;
 use voussoir::api::{self, Service, Settings, Tokens};
-use voussoir::collapse::{self, AnalysisError, LoadStep, Question, Watch};
+use voussoir::budget::{Budget, LoadStep};
+
+use voussoir::collapse::{self, AnalysisError, Question};
 use voussoir::jobs::Limits;
 
 pub const BODY_LIMIT: usize = 64 << 10;
@@ -24,26 +26,26 @@ pub const PANIC: f64 = 0.25;
 pub const ERROR: f64 = 0.125;
 
 /// The mechanics, except for requests that ask for trouble by their `share_of_collapse`.
-fn analyse(question: &Question, watch: &mut dyn Watch) -> Result<collapse::Answer, AnalysisError> {
-    let Question::One(analysis) = question else { return collapse::answer(question, watch) };
+fn analyse(question: &Question, budget: &Budget) -> Result<collapse::Answer, AnalysisError> {
+    let Question::One(analysis) = question else { return collapse::answer(question, budget) };
     if analysis.share == ENDLESS {
-        return endless(watch);
+        return endless(budget);
     }
     assert!(analysis.share != PANIC, "asked to panic");
     if analysis.share == ERROR {
         return Err(AnalysisError::NotFinite { what: "asked to fail" });
     }
-    collapse::answer(question, watch)
+    collapse::answer(question, budget)
 }
 
 /// Steps on until told to stop.
-fn endless(watch: &mut dyn Watch) -> Result<collapse::Answer, AnalysisError> {
+fn endless(budget: &Budget) -> Result<collapse::Answer, AnalysisError> {
     let mut step = LoadStep { load_factor: 0.0, events: 0 };
-    while watch.on_step(&step).is_continue() {
+    while budget.step(step.load_factor, step.events).is_continue() {
         step = LoadStep { load_factor: step.load_factor + 0.25, events: step.events + 1 };
         sleep(Duration::from_millis(1));
     }
-    Err(AnalysisError::Stopped { load_factor: step.load_factor, events: step.events })
+    Err(budget.stopped().into())
 }
 
 /// A semicircular arch with a point load at its quarter.

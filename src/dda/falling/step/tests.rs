@@ -1,5 +1,6 @@
 use super::*;
-use crate::dda::heart::Heart;
+use crate::budget::Budget;
+
 use crate::geometry::Vec2;
 use crate::geometry::perpendicular;
 
@@ -31,7 +32,7 @@ fn on_ground(blocks: Vec<Block>, [from, to]: [f64; 2], coefficient: f64, slope: 
 fn run(falling: &mut Falling, most: usize) -> (Vec<Frame>, Option<Advance>) {
     let mut frames = vec![falling.frame()];
     for _ in 0..most {
-        match falling.advance(&Heart::unwatched()).unwrap() {
+        match falling.advance(&Budget::unlimited()).unwrap() {
             Advance::Moved(frame) => {
                 assert!(frame.overlap <= OVERLAP && frame.residual < 1e-9 && frame.excess < 1e-5, "{frame:?}");
                 assert!(frame.work > 0.0, "{frame:?}");
@@ -49,7 +50,7 @@ fn run(falling: &mut Falling, most: usize) -> (Vec<Frame>, Option<Advance>) {
 #[test]
 fn a_block_rests_on_a_slope_up_to_the_angle_of_friction() {
     let mut falling = on_ground(vec![piece([0.0, 0.0], [2.0, 1.0], 0.2)], [-50.0, 50.0], 1.001 * 0.2f64.tan(), 0.2);
-    assert_eq!(falling.advance(&Heart::unwatched()), Ok(Advance::Rest));
+    assert_eq!(falling.advance(&Budget::unlimited()), Ok(Advance::Rest));
 }
 
 #[test]
@@ -76,14 +77,14 @@ fn cohesion_holds_a_block_until_it_is_torn() {
     let held = |cohesion: f64| {
         let mut falling = on_ground(vec![piece([0.0, 0.0], [2.0, 1.0], 0.4)], [-50.0, 50.0], 0.3, 0.4);
         falling.friction[0].cohesion = cohesion;
-        falling.advance(&Heart::unwatched()).unwrap() == Advance::Rest
+        falling.advance(&Budget::unlimited()).unwrap() == Advance::Rest
     };
     let missing = 2.0 * (0.4f64.sin() - 0.3 * 0.4f64.cos());
     assert!(held(1.001 * missing) && !held(0.999 * missing));
     // Once it slides the rest of its cohesion is gone.
     let mut falling = on_ground(vec![piece([0.0, 0.0], [2.0, 1.0], 0.4)], [-50.0, 50.0], 0.3, 0.4);
     falling.friction[0].cohesion = 0.5 * missing;
-    falling.advance(&Heart::unwatched()).unwrap();
+    falling.advance(&Budget::unlimited()).unwrap();
     assert_eq!(falling.intact[0], [false; 2]);
 }
 
@@ -142,7 +143,7 @@ fn a_toppled_tower_moves_as_its_mirror_image_does() {
 fn a_block_in_the_air_falls_by_g_times_the_parameter() {
     let mut falling = on_ground(vec![piece([0.0, 3.0], [1.0, 1.0], 0.0)], [-50.0, 50.0], 0.5, 0.0);
     falling.step = 0.001;
-    let Advance::Moved(frame) = falling.advance(&Heart::unwatched()).unwrap() else { panic!("it falls") };
+    let Advance::Moved(frame) = falling.advance(&Budget::unlimited()).unwrap() else { panic!("it falls") };
     assert!((frame.places[0].centroid.y - 3.5 + GRAVITY * frame.parameter).abs() < 1e-9);
 }
 
@@ -159,7 +160,7 @@ fn blocks_that_are_no_neighbours_are_kept_apart() {
     let mut falling = on_ground(blocks, [-50.0, 50.0], 0.5, 0.0);
     let mut end = None;
     for _ in 0..100 {
-        end = Some(falling.advance(&Heart::unwatched()).unwrap());
+        end = Some(falling.advance(&Budget::unlimited()).unwrap());
         if !matches!(end, Some(Advance::Moved(_))) {
             break;
         }

@@ -1,5 +1,7 @@
 use super::*;
-use crate::dda::{AssemblyBuilder, Beside, Block, Drive, Elasticity, End, Heart, Law, Push, Touch, covering};
+use crate::budget::Budget;
+
+use crate::dda::{AssemblyBuilder, Beside, Block, Drive, Elasticity, End, Law, Push, Touch, covering};
 use crate::geometry::{Region, Vec2};
 use std::ops::ControlFlow;
 
@@ -23,7 +25,7 @@ fn column(blocks: usize) -> Assembly {
         let below = joint.checked_sub(1).map_or(Beside::Ground(0), Beside::Body);
         builder.join([below, Beside::Body(joint)], (0..9).map(touch));
     }
-    builder.finish(&Heart::unwatched()).unwrap()
+    builder.finish(&Budget::unlimited()).unwrap()
 }
 
 /// The largest difference of a tangent, and of its rate, from what a factorisation finds.
@@ -38,13 +40,13 @@ fn error(tracer: &Tracer) -> f64 {
 
 #[test]
 fn an_updated_tangent_is_that_of_a_factorisation() {
-    let (assembly, heart) = (column(6), Heart::unwatched());
+    let (assembly, budget) = (column(6), Budget::unlimited());
     let forces = |force: Vec2| {
         let push = move |body| Push { body, subblock: 0, at: Vec2::new(0.5, body as f64 + 0.5), force };
-        assembly.loads((0..6).map(push), &heart).unwrap().on_nodes
+        assembly.loads((0..6).map(push), &budget).unwrap().on_nodes
     };
     let weight = forces(Vec2::new(0.0, -1e4));
-    let mut tracer = Tracer::new(&assembly, covering(&assembly, &weight, 1e-4), 6.0, 6e4, &heart);
+    let mut tracer = Tracer::new(&assembly, covering(&assembly, &weight, 1e-4), 6.0, 6e4, &budget);
     let mut worst = 0f64;
     let mut see = |tracer: &Tracer| {
         worst = worst.max(error(tracer));
