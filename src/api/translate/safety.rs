@@ -4,9 +4,9 @@ use super::site::Site;
 use super::{MAX_FACTOR, check_text, loads, mesh};
 use crate::api::fault::{Fault, Faults, Shown, lies_under};
 use crate::api::request::{
-    AimRequest, AnalysisRequest, CrushingRequest, CurveRequest, DirectionRequest, LoadEntry, MAX_ABSCISSAE,
+    AnalysisRequest, CrushingRequest, CurveRequest, DirectionRequest, LoadEntry, MAX_ABSCISSAE,
 };
-use crate::collapse::{Aim, CrushingKind, CurvePoint};
+use crate::collapse::{CrushingKind, CurvePoint};
 use std::collections::BTreeSet;
 
 /// Most subblocks at all abscissae of a curve together.
@@ -131,16 +131,6 @@ fn check_size(site: &Site<'_>, abscissae: usize, faults: &mut Faults) -> bool {
              {MAX_CURVE_FORCES} by fewer abscissae, by joining loads or by a coarser mesh"
         );
         faults.require(forces <= MAX_CURVE_FORCES, ABSCISSAE, detail)
-    }
-}
-
-impl From<&AimRequest> for Aim {
-    fn from(aim: &AimRequest) -> Self {
-        match aim {
-            AimRequest::Collapse => Aim::Collapse,
-            AimRequest::Safety(safety) => Aim::Safety { crushing: safety.crushing.into() },
-            AimRequest::Settlement(settlement) => Aim::Settlement([settlement.left, settlement.right].map(Into::into)),
-        }
     }
 }
 
