@@ -36,7 +36,7 @@ pub use words::{CrushingWord, FaceWord, GovernedBy, GovernsWord, MethodWord, Mod
 use super::prose::in_its_words;
 use super::request::AnalysisRequest;
 use super::translate;
-use crate::collapse::{CollapseReport, Cost, LimitWindow, ThrustRange};
+use crate::collapse::{CollapseReport, Cost, LimitWindow, Note, ThrustRange};
 use serde::Serialize;
 use std::io;
 use utoipa::ToSchema;
@@ -204,7 +204,7 @@ impl AnalysisResult {
             history: HistoryColumns::new(&report.history, &scale),
             plan,
             cost: report.cost.into(),
-            notes: { report.notes.iter().cloned() }
+            notes: { report.notes.iter().map(Note::to_string) }
                 .chain(assumptions::assumptions(request))
                 .map(|note| in_its_words(request, &note))
                 .collect(),

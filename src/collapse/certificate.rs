@@ -1,10 +1,11 @@
 //! The exact limit window of an arch, and what to make of a load path that differs from it.
 
-use super::doubt::Doubt;
 use super::path::total;
 use crate::budget::Budget;
 
-use super::{Analysis, AnalysisError, Crushing, Digits, LimitWindow, LoadRange, PathEnd, PlasticCrushing};
+use super::{
+    Analysis, AnalysisError, Crushing, Doubt, LimitWindow, LoadRange, Note, PathEnd, PlasticCrushing, Unreached,
+};
 use crate::limit::{CrushingWindow, StaticTheorem};
 
 /// Path and window agree when their load factors differ by less than this share.
@@ -163,19 +164,14 @@ impl Certificate {
     }
 
     /// A window that the path could not start in: the cap, or the full loads of a safety analysis, lie before it.
-    pub(super) fn out_of_reach(&self, start: f64, safety: bool) -> Option<String> {
-        let [low, high] = self.window.filter(|_| !self.stands_at(start))?;
-        let reach = match [low, high].map(f64::is_finite) {
-            [true, true] => format!("from {} to {}", Digits(low), Digits(high)),
-            [true, false] => format!("from {} upwards", Digits(low)),
-            _ => format!("up to {}", Digits(high)),
-        };
+    pub(super) fn out_of_reach(&self, start: f64, safety: bool) -> Option<Note> {
+        let [lowest, highest] = self.window.filter(|_| !self.stands_at(start))?;
         let why = match safety {
-            false => "beyond the cap on what is tried",
-            true if low > start => "the scaled loads in full are too little",
-            true => "with its scaled loads reversed",
+            false => Unreached::BeyondCap,
+            true if lowest > start => Unreached::TooLittleLoad,
+            true => Unreached::Reversed,
         };
-        Some(format!("It stands only at load factors {reach}: {why}."))
+        Some(Note::StandsOnlyWithin { window: LimitWindow { lowest, highest }, why })
     }
 
     /// Doubts that do not depend on how the path ended.
@@ -208,10 +204,6 @@ impl Certificate {
     }
 }
 
-/// Note on a mechanism that is not one of the joints at their limits at the peak.
-pub(super) const LATER_MECHANISM: &str = "Joints at their limits at the collapse load make no mechanism, as may be where \
-     they slide. Hinges and slides are those in which the load path ends; the thrust line is that at the collapse load.";
-
 /// Whether every stone carries a fixed load, and whether every stone carries any.
 pub(super) fn loaded(analysis: &Analysis) -> [bool; 2] {
     let mut loads = vec![[false; 2]; analysis.structure.voussoirs().len()];
@@ -230,62 +222,19 @@ const SLENDER: f64 = 4.0;
 
 /// Notes on what the mesh does to an answer: `slenderness` of the subblocks, whether there are several in a stone, and
 /// whether joints have cohesion.
-pub(super) fn mesh_notes(slenderness: f64, several: bool, cohesive: bool) -> Vec<String> {
-    let mut notes = Vec::new();
-    if several && slenderness > SLENDER {
-        notes.push(format!(
-            "Some subblocks are {} times as long as they are wide: stress across them is not to be trusted beyond {}. \
-             Choose a mesh whose subblocks are about square.",
-            Digits(slenderness),
-            Digits(SLENDER)
-        ));
-    }
-    if cohesive {
-        notes.push(
-            "Cohesion is shared out to a joint's contact points, and those that open lose theirs: where joints slide, the \
-             load depends on the mesh, and a finer one gives less. Limit analysis keeps all cohesion of a joint however \
-             far it opens."
-                .into(),
-        );
-    }
-    notes
+pub(super) fn mesh_notes(slenderness: f64, several: bool, cohesive: bool) -> Vec<Note> {
+    let slender = several && slenderness > SLENDER;
+    let slender = slender.then_some(Note::SlenderSubblocks { slenderness, trusted: SLENDER });
+    slender.into_iter().chain(cohesive.then_some(Note::CohesionByPoint)).collect()
 }
 
-/// Note on a load that is not one number.
-pub(super) fn range_note(range: &LoadRange) -> String {
-    let LoadRange { least, greatest, path, mechanisms_tried } = *range;
-    let [least_shown, greatest_shown, path_shown] = [least, greatest, path].map(Digits);
-    if (greatest - least).abs() <= AGREES * greatest.abs().max(least.abs()) {
-        return format!(
-            "Joints slide. Load factor {least_shown} is the only one found at which the arch falls: limit analysis, which lets \
-             sliding joints dilate (associated friction), allows no more, and no mechanism without dilation was found in \
-             equilibrium at less ({mechanisms_tried} tried)."
-        );
+/// Note on a load at which joints slide: whether it is the only one found.
+pub(super) fn range_note(range: &LoadRange) -> Note {
+    let LoadRange { least, greatest, .. } = *range;
+    match (greatest - least).abs() <= AGREES * greatest.abs().max(least.abs()) {
+        true => Note::SoleSlidingLoad(*range),
+        false => Note::ManySlidingLoads(*range),
     }
-    let bound = if greatest.is_finite() {
-        format!(
-            "{greatest_shown} is the end of the limit window, which lets sliding joints dilate (associated friction)"
-        )
-    } else {
-        "limit analysis, which lets sliding joints dilate (associated friction), sets no bound".into()
-    };
-    format!(
-        "Joints slide without dilating, so the load at which the arch falls is not one number: it depends on the stiffness of \
-         the joints and the order of loading. Load factor {least_shown} is the least found at which a mechanism without \
-         dilation is in equilibrium ({mechanisms_tried} tried); {bound}. This load path ended at {path_shown}. \
-         Use {least_shown}."
-    )
-}
-
-/// Note on a load read off at whole steps.
-pub(super) fn fixed_steps_note(step: f64, limit: f64) -> String {
-    format!(
-        "Read off at whole steps of {} by the opening of joints (section 4.2 of the paper), for comparison only: the \
-         load given is the first step at which the criterion was met or no equilibrium was left, up to a step above \
-         the true one. Limit analysis gives {}.",
-        Digits(step),
-        Digits(limit)
-    )
 }
 
 #[cfg(test)]

@@ -2,9 +2,7 @@
 
 mod beam;
 mod certificate;
-mod digits;
 mod discretise;
-mod doubt;
 mod ending;
 mod falling;
 mod finite;
@@ -27,7 +25,6 @@ mod updated;
 mod verdict;
 mod yielding;
 
-pub use digits::Digits;
 pub use plan::LOAD_PIECES;
 pub use report::*;
 

@@ -1,6 +1,7 @@
 //! What an analysis says: plain data, SI units, radians.
 
 mod falling;
+mod note;
 mod plan;
 mod settlement;
 mod strength;
@@ -9,12 +10,14 @@ mod updated;
 
 pub use crate::structure::Face;
 pub use falling::*;
+pub use note::*;
 pub use plan::*;
 pub use settlement::*;
 pub use strength::*;
 pub use unfollowed::*;
 pub use updated::*;
 
+use super::FieldAt;
 use crate::geometry::Vec2;
 
 /// How the question was answered.
@@ -293,5 +296,5 @@ pub struct CollapseReport {
     /// Counts.
     pub cost: Cost,
     /// What an engineer should know before using the numbers: why intensity and window differ, what was not reached.
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
 }

@@ -8,10 +8,6 @@ use crate::budget::Budget;
 use super::{Analysis, AnalysisError, Cost, Unfollowed, UpdatedEnd, UpdatedGeometry, ending, mechanism};
 use crate::dda::{Drive, End, Patience, Tracer};
 
-/// Note on stones that are one subblock thick.
-pub(super) const UNBENT: &str = "On moving geometry stones that are one subblock thick do not bend; only their joints give. \
-     With soft stone the arch then seems stronger than it is: compare a mesh of at least 2 x 2.";
-
 /// From where to where the load factor goes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Course {

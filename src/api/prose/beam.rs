@@ -3,9 +3,9 @@
 use super::plan::error as error_of;
 use super::summary::bare;
 use super::wording;
+use crate::api::prose::Digits;
 use crate::api::request::{CurvedBeamRequest, SeamsRequest};
 use crate::api::response::{BeamResult, mesh_in_words};
-use crate::collapse::Digits;
 use std::time::Duration;
 
 /// Error and energy.

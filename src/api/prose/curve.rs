@@ -5,8 +5,8 @@ use super::noun::in_its_words;
 use super::safety::{mesh, reach, zone};
 use super::summary::{append, bare, paragraph};
 use super::wording::{self, word};
+use crate::api::prose::Digits;
 use crate::api::response::{CurvePointBody, GovernsWord, ReachBody, SafetyCurveResult};
-use crate::collapse::Digits;
 use comfy_table::Table;
 use std::time::Duration;
 

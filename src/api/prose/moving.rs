@@ -1,10 +1,10 @@
 //! Moving geometry and moving springings in words.
 
 use super::wording::{self, word};
+use crate::api::prose::Digits;
 use crate::api::response::{
     AnalysisResult, SettlementBody, SettlementEndWord, SettlementPathBody, UpdatedBody, UpdatedEndWord,
 };
-use crate::collapse::Digits;
 
 /// One sentence on springings that move.
 pub fn headline(settlement: &SettlementBody) -> String {

@@ -1,12 +1,12 @@
 //! Crushing and safety in words.
 
 use super::wording::{self, word};
+use crate::api::prose::Digits;
 use crate::api::request::{AimRequest, CrushingRequest, MeshRequest, SeamsRequest, Subblocks, SubblocksRequest};
 use crate::api::response::{
     AnalysisResult, CrushedSubblock, CrushingBody, ElasticCrushingBody, GovernsWord, PlasticCrushingBody, ReachBody,
     SafetyBody, ZoneWord, mesh_in_words,
 };
-use crate::collapse::Digits;
 
 /// The mesh; none where every voussoir is one block.
 pub fn mesh(mesh: &MeshRequest) -> Option<String> {

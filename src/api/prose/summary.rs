@@ -3,8 +3,8 @@
 use super::noun::in_its_words;
 use super::wording::{self, Limit, word};
 use super::{given, joints, moving, plan, safety, sliding};
+use crate::api::prose::Digits;
 use crate::api::response::{AnalysisResult, OutcomeWord};
-use crate::collapse::Digits;
 use comfy_table::{Table, presets};
 use std::fmt::Write;
 use std::time::Duration;

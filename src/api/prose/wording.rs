@@ -2,11 +2,11 @@
 
 use super::noun::in_its_words;
 use super::{moving, safety, sliding};
+use crate::api::prose::Digits;
 use crate::api::request::DirectionRequest;
 use crate::api::response::{
     AnalysisResult, Collapse, HingeBody, LiftOffBody, MethodWord, MotionBody, OutcomeWord, SlideBody,
 };
-use crate::collapse::Digits;
 use serde::Serialize;
 
 /// Longest line of prose, characters.

@@ -3,7 +3,7 @@
 use super::assumptions::assumptions;
 use super::words::{CrushingWord, GovernsWord, ModeWord, ZoneWord};
 use crate::api::request::{AimRequest, AnalysisRequest, SafetyRequest};
-use crate::collapse::{Reach, SafetyPoint};
+use crate::collapse::{Note, Reach, SafetyPoint};
 use serde::Serialize;
 use utoipa::ToSchema;
 
@@ -69,7 +69,7 @@ impl From<&SafetyPoint> for SafetyBody {
             governed_by: point.governed_by.into(),
             mode: point.mode.map(Into::into),
             zone: point.zone.map(Into::into),
-            notes: point.notes.clone(),
+            notes: point.notes.iter().map(Note::to_string).collect(),
         }
     }
 }

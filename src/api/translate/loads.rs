@@ -5,11 +5,11 @@ use super::{
     MAX_DENSITY_KG_M3, MAX_FACTOR, MAX_FORCE_N_PER_M, MAX_LENGTH_M, MAX_STRESS_PA, check_text, friction_angle, inertia,
 };
 use crate::api::fault::{Faults, Shown};
+use crate::api::prose::Digits;
 use crate::api::request::{
     AnalysisRequest, FillPressure, LateralPressure, LoadEntry, LoadRequest, PatchLoad, PointForceLoad, PointLoad,
 };
 use crate::arch::MAX_VOUSSOIRS;
-use crate::collapse::Digits;
 use crate::geometry::{Vec2, distance_from_segment, lies_inside};
 use crate::structure::load::{Band, Fill, Load, LoadFault, Place};
 use crate::structure::{GRAVITY, PointForce};

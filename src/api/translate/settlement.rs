@@ -3,8 +3,9 @@
 use super::MAX_LENGTH_M;
 use super::site::Site;
 use crate::api::fault::{Faults, Shown};
+use crate::api::prose::Digits;
 use crate::api::request::{AnalysisRequest, DirectionRequest, MovementRequest, ReportRequest, SettlementRequest};
-use crate::collapse::{Digits, SpringingMovement};
+use crate::collapse::SpringingMovement;
 
 /// Whether a movement of springings can be followed.
 pub fn check(request: &AnalysisRequest, settlement: &SettlementRequest, site: &Site<'_>, faults: &mut Faults) {

@@ -1,6 +1,6 @@
 //! Stress, crushing and safety in an answer, and the curved beam's.
 
-use super::{BeamPlan, LimitWindow, Mode};
+use super::{BeamPlan, LimitWindow, Mode, Note};
 use crate::geometry::Vec2;
 
 /// State of stress in one subblock, constant in it.
@@ -142,7 +142,7 @@ pub struct SafetyPoint {
     /// Zone of Figs. 10 and 13; None where nothing limits, or where the arch sways or slides.
     pub zone: Option<Zone>,
     /// What an engineer should know.
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
 }
 
 /// The curved beam, solved and held against the theory of elasticity.

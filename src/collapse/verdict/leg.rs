@@ -1,14 +1,13 @@
 //! One leg of a load path: followed to its end, and the end held against the limit window.
 
 use super::{Progress, Question};
-use crate::collapse::certificate::{LATER_MECHANISM, fixed_steps_note, range_note};
-use crate::collapse::doubt::Doubt;
+use crate::collapse::certificate::range_note;
 use crate::collapse::ending::{self, Ending};
 use crate::collapse::path::{Leg, follow};
 use crate::collapse::record::{MOST_STEPS, Recorder, snapshot};
 use crate::collapse::sliding::{SAME, Search};
 use crate::collapse::state::States;
-use crate::collapse::{AnalysisError, CollapseReport, Cost, LoadRange, Method, Outcome};
+use crate::collapse::{AnalysisError, CollapseReport, Cost, Doubt, LoadRange, Method, Note, Outcome};
 use crate::dda::Tracer;
 
 impl Question<'_> {
@@ -78,7 +77,8 @@ impl Question<'_> {
         let path = ending.end.load_factor;
         let doubt = match self.analysis.method {
             Method::FixedSteps { step, .. } => {
-                report.notes.push(fixed_steps_note(step, self.certificate.end(sign).unwrap_or(0.0)));
+                let limit = self.certificate.end(sign).unwrap_or(0.0);
+                report.notes.push(Note::ReadAtSteps { step, limit });
                 None
             }
             Method::EventPath => {
@@ -89,7 +89,7 @@ impl Question<'_> {
                 }
             }
         };
-        report.notes.extend(ending.later.then(|| LATER_MECHANISM.into()));
+        report.notes.extend(ending.later.then_some(Note::LaterMechanism));
         report.notes.extend(ending.end.range.as_ref().map(range_note));
         report.outcome = Outcome::Collapse;
         report.end = Some(ending.end);
