@@ -24,19 +24,19 @@ pub use mechanism::{Collapse, End, HingeBody, LiftOffBody, RangeBody, SlideBody}
 pub use plan::{BeamPlanBody, EstimateBody, MeshBody, PlanBody, SubblockCounts};
 pub use result::JobResult;
 pub use safety::{CurvePointBody, ReachBody, SafetyBody, SafetyCurveResult};
-pub use settlement::{DisplacementColumns, SettlementBody, SettlementColumns, SettlementEndWord, SettlementPathBody};
+pub use settlement::{DisplacementColumns, SettlementBody, SettlementColumns, SettlementPathBody};
 pub use stress::{
     CrushedSubblock, CrushingBody, ElasticCrushingBody, PlasticCrushingBody, StressFieldBody, SubblockColumns,
     mesh_in_words,
 };
 pub use structure::{BodyBody, JointBody, StructureBody};
-pub use updated::{UpdatedBody, UpdatedEndWord};
-pub use words::{CrushingWord, FaceWord, GovernedBy, GovernsWord, MethodWord, ModeWord, OutcomeWord, ZoneWord};
+pub use updated::UpdatedBody;
+pub use words::{GovernedBy, MethodWord};
 
 use super::prose::in_its_words;
 use super::request::AnalysisRequest;
 use super::translate;
-use crate::collapse::{CollapseReport, Cost, LimitWindow, Note, ThrustRange};
+use crate::collapse::{CollapseReport, Cost, LimitWindow, Note, Outcome, ThrustRange};
 use serde::Serialize;
 use std::io;
 use utoipa::ToSchema;
@@ -45,7 +45,7 @@ use utoipa::ToSchema;
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct AnalysisResult {
     /// What happened.
-    pub outcome: OutcomeWord,
+    pub outcome: Outcome,
     /// How the load path was read.
     pub method: MethodWord,
     /// Unit of every intensity.
@@ -174,7 +174,7 @@ impl AnalysisResult {
         let refined = plan.as_ref().filter(|plan| plan.stress.is_some());
         let mesh = refined.map_or_else(|| mesh_in_words(&request.mesh), PlanBody::mesh_in_words);
         AnalysisResult {
-            outcome: report.outcome.into(),
+            outcome: report.outcome,
             method: (&request.method).into(),
             unit: scale.unit.to_owned(),
             collapse,

@@ -1,6 +1,7 @@
 //! The exact limit window of an arch, and what to make of a load path that differs from it.
 
 use super::path::total;
+use super::tolerances::TOLERANCES;
 use crate::budget::Budget;
 
 use super::{
@@ -8,27 +9,8 @@ use super::{
 };
 use crate::limit::{CrushingWindow, StaticTheorem};
 
-/// Path and window agree when their load factors differ by less than this share.
-const AGREES: f64 = 1e-7;
-/// The path may pass the window by this share before it is disbelieved.
-const ABOVE: f64 = 1e-6;
-/// A path that ends short of the window by more than this share has its sliding joints at the limit of their friction
-/// (measured: 0.11 at most where they are not, as the load falls before the arch can move freely).
-const STRAY: f64 = 0.5;
-/// An end of the window this close to 0, measured in loads as large as the fixed ones, is 0 and rounding.
-const ZERO: f64 = 1e-12;
 /// Share of the load factor at which scaled and fixed loads are equal at which an arch that falls beyond 0 is seen to fall.
 const SOON: f64 = 1e-3;
-/// Load factors below this share of the one at which scaled loads equal the fixed ones are compared absolutely.
-const SMALL: f64 = 1e-6;
-/// A path whose equilibrium residual, as a share of the loads, exceeds this is not trusted.
-pub(super) const UNBALANCED: f64 = 1e-8;
-/// Equilibria this close, as a share of the loads, may be lost to rounding where stones carry no load.
-const MARGIN: f64 = 1e-9;
-/// Friction this close to its bound, as a share of it, is at its bound.
-const AT_BOUND: f64 = 1e-6;
-/// Loads that do less work than this in a mechanism do not drive it.
-const NO_WORK: f64 = 1e-9;
 
 /// Limit window and the static theorem it comes from.
 #[derive(Debug)]
@@ -57,7 +39,7 @@ impl Certificate {
 
     /// A window without rounding.
     fn tidy(&self, window: Option<[f64; 2]>) -> Option<[f64; 2]> {
-        let round = |end: f64| if end.abs() < ZERO * self.theorem.load_factor_scale() { 0.0 } else { end };
+        let round = |end: f64| if end.abs() < TOLERANCES.zero * self.theorem.load_factor_scale() { 0.0 } else { end };
         let window = window.map(|ends| ends.map(round));
         if self.any_fixed {
             return window;
@@ -137,15 +119,15 @@ impl Certificate {
     /// Holds the end of a path against the window: a doubt, or whether it ends short of it, as sliding explains.
     pub(super) fn compare(&self, end: &PathEnd, sign: f64) -> Result<bool, Doubt> {
         let (path, limit) = (end.on_path(), self.end(sign).unwrap_or(0.0));
-        let scale = limit.abs().max(path.abs()).max(SMALL * self.theorem.load_factor_scale());
+        let scale = limit.abs().max(path.abs()).max(TOLERANCES.small_factor * self.theorem.load_factor_scale());
         let short = if limit.is_finite() { sign * (limit - path) / scale } else { f64::INFINITY };
-        if short < -ABOVE {
+        if short < -TOLERANCES.above_window {
             Err(Doubt::Above { path, limit })
-        } else if short <= AGREES {
+        } else if short <= TOLERANCES.agreement {
             Ok(false)
         } else if end.mechanism.slides.is_empty() {
             Err(Doubt::Short { path, limit })
-        } else if short > STRAY && !self.slides_at_its_limits(end) {
+        } else if short > TOLERANCES.stray && !self.slides_at_its_limits(end) {
             Err(Doubt::Stray { path, limit })
         } else {
             Ok(true)
@@ -159,7 +141,7 @@ impl Certificate {
             let (joint, thrust) = (self.theorem.joint(slide.joint), &end.thrust_line[slide.joint]);
             let Some([friction, cohesion]) = joint.law.coulomb() else { return true };
             let bound = friction * thrust.normal + cohesion * joint.length();
-            bound + slide.rate.signum() * thrust.shear <= AT_BOUND * bound + MARGIN * largest
+            bound + slide.rate.signum() * thrust.shear <= TOLERANCES.at_friction * bound + TOLERANCES.margin * largest
         })
     }
 
@@ -179,7 +161,7 @@ impl Certificate {
         if !self.solved {
             return Some(Doubt::NoCertificate);
         }
-        (residual > UNBALANCED).then_some(Doubt::Unbalanced(residual))
+        (residual > TOLERANCES.residual).then_some(Doubt::Unbalanced(residual))
     }
 
     /// Nothing happened up to the cap; that is believed if the window says so too.
@@ -192,11 +174,11 @@ impl Certificate {
     /// mechanism, as a share of the most they could. No answer where the budget is spent.
     pub(super) fn fallen(&self, start: f64, loose: bool, slides: bool, power: f64, budget: &Budget) -> Option<Doubt> {
         // The joints of unloaded stones carry nothing, which leaves the static theorem no room to be solved in.
-        if loose && !self.stands_at(start) && self.theorem.nearly_stands(start, MARGIN, budget) {
+        if loose && !self.stands_at(start) && self.theorem.nearly_stands(start, TOLERANCES.margin, budget) {
             return Some(Doubt::LooseStones);
         }
         let doubt = match slides {
-            _ if power < NO_WORK => Doubt::LooseStones,
+            _ if power < TOLERANCES.no_work => Doubt::LooseStones,
             true => Doubt::SlidesInside,
             false => Doubt::FallsInside,
         };
@@ -231,7 +213,7 @@ pub(super) fn mesh_notes(slenderness: f64, several: bool, cohesive: bool) -> Vec
 /// Note on a load at which joints slide: whether it is the only one found.
 pub(super) fn range_note(range: &LoadRange) -> Note {
     let LoadRange { least, greatest, .. } = *range;
-    match (greatest - least).abs() <= AGREES * greatest.abs().max(least.abs()) {
+    match (greatest - least).abs() <= TOLERANCES.agreement * greatest.abs().max(least.abs()) {
         true => Note::SoleSlidingLoad(*range),
         false => Note::ManySlidingLoads(*range),
     }

@@ -13,10 +13,10 @@ use std::collections::VecDeque;
 use std::rc::Rc;
 
 /// Most fixed steps of one path. The paper takes about fifty; more than this is a mistake in the step.
-pub(super) const MOST_STEPS: usize = 10_000;
+pub(super) const MOST_FIXED_STEPS: usize = 10_000;
 
 /// Work of looking at a gap, in multiplications.
-const LOOK: usize = 10;
+const GAP_WORK: usize = 10;
 
 /// A point of the path: load factor and displacements of the nodes.
 pub(super) type Point = (f64, Vec<f64>);
@@ -109,7 +109,7 @@ impl<'a> Recorder<'a> {
 
     /// True where the step was too small to walk the path in it.
     pub(super) fn too_many_steps(&self) -> bool {
-        self.steps_done >= MOST_STEPS
+        self.steps_done >= MOST_FIXED_STEPS
     }
 
     /// The displacements seen last: those at which the fixed-steps criterion was met, where it was.
@@ -192,7 +192,7 @@ impl<'a> Recorder<'a> {
             let displacements = interpolate(before, now, at);
             self.model.assembly.gaps(&displacements, &mut gaps);
             // The path is stopped at the end of this event.
-            if self.model.budget.work(LOOK * gaps.len()).is_err() {
+            if self.model.budget.work(GAP_WORK * gaps.len()).is_err() {
                 return None;
             }
             let open = (0..self.model.joints).filter(|&k| self.model.contacts(k).any(|p| gaps[p][0] > opening));

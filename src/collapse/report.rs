@@ -20,8 +20,10 @@ pub use updated::*;
 use super::FieldAt;
 use crate::geometry::Vec2;
 
-/// How the question was answered.
+/// What happened.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "server", derive(serde::Serialize, utoipa::ToSchema))]
+#[cfg_attr(feature = "server", serde(rename_all = "snake_case"))]
 pub enum Outcome {
     /// Stands at load factor 0 and collapses at a finite one; at 0 itself where it falls as soon as the load factor leaves it.
     Collapse,
@@ -32,20 +34,23 @@ pub enum Outcome {
     SlidesAsBuilt,
     /// Does not stand at load factor 0, but does between two others.
     StandsInWindow,
-    /// Stands however far the load factor goes (up to the cap).
+    /// Stands up to the cap.
     NeverCollapses,
     /// Stands, and follows its springings through their whole movement.
     FollowsMovement,
     /// Stands, and falls before its springings have come to the end of their movement.
     FallsByMovement,
-    /// The stone crushes: first, in a safety analysis; under the loads at the start of the path, in any other.
+    /// The stone crushes before the arch falls: in a safety analysis that crushing governs; in any other, where its joints
+    /// are crushed and its stones yield under the loads at the start of the path already.
     Crushes,
-    /// The path and the certificate contradict each other, or the path could not be followed; the notes say why.
+    /// Path and certificate contradict each other, or the path could not be followed; the notes say why.
     CannotTell,
 }
 
 /// How the arch moves when it falls.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "server", derive(serde::Serialize, utoipa::ToSchema))]
+#[cfg_attr(feature = "server", serde(rename_all = "snake_case"))]
 pub enum Mode {
     /// The crown goes up.
     CrownRises,
@@ -55,7 +60,7 @@ pub enum Mode {
     Sway,
     /// Joints slide more than they open.
     Sliding,
-    /// Bodies of a structure without spans turn over.
+    /// Blocks turn over, in a structure without spans.
     Overturning,
 }
 

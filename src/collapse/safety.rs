@@ -1,13 +1,11 @@
 //! Safety factors: the first of instability and crushing as the scaled loads grow from their full size.
 
+use super::tolerances::TOLERANCES;
 use super::{
     AnalysisError, CollapseReport, Crushing, CrushingKind, CurvePoint, Governs, LimitWindow, Mode, Note, Outcome,
     Reach, SafetyPoint, UpdatedEnd, UpdatedGeometry, Zone, verdict,
 };
 use crate::budget::Budget;
-
-/// Crushing and falling this close, as a share, come at the same load: rounding must not decide between them.
-const SAME: f64 = 1e-6;
 
 /// Safety factors over a list of abscissae.
 pub(super) fn curve(points: &[CurvePoint], budget: &Budget) -> Result<Vec<SafetyPoint>, AnalysisError> {
@@ -161,7 +159,7 @@ fn plastic(crushing: &Crushing, cap: f64) -> Reach {
 
 /// True where load factor `a` lies visibly below `b`.
 fn is_below(a: f64, b: f64) -> bool {
-    a < (1.0 - SAME) * b
+    a < (1.0 - TOLERANCES.same_failure) * b
 }
 
 /// True where `a` comes before `b`, both known.

@@ -5,11 +5,10 @@
 
 use super::discretise::Model;
 use super::record::{Point, stress_field};
+use super::tolerances::TOLERANCES;
 use super::{AnalysisError, CollapseReport, Doubt, ElasticCrushing, Note, OtherStates, SubblockStress};
 use crate::dda::{Balanced, ContactForce, balanced, missing};
 
-/// A state that breaks the contact law by more than this share of the loads is not reported.
-const LAWFUL: f64 = 1e-6;
 /// A gap that differs by more than this share of the largest displacement between a state of the path and the symmetric one
 /// was not decided by the scatter of stiffness, which is a hundred times smaller.
 const LEANS: f64 = 1e-2;
@@ -61,7 +60,7 @@ impl<'m> States<'m> {
             None => {
                 let broken = missing(assembly, &loads, on_path, model.budget);
                 let (amount, interface) = broken?;
-                if amount > LAWFUL {
+                if amount > TOLERANCES.broken_law {
                     let joint = interface.min(model.joints - 1);
                     self.doubt.get_or_insert(Doubt::BreaksLaw { load_factor, joint, amount });
                     return Ok(None);

@@ -98,25 +98,29 @@ pub enum Reach {
 
 /// What limits the safety factor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "server", derive(serde::Serialize, utoipa::ToSchema))]
+#[cfg_attr(feature = "server", serde(rename_all = "snake_case"))]
 pub enum Governs {
     /// The arch becomes a mechanism.
     Instability,
     /// The stone crushes.
     Crushing,
-    /// Nothing, up to the cap.
+    /// Nothing does, up to the cap.
     Nothing,
-    /// Cannot be told.
+    /// It cannot be told.
     Unknown,
 }
 
 /// Zone of Figs. 10 and 13 of the paper.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "server", derive(serde::Serialize, utoipa::ToSchema))]
+#[cfg_attr(feature = "server", serde(rename_all = "snake_case"))]
 pub enum Zone {
-    /// I: instability, the crown rises.
+    /// Zone I: instability, the crown rises.
     CrownRises,
-    /// II: crushing.
+    /// Zone II: crushing.
     Crushing,
-    /// III: instability, the crown descends.
+    /// Zone III: instability, the crown descends.
     CrownDescends,
 }
 
