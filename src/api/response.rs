@@ -20,7 +20,7 @@ pub use columns::{BlockColumns, ContactColumns, HistoryColumns, SnapshotBody, Th
 pub use falling::{
     FrameColumns, MotionBody, MotionContactColumns, MotionEndWord, OpenHingeColumns, PlaceColumns, SlidColumns,
 };
-pub use mechanism::{Collapse, End, HingeBody, LiftOffBody, RangeBody, SlideBody};
+pub use mechanism::{Collapse, EndBody, HingeBody, LiftOffBody, RangeBody, SlideBody};
 pub use plan::{BeamPlanBody, EstimateBody, MeshBody, PlanBody, SubblockCounts};
 pub use result::JobResult;
 pub use safety::{CurvePointBody, ReachBody, SafetyBody, SafetyCurveResult};
@@ -72,7 +72,7 @@ pub struct AnalysisResult {
     /// Velocity of every voussoir in the mechanism; null where nothing collapses.
     pub velocities: Option<VelocityColumns>,
     /// The end of the path in the other direction, for an arch that stands in a window only.
-    pub other_end: Option<End>,
+    pub other_end: Option<EndBody>,
     /// Load factor from which the path was followed.
     pub start_load_factor: f64,
     /// Largest absolute load factor that was tried.
@@ -163,8 +163,8 @@ impl AnalysisResult {
         let scale = Scale { per_unit: request.load_factor.intensity_per_unit, unit: &request.load_factor.unit };
         let window = report.limit_window;
         let snapshot = |snapshot| SnapshotBody::new(snapshot, &scale);
-        let main = report.end.as_ref().map(|end| End::new(end, window, &scale));
-        let joints = |end: &End| (end.hinges.clone(), end.slides.clone(), end.lift_offs.clone());
+        let main = report.end.as_ref().map(|end| EndBody::new(end, window, &scale));
+        let joints = |end: &EndBody| (end.hinges.clone(), end.slides.clone(), end.lift_offs.clone());
         let (hinges, slides, lift_offs) = main.as_ref().map(joints).unwrap_or_default();
         let (collapse, thrust_line, velocities) = match main {
             Some(end) => (Some(end.collapse), Some(end.thrust_line), Some(end.velocities)),
@@ -187,7 +187,7 @@ impl AnalysisResult {
             lift_offs,
             thrust_line,
             velocities,
-            other_end: report.other_end.as_ref().map(|end| End::new(end, window, &scale)),
+            other_end: report.other_end.as_ref().map(|end| EndBody::new(end, window, &scale)),
             start_load_factor: report.start,
             cap: report.cap,
             share: report.share,

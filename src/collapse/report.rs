@@ -125,7 +125,7 @@ pub struct Thrust {
 
 /// Force at one contact point.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ContactForce {
+pub struct ContactPoint {
     /// Joint number.
     pub joint: usize,
     /// Place on the joint: 0 at the intrados, 1 at the extrados.
@@ -157,7 +157,7 @@ pub struct Snapshot {
     /// Every voussoir, left to right.
     pub blocks: Vec<BlockState>,
     /// Every contact point, joint by joint, intrados first.
-    pub contacts: Vec<ContactForce>,
+    pub contacts: Vec<ContactPoint>,
 }
 
 /// One point of the load-displacement history.

@@ -3,7 +3,7 @@
 use super::tolerances::TOLERANCES;
 use super::{
     AnalysisError, CollapseReport, Crushing, CrushingKind, CurvePoint, Governs, LimitWindow, Mode, Note, Outcome,
-    Reach, SafetyPoint, UpdatedEnd, UpdatedGeometry, Zone, verdict,
+    Reach, SafetyPoint, SafetyZone, UpdatedEnd, UpdatedGeometry, verdict,
 };
 use crate::budget::Budget;
 
@@ -185,11 +185,11 @@ fn first(instability: Reach, crushing: Reach) -> (Reach, Governs) {
 }
 
 /// Zone of Figs. 10 and 13 of the paper.
-fn zone(governed_by: Governs, mode: Option<Mode>) -> Option<Zone> {
+fn zone(governed_by: Governs, mode: Option<Mode>) -> Option<SafetyZone> {
     match (governed_by, mode) {
-        (Governs::Crushing, _) => Some(Zone::Crushing),
-        (Governs::Instability, Some(Mode::CrownRises)) => Some(Zone::CrownRises),
-        (Governs::Instability, Some(Mode::CrownDescends)) => Some(Zone::CrownDescends),
+        (Governs::Crushing, _) => Some(SafetyZone::Crushing),
+        (Governs::Instability, Some(Mode::CrownRises)) => Some(SafetyZone::CrownRises),
+        (Governs::Instability, Some(Mode::CrownDescends)) => Some(SafetyZone::CrownDescends),
         _ => None,
     }
 }

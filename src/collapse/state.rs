@@ -4,7 +4,7 @@
 //! [`balanced`]); what cannot be is judged by the law, and doubted where it breaks it.
 
 use super::discretise::Model;
-use super::record::{Point, stress_field};
+use super::record::{PathPoint, stress_field};
 use super::tolerances::TOLERANCES;
 use super::{AnalysisError, CollapseReport, Doubt, ElasticCrushing, Note, OtherStates, SubblockStress};
 use crate::dda::{Balanced, ContactForce, balanced, missing};
@@ -80,7 +80,7 @@ impl<'m> States<'m> {
     pub(super) fn first_yield(
         &mut self,
         on_path: ElasticCrushing,
-        at: Option<&Point>,
+        at: Option<&PathPoint>,
         strength: f64,
     ) -> Result<ElasticCrushing, AnalysisError> {
         let Some((first, displacements)) = at.filter(|_| !on_path.at_start) else { return Ok(on_path) };

@@ -1,7 +1,7 @@
 //! Filling in a report: work done, stress fields, the other end.
 
 use super::discretise::Model;
-use super::record::{Point, Recorder, stress_field};
+use super::record::{PathPoint, Recorder, stress_field};
 use super::state::{Standing, States};
 use super::{Analysis, AnalysisError, CollapseReport, Cost, FieldAt, Note, StressField};
 use crate::dda::Tracer;
@@ -36,7 +36,7 @@ impl CollapseReport {
         analysis: &Analysis,
         states: &mut States,
         path: &Recorder,
-        near: Option<&Point>,
+        near: Option<&PathPoint>,
     ) -> Result<(), AnalysisError> {
         let found = analysis.fields.iter().filter_map(|field| match field {
             FieldAt::LoadFactor(load_factor) => path.at(*load_factor).map(|d| (*load_factor, d)),

@@ -24,7 +24,7 @@ use std::ops::ControlFlow;
 const DEFAULT_CAP: f64 = 1e6;
 
 /// What all attempts at one analysis share.
-struct Question<'a> {
+struct Setup<'a> {
     analysis: &'a Analysis,
     budget: &'a Budget<'a>,
     certificate: Certificate,
@@ -47,17 +47,17 @@ struct Attempted {
 }
 
 /// Is told of every event: the tracer and its load factor.
-type Progress<'w> = dyn FnMut(&Tracer, f64) -> ControlFlow<()> + 'w;
+type OnEvent<'w> = dyn FnMut(&Tracer, f64) -> ControlFlow<()> + 'w;
 
 pub(super) fn run(analysis: &Analysis, budget: &Budget) -> Result<CollapseReport, AnalysisError> {
-    let question = Question::new(analysis, budget)?;
+    let question = Setup::new(analysis, budget)?;
     let report = question.answer()?;
     Ok(report.or_cannot_tell(question.blank(0)))
 }
 
 /// Limit window and load path on the mesh given; what follows from them is left to [`run`].
 pub(super) fn solve(analysis: &Analysis, budget: &Budget) -> Result<CollapseReport, AnalysisError> {
-    Question::new(analysis, budget)?.solve()
+    Setup::new(analysis, budget)?.solve()
 }
 impl Attempted {
     /// The less doubtful of two attempts, with the work of both.
@@ -70,7 +70,7 @@ impl Attempted {
     }
 }
 
-impl<'a> Question<'a> {
+impl<'a> Setup<'a> {
     fn new(analysis: &'a Analysis, budget: &'a Budget<'a>) -> Result<Self, AnalysisError> {
         let certificate = Certificate::new(analysis, budget)?;
         let (fixed, scaled) = (total(&analysis.fixed), total(&analysis.scaled));
@@ -90,7 +90,7 @@ impl<'a> Question<'a> {
         let thrust_range = thrust.map(|[lowest, highest]| ThrustRange { lowest, highest });
         let weight = fixed + scaled * start.abs();
         let crushing = certificate.crushing(analysis.structure.least_strength(), budget)?;
-        Ok(Question { analysis, budget, certificate, thrust_range, crushing, sign, start, cap, weight })
+        Ok(Setup { analysis, budget, certificate, thrust_range, crushing, sign, start, cap, weight })
     }
 
     /// Limit window, load path and all that follows from them.

@@ -6,7 +6,7 @@ use voussoir::api::request::Request;
 use voussoir::api::response::JobResult;
 use voussoir::collapse::{
     Answer, BeamReport, CollapseReport, Cost, Crushing, ElasticCrushing, Governs, LimitWindow, Mode, Note, Outcome,
-    PlasticCrushing, Reach, SafetyPoint, StressField, SubblockStress, Zone,
+    PlasticCrushing, Reach, SafetyPoint, SafetyZone, StressField, SubblockStress,
 };
 use voussoir::geometry::Vec2;
 
@@ -46,7 +46,7 @@ fn point() -> SafetyPoint {
         governing: Reach::Unknown,
         governed_by: Governs::Instability,
         mode: Some(Mode::CrownRises),
-        zone: Some(Zone::CrownRises),
+        zone: Some(SafetyZone::CrownRises),
         notes: vec![Note::YieldTooLate],
     }
 }

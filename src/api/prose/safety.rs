@@ -7,7 +7,7 @@ use crate::api::response::{
     AnalysisResult, CrushedSubblock, CrushingBody, ElasticCrushingBody, PlasticCrushingBody, ReachBody, SafetyBody,
     mesh_in_words,
 };
-use crate::collapse::{CrushingKind, Governs, Seams, Zone};
+use crate::collapse::{CrushingKind, Governs, SafetyZone, Seams};
 
 /// The mesh; none where every voussoir is one block.
 pub fn mesh(mesh: &MeshRequest) -> Option<String> {
@@ -66,11 +66,11 @@ pub fn reach(reach: ReachBody) -> String {
 }
 
 /// The number of a zone of the paper.
-pub fn zone(zone: Option<Zone>) -> &'static str {
+pub fn zone(zone: Option<SafetyZone>) -> &'static str {
     match zone {
-        Some(Zone::CrownRises) => "I",
-        Some(Zone::Crushing) => "II",
-        Some(Zone::CrownDescends) => "III",
+        Some(SafetyZone::CrownRises) => "I",
+        Some(SafetyZone::Crushing) => "II",
+        Some(SafetyZone::CrownDescends) => "III",
         None => "-",
     }
 }

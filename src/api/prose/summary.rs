@@ -1,7 +1,7 @@
 //! The answer as a person reads it.
 
 use super::noun::in_its_words;
-use super::wording::{self, Limit, word};
+use super::wording::{self, LimitEnd, word};
 use super::{given, joints, moving, plan, safety, sliding};
 use crate::api::prose::Digits;
 use crate::api::response::AnalysisResult;
@@ -125,7 +125,7 @@ fn explanation(result: &AnalysisResult) -> &'static str {
     }
 }
 
-fn window_end(text: &mut String, name: &str, limit: Option<Limit<'_>>, result: &AnalysisResult) {
+fn window_end(text: &mut String, name: &str, limit: Option<LimitEnd<'_>>, result: &AnalysisResult) {
     let Some(limit) = limit else {
         return paragraph(text, &format!("{name} end: none was found."));
     };

@@ -12,7 +12,7 @@ const WIDTH: usize = 100;
 
 /// One end of the range of intensities in which an arch stands.
 #[derive(Clone, Copy)]
-pub struct Limit<'a> {
+pub struct LimitEnd<'a> {
     pub collapse: &'a Collapse,
     pub hinges: &'a [HingeBody],
     pub slides: &'a [SlideBody],
@@ -20,14 +20,14 @@ pub struct Limit<'a> {
 }
 
 /// Lower and upper end of the path, each where there is one. The path runs both ways only in a window.
-pub fn limits(result: &AnalysisResult) -> [Option<Limit<'_>>; 2] {
-    let main = result.collapse.as_ref().map(|collapse| Limit {
+pub fn limits(result: &AnalysisResult) -> [Option<LimitEnd<'_>>; 2] {
+    let main = result.collapse.as_ref().map(|collapse| LimitEnd {
         collapse,
         hinges: &result.hinges,
         slides: &result.slides,
         lift_offs: &result.lift_offs,
     });
-    let other = result.other_end.as_ref().map(|end| Limit {
+    let other = result.other_end.as_ref().map(|end| LimitEnd {
         collapse: &end.collapse,
         hinges: &end.hinges,
         slides: &end.slides,

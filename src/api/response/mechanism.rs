@@ -98,7 +98,7 @@ pub struct LiftOffBody {
 
 /// One end of the load path.
 #[derive(Debug, Clone, Serialize, ToSchema)]
-pub struct End {
+pub struct EndBody {
     /// Where it is.
     #[serde(flatten)]
     pub collapse: Collapse,
@@ -114,9 +114,9 @@ pub struct End {
     pub velocities: VelocityColumns,
 }
 
-impl End {
+impl EndBody {
     pub(super) fn new(end: &PathEnd, window: Option<LimitWindow>, scale: &Scale<'_>) -> Self {
-        End {
+        EndBody {
             collapse: Collapse {
                 intensity: scale.intensity(end.load_factor),
                 unit: scale.unit.to_owned(),

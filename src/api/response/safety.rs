@@ -2,7 +2,7 @@
 
 use super::assumptions::assumptions;
 use crate::api::request::{AimRequest, AnalysisRequest, SafetyRequest};
-use crate::collapse::{CrushingKind, Governs, Mode, Note, Reach, SafetyPoint, Zone};
+use crate::collapse::{CrushingKind, Governs, Mode, Note, Reach, SafetyPoint, SafetyZone};
 use serde::Serialize;
 use utoipa::ToSchema;
 
@@ -52,7 +52,7 @@ pub struct SafetyBody {
     /// How the arch moves when it becomes a mechanism; null where it does not.
     pub mode: Option<Mode>,
     /// Zone of Figs. 10 and 13 of the paper; null where nothing limits, or where the arch sways or slides.
-    pub zone: Option<Zone>,
+    pub zone: Option<SafetyZone>,
     /// What to know before using the numbers.
     pub notes: Vec<String>,
 }

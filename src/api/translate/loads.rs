@@ -39,14 +39,14 @@ pub fn forces_per_voussoir_of(entries: &[LoadEntry]) -> usize {
 
 /// Forces on voussoirs.
 #[derive(Default)]
-pub struct Forces {
+pub struct LoadForces {
     /// Those that stay.
     pub fixed: Vec<PointForce>,
     /// Those that the load factor multiplies.
     pub scaled: Vec<PointForce>,
 }
 
-impl Forces {
+impl LoadForces {
     /// Those that stay, or those that are scaled.
     pub fn of(&mut self, scaled: bool) -> &mut Vec<PointForce> {
         if scaled { &mut self.scaled } else { &mut self.fixed }
@@ -60,8 +60,8 @@ pub fn loads(
     whole: Option<&Layout>,
     pieces: &[usize],
     faults: &mut Faults,
-) -> Forces {
-    let mut all = Forces::default();
+) -> LoadForces {
+    let mut all = LoadForces::default();
     faults.require(
         !entries.is_empty(),
         "/loads",

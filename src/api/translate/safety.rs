@@ -1,6 +1,6 @@
 //! Safety analyses of a request, alone or along a curve.
 
-use super::site::Site;
+use super::site::Unloaded;
 use super::{MAX_FACTOR, check_text, loads, mesh};
 use crate::api::fault::{Fault, Faults, Shown, lies_under};
 use crate::api::request::{AimRequest, AnalysisRequest, CurveRequest, LoadEntry, MAX_ABSCISSAE};
@@ -51,7 +51,7 @@ pub fn check_flags(request: &AnalysisRequest, curve: Option<&CurveRequest>, faul
 }
 
 /// The analysis at every abscissa; what is wrong with the loads at several of them is said once.
-pub fn points(site: &Site<'_>, curve: &CurveRequest, faults: &mut Faults) -> Option<Vec<CurvePoint>> {
+pub fn points(site: &Unloaded<'_>, curve: &CurveRequest, faults: &mut Faults) -> Option<Vec<CurvePoint>> {
     check_text(&format!("{CURVE}/unit"), &curve.unit, faults);
     let entries = &site.request.loads;
     if !(check_abscissae(curve, faults) && check_size(site, curve.abscissae.len(), faults)) {
@@ -115,7 +115,7 @@ fn check_abscissae(curve: &CurveRequest, faults: &mut Faults) -> bool {
 }
 
 /// Whether the curve keeps within what a job may take.
-fn check_size(site: &Site<'_>, abscissae: usize, faults: &mut Faults) -> bool {
+fn check_size(site: &Unloaded<'_>, abscissae: usize, faults: &mut Faults) -> bool {
     let subblocks = abscissae * mesh::total(site.subblocks().iter());
     let detail = format!(
         "abscissae times subblocks come to {subblocks}: keep to {MAX_CURVE_SUBBLOCKS} by fewer abscissae or a \

@@ -1,14 +1,14 @@
 //! Movements of springings.
 
 use super::MAX_LENGTH_M;
-use super::site::Site;
+use super::site::Unloaded;
 use crate::api::fault::{Faults, Shown};
 use crate::api::prose::Digits;
 use crate::api::request::{AnalysisRequest, MovementRequest, ReportRequest, SettlementRequest};
 use crate::collapse::{Direction, SpringingMovement};
 
 /// Whether a movement of springings can be followed.
-pub fn check(request: &AnalysisRequest, settlement: &SettlementRequest, site: &Site<'_>, faults: &mut Faults) {
+pub fn check(request: &AnalysisRequest, settlement: &SettlementRequest, site: &Unloaded<'_>, faults: &mut Faults) {
     let sides = [("left", settlement.left), ("right", settlement.right)];
     let size = site.size();
     for (side, movement) in sides {

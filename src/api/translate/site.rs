@@ -11,7 +11,7 @@ use crate::geometry::Vec2;
 use crate::structure::{PointForce, Structure};
 
 /// Everything of a request but its loads.
-pub struct Site<'a> {
+pub struct Unloaded<'a> {
     /// The request.
     pub request: &'a AnalysisRequest,
     /// The whole structure, where it can be built.
@@ -28,7 +28,7 @@ pub struct Site<'a> {
     motion: Option<MotionAsked>,
 }
 
-impl<'a> Site<'a> {
+impl<'a> Unloaded<'a> {
     /// Checks and translates all but the loads.
     pub fn new(request: &'a AnalysisRequest, faults: &mut Faults) -> Self {
         check_text("/name", request.name.as_deref().unwrap_or(""), faults);
@@ -64,7 +64,7 @@ impl<'a> Site<'a> {
         let pieces = refined.map_or(pieces, |accuracy| accuracy.most_subblocks);
         let fields = mesh::fields(&request.report, pieces, faults);
         let motion = motion::motion(request, analysed.unwrap_or(0), faults);
-        Site { request, whole: layout, structure, subblocks, cut, method, accuracy, fields, motion }
+        Unloaded { request, whole: layout, structure, subblocks, cut, method, accuracy, fields, motion }
     }
 
     /// Into how many pieces the extrados side of every voussoir of the whole arch is cut.

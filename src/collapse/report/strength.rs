@@ -115,7 +115,7 @@ pub enum Governs {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "server", derive(serde::Serialize, utoipa::ToSchema))]
 #[cfg_attr(feature = "server", serde(rename_all = "snake_case"))]
-pub enum Zone {
+pub enum SafetyZone {
     /// Zone I: instability, the crown rises.
     CrownRises,
     /// Zone II: crushing.
@@ -144,7 +144,7 @@ pub struct SafetyPoint {
     /// How the arch moves when it becomes a mechanism, where it does.
     pub mode: Option<Mode>,
     /// Zone of Figs. 10 and 13; None where nothing limits, or where the arch sways or slides.
-    pub zone: Option<Zone>,
+    pub zone: Option<SafetyZone>,
     /// What an engineer should know.
     pub notes: Vec<Note>,
 }

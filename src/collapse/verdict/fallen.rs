@@ -1,12 +1,12 @@
 //! Arches that do not stand where the load path starts.
 
-use super::{Attempted, Question};
+use super::{Attempted, Setup};
 use crate::collapse::certificate::{any_fixed, loaded};
 use crate::collapse::discretise::Model;
 use crate::collapse::{Aim, AnalysisError, CollapseReport, Doubt, LoadRange, Note, Outcome, PathEnd, ending, motion};
 use crate::dda::Tracer;
 
-impl Question<'_> {
+impl Setup<'_> {
     /// The arch did not stand under its loads at the start.
     pub(super) fn fallen(
         &self,

@@ -1,6 +1,6 @@
 //! One leg of a load path: followed to its end, and the end held against the limit window.
 
-use super::{Progress, Question};
+use super::{OnEvent, Setup};
 use crate::collapse::certificate::range_note;
 use crate::collapse::ending::{self, Ending};
 use crate::collapse::path::{Leg, follow};
@@ -11,7 +11,7 @@ use crate::collapse::tolerances::TOLERANCES;
 use crate::collapse::{AnalysisError, CollapseReport, Cost, Doubt, LoadRange, Method, Note, Outcome};
 use crate::dda::Tracer;
 
-impl Question<'_> {
+impl Setup<'_> {
     /// Follows the path one way and writes down what was seen; returns a doubt where path and certificate disagree.
     pub(super) fn leg(
         &self,
@@ -20,7 +20,7 @@ impl Question<'_> {
         tracer: &mut Tracer,
         fixed: &[f64],
         sign: f64,
-        progress: &mut Progress,
+        progress: &mut OnEvent,
     ) -> Result<Option<Doubt>, AnalysisError> {
         let (analysis, model) = (self.analysis, states.model);
         let mut recorder = Recorder::new(model, analysis, [self.start, sign]);
