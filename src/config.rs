@@ -32,7 +32,7 @@ pub enum Verb {
     /// Print the OpenAPI document
     Openapi,
     /// Ask a running service for a sign of life
-    Health(Health),
+    Health(HealthOptions),
 }
 
 /// Options of `solve`.
@@ -137,7 +137,7 @@ pub struct Requests {
 
 /// Options of `health`.
 #[derive(Debug, Args)]
-pub struct Health {
+pub struct HealthOptions {
     #[command(flatten)]
     pub address: Address,
 }
@@ -185,7 +185,7 @@ impl Serve {
             return Err(io::Error::other("a --token is made of letters, digits and -._~+/= and is not empty"));
         }
         Ok(Settings {
-            limits: api::Limits {
+            limits: api::ApiLimits {
                 body: size(requests.body_limit),
                 request_time: Duration::from_secs(requests.request_time),
                 voussoirs: size(self.work.voussoirs),

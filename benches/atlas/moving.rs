@@ -15,7 +15,7 @@ const RESIDUAL: f64 = 1e-9;
 /// Thrusts stay within those of limit analysis, and springings that part or approach far enough find the least or the greatest.
 pub fn judge_settlement(analysis: &Analysis, report: &CollapseReport, truth: &Truth) -> Mark {
     if report.outcome == Outcome::CannotTell {
-        return Mark::GaveUp(report.notes.join(" "));
+        return Mark::GaveUp(format!("{:?}", report.notes));
     }
     if truth.undecided() {
         return Mark::Open;

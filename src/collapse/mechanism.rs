@@ -10,7 +10,7 @@ use crate::limit::{Release, Resultant, releases};
 use crate::structure::{Joint, JointLaw, Loops, PointForce, Side, Structure};
 
 /// Releases slower than this share of the fastest do not move.
-const MOVES: f64 = 1e-6;
+const SLOWEST: f64 = 1e-6;
 /// In a direction of the load path, joint motions below this share of the fastest corner are elastic strain or rounding.
 const ELASTIC: f64 = 1e-5;
 /// The same on a path on moving geometry, where joints go on straining as the arch falls: measured, real hinges turn at a
@@ -130,7 +130,7 @@ pub(super) fn describe(structure: &Structure, loops: &Loops, releases: &[Release
     for (&(k, release), &rate) in releases.iter().zip(rates) {
         relative[k] = relative[k].plus(relative_motion(structure, k, release), rate);
         match release {
-            _ if rate <= MOVES * fastest => {}
+            _ if rate <= SLOWEST * fastest => {}
             Release::Rotation(Face::Intrados) => openings[k][1] += rate,
             Release::Rotation(Face::Extrados) => openings[k][0] += rate,
             Release::Sliding(sign) => slid[k] += sign * rate,

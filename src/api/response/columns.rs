@@ -2,7 +2,7 @@
 
 use super::Scale;
 use super::words::PlaceWord;
-use crate::collapse::{BlockState, ContactForce, HistoryPoint, Snapshot, Thrust};
+use crate::collapse::{BlockState, ContactPoint, HistoryPoint, Snapshot, Thrust};
 use serde::Serialize;
 use utoipa::ToSchema;
 
@@ -129,7 +129,7 @@ pub struct ContactColumns {
 }
 
 impl ContactColumns {
-    fn new(rows: &[ContactForce]) -> Self {
+    fn new(rows: &[ContactPoint]) -> Self {
         ContactColumns {
             joint: column(rows, |row| row.joint),
             face: column(rows, |row| PlaceWord::at(row.position)),

@@ -1,13 +1,14 @@
 //! Movements of springings.
 
 use super::MAX_LENGTH_M;
-use super::site::Site;
+use super::site::Unloaded;
 use crate::api::fault::{Faults, Shown};
-use crate::api::request::{AnalysisRequest, DirectionRequest, MovementRequest, ReportRequest, SettlementRequest};
-use crate::collapse::{Digits, SpringingMovement};
+use crate::api::prose::Digits;
+use crate::api::request::{AnalysisRequest, MovementRequest, ReportRequest, SettlementRequest};
+use crate::collapse::{Direction, SpringingMovement};
 
 /// Whether a movement of springings can be followed.
-pub fn check(request: &AnalysisRequest, settlement: &SettlementRequest, site: &Site<'_>, faults: &mut Faults) {
+pub fn check(request: &AnalysisRequest, settlement: &SettlementRequest, site: &Unloaded<'_>, faults: &mut Faults) {
     let sides = [("left", settlement.left), ("right", settlement.right)];
     let size = site.size();
     for (side, movement) in sides {
@@ -31,7 +32,7 @@ pub fn check(request: &AnalysisRequest, settlement: &SettlementRequest, site: &S
 fn check_idle(request: &AnalysisRequest, faults: &mut Faults) {
     let (factor, usual) = (&request.load_factor, ReportRequest::default());
     let detail = "while springings move no load grows: leave this out";
-    faults.require(factor.direction == DirectionRequest::Increase, "/load_factor/direction", detail);
+    faults.require(factor.direction == Direction::Increase, "/load_factor/direction", detail);
     faults.require(factor.cap.is_none(), "/load_factor/cap", detail);
     let detail = "a movement of springings shows nothing on the way to collapse: leave this out";
     let same = request.report.share_of_collapse == usual.share_of_collapse;

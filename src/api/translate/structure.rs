@@ -3,9 +3,8 @@
 use super::stone::Stones;
 use super::{arch, blocks, bridge};
 use crate::api::fault::Faults;
-use crate::api::request::{
-    AimRequest, AnalysisRequest, BlocksRequest, BridgeRequest, GeometryRequest, MeshRequest, MethodRequest,
-};
+use crate::api::request::{AimRequest, AnalysisRequest, BlocksRequest, BridgeRequest, MeshRequest, MethodRequest};
+use crate::collapse::Geometry;
 use crate::structure::Structure;
 
 /// The fault of a request without a structure.
@@ -74,7 +73,7 @@ pub fn check(request: &AnalysisRequest, faults: &mut Faults) {
         (None, Some(_)) => "blocks",
         _ => return,
     };
-    let first_order = request.geometry == GeometryRequest::FirstOrder;
+    let first_order = request.geometry == Geometry::FirstOrder;
     let followed = request.method == MethodRequest::EventPath;
     let stays = !matches!(request.analysis, AimRequest::Settlement(_));
     let of_joints = match what {

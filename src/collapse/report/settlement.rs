@@ -4,6 +4,8 @@ use super::{Mechanism, Thrust, Unfollowed};
 
 /// How a movement ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "server", derive(serde::Serialize, utoipa::ToSchema))]
+#[cfg_attr(feature = "server", serde(rename_all = "snake_case"))]
 pub enum SettlementEnd {
     /// The arch follows to the end of the movement.
     Follows,
