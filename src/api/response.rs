@@ -20,25 +20,25 @@ pub use columns::{BlockColumns, ContactColumns, HistoryColumns, SnapshotBody, Th
 pub use falling::{
     FrameColumns, MotionBody, MotionContactColumns, MotionEndWord, OpenHingeColumns, PlaceColumns, SlidColumns,
 };
-pub use mechanism::{Collapse, End, HingeBody, LiftOffBody, RangeBody, SlideBody};
+pub use mechanism::{Collapse, EndBody, HingeBody, LiftOffBody, RangeBody, SlideBody};
 pub use plan::{BeamPlanBody, EstimateBody, MeshBody, PlanBody, SubblockCounts};
 pub use result::JobResult;
 pub use safety::{CurvePointBody, ReachBody, SafetyBody, SafetyCurveResult};
-pub use settlement::{DisplacementColumns, SettlementBody, SettlementColumns, SettlementEndWord, SettlementPathBody, SupportForces};
+pub use settlement::{DisplacementColumns, SettlementBody, SettlementColumns, SettlementPathBody, SupportForces};
 pub use stress::{
     CrushedSubblock, CrushingBody, ElasticCrushingBody, PlasticCrushingBody, StressFieldBody, SubblockColumns,
     mesh_in_words,
 };
 pub use structure::{BodyBody, JointBody, StructureBody};
-pub use updated::{UpdatedBody, UpdatedEndWord};
-pub use words::{CrushingWord, FaceWord, GovernedBy, GovernsWord, MethodWord, ModeWord, OutcomeWord, ZoneWord};
+pub use updated::UpdatedBody;
+pub use words::{GovernedBy, MethodWord};
 
 use super::prose::in_its_words;
 use super::request::AnalysisRequest;
 use super::translate;
-use settlement::Grounds;
-use crate::collapse::{CollapseReport, Cost, LimitWindow, ThrustRange};
+use crate::collapse::{CollapseReport, Cost, LimitWindow, Note, Outcome, ThrustRange};
 use serde::Serialize;
+use settlement::Grounds;
 use std::io;
 use utoipa::ToSchema;
 
@@ -46,7 +46,7 @@ use utoipa::ToSchema;
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct AnalysisResult {
     /// What happened.
-    pub outcome: OutcomeWord,
+    pub outcome: Outcome,
     /// How the load path was read.
     pub method: MethodWord,
     /// Unit of every intensity.
@@ -73,7 +73,7 @@ pub struct AnalysisResult {
     /// Velocity of every voussoir in the mechanism; null where nothing collapses.
     pub velocities: Option<VelocityColumns>,
     /// The end of the path in the other direction, for an arch that stands in a window only.
-    pub other_end: Option<End>,
+    pub other_end: Option<EndBody>,
     /// Load factor from which the path was followed.
     pub start_load_factor: f64,
     /// Largest absolute load factor that was tried.
@@ -164,8 +164,8 @@ impl AnalysisResult {
         let scale = Scale { per_unit: request.load_factor.intensity_per_unit, unit: &request.load_factor.unit };
         let window = report.limit_window;
         let snapshot = |snapshot| SnapshotBody::new(snapshot, &scale);
-        let main = report.end.as_ref().map(|end| End::new(end, window, &scale));
-        let joints = |end: &End| (end.hinges.clone(), end.slides.clone(), end.lift_offs.clone());
+        let main = report.end.as_ref().map(|end| EndBody::new(end, window, &scale));
+        let joints = |end: &EndBody| (end.hinges.clone(), end.slides.clone(), end.lift_offs.clone());
         let (hinges, slides, lift_offs) = main.as_ref().map(joints).unwrap_or_default();
         let (collapse, thrust_line, velocities) = match main {
             Some(end) => (Some(end.collapse), Some(end.thrust_line), Some(end.velocities)),
@@ -179,7 +179,7 @@ impl AnalysisResult {
         let grounds = grounds.as_deref().map_or(Grounds::Arch { half: request.half() }, Grounds::Named);
         let assumptions = assumptions::assumptions(request, structure.as_ref());
         AnalysisResult {
-            outcome: report.outcome.into(),
+            outcome: report.outcome,
             method: (&request.method).into(),
             unit: scale.unit.to_owned(),
             collapse,
@@ -192,7 +192,7 @@ impl AnalysisResult {
             lift_offs,
             thrust_line,
             velocities,
-            other_end: report.other_end.as_ref().map(|end| End::new(end, window, &scale)),
+            other_end: report.other_end.as_ref().map(|end| EndBody::new(end, window, &scale)),
             start_load_factor: report.start,
             cap: report.cap,
             share: report.share,
@@ -209,7 +209,7 @@ impl AnalysisResult {
             history: HistoryColumns::new(&report.history, &scale),
             plan,
             cost: report.cost.into(),
-            notes: { report.notes.iter().cloned() }
+            notes: { report.notes.iter().map(Note::to_string) }
                 .chain(assumptions)
                 .map(|note| in_its_words(request, &note))
                 .collect(),

@@ -172,11 +172,7 @@ fn grids(analysis: &Analysis) -> Vec<Grid> {
 
 /// Contact points of a joint between two bodies (none: the ground): its ends, and where subblocks on either side meet,
 /// each with the share of the joint that is nearest to it.
-fn touches<'a>(
-    joint: &'a Joint,
-    around: &Around<'a>,
-    penalty: [f64; 2],
-) -> impl Iterator<Item = Touch> + 'a {
+fn touches<'a>(joint: &'a Joint, around: &Around<'a>, penalty: [f64; 2]) -> impl Iterator<Item = Touch> + 'a {
     let [before, after] = *around;
     let links = around.iter().flatten().count() as f64;
     let contact = 1.0 / (1.0 - links / LINK);

@@ -3,7 +3,7 @@
 //! Structures are taken apart field by field, so that a field that is added has to be looked at here.
 
 use super::{
-    AnalysisError, Answer, BlockState, CollapseReport, ContactForce, FallingMotion, Hinge, HistoryPoint, LiftOff,
+    AnalysisError, Answer, BlockState, CollapseReport, ContactPoint, FallingMotion, Hinge, HistoryPoint, LiftOff,
     LoadRange, Mechanism, MotionContact, MotionFrame, OpenHinge, PathEnd, Reach, SafetyPoint, SettlementPath,
     SettlementPoint, Slid, Slide, Snapshot, StressField, Thrust, UpdatedGeometry,
 };
@@ -114,8 +114,8 @@ impl Snapshot {
             finite("displacements", [displacement.x, displacement.y, *rotation])?;
             finite("stresses", *stress)?;
         }
-        let forces = |contact: &ContactForce| {
-            let ContactForce { joint: _, position, normal, tangential, gap } = contact;
+        let forces = |contact: &ContactPoint| {
+            let ContactPoint { joint: _, position, normal, tangential, gap } = contact;
             [*position, *normal, *tangential, *gap]
         };
         finite("contact forces", contacts.iter().flat_map(forces))

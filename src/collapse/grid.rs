@@ -191,7 +191,8 @@ impl Grid {
         }
         let [[a, d], [b, c]] = self.ends;
         let sides = [[a, d], [b, c], [a, b], [d, c]];
-        let far = |side: usize| joint.map(|end| distance_from_segment(end, sides[side][0], sides[side][1])).iter().sum();
+        let far =
+            |side: usize| joint.map(|end| distance_from_segment(end, sides[side][0], sides[side][1])).iter().sum();
         let nearer = |best: (usize, f64), side: usize| if far(side) < best.1 { (side, far(side)) } else { best };
         let (side, _) = (0..4).fold((0, f64::INFINITY), nearer);
         let [from, to] = sides[side];

@@ -6,6 +6,7 @@
 
 use super::discretise::{Model, discretise};
 use super::path::{Attempt, Moved, disturbed, first_that_tells, lost, stand, stand_moved};
+use super::tolerances::TOLERANCES;
 use crate::budget::Budget;
 
 use super::{
@@ -21,10 +22,6 @@ use std::ops::ControlFlow;
 /// has opened far takes far to close. Where on the way they would have to come back by nine tenths of what they have done, the
 /// arch has fallen. Rises are in sizes of the arch, whatever movement is asked for.
 const PATIENCE: Patience = Patience { fall: 0.9, rise: 0.01, movement: [0.02, 0.2], creep: 0.0, loads: false };
-
-/// A path whose equilibrium residual, as a share of the loads, exceeds this is not trusted. Supports that move by a tenth
-/// of the span leave more rounding than loads do.
-const UNBALANCED: f64 = 1e-6;
 
 /// Follows the movement; the work is added to `cost`. None where the arch does not stand before it.
 ///
@@ -173,7 +170,7 @@ fn describe(analysis: &Analysis, model: &Model, geometry: Geometry, followed: Fo
 fn unfollowed(model: &Model, tracer: &Tracer, geometry: Geometry, stood: Moved, end: End) -> Option<Unfollowed> {
     let residual = tracer.worst_residual();
     match (stood, end) {
-        _ if residual > UNBALANCED => Some(Unfollowed::Coarse(residual)),
+        _ if residual > TOLERANCES.settled_residual => Some(Unfollowed::Coarse(residual)),
         (Moved::Falls(_), _) | (Moved::Stands, End::Reached | End::Stopped) => None,
         (Moved::Stands, End::Mechanism) if geometry == Geometry::FirstOrder => Some(Unfollowed::Mechanism),
         (Moved::Stands, End::Mechanism) if tracer.peak().is_some() => None,
@@ -226,7 +223,8 @@ fn ground(supports: usize, movements: &[SupportMovement], target: f64) -> Vec<Mo
 /// block, which is glued to it, counts as ground.
 fn bearings(structure: &Structure) -> Vec<(usize, usize, f64)> {
     let glued = |body: usize| {
-        let base = structure.joints[structure.ring().len()..].iter().find(|joint| joint.between.contains(&Side::Body(body)));
+        let base =
+            structure.joints[structure.ring().len()..].iter().find(|joint| joint.between.contains(&Side::Body(body)));
         base?.between.iter().find_map(|side| side.support())
     };
     let ground = |side: Side| match side {

@@ -7,6 +7,7 @@
 
 use super::discretise::Scatter;
 use super::mechanism::{Released, all_releases, columns, describe};
+use super::tolerances::TOLERANCES;
 use crate::budget::Budget;
 
 use super::smallest_motion::nearest_motion;
@@ -17,8 +18,6 @@ use std::collections::BTreeSet;
 
 /// So many motions in turn that give nothing lower end the search.
 const QUIET: usize = 25;
-/// Loads that differ by less than this share are the same.
-pub(super) const SAME: f64 = 1e-9;
 /// Share of a joint's force below which a corner's is none, in forces that a linear programme gives.
 const AT_LIMIT: f64 = 1e-9;
 
@@ -133,7 +132,7 @@ impl Hunt<'_> {
         let found = search.theorem.least_load(&moving, search.start, search.sign, search.budget);
         let Ok(Some(equilibrium)) = found else { return Some(false) };
         let best = self.best.as_ref().map(|best| best.equilibrium.load_factor);
-        if best.is_some_and(|best| !search.is_beyond(best, equilibrium.load_factor, SAME)) {
+        if best.is_some_and(|best| !search.is_beyond(best, equilibrium.load_factor, TOLERANCES.same_load)) {
             return Some(false);
         }
         if search.has_loops() {

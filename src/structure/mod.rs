@@ -91,11 +91,23 @@ impl Side {
 
 /// An end of a joint. In an arch ring they lie on its two faces, which name them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "server", derive(serde::Serialize, utoipa::ToSchema))]
+#[cfg_attr(feature = "server", serde(rename_all = "snake_case"))]
 pub enum Face {
     /// The first end; the inner, lower face of an arch.
     Intrados,
     /// The second end; the outer, upper face of an arch.
     Extrados,
+}
+
+impl Face {
+    /// The end across the joint.
+    pub fn other(self) -> Self {
+        match self {
+            Face::Intrados => Face::Extrados,
+            Face::Extrados => Face::Intrados,
+        }
+    }
 }
 
 impl std::fmt::Display for Face {

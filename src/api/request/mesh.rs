@@ -1,5 +1,6 @@
 //! How bodies are cut into subblocks.
 
+use crate::collapse::Seams;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -15,7 +16,7 @@ pub struct MeshRequest {
     /// How many.
     pub subblocks: SubblocksRequest,
     /// What holds them together.
-    pub seams: SeamsRequest,
+    pub seams: Seams,
 }
 
 /// Subblocks, the same in every voussoir or each its own.
@@ -45,15 +46,4 @@ pub struct Subblocks {
     /// Along the arch, 1 to 48; of a body that is no voussoir, along its side from corner 0 to corner 1.
     #[schema(minimum = 1, maximum = 48)]
     pub along: usize,
-}
-
-/// What holds subblocks of one voussoir together.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum SeamsRequest {
-    /// A stiff pair of springs in the middle of every seam, and weak ones on what is linear along it.
-    #[default]
-    Split,
-    /// Stiff pairs of springs at both ends, as the paper's text reads; for comparison only, it locks in bending.
-    Corners,
 }

@@ -1,5 +1,6 @@
 //! What is asked of an arch, and what the answer shows.
 
+use crate::collapse::CrushingKind;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -77,39 +78,15 @@ pub struct MovementRequest {
     pub rotation_deg: f64,
 }
 
-/// Whether equilibrium is that of the arch as built, or of the arch where its loads have moved it.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum GeometryRequest {
-    /// As built: first order, what limit analysis certifies.
-    #[default]
-    FirstOrder,
-    /// Both: besides, the load path is followed on the arch as it moves, with finite rotations; its answer stands in
-    /// `updated_geometry`. It depends on Young's modulus and the penalty. Needs method `event_path`.
-    Updated,
-}
-
 /// Safety against falling and crushing; needs scaled loads, direction `increase` and method `event_path`.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(default)]
 pub struct SafetyRequest {
     /// Which of the two answers about crushing counts; both are given.
-    pub crushing: CrushingRequest,
+    pub crushing: CrushingKind,
     /// Asks for a curve: the safety factor at every abscissa of a list.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub curve: Option<CurveRequest>,
-}
-
-/// When stone is taken to crush.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum CrushingRequest {
-    /// A joint would have to carry its normal force N so far off its middle that less than N / strength of its length
-    /// is left, and no other equilibrium avoids it. Does not depend on the mesh.
-    #[default]
-    PlasticSection,
-    /// The equivalent stress of Tresca reaches the strength in some subblock, as in the paper. Depends on the mesh.
-    Elastic,
 }
 
 /// What the safety factor is drawn over. Loads with `per_abscissa` are multiplied by the abscissa, at least one is.

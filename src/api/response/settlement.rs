@@ -2,24 +2,9 @@
 
 use super::columns::{ThrustColumns, column};
 use super::mechanism::{HingeBody, LiftOffBody, SlideBody};
-use super::words::ModeWord;
-use crate::collapse::{SettlementEnd, SettlementPath, SettlementPoint, SettlementReport};
+use crate::collapse::{Mode, SettlementEnd, SettlementPath, SettlementPoint, SettlementReport};
 use serde::Serialize;
 use utoipa::ToSchema;
-
-/// How a movement ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum SettlementEndWord {
-    /// The arch follows to the end of the movement.
-    Follows,
-    /// The arch falls before the movement is complete.
-    Collapse,
-    /// On moving geometry the arch falls under its loads before any movement.
-    FallsAsLoaded,
-    /// The path could not be followed.
-    CannotTell,
-}
 
 /// What the movement of supports does, at first order and on moving geometry.
 #[derive(Debug, Clone, Serialize, ToSchema)]
@@ -35,7 +20,7 @@ pub struct SettlementBody {
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct SettlementPathBody {
     /// How it ended.
-    pub end: SettlementEndWord,
+    pub end: SettlementEnd,
     /// Why there is no answer, in words; null where there is one.
     pub why: Option<String>,
     /// The last share of the movement that the arch can reach: 1, or less where it falls; where the path was lost, the highest
@@ -49,7 +34,7 @@ pub struct SettlementPathBody {
     /// share falls in between, the arch snaps into another shape.
     pub history: SettlementColumns,
     /// How the crown goes on at the end.
-    pub mode: ModeWord,
+    pub mode: Mode,
     /// Hinges on which the arch follows its supports, or falls, at the end.
     pub hinges: Vec<HingeBody>,
     /// Joints that slide at the end.
@@ -122,13 +107,13 @@ impl SettlementPathBody {
     fn new(path: &SettlementPath, grounds: &Grounds<'_>) -> Self {
         let history = SettlementColumns::new(&path.points, grounds);
         SettlementPathBody {
-            end: path.end.into(),
+            end: path.end,
             why: path.why.map(|why| why.to_string()),
             share_of_movement: path.share,
             safe_share_of_movement: path.safe,
             thrust_n_per_m: history.thrust_n_per_m.as_ref().map(|thrust| thrust.last().copied().unwrap_or(0.0)),
             history,
-            mode: path.mechanism.mode.into(),
+            mode: path.mechanism.mode,
             hinges: path.mechanism.hinges.iter().map(Into::into).collect(),
             slides: path.mechanism.slides.iter().map(Into::into).collect(),
             lift_offs: path.mechanism.lift_offs.iter().map(Into::into).collect(),
@@ -174,17 +159,6 @@ impl SettlementColumns {
                     supports: names.iter().enumerate().map(support).collect(),
                 }
             }
-        }
-    }
-}
-
-impl From<SettlementEnd> for SettlementEndWord {
-    fn from(end: SettlementEnd) -> Self {
-        match end {
-            SettlementEnd::Follows => SettlementEndWord::Follows,
-            SettlementEnd::Collapse => SettlementEndWord::Collapse,
-            SettlementEnd::FallsAsLoaded => SettlementEndWord::FallsAsLoaded,
-            SettlementEnd::CannotTell => SettlementEndWord::CannotTell,
         }
     }
 }

@@ -3,11 +3,11 @@
 use super::MAX_FACTOR;
 use crate::api::fault::Faults;
 use crate::api::request::{
-    MAX_FIELDS, MAX_SUBBLOCKS, MAX_SUBBLOCKS_EACH_WAY, MeshRequest, ReportRequest, SeamsRequest, StressFieldRequest,
-    Subblocks, SubblocksRequest,
+    MAX_FIELDS, MAX_SUBBLOCKS, MAX_SUBBLOCKS_EACH_WAY, MeshRequest, ReportRequest, StressFieldRequest, Subblocks,
+    SubblocksRequest,
 };
 use crate::arch::MAX_VOUSSOIRS;
-use crate::collapse::{FieldAt, Seams};
+use crate::collapse::FieldAt;
 use crate::structure::{Body, Sides, Structure};
 
 /// Most subblocks in all stress fields of one answer together.
@@ -113,15 +113,6 @@ impl From<StressFieldRequest> for FieldAt {
             StressFieldRequest::UnitLoad => FieldAt::LoadFactor(1.0),
             StressFieldRequest::NearCollapse => FieldAt::NearCollapse,
             StressFieldRequest::LoadFactor(factor) => FieldAt::LoadFactor(factor),
-        }
-    }
-}
-
-impl From<SeamsRequest> for Seams {
-    fn from(seams: SeamsRequest) -> Self {
-        match seams {
-            SeamsRequest::Split => Seams::Split,
-            SeamsRequest::Corners => Seams::Corners,
         }
     }
 }

@@ -1,14 +1,14 @@
 //! Movements of supports.
 
 use super::MAX_LENGTH_M;
-use super::site::Site;
+use super::site::Unloaded;
 use super::structure::Layout;
 use crate::api::fault::{Faults, Shown};
+use crate::api::prose::Digits;
 use crate::api::request::{
-    AnalysisRequest, DirectionRequest, MAX_MOVEMENTS, MovementRequest, ReportRequest, SettlementRequest,
-    SupportMovementRequest,
+    AnalysisRequest, MAX_MOVEMENTS, MovementRequest, ReportRequest, SettlementRequest, SupportMovementRequest,
 };
-use crate::collapse::{Digits, SupportMovement};
+use crate::collapse::{Direction, SupportMovement};
 use crate::geometry::Vec2;
 use crate::structure::{Side, Structure};
 
@@ -16,7 +16,7 @@ const HERE: &str = "/analysis/settlement";
 const SUPPORTS: &str = "/analysis/settlement/supports";
 
 /// Whether a movement of supports can be followed.
-pub fn check(request: &AnalysisRequest, settlement: &SettlementRequest, site: &Site<'_>, faults: &mut Faults) {
+pub fn check(request: &AnalysisRequest, settlement: &SettlementRequest, site: &Unloaded<'_>, faults: &mut Faults) {
     match request.arch {
         Some(_) => check_springings(request, settlement, site.size(), faults),
         None => check_supports(settlement, site, faults),
@@ -30,12 +30,7 @@ pub fn check(request: &AnalysisRequest, settlement: &SettlementRequest, site: &S
     faults.require(request.report.stress_fields.is_empty(), "/report/stress_fields", detail);
 }
 
-fn check_springings(
-    request: &AnalysisRequest,
-    settlement: &SettlementRequest,
-    size: Option<f64>,
-    faults: &mut Faults,
-) {
+fn check_springings(request: &AnalysisRequest, settlement: &SettlementRequest, size: Option<f64>, faults: &mut Faults) {
     let sides = [("left", settlement.left), ("right", settlement.right)];
     for (side, movement) in sides {
         let shift = [("outwards_m", movement.outwards_m), ("downwards_m", movement.downwards_m)];
@@ -49,7 +44,7 @@ fn check_springings(
     faults.require(!request.half() || still(settlement.right), format!("{HERE}/right"), detail);
 }
 
-fn check_supports(settlement: &SettlementRequest, site: &Site<'_>, faults: &mut Faults) {
+fn check_supports(settlement: &SettlementRequest, site: &Unloaded<'_>, faults: &mut Faults) {
     for (side, movement) in [("left", settlement.left), ("right", settlement.right)] {
         let detail = "only an arch has this: name the support in settlement.supports";
         faults.require(still(movement), format!("{HERE}/{side}"), detail);
@@ -87,7 +82,7 @@ fn still(movement: MovementRequest) -> bool {
 fn check_idle(request: &AnalysisRequest, faults: &mut Faults) {
     let (factor, usual) = (&request.load_factor, ReportRequest::default());
     let detail = "while supports move no load grows: leave this out";
-    faults.require(factor.direction == DirectionRequest::Increase, "/load_factor/direction", detail);
+    faults.require(factor.direction == Direction::Increase, "/load_factor/direction", detail);
     faults.require(factor.cap.is_none(), "/load_factor/cap", detail);
     let detail = "a movement of supports shows nothing on the way to collapse: leave this out";
     let same = request.report.share_of_collapse == usual.share_of_collapse;

@@ -2,8 +2,7 @@
 
 use super::{MAX_DENSITY_KG_M3, MAX_STRESS_PA, check_text};
 use crate::api::fault::{Faults, child};
-use crate::api::request::{AnalysisRequest, MAX_GIVEN_JOINTS, MAX_STONES, NamedStone, PlaneRequest, StoneRequest};
-use crate::collapse::PlaneModel;
+use crate::api::request::{AnalysisRequest, MAX_GIVEN_JOINTS, MAX_STONES, NamedStone, StoneRequest};
 use crate::structure::{JointLaw, Stone, Structure};
 use std::collections::BTreeMap;
 
@@ -157,15 +156,6 @@ pub fn override_joints(request: &AnalysisRequest, structure: &mut Structure) {
         if let JointLaw::Dry { friction, cohesion } = &mut joint.law {
             *friction = item.friction_angle_deg.map_or(*friction, |angle| angle.to_radians().tan());
             *cohesion = item.cohesion_pa.unwrap_or(*cohesion);
-        }
-    }
-}
-
-impl From<PlaneRequest> for PlaneModel {
-    fn from(plane: PlaneRequest) -> Self {
-        match plane {
-            PlaneRequest::Stress => PlaneModel::Stress,
-            PlaneRequest::Strain => PlaneModel::Strain,
         }
     }
 }

@@ -5,6 +5,8 @@ use crate::geometry::Vec2;
 
 /// How a movement ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "server", derive(serde::Serialize, utoipa::ToSchema))]
+#[cfg_attr(feature = "server", serde(rename_all = "snake_case"))]
 pub enum SettlementEnd {
     /// The arch follows to the end of the movement.
     Follows,
