@@ -24,7 +24,7 @@ pub use mechanism::{Collapse, EndBody, HingeBody, LiftOffBody, RangeBody, SlideB
 pub use plan::{BeamPlanBody, EstimateBody, MeshBody, PlanBody, SubblockCounts};
 pub use result::JobResult;
 pub use safety::{CurvePointBody, ReachBody, SafetyBody, SafetyCurveResult};
-pub use settlement::{DisplacementColumns, SettlementBody, SettlementColumns, SettlementPathBody};
+pub use settlement::{DisplacementColumns, SettlementBody, SettlementColumns, SettlementPathBody, SupportForces};
 pub use stress::{
     CrushedSubblock, CrushingBody, ElasticCrushingBody, PlasticCrushingBody, StressFieldBody, SubblockColumns,
     mesh_in_words,
@@ -38,6 +38,7 @@ use super::request::AnalysisRequest;
 use super::translate;
 use crate::collapse::{CollapseReport, Cost, LimitWindow, Note, Outcome, ThrustRange};
 use serde::Serialize;
+use settlement::Grounds;
 use std::io;
 use utoipa::ToSchema;
 
@@ -92,7 +93,7 @@ pub struct AnalysisResult {
     pub crushing: Option<CrushingBody>,
     /// The answer on moving geometry, where `geometry` asks for it and the arch stands at first order.
     pub updated_geometry: Option<UpdatedBody>,
-    /// What the movement of springings does, where `analysis` asks for it.
+    /// What the movement of supports does, where `analysis` asks for it.
     pub settlement: Option<SettlementBody>,
     /// Safety factors, where `analysis` asks for them.
     pub safety: Option<SafetyBody>,
@@ -173,6 +174,10 @@ impl AnalysisResult {
         let plan = report.plan.as_ref().map(PlanBody::from);
         let refined = plan.as_ref().filter(|plan| plan.stress.is_some());
         let mesh = refined.map_or_else(|| mesh_in_words(&request.mesh), PlanBody::mesh_in_words);
+        let structure = translate::named(request).map(StructureBody::from);
+        let grounds = structure.as_ref().map(|structure| structure.supports.clone());
+        let grounds = grounds.as_deref().map_or(Grounds::Arch { half: request.half() }, Grounds::Named);
+        let assumptions = assumptions::assumptions(request, structure.as_ref());
         AnalysisResult {
             outcome: report.outcome,
             method: (&request.method).into(),
@@ -181,7 +186,7 @@ impl AnalysisResult {
             limit_window: window.map(|window| scale.window(window)),
             limit_window_load_factor: window.map(|window| Scale::LOAD_FACTOR.window(window)),
             thrust_range: report.thrust_range.filter(|_| request.blocks.is_none()).map(Into::into),
-            structure: translate::named(request).map(StructureBody::from),
+            structure,
             hinges,
             slides,
             lift_offs,
@@ -197,7 +202,7 @@ impl AnalysisResult {
             stress_fields: report.stress_fields.iter().map(|field| StressFieldBody::new(field, &scale)).collect(),
             crushing: report.crushing.as_ref().map(|crushing| CrushingBody::new(crushing, &mesh, &scale)),
             updated_geometry: report.updated.as_ref().map(|updated| UpdatedBody::new(updated, report, &scale)),
-            settlement: report.settlement.as_ref().map(Into::into),
+            settlement: report.settlement.as_ref().map(|settlement| SettlementBody::new(settlement, &grounds)),
             safety: report.safety.as_ref().map(Into::into),
             motion: report.motion.as_ref().map(|motion| MotionBody::new(motion, &scale)),
             other_motion: report.other_motion.as_ref().map(|motion| MotionBody::new(motion, &scale)),
@@ -205,7 +210,7 @@ impl AnalysisResult {
             plan,
             cost: report.cost.into(),
             notes: { report.notes.iter().map(Note::to_string) }
-                .chain(assumptions::assumptions(request))
+                .chain(assumptions)
                 .map(|note| in_its_words(request, &note))
                 .collect(),
             request: request.clone(),

@@ -8,6 +8,7 @@ use crate::budget::Budget;
 use crate::geometry::{Vec2, cross};
 use crate::limit::{Release, Resultant, releases};
 use crate::structure::{Joint, JointLaw, Loops, PointForce, Side, Structure};
+use std::ops::Range;
 
 /// Releases slower than this share of the fastest do not move.
 const SLOWEST: f64 = 1e-6;
@@ -253,11 +254,14 @@ fn lift_offs(structure: &Structure, openings: &[[f64; 2]], lifts: impl Fn(usize)
     moving.map(rates).collect()
 }
 
-/// Which way the crown goes.
+/// Which way the crown goes; of several spans the one that moves fastest.
 fn crown_mode(structure: &Structure, motions: &[Motion]) -> Mode {
-    let [a, b] = crown(structure);
-    let top = 0.5 * (structure.bodies[a].region.centroid + structure.bodies[b].region.centroid);
-    let velocity = 0.5 * (motions[a].at(top) + motions[b].at(top));
+    let velocity = |(_, [a, b]): (_, [usize; 2])| {
+        let top = 0.5 * (structure.bodies[a].region.centroid + structure.bodies[b].region.centroid);
+        0.5 * (motions[a].at(top) + motions[b].at(top))
+    };
+    let faster = |most: Vec2, next: Vec2| if next.norm() > most.norm() { next } else { most };
+    let velocity = crowns(structure).map(velocity).fold(Vec2::zeros(), faster);
     if velocity.x.abs() > velocity.y.abs() && !structure.is_half() {
         Mode::Sway
     } else if velocity.y > 0.0 {
@@ -267,12 +271,26 @@ fn crown_mode(structure: &Structure, motions: &[Motion]) -> Mode {
     }
 }
 
-/// The voussoirs whose mean is the crown: the highest stone twice, or the two that are equally high.
-pub(super) fn crown(structure: &Structure) -> [usize; 2] {
-    let heights: Vec<f64> = structure.voussoirs().iter().map(|v| v.region.centroid.y).collect();
-    let (low, high) = heights.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &y| (l.min(y), h.max(y)));
-    let top = |y: &f64| *y >= high - 1e-9 * (high - low);
-    [heights.iter().position(top), heights.iter().rposition(top)].map(|place| place.unwrap_or(0))
+/// The bodies whose mean is the crown; of several spans that of the one that carries the most of `forces`.
+pub(super) fn crown(structure: &Structure, forces: &[PointForce]) -> [usize; 2] {
+    let carried = |bodies: &Range<usize>| -> f64 {
+        forces.iter().filter(|force| bodies.contains(&force.body)).map(|force| force.force.norm()).sum()
+    };
+    let weighed = crowns(structure).map(|(bodies, crown)| (carried(&bodies), crown));
+    weighed.reduce(|most, next| if next.0 > most.0 { next } else { most }).map_or([0, 0], |(_, crown)| crown)
+}
+
+/// The bodies of every span (of a structure without spans: all), and its crown: the highest of them twice, or the two that are
+/// equally high.
+fn crowns(structure: &Structure) -> impl Iterator<Item = (Range<usize>, [usize; 2])> {
+    let all = structure.spans.is_empty().then(|| 0..structure.voussoirs().len());
+    all.into_iter().chain(structure.spans.iter().map(|span| span.bodies.clone())).map(|bodies| {
+        let heights = structure.bodies[bodies.clone()].iter().map(|body| body.region.centroid.y);
+        let (low, high) = heights.clone().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), y| (l.min(y), h.max(y)));
+        let mut top = heights.enumerate().filter(|(_, y)| *y >= high - 1e-9 * (high - low)).map(|(k, _)| k);
+        let first = top.next().unwrap_or(0);
+        (bodies.clone(), [first, top.last().unwrap_or(first)].map(|k| bodies.start + k))
+    })
 }
 
 /// Angles of a joint's middle about the angle centre of its span: from the nearer springing, and from the crown (left

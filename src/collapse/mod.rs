@@ -31,6 +31,7 @@ pub use report::*;
 
 use crate::budget::{Budget, Stopped};
 use crate::dda::Unbuilt;
+use crate::geometry::Vec2;
 use crate::structure::{PointForce, Stone, Structure};
 
 /// Contact penalty as a multiple of Young's modulus in Table 1 of the paper (1e10 N/m over 1e9 Pa).
@@ -89,7 +90,7 @@ pub enum Method {
 }
 
 /// What an analysis is after.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Aim {
     /// The load factor at which the arch falls.
     Collapse,
@@ -98,27 +99,21 @@ pub enum Aim {
         /// Which of the two answers about crushing counts.
         crushing: CrushingKind,
     },
-    /// What becomes of the arch as its springings move, its loads staying as they are.
-    Settlement([SpringingMovement; 2]),
+    /// What becomes of the structure as these supports move, its loads staying as they are; the others stay.
+    Settlement(Vec<SupportMovement>),
 }
 
-/// Where one springing ends up, seen from where it was built.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct SpringingMovement {
-    /// Movement away from the arch, m.
-    pub outwards: f64,
-    /// Movement downwards, m.
-    pub downwards: f64,
-    /// Rotation about the middle of the springing joint that opens its intrados, rad.
+/// Where one support ends up, seen from where it was built.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SupportMovement {
+    /// Which support.
+    pub support: usize,
+    /// The point that it turns about, m.
+    pub about: Vec2,
+    /// Displacement of that point, m.
+    pub by: Vec2,
+    /// Rotation, counter-clockwise positive, rad.
     pub rotation: f64,
-}
-
-impl SpringingMovement {
-    /// The same movement, `factor` times as large.
-    fn times(self, factor: f64) -> Self {
-        let SpringingMovement { outwards, downwards, rotation } = self;
-        SpringingMovement { outwards: outwards * factor, downwards: downwards * factor, rotation: rotation * factor }
-    }
 }
 
 /// When stone is taken to crush.

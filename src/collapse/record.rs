@@ -57,7 +57,7 @@ impl<'a> Recorder<'a> {
             share: analysis.share,
             start,
             sign,
-            crown: mechanism::crown(&analysis.structure),
+            crown: mechanism::crown(&analysis.structure, &analysis.scaled),
             recent: VecDeque::new(),
             farthest: start,
             last: None,
@@ -219,7 +219,10 @@ pub(super) fn snapshot(model: &Model, state: &Standing) -> Result<Snapshot, Anal
         Ok(BlockState { displacement, rotation, stress: model.mean_stress(v, load_factor, displacements) })
     };
     let blocks = (0..model.bodies).map(block).collect::<Result<Vec<_>, AnalysisError>>()?;
-    let blocks = if state.symmetric { evened_blocks(&blocks) } else { blocks };
+    let blocks = match model.assembly.images_of_bodies().filter(|_| state.symmetric) {
+        Some((images, _)) => evened_blocks(&blocks, images),
+        None => blocks,
+    };
     let contact = |joint: usize, p: usize| ContactPoint {
         joint,
         position: model.position(joint, p),
@@ -239,9 +242,8 @@ pub(super) fn stress_field(model: &Model, load_factor: f64, state: &Standing) ->
         model.budget.work(model.work_of_stresses(voussoir))?;
         subblocks.extend(grid.field(voussoir, &model.stresses(voussoir, load_factor, &state.displacements)));
     }
-    if state.symmetric {
-        let radial: Vec<usize> = model.grids.iter().map(|grid| grid.radial).collect();
-        subblocks = evened_stresses(&subblocks, &radial);
+    if let Some(mirror) = model.assembly.images_of_bodies().filter(|_| state.symmetric) {
+        subblocks = evened_stresses(&subblocks, &model.grids, mirror);
     }
     Ok(StressField { load_factor, subblocks })
 }

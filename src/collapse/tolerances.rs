@@ -20,7 +20,7 @@ pub(super) struct Tolerances {
     pub same_failure: f64,
     /// Largest equilibrium residual of a path that is trusted, as a share of the loads.
     pub residual: f64,
-    /// The same where springings move: by a tenth of the span they leave more rounding than loads do.
+    /// The same where supports move: by a tenth of the span they leave more rounding than loads do.
     pub settled_residual: f64,
     /// A state that breaks the contact law by more than this share of the loads is not reported.
     pub broken_law: f64,

@@ -117,7 +117,7 @@ fn describe(
     let (end, share) = end.unwrap_or((UpdatedEnd::CannotTell, None));
     let falls = matches!(end, UpdatedEnd::Collapse | UpdatedEnd::FallsAsLoaded);
     let of = |voussoir: usize| tracer.mean_motion(voussoir).displacement;
-    let [left, right] = mechanism::crown(&analysis.structure);
+    let [left, right] = mechanism::crown(&analysis.structure, &analysis.scaled);
     let largest = (0..model.bodies).map(|v| of(v).norm()).fold(0.0, f64::max);
     UpdatedGeometry {
         end,

@@ -13,8 +13,7 @@ use super::state::States;
 use super::updated::{self, Course};
 use super::{
     Aim, Analysis, AnalysisError, CollapseReport, Cost, Crushing, Direction, Doubt, Geometry, LimitWindow, Note,
-    Outcome, SettlementEnd, SpringingMovement, ThrustRange, UpdatedGeometry, falling, plan, rounding, safety,
-    settlement,
+    Outcome, SettlementEnd, SupportMovement, ThrustRange, UpdatedGeometry, falling, plan, rounding, safety, settlement,
 };
 use crate::dda::{End, Tracer};
 use crate::structure::{Joint, JointLaw};
@@ -106,9 +105,9 @@ impl<'a> Setup<'a> {
             report.notes.push(Note::UnbentStones);
         }
         report.updated = self.updated(&mut report)?;
-        match analysis.aim {
+        match &analysis.aim {
             Aim::Collapse => safety::crushed_at_start(&mut report),
-            Aim::Safety { crushing } => safety::judge(&mut report, crushing),
+            &Aim::Safety { crushing } => safety::judge(&mut report, crushing),
             Aim::Settlement(movements) => self.settle(&mut report, movements)?,
         }
         falling::follow(analysis, &mut report, budget)?;
@@ -202,8 +201,8 @@ impl<'a> Setup<'a> {
         updated::follow(self.analysis, course, &mut report.cost, self.budget).map(Some)
     }
 
-    /// What becomes of a standing arch as its springings move.
-    fn settle(&self, report: &mut CollapseReport, movements: [SpringingMovement; 2]) -> Result<(), AnalysisError> {
+    /// What becomes of a standing structure as its supports move.
+    fn settle(&self, report: &mut CollapseReport, movements: &[SupportMovement]) -> Result<(), AnalysisError> {
         safety::crushed_at_start(report);
         if report.at_start.is_none() || report.outcome == Outcome::CannotTell {
             return Ok(());

@@ -12,8 +12,11 @@ pub use half::is_symmetric;
 pub use loops::{Loops, Unconnected};
 pub use ring::Abutment;
 
-use crate::geometry::{Region, Vec2};
+use crate::geometry::{Region, Vec2, cross};
 use std::ops::Range;
+
+/// Twice the area of the triangle at a flat corner, over the body's area.
+const FLAT: f64 = 1e-6;
 
 /// Standard gravity used throughout, m/s2.
 pub const GRAVITY: f64 = 9.81;
@@ -74,6 +77,14 @@ impl Side {
         match self {
             Side::Body(body) => Some(body),
             Side::Support(_) => None,
+        }
+    }
+
+    /// The support, where one is there.
+    pub fn support(self) -> Option<usize> {
+        match self {
+            Side::Body(_) => None,
+            Side::Support(support) => Some(support),
         }
     }
 }
@@ -210,6 +221,17 @@ pub struct Body {
     pub region: Region,
     /// Which of the structure's stones it is made of.
     pub stone: usize,
+}
+
+impl Body {
+    /// Whether it has four corners, each of them convex where its sides are straight: then it can be cut into subblocks as a
+    /// voussoir is.
+    pub fn is_quadrilateral(&self) -> bool {
+        let corner = |i: usize| self.corners[i % 4];
+        let turns = |i: usize| cross(corner(i + 1) - corner(i), corner(i + 2) - corner(i + 1));
+        let convex = || (0..4).all(|i| turns(i) > FLAT * self.region.area);
+        self.corners.len() == 4 && (self.sides != Sides::Straight || convex())
+    }
 }
 
 /// One arch ring of a structure: voussoirs from springing to springing.

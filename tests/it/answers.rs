@@ -28,7 +28,7 @@ fn beam_request() -> Request {
 }
 
 fn subblock() -> SubblockStress {
-    let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 2.0], [0.0, 2.0]].map(Vec2::from);
+    let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 2.0], [0.0, 2.0]].map(Vec2::from).to_vec();
     SubblockStress { voussoir: 4, place: [1, 2], centre: Vec2::new(0.5, 1.0), corners, stress: [-5.0, 1.0, 4.0] }
 }
 

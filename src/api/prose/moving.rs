@@ -1,11 +1,11 @@
-//! Moving geometry and moving springings in words.
+//! Moving geometry and moving supports in words.
 
 use super::wording::{self, word};
 use crate::api::prose::Digits;
 use crate::api::response::{AnalysisResult, SettlementBody, SettlementPathBody, UpdatedBody};
 use crate::collapse::{SettlementEnd, UpdatedEnd};
 
-/// One sentence on springings that move.
+/// One sentence on supports that move.
 pub fn headline(settlement: &SettlementBody) -> String {
     let path = settlement.updated_geometry.as_ref().unwrap_or(&settlement.first_order);
     let share = format!("{} %", Digits(100.0 * path.share_of_movement));
@@ -49,7 +49,7 @@ pub fn before_the_start(result: &AnalysisResult) -> Option<&'static str> {
     falls.then_some(" On moving geometry it falls before the loads at the start of its path are on in full.")
 }
 
-/// Name and value of every line about moving geometry and moving springings.
+/// Name and value of every line about moving geometry and moving supports.
 pub fn facts(result: &AnalysisResult) -> Vec<(&'static str, String)> {
     let mut lines = Vec::new();
     if let Some(updated) = &result.updated_geometry {
@@ -86,7 +86,9 @@ fn on_moving_geometry(result: &AnalysisResult, updated: &UpdatedBody) -> String 
 }
 
 fn path(path: &SettlementPathBody) -> String {
-    let (share, thrust) = (Digits(100.0 * path.share_of_movement), Digits(path.thrust_n_per_m / 1e3));
+    let share = Digits(100.0 * path.share_of_movement);
+    let thrust =
+        path.thrust_n_per_m.map(|thrust| format!("; thrust then {} kN per metre of depth", Digits(thrust / 1e3)));
     let end = match path.end {
         SettlementEnd::Follows => "follows the whole movement".to_owned(),
         SettlementEnd::Collapse => format!("falls at {share} % of the movement"),
@@ -97,5 +99,5 @@ fn path(path: &SettlementPathBody) -> String {
     let snap = if path.snap_share_of_movement.is_some() { format!("; snaps first at {safe} %") } else { String::new() };
     let hinges: Vec<_> = path.hinges.iter().map(|hinge| hinge.joint.to_string()).collect();
     let turning = if hinges.is_empty() { String::new() } else { format!(", turning at joints {}", hinges.join(", ")) };
-    format!("{end}{snap}; thrust then {thrust} kN per metre of depth{turning}")
+    format!("{end}{snap}{}{turning}", thrust.unwrap_or_default())
 }

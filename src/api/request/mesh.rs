@@ -1,4 +1,4 @@
-//! How voussoirs are cut into subblocks.
+//! How bodies are cut into subblocks.
 
 use crate::collapse::Seams;
 use serde::{Deserialize, Serialize};
@@ -9,7 +9,7 @@ pub const MAX_SUBBLOCKS_EACH_WAY: usize = 48;
 /// Most subblocks of an analysis.
 pub const MAX_SUBBLOCKS: usize = 100_000;
 
-/// Bonded subblocks inside every voussoir: at most 100,000 in all.
+/// Bonded subblocks inside every voussoir, and every body of a bridge or of blocks: at most 100,000 in all.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(default)]
 pub struct MeshRequest {
@@ -23,9 +23,10 @@ pub struct MeshRequest {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SubblocksRequest {
-    /// The same in every voussoir; 1 x 1 by default: every voussoir is one block.
+    /// The same in every voussoir; 1 x 1 by default: every voussoir is one block. Of a bridge and of blocks the same in every
+    /// convex body with four corners; others are one block each, which the notes say.
     Uniform(Subblocks),
-    /// One entry per voussoir of the whole arch, left to right. Half an arch uses those of its own voussoirs, half a
+    /// One entry per voussoir of the whole arch, left to right, or per body in the order of `structure.bodies`. Half an arch uses those of its own voussoirs, half a
     /// keystone half of its number along, rounded up. Not with `curved_beam`.
     PerVoussoir(Vec<Subblocks>),
 }
@@ -39,10 +40,10 @@ impl Default for SubblocksRequest {
 /// Subblocks of one voussoir.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 pub struct Subblocks {
-    /// From intrados to extrados, 1 to 48.
+    /// From intrados to extrados, 1 to 48; of a body that is no voussoir, along its side from corner 0 to its last.
     #[schema(minimum = 1, maximum = 48)]
     pub radial: usize,
-    /// Along the arch, 1 to 48.
+    /// Along the arch, 1 to 48; of a body that is no voussoir, along its side from corner 0 to corner 1.
     #[schema(minimum = 1, maximum = 48)]
     pub along: usize,
 }

@@ -73,11 +73,11 @@ pub struct AnalysisRequest {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schema(max_items = 100)]
     pub stones: Vec<NamedStone>,
-    /// Joints that differ from the rest; of an arch only.
+    /// Joints that differ from the rest.
     #[serde(default)]
-    #[schema(max_items = 2002)]
+    #[schema(max_items = 8000)]
     pub joint_overrides: Vec<JointOverride>,
-    /// How the voussoirs are cut into subblocks.
+    /// How the bodies are cut into subblocks.
     #[serde(default)]
     pub mesh: MeshRequest,
     /// How accurate the answer has to be.
@@ -184,8 +184,8 @@ impl Default for StoneRequest {
 /// A joint with a law of its own; what is left out is that of the stone.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct JointOverride {
-    /// Which joint, from 0 at the left springing.
-    #[schema(maximum = 2001)]
+    /// Which joint, from 0; of an arch from the left springing, else as `structure.joints` of the answer has them.
+    #[schema(maximum = 8000)]
     pub joint: usize,
     /// Friction angle, degrees.
     #[serde(default, skip_serializing_if = "Option::is_none")]

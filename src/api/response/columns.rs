@@ -148,9 +148,10 @@ pub struct HistoryColumns {
     pub load_factor: Vec<f64>,
     /// Intensity.
     pub intensity: Vec<f64>,
-    /// Displacement of the stone at the crown, to the right.
+    /// Displacement of the stone at the crown, to the right: of several rings and spans that of the first which carries the most
+    /// of the scaled loads, of blocks the highest.
     pub crown_x_m: Vec<f64>,
-    /// Displacement of the stone at the crown, upwards.
+    /// The same, upwards.
     pub crown_y_m: Vec<f64>,
     /// Largest displacement of any centroid.
     pub largest_m: Vec<f64>,

@@ -1,7 +1,10 @@
 //! Safety factors, at one point and along a curve.
 
+use super::StructureBody;
 use super::assumptions::assumptions;
+use crate::api::prose::in_its_words;
 use crate::api::request::{AimRequest, AnalysisRequest, SafetyRequest};
+use crate::api::translate;
 use crate::collapse::{CrushingKind, Governs, Mode, Note, Reach, SafetyPoint, SafetyZone};
 use serde::Serialize;
 use utoipa::ToSchema;
@@ -100,9 +103,11 @@ impl SafetyCurveResult {
     /// Puts the points in the request's words; none for a request that asks for no curve.
     pub fn new(request: &AnalysisRequest, points: &[SafetyPoint]) -> Option<Self> {
         let AimRequest::Safety(SafetyRequest { crushing, curve: Some(curve) }) = &request.analysis else { return None };
+        let assumptions = assumptions(request, translate::named(request).map(StructureBody::from).as_ref());
         let body = |(point, &abscissa): (&SafetyPoint, &f64)| {
             let mut safety = SafetyBody::from(point);
-            safety.notes.extend(assumptions(request));
+            safety.notes.extend(assumptions.iter().cloned());
+            safety.notes.iter_mut().for_each(|note| *note = in_its_words(request, note));
             CurvePointBody { abscissa, safety }
         };
         Some(SafetyCurveResult {

@@ -3,8 +3,8 @@
 use super::site::Unloaded;
 use super::{MAX_FACTOR, check_text, loads, mesh};
 use crate::api::fault::{Fault, Faults, Shown, lies_under};
-use crate::api::request::{AimRequest, AnalysisRequest, CurveRequest, LoadEntry, MAX_ABSCISSAE};
-use crate::collapse::{Aim, CurvePoint, Direction};
+use crate::api::request::{AnalysisRequest, CurveRequest, LoadEntry, MAX_ABSCISSAE};
+use crate::collapse::{CurvePoint, Direction};
 use std::collections::BTreeSet;
 
 /// Most subblocks at all abscissae of a curve together.
@@ -129,15 +129,5 @@ fn check_size(site: &Unloaded<'_>, abscissae: usize, faults: &mut Faults) -> boo
              {MAX_CURVE_FORCES} by fewer abscissae, by joining loads or by a coarser mesh"
         );
         faults.require(forces <= MAX_CURVE_FORCES, ABSCISSAE, detail)
-    }
-}
-
-impl From<&AimRequest> for Aim {
-    fn from(aim: &AimRequest) -> Self {
-        match aim {
-            AimRequest::Collapse => Aim::Collapse,
-            AimRequest::Safety(safety) => Aim::Safety { crushing: safety.crushing },
-            AimRequest::Settlement(settlement) => Aim::Settlement([settlement.left, settlement.right].map(Into::into)),
-        }
     }
 }

@@ -2,11 +2,11 @@
 
 use super::stone::{Stones, check_overrides, override_joints};
 use super::structure::{self, Layout};
-use super::{MAX_FACTOR, MAX_LENGTH_M, accuracy, check_text, half, loads, mesh, motion};
+use super::{MAX_FACTOR, MAX_LENGTH_M, accuracy, check_text, half, loads, mesh, motion, settlement};
 use crate::api::fault::Faults;
 use crate::api::request::{AimRequest, AnalysisRequest, LoadEntry, MethodRequest};
 use crate::arch::MAX_VOUSSOIRS;
-use crate::collapse::{Accuracy, Analysis, FieldAt, Geometry, LOAD_PIECES, Mesh, Method, MotionAsked};
+use crate::collapse::{Accuracy, Aim, Analysis, FieldAt, Geometry, LOAD_PIECES, Mesh, Method, MotionAsked};
 use crate::geometry::Vec2;
 use crate::structure::{PointForce, Structure};
 
@@ -36,9 +36,7 @@ impl<'a> Unloaded<'a> {
         let stones = Stones::new(request, faults);
         let mut layout = structure::layout(request, &stones, faults);
         structure::check(request, faults);
-        if let Some(arch) = &request.arch {
-            check_overrides(request, arch, layout.as_ref().map(|layout| &layout.structure), faults);
-        }
+        check_overrides(request, layout.as_ref().map(|layout| &layout.structure), faults);
         if let Some(layout) = &mut layout {
             override_joints(request, &mut layout.structure);
         }
@@ -65,6 +63,11 @@ impl<'a> Unloaded<'a> {
         let fields = mesh::fields(&request.report, pieces, faults);
         let motion = motion::motion(request, analysed.unwrap_or(0), faults);
         Unloaded { request, whole: layout, structure, subblocks, cut, method, accuracy, fields, motion }
+    }
+
+    /// The whole structure with its names; none where it cannot be built.
+    pub fn layout(&self) -> Option<&Layout> {
+        self.whole.as_ref()
     }
 
     /// Into how many pieces the extrados side of every voussoir of the whole arch is cut.
@@ -117,7 +120,11 @@ impl<'a> Unloaded<'a> {
             accuracy: self.accuracy,
             fields: self.fields.clone(),
             motion: self.motion,
-            aim: (&request.analysis).into(),
+            aim: match &request.analysis {
+                AimRequest::Collapse => Aim::Collapse,
+                AimRequest::Safety(safety) => Aim::Safety { crushing: safety.crushing },
+                AimRequest::Settlement(moved) => Aim::Settlement(settlement::movements(moved, self.layout()?)),
+            },
             structure: structure.clone(),
         })
     }
@@ -135,7 +142,7 @@ fn check_load_factor(request: &AnalysisRequest, faults: &mut Faults) {
 fn check_method(request: &AnalysisRequest, faults: &mut Faults) {
     let what = match (&request.analysis, request.geometry) {
         (AimRequest::Safety(_), _) => "a safety analysis",
-        (AimRequest::Settlement(_), _) => "a movement of springings",
+        (AimRequest::Settlement(_), _) => "a movement of supports",
         (AimRequest::Collapse, Geometry::Updated) => "a path on moving geometry",
         (AimRequest::Collapse, Geometry::FirstOrder) => return,
     };

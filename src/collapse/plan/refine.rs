@@ -114,7 +114,7 @@ impl Refinement {
         }
         let yields = |report: &CollapseReport| {
             let elastic = report.crushing.as_ref()?.elastic.as_ref()?;
-            Some((elastic.load_factor?, elastic.where_largest?.voussoir))
+            Some((elastic.load_factor?, elastic.where_largest.as_ref()?.voussoir))
         };
         // A mesh that leaves the stone as it was tells nothing of it.
         let now = yields(&report).filter(|(_, voussoir)| refined[*voussoir]);

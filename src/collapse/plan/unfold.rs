@@ -88,6 +88,9 @@ fn unfolded_field(structure: &Structure, left: &StressField) -> StressField {
 
 /// A subblock on the other side, its corners counter-clockwise from the intrados end at the joint before again.
 fn mirror_image_of(subblock: &SubblockStress, axis: f64) -> SubblockStress {
-    let ([a, b, c, d], [x, y, tau]) = (subblock.corners.map(|corner| mirrored(corner, axis)), subblock.stress);
-    SubblockStress { centre: mirrored(subblock.centre, axis), corners: [b, a, d, c], stress: [x, y, -tau], ..*subblock }
+    let [x, y, tau] = subblock.stress;
+    // The first two and the last two change places.
+    let mut corners: Vec<Vec2> = subblock.corners.iter().map(|&corner| mirrored(corner, axis)).collect();
+    corners.chunks_mut(2).for_each(<[Vec2]>::reverse);
+    SubblockStress { centre: mirrored(subblock.centre, axis), corners, stress: [x, y, -tau], ..subblock.clone() }
 }

@@ -4,16 +4,16 @@ use super::{BeamPlan, LimitWindow, Mode, Note};
 use crate::geometry::Vec2;
 
 /// State of stress in one subblock, constant in it.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct SubblockStress {
-    /// Which voussoir.
+    /// Which body.
     pub voussoir: usize,
     /// Place in it: from the intrados, and from the joint before it, both from 0.
     pub place: [usize; 2],
     /// Centroid, m.
     pub centre: Vec2,
-    /// Corners, counter-clockwise from the intrados end at the joint before, m.
-    pub corners: [Vec2; 4],
+    /// Corners, counter-clockwise from the intrados end at the joint before, m; four, unless it is a whole body of another shape.
+    pub corners: Vec<Vec2>,
     /// sigma_x, sigma_y, tau_xy, Pa, compression negative.
     pub stress: [f64; 3],
 }
