@@ -16,6 +16,7 @@ mod path;
 mod plan;
 mod record;
 pub mod report;
+mod rigid_parts;
 mod rounding;
 mod safety;
 mod settlement;
