@@ -14,6 +14,7 @@ mod path;
 mod plan;
 mod record;
 pub mod report;
+mod rigid_parts;
 mod rounding;
 mod safety;
 mod settlement;

@@ -7,11 +7,11 @@
 
 use super::discretise::Scatter;
 use super::mechanism::{Released, all_releases, columns, describe};
-use super::tolerances::TOLERANCES;
-use crate::budget::Budget;
-
+use super::rigid_parts::RigidParts;
 use super::smallest_motion::nearest_motion;
+use super::tolerances::TOLERANCES;
 use super::{Analysis, Mechanism};
+use crate::budget::Budget;
 use crate::limit::{Equilibrium, Release, Resultant, StaticTheorem};
 use crate::structure::{Face, PointForce};
 use std::collections::BTreeSet;
@@ -76,7 +76,10 @@ impl Search<'_> {
     fn motion(&self, released: &[Released], costs: &mut Scatter) -> Option<(Vec<Released>, Vec<f64>)> {
         let cost = |random: f64| if self.has_loops() { 10f64.powf(random) } else { 1.0 + 0.99 * random };
         let costs: Vec<f64> = released.iter().map(|_| cost(costs.next())).collect();
-        let rates = self.theorem.cheapest_motion(released, &costs, self.sign, self.budget)?;
+        let parts = RigidParts::new(&self.analysis.structure, released)?;
+        let theorem = StaticTheorem::new(&parts.structure, &[], &parts.loads(&self.analysis.scaled)).ok()?;
+        let rates = theorem.cheapest_motion(&parts.released, &parts.of_parts(&costs), self.sign, self.budget)?;
+        let rates = parts.of_all(&rates, released.len());
         Some(released.iter().zip(rates).filter(|(_, rate)| *rate > 0.0).unzip())
     }
 

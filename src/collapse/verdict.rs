@@ -84,11 +84,12 @@ impl<'a> Setup<'a> {
             Aim::Collapse | Aim::Settlement(_) => certificate.start(settled, sign, cap),
             Aim::Safety { .. } => certificate.full_load(settled, cap),
         };
-        let thrust = any_fixed(analysis).then(|| certificate.theorem.thrust_range(0.0, budget)).flatten();
+        let stands = any_fixed(analysis) && certificate.stands_at(0.0);
+        let thrust = stands.then(|| certificate.theorem.thrust_range(0.0, budget)).flatten();
         budget.check()?;
         let thrust_range = thrust.map(|[lowest, highest]| ThrustRange { lowest, highest });
         let weight = fixed + scaled * start.abs();
-        let crushing = certificate.crushing(analysis.structure.least_strength(), budget)?;
+        let crushing = certificate.crushing(&analysis.structure, budget)?;
         Ok(Setup { analysis, budget, certificate, thrust_range, crushing, sign, start, cap, weight })
     }
 
