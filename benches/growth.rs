@@ -26,7 +26,9 @@ use std::time::Instant;
 use voussoir::api::read::read_analysis;
 use voussoir::budget::Budget;
 
-use voussoir::collapse::{Analysis, Answer, Cost, CurvedBeam, FieldAt, PlaneModel, Question, Seams, answer};
+use voussoir::collapse::{
+    Analysis, Answer, CollapseTask, Cost, CurvedBeam, FieldAt, PlaneModel, Question, Seams, Task, answer,
+};
 use voussoir::structure::JointLaw;
 
 /// Most runs of a row, and seconds after which no other is begun.
@@ -176,7 +178,7 @@ fn elastic(voussoirs: usize, each_way: usize, lengths: &[f64]) -> Question {
     let mut analysis = arch(lengths, -0.5);
     analysis.structure.joints.iter_mut().for_each(|joint| joint.law = JointLaw::Bonded);
     analysis.mesh.subblocks = vec![[each_way; 2]; voussoirs];
-    analysis.fields = vec![FieldAt::LoadFactor(0.0)];
+    analysis.task = Task::Collapse(CollapseTask::with_fields(vec![FieldAt::LoadFactor(0.0)]));
     Question::One(Box::new(analysis))
 }
 

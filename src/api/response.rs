@@ -200,7 +200,7 @@ impl AnalysisResult {
             at_unit_load: report.at_unit_load.as_ref().map(snapshot),
             at_start: report.at_start.as_ref().map(snapshot),
             stress_fields: report.stress_fields.iter().map(|field| StressFieldBody::new(field, &scale)).collect(),
-            crushing: report.crushing.as_ref().map(|crushing| CrushingBody::new(crushing, &mesh, &scale)),
+            crushing: Some(CrushingBody::new(&report.crushing, &mesh, &scale)),
             updated_geometry: report.updated.as_ref().map(|updated| UpdatedBody::new(updated, report, &scale)),
             settlement: report.settlement.as_ref().map(|settlement| SettlementBody::new(settlement, &grounds)),
             safety: report.safety.as_ref().map(Into::into),

@@ -80,7 +80,7 @@ pub(super) fn discretise<'p>(
     let positions = structure.ring().iter().map(|joint| places(joint.law, &around(joint, &grids))).collect();
     let on_subblocks = |force: &PointForce| pushes(force, &grids);
     let straight = |forces: &[PointForce]| assembly.loads(forces.iter().flat_map(on_subblocks), budget);
-    let turned = |forces: &[PointForce]| match analysis.geometry {
+    let turned = |forces: &[PointForce]| match analysis.task.geometry() {
         Geometry::FirstOrder => Ok(Vec::new()),
         Geometry::Updated => assembly.turned_loads(forces.iter().flat_map(on_subblocks), budget),
     };

@@ -1,8 +1,8 @@
 //! Motion after collapse: from an arch, its loads and its report to rigid blocks on the move, and back to frames.
 
 use super::{
-    Analysis, AnalysisError, CollapseReport, Direction, FallingMotion, MotionAsked, MotionContact, MotionEnd,
-    MotionFrame, Note, OpenHinge, Outcome, Slid,
+    Analysis, AnalysisError, CollapseReport, FallingMotion, MotionAsked, MotionContact, MotionEnd, MotionFrame, Note,
+    OpenHinge, Outcome, Slid,
 };
 use crate::budget::Budget;
 
@@ -27,7 +27,7 @@ type Loading = (f64, f64);
 
 /// Moves the arch on from the collapse in a report, and from the other end of a window too.
 pub(super) fn follow(analysis: &Analysis, report: &mut CollapseReport, budget: &Budget) -> Result<(), AnalysisError> {
-    let Some(asked) = analysis.motion else { return Ok(()) };
+    let Some(asked) = analysis.task.motion() else { return Ok(()) };
     let as_built = matches!(report.outcome, Outcome::FallsAsBuilt | Outcome::SlidesAsBuilt);
     let falls = as_built || matches!(report.outcome, Outcome::Collapse | Outcome::StandsInWindow);
     if !falls || (report.end.is_none() && report.other_end.is_none()) {
@@ -38,7 +38,7 @@ pub(super) fn follow(analysis: &Analysis, report: &mut CollapseReport, budget: &
         report.notes.push(if halved { Note::MotionOfHalfStone } else { Note::MotionOfBondedStones });
         return Ok(());
     }
-    let sign = if analysis.direction == Direction::Increase { 1.0 } else { -1.0 };
+    let sign = analysis.task.sign();
     let of_end = |end: bool, report: &CollapseReport| {
         let (end, sign) = if end { (&report.end, sign) } else { (&report.other_end, -sign) };
         end.as_ref().map(|end| loadings(analysis, report, end.load_factor, sign))

@@ -49,7 +49,7 @@ impl CollapseReport {
         let states = self.near_collapse.iter().chain(&self.at_unit_load).chain(&self.at_start);
         { states }.try_for_each(Snapshot::check_finite)?;
         self.stress_fields.iter().try_for_each(StressField::check_finite)?;
-        let elastic = self.crushing.iter().filter_map(|c| c.elastic.as_ref());
+        let elastic = self.crushing.elastic.iter();
         finite("first yield", elastic.clone().filter_map(|e| e.load_factor))?;
         finite("first yield", elastic.filter_map(|e| e.where_largest.as_ref()).flat_map(|subblock| subblock.stress))?;
         self.safety.iter().try_for_each(SafetyPoint::check_finite)?;

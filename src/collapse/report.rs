@@ -283,7 +283,7 @@ pub struct CollapseReport {
     /// Stress in every subblock, where asked.
     pub stress_fields: Vec<StressField>,
     /// When the stone crushes.
-    pub crushing: Option<Crushing>,
+    pub crushing: Crushing,
     /// The same question on moving geometry, where asked and where the arch stands at first order.
     pub updated: Option<UpdatedGeometry>,
     /// What the springings' movement does, where asked and where the arch stands.

@@ -20,11 +20,10 @@ pub(super) fn curve(points: &[CurvePoint], budget: &Budget) -> Result<Vec<Safety
 
 /// Reads the safety factors off a finished report, whose path started at the full loads if the arch stands under them.
 pub(super) fn judge(report: &mut CollapseReport, counted: CrushingKind) {
-    let missing = report.crushing.as_ref().is_none_or(|crushing| crushing.plastic_section.is_none());
+    let missing = report.crushing.plastic_section.is_none();
     report.notes.extend(missing.then_some(Note::NoPlasticSections));
-    let crushing = report.crushing.as_ref();
-    let (instability, elastic) = (instability(report), crushing.map_or(Reach::Unknown, elastic));
-    let plastic_section = crushing.map_or(Reach::Unknown, |crushing| plastic(crushing, report.cap));
+    let (instability, elastic) = (instability(report), elastic(&report.crushing));
+    let plastic_section = plastic(&report.crushing, report.cap);
     // Stresses below the strength everywhere are in equilibrium, so no plastic collapse can come before.
     let end = if let Reach::At(falls) = instability { falls } else { report.cap };
     let too_coarse = match (plastic_section, elastic) {
@@ -32,7 +31,7 @@ pub(super) fn judge(report: &mut CollapseReport, counted: CrushingKind) {
         (plastic, elastic) => is_before(plastic, elastic),
     };
     // Not merely beyond the cap: with dry joints alone every growing load crushes some joint in the end.
-    let window = crushing.and_then(|crushing| crushing.plastic_section.as_ref()).and_then(|plastic| plastic.window);
+    let window = report.crushing.plastic_section.as_ref().and_then(|plastic| plastic.window);
     let endless = window.is_some_and(|window| window.highest.is_infinite());
     let uncrushed = endless && matches!(elastic, Reach::At(_) | Reach::DoesNotStand);
     report.notes.extend(too_coarse.then_some(Note::YieldTooLate));
@@ -76,14 +75,14 @@ pub(super) fn crushed_at_start(report: &mut CollapseReport) {
     if report.outcome == Outcome::CannotTell {
         return;
     }
-    let Some(crushing) = &report.crushing else { return };
-    let Some(plastic) = &crushing.plastic_section else { return report.notes.push(Note::NoPlasticSections) };
+    let Crushing { strength, elastic, plastic_section } = &report.crushing;
+    let Some(plastic) = plastic_section else { return report.notes.push(Note::NoPlasticSections) };
     if !stands(report.limit_window) || stands(plastic.window) {
         return;
     }
-    let (strength, start, window) = (crushing.strength, report.start, plastic.window);
+    let (strength, start, window) = (*strength, report.start, plastic.window);
     report.notes.push(Note::CrushesAtStart { strength, start, window });
-    if crushing.elastic.as_ref().is_some_and(|elastic| elastic.at_start) {
+    if elastic.as_ref().is_some_and(|elastic| elastic.at_start) {
         report.outcome = Outcome::Crushes;
     }
 }

@@ -40,7 +40,7 @@ pub(super) fn follow(
         first_that_tells(tells, |number| attempt(analysis, movements, geometry, weight, number, cost, budget))
     };
     let Some(first_order) = path(Geometry::FirstOrder)? else { return Ok(None) };
-    let updated = if analysis.geometry == Geometry::Updated { path(Geometry::Updated)? } else { None };
+    let updated = if analysis.task.geometry() == Geometry::Updated { path(Geometry::Updated)? } else { None };
     Ok(Some(SettlementReport { first_order, updated }))
 }
 

@@ -12,8 +12,8 @@ use super::record::snapshot;
 use super::state::States;
 use super::updated::{self, Course};
 use super::{
-    Aim, Analysis, AnalysisError, CollapseReport, Cost, Crushing, Direction, Doubt, Geometry, LimitWindow, Note,
-    Outcome, SettlementEnd, SupportMovement, ThrustRange, UpdatedGeometry, falling, plan, rounding, safety, settlement,
+    Analysis, AnalysisError, CollapseReport, Cost, Crushing, Doubt, Geometry, LimitWindow, Note, Outcome,
+    SettlementEnd, SupportMovement, Task, ThrustRange, UpdatedGeometry, falling, plan, rounding, safety, settlement,
 };
 use crate::dda::{End, Tracer};
 use crate::structure::{Joint, JointLaw};
@@ -74,15 +74,15 @@ impl<'a> Setup<'a> {
         let certificate = Certificate::new(analysis, budget)?;
         let (fixed, scaled) = (total(&analysis.fixed), total(&analysis.scaled));
         let balance = if fixed > 0.0 && scaled > 0.0 { fixed / scaled } else { 1.0 };
-        let sign = if analysis.direction == Direction::Increase { 1.0 } else { -1.0 };
-        let cap = analysis.cap.unwrap_or(match analysis.aim {
-            Aim::Collapse | Aim::Settlement(_) => DEFAULT_CAP * balance,
-            Aim::Safety { .. } => DEFAULT_CAP * balance.max(1.0),
-        });
-        let settled = loaded(analysis)[0];
-        let start = match analysis.aim {
-            Aim::Collapse | Aim::Settlement(_) => certificate.start(settled, sign, cap),
-            Aim::Safety { .. } => certificate.full_load(settled, cap),
+        let (sign, settled) = (analysis.task.sign(), loaded(analysis)[0]);
+        let cap = match &analysis.task {
+            Task::Collapse(task) => task.cap.unwrap_or(DEFAULT_CAP * balance),
+            Task::Safety(task) => task.cap.unwrap_or(DEFAULT_CAP * balance.max(1.0)),
+            Task::Settlement(_) => DEFAULT_CAP * balance,
+        };
+        let start = match &analysis.task {
+            Task::Collapse(_) | Task::Settlement(_) => certificate.start(settled, sign, cap),
+            Task::Safety(_) => certificate.full_load(settled, cap),
         };
         let stands = any_fixed(analysis) && certificate.stands_at(0.0);
         let thrust = stands.then(|| certificate.theorem.thrust_range(0.0, budget)).flatten();
@@ -97,19 +97,19 @@ impl<'a> Setup<'a> {
     fn answer(&self) -> Result<CollapseReport, AnalysisError> {
         let (analysis, budget) = (self.analysis, self.budget);
         let mut report = self.solve()?;
-        if let Some(accuracy) = analysis.accuracy {
+        if let Some(accuracy) = analysis.task.accuracy() {
             report = plan::refined(analysis, accuracy, report, budget)?;
         }
         report.settle_fields(analysis);
         let unbent = analysis.mesh.subblocks.iter().any(|[radial, _]| *radial == 1);
-        if analysis.geometry == Geometry::Updated && unbent && report.at_start.is_some() {
+        if analysis.task.geometry() == Geometry::Updated && unbent && report.at_start.is_some() {
             report.notes.push(Note::UnbentStones);
         }
         report.updated = self.updated(&mut report)?;
-        match &analysis.aim {
-            Aim::Collapse => safety::crushed_at_start(&mut report),
-            &Aim::Safety { crushing } => safety::judge(&mut report, crushing),
-            Aim::Settlement(movements) => self.settle(&mut report, movements)?,
+        match &analysis.task {
+            Task::Collapse(_) => safety::crushed_at_start(&mut report),
+            Task::Safety(task) => safety::judge(&mut report, task.crushing),
+            Task::Settlement(task) => self.settle(&mut report, &task.movements)?,
         }
         falling::follow(analysis, &mut report, budget)?;
         budget.ask()?;
@@ -169,13 +169,13 @@ impl<'a> Setup<'a> {
         if nothing_grows(&model, total(&analysis.scaled)) {
             report.outcome = Outcome::NeverCollapses;
             at_start.map(|state| report.fields_at_rest(analysis, &model, &state)).transpose()?;
-            if !matches!(analysis.aim, Aim::Settlement(_)) {
+            if !matches!(analysis.task, Task::Settlement(_)) {
                 report.notes.push(Note::NothingGrows);
             }
             let doubt = states.tell(&mut report);
             return Ok(Attempted { report, doubt });
         }
-        let both_ways = analysis.aim == Aim::Collapse && !self.certificate.stands_at(0.0);
+        let both_ways = matches!(analysis.task, Task::Collapse(_)) && !self.certificate.stands_at(0.0);
         let back = both_ways.then(|| tracer.clone());
         let mut doubt = self.leg(&mut report, &mut states, &mut tracer, &fixed, self.sign, &mut progress)?;
         if let Some(mut back) = back {
@@ -191,8 +191,8 @@ impl<'a> Setup<'a> {
     /// The answer on moving geometry, where it is asked for and the arch stands at first order.
     fn updated(&self, report: &mut CollapseReport) -> Result<Option<UpdatedGeometry>, AnalysisError> {
         let stands = report.at_start.is_some() && report.outcome != Outcome::CannotTell;
-        let settles = matches!(self.analysis.aim, Aim::Settlement(_));
-        if self.analysis.geometry == Geometry::FirstOrder || !stands || settles {
+        let settles = matches!(self.analysis.task, Task::Settlement(_));
+        if self.analysis.task.geometry() == Geometry::FirstOrder || !stands || settles {
             return Ok(None);
         }
         let (start, sign, cap, weight) = (self.start, self.sign, self.cap, self.weight);
@@ -238,12 +238,12 @@ impl<'a> Setup<'a> {
             other_end: None,
             start: self.start,
             cap: self.cap,
-            share: self.analysis.share,
+            share: self.analysis.task.share(),
             near_collapse: None,
             at_unit_load: None,
             at_start: None,
             stress_fields: Vec::new(),
-            crushing: Some(self.crushing.clone()),
+            crushing: self.crushing.clone(),
             updated: None,
             settlement: None,
             safety: None,

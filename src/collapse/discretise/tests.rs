@@ -2,7 +2,7 @@ use super::*;
 use crate::arch::profile::Profile;
 use crate::arch::ring::{JointLines, Line, Ring, Thickness, stations};
 use crate::arch::{assemble, straight_voussoirs};
-use crate::collapse::{Aim, Direction, Mesh, Method};
+use crate::collapse::Mesh;
 use crate::geometry::perpendicular;
 
 /// A semicircle of `n` equal stones, cut into `subblocks` each, without loads.
@@ -18,24 +18,9 @@ fn semicircle(n: usize, subblocks: [usize; 2], curved: bool) -> Analysis {
     let ends = ring.set_out().unwrap();
     let stones = if curved { ring.curved_voussoirs(&ends).unwrap() } else { straight_voussoirs(&ends).unwrap() };
     let law = JointLaw::Dry { friction: 0.6, cohesion: 0.0 };
-    Analysis {
-        aim: Aim::Collapse,
-        structure: assemble(&ends, stones, Stone::default(), law, Vec2::zeros()),
-        plane: PlaneModel::Stress,
-        penalty_ratio: 10.0,
-        shear_penalty_ratio: 1.0,
-        fixed: Vec::new(),
-        scaled: Vec::new(),
-        direction: Direction::Increase,
-        cap: None,
-        method: Method::EventPath,
-        geometry: Geometry::FirstOrder,
-        share: 0.999,
-        mesh: Mesh { subblocks: vec![subblocks; n], seams: Seams::Split },
-        accuracy: None,
-        fields: Vec::new(),
-        motion: None,
-    }
+    let structure = assemble(&ends, stones, Stone::default(), law, Vec2::zeros());
+    let mesh = Mesh { subblocks: vec![subblocks; n], seams: Seams::Split };
+    Analysis { mesh, ..Analysis::new(structure, Vec::new(), Vec::new()) }
 }
 
 fn model<'p>(analysis: &Analysis, budget: &'p Budget<'p>) -> Model<'p> {

@@ -1,5 +1,5 @@
 use super::*;
-use crate::collapse::{Cost, HistoryPoint, LimitWindow, Reach, SafetyPoint};
+use crate::collapse::{Cost, Crushing, HistoryPoint, LimitWindow, Reach, SafetyPoint};
 use crate::geometry::Vec2;
 
 /// A report of nothing but its limit window.
@@ -17,7 +17,7 @@ fn blank() -> CollapseReport {
         at_unit_load: None,
         at_start: None,
         stress_fields: Vec::new(),
-        crushing: None,
+        crushing: Crushing { strength: 1e7, elastic: None, plastic_section: None },
         updated: None,
         settlement: None,
         safety: None,

@@ -29,10 +29,8 @@ impl Setup<'_> {
         report.cost.add(tracer, before);
         let at_unit_load = recorder.at(1.0).map(|d| states.find(1.0, d)).transpose()?.flatten();
         report.at_unit_load = at_unit_load.map(|state| snapshot(model, &state)).transpose()?;
-        if let Some(crushing) = &mut report.crushing {
-            let (first_yield, at) = (recorder.first_yield(), recorder.yields_at());
-            crushing.elastic = Some(states.first_yield(first_yield, at, crushing.strength)?);
-        }
+        let (first_yield, at) = (recorder.first_yield(), recorder.yields_at());
+        report.crushing.elastic = Some(states.first_yield(first_yield, at, report.crushing.strength)?);
         let residual = tracer.worst_residual();
         let mut peak_load = None;
         let (ending, turned_back) = match leg {
@@ -76,13 +74,13 @@ impl Setup<'_> {
         turned_back: bool,
     ) -> Result<Option<Doubt>, AnalysisError> {
         let path = ending.end.load_factor;
-        let doubt = match self.analysis.method {
+        let doubt = match self.analysis.task.method() {
             Method::FixedSteps { step, .. } => {
                 let limit = self.certificate.end(sign).unwrap_or(0.0);
                 report.notes.push(Note::ReadAtSteps { step, limit });
                 None
             }
-            Method::EventPath => {
+            Method::EventPath(_) => {
                 self.take_least(&mut ending, sign)?;
                 match self.certificate.compare(&ending.end, sign) {
                     Err(doubt) => Some(doubt),
@@ -128,8 +126,8 @@ impl Setup<'_> {
 
     /// The collapse load as the method reads it: exact, or the first whole step beyond.
     fn read_off(&self, load_factor: f64, sign: f64) -> f64 {
-        match self.analysis.method {
-            Method::EventPath => load_factor,
+        match self.analysis.task.method() {
+            Method::EventPath(_) => load_factor,
             Method::FixedSteps { step, .. } => {
                 let steps = ((load_factor - self.start).abs() / step).floor() + 1.0;
                 self.start + sign * steps * step
