@@ -27,7 +27,7 @@ use voussoir::api::read::read_analysis;
 use voussoir::budget::Budget;
 
 use voussoir::collapse::{
-    Analysis, Answer, CollapseTask, Cost, CurvedBeam, FieldAt, PlaneModel, Question, Seams, Task, answer,
+    Analysis, Answer, CollapseTask, Cost, CurvedBeam, FieldAt, PlaneModel, Question, Seams, StatesAsked, Task, answer,
 };
 use voussoir::structure::JointLaw;
 
@@ -178,7 +178,8 @@ fn elastic(voussoirs: usize, each_way: usize, lengths: &[f64]) -> Question {
     let mut analysis = arch(lengths, -0.5);
     analysis.structure.joints.iter_mut().for_each(|joint| joint.law = JointLaw::Bonded);
     analysis.mesh.subblocks = vec![[each_way; 2]; voussoirs];
-    analysis.task = Task::Collapse(CollapseTask::with_fields(vec![FieldAt::LoadFactor(0.0)]));
+    let states = StatesAsked { fields: vec![FieldAt::LoadFactor(0.0)], ..StatesAsked::default() };
+    analysis.task = Task::Collapse(CollapseTask { states, ..CollapseTask::default() });
     Question::One(Box::new(analysis))
 }
 

@@ -23,7 +23,7 @@ pub fn judge_settlement(analysis: &Analysis, report: &CollapseReport, truth: &Tr
         return Mark::Open;
     }
     let stands = !truth.falls();
-    let Some(settled) = report.settlement.as_ref() else {
+    let Some(settled) = report.settlement() else {
         // Where joints slide, standing depends on how the arch was built.
         let slides = report.end.as_ref().is_some_and(|end| !end.mechanism.slides.is_empty());
         let fits = match report.outcome {

@@ -4,7 +4,7 @@ use super::discretise::Model;
 use super::mechanism::{self, Released};
 use super::motion::{Motion, motion_at};
 use super::path::{Fall, total};
-use super::tolerances::TOLERANCES;
+use super::tolerances;
 use super::{Analysis, PathEnd, Thrust};
 use crate::dda::{Peak, State, Tracer, Zone};
 use crate::limit::{Condition, Resultant, StaticTheorem};
@@ -34,8 +34,8 @@ pub(super) fn at_peak(
     let conditions = conditions(model, structure, peak);
     let polished = theorem.solve(&conditions).filter(|e| {
         let scale = peak.parameter.abs().max(theorem.load_factor_scale());
-        (e.load_factor - peak.parameter).abs() <= TOLERANCES.polish * scale
-            && theorem.slack(e) >= -TOLERANCES.admissible
+        (e.load_factor - peak.parameter).abs() <= tolerances::POLISH * scale
+            && theorem.slack(e) >= -tolerances::ADMISSIBLE
     });
     let forces = match &polished {
         Some(equilibrium) => theorem.resultants(equilibrium),
@@ -44,7 +44,7 @@ pub(super) fn at_peak(
     let driving = driving(analysis, peak.parameter, sign);
     let slipping: Vec<Option<f64>> = (0..structure.ring().len()).map(|k| sliding_shear(model, k, peak)).collect();
     let found =
-        mechanism::from_statics(structure, &forces, &slipping, &driving, TOLERANCES.corner_polished, model.budget);
+        mechanism::from_statics(structure, &forces, &slipping, &driving, tolerances::CORNER_POLISHED, model.budget);
     let later = found.is_none();
     let mechanism = found.unwrap_or_else(|| {
         from_direction(model, structure, if fall.turned_back { &peak.direction } else { &fall.direction })
@@ -56,9 +56,9 @@ pub(super) fn at_peak(
             structure,
             &forces,
             &slipping,
-            if polished.is_some() { TOLERANCES.corner_polished } else { TOLERANCES.corner_on_path },
+            if polished.is_some() { tolerances::CORNER_POLISHED } else { tolerances::CORNER_ON_PATH },
         ),
-        mechanism::all_releases(structure, &left, &vec![None; left.len()], TOLERANCES.corner_on_path),
+        mechanism::all_releases(structure, &left, &vec![None; left.len()], tolerances::CORNER_ON_PATH),
     ];
     let load_factor = polished.map_or(peak.parameter, |e| e.load_factor);
     let end = PathEnd { load_factor, range: None, residual, mechanism, thrust_line: thrust_line(structure, &forces) };
@@ -88,7 +88,7 @@ pub(super) fn at_fall(analysis: &Analysis, model: &Model, tracer: &Tracer, start
     let along_path = from_direction(model, structure, tracer.direction());
     let none = vec![None; structure.ring().len()];
     let (carried, budget) = (resultants(model, |p| forces[p]), model.budget);
-    let smallest = mechanism::from_statics(structure, &carried, &none, &driving, TOLERANCES.corner_on_path, budget);
+    let smallest = mechanism::from_statics(structure, &carried, &none, &driving, tolerances::CORNER_ON_PATH, budget);
     let mechanism = smallest.filter(|m| along_path.slides.is_empty() && m.slides.is_empty()).unwrap_or(along_path);
     PathEnd { load_factor, range: None, residual: tracer.worst_residual(), mechanism, thrust_line: Vec::new() }
 }

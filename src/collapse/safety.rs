@@ -1,9 +1,9 @@
 //! Safety factors: the first of instability and crushing as the scaled loads grow from their full size.
 
-use super::tolerances::TOLERANCES;
+use super::tolerances;
 use super::{
     AnalysisError, CollapseReport, Crushing, CrushingKind, CurvePoint, Governs, LimitWindow, Mode, Note, Outcome,
-    Reach, SafetyPoint, SafetyZone, UpdatedEnd, UpdatedGeometry, verdict,
+    Reach, SafetyFactors, SafetyPoint, SafetyZone, TaskReport, UpdatedEnd, UpdatedGeometry, verdict,
 };
 use crate::budget::Budget;
 
@@ -11,9 +11,8 @@ use crate::budget::Budget;
 pub(super) fn curve(points: &[CurvePoint], budget: &Budget) -> Result<Vec<SafetyPoint>, AnalysisError> {
     let solve = |point: &CurvePoint| {
         let report = verdict::run(&point.analysis, budget)?;
-        let safety =
-            report.safety.map(|safety| SafetyPoint { abscissa: Some(point.abscissa), notes: report.notes, ..safety });
-        Ok(safety.unwrap_or_else(|| SafetyPoint::unknown(Some(point.abscissa))))
+        let factors = report.safety().copied().unwrap_or(SafetyFactors::UNKNOWN);
+        Ok(SafetyPoint { abscissa: point.abscissa, factors, notes: report.notes })
     };
     points.iter().map(solve).collect()
 }
@@ -52,8 +51,7 @@ pub(super) fn judge(report: &mut CollapseReport, counted: CrushingKind) {
     if governed_by == Governs::Crushing {
         report.outcome = Outcome::Crushes;
     }
-    report.safety = Some(SafetyPoint {
-        abscissa: None,
+    report.task = TaskReport::Safety(SafetyFactors {
         instability,
         updated,
         elastic,
@@ -62,7 +60,6 @@ pub(super) fn judge(report: &mut CollapseReport, counted: CrushingKind) {
         governed_by,
         mode,
         zone,
-        notes: Vec::new(),
     });
 }
 
@@ -84,24 +81,6 @@ pub(super) fn crushed_at_start(report: &mut CollapseReport) {
     report.notes.push(Note::CrushesAtStart { strength, start, window });
     if elastic.as_ref().is_some_and(|elastic| elastic.at_start) {
         report.outcome = Outcome::Crushes;
-    }
-}
-
-impl SafetyPoint {
-    /// Nothing is known.
-    pub(super) fn unknown(abscissa: Option<f64>) -> Self {
-        SafetyPoint {
-            abscissa,
-            instability: Reach::Unknown,
-            updated: None,
-            elastic: Reach::Unknown,
-            plastic_section: Reach::Unknown,
-            governing: Reach::Unknown,
-            governed_by: Governs::Unknown,
-            mode: None,
-            zone: None,
-            notes: Vec::new(),
-        }
     }
 }
 
@@ -158,7 +137,7 @@ fn plastic(crushing: &Crushing, cap: f64) -> Reach {
 
 /// True where load factor `a` lies visibly below `b`.
 fn is_below(a: f64, b: f64) -> bool {
-    a < (1.0 - TOLERANCES.same_failure) * b
+    a < (1.0 - tolerances::SAME_FAILURE) * b
 }
 
 /// True where `a` comes before `b`, both known.

@@ -28,13 +28,6 @@ pub struct CollapseTask {
     pub motion: Option<MotionAsked>,
 }
 
-impl CollapseTask {
-    /// The collapse as loads increase, with the stress at these places of the load path.
-    pub fn with_fields(fields: Vec<FieldAt>) -> Self {
-        CollapseTask { states: StatesAsked { fields, ..StatesAsked::default() }, ..CollapseTask::default() }
-    }
-}
-
 /// How far scaled loads can grow.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SafetyTask {

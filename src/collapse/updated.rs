@@ -2,7 +2,7 @@
 
 use super::discretise::{Model, discretise};
 use super::path::{Attempt, FALLEN, MOVED, Moved, disturbed, first_that_tells, lost, stand_moved};
-use super::tolerances::TOLERANCES;
+use super::tolerances;
 use crate::budget::Budget;
 
 use super::{Analysis, AnalysisError, Cost, Unfollowed, UpdatedEnd, UpdatedGeometry, ending, mechanism};
@@ -84,7 +84,7 @@ fn attempt(
     let falls = end == End::Mechanism && !turned_back && tracer.return_to_peak();
     let residual = tracer.worst_residual();
     let end = match (stood, end) {
-        _ if residual > TOLERANCES.residual => Err(Unfollowed::Coarse(residual)),
+        _ if residual > tolerances::RESIDUAL => Err(Unfollowed::Coarse(residual)),
         (Moved::Falls(share), _) => Ok((UpdatedEnd::FallsAsLoaded, Some(share))),
         (Moved::Stands, End::Mechanism) if falls => Ok((UpdatedEnd::Collapse, None)),
         (Moved::Stands, End::Mechanism) => Err(Unfollowed::TurnedBack),

@@ -13,7 +13,8 @@ use super::state::States;
 use super::updated::{self, Course};
 use super::{
     Analysis, AnalysisError, CollapseReport, Cost, Crushing, Doubt, Geometry, LimitWindow, Note, Outcome,
-    SettlementEnd, SupportMovement, Task, ThrustRange, UpdatedGeometry, falling, plan, rounding, safety, settlement,
+    SafetyFactors, SettlementEnd, SupportMovement, Task, TaskReport, ThrustRange, UpdatedGeometry, falling, plan,
+    rounding, safety, settlement,
 };
 use crate::dda::{End, Tracer};
 use crate::structure::{Joint, JointLaw};
@@ -208,15 +209,16 @@ impl<'a> Setup<'a> {
         if report.at_start.is_none() || report.outcome == Outcome::CannotTell {
             return Ok(());
         }
-        report.settlement = settlement::follow(self.analysis, movements, self.weight, &mut report.cost, self.budget)?;
+        let (cost, budget) = (&mut report.cost, self.budget);
+        let settlement = settlement::follow(self.analysis, movements, self.weight, cost, budget)?;
         if report.outcome != Outcome::Crushes {
-            let settlement = report.settlement.as_ref();
-            report.outcome = match settlement.map(|s| s.updated.as_ref().unwrap_or(&s.first_order).end) {
+            report.outcome = match settlement.as_ref().map(|s| s.updated.as_ref().unwrap_or(&s.first_order).end) {
                 Some(SettlementEnd::Follows) => Outcome::FollowsMovement,
                 Some(SettlementEnd::Collapse | SettlementEnd::FallsAsLoaded) => Outcome::FallsByMovement,
                 Some(SettlementEnd::CannotTell) | None => Outcome::CannotTell,
             };
         }
+        report.task = TaskReport::Settlement(settlement);
         Ok(())
     }
 
@@ -245,8 +247,11 @@ impl<'a> Setup<'a> {
             stress_fields: Vec::new(),
             crushing: self.crushing.clone(),
             updated: None,
-            settlement: None,
-            safety: None,
+            task: match self.analysis.task {
+                Task::Collapse(_) => TaskReport::Collapse,
+                Task::Safety(_) => TaskReport::Safety(SafetyFactors::UNKNOWN),
+                Task::Settlement(_) => TaskReport::Settlement(None),
+            },
             history: Vec::new(),
             motion: None,
             other_motion: None,

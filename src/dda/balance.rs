@@ -32,14 +32,14 @@ use std::ops::ControlFlow;
 
 /// Residuals, as a share of the sum of all loads on the nodes, below which corrections are mere rounding, and up to which a
 /// state is one of equilibrium.
-const EXACT: f64 = 1e-15;
+const EXACT_BALANCE: f64 = 1e-15;
 const BALANCED: f64 = 1e-9;
 /// Most steps of Newton's method; from the states of a path one or two are enough.
 const STEPS: usize = 20;
 /// A residual that has grown so many times leads nowhere.
 const LOST: f64 = 1e3;
 /// A pivot ratio below this is a motion that changes no force, see the tracer.
-const SINGULAR: f64 = 1e-12;
+const FREE_PIVOT: f64 = 1e-12;
 
 /// A state of equilibrium.
 #[derive(Debug, Clone, PartialEq)]
@@ -90,7 +90,7 @@ fn by_newton(
     for _ in 0..STEPS {
         assembly.unbalance(newton.contacts, loads, &d, &mut residual, budget)?;
         let share = share_of(&residual, loads);
-        let settled = share <= EXACT || (share >= 0.5 * best.0 && best.0 <= BALANCED);
+        let settled = share <= EXACT_BALANCE || (share >= 0.5 * best.0 && best.0 <= BALANCED);
         let lost = share > LOST * best.0;
         if share < best.0 {
             best = (share, d.clone());
@@ -102,7 +102,7 @@ fn by_newton(
     }
     let (share, displacements) = best;
     let [factorisations, block_rows] = [newton.factorisations, newton.factor.eliminated()];
-    let found = Balanced { displacements, free: newton.factor.pivot_ratio() < SINGULAR, factorisations, block_rows };
+    let found = Balanced { displacements, free: newton.factor.pivot_ratio() < FREE_PIVOT, factorisations, block_rows };
     Ok((share <= BALANCED).then_some(found))
 }
 

@@ -15,7 +15,7 @@ use crate::budget::Budget;
 /// programme grants its own rows, so that every cut moves the point.
 const VIOLATED: f64 = 1e-11;
 /// Error of the interior point method that is put up with: of the order of the above for the end of the window.
-const NEARLY: f64 = 1e-8;
+const NEARLY_SOLVED: f64 = 1e-8;
 /// A parabola this close is active; ten times the above, so that rounding hides no crushed joint.
 const ACTIVE: f64 = 1e-7;
 /// The block of stress that bears a joint's force takes at least this share of a joint that crushes; less is a hinge.
@@ -87,7 +87,7 @@ impl StaticTheorem {
         let first = |section: &Section| FIRST_CUTS.map(|at| section.tangents(at, self));
         cut.limits = sections.iter().flat_map(first).flatten().collect();
         conic.sections = sections.clone();
-        conic.error = Some(NEARLY);
+        conic.error = Some(NEARLY_SOLVED);
         let mut window = CrushingWindow { ends: [0.0; 2], joints: [Vec::new(), Vec::new()] };
         for (end, sign) in [-1.0, 1.0].into_iter().enumerate() {
             let objective = Objective::load_factor(sign);

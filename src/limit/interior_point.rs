@@ -29,10 +29,10 @@ const VANISHED: f64 = 1e-13;
 /// Share of the way to the boundary that a step goes.
 const STEP: f64 = 0.99;
 /// Iterations without a better point after which rounding has won.
-const PATIENCE: usize = 20;
+const MOST_IDLE: usize = 20;
 /// So much worse than a best point that is as near as this to the optimum: rounding has won.
 const BLOWN_UP: f64 = 1e4;
-const NEAR: f64 = 1e-6;
+const NEAR_OPTIMUM: f64 = 1e-6;
 
 /// A 3 x 3 matrix by rows.
 pub type Square = [[f64; 3]; 3];
@@ -199,7 +199,7 @@ pub fn minimise(programme: &Sparse, pattern: &Pattern, budget: &Budget) -> Found
         if error.is_nan() {
             break;
         }
-        if best.as_ref().is_some_and(|best| best.0 < NEAR && error > BLOWN_UP * best.0) {
+        if best.as_ref().is_some_and(|best| best.0 < NEAR_OPTIMUM && error > BLOWN_UP * best.0) {
             break;
         }
         since += 1;
@@ -208,7 +208,7 @@ pub fn minimise(programme: &Sparse, pattern: &Pattern, budget: &Budget) -> Found
             best = Some((error, by_tau(&point.x), by_tau(&point.z)));
             since = 0;
         }
-        if error < ENOUGH || since > PATIENCE {
+        if error < ENOUGH || since > MOST_IDLE {
             break;
         }
         let Some(newton) = Newton::new(programme, pattern, &point) else { break };
@@ -217,7 +217,7 @@ pub fn minimise(programme: &Sparse, pattern: &Pattern, budget: &Budget) -> Found
     }
     match (best, barely) {
         (Some((error, x, z)), None) => Found::Optimum { x, z, error },
-        (Some((error, x, z)), _) if error < NEAR => Found::Optimum { x, z, error },
+        (Some((error, x, z)), _) if error < NEAR_OPTIMUM => Found::Optimum { x, z, error },
         (_, barely) => barely.unwrap_or(Found::Lost),
     }
 }

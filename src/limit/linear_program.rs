@@ -16,7 +16,7 @@ const NO_WEIGHT: f64 = 1e-13;
 /// Ratios of a multiplier to a weight that differ by less than this share of them are equal.
 const TIE: f64 = 1e-11;
 /// So are those that differ by rounding, of few unknowns and of more, whose multipliers gather it over many pivots.
-const ROUNDING: [f64; 2] = [1e-15, 1e-14];
+const EQUAL_RATIO: [f64; 2] = [1e-15, 1e-14];
 const FEW: usize = 4;
 /// Far above what the method needs (two to five pivots an unknown); reached only if rounding defeats the tie rule.
 const MOST_PIVOTS: usize = 10_000;
@@ -229,8 +229,8 @@ impl<'p> Basis<'p> {
         (0..n).filter(|&i| self.weights[i] > NO_WEIGHT * largest).min_by(|&a, &b| {
             let ratios = (0..=n).map(|k| (ratio(a, k), ratio(b, k)));
             let rounding = match n <= FEW {
-                true => ROUNDING[0],
-                false => ROUNDING[1] * (1.0 / self.weights[a] + 1.0 / self.weights[b]),
+                true => EQUAL_RATIO[0],
+                false => EQUAL_RATIO[1] * (1.0 / self.weights[a] + 1.0 / self.weights[b]),
             };
             let differing = ratios.into_iter().find(|(x, y)| (x - y).abs() > TIE * (x.abs() + y.abs()) + rounding);
             differing.map_or(a.cmp(&b), |(x, y)| x.total_cmp(&y))

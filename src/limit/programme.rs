@@ -9,7 +9,7 @@ use crate::budget::Budget;
 const NO_ROW: f64 = 1e-12;
 
 /// A limit that the unknowns do not reach may be violated by this, in units of the loads: rounding of the loads themselves.
-const UNREACHED: f64 = 1e-10;
+const UNREACHED_LIMIT: f64 = 1e-10;
 /// Most unknowns for which the dense simplex method is tried where the sparse one fails.
 const MOST_DENSE: usize = 200;
 
@@ -199,6 +199,6 @@ impl Rows {
 
     /// True where a limit that the unknowns do not reach is violated.
     fn contradicted(&self, slack: f64) -> bool {
-        self.unreached + slack < -UNREACHED
+        self.unreached + slack < -UNREACHED_LIMIT
     }
 }

@@ -10,13 +10,13 @@ use crate::geometry::{Vec2, cross};
 use crate::structure::Joint;
 
 /// Error of an optimum, relative to its value, that is taken for none.
-const SOLVED: f64 = 1e-9;
+const SOLVED_ERROR: f64 = 1e-9;
 /// Limits of one joint whose normals and constants differ by less than this are opposite.
 const OPPOSITE: f64 = 1e-13;
 /// Joint forces are measured in so many times the largest load on a body.
 const LOADED: f64 = 10.0;
 /// Rows shorter than this are none.
-const NO_ROW: f64 = 1e-12;
+const NO_SPARSE_ROW: f64 = 1e-12;
 
 /// A joint whose forces are `origin` and any combination of `basis`, in units of the loads.
 struct Forces {
@@ -47,7 +47,7 @@ impl Programme<'_> {
         let own = if theorem.pattern.is_none() { theorem.find_pattern() } else { None };
         let Some(pattern) = theorem.pattern.as_ref().or(own.as_ref()) else { return Outcome::Lost };
         match minimise(&programme, pattern, budget) {
-            Found::Optimum { x, z, error } if error < self.error.unwrap_or(SOLVED) => {
+            Found::Optimum { x, z, error } if error < self.error.unwrap_or(SOLVED_ERROR) => {
                 let mut multipliers = vec![0.0; self.limits.len()];
                 for ((place, scale), z) in places.iter().zip(&z) {
                     place.iter().for_each(|&limit| multipliers[limit] = z * scale);
@@ -80,10 +80,10 @@ impl Programme<'_> {
                     std::array::from_fn(|i| forces.basis.get(i).map_or(0.0, |basis| dot(limit.weights, *basis)));
                 let constant = limit.constant + dot(limit.weights, forces.origin);
                 let (norm, size) = (dot(a, a).sqrt(), dot(limit.weights, limit.weights).sqrt());
-                if norm > NO_ROW * size {
+                if norm > NO_SPARSE_ROW * size {
                     rows.push(Row { block, a: a.map(|x| x / norm), constant: constant / norm });
                     places.push((*place, 1.0 / norm));
-                } else if constant < -NO_ROW * size.max(1.0) {
+                } else if constant < -NO_SPARSE_ROW * size.max(1.0) {
                     return None;
                 }
             }

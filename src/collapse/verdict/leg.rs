@@ -7,7 +7,7 @@ use crate::collapse::path::{Leg, follow};
 use crate::collapse::record::{MOST_FIXED_STEPS, Recorder, snapshot};
 use crate::collapse::sliding::Search;
 use crate::collapse::state::States;
-use crate::collapse::tolerances::TOLERANCES;
+use crate::collapse::tolerances;
 use crate::collapse::{AnalysisError, CollapseReport, Cost, Doubt, LoadRange, Method, Note, Outcome};
 use crate::dda::Tracer;
 
@@ -105,13 +105,13 @@ impl Setup<'_> {
         let (found, mechanisms_tried) = search.least(at_limits);
         self.budget.check()?;
         let slides = found.filter(|found| !found.mechanism.slides.is_empty());
-        if let Some(found) = slides.filter(|found| !search.is_beyond(found.load_factor, path, TOLERANCES.polish)) {
+        if let Some(found) = slides.filter(|found| !search.is_beyond(found.load_factor, path, tolerances::POLISH)) {
             // A path that nothing polished carries the disturbance of its attempt: what is as near is the same load.
-            if !search.is_beyond(path, found.load_factor, TOLERANCES.polish) {
+            if !search.is_beyond(path, found.load_factor, tolerances::POLISH) {
                 path = found.load_factor;
             }
             // The path's own mechanism is the smallest motion of its joints, where it has one at its peak.
-            if search.is_beyond(path, found.load_factor, TOLERANCES.same_load) || *later {
+            if search.is_beyond(path, found.load_factor, tolerances::SAME_LOAD) || *later {
                 end.mechanism = found.mechanism;
                 end.thrust_line = ending::thrust_line(&analysis.structure, &found.forces);
                 *later = false;

@@ -13,9 +13,9 @@ use crate::geometry::{Vec2, cross, perpendicular};
 use nalgebra::{DMatrix, DVectorView};
 
 /// Coordinates that differ by this share of the farthest from the origin differ by rounding: some operations' worth.
-const ROUNDING: f64 = 256.0 * f64::EPSILON;
+const COORDINATE_ROUNDING: f64 = 256.0 * f64::EPSILON;
 /// Work of seeing a subblock from another frame, or of comparing a body with a kind, in multiplications.
-const WORK: usize = 300;
+const BODY_WORK: usize = 300;
 /// Most entries of a kind's stress by its nodes that are kept, 32 MB. Where there are more, solving for the subblocks each
 /// time, with factors that are there anyway, takes hardly longer.
 const MOST_KEPT: usize = 1 << 22;
@@ -79,9 +79,9 @@ impl AssemblyBuilder {
                 of_bodies[i].iter().flat_map(|&(k, side)| nodes(&self.interfaces[k].touches, side)).collect();
             let (origin, x_axis) = nodes.first().map(|n| (n.at, n.axes[0])).ok_or(Loose)?;
             let (seen, nodes) = (macroblock.seen_from(origin, x_axis), seen_nodes(&nodes, origin, x_axis));
-            let rounding = ROUNDING * (origin.amax() + extent(&nodes));
+            let rounding = COORDINATE_ROUNDING * (origin.amax() + extent(&nodes));
             // A kind is compared, or a new one made.
-            budget.work(WORK * (1 + kinds.len() + seen.blocks().len()))?;
+            budget.work(BODY_WORK * (1 + kinds.len() + seen.blocks().len()))?;
             let same = |kind: &Kind| alike(kind, &seen, &nodes, rounding);
             let kind = match kinds.iter().rposition(same) {
                 Some(kind) => kind,

@@ -9,9 +9,9 @@ use faer::sparse::{SparseColMat, SymbolicSparseColMat};
 use faer::{Mat, Side};
 
 /// Root of the curvature of a block without rows.
-const UNREACHED: f64 = 1e-4;
+const EMPTY_BLOCK: f64 = 1e-4;
 /// Residuals of a solution of the Newton system that no correction betters much, relative to the right-hand sides.
-const EXACT: f64 = 1e-12;
+const EXACT_NEWTON: f64 = 1e-12;
 /// Corrections of a solution of the Newton system.
 const REFINEMENTS: usize = 3;
 /// Added to the Hessian of a block that its rows leave singular, relative to its largest entry.
@@ -144,7 +144,7 @@ impl<'p> Newton<'p> {
                 break;
             }
             (x, y, rest, others) = (next_x, next_y, next_rest, next_others);
-            if next > 0.5 * left || next < EXACT {
+            if next > 0.5 * left || next < EXACT_NEWTON {
                 break;
             }
             left = next;
@@ -168,7 +168,7 @@ fn inverse_root(rows: &mut [[f64; 3]]) -> Square {
     let weight = |row: &[f64; 3]| row.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
     rows.sort_by(|a, b| weight(b).total_cmp(&weight(a)));
     let size = rows.first().map_or(0.0, weight);
-    let ridge = if size > 0.0 { size * RIDGE.sqrt() } else { UNREACHED };
+    let ridge = if size > 0.0 { size * RIDGE.sqrt() } else { EMPTY_BLOCK };
     let m = rows;
     let mut order = [0, 1, 2];
     let mut r: Square = [[0.0; 3]; 3];
