@@ -87,14 +87,13 @@ impl StaticTheorem {
         let first = |section: &Section| FIRST_CUTS.map(|at| section.tangents(at, self));
         cut.limits = sections.iter().flat_map(first).flatten().collect();
         conic.sections = sections.clone();
-        conic.error = Some(NEARLY);
+        conic.errors[1] = NEARLY;
         let mut window = CrushingWindow { ends: [0.0; 2], joints: [Vec::new(), Vec::new()] };
         for (end, sign) in [-1.0, 1.0].into_iter().enumerate() {
             let objective = Objective::load_factor(sign);
             let few = self.has_few_unknowns();
             let outcome = if few { cut_until_inside(&objective, &mut cut, &sections, budget) } else { Outcome::Lost };
-            let outcome =
-                if outcome == Outcome::Lost { conic.maximise_sparsely(&objective, budget) } else { outcome };
+            let outcome = if outcome == Outcome::Lost { conic.maximise_sparsely(&objective, budget) } else { outcome };
             match outcome {
                 Outcome::At(equilibrium, _) => {
                     window.ends[end] = equilibrium.load_factor;
@@ -132,7 +131,12 @@ impl StaticTheorem {
 }
 
 /// Maximises over the limits and the parabolas, adding the tangents that this takes.
-fn cut_until_inside(objective: &Objective, programme: &mut Programme, sections: &[Section], budget: &Budget) -> Outcome {
+fn cut_until_inside(
+    objective: &Objective,
+    programme: &mut Programme,
+    sections: &[Section],
+    budget: &Budget,
+) -> Outcome {
     for _ in 0..MOST_ROUNDS {
         let outcome = programme.maximise_densely(objective, budget);
         let (Outcome::At(equilibrium, _) | Outcome::Unbounded(equilibrium)) = &outcome else { return outcome };
