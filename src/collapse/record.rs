@@ -235,12 +235,13 @@ pub(super) fn snapshot(model: &Model, state: &Standing) -> Result<Snapshot, Anal
 /// Stress in every subblock in a state, under the loads at `load_factor`.
 pub(super) fn stress_field(model: &Model, load_factor: f64, state: &Standing) -> Result<StressField, AnalysisError> {
     let mut subblocks = Vec::new();
-    for (voussoir, grid) in model.grids.iter().enumerate() {
+    let grids = &model.grids[..model.bodies];
+    for (voussoir, grid) in grids.iter().enumerate() {
         model.budget.work(model.work_of_stresses(voussoir))?;
         subblocks.extend(grid.field(voussoir, &model.stresses(voussoir, load_factor, &state.displacements)));
     }
     if state.symmetric {
-        let radial: Vec<usize> = model.grids.iter().map(|grid| grid.radial).collect();
+        let radial: Vec<usize> = grids.iter().map(|grid| grid.radial).collect();
         subblocks = evened_stresses(&subblocks, &radial);
     }
     Ok(StressField { load_factor, subblocks })

@@ -1,10 +1,10 @@
 //! Safety factors: the first of instability and crushing as the scaled loads grow from their full size.
 
+use super::discretise::Discretisation;
 use super::{
     AnalysisError, CollapseReport, Crushing, CrushingKind, CurvePoint, Digits, Governs, LimitWindow, Mode, Outcome,
     Reach, SafetyPoint, UpdatedEnd, UpdatedGeometry, Zone, verdict,
 };
-use crate::budget::Budget;
 
 /// Note on a missing answer.
 const NO_SECTIONS: &str = "Rounding kept the limit window with plastic sections from being computed.";
@@ -21,9 +21,12 @@ const UNCRUSHED: &str =
 const SAME: f64 = 1e-6;
 
 /// Safety factors over a list of abscissae.
-pub(super) fn curve(points: &[CurvePoint], budget: &Budget) -> Result<Vec<SafetyPoint>, AnalysisError> {
-    let solve = |point: &CurvePoint| {
-        let report = verdict::run(&point.analysis, budget)?;
+pub(super) fn curve<'a>(
+    points: &'a [CurvePoint],
+    built: &mut Discretisation<'a>,
+) -> Result<Vec<SafetyPoint>, AnalysisError> {
+    let solve = |point: &'a CurvePoint| {
+        let report = verdict::run(&point.analysis, built)?;
         let safety =
             report.safety.map(|safety| SafetyPoint { abscissa: Some(point.abscissa), notes: report.notes, ..safety });
         Ok(safety.unwrap_or_else(|| SafetyPoint::unknown(Some(point.abscissa))))
