@@ -5,7 +5,6 @@ mod leg;
 
 use super::certificate::{Certificate, any_fixed, loaded, mesh_notes};
 use super::discretise::{Discretisation, Model};
-use super::doubt::Doubt;
 use super::path::{ATTEMPTS, Attempt, disturbed, nothing_grows, stand, total};
 use crate::budget::Budget;
 
@@ -13,21 +12,18 @@ use super::record::snapshot;
 use super::state::States;
 use super::updated::{self, Course};
 use super::{
-    Aim, Analysis, AnalysisError, CollapseReport, Cost, Crushing, Direction, Geometry, LimitWindow, Outcome,
-    SettlementEnd, SpringingMovement, ThrustRange, UpdatedGeometry, falling, plan, rounding, safety, settlement,
+    Aim, Analysis, AnalysisError, CollapseReport, Cost, Crushing, Direction, Doubt, Geometry, LimitWindow, Note,
+    Outcome, SettlementEnd, SupportMovement, ThrustRange, UpdatedGeometry, falling, plan, rounding, safety, settlement,
 };
 use crate::dda::{End, Tracer};
 use crate::structure::{Joint, JointLaw};
 use std::ops::ControlFlow;
 
-/// Note on an arch of which nothing is asked but whether it stands.
-const NOTHING_GROWS: &str = "Nothing grows with the load factor: the answer says only that the arch stands.";
-
 /// By default the load factor is raised until the scaled loads are so many times the fixed ones.
 const DEFAULT_CAP: f64 = 1e6;
 
 /// What all attempts at one analysis share.
-struct Question<'a> {
+struct Setup<'a> {
     analysis: &'a Analysis,
     budget: &'a Budget<'a>,
     certificate: Certificate,
@@ -50,18 +46,18 @@ struct Attempted {
 }
 
 /// Is told of every event: the tracer and its load factor.
-type Progress<'w> = dyn FnMut(&Tracer, f64) -> ControlFlow<()> + 'w;
+type OnEvent<'w> = dyn FnMut(&Tracer, f64) -> ControlFlow<()> + 'w;
 
 /// The whole answer; stones that are in `built` already are not condensed again.
 pub(super) fn run<'a>(analysis: &'a Analysis, built: &mut Discretisation<'a>) -> Result<CollapseReport, AnalysisError> {
-    let question = Question::new(analysis, built.budget)?;
+    let question = Setup::new(analysis, built.budget)?;
     let report = question.answer(built)?;
     Ok(report.or_cannot_tell(question.blank(0)))
 }
 
 /// Limit window and load path on the mesh given; what follows from them is left to [`run`].
 pub(super) fn solve(analysis: &Analysis, budget: &Budget) -> Result<CollapseReport, AnalysisError> {
-    Question::new(analysis, budget)?.solve(&mut Discretisation::new(budget))
+    Setup::new(analysis, budget)?.solve(&mut Discretisation::new(budget))
 }
 
 impl Attempted {
@@ -75,7 +71,7 @@ impl Attempted {
     }
 }
 
-impl<'a> Question<'a> {
+impl<'a> Setup<'a> {
     fn new(analysis: &'a Analysis, budget: &'a Budget<'a>) -> Result<Self, AnalysisError> {
         let certificate = Certificate::new(analysis, budget)?;
         let (fixed, scaled) = (total(&analysis.fixed), total(&analysis.scaled));
@@ -90,12 +86,13 @@ impl<'a> Question<'a> {
             Aim::Collapse | Aim::Settlement(_) => certificate.start(settled, sign, cap),
             Aim::Safety { .. } => certificate.full_load(settled, cap),
         };
-        let thrust = any_fixed(analysis).then(|| certificate.theorem.thrust_range(0.0, budget)).flatten();
+        let stands = any_fixed(analysis) && certificate.stands_at(0.0);
+        let thrust = stands.then(|| certificate.theorem.thrust_range(0.0, budget)).flatten();
         budget.check()?;
         let thrust_range = thrust.map(|[lowest, highest]| ThrustRange { lowest, highest });
         let weight = fixed + scaled * start.abs();
-        let crushing = certificate.crushing(analysis.structure.least_strength(), budget)?;
-        Ok(Question { analysis, budget, certificate, thrust_range, crushing, sign, start, cap, weight })
+        let crushing = certificate.crushing(&analysis.structure, budget)?;
+        Ok(Setup { analysis, budget, certificate, thrust_range, crushing, sign, start, cap, weight })
     }
 
     /// Limit window, load path and all that follows from them.
@@ -108,12 +105,12 @@ impl<'a> Question<'a> {
         report.settle_fields(analysis);
         let unbent = analysis.mesh.subblocks.iter().any(|[radial, _]| *radial == 1);
         if analysis.geometry == Geometry::Updated && unbent && report.at_start.is_some() {
-            report.notes.push(updated::UNBENT.into());
+            report.notes.push(Note::UnbentStones);
         }
         report.updated = self.updated(&mut report, built)?;
-        match analysis.aim {
+        match &analysis.aim {
             Aim::Collapse => safety::crushed_at_start(&mut report),
-            Aim::Safety { crushing } => safety::judge(&mut report, crushing),
+            &Aim::Safety { crushing } => safety::judge(&mut report, crushing),
             Aim::Settlement(movements) => self.settle(&mut report, movements, built)?,
         }
         falling::follow(analysis, &mut report, budget)?;
@@ -133,7 +130,7 @@ impl<'a> Question<'a> {
             if doubt.is_contradiction() {
                 report.outcome = Outcome::CannotTell;
             }
-            report.notes.push(doubt.to_string());
+            report.notes.push(Note::Doubt(doubt));
         }
         Ok(report)
     }
@@ -175,7 +172,7 @@ impl<'a> Question<'a> {
             report.outcome = Outcome::NeverCollapses;
             at_start.map(|state| report.fields_at_rest(analysis, model, &state)).transpose()?;
             if !matches!(analysis.aim, Aim::Settlement(_)) {
-                report.notes.push(NOTHING_GROWS.into());
+                report.notes.push(Note::NothingGrows);
             }
             let doubt = states.tell(&mut report);
             return Ok(Attempted { report, doubt });
@@ -211,11 +208,11 @@ impl<'a> Question<'a> {
         updated::follow(self.analysis, course, &mut report.cost, built).map(Some)
     }
 
-    /// What becomes of a standing arch as its springings move.
+    /// What becomes of a standing structure as its supports move.
     fn settle(
         &self,
         report: &mut CollapseReport,
-        movements: [SpringingMovement; 2],
+        movements: &[SupportMovement],
         built: &mut Discretisation<'a>,
     ) -> Result<(), AnalysisError> {
         safety::crushed_at_start(report);
@@ -234,7 +231,7 @@ impl<'a> Question<'a> {
         Ok(())
     }
 
-    fn mesh_notes(&self, model: &Model) -> Vec<String> {
+    fn mesh_notes(&self, model: &Model) -> Vec<Note> {
         let slenderness = model.grids[..model.bodies].iter().map(|grid| grid.slenderness()).fold(1.0, f64::max);
         let several = self.analysis.mesh.subblocks.iter().any(|&subblocks| subblocks != [1, 1]);
         let cohesive = |joint: &Joint| matches!(joint.law, JointLaw::Dry { cohesion, .. } if cohesion > 0.0);
