@@ -83,7 +83,6 @@ pub fn check(request: &AnalysisRequest, faults: &mut Faults) {
     };
     let refusals = [
         (request.accuracy.is_none(), "/accuracy", "the error of the answer is not estimated: leave accuracy out"),
-        (request.motion.is_none(), "/motion", "the motion after collapse is not followed: leave motion out"),
         (stays, "/analysis/settlement", "supports cannot be moved: set analysis to `collapse`"),
         (first_order, "/geometry", "the path on moving geometry is not followed: set geometry to `first_order`"),
         (followed, "/method", "fixed steps are not taken: set method to `event_path`"),
