@@ -4,6 +4,11 @@ use super::convex::convex_parts;
 use crate::geometry::{Region, Vec2, cross, perpendicular};
 use nalgebra::Vector3;
 
+/// What has no weight has this density, kg/m3: something has to resist.
+const LEAST_DENSITY: f64 = 1e-9;
+/// A component of a unit vector that is nought.
+const SMALL: f64 = 1e-9;
+
 /// Where a body is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Place {
@@ -65,7 +70,8 @@ pub struct RigidBody {
 
 impl RigidBody {
     /// A body of these members, free to move and without forces.
-    pub fn new(members: Vec<Member>) -> Self {
+    pub fn new(mut members: Vec<Member>) -> Self {
+        members.iter_mut().for_each(|member| member.density = member.density.max(LEAST_DENSITY));
         let (mut mass, mut moment) = (0.0, Vec2::zeros());
         for member in &members {
             let region = Region::polygon(&member.corners);
@@ -96,6 +102,12 @@ impl RigidBody {
 
     pub(super) fn movable(&self) -> bool {
         self.free.contains(&true)
+    }
+
+    /// Whether a force in this direction can move it.
+    pub(super) fn yields_to(&self, force: Vec2) -> bool {
+        let [x, y, turn] = self.free;
+        turn || (x && force.x.abs() > SMALL) || (y && force.y.abs() > SMALL)
     }
 
     /// Its convex parts, it being body number `body`.

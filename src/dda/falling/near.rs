@@ -88,8 +88,10 @@ impl Falling {
         let all = entrances(pair, &best, at_corner).into_iter().enumerate();
         let placed = |(end, entrance): (usize, Option<Entrance>)| {
             let entrance = entrance?;
-            let interface = self.nearest_end(parts, entrance.touching(pair).at);
-            Some(Placed { parts, end, entrance, interface })
+            let touching = entrance.touching(pair);
+            let yields = parts.iter().any(|&part| self.bodies[self.parts[part].body].yields_to(touching.normal));
+            let interface = self.nearest_end(parts, touching.at);
+            yields.then_some(Placed { parts, end, entrance, interface })
         };
         all.filter_map(placed).collect()
     }

@@ -152,6 +152,8 @@ impl Falling {
                     self.step *= factor;
                 }
                 Verdict::TooShort(factor) if factor * self.step < longest => self.step *= factor,
+                // It has undone an overlap, and longer ones go against the loads.
+                Verdict::TooShort(_) if self.work(&trial.places) < 0.0 => return Ok(Advance::Rest),
                 Verdict::TooShort(_) | Verdict::Right => {
                     let overlap = self.overlaps(&pairs, &outlines).0;
                     return Ok(Advance::Moved(Box::new(self.accept(trial, overlap, &contacts, &outlines))));
