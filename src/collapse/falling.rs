@@ -1,8 +1,8 @@
 //! Motion after collapse: from a structure, its loads and its report to rigid bodies on the move, and back to frames.
 
 use super::{
-    Analysis, AnalysisError, CollapseReport, Digits, Direction, FallingMotion, MotionAsked, MotionContact, MotionEnd,
-    MotionFrame, OpenHinge, Outcome, Slid,
+    Analysis, AnalysisError, CollapseReport, Direction, FallingMotion, MotionAsked, MotionContact, MotionEnd,
+    MotionFrame, Note, OpenHinge, Outcome, Slid,
 };
 use crate::budget::Budget;
 
@@ -50,16 +50,12 @@ pub(super) fn follow(analysis: &Analysis, report: &mut CollapseReport, budget: &
     }
     let lost = |motion: &Option<FallingMotion>| motion.as_ref().is_some_and(|motion| motion.end == MotionEnd::Lost);
     if lost(&report.motion) || lost(&report.other_motion) {
-        report.notes.push("The motion could not be followed to one of its ends: no further step was found.".into());
+        report.notes.push(Note::MotionLost);
     }
     let frames = report.motion.iter().chain(&report.other_motion).flat_map(|motion| &motion.frames);
     let excess = frames.filter(|frame| frame.excess > BEYOND).map(|frame| frame.excess);
     if let Some(worst) = excess.reduce(f64::max) {
-        report.notes.push(format!(
-            "In some steps of the motion friction is beyond its bound, by up to {} of the loads: what follows them is \
-             doubtful.",
-            Digits(worst)
-        ));
+        report.notes.push(Note::MotionBeyondFriction(worst));
     }
     Ok(())
 }

@@ -5,7 +5,6 @@ mod leg;
 
 use super::certificate::{Certificate, any_fixed, loaded, mesh_notes};
 use super::discretise::{Model, discretise};
-use super::doubt::Doubt;
 use super::path::{ATTEMPTS, Attempt, disturbed, nothing_grows, stand, total};
 use crate::budget::Budget;
 
@@ -13,21 +12,18 @@ use super::record::snapshot;
 use super::state::States;
 use super::updated::{self, Course};
 use super::{
-    Aim, Analysis, AnalysisError, CollapseReport, Cost, Crushing, Direction, Geometry, LimitWindow, Outcome,
-    SettlementEnd, SpringingMovement, ThrustRange, UpdatedGeometry, falling, plan, rounding, safety, settlement,
+    Aim, Analysis, AnalysisError, CollapseReport, Cost, Crushing, Direction, Doubt, Geometry, LimitWindow, Note,
+    Outcome, SettlementEnd, SupportMovement, ThrustRange, UpdatedGeometry, falling, plan, rounding, safety, settlement,
 };
 use crate::dda::{End, Tracer};
 use crate::structure::{Joint, JointLaw};
 use std::ops::ControlFlow;
 
-/// Note on an arch of which nothing is asked but whether it stands.
-const NOTHING_GROWS: &str = "Nothing grows with the load factor: the answer says only that the arch stands.";
-
 /// By default the load factor is raised until the scaled loads are so many times the fixed ones.
 const DEFAULT_CAP: f64 = 1e6;
 
 /// What all attempts at one analysis share.
-struct Question<'a> {
+struct Setup<'a> {
     analysis: &'a Analysis,
     budget: &'a Budget<'a>,
     certificate: Certificate,
@@ -50,17 +46,17 @@ struct Attempted {
 }
 
 /// Is told of every event: the tracer and its load factor.
-type Progress<'w> = dyn FnMut(&Tracer, f64) -> ControlFlow<()> + 'w;
+type OnEvent<'w> = dyn FnMut(&Tracer, f64) -> ControlFlow<()> + 'w;
 
 pub(super) fn run(analysis: &Analysis, budget: &Budget) -> Result<CollapseReport, AnalysisError> {
-    let question = Question::new(analysis, budget)?;
+    let question = Setup::new(analysis, budget)?;
     let report = question.answer()?;
     Ok(report.or_cannot_tell(question.blank(0)))
 }
 
 /// Limit window and load path on the mesh given; what follows from them is left to [`run`].
 pub(super) fn solve(analysis: &Analysis, budget: &Budget) -> Result<CollapseReport, AnalysisError> {
-    Question::new(analysis, budget)?.solve()
+    Setup::new(analysis, budget)?.solve()
 }
 impl Attempted {
     /// The less doubtful of two attempts, with the work of both.
@@ -73,7 +69,7 @@ impl Attempted {
     }
 }
 
-impl<'a> Question<'a> {
+impl<'a> Setup<'a> {
     fn new(analysis: &'a Analysis, budget: &'a Budget<'a>) -> Result<Self, AnalysisError> {
         let certificate = Certificate::new(analysis, budget)?;
         let (fixed, scaled) = (total(&analysis.fixed), total(&analysis.scaled));
@@ -88,12 +84,13 @@ impl<'a> Question<'a> {
             Aim::Collapse | Aim::Settlement(_) => certificate.start(settled, sign, cap),
             Aim::Safety { .. } => certificate.full_load(settled, cap),
         };
-        let thrust = any_fixed(analysis).then(|| certificate.theorem.thrust_range(0.0, budget)).flatten();
+        let stands = any_fixed(analysis) && certificate.stands_at(0.0);
+        let thrust = stands.then(|| certificate.theorem.thrust_range(0.0, budget)).flatten();
         budget.check()?;
         let thrust_range = thrust.map(|[lowest, highest]| ThrustRange { lowest, highest });
         let weight = fixed + scaled * start.abs();
-        let crushing = certificate.crushing(analysis.structure.least_strength(), budget)?;
-        Ok(Question { analysis, budget, certificate, thrust_range, crushing, sign, start, cap, weight })
+        let crushing = certificate.crushing(&analysis.structure, budget)?;
+        Ok(Setup { analysis, budget, certificate, thrust_range, crushing, sign, start, cap, weight })
     }
 
     /// Limit window, load path and all that follows from them.
@@ -106,12 +103,12 @@ impl<'a> Question<'a> {
         report.settle_fields(analysis);
         let unbent = analysis.mesh.subblocks.iter().any(|[radial, _]| *radial == 1);
         if analysis.geometry == Geometry::Updated && unbent && report.at_start.is_some() {
-            report.notes.push(updated::UNBENT.into());
+            report.notes.push(Note::UnbentStones);
         }
         report.updated = self.updated(&mut report)?;
-        match analysis.aim {
+        match &analysis.aim {
             Aim::Collapse => safety::crushed_at_start(&mut report),
-            Aim::Safety { crushing } => safety::judge(&mut report, crushing),
+            &Aim::Safety { crushing } => safety::judge(&mut report, crushing),
             Aim::Settlement(movements) => self.settle(&mut report, movements)?,
         }
         falling::follow(analysis, &mut report, budget)?;
@@ -131,7 +128,7 @@ impl<'a> Question<'a> {
             if doubt.is_contradiction() {
                 report.outcome = Outcome::CannotTell;
             }
-            report.notes.push(doubt.to_string());
+            report.notes.push(Note::Doubt(doubt));
         }
         Ok(report)
     }
@@ -173,7 +170,7 @@ impl<'a> Question<'a> {
             report.outcome = Outcome::NeverCollapses;
             at_start.map(|state| report.fields_at_rest(analysis, &model, &state)).transpose()?;
             if !matches!(analysis.aim, Aim::Settlement(_)) {
-                report.notes.push(NOTHING_GROWS.into());
+                report.notes.push(Note::NothingGrows);
             }
             let doubt = states.tell(&mut report);
             return Ok(Attempted { report, doubt });
@@ -205,8 +202,8 @@ impl<'a> Question<'a> {
         updated::follow(self.analysis, course, &mut report.cost, self.budget).map(Some)
     }
 
-    /// What becomes of a standing arch as its springings move.
-    fn settle(&self, report: &mut CollapseReport, movements: [SpringingMovement; 2]) -> Result<(), AnalysisError> {
+    /// What becomes of a standing structure as its supports move.
+    fn settle(&self, report: &mut CollapseReport, movements: &[SupportMovement]) -> Result<(), AnalysisError> {
         safety::crushed_at_start(report);
         if report.at_start.is_none() || report.outcome == Outcome::CannotTell {
             return Ok(());
@@ -223,7 +220,7 @@ impl<'a> Question<'a> {
         Ok(())
     }
 
-    fn mesh_notes(&self, model: &Model) -> Vec<String> {
+    fn mesh_notes(&self, model: &Model) -> Vec<Note> {
         let slenderness = model.grids.iter().map(|grid| grid.slenderness()).fold(1.0, f64::max);
         let several = self.analysis.mesh.subblocks.iter().any(|&subblocks| subblocks != [1, 1]);
         let cohesive = |joint: &Joint| matches!(joint.law, JointLaw::Dry { cohesion, .. } if cohesion > 0.0);

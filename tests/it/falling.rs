@@ -9,7 +9,9 @@ use std::path::Path;
 use std::time::Instant;
 use voussoir::budget::{Budget, LoadStep, Stopped};
 
-use voussoir::collapse::{Analysis, AnalysisError, CollapseReport, FallingMotion, MotionAsked, MotionEnd, MotionFrame, run};
+use voussoir::collapse::{
+    Analysis, AnalysisError, CollapseReport, FallingMotion, MotionAsked, MotionEnd, MotionFrame, run,
+};
 
 /// Deepest overlap of stones, share of the thickness.
 const OVERLAP: f64 = 1e-3;
@@ -269,6 +271,29 @@ fn a_motion_is_served_in_columns() {
     }
 }
 
+/// A bridge of two spans, a wall that falls to the ground, an arch whose stones are bonded in part, half an arch with a keystone.
+#[test]
+fn any_structure_is_served_its_motion() {
+    let mut wall = case("wall");
+    wall["motion"] = json!({"ground_level_m": 0.0, "share_of_span": 0.3});
+    let mut bonded = case("first-arch");
+    bonded["joint_overrides"] = json!([{"joint": 3, "bonded": true}]);
+    let mut half = case("half-arch");
+    half["arch"]["voussoirs"] = json!(27);
+    half["arch"]["thickness"]["constant_m"] = json!(0.1);
+    for (name, request) in [("bridge", case("two-span-bridge")), ("wall", wall), ("bonded", bonded), ("half", half)] {
+        let (analysis, report) = solve(&request);
+        let motion = report.motion.as_ref().unwrap();
+        let measured = measure(&analysis, motion);
+        say(name, &report, motion, &measured);
+        assert_eq!(complaints(motion, &measured), [""; 0], "{name}");
+        assert!(measured.frames > 20 && motion.end != MotionEnd::AtRest, "{name}");
+        let turned = |k: usize| motion.frames.last().unwrap().rotations[k];
+        assert!(name != "bonded" || (turned(2) - turned(3)).abs() < 1e-12);
+        assert!(name != "half" || turned(analysis.structure.voussoirs().len() - 1) == 0.0);
+    }
+}
+
 #[test]
 fn a_motion_is_asked_for_and_bounded() {
     let mut plain = case("first-arch");
@@ -285,6 +310,7 @@ fn a_motion_is_asked_for_and_bounded() {
         (json!({"most_frames": 3000}), "/motion/most_frames"),
         (json!({"share_of_span": 0.0}), "/motion/share_of_span"),
         (json!({"steps": 5}), "/motion/steps"),
+        (json!({"ground_level_m": 0.1}), "/motion/ground_level_m"),
     ] {
         short["motion"] = wrong;
         let faults = door::analysis(&short).unwrap_err();

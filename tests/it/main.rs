@@ -32,6 +32,8 @@ mod crushing;
 #[cfg(feature = "server")]
 mod determinism;
 #[cfg(feature = "server")]
+mod downstream;
+#[cfg(feature = "server")]
 mod falling;
 #[cfg(feature = "server")]
 mod fill;
