@@ -310,7 +310,7 @@ pub enum TaskReport {
     /// The safety factors.
     Safety(SafetyFactors),
     /// What the movement of supports does; none where the structure does not stand.
-    Settlement(Option<SettlementReport>),
+    Settlement(Option<Box<SettlementReport>>),
 }
 
 impl CollapseReport {
@@ -321,6 +321,6 @@ impl CollapseReport {
 
     /// What the movement of supports does, where it was asked and the structure stands.
     pub fn settlement(&self) -> Option<&SettlementReport> {
-        if let TaskReport::Settlement(settlement) = &self.task { settlement.as_ref() } else { None }
+        if let TaskReport::Settlement(settlement) = &self.task { settlement.as_deref() } else { None }
     }
 }

@@ -4,7 +4,7 @@ mod fallen;
 mod leg;
 
 use super::certificate::{Certificate, any_fixed, loaded, mesh_notes};
-use super::discretise::{Model, discretise};
+use super::discretise::{Discretisation, Model};
 use super::path::{ATTEMPTS, Attempt, disturbed, nothing_grows, stand, total};
 use crate::budget::Budget;
 
@@ -49,16 +49,18 @@ struct Attempted {
 /// Is told of every event: the tracer and its load factor.
 type OnEvent<'w> = dyn FnMut(&Tracer, f64) -> ControlFlow<()> + 'w;
 
-pub(super) fn run(analysis: &Analysis, budget: &Budget) -> Result<CollapseReport, AnalysisError> {
-    let question = Setup::new(analysis, budget)?;
-    let report = question.answer()?;
+/// The whole answer; stones that are in `built` already are not condensed again.
+pub(super) fn run<'a>(analysis: &'a Analysis, built: &mut Discretisation<'a>) -> Result<CollapseReport, AnalysisError> {
+    let question = Setup::new(analysis, built.budget)?;
+    let report = question.answer(built)?;
     Ok(report.or_cannot_tell(question.blank(0)))
 }
 
 /// Limit window and load path on the mesh given; what follows from them is left to [`run`].
 pub(super) fn solve(analysis: &Analysis, budget: &Budget) -> Result<CollapseReport, AnalysisError> {
-    Setup::new(analysis, budget)?.solve()
+    Setup::new(analysis, budget)?.solve(&mut Discretisation::new(budget))
 }
+
 impl Attempted {
     /// The less doubtful of two attempts, with the work of both.
     fn or_better(self, next: Attempted) -> Attempted {
@@ -95,9 +97,9 @@ impl<'a> Setup<'a> {
     }
 
     /// Limit window, load path and all that follows from them.
-    fn answer(&self) -> Result<CollapseReport, AnalysisError> {
+    fn answer(&self, built: &mut Discretisation<'a>) -> Result<CollapseReport, AnalysisError> {
         let (analysis, budget) = (self.analysis, self.budget);
-        let mut report = self.solve()?;
+        let mut report = self.solve(built)?;
         if let Some(accuracy) = analysis.task.accuracy() {
             report = plan::refined(analysis, accuracy, report, budget)?;
         }
@@ -106,11 +108,11 @@ impl<'a> Setup<'a> {
         if analysis.task.geometry() == Geometry::Updated && unbent && report.at_start.is_some() {
             report.notes.push(Note::UnbentStones);
         }
-        report.updated = self.updated(&mut report)?;
+        report.updated = self.updated(&mut report, built)?;
         match &analysis.task {
             Task::Collapse(_) => safety::crushed_at_start(&mut report),
             Task::Safety(task) => safety::judge(&mut report, task.crushing),
-            Task::Settlement(task) => self.settle(&mut report, &task.movements)?,
+            Task::Settlement(task) => self.settle(&mut report, &task.movements, built)?,
         }
         falling::follow(analysis, &mut report, budget)?;
         budget.ask()?;
@@ -118,11 +120,11 @@ impl<'a> Setup<'a> {
     }
 
     /// The answer of the first attempt that is not in doubt, or of the one least so.
-    fn solve(&self) -> Result<CollapseReport, AnalysisError> {
+    fn solve(&self, built: &mut Discretisation<'a>) -> Result<CollapseReport, AnalysisError> {
         let slender = rounding::too_slender(&self.analysis.structure);
         let attempted = match slender {
             Some(doubt) => Attempted { report: self.blank(0), doubt: Some(doubt) },
-            None => self.attempts()?,
+            None => self.attempts(built)?,
         };
         let Attempted { mut report, doubt } = attempted;
         if let Some(doubt) = doubt {
@@ -135,41 +137,41 @@ impl<'a> Setup<'a> {
     }
 
     /// The first attempt that is not in doubt, or the one least so.
-    fn attempts(&self) -> Result<Attempted, AnalysisError> {
-        let mut attempted = self.attempt(Attempt::number(0))?;
+    fn attempts(&self, built: &mut Discretisation<'a>) -> Result<Attempted, AnalysisError> {
+        let mut attempted = self.attempt(Attempt::number(0), built)?;
         for i in 1..ATTEMPTS {
             if attempted.doubt.is_none() {
                 break;
             }
-            let next = self.attempt(Attempt::number(i))?;
+            let next = self.attempt(Attempt::number(i), built)?;
             attempted = attempted.or_better(next);
         }
         Ok(attempted)
     }
 
-    fn attempt(&self, attempt: Attempt) -> Result<Attempted, AnalysisError> {
+    fn attempt(&self, attempt: Attempt, built: &mut Discretisation<'a>) -> Result<Attempted, AnalysisError> {
         let analysis = self.analysis;
-        let model = discretise(analysis, attempt, self.budget)?;
-        let fixed = disturbed(&model, self.start, attempt);
+        let model = built.model(analysis, attempt)?;
+        let fixed = disturbed(model, self.start, attempt);
         let mut progress = |tracer: &Tracer, load_factor: f64| self.budget.step(load_factor, tracer.events());
         let mut report = self.blank(model.assembly.unknowns());
-        report.notes = self.mesh_notes(&model);
+        report.notes = self.mesh_notes(model);
         let (mut tracer, end) =
-            stand(&model, &fixed, self.start, self.weight, &mut |t| progress(t, self.start * t.parameter()));
+            stand(model, &fixed, self.start, self.weight, &mut |t| progress(t, self.start * t.parameter()));
         report.cost.add(&tracer, Cost::default());
         match end {
             End::Stopped => return Err(self.budget.stopped().into()),
             End::Reached if self.certificate.stands_at(self.start) => {}
             End::Reached => return Ok(Attempted { report, doubt: Some(Doubt::StandsOutside) }),
-            End::Mechanism => return self.fallen(report, &model, &tracer),
+            End::Mechanism => return self.fallen(report, model, &tracer),
             End::Rising | End::Lost => return Ok(Attempted { report, doubt: Some(Doubt::NotLoaded) }),
         }
-        let mut states = States::new(&model);
+        let mut states = States::new(model);
         let at_start = states.find(self.start, tracer.displacements())?;
-        report.at_start = at_start.as_ref().map(|state| snapshot(&model, state)).transpose()?;
-        if nothing_grows(&model, total(&analysis.scaled)) {
+        report.at_start = at_start.as_ref().map(|state| snapshot(model, state)).transpose()?;
+        if nothing_grows(model, total(&analysis.scaled)) {
             report.outcome = Outcome::NeverCollapses;
-            at_start.map(|state| report.fields_at_rest(analysis, &model, &state)).transpose()?;
+            at_start.map(|state| report.fields_at_rest(analysis, model, &state)).transpose()?;
             if !matches!(analysis.task, Task::Settlement(_)) {
                 report.notes.push(Note::NothingGrows);
             }
@@ -190,7 +192,11 @@ impl<'a> Setup<'a> {
     }
 
     /// The answer on moving geometry, where it is asked for and the arch stands at first order.
-    fn updated(&self, report: &mut CollapseReport) -> Result<Option<UpdatedGeometry>, AnalysisError> {
+    fn updated(
+        &self,
+        report: &mut CollapseReport,
+        built: &mut Discretisation<'a>,
+    ) -> Result<Option<UpdatedGeometry>, AnalysisError> {
         let stands = report.at_start.is_some() && report.outcome != Outcome::CannotTell;
         let settles = matches!(self.analysis.task, Task::Settlement(_));
         if self.analysis.task.geometry() == Geometry::FirstOrder || !stands || settles {
@@ -200,17 +206,22 @@ impl<'a> Setup<'a> {
         let as_much = weight / total(&self.analysis.scaled).max(f64::MIN_POSITIVE);
         let rise = report.end.as_ref().map_or(as_much, |end| (end.on_path() - start).abs());
         let course = Course { start, sign, cap, rise, ends: report.end.is_some(), weight };
-        updated::follow(self.analysis, course, &mut report.cost, self.budget).map(Some)
+        updated::follow(self.analysis, course, &mut report.cost, built).map(Some)
     }
 
     /// What becomes of a standing structure as its supports move.
-    fn settle(&self, report: &mut CollapseReport, movements: &[SupportMovement]) -> Result<(), AnalysisError> {
+    fn settle(
+        &self,
+        report: &mut CollapseReport,
+        movements: &[SupportMovement],
+        built: &mut Discretisation<'a>,
+    ) -> Result<(), AnalysisError> {
         safety::crushed_at_start(report);
         if report.at_start.is_none() || report.outcome == Outcome::CannotTell {
             return Ok(());
         }
-        let (cost, budget) = (&mut report.cost, self.budget);
-        let settlement = settlement::follow(self.analysis, movements, self.weight, cost, budget)?;
+        let cost = &mut report.cost;
+        let settlement = settlement::follow(self.analysis, movements, self.weight, cost, built)?;
         if report.outcome != Outcome::Crushes {
             report.outcome = match settlement.as_ref().map(|s| s.updated.as_ref().unwrap_or(&s.first_order).end) {
                 Some(SettlementEnd::Follows) => Outcome::FollowsMovement,
@@ -218,12 +229,12 @@ impl<'a> Setup<'a> {
                 Some(SettlementEnd::CannotTell) | None => Outcome::CannotTell,
             };
         }
-        report.task = TaskReport::Settlement(settlement);
+        report.task = TaskReport::Settlement(settlement.map(Box::new));
         Ok(())
     }
 
     fn mesh_notes(&self, model: &Model) -> Vec<Note> {
-        let slenderness = model.grids.iter().map(|grid| grid.slenderness()).fold(1.0, f64::max);
+        let slenderness = model.grids[..model.bodies].iter().map(|grid| grid.slenderness()).fold(1.0, f64::max);
         let several = self.analysis.mesh.subblocks.iter().any(|&subblocks| subblocks != [1, 1]);
         let cohesive = |joint: &Joint| matches!(joint.law, JointLaw::Dry { cohesion, .. } if cohesion > 0.0);
         mesh_notes(slenderness, several, self.analysis.structure.ring().iter().any(cohesive))
