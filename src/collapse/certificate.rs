@@ -8,6 +8,7 @@ use super::{
     Analysis, AnalysisError, Crushing, Doubt, LimitWindow, LoadRange, Note, PathEnd, PlasticCrushing, Unreached,
 };
 use crate::limit::{CrushingWindow, StaticTheorem};
+use crate::structure::{Joint, Structure};
 
 /// Share of the load factor at which scaled and fixed loads are equal at which an arch that falls beyond 0 is seen to fall.
 const SOON: f64 = 1e-3;
@@ -84,9 +85,12 @@ impl Certificate {
         }
     }
 
-    /// What limit analysis says of stone of this strength, Pa.
-    pub(super) fn crushing(&self, strength: f64, budget: &Budget) -> Result<Crushing, AnalysisError> {
-        let strengths = vec![strength; self.theorem.joints()];
+    /// What limit analysis says of stones of finite strength: a joint has that of the weaker stone beside it.
+    pub(super) fn crushing(&self, structure: &Structure, budget: &Budget) -> Result<Crushing, AnalysisError> {
+        let weaker = |joint: &Joint| {
+            structure.stones_at(joint).map(|stone| stone.compressive_strength).fold(f64::INFINITY, f64::min)
+        };
+        let strengths: Vec<f64> = structure.joints.iter().map(weaker).collect();
         let found = self.theorem.crushing_window(&strengths, budget);
         budget.check()?;
         let plastic_section = found.ok().map(|window| {
@@ -94,7 +98,7 @@ impl Certificate {
             let window = self.tidy(ends).map(|[lowest, highest]| LimitWindow { lowest, highest });
             PlasticCrushing { window, joints: joints.unwrap_or_default() }
         });
-        Ok(Crushing { strength, elastic: None, plastic_section })
+        Ok(Crushing { strength: structure.least_strength(), elastic: None, plastic_section })
     }
 
     /// `settled`: every stone carries a fixed load.

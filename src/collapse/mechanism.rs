@@ -1,6 +1,7 @@
 //! How the arch moves when it falls: hinges, slides and the mode, from the joints that are at their limits.
 
 use super::motion::Motion;
+use super::rigid_parts::RigidParts;
 use super::smallest_motion::{Column, smallest_motion};
 use super::{Face, Hinge, LiftOff, Mechanism, Mode, Slide};
 use crate::budget::Budget;
@@ -43,11 +44,12 @@ pub(super) fn from_statics(
     at_limit: f64,
     budget: &Budget,
 ) -> Option<Mechanism> {
-    let loops = Loops::new(structure).ok()?;
     let releases = all_releases(structure, resultants, slipping, at_limit);
-    let columns = columns(structure, &loops, &releases, driving);
+    let parts = RigidParts::new(structure, &releases)?;
+    let loops = Loops::new(&parts.structure).ok()?;
+    let columns = columns(&parts.structure, &loops, &parts.released, &parts.loads(driving));
     let rates = smallest_motion(&columns, 3 * loops.len() + 1, budget)?;
-    Some(describe(structure, &loops, &releases, &rates))
+    Some(describe(structure, &Loops::new(structure).ok()?, &releases, &parts.of_all(&rates, releases.len())))
 }
 
 /// What all joints at their limits let happen; see [`from_statics`].

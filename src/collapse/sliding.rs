@@ -7,11 +7,11 @@
 
 use super::discretise::Scatter;
 use super::mechanism::{Released, all_releases, columns, describe};
-use super::tolerances::TOLERANCES;
-use crate::budget::Budget;
-
+use super::rigid_parts::RigidParts;
 use super::smallest_motion::nearest_motion;
+use super::tolerances::TOLERANCES;
 use super::{Analysis, Mechanism};
+use crate::budget::Budget;
 use crate::limit::{Equilibrium, Release, Resultant, StaticTheorem};
 use crate::structure::{Face, PointForce};
 use std::collections::BTreeSet;
@@ -27,8 +27,8 @@ const NEAR_LIMIT: f64 = 1e-6;
 /// Random weights on the joint forces that lead to corners of the least equilibria, and, the larger ones, to others near.
 const TILTS: [f64; 4] = [1e-3, 1e-2, 1e-1, 1.0];
 /// So many corners in turn that give nothing lower, and so many in all, end the search where there are many loops.
-const QUIET_CORNERS: usize = 16;
-const MOST_CORNERS: usize = 48;
+const QUIET_CORNERS: usize = 10;
+const MOST_CORNERS: usize = 40;
 
 /// What the search starts from, and which way.
 pub(super) struct Search<'a> {
@@ -76,7 +76,10 @@ impl Search<'_> {
     fn motion(&self, released: &[Released], costs: &mut Scatter) -> Option<(Vec<Released>, Vec<f64>)> {
         let cost = |random: f64| if self.has_loops() { 10f64.powf(random) } else { 1.0 + 0.99 * random };
         let costs: Vec<f64> = released.iter().map(|_| cost(costs.next())).collect();
-        let rates = self.theorem.cheapest_motion(released, &costs, self.sign, self.budget)?;
+        let parts = RigidParts::new(&self.analysis.structure, released)?;
+        let theorem = StaticTheorem::new(&parts.structure, &[], &parts.loads(&self.analysis.scaled)).ok()?;
+        let rates = theorem.cheapest_motion(&parts.released, &parts.of_parts(&costs), self.sign, self.budget)?;
+        let rates = parts.of_all(&rates, released.len());
         Some(released.iter().zip(rates).filter(|(_, rate)| *rate > 0.0).unzip())
     }
 
