@@ -12,6 +12,7 @@ use voussoir::budget::{Budget, LoadStep, Stopped};
 use voussoir::collapse::{
     Analysis, AnalysisError, CollapseReport, FallingMotion, MotionAsked, MotionEnd, MotionFrame, run,
 };
+use voussoir::structure::JointLaw;
 
 /// Deepest overlap of stones, share of the thickness.
 const OVERLAP: f64 = 1e-3;
