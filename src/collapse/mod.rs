@@ -173,13 +173,16 @@ pub struct Accuracy {
     pub most_subblocks: usize,
 }
 
-/// How far an arch is followed after it has begun to fall.
+/// How far a structure is followed after it has begun to fall.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MotionAsked {
     /// Most steps, each of them a frame of the answer.
     pub most_frames: usize,
     /// Until some corner has moved by this share of the span.
     pub share_of_span: f64,
+    /// Height at which level ground lies below all stones, m. Without it there is none but what the structure stands on, and
+    /// what falls past that falls on.
+    pub ground_level: Option<f64>,
 }
 
 /// One point of a safety curve.
