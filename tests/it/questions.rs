@@ -144,7 +144,7 @@ fn a_curve_multiplies_flagged_loads_by_the_abscissa() {
     let points = points(&curve());
     assert_eq!(points.iter().map(|point| point.abscissa).collect::<Vec<_>>(), [0.5, 1.0, 4.0]);
     let [half, one, four] = [&points[0].analysis, &points[1].analysis, &points[2].analysis];
-    assert_eq!(crushing(&half), Some(CrushingKind::Elastic));
+    assert_eq!(crushing(half), Some(CrushingKind::Elastic));
     for (i, force) in one.scaled.iter().enumerate() {
         // The last force is that of the point load.
         let flagged = i + 1 < one.scaled.len();
