@@ -84,7 +84,7 @@ fn by_newton(
     symmetric: bool,
     budget: &Budget,
 ) -> Result<Option<Balanced>, Stopped> {
-    let mut newton = Newton::new(assembly, symmetric, budget);
+    let mut newton = LawNewton::new(assembly, symmetric, budget);
     let mut d = if symmetric { assembly.symmetrised(near) } else { near.to_vec() };
     let (mut residual, mut best) = (vec![0.0; d.len()], (f64::INFINITY, Vec::new()));
     for _ in 0..STEPS {
@@ -157,7 +157,7 @@ fn total(loads: &[f64]) -> f64 {
 }
 
 /// Newton's method on the law of an assembly's exact contacts.
-struct Newton<'c> {
+struct LawNewton<'c> {
     assembly: &'c Assembly,
     contacts: &'c [Contact],
     symmetric: bool,
@@ -169,11 +169,11 @@ struct Newton<'c> {
     factorisations: usize,
 }
 
-impl<'c> Newton<'c> {
+impl<'c> LawNewton<'c> {
     fn new(assembly: &'c Assembly, symmetric: bool, budget: &'c Budget<'c>) -> Self {
         let (matrix, factor) = (assembly.elastic().copied(budget), Factor::new(assembly.tree()));
         let (states, contacts) = (Vec::new(), assembly.exact_contacts());
-        Newton { assembly, contacts, symmetric, budget, matrix, factor, states, factorisations: 0 }
+        LawNewton { assembly, contacts, symmetric, budget, matrix, factor, states, factorisations: 0 }
     }
 
     /// Adds the correction for a residual, by the tangent stiffness that the law has at displacements `d`.

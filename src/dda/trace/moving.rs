@@ -7,7 +7,7 @@
 
 use super::correct::{EQUILIBRIUM, FAILED, Hold};
 use super::lost::Lost;
-use super::point::Point;
+use super::point::PathState;
 use super::{End, Tracer};
 use crate::dda::factor::Factor;
 use crate::dda::moving::{Placed, quarter};
@@ -262,7 +262,7 @@ impl Tracer<'_> {
 
     /// Goes back to `before`, a step ago, where the parameter's rate was `rate`, and stops where the parameter is highest in
     /// between: the rate falls about linearly through zero. False where that point is not found.
-    fn stop_at_limit_point(&mut self, before: &Point, rate: f64, step: f64) -> bool {
+    fn stop_at_limit_point(&mut self, before: &PathState, rate: f64, step: f64) -> bool {
         let share = rate / (rate - self.rate);
         self.go_to(before);
         self.find_residual();
@@ -275,7 +275,7 @@ impl Tracer<'_> {
     }
 
     /// How the path has ended, if it has.
-    fn is_over(&mut self, from: &Point, patience: Patience) -> Option<End> {
+    fn is_over(&mut self, from: &PathState, patience: Patience) -> Option<End> {
         let start = from.parameter;
         let below = self.peak.as_ref().filter(|peak| self.parameter < peak.parameter);
         let is_below = below.is_some();

@@ -19,7 +19,7 @@ const RIDGE: f64 = 1e-10;
 
 /// The pattern of S and its elimination order, found once.
 #[derive(Debug, Clone)]
-pub struct Pattern {
+pub struct NewtonPattern {
     columns: Vec<usize>,
     rows: Vec<usize>,
     /// Of every joint the pairs of its bodies (places in its list) with a block in the lower triangle: where its columns start.
@@ -27,7 +27,7 @@ pub struct Pattern {
     order: SymbolicLlt<usize>,
 }
 
-impl Pattern {
+impl NewtonPattern {
     /// Of so many bodies and the lists of those that each joint touches; None where there is no memory for it.
     pub fn new(bodies: usize, joints: &[Vec<usize>]) -> Option<Self> {
         let mut below: Vec<Vec<usize>> = (0..bodies).map(|body| vec![body]).collect();
@@ -56,7 +56,7 @@ impl Pattern {
         let places = joints.iter().map(pairs).collect();
         let symbolic = SymbolicSparseColMat::new_checked(3 * bodies, 3 * bodies, columns.clone(), None, rows.clone());
         let order = SymbolicLlt::try_new(symbolic.as_ref(), Side::Lower).ok()?;
-        Some(Pattern { columns, rows, places, order })
+        Some(NewtonPattern { columns, rows, places, order })
     }
 }
 
@@ -73,7 +73,7 @@ pub(super) struct Newton<'p> {
 }
 
 impl<'p> Newton<'p> {
-    pub(super) fn new(programme: &'p Sparse, pattern: &Pattern, point: &Point) -> Option<Self> {
+    pub(super) fn new(programme: &'p Sparse, pattern: &NewtonPattern, point: &Point) -> Option<Self> {
         let scaling = Scaling::new(programme, point);
         let n = programme.blocks.len();
         let mut scaled: Vec<Vec<[f64; 3]>> = vec![Vec::new(); n];
@@ -211,7 +211,7 @@ fn inverse_root(rows: &mut [[f64; 3]]) -> Square {
 const SMALLEST: f64 = 1e-14;
 
 /// S = sum E C C' E', factored; a share of its diagonal is added where rounding makes it indefinite.
-fn factor(programme: &Sparse, pattern: &Pattern, roots: &[Square]) -> Option<Llt<usize, f64>> {
+fn factor(programme: &Sparse, pattern: &NewtonPattern, roots: &[Square]) -> Option<Llt<usize, f64>> {
     let n = 3 * programme.bodies;
     let mut values = vec![0.0; pattern.rows.len()];
     for ((block, root), places) in programme.blocks.iter().zip(roots).zip(&pattern.places) {
