@@ -5,10 +5,12 @@ use super::path::total;
 use crate::budget::Budget;
 
 use super::{Analysis, AnalysisError, Crushing, Digits, LimitWindow, LoadRange, PathEnd, PlasticCrushing};
-use crate::limit::{CrushingWindow, StaticTheorem};
+use crate::limit::{Resultant, StaticTheorem};
 
 /// Path and window agree when their load factors differ by less than this share.
 const AGREES: f64 = 1e-7;
+/// The same where joints crush in strips (measured: 2e-3 at most).
+const STRIPS_AGREE: f64 = 0.01;
 /// The path may pass the window by this share before it is disbelieved.
 const ABOVE: f64 = 1e-6;
 /// A path that ends short of the window by more than this share has its sliding joints at the limit of their friction
@@ -39,6 +41,8 @@ pub(super) struct Certificate {
     pub solved: bool,
     /// True where some load does not grow.
     any_fixed: bool,
+    /// Share by which a path without sliding may end short of the window.
+    agrees: f64,
 }
 
 impl Certificate {
@@ -49,7 +53,8 @@ impl Certificate {
         let window = theorem.window(budget);
         budget.check()?;
         let solved = window.is_ok();
-        let mut certificate = Certificate { theorem, window: None, solved, any_fixed: any_fixed(analysis) };
+        let mut certificate =
+            Certificate { theorem, window: None, solved, any_fixed: any_fixed(analysis), agrees: AGREES };
         certificate.window = window.ok().and_then(|window| certificate.tidy(window));
         Ok(certificate)
     }
@@ -101,17 +106,30 @@ impl Certificate {
         }
     }
 
-    /// What limit analysis says of stone of this strength, Pa.
-    pub(super) fn crushing(&self, strength: f64, budget: &Budget) -> Result<Crushing, AnalysisError> {
+    /// What limit analysis says of stone of this strength, Pa; and the forces of all joints at either end of its window, where it
+    /// has one.
+    pub(super) fn crushing(
+        &self,
+        strength: f64,
+        budget: &Budget,
+    ) -> Result<(Crushing, [Vec<Resultant>; 2]), AnalysisError> {
         let strengths = vec![strength; self.theorem.joints()];
         let found = self.theorem.crushing_window(&strengths, budget);
         budget.check()?;
+        let mut forces = Default::default();
         let plastic_section = found.ok().map(|window| {
-            let (ends, joints) = window.map(|CrushingWindow { ends, joints }| (ends, joints)).unzip();
+            let (ends, joints) = window.map(|window| (forces = window.forces, (window.ends, window.joints)).1).unzip();
             let window = self.tidy(ends).map(|[lowest, highest]| LimitWindow { lowest, highest });
             PlasticCrushing { window, joints: joints.unwrap_or_default() }
         });
-        Ok(Crushing { strength, elastic: None, plastic_section })
+        Ok((Crushing { strength, elastic: None, plastic_section }, forces))
+    }
+
+    /// The path is held against the window of plastic sections from now on: its joints crush.
+    pub(super) fn hold_to(&mut self, crushing: &Crushing) {
+        let plastic = crushing.plastic_section.as_ref();
+        (self.solved, self.agrees) = (plastic.is_some(), STRIPS_AGREE);
+        self.window = plastic.and_then(|plastic| plastic.window).map(|window| [window.lowest, window.highest]);
     }
 
     /// `settled`: every stone carries a fixed load.
@@ -140,7 +158,7 @@ impl Certificate {
         let short = if limit.is_finite() { sign * (limit - path) / scale } else { f64::INFINITY };
         if short < -ABOVE {
             Err(Doubt::Above { path, limit })
-        } else if short <= AGREES {
+        } else if short <= self.agrees {
             Ok(false)
         } else if end.mechanism.slides.is_empty() {
             Err(Doubt::Short { path, limit })
@@ -211,6 +229,9 @@ impl Certificate {
 /// Note on a mechanism that is not one of the joints at their limits at the peak.
 pub(super) const LATER_MECHANISM: &str = "Joints at their limits at the collapse load make no mechanism, as may be where \
      they slide. Hinges and slides are those in which the load path ends; the thrust line is that at the collapse load.";
+
+/// Note on a load that is not one number, where no lower one is looked for.
+pub(super) const CRUSHES_AND_SLIDES: &str = "Joints crush and slide. The collapse load is that of this load path; where joints      slide without dilating the arch may fall at others too, and where joints crush none lower is looked for.";
 
 /// Whether every stone carries a fixed load, and whether every stone carries any.
 pub(super) fn loaded(analysis: &Analysis) -> [bool; 2] {

@@ -2,6 +2,7 @@
 
 use super::grid::{Grid, ON_LINE};
 use super::path::Attempt;
+use super::strips::Strips;
 use crate::budget::Budget;
 
 use super::{Analysis, AnalysisError, Geometry, PlaneModel, Seams};
@@ -67,17 +68,28 @@ impl Scatter {
     }
 }
 
-/// Cuts every body of the structure into the subblocks of a macroblock.
+/// Cuts every body of the structure into the subblocks of a macroblock. No joint crushes.
 pub(super) fn discretise<'p>(
     analysis: &Analysis,
     attempt: Attempt,
     budget: &'p Budget<'p>,
 ) -> Result<Model<'p>, AnalysisError> {
+    discretise_crushing(analysis, &Strips::default(), attempt, budget)
+}
+
+/// The same, with joints that crush in strips.
+pub(super) fn discretise_crushing<'p>(
+    analysis: &Analysis,
+    strips: &Strips,
+    attempt: Attempt,
+    budget: &'p Budget<'p>,
+) -> Result<Model<'p>, AnalysisError> {
     let structure = &analysis.structure;
     let mut grids = grids(analysis);
-    let assembly = assembly(analysis, &grids, attempt, budget)?;
+    let assembly = assembly(analysis, &grids, strips, attempt, budget)?;
     let (bodies, joints) = (structure.voussoirs().len(), structure.ring().len());
-    let positions = structure.ring().iter().map(|joint| places(joint.law, around(joint, &grids))).collect();
+    let positions = structure.ring().iter().enumerate();
+    let positions = positions.map(|(k, joint)| points(strips.of(k), joint.law, around(joint, &grids)).0).collect();
     let on_subblocks = |force: &PointForce| pushes(force, &grids);
     let straight = |forces: &[PointForce]| assembly.loads(forces.iter().flat_map(on_subblocks), budget);
     let turned = |forces: &[PointForce]| match analysis.geometry {
@@ -104,7 +116,13 @@ pub(super) fn discretise<'p>(
 }
 
 /// The bodies cut like this, joined as the structure says, their contacts scattered.
-fn assembly(analysis: &Analysis, grids: &[Grid], attempt: Attempt, budget: &Budget) -> Result<Assembly, AnalysisError> {
+fn assembly(
+    analysis: &Analysis,
+    grids: &[Grid],
+    strips: &Strips,
+    attempt: Attempt,
+    budget: &Budget,
+) -> Result<Assembly, AnalysisError> {
     let structure = &analysis.structure;
     let mut macroblocks = Vec::with_capacity(grids.len());
     for (body, grid) in grids.iter().enumerate() {
@@ -114,12 +132,15 @@ fn assembly(analysis: &Analysis, grids: &[Grid], attempt: Attempt, budget: &Budg
         budget.work(CUT * grid.radial * grid.along)?;
     }
     let mut builder = AssemblyBuilder::new(macroblocks);
-    for joint in &structure.joints {
+    for (k, joint) in structure.joints.iter().enumerate() {
         let between = joint.between.map(|side| match side {
             Side::Body(body) => Beside::Body(body),
             Side::Support(support) => Beside::Ground(support),
         });
-        builder.join(between, touches(joint, around(joint, grids), penalties(analysis, joint)));
+        builder.join(
+            between,
+            touches(joint, strips.of(k), strips.strength, around(joint, grids), penalties(analysis, joint)),
+        );
     }
     let mut assembly = builder.finish(budget)?;
     let mut scatter = Scatter::new(attempt.seed);
@@ -167,23 +188,25 @@ fn grids(analysis: &Analysis) -> Vec<Grid> {
     analysis.structure.bodies.iter().enumerate().map(|(k, body)| Grid::of(body, subblocks(k))).collect()
 }
 
-/// Contact points of a joint between two bodies (none: the ground): its ends, and where subblocks on either side meet,
-/// each with the share of the joint that is nearest to it.
+/// Contact points of a joint between two bodies (none: the ground), each with its share of the joint; in strips each is capped at
+/// the strength, Pa, times the length of its own.
 fn touches<'a>(
     joint: &'a Joint,
+    strips: Option<Vec<f64>>,
+    strength: f64,
     [before, after]: [Option<&'a Grid>; 2],
     penalty: [f64; 2],
 ) -> impl Iterator<Item = Touch> + 'a {
     let links = before.into_iter().chain(after).count() as f64;
     let contact = 1.0 / (1.0 - links / LINK);
-    let places = places(joint.law, [before, after]);
+    let pressure = if strips.is_some() { strength } else { f64::INFINITY };
+    let (places, shares) = points(strips, joint.law, [before, after]);
     // A mirror plane holds across and lets slide along.
     let held = [1.0, if joint.law == JointLaw::Mirror { 0.0 } else { 1.0 }];
     (0..places.len()).map(move |j| {
         let eta = places[j];
-        let below = if j == 0 { eta } else { 0.5 * (eta - places[j - 1]) };
-        let above = if j + 1 == places.len() { 1.0 - eta } else { 0.5 * (places[j + 1] - eta) };
-        let (sides, share) = ([below, above], below + above);
+        let sides = shares[j];
+        let share = sides[0] + sides[1];
         // Two corners alone have the penalty each.
         let stiffness = penalty.map(|penalty| 2.0 * penalty * share);
         let nobody = [(0, 0.0); 2];
@@ -192,11 +215,28 @@ fn touches<'a>(
             normal: joint.normal(),
             stiffness: [0, 1].map(|way| held[way] * contact * stiffness[way]),
             link: stiffness.map(|stiffness| LINK * stiffness),
-            law: law(joint, share),
+            law: law(joint, share, pressure),
             before: before.map_or(nobody, |g| g.on_joint(true, eta, sides)),
             after: after.map_or(nobody, |g| g.on_joint(false, eta, sides)),
         }
     })
+}
+
+/// Places of a joint's contact points, and how much of the joint each stands for, towards its first end and towards its second:
+/// the middles of its strips, where it has any; else what is nearest to each of [`places`].
+fn points(strips: Option<Vec<f64>>, law: JointLaw, around: [Option<&Grid>; 2]) -> (Vec<f64>, Vec<[f64; 2]>) {
+    if let Some(ends) = strips {
+        let strip = |ends: &[f64]| (0.5 * (ends[0] + ends[1]), [0.5 * (ends[1] - ends[0]); 2]);
+        return ends.windows(2).map(strip).unzip();
+    }
+    let places = places(law, around);
+    let sides = |(j, &eta): (usize, &f64)| {
+        let below = if j == 0 { eta } else { 0.5 * (eta - places[j - 1]) };
+        let above = if j + 1 == places.len() { 1.0 - eta } else { 0.5 * (places[j + 1] - eta) };
+        [below, above]
+    };
+    let sides = places.iter().enumerate().map(sides).collect();
+    (places, sides)
 }
 
 /// Places of the contact points of a joint between two bodies, from 0 at the intrados to 1 at the extrados.
@@ -215,10 +255,13 @@ fn places(law: JointLaw, [before, after]: [Option<&Grid>; 2]) -> Vec<f64> {
     places
 }
 
-/// Law of a contact point that has this share of the joint.
-fn law(joint: &Joint, share: f64) -> Law {
+/// Law of a contact point that has this share of the joint, under a pressure of so much at most, Pa.
+fn law(joint: &Joint, share: f64, pressure: f64) -> Law {
     match joint.law.coulomb() {
-        Some([friction, cohesion]) => Law::Coulomb { friction, cohesion: share * cohesion * joint.length() },
+        Some([friction, cohesion]) => {
+            let [cohesion, cap] = [cohesion, pressure].map(|stress| share * stress * joint.length());
+            Law::Coulomb { friction, cohesion, cap }
+        }
         None => Law::Bonded,
     }
 }
@@ -293,6 +336,11 @@ impl Model<'_> {
     /// Contacts of joint `k`, from its first end to its second.
     pub(super) fn contacts(&self, joint: usize) -> std::ops::Range<usize> {
         self.assembly.at_interface(joint)
+    }
+
+    /// Whether the contact points of joint `k` are capped.
+    pub(super) fn crushes(&self, joint: usize) -> bool {
+        self.contacts(joint).any(|p| self.assembly.contacts()[p].cap().is_finite())
     }
 
     /// Place of contact `p` on joint `k`: 0 at its first end, 1 at its second.

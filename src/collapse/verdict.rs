@@ -4,13 +4,14 @@ mod fallen;
 mod leg;
 
 use super::certificate::{Certificate, any_fixed, loaded, mesh_notes};
-use super::discretise::{Model, discretise};
+use super::discretise::{Model, discretise_crushing};
 use super::doubt::Doubt;
 use super::path::{ATTEMPTS, Attempt, disturbed, nothing_grows, stand, total};
 use crate::budget::Budget;
 
 use super::record::snapshot;
 use super::state::States;
+use super::strips::Strips;
 use super::updated::{self, Course};
 use super::{
     Aim, Analysis, AnalysisError, CollapseReport, Cost, Crushing, Direction, Geometry, LimitWindow, Outcome,
@@ -23,6 +24,7 @@ use std::ops::ControlFlow;
 /// Note on an arch of which nothing is asked but whether it stands.
 const NOTHING_GROWS: &str = "Nothing grows with the load factor: the answer says only that the arch stands.";
 
+/// Joints that bear, at the end of the window of plastic sections, this share of what these can are in strips; those that bear,
 /// By default the load factor is raised until the scaled loads are so many times the fixed ones.
 const DEFAULT_CAP: f64 = 1e6;
 
@@ -41,6 +43,10 @@ struct Question<'a> {
     thrust_range: Option<ThrustRange>,
     /// What limit analysis says of crushing.
     crushing: Crushing,
+    /// Limit window of rigid stones.
+    rigid: Option<[f64; 2]>,
+    /// Joints that crush on the path.
+    strips: Strips,
 }
 
 /// A report, and why it is not believed as it stands, if so.
@@ -75,7 +81,12 @@ impl Attempted {
 
 impl<'a> Question<'a> {
     fn new(analysis: &'a Analysis, budget: &'a Budget<'a>) -> Result<Self, AnalysisError> {
-        let certificate = Certificate::new(analysis, budget)?;
+        let mut certificate = Certificate::new(analysis, budget)?;
+        let rigid = certificate.window;
+        let (crushing, forces) = certificate.crushing(analysis.structure.least_strength(), budget)?;
+        if analysis.crushing_in_path {
+            certificate.hold_to(&crushing);
+        }
         let (fixed, scaled) = (total(&analysis.fixed), total(&analysis.scaled));
         let balance = if fixed > 0.0 && scaled > 0.0 { fixed / scaled } else { 1.0 };
         let sign = if analysis.direction == Direction::Increase { 1.0 } else { -1.0 };
@@ -92,8 +103,14 @@ impl<'a> Question<'a> {
         budget.check()?;
         let thrust_range = thrust.map(|[lowest, highest]| ThrustRange { lowest, highest });
         let weight = fixed + scaled * start.abs();
-        let crushing = certificate.crushing(analysis.structure.least_strength(), budget)?;
-        Ok(Question { analysis, budget, certificate, thrust_range, crushing, sign, start, cap, weight })
+        let mut strips = Strips::default();
+        if analysis.crushing_in_path {
+            let joints = &analysis.structure.joints;
+            strips = Strips::new(joints, crushing.strength, !certificate.stands_at(start));
+            let ends = forces.iter().zip([-1.0, 1.0]).filter(|(_, end)| *end == sign || !certificate.stands_at(0.0));
+            ends.for_each(|(forces, _)| _ = strips.expect(joints, forces));
+        }
+        Ok(Question { analysis, budget, certificate, thrust_range, crushing, rigid, strips, sign, start, cap, weight })
     }
 
     /// Limit window, load path and all that follows from them.
@@ -110,7 +127,7 @@ impl<'a> Question<'a> {
         }
         report.updated = self.updated(&mut report)?;
         match analysis.aim {
-            Aim::Collapse => safety::crushed_at_start(&mut report),
+            Aim::Collapse => safety::crushed_at_start(&mut report, analysis.crushing_in_path),
             Aim::Safety { crushing } => safety::judge(&mut report, crushing),
             Aim::Settlement(movements) => self.settle(&mut report, movements)?,
         }
@@ -149,9 +166,26 @@ impl<'a> Question<'a> {
         Ok(attempted)
     }
 
+    /// Until no joint crushes at the end of the path but those in strips.
     fn attempt(&self, attempt: Attempt) -> Result<Attempted, AnalysisError> {
+        let (mut strips, mut cost) = (self.strips.clone(), Cost::default());
+        let joints = &self.analysis.structure.joints;
+        loop {
+            let mut attempted = self.attempt_with(&strips, attempt)?;
+            attempted.report.cost.join(cost);
+            cost = attempted.report.cost;
+            let report = &attempted.report;
+            let crushing = self.analysis.crushing_in_path && attempted.doubt.is_none();
+            let ends = report.end.iter().chain(&report.other_end).filter(|_| crushing);
+            if !ends.fold(false, |more, end| strips.expect_more(joints, &end.thrust_line) || more) {
+                return Ok(attempted);
+            }
+        }
+    }
+
+    fn attempt_with(&self, strips: &Strips, attempt: Attempt) -> Result<Attempted, AnalysisError> {
         let analysis = self.analysis;
-        let model = discretise(analysis, attempt, self.budget)?;
+        let model = discretise_crushing(analysis, strips, attempt, self.budget)?;
         let fixed = disturbed(&model, self.start, attempt);
         let mut progress = |tracer: &Tracer, load_factor: f64| self.budget.step(load_factor, tracer.events());
         let mut report = self.blank(model.assembly.unknowns());
@@ -207,7 +241,7 @@ impl<'a> Question<'a> {
 
     /// What becomes of a standing arch as its springings move.
     fn settle(&self, report: &mut CollapseReport, movements: [SpringingMovement; 2]) -> Result<(), AnalysisError> {
-        safety::crushed_at_start(report);
+        safety::crushed_at_start(report, false);
         if report.at_start.is_none() || report.outcome == Outcome::CannotTell {
             return Ok(());
         }
@@ -232,7 +266,7 @@ impl<'a> Question<'a> {
 
     /// A report of nothing but the limit window, on a model of so many `unknowns`.
     fn blank(&self, unknowns: usize) -> CollapseReport {
-        let window = self.certificate.window;
+        let window = self.rigid;
         CollapseReport {
             outcome: Outcome::CannotTell,
             limit_window: window.map(|[lowest, highest]| LimitWindow { lowest, highest }),

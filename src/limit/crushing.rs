@@ -6,7 +6,7 @@
 //! arch until its answer lies on or within every parabola (cutting planes, Kelley 1960).
 
 use super::programme::{Objective, Outcome, Programme};
-use super::static_theorem::{Equilibrium, Limit};
+use super::static_theorem::{Equilibrium, Limit, Resultant};
 use super::{StaticTheorem, Unsolved};
 use crate::budget::Budget;
 
@@ -32,6 +32,8 @@ pub struct CrushingWindow {
     pub ends: [f64; 2],
     /// Dry joints on their parabola at either end, under a normal force; none where the end is infinite.
     pub joints: [Vec<usize>; 2],
+    /// Forces of all joints at either end; none where it is infinite.
+    pub forces: [Vec<Resultant>; 2],
 }
 
 /// One dry joint of finite strength.
@@ -82,12 +84,13 @@ impl StaticTheorem {
         let mut programme = Programme::new(self);
         let first = |section: &Section| FIRST_CUTS.map(|at| section.tangents(at, self));
         programme.limits = sections.iter().flat_map(first).flatten().collect();
-        let mut window = CrushingWindow { ends: [0.0; 2], joints: [Vec::new(), Vec::new()] };
+        let mut window = CrushingWindow { ends: [0.0; 2], joints: Default::default(), forces: Default::default() };
         for (end, sign) in [-1.0, 1.0].into_iter().enumerate() {
             match cut_until_inside(&Objective::load_factor(sign), &mut programme, &sections, budget)? {
                 Outcome::At(equilibrium, _) => {
                     window.ends[end] = equilibrium.load_factor;
                     window.joints[end] = self.crushed(&sections, &equilibrium);
+                    window.forces[end] = equilibrium.forces;
                 }
                 Outcome::Unbounded(_) => window.ends[end] = sign * f64::INFINITY,
                 Outcome::Infeasible | Outcome::Lost => return Ok(None),

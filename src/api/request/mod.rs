@@ -99,6 +99,11 @@ pub struct AnalysisRequest {
     /// Whether it is followed on the moving arch too.
     #[serde(default)]
     pub geometry: GeometryRequest,
+    /// Whether joints crush on the load path: where joints of plastic sections crush, no contact is pressed harder than the least
+    /// compressive strength, so that collapse, hinges and thrust line are those of an arch whose joints crush. For a collapse at
+    /// first order, found event by event, of whole stones. Without it crushing is told beside the path of stone that does not.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub crushing_in_path: bool,
     /// What the answer shows.
     #[serde(default)]
     pub report: ReportRequest,

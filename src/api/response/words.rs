@@ -47,6 +47,8 @@ pub enum MethodWord {
 pub enum GovernedBy {
     /// A mechanism of rigid stones.
     Instability,
+    /// A mechanism some of whose joints crush, where `crushing_in_path` is set.
+    Crushing,
 }
 
 /// How the arch moves when it falls.
@@ -63,6 +65,8 @@ pub enum ModeWord {
     Sliding,
     /// Blocks turn over, in a structure without spans.
     Overturning,
+    /// Joints crush over their whole length, and none opens or slides.
+    Crushing,
 }
 
 /// What limits the safety factor.
@@ -177,6 +181,7 @@ impl From<Mode> for ModeWord {
             Mode::Sway => ModeWord::Sway,
             Mode::Sliding => ModeWord::Sliding,
             Mode::Overturning => ModeWord::Overturning,
+            Mode::Crushing => ModeWord::Crushing,
         }
     }
 }

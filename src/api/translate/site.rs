@@ -112,6 +112,7 @@ impl<'a> Site<'a> {
             cap: request.load_factor.cap,
             method: self.method,
             geometry: request.geometry.into(),
+            crushing_in_path: request.crushing_in_path,
             share: request.report.share_of_collapse,
             mesh: Mesh { subblocks: self.subblocks().to_vec(), seams: request.mesh.seams.into() },
             accuracy: self.accuracy,

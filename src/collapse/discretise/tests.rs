@@ -30,6 +30,7 @@ fn semicircle(n: usize, subblocks: [usize; 2], curved: bool) -> Analysis {
         cap: None,
         method: Method::EventPath,
         geometry: Geometry::FirstOrder,
+        crushing_in_path: false,
         share: 0.999,
         mesh: Mesh { subblocks: vec![subblocks; n], seams: Seams::Split },
         accuracy: None,

@@ -1,7 +1,7 @@
 //! One leg of a load path: followed to its end, and the end held against the limit window.
 
 use super::{Progress, Question};
-use crate::collapse::certificate::{LATER_MECHANISM, fixed_steps_note, range_note};
+use crate::collapse::certificate::{CRUSHES_AND_SLIDES, LATER_MECHANISM, fixed_steps_note, range_note};
 use crate::collapse::doubt::Doubt;
 use crate::collapse::ending::{self, Ending};
 use crate::collapse::path::{Leg, follow};
@@ -82,7 +82,9 @@ impl Question<'_> {
                 None
             }
             Method::EventPath => {
-                self.take_least(&mut ending, sign)?;
+                if !self.analysis.crushing_in_path {
+                    self.take_least(&mut ending, sign)?;
+                }
                 match self.certificate.compare(&ending.end, sign) {
                     Err(doubt) => Some(doubt),
                     Ok(short) => (turned_back && short && ending.later).then_some(Doubt::TurnedBack(path)),
@@ -91,6 +93,8 @@ impl Question<'_> {
         };
         report.notes.extend(ending.later.then(|| LATER_MECHANISM.into()));
         report.notes.extend(ending.end.range.as_ref().map(range_note));
+        let slides = self.analysis.crushing_in_path && !ending.end.mechanism.slides.is_empty();
+        report.notes.extend(slides.then(|| CRUSHES_AND_SLIDES.into()));
         report.outcome = Outcome::Collapse;
         report.end = Some(ending.end);
         Ok(doubt)

@@ -18,7 +18,7 @@ fn column(blocks: usize) -> Assembly {
             // A little scatter, so that no two contacts change at once.
             stiffness: [1e9 * (1.0 + 1e-5 * (9 * joint + j) as f64); 2],
             link: [4e9; 2],
-            law: Law::Coulomb { friction: 0.6, cohesion: 0.0 },
+            law: Law::Coulomb { friction: 0.6, cohesion: 0.0, cap: f64::INFINITY },
             before: [(0, 1.0), (0, 0.0)],
             after: [(0, 1.0), (0, 0.0)],
         };
