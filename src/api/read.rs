@@ -127,6 +127,7 @@ fn beam_misfit(pointer: &str) -> &'static str {
         "/load_factor",
         "/method",
         "/geometry",
+        "/crushing_in_path",
         "/report",
         "/motion",
     ];

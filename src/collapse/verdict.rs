@@ -175,8 +175,7 @@ impl<'a> Question<'a> {
             attempted.report.cost.join(cost);
             cost = attempted.report.cost;
             let report = &attempted.report;
-            let crushing = self.analysis.crushing_in_path && attempted.doubt.is_none();
-            let ends = report.end.iter().chain(&report.other_end).filter(|_| crushing);
+            let ends = report.end.iter().chain(&report.other_end).filter(|_| self.analysis.crushing_in_path);
             if !ends.fold(false, |more, end| strips.expect_more(joints, &end.thrust_line) || more) {
                 return Ok(attempted);
             }

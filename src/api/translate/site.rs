@@ -2,7 +2,7 @@
 
 use super::stone::{Stones, check_overrides, override_joints};
 use super::structure::{self, Layout};
-use super::{MAX_FACTOR, MAX_LENGTH_M, accuracy, check_text, half, loads, mesh, motion};
+use super::{MAX_FACTOR, MAX_LENGTH_M, accuracy, check_text, crushing, half, loads, mesh, motion};
 use crate::api::fault::Faults;
 use crate::api::request::{AimRequest, AnalysisRequest, DirectionRequest, GeometryRequest, LoadEntry, MethodRequest};
 use crate::arch::MAX_VOUSSOIRS;
@@ -57,6 +57,7 @@ impl<'a> Site<'a> {
         let method = method(&request.method, joints, faults);
         check_load_factor(request, faults);
         check_method(request, faults);
+        crushing::check(request, &subblocks, faults);
         faults.inside("/report/share_of_collapse", request.report.share_of_collapse, 0.0, 1.0);
         let accuracy = accuracy::accuracy(request, whole, faults);
         let pieces = mesh::total(subblocks.iter().take(analysed.unwrap_or(0)));
