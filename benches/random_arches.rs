@@ -163,7 +163,7 @@ fn look(seed: u64, picture: Option<&String>) {
     println!("{request}");
     let report = common::door::solve(&request);
     println!("{:?}, window {:?}, {:?}", report.outcome, report.limit_window, report.cost);
-    println!("{}", report.notes.join("\n"));
+    report.notes.iter().for_each(|note| println!("{note}"));
     for end in [&report.end, &report.other_end].into_iter().flatten() {
         println!("load factor {}, residual {:e}", end.load_factor, end.residual);
         println!("{:#?}\n{:#?}", end.mechanism.hinges, end.mechanism.slides);

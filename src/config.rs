@@ -29,12 +29,10 @@ pub enum Verb {
     Solve(Solve),
     /// Serve HTTP until told to stop
     Serve(Serve),
-    /// Measure speed against accuracy on a fixed set of scenes; takes minutes
-    Chart(Chart),
     /// Print the OpenAPI document
     Openapi,
     /// Ask a running service for a sign of life
-    Health(Health),
+    Health(HealthOptions),
 }
 
 /// Options of `solve`.
@@ -48,23 +46,6 @@ pub struct Solve {
     /// Also draw the arch where its load path ends, as SVG, into this file
     #[arg(long, value_name = "OUT.svg")]
     pub figure: Option<PathBuf>,
-}
-
-/// Options of `chart`.
-#[derive(Debug, Args)]
-pub struct Chart {
-    /// Folder for chart.csv, collapse.svg and stress.svg
-    #[arg(long, value_name = "DIR")]
-    pub out: PathBuf,
-    /// Rows of other programs on the same scenes, as benches/peers writes them, to be shown as well
-    #[arg(long, value_name = "FILE.csv")]
-    pub peers: Option<PathBuf>,
-    /// Only this scene, as named in chart.csv; may be given several times
-    #[arg(long = "scene", value_name = "SCENE")]
-    pub scenes: Vec<String>,
-    /// Only this model, as named in chart.csv, and that with one subblock a stone; may be given several times
-    #[arg(long = "model", value_name = "MODEL")]
-    pub models: Vec<String>,
 }
 
 /// Options of `serve`.
@@ -156,7 +137,7 @@ pub struct Requests {
 
 /// Options of `health`.
 #[derive(Debug, Args)]
-pub struct Health {
+pub struct HealthOptions {
     #[command(flatten)]
     pub address: Address,
 }
@@ -204,7 +185,7 @@ impl Serve {
             return Err(io::Error::other("a --token is made of letters, digits and -._~+/= and is not empty"));
         }
         Ok(Settings {
-            limits: api::Limits {
+            limits: api::ApiLimits {
                 body: size(requests.body_limit),
                 request_time: Duration::from_secs(requests.request_time),
                 voussoirs: size(self.work.voussoirs),

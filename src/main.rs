@@ -17,7 +17,6 @@ fn main() -> ExitCode {
     match Program::parse().verb {
         Verb::Solve(options) => cli::solve::solve(&options),
         Verb::Serve(options) => cli::serve::serve(&options),
-        Verb::Chart(options) => cli::chart::chart(&options),
         Verb::Openapi => cli::openapi(),
         Verb::Health(options) => cli::health::health(&options),
     }

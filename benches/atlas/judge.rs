@@ -116,7 +116,7 @@ impl Truth {
     /// Judges our answer.
     pub fn judge(&self, analysis: &Analysis, report: &CollapseReport) -> Mark {
         if report.outcome == Outcome::CannotTell {
-            return Mark::GaveUp(report.notes.join(" "));
+            return Mark::GaveUp(format!("{:?}", report.notes));
         }
         if self.undecided() {
             return Mark::Open;

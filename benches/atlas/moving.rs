@@ -15,7 +15,7 @@ const RESIDUAL: f64 = 1e-9;
 /// Thrusts stay within those of limit analysis, and springings that part or approach far enough find the least or the greatest.
 pub fn judge_settlement(analysis: &Analysis, report: &CollapseReport, truth: &Truth) -> Mark {
     if report.outcome == Outcome::CannotTell {
-        return Mark::GaveUp(report.notes.join(" "));
+        return Mark::GaveUp(format!("{:?}", report.notes));
     }
     if truth.undecided() {
         return Mark::Open;
@@ -43,17 +43,18 @@ fn thrust_fault(analysis: &Analysis, path: &SettlementPath, truth: &Truth) -> Op
         return Some("moves where limit analysis finds no equilibrium".into());
     };
     let slack = EQUAL * greatest.abs().max(least.abs());
-    let outside = path.points.iter().find(|p| p.thrust < least - slack || p.thrust > greatest + slack);
+    let outside = path.points.iter().find(|p| p.forces[0].x < least - slack || p.forces[0].x > greatest + slack);
     if let Some(point) = outside {
-        return Some(format!("thrust {} outside {least} to {greatest}", point.thrust));
+        return Some(format!("thrust {} outside {least} to {greatest}", point.forces[0].x));
     }
-    let Wanted::Settlement([left, right]) = analysis.aim else { return None };
-    let outwards = left.outwards + right.outwards;
+    let Wanted::Settlement(moved) = &analysis.aim else { return None };
+    let [left, right] = moved.as_slice() else { return None };
+    let outwards = right.by.x - left.by.x;
     let size = analysis.structure.ring().iter().map(|joint| joint.intrados.y).fold(0.0, f64::max);
     if outwards.abs() < LARGE * size || !path.mechanism.slides.is_empty() {
         return None;
     }
-    let (found, limit) = (path.points.last()?.thrust, if outwards > 0.0 { least } else { greatest });
+    let (found, limit) = (path.points.last()?.forces[0].x, if outwards > 0.0 { least } else { greatest });
     ((found - limit).abs() > slack).then(|| format!("thrust ends at {found}, limit {limit}"))
 }
 

@@ -1,10 +1,9 @@
-"""What users would otherwise pick, on the scenes of `voussoir chart`: one row of peers.csv per tool, setting and scene.
+"""What users would otherwise pick, on the scenes of `benches/chart`: one row of peers.csv per tool, setting and scene.
 
     python3 -m venv cra && cra/bin/pip install -r benches/peers/requirements-cra.txt
     python3 -m venv lmgc90 && lmgc90/bin/pip install -r benches/peers/requirements-lmgc90.txt
-    cargo build --release
-    cra/bin/python benches/peers/run.py --voussoir target/release/voussoir --lmgc90 lmgc90/bin/python --out peers.csv
-    target/release/voussoir chart --out cases/chart --peers peers.csv
+    cra/bin/python benches/peers/run.py --lmgc90 lmgc90/bin/python --out peers.csv
+    cargo bench --bench chart -- --out cases/chart --peers peers.csv
 
 Times are CPU seconds of the process, imports and (HiGHS, compas_cra) the making of geometry left out; those of `voussoir`
 are of its analysis alone, measured at the end of this run. A search for the load counts all its trials. All of it takes
@@ -40,11 +39,11 @@ TOOLS = {
 }
 
 
-def base_seconds(program, names):
+def base_seconds(names):
     """Our own analysis with one subblock a stone: its time by scene."""
     with tempfile.TemporaryDirectory() as place:
         chosen = [word for name in names for word in ("--scene", name)]
-        words = [program, "chart", "--out", place, "--model", "1 x 1", *chosen]
+        words = ["cargo", "bench", "--bench", "chart", "--", "--out", place, "--model", "1 x 1", *chosen]
         subprocess.run(words, check=True, capture_output=True)
         rows = csv.DictReader((Path(place) / "chart.csv").read_text().splitlines())
         return {row["scene"]: float(row["seconds"]) for row in rows if row["model"] == "1 x 1"}
@@ -91,7 +90,6 @@ def row(tool, setting, scene, told, base):
 
 def main():
     words = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    words.add_argument("--voussoir", help="the program, a release build")
     words.add_argument("--lmgc90", help="interpreter that has compas_lmgc90; this one has to have compas_cra and scipy")
     words.add_argument("--out", type=Path, help="CSV to write")
     words.add_argument("--limit", type=float, default=600.0, help="most CPU seconds of one search (%(default)s)")
@@ -107,7 +105,7 @@ def main():
     with ThreadPoolExecutor(options.jobs) as pool:
         answers = list(pool.map(lambda one: run(options, *one), asked))
     found = [(*one, told) for one, told in zip(asked, answers) if told is not None]
-    base = base_seconds(options.voussoir, options.scenes)
+    base = base_seconds(options.scenes)
     with options.out.open("w", newline="") as file:
         table = csv.DictWriter(file, COLUMNS)
         table.writeheader()

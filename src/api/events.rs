@@ -3,10 +3,10 @@
 //! Nothing is kept for this: an event's id says how the job stood, so whoever comes back with the last id seen is told
 //! what has changed since.
 
-use super::Service;
 use super::jobs::{JobPath, find};
 use super::problem::{Problem, kinds};
 use super::request::Request;
+use super::service::AppState;
 use super::status::{JobStatus, ProgressBody, word};
 use crate::jobs::{Job, JobStore, Stand, Status};
 use axum::http::{HeaderMap, HeaderName, StatusCode};
@@ -27,8 +27,6 @@ const LOOK: Duration = Duration::from_millis(200);
 const ALIVE: Duration = Duration::from_secs(2);
 
 const LAST_EVENT_ID: HeaderName = HeaderName::from_static("last-event-id");
-
-type AppState = axum::extract::State<Service>;
 
 /// What becomes of a job, as it happens.
 #[utoipa::path(

@@ -1,10 +1,10 @@
 //! Handlers of `/v1/jobs` beside submission: list, status, request, dismissal.
 
-use super::Service;
 use super::etag::Version;
 use super::problem::{Problem, RETRY_AFTER, kinds};
 use super::request::Request;
 use super::response::line;
+use super::service::{AppState, Service};
 use super::status::{JobList, JobStatus, ListLinks, StatusWord, word};
 use crate::jobs::{Dismissal, Job, JobId, Status};
 use axum::Json;
@@ -21,8 +21,6 @@ const LISTED: usize = 50;
 
 /// Most jobs listed at once.
 const MOST_LISTED: usize = 1000;
-
-type AppState = axum::extract::State<Service>;
 
 /// Which part of the list is asked for.
 #[derive(Debug, Deserialize, IntoParams)]

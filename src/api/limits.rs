@@ -7,7 +7,7 @@ use std::time::Duration;
 
 /// How much one request may ask for, beside what the validator allows at most.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Limits {
+pub struct ApiLimits {
     /// Longest body, bytes.
     pub body: usize,
     /// Time in which a body has to arrive.
@@ -22,7 +22,7 @@ pub struct Limits {
     pub outgoing: usize,
 }
 
-impl Limits {
+impl ApiLimits {
     /// What of a question is more than this service takes.
     pub(super) fn check(&self, request: &Request, question: &Question) -> Vec<Fault> {
         let mut faults = Faults::default();

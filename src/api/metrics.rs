@@ -4,7 +4,7 @@ use super::Service;
 use super::problem::Problem;
 use super::request::Request;
 use super::status::word;
-use crate::jobs::{Job, Load, Status};
+use crate::jobs::{Job, Occupancy, Status};
 use axum::http::{Method, StatusCode, header};
 use axum::response::IntoResponse;
 use prometheus_client::encoding::EncodeLabelSet;
@@ -33,7 +33,7 @@ struct Answered {
 }
 
 #[derive(Debug, Clone, PartialEq, Eq, Hash, EncodeLabelSet)]
-struct Outcome {
+struct OutcomeLabel {
     outcome: &'static str,
 }
 
@@ -42,7 +42,7 @@ struct Outcome {
 pub struct Metrics {
     registry: Arc<Registry>,
     requests: Family<Answered, Counter>,
-    jobs: Family<Outcome, Counter>,
+    jobs: Family<OutcomeLabel, Counter>,
     seconds: Histogram,
     events: Histogram,
     queue: Gauge,
@@ -69,7 +69,7 @@ impl Default for Metrics {
         };
         registry.register("http_requests", "Requests answered", metrics.requests.clone());
         for status in [Status::Successful, Status::Failed, Status::Dismissed] {
-            drop(metrics.jobs.get_or_create(&Outcome { outcome: word(status) }));
+            drop(metrics.jobs.get_or_create(&OutcomeLabel { outcome: word(status) }));
         }
         registry.register("jobs", "Jobs that have ended", metrics.jobs.clone());
         let (seconds, events) = (metrics.seconds.clone(), metrics.events.clone());
@@ -95,7 +95,7 @@ impl Metrics {
 
     /// A job has ended.
     pub(super) fn ended(&self, job: &Job<Request>) {
-        self.jobs.get_or_create(&Outcome { outcome: word(job.status()) }).inc();
+        self.jobs.get_or_create(&OutcomeLabel { outcome: word(job.status()) }).inc();
         if let Some(time) = job.wall_time().filter(|_| job.status() != Status::Dismissed) {
             self.seconds.observe(time.as_secs_f64());
             self.events.observe(job.progress.step().map_or(0.0, |step| step.events as f64));
@@ -103,7 +103,7 @@ impl Metrics {
     }
 
     /// Everything, with the load as it is now.
-    fn text(&self, load: Load, streams: usize) -> Result<String, std::fmt::Error> {
+    fn text(&self, load: Occupancy, streams: usize) -> Result<String, std::fmt::Error> {
         let gauge = |count: usize| i64::try_from(count).unwrap_or(i64::MAX);
         self.queue.set(gauge(load.waiting));
         self.running.set(gauge(load.running));

@@ -33,8 +33,8 @@ mod tree;
 
 pub use document::document;
 pub use layers::Tokens;
-pub use limits::Limits;
-pub use service::{Analyse, Service, Settings};
+pub use limits::ApiLimits;
+pub use service::{Service, Settings, Solver};
 
 use axum::Router;
 use utoipa::OpenApi;

@@ -21,15 +21,18 @@ pub(super) fn history(history: &HistoryColumns) -> csv::Result<Vec<u8>> {
 pub(super) fn field(field: &StressFieldBody) -> csv::Result<Vec<u8>> {
     let all = &field.subblocks;
     let mut names = ["voussoir", "radial", "along", "centre_x_m", "centre_y_m"].map(str::to_owned).to_vec();
-    names.extend((0..4).flat_map(|corner| ["x", "y"].map(|axis| format!("corner_{corner}_{axis}_m"))));
+    // Of bodies that are not cut there may be more than four; what a subblock has not is left empty.
+    let most = all.corners_x_m.iter().map(Vec::len).fold(4, usize::max);
+    names.extend((0..most).flat_map(|corner| ["x", "y"].map(|axis| format!("corner_{corner}_{axis}_m"))));
     names.extend(["sigma_x_pa", "sigma_y_pa", "tau_xy_pa", "sigma_1_pa", "sigma_2_pa", "tresca_pa"].map(str::to_owned));
     let row = |i: usize| {
         let places = [all.voussoir[i], all.radial[i], all.along[i]].map(|count| count.to_string());
-        let corners = all.corners_x_m[i].into_iter().zip(all.corners_y_m[i]).flat_map(|(x, y)| [x, y]);
+        let coordinate = |of: &[f64], corner: usize| of.get(corner).copied().map(text).unwrap_or_default();
+        let corners = (0..most).flat_map(|k| [&all.corners_x_m, &all.corners_y_m].map(|of| coordinate(&of[i], k)));
         let stresses = [&all.sigma_x_pa, &all.sigma_y_pa, &all.tau_xy_pa, &all.sigma_1_pa, &all.sigma_2_pa];
-        let numbers = [all.centre_x_m[i], all.centre_y_m[i]].into_iter().chain(corners);
-        let numbers = numbers.chain(stresses.map(|column| column[i])).chain([all.tresca_pa[i]]);
-        places.into_iter().chain(numbers.map(text)).collect::<Vec<_>>()
+        let stresses = stresses.map(|column| column[i]).into_iter().chain([all.tresca_pa[i]]).map(text);
+        let centre = [all.centre_x_m[i], all.centre_y_m[i]].map(text);
+        places.into_iter().chain(centre).chain(corners).chain(stresses).collect::<Vec<_>>()
     };
     table(&names, (0..all.voussoir.len()).map(row))
 }

@@ -20,24 +20,25 @@ pub use columns::{BlockColumns, ContactColumns, HistoryColumns, SnapshotBody, Th
 pub use falling::{
     FrameColumns, MotionBody, MotionContactColumns, MotionEndWord, OpenHingeColumns, PlaceColumns, SlidColumns,
 };
-pub use mechanism::{Collapse, CrushedJointBody, End, HingeBody, LiftOffBody, RangeBody, SlideBody};
+pub use mechanism::{Collapse, CrushedJointBody, EndBody, HingeBody, LiftOffBody, RangeBody, SlideBody};
 pub use plan::{BeamPlanBody, EstimateBody, MeshBody, PlanBody, SubblockCounts};
 pub use result::JobResult;
 pub use safety::{CurvePointBody, ReachBody, SafetyBody, SafetyCurveResult};
-pub use settlement::{DisplacementColumns, SettlementBody, SettlementColumns, SettlementEndWord, SettlementPathBody};
+pub use settlement::{DisplacementColumns, SettlementBody, SettlementColumns, SettlementPathBody, SupportForces};
 pub use stress::{
     CrushedSubblock, CrushingBody, ElasticCrushingBody, PlasticCrushingBody, StressFieldBody, SubblockColumns,
     mesh_in_words,
 };
 pub use structure::{BodyBody, JointBody, StructureBody};
-pub use updated::{UpdatedBody, UpdatedEndWord};
-pub use words::{CrushingWord, FaceWord, GovernedBy, GovernsWord, MethodWord, ModeWord, OutcomeWord, ZoneWord};
+pub use updated::UpdatedBody;
+pub use words::{GovernedBy, MethodWord};
 
 use super::prose::in_its_words;
 use super::request::AnalysisRequest;
 use super::translate;
-use crate::collapse::{CollapseReport, Cost, LimitWindow, ThrustRange};
+use crate::collapse::{CollapseReport, Cost, LimitWindow, Note, Outcome, ThrustRange};
 use serde::Serialize;
+use settlement::Grounds;
 use std::io;
 use utoipa::ToSchema;
 
@@ -45,7 +46,7 @@ use utoipa::ToSchema;
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct AnalysisResult {
     /// What happened.
-    pub outcome: OutcomeWord,
+    pub outcome: Outcome,
     /// How the load path was read.
     pub method: MethodWord,
     /// Unit of every intensity.
@@ -75,7 +76,7 @@ pub struct AnalysisResult {
     /// Velocity of every voussoir in the mechanism; null where nothing collapses.
     pub velocities: Option<VelocityColumns>,
     /// The end of the path in the other direction, for an arch that stands in a window only.
-    pub other_end: Option<End>,
+    pub other_end: Option<EndBody>,
     /// Load factor from which the path was followed.
     pub start_load_factor: f64,
     /// Largest absolute load factor that was tried.
@@ -95,7 +96,7 @@ pub struct AnalysisResult {
     pub crushing: Option<CrushingBody>,
     /// The answer on moving geometry, where `geometry` asks for it and the arch stands at first order.
     pub updated_geometry: Option<UpdatedBody>,
-    /// What the movement of springings does, where `analysis` asks for it.
+    /// What the movement of supports does, where `analysis` asks for it.
     pub settlement: Option<SettlementBody>,
     /// Safety factors, where `analysis` asks for them.
     pub safety: Option<SafetyBody>,
@@ -166,9 +167,9 @@ impl AnalysisResult {
         let scale = Scale { per_unit: request.load_factor.intensity_per_unit, unit: &request.load_factor.unit };
         let window = report.limit_window;
         let snapshot = |snapshot| SnapshotBody::new(snapshot, &scale);
-        let main = report.end.as_ref().map(|end| End::new(end, window, &scale));
+        let main = report.end.as_ref().map(|end| EndBody::new(end, window, &scale));
         let joints =
-            |end: &End| (end.hinges.clone(), end.slides.clone(), end.lift_offs.clone(), end.crushed_joints.clone());
+            |end: &EndBody| (end.hinges.clone(), end.slides.clone(), end.lift_offs.clone(), end.crushed_joints.clone());
         let (hinges, slides, lift_offs, crushed_joints) = main.as_ref().map(joints).unwrap_or_default();
         let (collapse, thrust_line, velocities) = match main {
             Some(end) => (Some(end.collapse), Some(end.thrust_line), Some(end.velocities)),
@@ -177,22 +178,26 @@ impl AnalysisResult {
         let plan = report.plan.as_ref().map(PlanBody::from);
         let refined = plan.as_ref().filter(|plan| plan.stress.is_some());
         let mesh = refined.map_or_else(|| mesh_in_words(&request.mesh), PlanBody::mesh_in_words);
+        let structure = translate::named(request).map(StructureBody::from);
+        let grounds = structure.as_ref().map(|structure| structure.supports.clone());
+        let grounds = grounds.as_deref().map_or(Grounds::Arch { half: request.half() }, Grounds::Named);
+        let assumptions = assumptions::assumptions(request, structure.as_ref());
         AnalysisResult {
-            outcome: report.outcome.into(),
+            outcome: report.outcome,
             method: (&request.method).into(),
             unit: scale.unit.to_owned(),
             collapse,
             limit_window: window.map(|window| scale.window(window)),
             limit_window_load_factor: window.map(|window| Scale::LOAD_FACTOR.window(window)),
             thrust_range: report.thrust_range.filter(|_| request.blocks.is_none()).map(Into::into),
-            structure: translate::named(request).map(StructureBody::from),
+            structure,
             hinges,
             slides,
             lift_offs,
             crushed_joints,
             thrust_line,
             velocities,
-            other_end: report.other_end.as_ref().map(|end| End::new(end, window, &scale)),
+            other_end: report.other_end.as_ref().map(|end| EndBody::new(end, window, &scale)),
             start_load_factor: report.start,
             cap: report.cap,
             share: report.share,
@@ -202,15 +207,15 @@ impl AnalysisResult {
             stress_fields: report.stress_fields.iter().map(|field| StressFieldBody::new(field, &scale)).collect(),
             crushing: report.crushing.as_ref().map(|crushing| CrushingBody::new(crushing, &mesh, &scale)),
             updated_geometry: report.updated.as_ref().map(|updated| UpdatedBody::new(updated, report, &scale)),
-            settlement: report.settlement.as_ref().map(Into::into),
+            settlement: report.settlement.as_ref().map(|settlement| SettlementBody::new(settlement, &grounds)),
             safety: report.safety.as_ref().map(Into::into),
             motion: report.motion.as_ref().map(|motion| MotionBody::new(motion, &scale)),
             other_motion: report.other_motion.as_ref().map(|motion| MotionBody::new(motion, &scale)),
             history: HistoryColumns::new(&report.history, &scale),
             plan,
             cost: report.cost.into(),
-            notes: { report.notes.iter().cloned() }
-                .chain(assumptions::assumptions(request))
+            notes: { report.notes.iter().map(Note::to_string) }
+                .chain(assumptions)
                 .map(|note| in_its_words(request, &note))
                 .collect(),
             request: request.clone(),

@@ -10,7 +10,7 @@ use super::request::{Request, StressFieldRequest};
 use super::response::{HistoryColumns, JobResult, StressFieldBody, line};
 use super::{Service, parts, prose, translate};
 use crate::collapse::{Answer, StressField};
-use crate::jobs::{Job, State};
+use crate::jobs::{Job, JobState};
 use crate::render::vtu::vtu;
 use axum::extract::rejection::QueryRejection;
 use axum::extract::{FromRequestParts, Path, Query};
@@ -58,10 +58,10 @@ impl FromRequestParts<Service> for Asked {
         let Query(FormatQuery { f }) = query.map_err(|bad| query_fault(&bad))?;
         let job = find(service, id)?;
         let answer = match &job.state {
-            State::Accepted | State::Running => return Err(Problem::result_not_ready(id)),
-            State::Dismissed => return Err(Problem::dismissed(id)),
-            State::Failed(failure) => return Err(failure.into()),
-            State::Successful(answer) => answer.clone(),
+            JobState::Accepted | JobState::Running => return Err(Problem::result_not_ready(id)),
+            JobState::Dismissed => return Err(Problem::dismissed(id)),
+            JobState::Failed(failure) => return Err(failure.into()),
+            JobState::Successful(answer) => answer.clone(),
         };
         let (aside, outgoing) = (service.aside.clone(), service.outgoing.clone());
         Ok(Asked { job: Finished { job, answer }, aside, outgoing, f, headers: parts.headers.clone() })

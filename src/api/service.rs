@@ -2,7 +2,7 @@
 
 use super::body::Aside;
 use super::layers::Tokens;
-use super::limits::Limits;
+use super::limits::ApiLimits;
 use super::metrics::Metrics;
 use super::outgoing::Outgoing;
 use super::request::Request;
@@ -19,18 +19,21 @@ use tokio::sync::Semaphore;
 use tokio_util::sync::CancellationToken;
 
 /// The mechanics, or what stands in for them in a test.
-pub type Analyse = fn(&Question, &Budget) -> Result<Answer, AnalysisError>;
+pub type Solver = fn(&Question, &Budget) -> Result<Answer, AnalysisError>;
 
 /// How the interface behaves.
 #[derive(Debug, Clone)]
 pub struct Settings {
     /// How much one request may ask for.
-    pub limits: Limits,
+    pub limits: ApiLimits,
     /// Who may ask.
     pub tokens: Tokens,
     /// Pages of which origins may ask.
     pub origins: Vec<HeaderValue>,
 }
+
+/// How a handler is given the service.
+pub(super) type AppState = axum::extract::State<Service>;
 
 /// What every handler can reach; copies are the same service.
 #[derive(Clone)]
@@ -39,7 +42,7 @@ pub struct Service {
     pub jobs: Arc<JobStore<Request>>,
     /// Cancelled when the service is to stop: ends event streams.
     pub stopping: CancellationToken,
-    pub(super) limits: Limits,
+    pub(super) limits: ApiLimits,
     pub(super) tokens: Tokens,
     pub(super) origins: Vec<HeaderValue>,
     pub(super) metrics: Metrics,
@@ -53,7 +56,7 @@ impl Service {
     ///
     /// # Errors
     /// When the system gives no thread.
-    pub fn start(jobs: jobs::Limits, settings: Settings, analyse: Analyse) -> io::Result<Self> {
+    pub fn start(jobs: jobs::Limits, settings: Settings, analyse: Solver) -> io::Result<Self> {
         let metrics = Metrics::default();
         let counted = metrics.clone();
         let work = move |request: &Request, budget: &Budget| perform(request, budget, analyse);
@@ -67,7 +70,7 @@ impl Service {
 }
 
 /// What a worker does with a request. An answer counts as done only if it can be written down, every number finite.
-fn perform(request: &Request, budget: &Budget, analyse: Analyse) -> Result<Product, Failure> {
+fn perform(request: &Request, budget: &Budget, analyse: Solver) -> Result<Product, Failure> {
     // It was translated when it was accepted, so it can be again; meanwhile only the request had to be kept.
     let question = translate::translate(request).map_err(|_| Failure::Defect)?;
     let answer = analyse(&question, budget)?;

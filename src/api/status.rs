@@ -5,7 +5,7 @@ use super::request::Request;
 use super::timestamp::rfc3339;
 use crate::budget::LoadStep;
 
-use crate::jobs::{Job, JobId, State, Status};
+use crate::jobs::{Job, JobId, JobState, Status};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -146,7 +146,7 @@ impl From<&Job<Request>> for JobStatus {
             queue_position: job.position,
             progress: job.progress.step().map(Into::into),
             problem: match &job.state {
-                State::Failed(failure) => Some(failure.into()),
+                JobState::Failed(failure) => Some(failure.into()),
                 _ => None,
             },
             links: Links::new(job.id),

@@ -3,10 +3,11 @@
 use super::body::{JsonBody, check_syntax};
 use super::layers::Client;
 use super::problem::{Problem, kinds};
+use super::read;
 use super::request::Request;
 use super::response::weight;
+use super::service::{AppState, Service};
 use super::status::{self, JobStatus};
-use super::{Service, read};
 use crate::jobs::{Job, Submission};
 use axum::body::Bytes;
 use axum::http::{HeaderMap, HeaderName, StatusCode, header};
@@ -25,8 +26,6 @@ const LONGEST_KEY: usize = 200;
 const PREFER: HeaderName = HeaderName::from_static("prefer");
 const PREFERENCE_APPLIED: HeaderName = HeaderName::from_static("preference-applied");
 const IDEMPOTENCY_KEY: HeaderName = HeaderName::from_static("idempotency-key");
-
-type AppState = axum::extract::State<Service>;
 
 /// Submit an analysis.
 #[utoipa::path(

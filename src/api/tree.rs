@@ -22,23 +22,23 @@ const MOST_REPEATED: usize = 100;
 pub fn parse(text: &[u8]) -> Result<(Value, Vec<String>), serde_json::Error> {
     let repeated = RefCell::new(Vec::new());
     let mut reader = serde_json::Deserializer::from_slice(text);
-    let value = Node { pointer: String::new(), repeated: &repeated }.deserialize(&mut reader)?;
+    let value = JsonNode { pointer: String::new(), repeated: &repeated }.deserialize(&mut reader)?;
     reader.end()?;
     Ok((value, repeated.into_inner()))
 }
 
-struct Node<'a> {
+struct JsonNode<'a> {
     pointer: String,
     repeated: &'a RefCell<Vec<String>>,
 }
 
-impl Node<'_> {
+impl JsonNode<'_> {
     fn child(&self, key: &str) -> Self {
-        Node { pointer: child(&self.pointer, key), repeated: self.repeated }
+        JsonNode { pointer: child(&self.pointer, key), repeated: self.repeated }
     }
 }
 
-impl<'de> DeserializeSeed<'de> for Node<'_> {
+impl<'de> DeserializeSeed<'de> for JsonNode<'_> {
     type Value = Value;
 
     fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Value, D::Error> {
@@ -46,7 +46,7 @@ impl<'de> DeserializeSeed<'de> for Node<'_> {
     }
 }
 
-impl<'de> Visitor<'de> for Node<'_> {
+impl<'de> Visitor<'de> for JsonNode<'_> {
     type Value = Value;
 
     fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {

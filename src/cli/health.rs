@@ -1,7 +1,7 @@
 //! `voussoir health`: a sign of life for container health checks, without any HTTP client.
 
 use super::fail;
-use crate::config::Health;
+use crate::config::HealthOptions;
 use std::io::{self, Read, Write};
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr, TcpStream, ToSocketAddrs};
 use std::process::ExitCode;
@@ -11,7 +11,7 @@ use std::time::Duration;
 const PATIENCE: Duration = Duration::from_secs(2);
 
 /// Succeeds when the service answers `/health/live` with 200.
-pub fn health(options: &Health) -> ExitCode {
+pub fn health(options: &HealthOptions) -> ExitCode {
     let bind = &options.address.bind;
     match ask(bind) {
         Ok(status) if status.starts_with("HTTP/1.1 200 ") => ExitCode::SUCCESS,

@@ -1,6 +1,5 @@
 //! The verbs.
 
-pub mod chart;
 pub mod health;
 pub mod serve;
 pub mod solve;

@@ -2,6 +2,7 @@
 
 use super::discretise::{bond, elasticity};
 use super::grid::{Grid, Lines};
+use super::report::tresca;
 use crate::budget::Budget;
 
 use super::{AnalysisError, BeamReport, CurvedBeam, DEFAULT_PENALTY_RATIO, PlaneModel, StressField, SubblockStress};
@@ -112,7 +113,8 @@ fn macroblock(beam: &CurvedBeam) -> (Grid, Macroblock) {
     let whole = Region { area, centroid: Vec2::repeat((b.powi(3) - a.powi(3)) / (3.0 * area)) };
     let grid = Grid::new([side(Vec2::y()), side(Vec2::x())], whole, lines, beam.subblocks);
     let bond = bond(beam.seams, DEFAULT_PENALTY_RATIO * beam.stone.youngs_modulus);
-    (grid, grid.macroblock(elasticity(&beam.stone, beam.plane), bond))
+    let body = grid.macroblock(elasticity(&beam.stone, beam.plane), bond);
+    (grid, body)
 }
 
 /// Generalised loads of the exact end tractions: on each subblock's side, the two forces at its ends that have the
@@ -142,7 +144,7 @@ fn end_loads(beam: &CurvedBeam, exact: &Exact, grid: &Grid, body: &Macroblock) -
 fn tresca_at(exact: &Exact, subblock: &SubblockStress) -> f64 {
     let centre = subblock.centre;
     let stress = exact.stress(centre.norm(), centre.y.atan2(centre.x));
-    SubblockStress { stress, ..*subblock }.tresca()
+    tresca(stress)
 }
 
 #[cfg(test)]

@@ -1,35 +1,17 @@
 //! The exact limit window of an arch, and what to make of a load path that differs from it.
 
-use super::doubt::Doubt;
 use super::path::total;
+use super::tolerances::TOLERANCES;
 use crate::budget::Budget;
 
-use super::{Analysis, AnalysisError, Crushing, Digits, LimitWindow, LoadRange, PathEnd, PlasticCrushing};
+use super::{
+    Analysis, AnalysisError, Crushing, Doubt, LimitWindow, LoadRange, Note, PathEnd, PlasticCrushing, Unreached,
+};
 use crate::limit::{Resultant, StaticTheorem};
+use crate::structure::Structure;
 
-/// Path and window agree when their load factors differ by less than this share.
-const AGREES: f64 = 1e-7;
-/// The path may pass the window by this share before it is disbelieved.
-const ABOVE: f64 = 1e-6;
-/// Both where joints crush in strips (measured: 3e-3 and 4e-6): blocks of a hundred-thousandth of a joint are taken for none.
-const STRIPS_AGREE: [f64; 2] = [0.01, 1e-4];
-/// A path that ends short of the window by more than this share has its sliding joints at the limit of their friction
-/// (measured: 0.11 at most where they are not, as the load falls before the arch can move freely).
-const STRAY: f64 = 0.5;
-/// An end of the window this close to 0, measured in loads as large as the fixed ones, is 0 and rounding.
-const ZERO: f64 = 1e-12;
 /// Share of the load factor at which scaled and fixed loads are equal at which an arch that falls beyond 0 is seen to fall.
 const SOON: f64 = 1e-3;
-/// Load factors below this share of the one at which scaled loads equal the fixed ones are compared absolutely.
-const SMALL: f64 = 1e-6;
-/// A path whose equilibrium residual, as a share of the loads, exceeds this is not trusted.
-pub(super) const UNBALANCED: f64 = 1e-8;
-/// Equilibria this close, as a share of the loads, may be lost to rounding where stones carry no load.
-const MARGIN: f64 = 1e-9;
-/// Friction this close to its bound, as a share of it, is at its bound.
-const AT_BOUND: f64 = 1e-6;
-/// Loads that do less work than this in a mechanism do not drive it.
-const NO_WORK: f64 = 1e-9;
 
 /// Limit window and the static theorem it comes from.
 #[derive(Debug)]
@@ -53,15 +35,20 @@ impl Certificate {
         let window = theorem.window(budget);
         budget.check()?;
         let solved = window.is_ok();
-        let mut certificate =
-            Certificate { theorem, window: None, solved, any_fixed: any_fixed(analysis), agrees: [AGREES, ABOVE] };
+        let mut certificate = Certificate {
+            theorem,
+            window: None,
+            solved,
+            any_fixed: any_fixed(analysis),
+            agrees: [TOLERANCES.agreement, TOLERANCES.above_window],
+        };
         certificate.window = window.ok().and_then(|window| certificate.tidy(window));
         Ok(certificate)
     }
 
     /// A window without rounding.
     fn tidy(&self, window: Option<[f64; 2]>) -> Option<[f64; 2]> {
-        let round = |end: f64| if end.abs() < ZERO * self.theorem.load_factor_scale() { 0.0 } else { end };
+        let round = |end: f64| if end.abs() < TOLERANCES.zero * self.theorem.load_factor_scale() { 0.0 } else { end };
         let window = window.map(|ends| ends.map(round));
         if self.any_fixed {
             return window;
@@ -106,14 +93,14 @@ impl Certificate {
         }
     }
 
-    /// What limit analysis says of stone of this strength, Pa; and the forces of all joints at either end of its window, where it
-    /// has one.
+    /// What limit analysis says of stones of finite strength: a joint has that of the weaker stone beside it; and the forces of all
+    /// joints at either end of its window, where it has one.
     pub(super) fn crushing(
         &self,
-        strength: f64,
+        structure: &Structure,
         budget: &Budget,
     ) -> Result<(Crushing, [Vec<Resultant>; 2]), AnalysisError> {
-        let strengths = vec![strength; self.theorem.joints()];
+        let strengths: Vec<f64> = structure.joints.iter().map(|joint| structure.strength_at(joint)).collect();
         let found = self.theorem.crushing_window(&strengths, budget);
         budget.check()?;
         let mut forces = Default::default();
@@ -122,13 +109,13 @@ impl Certificate {
             let window = self.tidy(ends).map(|[lowest, highest]| LimitWindow { lowest, highest });
             PlasticCrushing { window, joints: joints.unwrap_or_default() }
         });
-        Ok((Crushing { strength, elastic: None, plastic_section }, forces))
+        Ok((Crushing { strength: structure.least_strength(), elastic: None, plastic_section }, forces))
     }
 
     /// The path is held against the window of plastic sections from now on: its joints crush.
     pub(super) fn hold_to(&mut self, crushing: &Crushing) {
         let plastic = crushing.plastic_section.as_ref();
-        (self.solved, self.agrees) = (plastic.is_some(), STRIPS_AGREE);
+        (self.solved, self.agrees) = (plastic.is_some(), TOLERANCES.crushing_agreement);
         self.window = plastic.and_then(|plastic| plastic.window).map(|window| [window.lowest, window.highest]);
     }
 
@@ -154,7 +141,7 @@ impl Certificate {
     /// Holds the end of a path against the window: a doubt, or whether it ends short of it, as sliding explains.
     pub(super) fn compare(&self, end: &PathEnd, sign: f64) -> Result<bool, Doubt> {
         let (path, limit) = (end.on_path(), self.end(sign).unwrap_or(0.0));
-        let scale = limit.abs().max(path.abs()).max(SMALL * self.theorem.load_factor_scale());
+        let scale = limit.abs().max(path.abs()).max(TOLERANCES.small_factor * self.theorem.load_factor_scale());
         let short = if limit.is_finite() { sign * (limit - path) / scale } else { f64::INFINITY };
         if short < -self.agrees[1] {
             Err(Doubt::Above { path, limit })
@@ -162,7 +149,7 @@ impl Certificate {
             Ok(false)
         } else if end.mechanism.slides.is_empty() {
             Err(Doubt::Short { path, limit })
-        } else if short > STRAY && !self.slides_at_its_limits(end) {
+        } else if short > TOLERANCES.stray && !self.slides_at_its_limits(end) {
             Err(Doubt::Stray { path, limit })
         } else {
             Ok(true)
@@ -176,24 +163,19 @@ impl Certificate {
             let (joint, thrust) = (self.theorem.joint(slide.joint), &end.thrust_line[slide.joint]);
             let Some([friction, cohesion]) = joint.law.coulomb() else { return true };
             let bound = friction * thrust.normal + cohesion * joint.length();
-            bound + slide.rate.signum() * thrust.shear <= AT_BOUND * bound + MARGIN * largest
+            bound + slide.rate.signum() * thrust.shear <= TOLERANCES.at_friction * bound + TOLERANCES.margin * largest
         })
     }
 
     /// A window that the path could not start in: the cap, or the full loads of a safety analysis, lie before it.
-    pub(super) fn out_of_reach(&self, start: f64, safety: bool) -> Option<String> {
-        let [low, high] = self.window.filter(|_| !self.stands_at(start))?;
-        let reach = match [low, high].map(f64::is_finite) {
-            [true, true] => format!("from {} to {}", Digits(low), Digits(high)),
-            [true, false] => format!("from {} upwards", Digits(low)),
-            _ => format!("up to {}", Digits(high)),
-        };
+    pub(super) fn out_of_reach(&self, start: f64, safety: bool) -> Option<Note> {
+        let [lowest, highest] = self.window.filter(|_| !self.stands_at(start))?;
         let why = match safety {
-            false => "beyond the cap on what is tried",
-            true if low > start => "the scaled loads in full are too little",
-            true => "with its scaled loads reversed",
+            false => Unreached::BeyondCap,
+            true if lowest > start => Unreached::TooLittleLoad,
+            true => Unreached::Reversed,
         };
-        Some(format!("It stands only at load factors {reach}: {why}."))
+        Some(Note::StandsOnlyWithin { window: LimitWindow { lowest, highest }, why })
     }
 
     /// Doubts that do not depend on how the path ended.
@@ -201,7 +183,7 @@ impl Certificate {
         if !self.solved {
             return Some(Doubt::NoCertificate);
         }
-        (residual > UNBALANCED).then_some(Doubt::Unbalanced(residual))
+        (residual > TOLERANCES.residual).then_some(Doubt::Unbalanced(residual))
     }
 
     /// Nothing happened up to the cap; that is believed if the window says so too.
@@ -214,24 +196,17 @@ impl Certificate {
     /// mechanism, as a share of the most they could. No answer where the budget is spent.
     pub(super) fn fallen(&self, start: f64, loose: bool, slides: bool, power: f64, budget: &Budget) -> Option<Doubt> {
         // The joints of unloaded stones carry nothing, which leaves the static theorem no room to be solved in.
-        if loose && !self.stands_at(start) && self.theorem.nearly_stands(start, MARGIN, budget) {
+        if loose && !self.stands_at(start) && self.theorem.nearly_stands(start, TOLERANCES.margin, budget) {
             return Some(Doubt::LooseStones);
         }
         let doubt = match slides {
-            _ if power < NO_WORK => Doubt::LooseStones,
+            _ if power < TOLERANCES.no_work => Doubt::LooseStones,
             true => Doubt::SlidesInside,
             false => Doubt::FallsInside,
         };
         self.stands_at(start).then_some(doubt)
     }
 }
-
-/// Note on a mechanism that is not one of the joints at their limits at the peak.
-pub(super) const LATER_MECHANISM: &str = "Joints at their limits at the collapse load make no mechanism, as may be where \
-     they slide. Hinges and slides are those in which the load path ends; the thrust line is that at the collapse load.";
-
-/// Note on a load that is not one number, where no lower one is looked for.
-pub(super) const CRUSHES_AND_SLIDES: &str = "Joints crush and slide. The collapse load is that of this load path; where joints      slide without dilating the arch may fall at others too, and where joints crush none lower is looked for.";
 
 /// Whether every stone carries a fixed load, and whether every stone carries any.
 pub(super) fn loaded(analysis: &Analysis) -> [bool; 2] {
@@ -251,62 +226,19 @@ const SLENDER: f64 = 4.0;
 
 /// Notes on what the mesh does to an answer: `slenderness` of the subblocks, whether there are several in a stone, and
 /// whether joints have cohesion.
-pub(super) fn mesh_notes(slenderness: f64, several: bool, cohesive: bool) -> Vec<String> {
-    let mut notes = Vec::new();
-    if several && slenderness > SLENDER {
-        notes.push(format!(
-            "Some subblocks are {} times as long as they are wide: stress across them is not to be trusted beyond {}. \
-             Choose a mesh whose subblocks are about square.",
-            Digits(slenderness),
-            Digits(SLENDER)
-        ));
-    }
-    if cohesive {
-        notes.push(
-            "Cohesion is shared out to a joint's contact points, and those that open lose theirs: where joints slide, the \
-             load depends on the mesh, and a finer one gives less. Limit analysis keeps all cohesion of a joint however \
-             far it opens."
-                .into(),
-        );
-    }
-    notes
+pub(super) fn mesh_notes(slenderness: f64, several: bool, cohesive: bool) -> Vec<Note> {
+    let slender = several && slenderness > SLENDER;
+    let slender = slender.then_some(Note::SlenderSubblocks { slenderness, trusted: SLENDER });
+    slender.into_iter().chain(cohesive.then_some(Note::CohesionByPoint)).collect()
 }
 
-/// Note on a load that is not one number.
-pub(super) fn range_note(range: &LoadRange) -> String {
-    let LoadRange { least, greatest, path, mechanisms_tried } = *range;
-    let [least_shown, greatest_shown, path_shown] = [least, greatest, path].map(Digits);
-    if (greatest - least).abs() <= AGREES * greatest.abs().max(least.abs()) {
-        return format!(
-            "Joints slide. Load factor {least_shown} is the only one found at which the arch falls: limit analysis, which lets \
-             sliding joints dilate (associated friction), allows no more, and no mechanism without dilation was found in \
-             equilibrium at less ({mechanisms_tried} tried)."
-        );
+/// Note on a load at which joints slide: whether it is the only one found.
+pub(super) fn range_note(range: &LoadRange) -> Note {
+    let LoadRange { least, greatest, .. } = *range;
+    match (greatest - least).abs() <= TOLERANCES.agreement * greatest.abs().max(least.abs()) {
+        true => Note::SoleSlidingLoad(*range),
+        false => Note::ManySlidingLoads(*range),
     }
-    let bound = if greatest.is_finite() {
-        format!(
-            "{greatest_shown} is the end of the limit window, which lets sliding joints dilate (associated friction)"
-        )
-    } else {
-        "limit analysis, which lets sliding joints dilate (associated friction), sets no bound".into()
-    };
-    format!(
-        "Joints slide without dilating, so the load at which the arch falls is not one number: it depends on the stiffness of \
-         the joints and the order of loading. Load factor {least_shown} is the least found at which a mechanism without \
-         dilation is in equilibrium ({mechanisms_tried} tried); {bound}. This load path ended at {path_shown}. \
-         Use {least_shown}."
-    )
-}
-
-/// Note on a load read off at whole steps.
-pub(super) fn fixed_steps_note(step: f64, limit: f64) -> String {
-    format!(
-        "Read off at whole steps of {} by the opening of joints (section 4.2 of the paper), for comparison only: the \
-         load given is the first step at which the criterion was met or no equilibrium was left, up to a step above \
-         the true one. Limit analysis gives {}.",
-        Digits(step),
-        Digits(limit)
-    )
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! From a structure to an assembly of blocks: the only door between masonry and mechanics.
 
-use super::grid::{Grid, ON_LINE};
+use super::grid::{Grid, ON_LINE, OnSide};
 use super::path::Attempt;
 use super::strips::Strips;
 use crate::budget::Budget;
@@ -89,7 +89,7 @@ pub(super) fn discretise_crushing<'p>(
     let assembly = assembly(analysis, &grids, strips, attempt, budget)?;
     let (bodies, joints) = (structure.voussoirs().len(), structure.ring().len());
     let positions = structure.ring().iter().enumerate();
-    let positions = positions.map(|(k, joint)| points(strips.of(k), joint.law, around(joint, &grids)).0).collect();
+    let positions = positions.map(|(k, joint)| points(strips.of(k), joint.law, &around(joint, &grids)).0).collect();
     let on_subblocks = |force: &PointForce| pushes(force, &grids);
     let straight = |forces: &[PointForce]| assembly.loads(forces.iter().flat_map(on_subblocks), budget);
     let turned = |forces: &[PointForce]| match analysis.geometry {
@@ -137,10 +137,14 @@ fn assembly(
             Side::Body(body) => Beside::Body(body),
             Side::Support(support) => Beside::Ground(support),
         });
-        builder.join(
-            between,
-            touches(joint, strips.of(k), strips.strength, around(joint, grids), penalties(analysis, joint)),
+        let touches = touches(
+            joint,
+            strips.of(k),
+            structure.strength_at(joint),
+            &around(joint, grids),
+            penalties(analysis, joint),
         );
+        builder.join(between, touches);
     }
     let mut assembly = builder.finish(budget)?;
     let mut scatter = Scatter::new(attempt.seed);
@@ -148,9 +152,12 @@ fn assembly(
     Ok(assembly)
 }
 
-/// What lies before and after a joint; none: the ground.
-fn around<'g>(joint: &Joint, grids: &'g [Grid]) -> [Option<&'g Grid>; 2] {
-    joint.between.map(|side| side.body().map(|body| &grids[body]))
+/// What lies before and after a joint, and where the joint lies on it; none: the ground.
+type Around<'g> = [Option<(&'g Grid, OnSide)>; 2];
+
+fn around<'g>(joint: &Joint, grids: &'g [Grid]) -> Around<'g> {
+    let on = |grid: &'g Grid| (grid, grid.beside([joint.intrados, joint.extrados]));
+    joint.between.map(|side| side.body().map(|body| on(&grids[body])))
 }
 
 /// Normal and tangential contact penalty of a joint, N/m2: that of the softer of two stones.
@@ -194,13 +201,14 @@ fn touches<'a>(
     joint: &'a Joint,
     strips: Option<Vec<f64>>,
     strength: f64,
-    [before, after]: [Option<&'a Grid>; 2],
+    around: &Around<'a>,
     penalty: [f64; 2],
 ) -> impl Iterator<Item = Touch> + 'a {
-    let links = before.into_iter().chain(after).count() as f64;
+    let [before, after] = *around;
+    let links = around.iter().flatten().count() as f64;
     let contact = 1.0 / (1.0 - links / LINK);
     let pressure = if strips.is_some() { strength } else { f64::INFINITY };
-    let (places, shares) = points(strips, joint.law, [before, after]);
+    let (places, shares) = points(strips, joint.law, around);
     // A mirror plane holds across and lets slide along.
     let held = [1.0, if joint.law == JointLaw::Mirror { 0.0 } else { 1.0 }];
     (0..places.len()).map(move |j| {
@@ -216,15 +224,15 @@ fn touches<'a>(
             stiffness: [0, 1].map(|way| held[way] * contact * stiffness[way]),
             link: stiffness.map(|stiffness| LINK * stiffness),
             law: law(joint, share, pressure),
-            before: before.map_or(nobody, |g| g.on_joint(true, eta, sides)),
-            after: after.map_or(nobody, |g| g.on_joint(false, eta, sides)),
+            before: before.map_or(nobody, |(grid, on)| grid.on_joint(on, eta, sides)),
+            after: after.map_or(nobody, |(grid, on)| grid.on_joint(on, eta, sides)),
         }
     })
 }
 
 /// Places of a joint's contact points, and how much of the joint each stands for, towards its first end and towards its second:
 /// the middles of its strips, where it has any; else what is nearest to each of [`places`].
-fn points(strips: Option<Vec<f64>>, law: JointLaw, around: [Option<&Grid>; 2]) -> (Vec<f64>, Vec<[f64; 2]>) {
+fn points(strips: Option<Vec<f64>>, law: JointLaw, around: &Around) -> (Vec<f64>, Vec<[f64; 2]>) {
     if let Some(ends) = strips {
         let strip = |ends: &[f64]| (0.5 * (ends[0] + ends[1]), [0.5 * (ends[1] - ends[0]); 2]);
         return ends.windows(2).map(strip).unzip();
@@ -239,17 +247,17 @@ fn points(strips: Option<Vec<f64>>, law: JointLaw, around: [Option<&Grid>; 2]) -
     (places, sides)
 }
 
-/// Places of the contact points of a joint between two bodies, from 0 at the intrados to 1 at the extrados.
+/// Places of the contact points of a joint between two bodies, from 0 at its first end to 1 at its second.
 ///
 /// Those of both sides: points of the finer side alone would put their forces off the middle of the coarser side's
 /// subblocks. A cut through a stone is held as a seam is, in the middle of its subblocks: points at their corners would lock in
 /// bending.
-fn places(law: JointLaw, [before, after]: [Option<&Grid>; 2]) -> Vec<f64> {
-    if let Some(grid) = before.filter(|grid| law == JointLaw::Mirror && grid.radial > 1) {
+fn places(law: JointLaw, around: &Around<'_>) -> Vec<f64> {
+    if let Some((grid, _)) = around[0].filter(|(grid, _)| law == JointLaw::Mirror && grid.radial > 1) {
         return (0..grid.radial).map(|i| (i as f64 + 0.5) / grid.radial as f64).collect();
     }
-    let ends = |grid: &Grid| (0..=grid.radial).map(|j| j as f64 / grid.radial as f64).collect::<Vec<_>>();
-    let mut places: Vec<f64> = before.into_iter().chain(after).flat_map(ends).collect();
+    let lines = around.iter().flatten().flat_map(|(grid, on)| grid.lines_on(*on));
+    let mut places: Vec<f64> = [0.0, 1.0].into_iter().chain(lines).collect();
     places.sort_by(f64::total_cmp);
     places.dedup_by(|a, b| *a - *b < ON_LINE);
     places

@@ -5,20 +5,11 @@ use super::discretise::Model;
 use super::mechanism::{self, Released};
 use super::motion::{Motion, motion_at};
 use super::path::{Fall, total};
+use super::tolerances::TOLERANCES;
 use super::{Analysis, Mode, PathEnd, Thrust};
 use crate::dda::{Peak, State, Tracer, Zone};
 use crate::limit::{Condition, Resultant, StaticTheorem};
 use crate::structure::{JointLaw, PointForce, Structure};
-
-/// Polishing undoes a disturbance of about 1e-9 of the loads; a larger change means that other conditions were solved.
-pub(super) const POLISH: f64 = 1e-6;
-/// A polished equilibrium may violate no condition of the static theorem by more than this share of the loads.
-const ADMISSIBLE: f64 = 1e-8;
-/// Share of a joint's force below which a corner's is none. Polished forces are good to about 1e-12, and next to a hinge
-/// of a 2001-voussoir arch the share is 1e-5.
-const POLISHED: f64 = 1e-8;
-/// The same where forces carry the disturbance of an attempt.
-const AS_BUILT: f64 = 1e-6;
 
 /// The end of a path, and what is at its limits there.
 pub(super) struct Ending {
@@ -44,7 +35,8 @@ pub(super) fn at_peak(
     let conditions = conditions(model, structure, peak);
     let polished = theorem.solve(&conditions).filter(|e| {
         let scale = peak.parameter.abs().max(theorem.load_factor_scale());
-        (e.load_factor - peak.parameter).abs() <= POLISH * scale && theorem.slack(e) >= -ADMISSIBLE
+        (e.load_factor - peak.parameter).abs() <= TOLERANCES.polish * scale
+            && theorem.slack(e) >= -TOLERANCES.admissible
     });
     let forces = match &polished {
         Some(equilibrium) => theorem.resultants(equilibrium),
@@ -54,7 +46,7 @@ pub(super) fn at_peak(
     let slipping: Vec<Option<f64>> = (0..structure.ring().len()).map(|k| sliding_shear(model, k, peak)).collect();
     let crushing = analysis.crushing_in_path.then(|| crushed::turning(model, structure, &forces, peak));
     let (turning, acting) = crushing.as_ref().map_or((structure, &forces), |(structure, forces)| (structure, forces));
-    let found = mechanism::from_statics(turning, acting, &slipping, &driving, POLISHED, model.budget);
+    let found = mechanism::from_statics(turning, acting, &slipping, &driving, TOLERANCES.corner_polished, model.budget);
     let later = found.is_none();
     let mut mechanism = found.unwrap_or_else(|| {
         from_direction(model, turning, if fall.turned_back { &peak.direction } else { &fall.direction })
@@ -67,8 +59,13 @@ pub(super) fn at_peak(
     let left = resultants(model, |p| fall.forces[p]);
     let at_limits = vec![
         mechanism::released(&mechanism),
-        mechanism::all_releases(structure, &forces, &slipping, if polished.is_some() { POLISHED } else { AS_BUILT }),
-        mechanism::all_releases(structure, &left, &vec![None; left.len()], AS_BUILT),
+        mechanism::all_releases(
+            structure,
+            &forces,
+            &slipping,
+            if polished.is_some() { TOLERANCES.corner_polished } else { TOLERANCES.corner_on_path },
+        ),
+        mechanism::all_releases(structure, &left, &vec![None; left.len()], TOLERANCES.corner_on_path),
     ];
     let load_factor = polished.map_or(peak.parameter, |e| e.load_factor);
     let thrust_line = thrust_line(structure, &forces);
@@ -99,7 +96,7 @@ pub(super) fn at_fall(analysis: &Analysis, model: &Model, tracer: &Tracer, start
     let along_path = from_direction(model, structure, tracer.direction());
     let none = vec![None; structure.ring().len()];
     let (carried, budget) = (resultants(model, |p| forces[p]), model.budget);
-    let smallest = mechanism::from_statics(structure, &carried, &none, &driving, AS_BUILT, budget);
+    let smallest = mechanism::from_statics(structure, &carried, &none, &driving, TOLERANCES.corner_on_path, budget);
     let mechanism = smallest.filter(|m| along_path.slides.is_empty() && m.slides.is_empty()).unwrap_or(along_path);
     let (residual, crushed) = (tracer.worst_residual(), crushed::crushed(model, structure, |p| forces[p][0]));
     PathEnd { load_factor, range: None, residual, mechanism, thrust_line: Vec::new(), crushed }

@@ -1,8 +1,8 @@
 //! Motion after collapse: from an arch, its loads and its report to rigid blocks on the move, and back to frames.
 
 use super::{
-    Analysis, AnalysisError, CollapseReport, Digits, Direction, FallingMotion, MotionAsked, MotionContact, MotionEnd,
-    MotionFrame, OpenHinge, Outcome, Slid,
+    Analysis, AnalysisError, CollapseReport, Direction, FallingMotion, MotionAsked, MotionContact, MotionEnd,
+    MotionFrame, Note, OpenHinge, Outcome, Slid,
 };
 use crate::budget::Budget;
 
@@ -18,12 +18,6 @@ const SMALL: f64 = 0.01;
 const NEAR: f64 = 1e-3;
 /// An arch that has moved by less than this share of its thickness has not begun to fall.
 const BEGUN: f64 = 0.02;
-
-/// Note on joints that the motion cannot hold together.
-const BONDED: &str = "No motion is shown: it knows no bonded joints between stones that can move.";
-
-/// Note on a keystone cut in half, which its mirror plane would have to hold upright.
-const HALVED: &str = "No motion is shown: it knows no stone cut in half. Set half to false.";
 
 /// Friction beyond its bound by more than this share of the loads is told.
 const BEYOND: f64 = 1e-6;
@@ -41,7 +35,7 @@ pub(super) fn follow(analysis: &Analysis, report: &mut CollapseReport, budget: &
     }
     let halved = analysis.structure.ring().iter().any(|joint| joint.law == JointLaw::Mirror);
     if halved || !holds_together(&analysis.structure) {
-        report.notes.push(if halved { HALVED } else { BONDED }.into());
+        report.notes.push(if halved { Note::MotionOfHalfStone } else { Note::MotionOfBondedStones });
         return Ok(());
     }
     let sign = if analysis.direction == Direction::Increase { 1.0 } else { -1.0 };
@@ -57,16 +51,12 @@ pub(super) fn follow(analysis: &Analysis, report: &mut CollapseReport, budget: &
     }
     let lost = |motion: &Option<FallingMotion>| motion.as_ref().is_some_and(|motion| motion.end == MotionEnd::Lost);
     if lost(&report.motion) || lost(&report.other_motion) {
-        report.notes.push("The motion could not be followed to one of its ends: no further step was found.".into());
+        report.notes.push(Note::MotionLost);
     }
     let frames = report.motion.iter().chain(&report.other_motion).flat_map(|motion| &motion.frames);
     let excess = frames.filter(|frame| frame.excess > BEYOND).map(|frame| frame.excess);
     if let Some(worst) = excess.reduce(f64::max) {
-        report.notes.push(format!(
-            "In some steps of the motion friction is beyond its bound, by up to {} of the loads: what follows them is \
-             doubtful.",
-            Digits(worst)
-        ));
+        report.notes.push(Note::MotionBeyondFriction(worst));
     }
     Ok(())
 }

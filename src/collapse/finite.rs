@@ -3,7 +3,7 @@
 //! Structures are taken apart field by field, so that a field that is added has to be looked at here.
 
 use super::{
-    AnalysisError, Answer, BlockState, CollapseReport, ContactForce, CrushedJoint, FallingMotion, Hinge, HistoryPoint,
+    AnalysisError, Answer, BlockState, CollapseReport, ContactPoint, CrushedJoint, FallingMotion, Hinge, HistoryPoint,
     LiftOff, LoadRange, Mechanism, MotionContact, MotionFrame, OpenHinge, PathEnd, Reach, SafetyPoint, SettlementPath,
     SettlementPoint, Slid, Slide, Snapshot, StressField, Thrust, UpdatedGeometry,
 };
@@ -51,7 +51,7 @@ impl CollapseReport {
         self.stress_fields.iter().try_for_each(StressField::check_finite)?;
         let elastic = self.crushing.iter().filter_map(|c| c.elastic.as_ref());
         finite("first yield", elastic.clone().filter_map(|e| e.load_factor))?;
-        finite("first yield", elastic.filter_map(|e| e.where_largest).flat_map(|subblock| subblock.stress))?;
+        finite("first yield", elastic.filter_map(|e| e.where_largest.as_ref()).flat_map(|subblock| subblock.stress))?;
         self.safety.iter().try_for_each(SafetyPoint::check_finite)?;
         self.updated.iter().try_for_each(UpdatedGeometry::check_finite)?;
         let paths = self.settlement.iter().flat_map(|s| std::iter::once(&s.first_order).chain(&s.updated));
@@ -116,8 +116,8 @@ impl Snapshot {
             finite("displacements", [displacement.x, displacement.y, *rotation])?;
             finite("stresses", *stress)?;
         }
-        let forces = |contact: &ContactForce| {
-            let ContactForce { joint: _, position, normal, tangential, gap } = contact;
+        let forces = |contact: &ContactPoint| {
+            let ContactPoint { joint: _, position, normal, tangential, gap } = contact;
             [*position, *normal, *tangential, *gap]
         };
         finite("contact forces", contacts.iter().flat_map(forces))
@@ -127,7 +127,7 @@ impl Snapshot {
 impl StressField {
     fn check_finite(&self) -> Checked {
         let StressField { load_factor, subblocks } = self;
-        let places = subblocks.iter().flat_map(|subblock| subblock.corners.into_iter().chain([subblock.centre]));
+        let places = subblocks.iter().flat_map(|subblock| subblock.corners.iter().copied().chain([subblock.centre]));
         finite("places of subblocks", places.flat_map(both))?;
         finite("stress field", subblocks.iter().flat_map(|subblock| subblock.stress).chain([*load_factor]))
     }
@@ -166,9 +166,8 @@ impl SettlementPath {
             residual,
         } = self;
         finite("settlement", [*share, *safe, *residual].into_iter().chain(*snap))?;
-        let forces = |point: &SettlementPoint| {
-            let SettlementPoint { share, thrust, left, right } = point;
-            [*share, *thrust, *left, right.unwrap_or(0.0)]
+        let forces = |SettlementPoint { share, forces }: &SettlementPoint| {
+            std::iter::once(*share).chain(forces.iter().copied().flat_map(both)).collect::<Vec<_>>()
         };
         finite("settlement", points.iter().flat_map(forces).chain(displacements.iter().flatten().copied()))?;
         mechanism.check_finite()?;

@@ -2,7 +2,7 @@
 
 use super::SubblockStress;
 use crate::dda::{Block, Bond, Elasticity, Macroblock, Seam};
-use crate::geometry::{Region, Vec2, cross, perpendicular};
+use crate::geometry::{Region, Vec2, cross, distance_from_segment, perpendicular};
 use crate::structure::{Body, Sides};
 
 /// A point this close to a line of the grid, as a share of a subblock, lies on it.
@@ -35,11 +35,22 @@ impl From<Sides> for Lines {
     }
 }
 
-/// A stone cut into subblocks: `radial` from intrados to extrados, `along` from the joint before to the joint after.
+/// Where a joint lies on a stone: on which side, and the places of its ends there, from 0 to 1.
+///
+/// Sides 0 and 1 run from intrados to extrados, at the joint before and at the joint after; 2 and 3 run along the stone, at the
+/// intrados and at the extrados.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct OnSide {
+    side: usize,
+    ends: [f64; 2],
+}
+
+/// A stone cut into subblocks: `radial` from intrados to extrados, `along` from the joint before to the joint after. Of a body
+/// that is no voussoir, corners 0 and 1 stand for the intrados, and 0 and 3 for the joint before.
 ///
 /// Places in it are (xi, eta): xi from 0 at the joint before to 1 at the joint after, eta from 0 at the intrados to 1 at
 /// the extrados. Subblock (i, j), i-th from the intrados and j-th along, is number `j * radial + i`.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Grid {
     /// Intrados and extrados end of the joint before and of the joint after, m.
     pub ends: [[Vec2; 2]; 2],
@@ -49,20 +60,28 @@ pub(super) struct Grid {
     pub radial: usize,
     /// Subblocks along.
     pub along: usize,
-    /// Shape of the whole stone.
+    /// Shape and corners of the whole stone.
     whole: Region,
+    outline: Vec<Vec2>,
 }
 
 impl Grid {
-    /// The grid of a body with this many subblocks (radial, along). What has not four corners cannot be cut.
+    /// The grid of a body with this many subblocks (radial, along); what is no quadrilateral is not cut.
     pub(super) fn of(body: &Body, subblocks: [usize; 2]) -> Self {
         let corner = |i: usize| body.corners[i.min(body.corners.len() - 1)];
-        Grid::new([[corner(0), corner(3)], [corner(1), corner(2)]], body.region, body.sides.into(), subblocks)
+        let subblocks = if body.is_quadrilateral() { subblocks } else { [1, 1] };
+        let ends = [[corner(0), corner(3)], [corner(1), corner(2)]];
+        Grid { outline: body.corners.clone(), ..Grid::new(ends, body.region, body.sides.into(), subblocks) }
     }
 
     /// The grid between two sides, each from intrados to extrados, of a stone of the given shape.
     pub(super) fn new(ends: [[Vec2; 2]; 2], whole: Region, lines: Lines, [radial, along]: [usize; 2]) -> Self {
-        Grid { ends, lines, radial, along, whole }
+        let [[a, d], [b, c]] = ends;
+        Grid { ends, lines, radial, along, whole, outline: vec![a, b, c, d] }
+    }
+
+    fn is_whole(&self) -> bool {
+        self.radial * self.along == 1
     }
 
     /// The point at (xi, eta), m.
@@ -91,7 +110,7 @@ impl Grid {
 
     /// Shape of subblock (i, j).
     pub(super) fn region(&self, i: usize, j: usize) -> Region {
-        if self.radial * self.along == 1 {
+        if self.is_whole() {
             return self.whole;
         }
         let [a, b, c, d] = self.corners(i, j);
@@ -130,8 +149,11 @@ impl Grid {
         Macroblock::new(blocks, seams, bond)
     }
 
-    /// Largest ratio of a subblock's longer to its shorter extent.
+    /// Largest ratio of a subblock's longer to its shorter extent; 1 of a stone that is not cut.
     pub(super) fn slenderness(&self) -> f64 {
+        if self.is_whole() {
+            return 1.0;
+        }
         let [before, after] = self.ends.map(|[i, e]| (e - i).norm() / self.radial as f64);
         let [inner, outer] = [0, 1].map(|face| (self.ends[1][face] - self.ends[0][face]).norm() / self.along as f64);
         let ratio = |a: f64, b: f64| (a / b).max(b / a);
@@ -144,7 +166,7 @@ impl Grid {
             voussoir,
             place: [i, j],
             centre: self.region(i, j).centroid,
-            corners: self.corners(i, j),
+            corners: if self.is_whole() { self.outline.clone() } else { self.corners(i, j).to_vec() },
             stress,
         };
         self.cells().zip(stresses).map(subblock).collect()
@@ -162,21 +184,61 @@ impl Grid {
         (points, points.map(|p| (p - centre).normalize() * sense))
     }
 
-    /// Subblocks that the point `eta` of the joint before (`after` false) or after touches. Between two, each takes as much
-    /// as lies on its side of what the point stands for: `below` towards the intrados, `above` towards the extrados.
-    pub(super) fn on_joint(&self, after: bool, eta: f64, [below, above]: [f64; 2]) -> Shares {
-        let column = if after { self.along - 1 } else { 0 };
-        let [mut lower, mut upper] = shares(eta, self.radial);
-        if upper.1 > 0.0 {
-            lower.1 = below / (below + above);
-            upper.1 = above / (below + above);
+    /// Where a joint with these ends lies: on the side nearest to them.
+    pub(super) fn beside(&self, joint: [Vec2; 2]) -> OnSide {
+        if self.is_whole() {
+            return OnSide { side: 0, ends: [0.0, 1.0] };
         }
-        [lower, upper].map(|(i, share)| (column * self.radial + i, share))
+        let [[a, d], [b, c]] = self.ends;
+        let sides = [[a, d], [b, c], [a, b], [d, c]];
+        let far =
+            |side: usize| joint.map(|end| distance_from_segment(end, sides[side][0], sides[side][1])).iter().sum();
+        let nearer = |best: (usize, f64), side: usize| if far(side) < best.1 { (side, far(side)) } else { best };
+        let (side, _) = (0..4).fold((0, f64::INFINITY), nearer);
+        let [from, to] = sides[side];
+        let place = |end: Vec2| (end - from).dot(&(to - from)) / (to - from).norm_squared();
+        // Ends at a corner are there to the last digit, so that points of whole sides are where subblocks meet.
+        let snapped = |place: f64| if (place - place.round()).abs() < ON_LINE { place.round() } else { place };
+        OnSide { side, ends: joint.map(|end| snapped(place(end))) }
+    }
+
+    /// Subblocks along a side.
+    fn on_side(&self, side: usize) -> usize {
+        if side < 2 { self.radial } else { self.along }
+    }
+
+    /// Places on a joint, from 0 to 1, where two subblocks of this stone meet.
+    pub(super) fn lines_on(&self, OnSide { side, ends: [from, to] }: OnSide) -> impl Iterator<Item = f64> {
+        let count = self.on_side(side);
+        let places = (1..count).map(move |k| (k as f64 / count as f64 - from) / (to - from));
+        places.filter(|place| (ON_LINE..1.0 - ON_LINE).contains(place))
+    }
+
+    /// Subblocks that the point `eta` of a joint touches. Between two, each takes as much as lies on its side of what the
+    /// point stands for: `below` towards the joint's first end, `above` towards its second.
+    pub(super) fn on_joint(&self, OnSide { side, ends: [from, to] }: OnSide, eta: f64, around: [f64; 2]) -> Shares {
+        let [mut lower, mut upper] = shares(from + (to - from) * eta, self.on_side(side));
+        if upper.1 > 0.0 {
+            let [below, above] = if from < to { around } else { [around[1], around[0]] };
+            (lower.1, upper.1) = (below / (below + above), above / (below + above));
+        }
+        let subblock = |i: usize| match side {
+            0 => i,
+            1 => (self.along - 1) * self.radial + i,
+            2 => i * self.radial,
+            _ => i * self.radial + self.radial - 1,
+        };
+        [lower, upper].map(|(i, share)| (subblock(i), share))
+    }
+
+    /// Number of the subblock in which a point lies.
+    pub(super) fn cell_at(&self, at: Vec2) -> usize {
+        self.at(at).next().map_or(0, |(cell, _)| cell)
     }
 
     /// Subblocks on which a force at `at` acts.
     pub(super) fn at(&self, at: Vec2) -> impl Iterator<Item = (usize, f64)> {
-        let (xi, eta) = self.place(at);
+        let (xi, eta) = if self.is_whole() { (0.5, 0.5) } else { self.place(at) };
         let rows = shares(eta, self.radial);
         let radial = self.radial;
         let cells = shares(xi, self.along)

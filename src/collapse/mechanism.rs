@@ -1,6 +1,7 @@
 //! How the arch moves when it falls: hinges, slides and the mode, from the joints that are at their limits.
 
 use super::motion::Motion;
+use super::rigid_parts::RigidParts;
 use super::smallest_motion::{Column, smallest_motion};
 use super::{Face, Hinge, LiftOff, Mechanism, Mode, Slide};
 use crate::budget::Budget;
@@ -8,9 +9,10 @@ use crate::budget::Budget;
 use crate::geometry::{Vec2, cross};
 use crate::limit::{Release, Resultant, releases};
 use crate::structure::{Joint, JointLaw, Loops, PointForce, Side, Structure};
+use std::ops::Range;
 
 /// Releases slower than this share of the fastest do not move.
-const MOVES: f64 = 1e-6;
+const SLOWEST: f64 = 1e-6;
 /// In a direction of the load path, joint motions below this share of the fastest corner are elastic strain or rounding.
 const ELASTIC: f64 = 1e-5;
 /// The same on a path on moving geometry, where joints go on straining as the arch falls: measured, real hinges turn at a
@@ -42,11 +44,12 @@ pub(super) fn from_statics(
     at_limit: f64,
     budget: &Budget,
 ) -> Option<Mechanism> {
-    let loops = Loops::new(structure).ok()?;
     let releases = all_releases(structure, resultants, slipping, at_limit);
-    let columns = columns(structure, &loops, &releases, driving);
+    let parts = RigidParts::new(structure, &releases)?;
+    let loops = Loops::new(&parts.structure).ok()?;
+    let columns = columns(&parts.structure, &loops, &parts.released, &parts.loads(driving));
     let rates = smallest_motion(&columns, 3 * loops.len() + 1, budget)?;
-    Some(describe(structure, &loops, &releases, &rates))
+    Some(describe(structure, &Loops::new(structure).ok()?, &releases, &parts.of_all(&rates, releases.len())))
 }
 
 /// What all joints at their limits let happen; see [`from_statics`].
@@ -130,7 +133,7 @@ pub(super) fn describe(structure: &Structure, loops: &Loops, releases: &[Release
     for (&(k, release), &rate) in releases.iter().zip(rates) {
         relative[k] = relative[k].plus(relative_motion(structure, k, release), rate);
         match release {
-            _ if rate <= MOVES * fastest => {}
+            _ if rate <= SLOWEST * fastest => {}
             Release::Rotation(Face::Intrados) => openings[k][1] += rate,
             Release::Rotation(Face::Extrados) => openings[k][0] += rate,
             Release::Sliding(sign) => slid[k] += sign * rate,
@@ -253,11 +256,14 @@ fn lift_offs(structure: &Structure, openings: &[[f64; 2]], lifts: impl Fn(usize)
     moving.map(rates).collect()
 }
 
-/// Which way the crown goes.
+/// Which way the crown goes; of several spans the one that moves fastest.
 fn crown_mode(structure: &Structure, motions: &[Motion]) -> Mode {
-    let [a, b] = crown(structure);
-    let top = 0.5 * (structure.bodies[a].region.centroid + structure.bodies[b].region.centroid);
-    let velocity = 0.5 * (motions[a].at(top) + motions[b].at(top));
+    let velocity = |(_, [a, b]): (_, [usize; 2])| {
+        let top = 0.5 * (structure.bodies[a].region.centroid + structure.bodies[b].region.centroid);
+        0.5 * (motions[a].at(top) + motions[b].at(top))
+    };
+    let faster = |most: Vec2, next: Vec2| if next.norm() > most.norm() { next } else { most };
+    let velocity = crowns(structure).map(velocity).fold(Vec2::zeros(), faster);
     if velocity.x.abs() > velocity.y.abs() && !structure.is_half() {
         Mode::Sway
     } else if velocity.y > 0.0 {
@@ -267,12 +273,26 @@ fn crown_mode(structure: &Structure, motions: &[Motion]) -> Mode {
     }
 }
 
-/// The voussoirs whose mean is the crown: the highest stone twice, or the two that are equally high.
-pub(super) fn crown(structure: &Structure) -> [usize; 2] {
-    let heights: Vec<f64> = structure.voussoirs().iter().map(|v| v.region.centroid.y).collect();
-    let (low, high) = heights.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &y| (l.min(y), h.max(y)));
-    let top = |y: &f64| *y >= high - 1e-9 * (high - low);
-    [heights.iter().position(top), heights.iter().rposition(top)].map(|place| place.unwrap_or(0))
+/// The bodies whose mean is the crown; of several spans that of the one that carries the most of `forces`.
+pub(super) fn crown(structure: &Structure, forces: &[PointForce]) -> [usize; 2] {
+    let carried = |bodies: &Range<usize>| -> f64 {
+        forces.iter().filter(|force| bodies.contains(&force.body)).map(|force| force.force.norm()).sum()
+    };
+    let weighed = crowns(structure).map(|(bodies, crown)| (carried(&bodies), crown));
+    weighed.reduce(|most, next| if next.0 > most.0 { next } else { most }).map_or([0, 0], |(_, crown)| crown)
+}
+
+/// The bodies of every span (of a structure without spans: all), and its crown: the highest of them twice, or the two that are
+/// equally high.
+fn crowns(structure: &Structure) -> impl Iterator<Item = (Range<usize>, [usize; 2])> {
+    let all = structure.spans.is_empty().then(|| 0..structure.voussoirs().len());
+    all.into_iter().chain(structure.spans.iter().map(|span| span.bodies.clone())).map(|bodies| {
+        let heights = structure.bodies[bodies.clone()].iter().map(|body| body.region.centroid.y);
+        let (low, high) = heights.clone().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), y| (l.min(y), h.max(y)));
+        let mut top = heights.enumerate().filter(|(_, y)| *y >= high - 1e-9 * (high - low)).map(|(k, _)| k);
+        let first = top.next().unwrap_or(0);
+        (bodies.clone(), [first, top.last().unwrap_or(first)].map(|k| bodies.start + k))
+    })
 }
 
 /// Angles of a joint's middle about the angle centre of its span: from the nearer springing, and from the crown (left

@@ -1,11 +1,12 @@
 //! Symmetric states to the last digit: displacements of the nodes are, but what follows from them is rounded in frames that are
 //! turned otherwise on either side. The mean of both sides is given.
 
+use super::grid::Grid;
 use super::{BlockState, SubblockStress};
 use crate::geometry::mirrored;
 
 impl BlockState {
-    /// Of the stone on the other side of a symmetric arch.
+    /// Of the stone on the other side of a symmetric structure.
     pub(super) fn mirror_image(self) -> Self {
         let [x, y, tau] = self.stress;
         BlockState { displacement: mirrored(self.displacement, 0.0), rotation: -self.rotation, stress: [x, y, -tau] }
@@ -24,26 +25,23 @@ fn mean(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|i| 0.5 * (a[i] + b[i]))
 }
 
-/// States of the stones of a symmetric arch, from left to right, each the mean of itself and its partner's mirror image.
-pub(super) fn evened_blocks(blocks: &[BlockState]) -> Vec<BlockState> {
-    blocks.iter().zip(blocks.iter().rev()).map(|(here, there)| here.mean(there.mirror_image())).collect()
+/// States of the bodies of a symmetric structure, each the mean of itself and the mirror image of its partner.
+pub(super) fn evened_blocks(blocks: &[BlockState], images: &[usize]) -> Vec<BlockState> {
+    blocks.iter().zip(images).map(|(here, &there)| here.mean(blocks[there].mirror_image())).collect()
 }
 
-/// The same for stresses in the subblocks of a symmetric mesh; `radial`: how many there are from intrados to extrados in
-/// every voussoir.
-pub(super) fn evened_stresses(subblocks: &[SubblockStress], radial: &[usize]) -> Vec<SubblockStress> {
-    // Columns from joint to joint, whose order is turned round on the other side, and in them from intrados to extrados.
-    let mut columns: Vec<&[SubblockStress]> = Vec::new();
-    let mut rest = subblocks;
-    while let Some(first) = rest.first() {
-        let (column, more) = rest.split_at(radial[first.voussoir].clamp(1, rest.len()));
-        columns.push(column);
-        rest = more;
-    }
-    let pairs = columns.iter().zip(columns.iter().rev()).flat_map(|(here, there)| here.iter().zip(there.iter()));
-    let evened = |(here, there): (&SubblockStress, &SubblockStress)| {
-        let [x, y, tau] = there.stress;
-        SubblockStress { stress: mean(here.stress, [x, y, -tau]), ..*here }
+/// The same for stresses in the subblocks of a symmetric mesh; the axis is at this abscissa, m.
+pub(super) fn evened_stresses(
+    subblocks: &[SubblockStress],
+    grids: &[Grid],
+    (images, axis): (&[usize], f64),
+) -> Vec<SubblockStress> {
+    let counted = grids.iter().scan(0, |before, grid| Some(std::mem::replace(before, *before + grid.cells().count())));
+    let first: Vec<usize> = counted.collect();
+    let evened = |here: &SubblockStress| {
+        let image = images[here.voussoir];
+        let [x, y, tau] = subblocks[first[image] + grids[image].cell_at(mirrored(here.centre, axis))].stress;
+        SubblockStress { stress: mean(here.stress, [x, y, -tau]), ..here.clone() }
     };
-    pairs.map(evened).collect()
+    subblocks.iter().map(evened).collect()
 }

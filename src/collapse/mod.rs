@@ -3,9 +3,7 @@
 mod beam;
 mod certificate;
 mod crushed;
-mod digits;
 mod discretise;
-mod doubt;
 mod ending;
 mod falling;
 mod finite;
@@ -17,6 +15,7 @@ mod path;
 mod plan;
 mod record;
 pub mod report;
+mod rigid_parts;
 mod rounding;
 mod safety;
 mod settlement;
@@ -25,16 +24,17 @@ mod smallest_motion;
 mod state;
 mod strips;
 mod tally;
+mod tolerances;
 mod updated;
 mod verdict;
 mod yielding;
 
-pub use digits::Digits;
 pub use plan::LOAD_PIECES;
 pub use report::*;
 
 use crate::budget::{Budget, Stopped};
 use crate::dda::Unbuilt;
+use crate::geometry::Vec2;
 use crate::structure::{PointForce, Stone, Structure};
 
 /// Contact penalty as a multiple of Young's modulus in Table 1 of the paper (1e10 N/m over 1e9 Pa).
@@ -42,6 +42,8 @@ pub const DEFAULT_PENALTY_RATIO: f64 = 10.0;
 
 /// Which way the load factor goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "server", derive(serde::Serialize, serde::Deserialize, utoipa::ToSchema))]
+#[cfg_attr(feature = "server", serde(rename_all = "snake_case"))]
 pub enum Direction {
     /// From 0 upwards.
     Increase,
@@ -49,21 +51,27 @@ pub enum Direction {
     Decrease,
 }
 
-/// Plane stress or plane strain inside the stones.
+/// Plane stress (no stress across the arch) or plane strain (no strain across it).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "server", derive(serde::Serialize, serde::Deserialize, utoipa::ToSchema))]
+#[cfg_attr(feature = "server", serde(rename_all = "snake_case"))]
 pub enum PlaneModel {
-    /// sigma_z = 0.
+    /// Plane stress.
     Stress,
-    /// eps_z = 0.
+    /// Plane strain.
     Strain,
 }
 
 /// Whether equilibrium is that of the arch as built, or of the arch where its loads have moved it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "server", derive(serde::Serialize, serde::Deserialize, utoipa::ToSchema))]
+#[cfg_attr(feature = "server", serde(rename_all = "snake_case"))]
 pub enum Geometry {
     /// As built: first order, what limit analysis certifies.
+    #[default]
     FirstOrder,
-    /// Both: the first-order answer, and beside it that of the path on the moving arch.
+    /// Both: besides, the load path is followed on the arch as it moves, with finite rotations. That depends on Young's
+    /// modulus and the penalty.
     Updated,
 }
 
@@ -85,7 +93,7 @@ pub enum Method {
 }
 
 /// What an analysis is after.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Aim {
     /// The load factor at which the arch falls.
     Collapse,
@@ -94,45 +102,45 @@ pub enum Aim {
         /// Which of the two answers about crushing counts.
         crushing: CrushingKind,
     },
-    /// What becomes of the arch as its springings move, its loads staying as they are.
-    Settlement([SpringingMovement; 2]),
+    /// What becomes of the structure as these supports move, its loads staying as they are; the others stay.
+    Settlement(Vec<SupportMovement>),
 }
 
-/// Where one springing ends up, seen from where it was built.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct SpringingMovement {
-    /// Movement away from the arch, m.
-    pub outwards: f64,
-    /// Movement downwards, m.
-    pub downwards: f64,
-    /// Rotation about the middle of the springing joint that opens its intrados, rad.
+/// Where one support ends up, seen from where it was built.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SupportMovement {
+    /// Which support.
+    pub support: usize,
+    /// The point that it turns about, m.
+    pub about: Vec2,
+    /// Displacement of that point, m.
+    pub by: Vec2,
+    /// Rotation, counter-clockwise positive, rad.
     pub rotation: f64,
 }
 
-impl SpringingMovement {
-    /// The same movement, `factor` times as large.
-    fn times(self, factor: f64) -> Self {
-        let SpringingMovement { outwards, downwards, rotation } = self;
-        SpringingMovement { outwards: outwards * factor, downwards: downwards * factor, rotation: rotation * factor }
-    }
-}
-
-/// The two answers about crushing of the stone.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// When stone is taken to crush.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "server", derive(serde::Serialize, serde::Deserialize, utoipa::ToSchema))]
+#[cfg_attr(feature = "server", serde(rename_all = "snake_case"))]
 pub enum CrushingKind {
-    /// The equivalent stress of Tresca, eq. (4) of the paper, reaches the strength in some subblock. Depends on the mesh.
+    /// The equivalent stress of Tresca reaches the strength in some subblock, as in the paper. Depends on the mesh.
     Elastic,
-    /// Some joint carries a normal force N with an eccentricity that leaves less than N / strength of its length, and no
-    /// other equilibrium avoids it.
+    /// A joint would have to carry its normal force N so far off its middle that less than N / strength of its length
+    /// is left, and no other equilibrium avoids it. Does not depend on the mesh.
+    #[default]
     PlasticSection,
 }
 
-/// How subblocks of one voussoir hold together.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// What holds subblocks of one voussoir together.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "server", derive(serde::Serialize, serde::Deserialize, utoipa::ToSchema))]
+#[cfg_attr(feature = "server", serde(rename_all = "snake_case"))]
 pub enum Seams {
     /// A stiff pair of springs in the middle of every seam, and weak ones on what is linear along it.
+    #[default]
     Split,
-    /// Stiff pairs of springs at both ends, as section 3.2 of the paper reads. Locks in bending; for comparison only.
+    /// Stiff pairs of springs at both ends, as the paper's text reads; for comparison only, it locks in bending.
     Corners,
 }
 

@@ -14,14 +14,12 @@ mod unfold;
 pub(super) use beam::solve as beam;
 pub use mesh::LOAD_PIECES;
 
-use super::{Accuracy, Analysis, AnalysisError, CollapseReport, Direction, Estimate, Outcome, PathEnd, Plan};
+use super::{
+    Accuracy, Analysis, AnalysisError, CollapseReport, Direction, Estimate, Outcome, PathEnd, Plan, PlanReason,
+};
 use crate::budget::Budget;
 
 use crate::structure::is_symmetric;
-
-/// Why there is no stress to refine.
-const NO_LOAD: &str = "No load is known under which it stands, so there is no stress to be found.";
-const NO_FIELD: &str = "The load path passes none of the stress fields asked for.";
 
 /// Velocities of a mechanism, as a share of the largest, that differ by less are the same.
 const SAME_VELOCITY: f64 = 1e-6;
@@ -46,7 +44,7 @@ pub(super) fn refined(
     let mut report = match accuracy.stress {
         Some(asked) => on_finer_meshes(analysis, accuracy.most_subblocks, asked, rigid, &mut plan, budget)?,
         None => {
-            plan.why.push("No accuracy of the stress is asked for: the mesh is the request's own.".into());
+            plan.why.push(PlanReason::MeshAsGiven);
             rigid
         }
     };
@@ -66,7 +64,7 @@ fn on_finer_meshes(
 ) -> Result<CollapseReport, AnalysisError> {
     let stands = rigid.at_start.is_some() && rigid.outcome != Outcome::CannotTell;
     if !stands || rigid.stress_fields.is_empty() {
-        plan.why.push(if stands { NO_FIELD } else { NO_LOAD }.into());
+        plan.why.push(if stands { PlanReason::NoField } else { PlanReason::NoStress });
         return Ok(rigid);
     }
     let half = half_of(analysis, &rigid);
@@ -119,20 +117,16 @@ fn intensity(report: &CollapseReport, direction: Direction, asked: f64) -> Estim
     }
 }
 
-fn why_load(report: &CollapseReport) -> String {
+fn why_load(report: &CollapseReport) -> PlanReason {
     let slides = report.end.iter().chain(&report.other_end).any(|end| !end.mechanism.slides.is_empty());
     match report.outcome {
-        Outcome::FallsAsBuilt => "Limit analysis finds no equilibrium that the arch could be loaded from: nothing to refine.",
-        Outcome::SlidesAsBuilt => "The arch slides as its loads come on: nothing to refine.",
-        Outcome::NeverCollapses => "Limit analysis finds equilibrium at any load in reach.",
-        Outcome::CannotTell => "Path and limit analysis do not agree, which no mesh would mend.",
-        _ if slides => {
-            "Joints slide at collapse: the load may be any from the least found to the end of the limit window. How far these are \
-             apart stands for the error; no mesh makes it smaller."
-        }
-        _ => "The collapse load of stones that do not slide does not depend on the mesh: path and limit window give it.",
+        Outcome::FallsAsBuilt => PlanReason::NoEquilibrium,
+        Outcome::SlidesAsBuilt => PlanReason::SlidesAsLoaded,
+        Outcome::NeverCollapses => PlanReason::NoEndInReach,
+        Outcome::CannotTell => PlanReason::Disagreement,
+        _ if slides => PlanReason::SlidesAtCollapse,
+        _ => PlanReason::LoadNeedsNoMesh,
     }
-    .into()
 }
 
 /// The left half, where the arch, its loads and the mechanism found are symmetric and no joint slides in it.
@@ -159,13 +153,10 @@ fn falls_evenly(end: &PathEnd) -> bool {
     end.mechanism.slides.is_empty() && velocities.iter().zip(velocities.iter().rev()).all(mirror_image)
 }
 
-fn why_half(analysis: &Analysis, half: bool) -> String {
+fn why_half(analysis: &Analysis, half: bool) -> PlanReason {
     match half {
-        true => "Arch, loads and mechanism are symmetric: half the arch is modelled for the stress.",
-        false if analysis.structure.is_half() => "The arch is half an arch already.",
-        false => {
-            "Arch, loads or mechanism are not symmetric, or joints slide: the whole arch is modelled for the stress."
-        }
+        true => PlanReason::HalfModelled,
+        false if analysis.structure.is_half() => PlanReason::HalfAlready,
+        false => PlanReason::WholeModelled,
     }
-    .into()
 }

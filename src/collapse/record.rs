@@ -5,7 +5,7 @@ use super::mirror::{evened_blocks, evened_stresses};
 use super::state::Standing;
 use super::yielding::Yielding;
 use super::{
-    Analysis, AnalysisError, BlockState, ContactForce, ElasticCrushing, FieldAt, HistoryPoint, Method, Snapshot,
+    Analysis, AnalysisError, BlockState, ContactPoint, ElasticCrushing, FieldAt, HistoryPoint, Method, Snapshot,
     StressField, mechanism,
 };
 use crate::dda::MeanMotion;
@@ -13,13 +13,13 @@ use std::collections::VecDeque;
 use std::rc::Rc;
 
 /// Most fixed steps of one path. The paper takes about fifty; more than this is a mistake in the step.
-pub(super) const MOST_STEPS: usize = 10_000;
+pub(super) const MOST_FIXED_STEPS: usize = 10_000;
 
 /// Work of looking at a gap, in multiplications.
-const LOOK: usize = 10;
+const GAP_WORK: usize = 10;
 
 /// A point of the path: load factor and displacements of the nodes.
-pub(super) type Point = (f64, Vec<f64>);
+pub(super) type PathPoint = (f64, Vec<f64>);
 
 /// Keeps what will be asked of a path while it is traced.
 pub(super) struct Recorder<'a> {
@@ -32,10 +32,10 @@ pub(super) struct Recorder<'a> {
     pub sign: f64,
     crown: [usize; 2],
     /// Points from which the one at `share` of the way to the highest load factor so far can be interpolated.
-    recent: VecDeque<Rc<Point>>,
+    recent: VecDeque<Rc<PathPoint>>,
     /// Load factor farthest from the start so far.
     farthest: f64,
-    last: Option<Rc<Point>>,
+    last: Option<Rc<PathPoint>>,
     steps_done: usize,
     /// Load-displacement history.
     pub history: Vec<HistoryPoint>,
@@ -57,7 +57,7 @@ impl<'a> Recorder<'a> {
             share: analysis.share,
             start,
             sign,
-            crown: mechanism::crown(&analysis.structure),
+            crown: mechanism::crown(&analysis.structure, &analysis.scaled),
             recent: VecDeque::new(),
             farthest: start,
             last: None,
@@ -97,7 +97,7 @@ impl<'a> Recorder<'a> {
     }
 
     /// Keeps what was asked for between two points of the path.
-    fn pass(&mut self, before: &Point, now: &Point) {
+    fn pass(&mut self, before: &PathPoint, now: &PathPoint) {
         for (asked, found) in self.asked.iter_mut().filter(|(_, found)| found.is_none()) {
             // Behind the start there are only states of a path that has fallen and run back.
             let ahead = self.sign * (*asked - self.start) >= 0.0;
@@ -109,7 +109,7 @@ impl<'a> Recorder<'a> {
 
     /// True where the step was too small to walk the path in it.
     pub(super) fn too_many_steps(&self) -> bool {
-        self.steps_done >= MOST_STEPS
+        self.steps_done >= MOST_FIXED_STEPS
     }
 
     /// The displacements seen last: those at which the fixed-steps criterion was met, where it was.
@@ -129,11 +129,11 @@ impl<'a> Recorder<'a> {
     }
 
     /// The point of the path at which it does.
-    pub(super) fn yields_at(&self) -> Option<&Point> {
+    pub(super) fn yields_at(&self) -> Option<&PathPoint> {
         self.yielding.yields_at()
     }
 
-    fn keep(&mut self, before: Option<Rc<Point>>, now: &Rc<Point>) {
+    fn keep(&mut self, before: Option<Rc<PathPoint>>, now: &Rc<PathPoint>) {
         let highest = self.way(now.0) >= self.way(self.farthest);
         self.yielding.see(before.as_ref(), now, highest);
         if !highest {
@@ -157,7 +157,7 @@ impl<'a> Recorder<'a> {
     }
 
     /// Displacements at `share` of the way from the start to `collapse`, with the load factor there.
-    pub(super) fn near(&self, collapse: f64) -> Option<Point> {
+    pub(super) fn near(&self, collapse: f64) -> Option<PathPoint> {
         let wanted = self.start + self.share * (collapse - self.start);
         let after = self.recent.iter().position(|p| self.way(p.0) >= self.way(wanted))?;
         let displacements = if after == 0 {
@@ -180,7 +180,7 @@ impl<'a> Recorder<'a> {
     }
 
     /// Looks at every whole step between two points of the path with the criterion of section 4.2 of the paper.
-    fn fixed_steps(&mut self, before: &Point, now: &Point) -> Option<Point> {
+    fn fixed_steps(&mut self, before: &PathPoint, now: &PathPoint) -> Option<PathPoint> {
         let Method::FixedSteps { step, opening, hinges } = self.method else { return None };
         let mut gaps = Vec::new();
         loop {
@@ -192,7 +192,7 @@ impl<'a> Recorder<'a> {
             let displacements = interpolate(before, now, at);
             self.model.assembly.gaps(&displacements, &mut gaps);
             // The path is stopped at the end of this event.
-            if self.model.budget.work(LOOK * gaps.len()).is_err() {
+            if self.model.budget.work(GAP_WORK * gaps.len()).is_err() {
                 return None;
             }
             let open = (0..self.model.joints).filter(|&k| self.model.contacts(k).any(|p| gaps[p][0] > opening));
@@ -203,7 +203,7 @@ impl<'a> Recorder<'a> {
     }
 }
 
-fn interpolate(a: &Point, b: &Point, load_factor: f64) -> Vec<f64> {
+fn interpolate(a: &PathPoint, b: &PathPoint, load_factor: f64) -> Vec<f64> {
     let t = (load_factor - a.0) / (b.0 - a.0);
     let t = if t.is_finite() { t.clamp(0.0, 1.0) } else { 1.0 };
     a.1.iter().zip(&b.1).map(|(x, y)| x + (y - x) * t).collect()
@@ -219,8 +219,11 @@ pub(super) fn snapshot(model: &Model, state: &Standing) -> Result<Snapshot, Anal
         Ok(BlockState { displacement, rotation, stress: model.mean_stress(v, load_factor, displacements) })
     };
     let blocks = (0..model.bodies).map(block).collect::<Result<Vec<_>, AnalysisError>>()?;
-    let blocks = if state.symmetric { evened_blocks(&blocks) } else { blocks };
-    let contact = |joint: usize, p: usize| ContactForce {
+    let blocks = match model.assembly.images_of_bodies().filter(|_| state.symmetric) {
+        Some((images, _)) => evened_blocks(&blocks, images),
+        None => blocks,
+    };
+    let contact = |joint: usize, p: usize| ContactPoint {
         joint,
         position: model.position(joint, p),
         normal: forces[p].normal,
@@ -239,9 +242,8 @@ pub(super) fn stress_field(model: &Model, load_factor: f64, state: &Standing) ->
         model.budget.work(model.work_of_stresses(voussoir))?;
         subblocks.extend(grid.field(voussoir, &model.stresses(voussoir, load_factor, &state.displacements)));
     }
-    if state.symmetric {
-        let radial: Vec<usize> = model.grids.iter().map(|grid| grid.radial).collect();
-        subblocks = evened_stresses(&subblocks, &radial);
+    if let Some(mirror) = model.assembly.images_of_bodies().filter(|_| state.symmetric) {
+        subblocks = evened_stresses(&subblocks, &model.grids, mirror);
     }
     Ok(StressField { load_factor, subblocks })
 }

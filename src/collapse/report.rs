@@ -1,6 +1,7 @@
 //! What an analysis says: plain data, SI units, radians.
 
 mod falling;
+mod note;
 mod plan;
 mod settlement;
 mod strength;
@@ -9,16 +10,20 @@ mod updated;
 
 pub use crate::structure::Face;
 pub use falling::*;
+pub use note::*;
 pub use plan::*;
 pub use settlement::*;
 pub use strength::*;
 pub use unfollowed::*;
 pub use updated::*;
 
+use super::FieldAt;
 use crate::geometry::Vec2;
 
-/// How the question was answered.
+/// What happened.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "server", derive(serde::Serialize, utoipa::ToSchema))]
+#[cfg_attr(feature = "server", serde(rename_all = "snake_case"))]
 pub enum Outcome {
     /// Stands at load factor 0 and collapses at a finite one; at 0 itself where it falls as soon as the load factor leaves it.
     Collapse,
@@ -29,20 +34,23 @@ pub enum Outcome {
     SlidesAsBuilt,
     /// Does not stand at load factor 0, but does between two others.
     StandsInWindow,
-    /// Stands however far the load factor goes (up to the cap).
+    /// Stands up to the cap.
     NeverCollapses,
     /// Stands, and follows its springings through their whole movement.
     FollowsMovement,
     /// Stands, and falls before its springings have come to the end of their movement.
     FallsByMovement,
-    /// The stone crushes: first, in a safety analysis; under the loads at the start of the path, in any other.
+    /// The stone crushes before the arch falls: in a safety analysis that crushing governs; in any other, where its joints
+    /// are crushed and its stones yield under the loads at the start of the path already.
     Crushes,
-    /// The path and the certificate contradict each other, or the path could not be followed; the notes say why.
+    /// Path and certificate contradict each other, or the path could not be followed; the notes say why.
     CannotTell,
 }
 
 /// How the arch moves when it falls.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "server", derive(serde::Serialize, utoipa::ToSchema))]
+#[cfg_attr(feature = "server", serde(rename_all = "snake_case"))]
 pub enum Mode {
     /// The crown goes up.
     CrownRises,
@@ -52,7 +60,7 @@ pub enum Mode {
     Sway,
     /// Joints slide more than they open.
     Sliding,
-    /// Bodies of a structure without spans turn over.
+    /// Blocks turn over, in a structure without spans.
     Overturning,
     /// Joints crush over their whole length, and none opens or slides.
     Crushing,
@@ -119,7 +127,7 @@ pub struct Thrust {
 
 /// Force at one contact point.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ContactForce {
+pub struct ContactPoint {
     /// Joint number.
     pub joint: usize,
     /// Place on the joint: 0 at the intrados, 1 at the extrados.
@@ -151,7 +159,7 @@ pub struct Snapshot {
     /// Every voussoir, left to right.
     pub blocks: Vec<BlockState>,
     /// Every contact point, joint by joint, intrados first.
-    pub contacts: Vec<ContactForce>,
+    pub contacts: Vec<ContactPoint>,
 }
 
 /// One point of the load-displacement history.
@@ -310,5 +318,5 @@ pub struct CollapseReport {
     /// Counts.
     pub cost: Cost,
     /// What an engineer should know before using the numbers: why intensity and window differ, what was not reached.
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
 }

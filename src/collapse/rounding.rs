@@ -1,7 +1,6 @@
 //! What rounding takes away: arches too slender for the load path, and answers with numbers that are none.
 
-use super::doubt::Doubt;
-use super::{AnalysisError, CollapseReport, Outcome};
+use super::{AnalysisError, CollapseReport, Doubt, Note, Outcome};
 use crate::structure::Structure;
 
 /// The load path needs joints of at least this share of the arch's extent. Measured on catenaries of 8 and 20 stones: path and
@@ -20,12 +19,14 @@ impl CollapseReport {
     /// The report or, where one of its numbers is not finite, `blank` with the reason.
     pub(super) fn or_cannot_tell(self, blank: CollapseReport) -> CollapseReport {
         let Err(AnalysisError::NotFinite { what }) = self.check_finite() else { return self };
-        let why = format!(
-            "The analysis gave a number that is not finite ({what}), so that nothing but the limit window is told. Check \
-             the units of the request."
-        );
         let safety = self.safety.map(|safety| super::SafetyPoint::unknown(safety.abscissa));
-        CollapseReport { outcome: Outcome::CannotTell, cost: self.cost, notes: vec![why], safety, ..blank }
+        CollapseReport {
+            outcome: Outcome::CannotTell,
+            cost: self.cost,
+            notes: vec![Note::NotFinite(what)],
+            safety,
+            ..blank
+        }
     }
 }
 

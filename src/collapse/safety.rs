@@ -1,24 +1,11 @@
 //! Safety factors: the first of instability and crushing as the scaled loads grow from their full size.
 
+use super::tolerances::TOLERANCES;
 use super::{
-    AnalysisError, CollapseReport, Crushing, CrushingKind, CurvePoint, Digits, Governs, LimitWindow, Mode, Outcome,
-    Reach, SafetyPoint, UpdatedEnd, UpdatedGeometry, Zone, verdict,
+    AnalysisError, CollapseReport, Crushing, CrushingKind, CurvePoint, Governs, LimitWindow, Mode, Note, Outcome,
+    Reach, SafetyPoint, SafetyZone, UpdatedEnd, UpdatedGeometry, verdict,
 };
 use crate::budget::Budget;
-
-/// Note on a missing answer.
-const NO_SECTIONS: &str = "Rounding kept the limit window with plastic sections from being computed.";
-
-/// Note on a first yield that the mesh does not see in time.
-const TOO_COARSE: &str = "First yield comes after collapse with plastic sections, which cannot be: the mesh is too coarse \
-     to see the highest stress, so its first yield means nothing.";
-
-/// Note on an arch whose plastic sections never fail.
-const UNCRUSHED: &str =
-    "Plastic sections never fail, since bonded joints are taken not to crush; first yield counts instead.";
-
-/// Crushing and falling this close, as a share, come at the same load: rounding must not decide between them.
-const SAME: f64 = 1e-6;
 
 /// Safety factors over a list of abscissae.
 pub(super) fn curve(points: &[CurvePoint], budget: &Budget) -> Result<Vec<SafetyPoint>, AnalysisError> {
@@ -34,7 +21,7 @@ pub(super) fn curve(points: &[CurvePoint], budget: &Budget) -> Result<Vec<Safety
 /// Reads the safety factors off a finished report, whose path started at the full loads if the arch stands under them.
 pub(super) fn judge(report: &mut CollapseReport, counted: CrushingKind) {
     let missing = report.crushing.as_ref().is_none_or(|crushing| crushing.plastic_section.is_none());
-    report.notes.extend(missing.then(|| NO_SECTIONS.into()));
+    report.notes.extend(missing.then_some(Note::NoPlasticSections));
     let crushing = report.crushing.as_ref();
     let (instability, elastic) = (instability(report), crushing.map_or(Reach::Unknown, elastic));
     let plastic_section = crushing.map_or(Reach::Unknown, |crushing| plastic(crushing, report.cap));
@@ -48,8 +35,8 @@ pub(super) fn judge(report: &mut CollapseReport, counted: CrushingKind) {
     let window = crushing.and_then(|crushing| crushing.plastic_section.as_ref()).and_then(|plastic| plastic.window);
     let endless = window.is_some_and(|window| window.highest.is_infinite());
     let uncrushed = endless && matches!(elastic, Reach::At(_) | Reach::DoesNotStand);
-    report.notes.extend(too_coarse.then(|| TOO_COARSE.into()));
-    report.notes.extend(uncrushed.then(|| UNCRUSHED.into()));
+    report.notes.extend(too_coarse.then_some(Note::YieldTooLate));
+    report.notes.extend(uncrushed.then_some(Note::SectionsNeverFail));
     let takes_elastic = uncrushed || (counted == CrushingKind::Elastic && !too_coarse);
     let crushes = if takes_elastic { elastic } else { plastic_section };
     let updated = report.updated.as_ref().map(on_moving_geometry);
@@ -90,20 +77,12 @@ pub(super) fn crushed_at_start(report: &mut CollapseReport, in_path: bool) {
         return;
     }
     let Some(crushing) = report.crushing.as_ref().filter(|_| !in_path) else { return };
-    let Some(plastic) = &crushing.plastic_section else { return report.notes.push(NO_SECTIONS.into()) };
+    let Some(plastic) = &crushing.plastic_section else { return report.notes.push(Note::NoPlasticSections) };
     if !stands(report.limit_window) || stands(plastic.window) {
         return;
     }
-    let (strength, start) = (Digits(crushing.strength), Digits(report.start));
-    let left = plastic.window.map_or_else(
-        || "at no load factor".into(),
-        |window| format!("only from {} to {}", Digits(window.lowest), Digits(window.highest)),
-    );
-    report.notes.push(format!(
-        "With joints of plastic sections and a strength of {strength} Pa the arch does not stand at load factor {start}, \
-         from which the load path starts, but {left}. Collapse, hinges and stresses are those of stone that does not \
-         crush."
-    ));
+    let (strength, start, window) = (crushing.strength, report.start, plastic.window);
+    report.notes.push(Note::CrushesAtStart { strength, start, window });
     if crushing.elastic.as_ref().is_some_and(|elastic| elastic.at_start) {
         report.outcome = Outcome::Crushes;
     }
@@ -154,13 +133,9 @@ fn on_moving_geometry(updated: &UpdatedGeometry) -> Reach {
 }
 
 /// Note on an arch that is strained or moved beyond the model before it falls.
-fn beyond_model(updated: &UpdatedGeometry) -> Option<String> {
+fn beyond_model(updated: &UpdatedGeometry) -> Option<Note> {
     let reached = updated.load_factor.filter(|_| updated.end == UpdatedEnd::BeyondModel)?;
-    Some(format!(
-        "On moving geometry the arch stands up to load factor {}; beyond that its stone would be strained, or the arch \
-         moved, more than the model describes.",
-        Digits(reached)
-    ))
+    Some(Note::MovesBeyondModel { stands_to: reached })
 }
 
 fn elastic(crushing: &Crushing) -> Reach {
@@ -184,7 +159,7 @@ fn plastic(crushing: &Crushing, cap: f64) -> Reach {
 
 /// True where load factor `a` lies visibly below `b`.
 fn is_below(a: f64, b: f64) -> bool {
-    a < (1.0 - SAME) * b
+    a < (1.0 - TOLERANCES.same_failure) * b
 }
 
 /// True where `a` comes before `b`, both known.
@@ -210,11 +185,11 @@ fn first(instability: Reach, crushing: Reach) -> (Reach, Governs) {
 }
 
 /// Zone of Figs. 10 and 13 of the paper.
-fn zone(governed_by: Governs, mode: Option<Mode>) -> Option<Zone> {
+fn zone(governed_by: Governs, mode: Option<Mode>) -> Option<SafetyZone> {
     match (governed_by, mode) {
-        (Governs::Crushing, _) => Some(Zone::Crushing),
-        (Governs::Instability, Some(Mode::CrownRises)) => Some(Zone::CrownRises),
-        (Governs::Instability, Some(Mode::CrownDescends)) => Some(Zone::CrownDescends),
+        (Governs::Crushing, _) => Some(SafetyZone::Crushing),
+        (Governs::Instability, Some(Mode::CrownRises)) => Some(SafetyZone::CrownRises),
+        (Governs::Instability, Some(Mode::CrownDescends)) => Some(SafetyZone::CrownDescends),
         _ => None,
     }
 }

@@ -1,30 +1,27 @@
-//! Settlement: the springings move while the loads stay.
+//! Settlement: supports move while the loads stay.
 //!
-//! At first order the thrust runs to its least (springings that part) or greatest value (that approach) and stays there: the
-//! arch has become a three-hinge arch, which follows any movement. On moving geometry its thrust goes on changing until
-//! it no longer finds room in the stones.
+//! At first order the thrust of an arch runs to its least (springings that part) or greatest value (that approach) and stays
+//! there: the arch has become a three-hinge arch, which follows any movement. On moving geometry its thrust goes on changing
+//! until it no longer finds room in the stones.
 
 use super::discretise::{Model, discretise};
 use super::path::{Attempt, Moved, disturbed, first_that_tells, lost, stand, stand_moved};
+use super::tolerances::TOLERANCES;
 use crate::budget::Budget;
 
 use super::{
     Analysis, AnalysisError, Cost, Geometry, SettlementEnd, SettlementPath, SettlementPoint, SettlementReport,
-    SpringingMovement, Unfollowed, ending,
+    SupportMovement, Unfollowed, ending,
 };
 use crate::dda::{Drive, End, Movement, Patience, Tracer};
 use crate::geometry::Vec2;
-use crate::structure::Structure;
+use crate::structure::{Side, Structure};
 use std::ops::ControlFlow;
 
-/// The springings stay where they are while stones find another seat: hinges may move from joint to joint, and a joint that
+/// The supports stay where they are while stones find another seat: hinges may move from joint to joint, and a joint that
 /// has opened far takes far to close. Where on the way they would have to come back by nine tenths of what they have done, the
 /// arch has fallen. Rises are in sizes of the arch, whatever movement is asked for.
 const PATIENCE: Patience = Patience { fall: 0.9, rise: 0.01, movement: [0.02, 0.2], creep: 0.0, loads: false };
-
-/// A path whose equilibrium residual, as a share of the loads, exceeds this is not trusted. Springings that move by a tenth
-/// of the span leave more rounding than loads do.
-const UNBALANCED: f64 = 1e-6;
 
 /// Follows the movement; the work is added to `cost`. None where the arch does not stand before it.
 ///
@@ -32,7 +29,7 @@ const UNBALANCED: f64 = 1e-6;
 /// When stopped.
 pub(super) fn follow(
     analysis: &Analysis,
-    movements: [SpringingMovement; 2],
+    movements: &[SupportMovement],
     weight: f64,
     cost: &mut Cost,
     budget: &Budget,
@@ -49,7 +46,7 @@ pub(super) fn follow(
 
 fn attempt(
     analysis: &Analysis,
-    movements: [SpringingMovement; 2],
+    movements: &[SupportMovement],
     geometry: Geometry,
     weight: f64,
     attempt: Attempt,
@@ -62,9 +59,9 @@ fn attempt(
     let zeros = vec![0.0; base.len()];
     let turned = [model.turned[0].clone(), zeros.clone()];
     let target = largest(movements, model.size);
-    let mut ground = ground(&analysis.structure, movements.map(|by| by.times(1.0 / target)));
+    let mut ground = ground(analysis.structure.supports, movements, target);
     ground[0].velocity.y += uneven(&model, weight, attempt) * model.size;
-    let drive = Drive { base, rate: zeros, turned, ground: ground.to_vec(), ..Drive::default() };
+    let drive = Drive { base, rate: zeros, turned, ground, ..Drive::default() };
     let followed = trace(analysis, &model, geometry, Driven { drive, target }, weight, cost, &mut see);
     cost.add(&followed.tracer, Cost::default());
     match followed.stood {
@@ -74,7 +71,7 @@ fn attempt(
     }
 }
 
-/// What moves the springings, and how far, in sizes of the arch.
+/// What moves the supports, and how far, in sizes of the structure.
 struct Driven {
     drive: Drive,
     target: f64,
@@ -91,7 +88,7 @@ struct Followed<'m> {
     target: f64,
 }
 
-/// Brings the loads on that `drive` has at the start, and moves the springings as it says.
+/// Brings the loads on that `drive` has at the start, and moves the supports as it says.
 fn trace<'m>(
     analysis: &Analysis,
     model: &'m Model<'m>,
@@ -113,7 +110,7 @@ fn trace<'m>(
         }
         Geometry::Updated => stand_moved(model, &drive.base, 0.0, weight, cost, &mut |t| see(t, 0.0)),
     };
-    let mut points = Vec::new();
+    let (mut points, bearings) = (Vec::new(), bearings(&analysis.structure));
     if stood != Moved::Stands {
         let end = if stood == Moved::Stopped { End::Stopped } else { End::Lost };
         return Followed { tracer, stood, end, points, target };
@@ -125,7 +122,7 @@ fn trace<'m>(
             points.clear();
         }
         let share = tracer.parameter() / target;
-        points.push(point(model, &analysis.structure, tracer, share));
+        points.push(point(&bearings, analysis.structure.supports, tracer, share));
         see(tracer, share)
     };
     let end = match geometry {
@@ -147,7 +144,7 @@ fn describe(analysis: &Analysis, model: &Model, geometry: Geometry, followed: Fo
     let share = if stood == Moved::Stands { tracer.parameter() / target } else { 0.0 };
     let reached = points.iter().position(|at| at.share >= share);
     points.truncate(reached.unwrap_or(points.len()));
-    points.push(point(model, &analysis.structure, &tracer, share));
+    points.push(point(&bearings(&analysis.structure), analysis.structure.supports, &tracer, share));
     let end = match (stood, end) {
         _ if why.is_some() => SettlementEnd::CannotTell,
         (Moved::Falls(_), _) => SettlementEnd::FallsAsLoaded,
@@ -173,7 +170,7 @@ fn describe(analysis: &Analysis, model: &Model, geometry: Geometry, followed: Fo
 fn unfollowed(model: &Model, tracer: &Tracer, geometry: Geometry, stood: Moved, end: End) -> Option<Unfollowed> {
     let residual = tracer.worst_residual();
     match (stood, end) {
-        _ if residual > UNBALANCED => Some(Unfollowed::Coarse(residual)),
+        _ if residual > TOLERANCES.settled_residual => Some(Unfollowed::Coarse(residual)),
         (Moved::Falls(_), _) | (Moved::Stands, End::Reached | End::Stopped) => None,
         (Moved::Stands, End::Mechanism) if geometry == Geometry::FirstOrder => Some(Unfollowed::Mechanism),
         (Moved::Stands, End::Mechanism) if tracer.peak().is_some() => None,
@@ -184,27 +181,27 @@ fn unfollowed(model: &Model, tracer: &Tracer, geometry: Geometry, stood: Moved, 
     }
 }
 
-/// Displacement and rotation of every voussoir.
+/// Displacement and rotation of every body.
 fn displacements(model: &Model, tracer: &Tracer, geometry: Geometry) -> Vec<[f64; 3]> {
-    let of = |voussoir: usize| {
+    let of = |body: usize| {
         let motion = match geometry {
-            Geometry::FirstOrder => model.motion(voussoir, 0.0, tracer.displacements()),
-            Geometry::Updated => tracer.mean_motion(voussoir),
+            Geometry::FirstOrder => model.motion(body, 0.0, tracer.displacements()),
+            Geometry::Updated => tracer.mean_motion(body),
         };
         [motion.displacement.x, motion.displacement.y, motion.rotation]
     };
     (0..model.bodies).map(of).collect()
 }
 
-/// The largest part of a movement, in sizes of the arch; an angle counts as what it moves by at that distance.
+/// The largest part of a movement, in sizes of the structure; an angle counts as what it moves by at that distance.
 ///
-/// The path is followed in this measure, so that it is the same however far the springings are asked to go.
-fn largest(movements: [SpringingMovement; 2], size: f64) -> f64 {
-    let parts = movements.iter().flat_map(|by| [by.outwards / size, by.downwards / size, by.rotation]);
+/// The path is followed in this measure, so that it is the same however far the supports are asked to go.
+fn largest(movements: &[SupportMovement], size: f64) -> f64 {
+    let parts = movements.iter().flat_map(|moved| [moved.by.x / size, moved.by.y / size, moved.rotation]);
     parts.fold(0.0, |most, part| most.max(part.abs()))
 }
 
-/// By what share of the largest movement the left springing rises besides, so that ties of symmetric arches are told apart by
+/// By what share of the largest movement the first support rises besides, so that ties of symmetric arches are told apart by
 /// more than rounding, which grows with the movement: by what a contact's force changes for the last digit of the arch's size
 /// (measured on paths: some hundredths of that).
 fn uneven(model: &Model, weight: f64, attempt: Attempt) -> f64 {
@@ -213,22 +210,34 @@ fn uneven(model: &Model, weight: f64, attempt: Attempt) -> f64 {
     sign * digit
 }
 
-/// Movements of the ground at both ends of the arch, per unit of the parameter.
-fn ground(structure: &Structure, movements: [SpringingMovement; 2]) -> [Movement; 2] {
-    let springings = [structure.ring().first(), structure.ring().last()];
-    // Outwards is to the left on the left, and a rotation that opens the intrados there turns clockwise.
-    std::array::from_fn(|end| {
-        let (sign, by) = (if end == 0 { -1.0 } else { 1.0 }, movements[end]);
-        Movement {
-            velocity: Vec2::new(sign * by.outwards, -by.downwards),
-            spin: sign * by.rotation,
-            about: springings[end].map_or(Vec2::zeros(), |joint| joint.middle()),
-        }
-    })
+/// Movements of all supports, per unit of the parameter, which runs to `target`.
+fn ground(supports: usize, movements: &[SupportMovement], target: f64) -> Vec<Movement> {
+    let mut ground = vec![Movement::default(); supports];
+    for &SupportMovement { support, about, by, rotation } in movements {
+        ground[support] = Movement { velocity: by * (1.0 / target), spin: rotation * (1.0 / target), about };
+    }
+    ground
 }
 
-fn point(model: &Model, structure: &Structure, tracer: &Tracer, share: f64) -> SettlementPoint {
-    let left = tracer.force_through(0);
-    let right = tracer.force_through(model.joints - 1);
-    SettlementPoint { share, thrust: left.x, left: left.y, right: (!structure.is_half()).then_some(-right.y) }
+/// Every joint on a support: its number, the support, and whether the ground lies before it (+1) or after it (-1). An abutment
+/// block, which is glued to it, counts as ground.
+fn bearings(structure: &Structure) -> Vec<(usize, usize, f64)> {
+    let glued = |body: usize| {
+        let base =
+            structure.joints[structure.ring().len()..].iter().find(|joint| joint.between.contains(&Side::Body(body)));
+        base?.between.iter().find_map(|side| side.support())
+    };
+    let ground = |side: Side| match side {
+        Side::Support(support) => Some(support),
+        Side::Body(body) => (body >= structure.voussoirs().len()).then(|| glued(body)).flatten(),
+    };
+    let joints = structure.ring().iter().enumerate();
+    let sides = joints.flat_map(|(k, joint)| [(k, joint.between[0], 1.0), (k, joint.between[1], -1.0)]);
+    sides.filter_map(|(k, side, sign)| Some((k, ground(side)?, sign))).collect()
+}
+
+fn point(bearings: &[(usize, usize, f64)], supports: usize, tracer: &Tracer, share: f64) -> SettlementPoint {
+    let mut forces = vec![Vec2::zeros(); supports];
+    bearings.iter().for_each(|&(joint, support, sign)| forces[support] += tracer.force_through(joint) * sign);
+    SettlementPoint { share, forces }
 }

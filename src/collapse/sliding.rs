@@ -7,18 +7,17 @@
 
 use super::discretise::Scatter;
 use super::mechanism::{Released, all_releases, columns, describe};
-use crate::budget::Budget;
-
+use super::rigid_parts::RigidParts;
 use super::smallest_motion::nearest_motion;
+use super::tolerances::TOLERANCES;
 use super::{Analysis, Mechanism};
+use crate::budget::Budget;
 use crate::limit::{Equilibrium, Release, Resultant, StaticTheorem};
 use crate::structure::{Face, PointForce};
 use std::collections::BTreeSet;
 
 /// So many motions in turn that give nothing lower end the search.
 const QUIET: usize = 25;
-/// Loads that differ by less than this share are the same.
-pub(super) const SAME: f64 = 1e-9;
 /// Share of a joint's force below which a corner's is none, in forces that a linear programme gives.
 const AT_LIMIT: f64 = 1e-9;
 
@@ -77,7 +76,10 @@ impl Search<'_> {
     fn motion(&self, released: &[Released], costs: &mut Scatter) -> Option<(Vec<Released>, Vec<f64>)> {
         let cost = |random: f64| if self.has_loops() { 10f64.powf(random) } else { 1.0 + 0.99 * random };
         let costs: Vec<f64> = released.iter().map(|_| cost(costs.next())).collect();
-        let rates = self.theorem.cheapest_motion(released, &costs, self.sign, self.budget)?;
+        let parts = RigidParts::new(&self.analysis.structure, released)?;
+        let theorem = StaticTheorem::new(&parts.structure, &[], &parts.loads(&self.analysis.scaled)).ok()?;
+        let rates = theorem.cheapest_motion(&parts.released, &parts.of_parts(&costs), self.sign, self.budget)?;
+        let rates = parts.of_all(&rates, released.len());
         Some(released.iter().zip(rates).filter(|(_, rate)| *rate > 0.0).unzip())
     }
 
@@ -133,7 +135,7 @@ impl Hunt<'_> {
         let found = search.theorem.least_load(&moving, search.start, search.sign, search.budget);
         let Ok(Some(equilibrium)) = found else { return Some(false) };
         let best = self.best.as_ref().map(|best| best.equilibrium.load_factor);
-        if best.is_some_and(|best| !search.is_beyond(best, equilibrium.load_factor, SAME)) {
+        if best.is_some_and(|best| !search.is_beyond(best, equilibrium.load_factor, TOLERANCES.same_load)) {
             return Some(false);
         }
         if search.has_loops() {

@@ -8,9 +8,9 @@ use nalgebra::{DMatrix, DVector};
 pub(super) type Column = Vec<(usize, f64)>;
 
 /// Work of looking at one entry of a column, in multiplications.
-const WORK: usize = 5;
+const ENTRY_WORK: usize = 5;
 /// What rounding may leave of a value, as a share of it.
-const ROUNDING: f64 = 64.0 * f64::EPSILON;
+const VALUE_ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// Smallest rates x >= 0 (in the sum of squares) with closure 0 and power 1, of columns with so many `unknowns`.
 ///
@@ -23,7 +23,7 @@ pub(super) fn smallest_motion(columns: &[Column], unknowns: usize, budget: &Budg
     let value = |y: &DVector<f64>| 0.5 * rates(y).iter().map(|x| x * x).sum::<f64>() - y[last];
     let power = |a: &Column| a.iter().find(|(i, _)| *i == last).map_or(0.0, |(_, power)| power.max(0.0));
     let norm = |a: &Column| a.iter().map(|(_, a)| a * a).sum::<f64>().sqrt();
-    let work = WORK * columns.iter().map(Vec::len).sum::<usize>();
+    let work = ENTRY_WORK * columns.iter().map(Vec::len).sum::<usize>();
     let mut y = DVector::zeros(unknowns);
     for column in columns {
         column.iter().for_each(|&(i, a)| y[i] += a * power(column));
@@ -52,7 +52,8 @@ pub(super) fn smallest_motion(columns: &[Column], unknowns: usize, budget: &Budg
         let step = hessian.lu().solve(&-&gradient)?;
         let (before, slope) = (value(&y), gradient.dot(&step));
         let mut length = 1.0;
-        while value(&(&y + &step * length)) > before + 1e-4 * length * slope + ROUNDING * before.abs() && length > 1e-12
+        while value(&(&y + &step * length)) > before + 1e-4 * length * slope + VALUE_ROUNDING * before.abs()
+            && length > 1e-12
         {
             length *= 0.5;
             budget.work(work).ok()?;
@@ -67,11 +68,11 @@ pub(super) fn smallest_motion(columns: &[Column], unknowns: usize, budget: &Budg
 }
 
 /// Corrections of a motion that is nearly closed.
-const CORRECTIONS: usize = 30;
+const MOTION_CORRECTIONS: usize = 30;
 /// Added to the matrix of the correction, whose diagonal is 1: releases of one joint may depend on each other.
-const RIDGE: f64 = 1e-12;
+const CORRECTION_RIDGE: f64 = 1e-12;
 /// Closure and power may be off by this, relative to what the parts come to; corrections stop at the second.
-const CLOSED: [f64; 2] = [1e-9, 1e-14];
+const CLOSURE: [f64; 2] = [1e-9, 1e-14];
 /// Rates below minus this share of the fastest run backwards.
 const BACKWARDS: f64 = 1e-4;
 
@@ -87,7 +88,7 @@ pub(super) fn nearest_motion(columns: &[Column], unknowns: usize, rates: &[f64])
         for (i, other) in columns.iter().enumerate().skip(j) {
             gram[(i, j)] = other.iter().map(|&(k, a)| a * dense[k]).sum::<f64>() / norms[i];
         }
-        gram[(j, j)] += RIDGE;
+        gram[(j, j)] += CORRECTION_RIDGE;
     }
     let factors = gram.cholesky()?;
     let missing = |x: &[f64]| {
@@ -104,9 +105,9 @@ pub(super) fn nearest_motion(columns: &[Column], unknowns: usize, rates: &[f64])
         let size = 1.0 + norms.iter().zip(x).map(|(norm, x)| norm * x.abs()).sum::<f64>();
         rest.iter().map(|r| r * r).sum::<f64>().sqrt() / size
     };
-    for _ in 0..CORRECTIONS {
+    for _ in 0..MOTION_CORRECTIONS {
         let rest = missing(&x);
-        if off(&x, &rest) < CLOSED[1] {
+        if off(&x, &rest) < CLOSURE[1] {
             break;
         }
         let along = |(column, norm): (&Column, &f64)| column.iter().map(|&(i, a)| a * rest[i]).sum::<f64>() / norm;
@@ -127,7 +128,7 @@ pub(super) fn nearest_motion(columns: &[Column], unknowns: usize, rates: &[f64])
         forward.iter().zip(of_kept).for_each(|(&i, rate)| x[i] = rate);
         return Some(x);
     }
-    (off(&x, &missing(&x)) < CLOSED[0]).then_some(x)
+    (off(&x, &missing(&x)) < CLOSURE[0]).then_some(x)
 }
 
 #[cfg(test)]

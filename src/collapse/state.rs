@@ -4,13 +4,11 @@
 //! [`balanced`]); what cannot be is judged by the law, and doubted where it breaks it.
 
 use super::discretise::Model;
-use super::doubt::Doubt;
-use super::record::{Point, stress_field};
-use super::{AnalysisError, CollapseReport, Digits, ElasticCrushing, SubblockStress};
+use super::record::{PathPoint, stress_field};
+use super::tolerances::TOLERANCES;
+use super::{AnalysisError, CollapseReport, Doubt, ElasticCrushing, Note, OtherStates, SubblockStress};
 use crate::dda::{Balanced, ContactForce, balanced, missing};
 
-/// A state that breaks the contact law by more than this share of the loads is not reported.
-const LAWFUL: f64 = 1e-6;
 /// A gap that differs by more than this share of the largest displacement between a state of the path and the symmetric one
 /// was not decided by the scatter of stiffness, which is a hundred times smaller.
 const LEANS: f64 = 1e-2;
@@ -34,23 +32,12 @@ pub(super) struct Standing {
     pub symmetric: bool,
 }
 
-/// Why the state of a symmetric arch at a load factor is not the only one.
-#[derive(Debug, Clone, PartialEq)]
-enum Other {
-    /// Joints may be open by more or less while no force changes; the state given is the symmetric one.
-    Free,
-    /// The path leant to one side, with other forces; the state given is the symmetric one.
-    Leaning,
-    /// The state given leans to one side: no symmetric one was found.
-    Lopsided,
-}
-
 /// Finds the states of a report, and what has to be said of them.
 pub(super) struct States<'m> {
     pub model: &'m Model<'m>,
     found: Vec<Standing>,
     /// Load factors at which there are other states, with the joints that differ.
-    others: Vec<(f64, Other, Vec<usize>)>,
+    others: Vec<(f64, OtherStates, Vec<usize>)>,
     /// Factorisations and block rows.
     work: [usize; 2],
     doubt: Option<Doubt>,
@@ -73,7 +60,7 @@ impl<'m> States<'m> {
             None => {
                 let broken = missing(assembly, &loads, on_path, model.budget);
                 let (amount, interface) = broken?;
-                if amount > LAWFUL {
+                if amount > TOLERANCES.broken_law {
                     let joint = interface.min(model.joints - 1);
                     self.doubt.get_or_insert(Doubt::BreaksLaw { load_factor, joint, amount });
                     return Ok(None);
@@ -93,7 +80,7 @@ impl<'m> States<'m> {
     pub(super) fn first_yield(
         &mut self,
         on_path: ElasticCrushing,
-        at: Option<&Point>,
+        at: Option<&PathPoint>,
         strength: f64,
     ) -> Result<ElasticCrushing, AnalysisError> {
         let Some((first, displacements)) = at.filter(|_| !on_path.at_start) else { return Ok(on_path) };
@@ -139,7 +126,7 @@ impl<'m> States<'m> {
         if symmetric && let Some(Balanced { displacements, free, .. }) = self.newton(loads, on_path, true)? {
             let joints = self.joints_apart(&displacements, on_path);
             if !joints.is_empty() {
-                let other = if free { Other::Free } else { Other::Leaning };
+                let other = if free { OtherStates::Free } else { OtherStates::Leaning };
                 self.others.push((load_factor, other, joints));
             }
             return Ok(Some(displacements));
@@ -148,7 +135,7 @@ impl<'m> States<'m> {
         if symmetric {
             let state = found.as_deref().unwrap_or(on_path);
             let joints = self.joints_apart(state, &self.model.assembly.mirrored(state));
-            self.others.push((load_factor, Other::Lopsided, joints));
+            self.others.push((load_factor, OtherStates::Lopsided, joints));
         }
         Ok(found)
     }
@@ -174,7 +161,7 @@ impl<'m> States<'m> {
     pub(super) fn tell(self, report: &mut CollapseReport) -> Option<Doubt> {
         report.cost.factorisations += self.work[0];
         report.cost.block_rows += self.work[1];
-        for kind in [Other::Free, Other::Leaning, Other::Lopsided] {
+        for kind in [OtherStates::Free, OtherStates::Leaning, OtherStates::Lopsided] {
             let some: Vec<_> = self.others.iter().filter(|(_, other, _)| *other == kind).collect();
             if some.is_empty() {
                 continue;
@@ -182,38 +169,9 @@ impl<'m> States<'m> {
             let mut joints: Vec<usize> = some.iter().flat_map(|(.., joints)| joints.clone()).collect();
             joints.sort_unstable();
             joints.dedup();
-            let factors: Vec<String> = some.iter().map(|(factor, ..)| Digits(*factor).to_string()).collect();
-            let joints: Vec<String> = joints.iter().map(usize::to_string).collect();
-            report.notes.push(kind.note(&listed(&factors), &listed(&joints)));
+            let load_factors = some.iter().map(|(factor, ..)| *factor).collect();
+            report.notes.push(Note::SeveralStates { given: kind, load_factors, joints });
         }
         self.doubt
-    }
-}
-
-impl Other {
-    fn note(&self, factors: &str, joints: &str) -> String {
-        let at = format!("At load factor {factors} arch and loads are symmetric, but there is more than one state.");
-        match self {
-            Other::Free => format!(
-                "{at} Joints {joints} can be open by more or less, one in place of the other, while all forces stay as they \
-                 are. Displacements and openings are given where they are symmetric."
-            ),
-            Other::Leaning => format!(
-                "{at} The symmetric one is given; the load path passed one in which joints {joints} are open by more or \
-                 less on one side than on the other, and its mirror image is as good."
-            ),
-            Other::Lopsided => format!(
-                "{at} No symmetric one was found, as may be where joints slide: in the one given joints {joints} are open \
-                 by more or less on one side than on the other, and its mirror image is as good."
-            ),
-        }
-    }
-}
-
-/// A list in words.
-fn listed(items: &[String]) -> String {
-    match items {
-        [all @ .., last] if !all.is_empty() => format!("{} and {last}", all.join(", ")),
-        _ => items.concat(),
     }
 }

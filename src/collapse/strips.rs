@@ -10,7 +10,7 @@
 
 use super::Thrust;
 use crate::limit::Resultant;
-use crate::structure::{Face, Joint};
+use crate::structure::{Face, Joint, Structure};
 
 /// Ends of the strips of the coarse grid of one half of a joint, as shares of the joint: i^2 / 50.
 const COARSE: [f64; 5] = [0.02, 0.08, 0.18, 0.32, 0.5];
@@ -32,22 +32,33 @@ const LOADED: f64 = 1e-6;
 /// Strips of every joint that crushes.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Strips {
-    /// Compressive strength, Pa.
-    pub strength: f64,
-    /// Of every joint: whether it crushes, and the blocks that are expected, each at a face, as a share of the joint.
-    joints: Vec<Option<Vec<(Face, f64)>>>,
+    joints: Vec<Section>,
+}
+
+/// A joint that may crush.
+#[derive(Debug, Clone)]
+struct Section {
+    /// Length, m, and force that it bears where it is crushed all over, N/m; infinite where it does not crush.
+    length: f64,
+    capacity: f64,
+    /// Whether it crushes, and the blocks that are expected, each at a face, as a share of the joint.
+    blocks: Option<Vec<(Face, f64)>>,
 }
 
 impl Strips {
-    /// Of these joints none crushes; or, where nothing is expected, any dry one may.
-    pub(super) fn new(joints: &[Joint], strength: f64, any: bool) -> Self {
-        let one = |joint: &Joint| (any && joint.law.coulomb().is_some()).then(Vec::new);
-        Strips { strength, joints: joints.iter().map(one).collect() }
+    /// Of the joints of a structure, none of which crushes; or `any` dry one may, where nothing is expected.
+    pub(super) fn new(structure: &Structure, any: bool) -> Self {
+        let section = |joint: &Joint| {
+            let (dry, length) = (joint.law.coulomb().is_some(), joint.length());
+            let capacity = if dry { structure.strength_at(joint) * length } else { f64::INFINITY };
+            Section { length, capacity, blocks: (any && dry).then(Vec::new) }
+        };
+        Strips { joints: structure.joints.iter().map(section).collect() }
     }
 
     /// Ends of the strips of a joint, from 0 at its first end to 1 at its second; none where it does not crush.
     pub(super) fn of(&self, joint: usize) -> Option<Vec<f64>> {
-        let blocks = self.joints.get(joint)?.as_ref()?;
+        let blocks = self.joints.get(joint)?.blocks.as_ref()?;
         let mut ends: Vec<f64> = COARSE.iter().flat_map(|&at| [at, 1.0 - at]).chain([0.0, 1.0]).collect();
         for &(face, block) in blocks {
             let place = |at: f64| if face == Face::Intrados { at } else { 1.0 - at };
@@ -62,47 +73,47 @@ impl Strips {
     }
 
     /// Takes in the joints that these forces, at an end of the window of plastic sections, crush or almost do.
-    pub(super) fn expect(&mut self, joints: &[Joint], forces: &[Resultant]) {
+    pub(super) fn expect(&mut self, forces: &[Resultant]) {
         let least = LOADED * forces.iter().map(Resultant::normal).fold(0.0, f64::max);
-        for (k, force) in forces.iter().enumerate().filter(|(_, force)| force.normal() > least) {
-            let (normal, off) = (force.normal(), 0.5 * (force.extrados - force.intrados) / force.normal());
-            self.take_in(k, &joints[k], [normal, off * joints[k].length()], ALMOST);
+        for (section, force) in self.joints.iter_mut().zip(forces).filter(|(_, force)| force.normal() > least) {
+            let off = 0.5 * (force.extrados - force.intrados) / force.normal();
+            section.take_in(force.normal(), off, ALMOST);
         }
     }
 
     /// Takes in the joints that crush, though they are not among those that may, where a path ends; true where there are any.
-    pub(super) fn expect_more(&mut self, joints: &[Joint], thrust: &[Thrust]) -> bool {
+    pub(super) fn expect_more(&mut self, thrust: &[Thrust]) -> bool {
         let least = LOADED * thrust.iter().map(|thrust| thrust.normal).fold(0.0, f64::max);
-        let before = self.joints.iter().flatten().count();
+        let mut more = false;
         for &Thrust { joint, normal, eccentricity, .. } in thrust.iter().filter(|thrust| thrust.normal > least) {
-            if self.joints[joint].is_none() {
-                self.take_in(joint, &joints[joint], [normal, eccentricity], CRUSHED);
-            }
+            let section = &mut self.joints[joint];
+            more |= section.blocks.is_none() && section.take_in(normal, eccentricity / section.length, CRUSHED);
         }
-        self.joints.iter().flatten().count() > before
+        more
     }
+}
 
-    /// Takes in a dry joint whose force needs this share of the pressed length that plastic sections have for it.
-    fn take_in(&mut self, k: usize, joint: &Joint, [normal, eccentricity]: [f64; 2], share: f64) {
-        let (block, pressed) =
-            (normal / (self.strength * joint.length()), 1.0 - 2.0 * eccentricity.abs() / joint.length());
-        if joint.law.coulomb().is_none() || block < share * pressed || block < SHORTEST[1] {
-            return;
+impl Section {
+    /// Takes in the block of a force so far off the middle, as a share of the joint, that needs this share of the pressed length that
+    /// plastic sections have for it; true where it does.
+    fn take_in(&mut self, normal: f64, off: f64, share: f64) -> bool {
+        let (block, pressed) = (normal / self.capacity, 1.0 - 2.0 * off.abs());
+        if block < share * pressed || block < SHORTEST[1] {
+            return false;
         }
-        let face = if eccentricity > 0.0 { Face::Extrados } else { Face::Intrados };
+        let face = if off > 0.0 { Face::Extrados } else { Face::Intrados };
         let rounded = ((block.max(SHORTEST[0]).ln() / SAME).round() * SAME).exp();
-        let blocks = self.joints[k].get_or_insert_default();
+        let blocks = self.blocks.get_or_insert_default();
         if !blocks.contains(&(face, rounded)) && blocks.len() < MOST_BLOCKS {
             blocks.push((face, rounded));
         }
+        true
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Vec2;
-    use crate::structure::{JointLaw, Side};
 
     /// Largest and least share of the eccentricity of plastic sections that strips bear, over blocks from a share to another.
     fn borne(strips: &[f64], blocks: [f64; 2]) -> [f64; 2] {
@@ -117,19 +128,12 @@ mod tests {
 
     #[test]
     fn strips_bear_no_more_than_plastic_sections_and_hardly_less_where_a_block_ends() {
-        let law = JointLaw::Dry { friction: 0.6, cohesion: 0.0 };
-        let joint = Joint {
-            between: [Side::Body(0), Side::Body(1)],
-            intrados: Vec2::zeros(),
-            extrados: Vec2::new(0.0, 2.0),
-            law,
-        };
         for block in [0.003, 0.05, 0.3, 0.7, 0.99] {
             let [near, far] = [0.5 * block, 1.0 - 0.5 * block].map(|at| 2e6 * block * at);
             for (intrados, extrados) in [(far, near), (near, far)] {
-                let mut strips = Strips::new(&[joint], 1e6, false);
+                let mut strips = Strips { joints: vec![Section { length: 2.0, capacity: 2e6, blocks: None }] };
                 assert!(strips.of(0).is_none());
-                strips.expect(&[joint], &[Resultant { intrados, extrados, shear: 0.0 }]);
+                strips.expect(&[Resultant { intrados, extrados, shear: 0.0 }]);
                 let mut ends = strips.of(0).unwrap();
                 if intrados < extrados {
                     ends = ends.iter().rev().map(|at| 1.0 - at).collect();

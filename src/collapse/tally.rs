@@ -1,9 +1,9 @@
 //! Filling in a report: work done, stress fields, the other end.
 
 use super::discretise::Model;
-use super::record::{Point, Recorder, stress_field};
+use super::record::{PathPoint, Recorder, stress_field};
 use super::state::{Standing, States};
-use super::{Analysis, AnalysisError, CollapseReport, Cost, Digits, FieldAt, StressField};
+use super::{Analysis, AnalysisError, CollapseReport, Cost, FieldAt, Note, StressField};
 use crate::dda::Tracer;
 
 impl Cost {
@@ -36,7 +36,7 @@ impl CollapseReport {
         analysis: &Analysis,
         states: &mut States,
         path: &Recorder,
-        near: Option<&Point>,
+        near: Option<&PathPoint>,
     ) -> Result<(), AnalysisError> {
         let found = analysis.fields.iter().filter_map(|field| match field {
             FieldAt::LoadFactor(load_factor) => path.at(*load_factor).map(|d| (*load_factor, d)),
@@ -92,21 +92,9 @@ impl CollapseReport {
             };
             match self.stress_fields.iter().find(|found| Some(found.load_factor) == wanted) {
                 Some(found) => settled.push(found.clone()),
-                None => self.notes.push(missing_field(*field, self.end.is_some())),
+                None => self.notes.push(Note::NoStressField { at: *field, falls: self.end.is_some() }),
             }
         }
         self.stress_fields = settled;
-    }
-}
-
-fn missing_field(field: FieldAt, falls: bool) -> String {
-    match field {
-        FieldAt::LoadFactor(load_factor) => {
-            format!("No stress field at load factor {}: the load path does not pass it.", Digits(load_factor))
-        }
-        FieldAt::NearCollapse if falls => {
-            "No stress field near collapse: the arch falls before it could be loaded.".into()
-        }
-        FieldAt::NearCollapse => "No stress field near collapse: the arch does not collapse.".into(),
     }
 }

@@ -1,16 +1,12 @@
 //! Collapse on moving geometry: the load path of the arch in the place to which its loads have moved it.
 
-use super::certificate::UNBALANCED;
 use super::discretise::{Model, discretise};
 use super::path::{Attempt, FALLEN, MOVED, Moved, disturbed, first_that_tells, lost, stand_moved};
+use super::tolerances::TOLERANCES;
 use crate::budget::Budget;
 
 use super::{Analysis, AnalysisError, Cost, Unfollowed, UpdatedEnd, UpdatedGeometry, ending, mechanism};
 use crate::dda::{Drive, End, Patience, Tracer};
-
-/// Note on stones that are one subblock thick.
-pub(super) const UNBENT: &str = "On moving geometry stones that are one subblock thick do not bend; only their joints give. \
-     With soft stone the arch then seems stronger than it is: compare a mesh of at least 2 x 2.";
 
 /// From where to where the load factor goes.
 #[derive(Debug, Clone, Copy)]
@@ -88,7 +84,7 @@ fn attempt(
     let falls = end == End::Mechanism && !turned_back && tracer.return_to_peak();
     let residual = tracer.worst_residual();
     let end = match (stood, end) {
-        _ if residual > UNBALANCED => Err(Unfollowed::Coarse(residual)),
+        _ if residual > TOLERANCES.residual => Err(Unfollowed::Coarse(residual)),
         (Moved::Falls(share), _) => Ok((UpdatedEnd::FallsAsLoaded, Some(share))),
         (Moved::Stands, End::Mechanism) if falls => Ok((UpdatedEnd::Collapse, None)),
         (Moved::Stands, End::Mechanism) => Err(Unfollowed::TurnedBack),
@@ -121,7 +117,7 @@ fn describe(
     let (end, share) = end.unwrap_or((UpdatedEnd::CannotTell, None));
     let falls = matches!(end, UpdatedEnd::Collapse | UpdatedEnd::FallsAsLoaded);
     let of = |voussoir: usize| tracer.mean_motion(voussoir).displacement;
-    let [left, right] = mechanism::crown(&analysis.structure);
+    let [left, right] = mechanism::crown(&analysis.structure, &analysis.scaled);
     let largest = (0..model.bodies).map(|v| of(v).norm()).fold(0.0, f64::max);
     UpdatedGeometry {
         end,

@@ -5,7 +5,6 @@ mod leg;
 
 use super::certificate::{Certificate, any_fixed, loaded, mesh_notes};
 use super::discretise::{Model, discretise_crushing};
-use super::doubt::Doubt;
 use super::path::{ATTEMPTS, Attempt, disturbed, nothing_grows, stand, total};
 use crate::budget::Budget;
 
@@ -14,22 +13,18 @@ use super::state::States;
 use super::strips::Strips;
 use super::updated::{self, Course};
 use super::{
-    Aim, Analysis, AnalysisError, CollapseReport, Cost, Crushing, Direction, Geometry, LimitWindow, Outcome,
-    SettlementEnd, SpringingMovement, ThrustRange, UpdatedGeometry, falling, plan, rounding, safety, settlement,
+    Aim, Analysis, AnalysisError, CollapseReport, Cost, Crushing, Direction, Doubt, Geometry, LimitWindow, Note,
+    Outcome, SettlementEnd, SupportMovement, ThrustRange, UpdatedGeometry, falling, plan, rounding, safety, settlement,
 };
 use crate::dda::{End, Tracer};
 use crate::structure::{Joint, JointLaw};
 use std::ops::ControlFlow;
 
-/// Note on an arch of which nothing is asked but whether it stands.
-const NOTHING_GROWS: &str = "Nothing grows with the load factor: the answer says only that the arch stands.";
-
-/// Joints that bear, at the end of the window of plastic sections, this share of what these can are in strips; those that bear,
 /// By default the load factor is raised until the scaled loads are so many times the fixed ones.
 const DEFAULT_CAP: f64 = 1e6;
 
 /// What all attempts at one analysis share.
-struct Question<'a> {
+struct Setup<'a> {
     analysis: &'a Analysis,
     budget: &'a Budget<'a>,
     certificate: Certificate,
@@ -56,17 +51,17 @@ struct Attempted {
 }
 
 /// Is told of every event: the tracer and its load factor.
-type Progress<'w> = dyn FnMut(&Tracer, f64) -> ControlFlow<()> + 'w;
+type OnEvent<'w> = dyn FnMut(&Tracer, f64) -> ControlFlow<()> + 'w;
 
 pub(super) fn run(analysis: &Analysis, budget: &Budget) -> Result<CollapseReport, AnalysisError> {
-    let question = Question::new(analysis, budget)?;
+    let question = Setup::new(analysis, budget)?;
     let report = question.answer()?;
     Ok(report.or_cannot_tell(question.blank(0)))
 }
 
 /// Limit window and load path on the mesh given; what follows from them is left to [`run`].
 pub(super) fn solve(analysis: &Analysis, budget: &Budget) -> Result<CollapseReport, AnalysisError> {
-    Question::new(analysis, budget)?.solve()
+    Setup::new(analysis, budget)?.solve()
 }
 impl Attempted {
     /// The less doubtful of two attempts, with the work of both.
@@ -79,11 +74,11 @@ impl Attempted {
     }
 }
 
-impl<'a> Question<'a> {
+impl<'a> Setup<'a> {
     fn new(analysis: &'a Analysis, budget: &'a Budget<'a>) -> Result<Self, AnalysisError> {
         let mut certificate = Certificate::new(analysis, budget)?;
         let rigid = certificate.window;
-        let (crushing, forces) = certificate.crushing(analysis.structure.least_strength(), budget)?;
+        let (crushing, forces) = certificate.crushing(&analysis.structure, budget)?;
         if analysis.crushing_in_path {
             certificate.hold_to(&crushing);
         }
@@ -99,18 +94,18 @@ impl<'a> Question<'a> {
             Aim::Collapse | Aim::Settlement(_) => certificate.start(settled, sign, cap),
             Aim::Safety { .. } => certificate.full_load(settled, cap),
         };
-        let thrust = any_fixed(analysis).then(|| certificate.theorem.thrust_range(0.0, budget)).flatten();
+        let stands = any_fixed(analysis) && certificate.stands_at(0.0);
+        let thrust = stands.then(|| certificate.theorem.thrust_range(0.0, budget)).flatten();
         budget.check()?;
         let thrust_range = thrust.map(|[lowest, highest]| ThrustRange { lowest, highest });
         let weight = fixed + scaled * start.abs();
         let mut strips = Strips::default();
         if analysis.crushing_in_path {
-            let joints = &analysis.structure.joints;
-            strips = Strips::new(joints, crushing.strength, !certificate.stands_at(start));
+            strips = Strips::new(&analysis.structure, !certificate.stands_at(start));
             let ends = forces.iter().zip([-1.0, 1.0]).filter(|(_, end)| *end == sign || !certificate.stands_at(0.0));
-            ends.for_each(|(forces, _)| _ = strips.expect(joints, forces));
+            ends.for_each(|(forces, _)| strips.expect(forces));
         }
-        Ok(Question { analysis, budget, certificate, thrust_range, crushing, rigid, strips, sign, start, cap, weight })
+        Ok(Setup { analysis, budget, certificate, thrust_range, crushing, rigid, strips, sign, start, cap, weight })
     }
 
     /// Limit window, load path and all that follows from them.
@@ -123,12 +118,12 @@ impl<'a> Question<'a> {
         report.settle_fields(analysis);
         let unbent = analysis.mesh.subblocks.iter().any(|[radial, _]| *radial == 1);
         if analysis.geometry == Geometry::Updated && unbent && report.at_start.is_some() {
-            report.notes.push(updated::UNBENT.into());
+            report.notes.push(Note::UnbentStones);
         }
         report.updated = self.updated(&mut report)?;
-        match analysis.aim {
+        match &analysis.aim {
             Aim::Collapse => safety::crushed_at_start(&mut report, analysis.crushing_in_path),
-            Aim::Safety { crushing } => safety::judge(&mut report, crushing),
+            &Aim::Safety { crushing } => safety::judge(&mut report, crushing),
             Aim::Settlement(movements) => self.settle(&mut report, movements)?,
         }
         falling::follow(analysis, &mut report, budget)?;
@@ -148,7 +143,7 @@ impl<'a> Question<'a> {
             if doubt.is_contradiction() {
                 report.outcome = Outcome::CannotTell;
             }
-            report.notes.push(doubt.to_string());
+            report.notes.push(Note::Doubt(doubt));
         }
         Ok(report)
     }
@@ -169,14 +164,13 @@ impl<'a> Question<'a> {
     /// Until no joint crushes at the end of the path but those in strips.
     fn attempt(&self, attempt: Attempt) -> Result<Attempted, AnalysisError> {
         let (mut strips, mut cost) = (self.strips.clone(), Cost::default());
-        let joints = &self.analysis.structure.joints;
         loop {
             let mut attempted = self.attempt_with(&strips, attempt)?;
             attempted.report.cost.join(cost);
             cost = attempted.report.cost;
             let report = &attempted.report;
             let ends = report.end.iter().chain(&report.other_end).filter(|_| self.analysis.crushing_in_path);
-            if !ends.fold(false, |more, end| strips.expect_more(joints, &end.thrust_line) || more) {
+            if !ends.fold(false, |more, end| strips.expect_more(&end.thrust_line) || more) {
                 return Ok(attempted);
             }
         }
@@ -206,7 +200,7 @@ impl<'a> Question<'a> {
             report.outcome = Outcome::NeverCollapses;
             at_start.map(|state| report.fields_at_rest(analysis, &model, &state)).transpose()?;
             if !matches!(analysis.aim, Aim::Settlement(_)) {
-                report.notes.push(NOTHING_GROWS.into());
+                report.notes.push(Note::NothingGrows);
             }
             let doubt = states.tell(&mut report);
             return Ok(Attempted { report, doubt });
@@ -238,8 +232,8 @@ impl<'a> Question<'a> {
         updated::follow(self.analysis, course, &mut report.cost, self.budget).map(Some)
     }
 
-    /// What becomes of a standing arch as its springings move.
-    fn settle(&self, report: &mut CollapseReport, movements: [SpringingMovement; 2]) -> Result<(), AnalysisError> {
+    /// What becomes of a standing structure as its supports move.
+    fn settle(&self, report: &mut CollapseReport, movements: &[SupportMovement]) -> Result<(), AnalysisError> {
         safety::crushed_at_start(report, false);
         if report.at_start.is_none() || report.outcome == Outcome::CannotTell {
             return Ok(());
@@ -256,7 +250,7 @@ impl<'a> Question<'a> {
         Ok(())
     }
 
-    fn mesh_notes(&self, model: &Model) -> Vec<String> {
+    fn mesh_notes(&self, model: &Model) -> Vec<Note> {
         let slenderness = model.grids.iter().map(|grid| grid.slenderness()).fold(1.0, f64::max);
         let several = self.analysis.mesh.subblocks.iter().any(|&subblocks| subblocks != [1, 1]);
         let cohesive = |joint: &Joint| matches!(joint.law, JointLaw::Dry { cohesion, .. } if cohesion > 0.0);

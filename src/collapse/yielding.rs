@@ -1,28 +1,28 @@
 //! First yield: where on the path the equivalent stress of some subblock reaches the strength.
 
 use super::discretise::Model;
-use super::record::Point;
+use super::record::PathPoint;
 use super::report::tresca;
 use super::{ElasticCrushing, SubblockStress};
 use std::rc::Rc;
 
 /// A subblock at a point of the path.
 #[derive(Debug, Clone)]
-struct Found {
-    at: Rc<Point>,
+struct YieldPoint {
+    at: Rc<PathPoint>,
     voussoir: usize,
     subblock: usize,
 }
 
 /// What was found up to some point of the path.
 #[derive(Debug, Clone, Default)]
-struct Seen {
+struct SoFar {
     /// The first yield.
-    first: Option<Found>,
+    first: Option<YieldPoint>,
     /// True where that was at the start.
     at_start: bool,
     /// The largest equivalent stress, Pa.
-    largest: Option<(f64, Found)>,
+    largest: Option<(f64, YieldPoint)>,
 }
 
 /// Looks at the stress in every subblock along a path.
@@ -35,20 +35,20 @@ pub(super) struct Yielding<'a> {
     /// Stress of every subblock at the last point, three numbers each, voussoir by voussoir; and at this one.
     before: Vec<Vec<f64>>,
     now: Vec<Vec<f64>>,
-    seen: Seen,
+    seen: SoFar,
     /// What had been seen at the highest load: what comes after the peak does not count.
-    answer: Seen,
+    answer: SoFar,
 }
 
 impl<'a> Yielding<'a> {
     pub(super) fn new(model: &'a Model<'a>, strength: f64) -> Self {
         let empty = vec![Vec::new(); model.bodies];
-        let (seen, answer) = (Seen::default(), Seen::default());
+        let (seen, answer) = (SoFar::default(), SoFar::default());
         Yielding { model, strength, before: empty.clone(), now: empty, seen, answer }
     }
 
     /// Takes in the next point of the path; `highest`: no point before had a higher load.
-    pub(super) fn see(&mut self, before: Option<&Rc<Point>>, now: &Rc<Point>, highest: bool) {
+    pub(super) fn see(&mut self, before: Option<&Rc<PathPoint>>, now: &Rc<PathPoint>, highest: bool) {
         if self.seen.first.is_none() {
             self.look(before, now);
         }
@@ -59,7 +59,7 @@ impl<'a> Yielding<'a> {
 
     /// What was found up to the highest load.
     pub(super) fn answer(&self) -> ElasticCrushing {
-        let Seen { first, at_start, largest } = &self.answer;
+        let SoFar { first, at_start, largest } = &self.answer;
         let found = first.as_ref().or(largest.as_ref().map(|(_, found)| found));
         ElasticCrushing {
             load_factor: first.as_ref().map(|f| f.at.0),
@@ -69,11 +69,11 @@ impl<'a> Yielding<'a> {
     }
 
     /// Where on the way to the highest load the stone first yields.
-    pub(super) fn yields_at(&self) -> Option<&Point> {
+    pub(super) fn yields_at(&self) -> Option<&PathPoint> {
         self.answer.first.as_ref().map(|found| found.at.as_ref())
     }
 
-    fn look(&mut self, before: Option<&Rc<Point>>, now: &Rc<Point>) {
+    fn look(&mut self, before: Option<&Rc<PathPoint>>, now: &Rc<PathPoint>) {
         std::mem::swap(&mut self.before, &mut self.now);
         let (model, loads) = (self.model, self.model.loads_at(now.0));
         // Share of the way from the last point, or the stress, with voussoir and subblock.
@@ -99,23 +99,23 @@ impl<'a> Yielding<'a> {
         }
         let (most, voussoir, subblock) = largest;
         if self.seen.largest.as_ref().is_none_or(|(before, _)| most > *before) {
-            self.seen.largest = Some((most, Found { at: Rc::clone(now), voussoir, subblock }));
+            self.seen.largest = Some((most, YieldPoint { at: Rc::clone(now), voussoir, subblock }));
         }
         let (share, voussoir, subblock) = crossing;
         if share.is_finite() {
             let at = before.map_or_else(|| Rc::clone(now), |before| Rc::new(between(before, now, share)));
             self.seen.at_start = before.is_none();
-            self.seen.first = Some(Found { at, voussoir, subblock });
+            self.seen.first = Some(YieldPoint { at, voussoir, subblock });
         }
     }
 
-    fn subblock(&self, found: &Found) -> Option<SubblockStress> {
+    fn subblock(&self, found: &YieldPoint) -> Option<SubblockStress> {
         let stresses = self.model.stresses(found.voussoir, found.at.0, &found.at.1);
         self.model.grids[found.voussoir].field(found.voussoir, &stresses).into_iter().nth(found.subblock)
     }
 }
 
-fn between(a: &Point, b: &Point, share: f64) -> Point {
+fn between(a: &PathPoint, b: &PathPoint, share: f64) -> PathPoint {
     let displacements = a.1.iter().zip(&b.1).map(|(x, y)| x + (y - x) * share).collect();
     (a.0 + (b.0 - a.0) * share, displacements)
 }

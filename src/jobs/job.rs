@@ -32,7 +32,7 @@ impl Status {
 
 /// Where a job stands, with what belongs to it there.
 #[derive(Debug, Clone, PartialEq)]
-pub enum State {
+pub enum JobState {
     /// Waits in the queue.
     Accepted,
     /// A worker is at it.
@@ -45,15 +45,15 @@ pub enum State {
     Dismissed,
 }
 
-impl State {
+impl JobState {
     /// In one word.
     pub fn status(&self) -> Status {
         match self {
-            State::Accepted => Status::Accepted,
-            State::Running => Status::Running,
-            State::Successful(_) => Status::Successful,
-            State::Failed(_) => Status::Failed,
-            State::Dismissed => Status::Dismissed,
+            JobState::Accepted => Status::Accepted,
+            JobState::Running => Status::Running,
+            JobState::Successful(_) => Status::Successful,
+            JobState::Failed(_) => Status::Failed,
+            JobState::Dismissed => Status::Dismissed,
         }
     }
 }
@@ -115,7 +115,7 @@ impl Moment {
 #[derive(Debug, Clone)]
 pub struct Stand {
     /// Where it stands.
-    pub state: State,
+    pub state: JobState,
     /// When a worker took it.
     pub started: Option<Moment>,
     /// When it reached a final state.
@@ -138,7 +138,7 @@ pub struct Job<R> {
     /// When it reached a final state.
     pub finished: Option<Moment>,
     /// Where it stands.
-    pub state: State,
+    pub state: JobState,
     /// How many jobs go first, this one included, while it waits.
     pub position: Option<usize>,
 }
@@ -160,13 +160,13 @@ impl<R> Job<R> {
             created: Moment::now(),
             started: None,
             finished: None,
-            state: State::Accepted,
+            state: JobState::Accepted,
             position: None,
         }
     }
 
     /// Brings it to another state.
-    pub(super) fn turn(&mut self, state: State) {
+    pub(super) fn turn(&mut self, state: JobState) {
         self.state = state;
         let (now, status) = (Moment::now(), self.status());
         match status {

@@ -9,10 +9,10 @@ mod store;
 mod table;
 mod worker;
 
-pub use job::{Failure, Job, JobId, Moment, Product, Stand, State, Status};
+pub use job::{Failure, Job, JobId, JobState, Moment, Product, Stand, Status};
 pub use progress::Progress;
 pub use store::{Analyse, Dismissal, Ended, JobStore};
-pub use table::{Load, Refusal, Submission};
+pub use table::{Occupancy, Refusal, Submission};
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;

@@ -1,6 +1,6 @@
 //! How far a job has come, and the wish to stop it: what its worker and everyone else share.
 
-use super::job::{Stand, State};
+use super::job::{JobState, Stand};
 use crate::budget::LoadStep;
 
 use std::cell::Cell;
@@ -20,7 +20,7 @@ pub struct Progress {
 
 impl Default for Progress {
     fn default() -> Self {
-        let stand = watch::Sender::new(Stand { state: State::Accepted, started: None, finished: None });
+        let stand = watch::Sender::new(Stand { state: JobState::Accepted, started: None, finished: None });
         Progress {
             load_factor: AtomicU64::default(),
             events: AtomicUsize::default(),

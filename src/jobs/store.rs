@@ -1,7 +1,7 @@
 //! The store: accepts, shows, cancels and forgets jobs, and stops in order.
 
 use super::job::{Failure, Job, JobId, Product, Status};
-use super::table::{Load, Refusal, Submission, Table};
+use super::table::{Occupancy, Refusal, Submission, Table};
 use super::{Limits, lock, worker};
 use crate::budget::Budget;
 
@@ -112,7 +112,7 @@ impl<R> JobStore<R> {
     }
 
     /// What the store holds just now.
-    pub fn load(&self) -> Load {
+    pub fn load(&self) -> Occupancy {
         self.shared.books(|table| table.load())
     }
 

@@ -1,7 +1,7 @@
 //! Every job there is, and who is next: plain bookkeeping, to be used under the store's lock.
 
 use super::Limits;
-use super::job::{Job, JobId, Moment, State, Status};
+use super::job::{Job, JobId, JobState, Moment, Status};
 use std::collections::{BTreeMap, VecDeque};
 use std::mem;
 
@@ -40,7 +40,7 @@ pub enum Refusal {
 
 /// What the store holds just now.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Load {
+pub struct Occupancy {
     /// Jobs that wait.
     pub waiting: usize,
     /// Jobs in the hands of workers, dismissed ones included until their worker is free.
@@ -104,13 +104,13 @@ impl<R> Table<R> {
         let id = self.waiting.pop_front()?;
         let entry = self.jobs.get_mut(&id)?;
         left(&mut self.clients, &entry.client);
-        entry.job.turn(State::Running);
+        entry.job.turn(JobState::Running);
         self.running.push(id);
         Some(entry.job.clone())
     }
 
     /// A worker is done with `id`: the job as it has ended, unless it had before.
-    pub(super) fn give_back(&mut self, id: JobId, state: State, bytes: usize) -> Option<Job<R>> {
+    pub(super) fn give_back(&mut self, id: JobId, state: JobState, bytes: usize) -> Option<Job<R>> {
         self.running.retain(|&other| other != id);
         self.end(id, state, bytes)
     }
@@ -122,11 +122,11 @@ impl<R> Table<R> {
             left(&mut self.clients, &self.jobs.get(&id)?.client);
         }
         self.jobs.get(&id)?.job.progress.cancel();
-        self.end(id, State::Dismissed, 0)
+        self.end(id, JobState::Dismissed, 0)
     }
 
     /// Ends a job that has not ended yet and returns it; an answer costs `bytes`.
-    fn end(&mut self, id: JobId, state: State, bytes: usize) -> Option<Job<R>> {
+    fn end(&mut self, id: JobId, state: JobState, bytes: usize) -> Option<Job<R>> {
         let entry = self.jobs.get_mut(&id).filter(|entry| !entry.job.status().is_final())?;
         entry.job.turn(state);
         self.active_bytes -= entry.bytes;
@@ -198,9 +198,9 @@ impl<R> Table<R> {
         self.waiting.iter().chain(&self.running).copied().collect()
     }
 
-    pub(super) fn load(&self) -> Load {
+    pub(super) fn load(&self) -> Occupancy {
         let (waiting, running) = (self.waiting.len(), self.running.len());
-        Load { waiting, running, finished: self.finished.len(), bytes: self.bytes }
+        Occupancy { waiting, running, finished: self.finished.len(), bytes: self.bytes }
     }
 
     pub(super) fn close(&mut self) {

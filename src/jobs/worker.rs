@@ -1,6 +1,6 @@
 //! A worker: takes a job, runs it, writes down how it ended, and takes the next.
 
-use super::job::{Failure, Job, State};
+use super::job::{Failure, Job, JobState};
 use super::lock;
 use super::progress::Observer;
 use super::store::Shared;
@@ -18,8 +18,8 @@ pub(super) fn work<R>(shared: &Shared<R>) {
         tracing::info!("started");
         let (state, bytes) = attempt(shared, &job);
         match &state {
-            State::Failed(Failure::Analysis(error @ AnalysisError::Stopped(_))) => tracing::info!("{error}"),
-            State::Failed(failure) => tracing::warn!(%failure, "failed"),
+            JobState::Failed(Failure::Analysis(error @ AnalysisError::Stopped(_))) => tracing::info!("{error}"),
+            JobState::Failed(failure) => tracing::warn!(%failure, "failed"),
             _ => tracing::info!("ended"),
         }
         if let Some(job) = shared.books(|table| table.give_back(job.id, state, bytes)) {
@@ -40,19 +40,19 @@ fn next<R>(shared: &Shared<R>) -> Option<Job<R>> {
 }
 
 /// Answers one request; whatever happens in it, there is a final state, and what keeping it costs.
-fn attempt<R>(shared: &Shared<R>, job: &Job<R>) -> (State, usize) {
+fn attempt<R>(shared: &Shared<R>, job: &Job<R>) -> (JobState, usize) {
     let limit = shared.limits.time;
     let observer = Observer::new(&job.progress, limit);
     let see = |step| observer.see(step);
     // The answer is built from the request alone and is lost with a panic, so nothing half-built is seen.
     match catch_unwind(AssertUnwindSafe(|| (shared.analyse)(&job.request, &Budget::new(&see)))) {
-        Ok(Ok(product)) => (State::Successful(Arc::new(product.answer)), product.bytes),
+        Ok(Ok(product)) => (JobState::Successful(Arc::new(product.answer)), product.bytes),
         Ok(Err(Failure::Analysis(AnalysisError::Stopped(Stopped(LoadStep { load_factor, events })))))
             if observer.overdue() =>
         {
-            (State::Failed(Failure::Overdue { limit, load_factor, events }), 0)
+            (JobState::Failed(Failure::Overdue { limit, load_factor, events }), 0)
         }
-        Ok(Err(failure)) => (State::Failed(failure), 0),
-        Err(_) => (State::Failed(Failure::Defect), 0),
+        Ok(Err(failure)) => (JobState::Failed(failure), 0),
+        Err(_) => (JobState::Failed(Failure::Defect), 0),
     }
 }

@@ -2,8 +2,9 @@
 //!
 //! A normal force N = N_i + N_e at eccentricity e needs N / f of the joint's length t about its line of action, so
 //! that t - 2 |e| >= N / f. With N_i = N (1/2 - e / t) and N_e = N (1/2 + e / t) this is N_i, N_e >= N^2 / (2 f t):
-//! two parabolas a joint, which bound a convex set. Tangents of them are added to the linear programme of the rigid
-//! arch until its answer lies on or within every parabola (cutting planes, Kelley 1960).
+//! two parabolas a joint, which bound a convex set. Where unknowns are few, tangents of them are added to the linear programme of
+//! the rigid arch until its answer lies on or within every parabola (cutting planes, Kelley 1960). Where they are many, or
+//! tangents so close together that rounding confuses them defeat it, the parabolas are cones of the interior point method.
 
 use super::programme::{Objective, Outcome, Programme};
 use super::static_theorem::{Equilibrium, Limit, Resultant};
@@ -13,13 +14,14 @@ use crate::budget::Budget;
 /// A parabola may be violated by this, relative to the loads and to the size of the point: ten times what the linear
 /// programme grants its own rows, so that every cut moves the point.
 const VIOLATED: f64 = 1e-11;
-/// Where tangents so close together that rounding confuses them defeat the linear programme, its last answer is taken
-/// if it violates no parabola by more than this: it is then as close to the end of the window, some 1e-7 of it.
+/// Error of the interior point method that is put up with: of the order of the above for the end of the window.
 const NEARLY: f64 = 1e-8;
 /// A parabola this close is active; ten times the above, so that rounding hides no crushed joint.
 const ACTIVE: f64 = 1e-7;
-/// A joint crushes only under a normal force above this share of the loads.
-const LOADED: f64 = 1e-6;
+/// The block of stress that bears a joint's force takes at least this share of a joint that crushes; less is a hinge.
+const BLOCK: f64 = 0.01;
+/// Joints that bear so many times the loads crush at none.
+const HARD: f64 = 1e12;
 /// Rounds of cuts after which the method has failed (it needs five to thirty).
 const MOST_ROUNDS: usize = 300;
 /// Normal forces N / (f t) of the first tangents. The last says N_i, N_e <= f t / 2 and so bounds every force.
@@ -30,17 +32,19 @@ const FIRST_CUTS: [f64; 3] = [0.25, 0.5, 1.0];
 pub struct CrushingWindow {
     /// Lowest and highest, infinite where unbounded.
     pub ends: [f64; 2],
-    /// Dry joints on their parabola at either end, under a normal force; none where the end is infinite.
+    /// Dry joints on their parabola at either end whose block of stress takes a hundredth of the joint or more (less is a hinge);
+    /// none where the end is infinite.
     pub joints: [Vec<usize>; 2],
     /// Forces of all joints at either end; none where it is infinite.
     pub forces: [Vec<Resultant>; 2],
 }
 
 /// One dry joint of finite strength.
-struct Section {
-    joint: usize,
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Section {
+    pub joint: usize,
     /// f t, N/m.
-    capacity: f64,
+    pub capacity: f64,
 }
 
 impl Section {
@@ -81,29 +85,37 @@ impl StaticTheorem {
             return Err(Unsolved);
         }
         let sections = self.sections(strengths);
-        let mut programme = Programme::new(self);
+        let [mut cut, mut conic] = [Programme::new(self), Programme::new(self)];
         let first = |section: &Section| FIRST_CUTS.map(|at| section.tangents(at, self));
-        programme.limits = sections.iter().flat_map(first).flatten().collect();
+        cut.limits = sections.iter().flat_map(first).flatten().collect();
+        conic.sections = sections.clone();
+        conic.error = Some(NEARLY);
         let mut window = CrushingWindow { ends: [0.0; 2], joints: Default::default(), forces: Default::default() };
         for (end, sign) in [-1.0, 1.0].into_iter().enumerate() {
-            match cut_until_inside(&Objective::load_factor(sign), &mut programme, &sections, budget)? {
+            let objective = Objective::load_factor(sign);
+            let few = self.has_few_unknowns();
+            let outcome = if few { cut_until_inside(&objective, &mut cut, &sections, budget) } else { Outcome::Lost };
+            let outcome = if outcome == Outcome::Lost { conic.maximise_sparsely(&objective, budget) } else { outcome };
+            match outcome {
                 Outcome::At(equilibrium, _) => {
                     window.ends[end] = equilibrium.load_factor;
                     window.joints[end] = self.crushed(&sections, &equilibrium);
                     window.forces[end] = equilibrium.forces;
                 }
                 Outcome::Unbounded(_) => window.ends[end] = sign * f64::INFINITY,
-                Outcome::Infeasible | Outcome::Lost => return Ok(None),
+                Outcome::Infeasible => return Ok(None),
+                Outcome::Lost => return Err(Unsolved),
             }
         }
         Ok(Some(window))
     }
 
-    /// Joints of infinite strength are none.
+    /// Joints so strong that no load in reach crushes them are none.
     fn sections(&self, strengths: &[f64]) -> Vec<Section> {
         let dry = |(joint, strength): (usize, &f64)| {
-            let bounded = self.joints[joint].law.coulomb().is_some() && strength.is_finite();
-            bounded.then(|| Section { joint, capacity: strength * self.joints[joint].length() })
+            let capacity = strength * self.joints[joint].length();
+            let bounded = self.joints[joint].law.coulomb().is_some() && capacity < HARD * self.force;
+            bounded.then_some(Section { joint, capacity })
         };
         strengths.iter().enumerate().filter_map(dry).collect()
     }
@@ -111,7 +123,7 @@ impl StaticTheorem {
     /// Joints with a parabola active in an equilibrium.
     fn crushed(&self, sections: &[Section], equilibrium: &Equilibrium) -> Vec<usize> {
         let active = |section: &&Section| {
-            equilibrium.forces[section.joint].normal() > LOADED * self.force
+            equilibrium.forces[section.joint].normal() > BLOCK * section.capacity
                 && section
                     .tangents_at(equilibrium, self)
                     .iter()
@@ -121,32 +133,25 @@ impl StaticTheorem {
     }
 }
 
-/// Maximises over the limits and the parabolas, adding the tangents that this takes. Never `Lost`.
+/// Maximises over the limits and the parabolas, adding the tangents that this takes.
 fn cut_until_inside(
     objective: &Objective,
     programme: &mut Programme,
     sections: &[Section],
     budget: &Budget,
-) -> Result<Outcome, Unsolved> {
-    let mut nearly = None;
+) -> Outcome {
     for _ in 0..MOST_ROUNDS {
-        let outcome = programme.maximise(objective, budget);
-        let equilibrium = match &outcome {
-            Outcome::At(equilibrium, _) | Outcome::Unbounded(equilibrium) => equilibrium,
-            Outcome::Infeasible => return Ok(outcome),
-            Outcome::Lost => return nearly.ok_or(Unsolved),
-        };
-        let tangents = || sections.iter().flat_map(|section| section.tangents_at(equilibrium, programme.theorem));
-        let worst = tangents().map(|tangent| slack(&tangent, equilibrium, programme.theorem)).fold(0.0, f64::min);
-        if worst >= -VIOLATED {
-            return Ok(outcome);
-        }
+        let outcome = programme.maximise_densely(objective, budget);
+        let (Outcome::At(equilibrium, _) | Outcome::Unbounded(equilibrium)) = &outcome else { return outcome };
+        let tangents = sections.iter().flat_map(|section| section.tangents_at(equilibrium, programme.theorem));
         let cuts: Vec<Limit> =
-            tangents().filter(|tangent| slack(tangent, equilibrium, programme.theorem) < -VIOLATED).collect();
-        nearly = (worst >= -NEARLY).then_some(outcome);
+            tangents.filter(|tangent| slack(tangent, equilibrium, programme.theorem) < -VIOLATED).collect();
+        if cuts.is_empty() {
+            return outcome;
+        }
         programme.limits.extend(cuts);
     }
-    nearly.ok_or(Unsolved)
+    Outcome::Lost
 }
 
 #[cfg(test)]

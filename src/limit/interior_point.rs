@@ -1,16 +1,20 @@
 //! Linear programmes with many sparse unknowns: a primal-dual interior point method.
 //!
 //! Minimise c x over E x = b and s = A x + h >= 0. Unknowns come in blocks of three, one a joint, and a last one, the load
-//! factor; rows of A touch one block, rows of E come in blocks of three, one a body. The method works on the homogeneous
+//! factor; rows of A touch one block, rows of E come in blocks of three, one a body. The last rows of A may come in threes, with
+//! s_0 >= |(s_1, s_2)| in place of s >= 0. The method works on the homogeneous
 //! self-dual embedding (Ye, Todd and Mizuno 1994; steps after Mehrotra 1992), which ends in an optimum or in a proof that there is
 //! none, and never needs a point to start from. Eliminating s, z and x leaves S = sum E_j H_j^-1 E_j', as sparse as bodies touch.
 
+mod cone;
 mod newton;
 
 use super::linear_program::dot;
 use crate::budget::Budget;
 
-use newton::{Newton, Pattern};
+use cone::reach;
+use newton::Newton;
+pub use newton::Pattern;
 
 /// Iterations after which the method has failed (it needs 10 to 40).
 const MOST_ITERATIONS: usize = 120;
@@ -48,6 +52,8 @@ pub struct Sparse {
     pub blocks: Vec<Vec<(usize, Square)>>,
     pub bodies: usize,
     pub rows: Vec<Row>,
+    /// How many threes of rows, the last ones, are second-order cones.
+    pub cones: usize,
     /// Column of E of the load factor, and right-hand sides.
     pub growth: Vec<f64>,
     pub right: Vec<f64>,
@@ -83,7 +89,10 @@ struct Point {
 
 impl Point {
     fn start(programme: &Sparse) -> Self {
-        let ones = vec![1.0; programme.rows.len()];
+        let linear = programme.linear();
+        let ones: Vec<f64> = (0..programme.rows.len())
+            .map(|i| if i < linear || (i - linear).is_multiple_of(3) { 1.0 } else { 0.0 })
+            .collect();
         let (x, y) = (vec![0.0; programme.unknowns()], vec![0.0; 3 * programme.bodies]);
         Point { x, y, s: ones.clone(), z: ones, tau: 1.0, kappa: 1.0 }
     }
@@ -92,6 +101,11 @@ impl Point {
 impl Sparse {
     fn unknowns(&self) -> usize {
         3 * self.blocks.len() + 1
+    }
+
+    /// Number of rows before the cones.
+    fn linear(&self) -> usize {
+        self.rows.len() - 3 * self.cones
     }
 
     /// A x.
@@ -161,9 +175,8 @@ impl Residuals {
     }
 }
 
-/// Solves a programme; an optimum's `error` bounds what is left of residuals and gap, relative to the data and the point.
-pub fn minimise(programme: &Sparse, budget: &Budget) -> Found {
-    let Some(pattern) = Pattern::new(programme) else { return Found::Lost };
+/// Solves a programme of this `pattern`; an optimum's `error` bounds what is left of residuals and gap, relative to the data and the point.
+pub fn minimise(programme: &Sparse, pattern: &Pattern, budget: &Budget) -> Found {
     let constants = programme.constants();
     let mut point = Point::start(programme);
     let (mut best, mut since) = (None::<(f64, Vec<f64>, Vec<f64>)>, 0);
@@ -198,9 +211,9 @@ pub fn minimise(programme: &Sparse, budget: &Budget) -> Found {
         if error < ENOUGH || since > PATIENCE {
             break;
         }
-        let Some(newton) = Newton::new(programme, &pattern, &point) else { break };
+        let Some(newton) = Newton::new(programme, pattern, &point) else { break };
         let direction = Directions::new(programme, &constants, &newton, &residuals, &point).corrected();
-        advance(&mut point, &direction);
+        advance(&mut point, &direction, programme.linear());
     }
     match (best, barely) {
         (Some((error, x, z)), None) => Found::Optimum { x, z, error },
@@ -264,17 +277,13 @@ impl<'s> Directions<'s> {
         let mut directions =
             Directions { programme, constants, newton, residuals, point, unit: Default::default(), pivot: 0.0 };
         let mut first: Vec<f64> = programme.cost.iter().map(|c| -c).collect();
-        programme.add_transposed(&directions.weighted(constants), -1.0, &mut first);
+        programme.add_transposed(&newton.scaling.weighted(constants), -1.0, &mut first);
         let (x, y) = newton.solve(&first, &programme.right);
-        let moved = directions.weighted(&sum(&programme.rows_times(&x), constants, 1.0));
+        let moved = newton.scaling.weighted(&sum(&programme.rows_times(&x), constants, 1.0));
         let z: Vec<f64> = moved.iter().map(|z| -z).collect();
         directions.pivot = -point.kappa / point.tau + directions.value(&x, &y, &z);
         directions.unit = [x, y, z];
         directions
-    }
-
-    fn weighted(&self, v: &[f64]) -> Vec<f64> {
-        v.iter().zip(&self.newton.weights).map(|(v, w)| v * w).collect()
     }
 
     /// c x + b y + h z.
@@ -282,17 +291,16 @@ impl<'s> Directions<'s> {
         dot(&self.programme.cost, x) + dot(&self.programme.right, y) + dot(self.constants, z)
     }
 
-    /// The direction that takes away a share of the residuals and leads the products s z to their present value and
-    /// `complementarity`, and that of tau and kappa to theirs and `last`.
-    fn towards(&self, share: f64, complementarity: &[f64], last: f64) -> Point {
-        let (programme, point) = (self.programme, self.point);
+    /// The direction that takes away a share of the residuals, that has W^-2 ds + dz = `aim`, and that leads the product of tau
+    /// and kappa to its present value and `last`.
+    fn towards(&self, share: f64, aim: &[f64], last: f64) -> Point {
+        let (programme, point, scaling) = (self.programme, self.point, &self.newton.scaling);
         let scaled = |v: &[f64]| v.iter().map(|r| -share * r).collect::<Vec<f64>>();
         let [mut first, second, rows] =
             [&self.residuals.x, &self.residuals.y, &self.residuals.s].map(|residual| scaled(residual));
-        let over: Vec<f64> = complementarity.iter().zip(&point.s).map(|(c, s)| c / s).collect();
-        programme.add_transposed(&sum(&over, &self.weighted(&rows), -1.0), 1.0, &mut first);
+        programme.add_transposed(&sum(aim, &scaling.weighted(&rows), -1.0), 1.0, &mut first);
         let (x, y) = self.newton.solve(&first, &second);
-        let z = sum(&over, &self.weighted(&sum(&programme.rows_times(&x), &rows, 1.0)), -1.0);
+        let z = sum(aim, &scaling.weighted(&sum(&programme.rows_times(&x), &rows, 1.0)), -1.0);
         let rest = -share * self.residuals.tau - last / point.tau - self.value(&x, &y, &z);
         let tau = rest / self.pivot;
         let [x, y, z] = [(x, 0), (y, 1), (z, 2)].map(|(v, i)| sum(&v, &self.unit[i], tau));
@@ -302,21 +310,19 @@ impl<'s> Directions<'s> {
 
     /// Predictor and corrector (Mehrotra 1992).
     fn corrected(&self) -> Point {
-        let point = self.point;
-        let mu = (dot(&point.s, &point.z) + point.tau * point.kappa) / (point.s.len() as f64 + 1.0);
-        let products: Vec<f64> = point.s.iter().zip(&point.z).map(|(s, z)| -s * z).collect();
-        let affine = self.towards(1.0, &products, -point.tau * point.kappa);
-        let centring = (1.0 - longest(point, &affine).min(1.0)).powi(3);
-        let corrected = |(i, product): (usize, &f64)| product - affine.s[i] * affine.z[i] + centring * mu;
-        let complementarity: Vec<f64> = products.iter().enumerate().map(corrected).collect();
+        let (point, scaling, linear) = (self.point, &self.newton.scaling, self.programme.linear());
+        let degree = (linear + self.programme.cones + 1) as f64;
+        let mu = (dot(&point.s, &point.z) + point.tau * point.kappa) / degree;
+        let affine = self.towards(1.0, &scaling.aim(point, None, 0.0), -point.tau * point.kappa);
+        let centring = (1.0 - longest(point, &affine, linear).min(1.0)).powi(3);
         let last = -point.tau * point.kappa - affine.tau * affine.kappa + centring * mu;
-        self.towards(1.0 - centring, &complementarity, last)
+        self.towards(1.0 - centring, &scaling.aim(point, Some(&affine), centring * mu), last)
     }
 }
 
 /// Goes almost to the boundary.
-fn advance(point: &mut Point, direction: &Point) {
-    let length = (STEP * longest(point, direction)).min(1.0);
+fn advance(point: &mut Point, direction: &Point, linear: usize) {
+    let length = (STEP * longest(point, direction, linear)).min(1.0);
     let add = |v: &mut Vec<f64>, d: &[f64]| v.iter_mut().zip(d).for_each(|(v, d)| *v += length * d);
     add(&mut point.x, &direction.x);
     add(&mut point.y, &direction.y);
@@ -326,11 +332,14 @@ fn advance(point: &mut Point, direction: &Point) {
     point.kappa += length * direction.kappa;
 }
 
-/// How far a direction leads before something positive vanishes.
-fn longest(point: &Point, direction: &Point) -> f64 {
-    let pairs = point.s.iter().zip(&direction.s).chain(point.z.iter().zip(&direction.z));
+/// How far a direction leads before something positive vanishes, of the first `linear` rows, or some cone is left.
+fn longest(point: &Point, direction: &Point, linear: usize) -> f64 {
+    let both = || [(&point.s, &direction.s), (&point.z, &direction.z)].into_iter();
+    let pairs = both().flat_map(|(v, d)| v[..linear].iter().zip(&d[..linear]));
     let scalars = [(&point.tau, &direction.tau), (&point.kappa, &direction.kappa)];
-    pairs.chain(scalars).filter(|(_, d)| **d < 0.0).map(|(v, d)| -v / d).fold(1e30, f64::min)
+    let straight = pairs.chain(scalars).filter(|(_, d)| **d < 0.0).map(|(v, d)| -v / d).fold(1e30, f64::min);
+    let cones = both().flat_map(|(v, d)| v[linear..].chunks_exact(3).zip(d[linear..].chunks_exact(3)));
+    cones.map(|(v, d)| reach(v, d)).fold(straight, f64::min)
 }
 
 fn sum(a: &[f64], b: &[f64], by: f64) -> Vec<f64> {

@@ -1,5 +1,6 @@
 //! Linear programmes over the forces of all joints in equilibrium with the loads, and the solver that suits them.
 
+use super::crushing::Section;
 use super::linear_program::{self, HalfSpaces, Optimum, norm};
 use super::static_theorem::{Equilibrium, Limit, StaticTheorem};
 use crate::budget::Budget;
@@ -54,6 +55,8 @@ pub(super) struct Programme<'t> {
     pub complete: bool,
     /// Limits besides those.
     pub limits: Vec<Limit>,
+    /// Joints of finite strength, which the interior point method alone knows.
+    pub sections: Vec<Section>,
     /// Bounds of the load factor.
     pub bounds: [f64; 2],
     /// By how much every limit may be violated, in units of the loads.
@@ -66,7 +69,7 @@ impl<'t> Programme<'t> {
     /// All admissible equilibria.
     pub(super) fn new(theorem: &'t StaticTheorem) -> Self {
         let bounds = [f64::NEG_INFINITY, f64::INFINITY];
-        Programme { theorem, complete: true, limits: Vec::new(), bounds, slack: 0.0, error: None }
+        Programme { theorem, complete: true, limits: Vec::new(), sections: Vec::new(), bounds, slack: 0.0, error: None }
     }
 
     /// The equilibria under the scaled loads alone, whatever the joints carry.

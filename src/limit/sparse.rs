@@ -1,11 +1,13 @@
 //! A programme over the forces of all joints in equilibrium form, for the sparse solver.
 
-use super::interior_point::{Found, Row, Sparse, Square, minimise};
+use super::interior_point::{Found, Pattern, Row, Sparse, Square, minimise};
 use crate::budget::Budget;
 
+use super::crushing::Section;
 use super::programme::{Objective, Outcome, Programme};
 use super::static_theorem::{Equilibrium, Limit, Resultant, StaticTheorem};
 use crate::geometry::{Vec2, cross};
+use crate::structure::Joint;
 
 /// Error of an optimum, relative to its value, that is taken for none.
 const SOLVED: f64 = 1e-9;
@@ -39,9 +41,12 @@ impl Programme<'_> {
             limits[limit.joint].push((limit, place));
         }
         let forces: Vec<Forces> = limits.iter().map(|limits| held(limits)).collect();
-        let Some((rows, places)) = self.rows(&limits, &forces, pinned) else { return Outcome::Infeasible };
+        let Some((mut rows, places)) = self.rows(&limits, &forces, pinned) else { return Outcome::Infeasible };
+        rows.extend(self.sections.iter().flat_map(|section| cones(section, &forces[section.joint], unit)));
         let programme = self.assemble(objective, &forces, rows, pinned, unit);
-        match minimise(&programme, budget) {
+        let own = if theorem.pattern.is_none() { theorem.find_pattern() } else { None };
+        let Some(pattern) = theorem.pattern.as_ref().or(own.as_ref()) else { return Outcome::Lost };
+        match minimise(&programme, pattern, budget) {
             Found::Optimum { x, z, error } if error < self.error.unwrap_or(SOLVED) => {
                 let mut multipliers = vec![0.0; self.limits.len()];
                 for ((place, scale), z) in places.iter().zip(&z) {
@@ -152,7 +157,7 @@ impl Programme<'_> {
         if pinned.is_none() {
             cost[3 * blocks.len()] = -objective.load_factor;
         }
-        Sparse { blocks, bodies, rows, growth, right, cost }
+        Sparse { blocks, bodies, rows, cones: 2 * self.sections.len(), growth, right, cost }
     }
 
     fn equilibrium(&self, x: &[f64], forces: &[Forces], pinned: Option<f64>, unit: f64) -> Equilibrium {
@@ -166,6 +171,31 @@ impl Programme<'_> {
         let load_factor = pinned.unwrap_or(x[x.len() - 1] * self.theorem.factor);
         Equilibrium { load_factor, unknowns: Vec::new(), forces }
     }
+}
+
+impl StaticTheorem {
+    /// How bodies hang together through joints, for the interior point method.
+    pub(super) fn find_pattern(&self) -> Option<Pattern> {
+        let bodies = |joint: &Joint| joint.between.iter().filter_map(|side| side.body()).collect();
+        Pattern::new(self.loads[0].len(), &self.joints.iter().map(bodies).collect::<Vec<_>>())
+    }
+}
+
+/// Rows of the two cones of a section: F w >= N^2 w / (2 f t) for the force F at either corner, with w of the order of what is
+/// smaller, f t or the loads.
+fn cones(section: &Section, forces: &Forces, unit: f64) -> impl Iterator<Item = Row> {
+    let capacity = section.capacity / unit;
+    let width = capacity.min(1.0);
+    let row = |weights: [f64; 3], constant: f64| {
+        let a = std::array::from_fn(|i| forces.basis.get(i).map_or(0.0, |basis| dot(weights, *basis)));
+        Row { block: section.joint, a, constant: constant + dot(weights, forces.origin) }
+    };
+    let normal = (2.0 * width / capacity).sqrt();
+    let corners = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    corners
+        .map(|corner| [row(corner, width), row(corner, -width), row([normal, normal, 0.0], 0.0)])
+        .into_iter()
+        .flatten()
 }
 
 /// Unit of joint forces, N/m: of the order of what one joint carries.

@@ -1,5 +1,6 @@
 //! The static theorem of any structure: forces round its loops, and what every joint then carries.
 
+use super::interior_point::Pattern;
 use super::linear_program::norm;
 use super::programme::{Objective, Outcome, Programme, Rows};
 use crate::budget::Budget;
@@ -72,6 +73,8 @@ pub struct StaticTheorem {
     pub(super) limits: Vec<Limit>,
     /// The limits over the unknowns, where these are few.
     pub(super) rows: Option<Rows>,
+    /// How bodies hang together, where the unknowns are many.
+    pub(super) pattern: Option<Pattern>,
     pub(super) force: f64,
     pub(super) factor: f64,
 }
@@ -140,10 +143,15 @@ impl StaticTheorem {
             let carried = loops.carried(&loads[which]);
             functionals.iter().zip(carried).map(|(of, wrench)| of.map(|row| dot(row, wrench))).collect()
         });
-        let (limits, rows) = (Vec::new(), None);
-        let mut theorem = StaticTheorem { joints, loops, frames, frame, carried, loads, limits, rows, force, factor };
+        let (limits, rows, pattern) = (Vec::new(), None, None);
+        let mut theorem =
+            StaticTheorem { joints, loops, frames, frame, carried, loads, limits, rows, pattern, force, factor };
         theorem.limits = (0..theorem.joints.len()).flat_map(|k| theorem.limits_of(k)).collect();
-        theorem.rows = theorem.has_few_unknowns().then(|| Rows::of_laws(&theorem));
+        if theorem.has_few_unknowns() {
+            theorem.rows = Some(Rows::of_laws(&theorem));
+        } else {
+            theorem.pattern = theorem.find_pattern();
+        }
         Ok(theorem)
     }
 
@@ -241,7 +249,13 @@ impl StaticTheorem {
     }
 
     /// Least and greatest horizontal force of a support on the structure at load factor `at`, N/m; None when nothing stands.
+    /// Whether anything does is not looked into where this support is the only one: it bears what the loads push.
     pub fn thrust_range_of(&self, support: usize, at: f64, budget: &Budget) -> Option<[f64; 2]> {
+        let sides = || self.joints.iter().flat_map(|joint| joint.between);
+        if sides().all(|side| side.body().is_some() || side == Side::Support(support)) {
+            let push = |loads: &[[f64; 3]]| loads.iter().map(|load| load[0]).sum::<f64>();
+            return Some([0.0 - push(&self.loads[0]) - at * push(&self.loads[1]); 2]);
+        }
         let mut programme = Programme::new(self);
         programme.bounds = [at; 2];
         let thrust = |sign: f64| {

@@ -1,7 +1,6 @@
 //! Reports as pictures and files. Draws only: nothing here runs an analysis.
 
-mod canvas;
-pub mod chart;
+pub mod canvas;
 #[cfg(test)]
 mod checks;
 pub mod figure;

@@ -21,14 +21,20 @@ pub fn vtu(field: &StressField) -> String {
     );
     // Writing to a string cannot fail.
     let _ = writeln!(file, "<FieldData>\n{load_factor}</FieldData>");
-    let _ = writeln!(file, "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">", 4 * cells.len(), cells.len());
+    let ends = cells.iter().scan(0, |count, cell| {
+        *count += cell.corners.len();
+        Some(*count)
+    });
+    let ends: Vec<usize> = ends.collect();
+    let points = ends.last().copied().unwrap_or(0);
+    let _ = writeln!(file, "<Piece NumberOfPoints=\"{points}\" NumberOfCells=\"{}\">", cells.len());
     let corners = cells.iter().flat_map(|cell| cell.corners.iter().flat_map(|corner| [corner.x, corner.y, 0.0]));
     let _ = writeln!(file, "<Points>\n{}</Points>", array("Float64", "Points", 3, corners));
     let _ = writeln!(
         file,
         "<Cells>\n{}{}{}</Cells>",
-        array("Int64", "connectivity", 1, 0..4 * cells.len()),
-        array("Int64", "offsets", 1, (1..=cells.len()).map(|cell| 4 * cell)),
+        array("Int64", "connectivity", 1, 0..points),
+        array("Int64", "offsets", 1, ends.iter()),
         array("UInt8", "types", 1, cells.iter().map(|_| POLYGON)),
     );
     let _ = writeln!(file, "<CellData>\n{}</CellData>", cell_data(cells));

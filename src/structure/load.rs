@@ -135,16 +135,16 @@ impl Load {
 }
 
 /// A piece of the surface of a body, from left to right.
-type Side = (usize, Vec2, Vec2);
+type LoadedSide = (usize, Vec2, Vec2);
 
-impl From<&Surface> for Side {
+impl From<&Surface> for LoadedSide {
     fn from(&Surface { body, ends: [a, b] }: &Surface) -> Self {
         (body, a, b)
     }
 }
 
 /// The surfaces, those of body `k` cut into `pieces[k]` equal pieces each, or left whole where that says nothing of it.
-fn cut_sides(structure: &Structure, pieces: &[usize]) -> Vec<Side> {
+fn cut_sides(structure: &Structure, pieces: &[usize]) -> Vec<LoadedSide> {
     structure.surfaces.iter().flat_map(|surface| cut(surface.into(), pieces_of(pieces, surface.body))).collect()
 }
 
@@ -153,7 +153,7 @@ fn pieces_of(pieces: &[usize], body: usize) -> usize {
 }
 
 /// A side cut into equal pieces.
-fn cut((k, a, b): Side, count: usize) -> impl Iterator<Item = Side> {
+fn cut((k, a, b): LoadedSide, count: usize) -> impl Iterator<Item = LoadedSide> {
     // The ends themselves, not what rounding makes of them.
     let end = move |i: usize| if i == count { b } else { a + (b - a) * (i as f64 / count as f64) };
     (0..count).map(move |i| (k, end(i), end(i + 1)))
@@ -179,7 +179,7 @@ impl Fill {
         }
     }
 
-    fn on(&self, structure: &Structure, sides: &[Side]) -> Result<Vec<PointForce>, LoadFault> {
+    fn on(&self, structure: &Structure, sides: &[LoadedSide]) -> Result<Vec<PointForce>, LoadFault> {
         self.fits(structure)?;
         let level = self.height.unwrap_or(f64::NEG_INFINITY);
         let above = self.embankment * self.embankment_density * GRAVITY;
@@ -223,7 +223,7 @@ fn clip(a: Vec2, b: Vec2, low: f64, high: f64) -> Option<(Vec2, Vec2)> {
     Some((inside(a), inside(b)))
 }
 
-fn lateral(sides: &[Side], bands: &[Band]) -> Vec<PointForce> {
+fn lateral(sides: &[LoadedSide], bands: &[Band]) -> Vec<PointForce> {
     let mut forces = Vec::new();
     for &(body, a, b) in sides {
         for band in bands {
@@ -287,7 +287,7 @@ fn point_load(structure: &Structure, force: f64, x: f64) -> Result<Vec<PointForc
 /// A vertical load spread over a plan width; every side takes what lies over it, in the middle of its share.
 fn patch_load(
     structure: &Structure,
-    sides: &[Side],
+    sides: &[LoadedSide],
     force: f64,
     centre: f64,
     width: f64,

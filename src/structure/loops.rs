@@ -27,7 +27,7 @@ pub struct Loops {
 pub struct Unconnected(pub usize);
 
 /// The tree being built: joint towards the ground of every body that was reached.
-struct Tree {
+struct SpanningTree {
     towards_ground: Vec<Option<usize>>,
     order: Vec<usize>,
 }
@@ -51,7 +51,7 @@ impl Loops {
     }
 
     /// The loops that a tree leaves.
-    fn along(structure: &Structure, tree: &Tree) -> Result<Self, Vec<Unconnected>> {
+    fn along(structure: &Structure, tree: &SpanningTree) -> Result<Self, Vec<Unconnected>> {
         let lost = |(body, joint): (usize, &Option<usize>)| joint.is_none().then_some(Unconnected(body));
         let unconnected: Vec<_> = tree.towards_ground.iter().enumerate().filter_map(lost).collect();
         if !unconnected.is_empty() {
@@ -159,12 +159,12 @@ impl Loops {
 }
 
 /// Breadth first from the ground, joints in rising order, without those of `left_out`.
-fn breadth_first(structure: &Structure, left_out: &[usize]) -> Tree {
+fn breadth_first(structure: &Structure, left_out: &[usize]) -> SpanningTree {
     let mut usable = vec![true; structure.joints.len()];
     left_out.iter().for_each(|&k| usable[k] = false);
     let joints_of_bodies = structure.joints_of_bodies();
-    let mut tree = Tree { towards_ground: vec![None; structure.bodies.len()], order: Vec::new() };
-    let reach = |tree: &mut Tree, k: usize, from: Option<usize>| {
+    let mut tree = SpanningTree { towards_ground: vec![None; structure.bodies.len()], order: Vec::new() };
+    let reach = |tree: &mut SpanningTree, k: usize, from: Option<usize>| {
         let other = structure.joints[k].between.iter().find(|side| side.body() != from && side.body().is_some());
         if let Some(body) = other.and_then(|side| side.body()).filter(|_| usable[k])
             && tree.towards_ground[body].is_none()

@@ -12,8 +12,11 @@ pub use half::is_symmetric;
 pub use loops::{Loops, Unconnected};
 pub use ring::Abutment;
 
-use crate::geometry::{Region, Vec2};
+use crate::geometry::{Region, Vec2, cross};
 use std::ops::Range;
+
+/// Twice the area of the triangle at a flat corner, over the body's area.
+const FLAT: f64 = 1e-6;
 
 /// Standard gravity used throughout, m/s2.
 pub const GRAVITY: f64 = 9.81;
@@ -76,15 +79,35 @@ impl Side {
             Side::Support(_) => None,
         }
     }
+
+    /// The support, where one is there.
+    pub fn support(self) -> Option<usize> {
+        match self {
+            Side::Body(_) => None,
+            Side::Support(support) => Some(support),
+        }
+    }
 }
 
 /// An end of a joint. In an arch ring they lie on its two faces, which name them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "server", derive(serde::Serialize, utoipa::ToSchema))]
+#[cfg_attr(feature = "server", serde(rename_all = "snake_case"))]
 pub enum Face {
     /// The first end; the inner, lower face of an arch.
     Intrados,
     /// The second end; the outer, upper face of an arch.
     Extrados,
+}
+
+impl Face {
+    /// The end across the joint.
+    pub fn other(self) -> Self {
+        match self {
+            Face::Intrados => Face::Extrados,
+            Face::Extrados => Face::Intrados,
+        }
+    }
 }
 
 impl std::fmt::Display for Face {
@@ -198,6 +221,17 @@ pub struct Body {
     pub region: Region,
     /// Which of the structure's stones it is made of.
     pub stone: usize,
+}
+
+impl Body {
+    /// Whether it has four corners, each of them convex where its sides are straight: then it can be cut into subblocks as a
+    /// voussoir is.
+    pub fn is_quadrilateral(&self) -> bool {
+        let corner = |i: usize| self.corners[i % 4];
+        let turns = |i: usize| cross(corner(i + 1) - corner(i), corner(i + 2) - corner(i + 1));
+        let convex = || (0..4).all(|i| turns(i) > FLAT * self.region.area);
+        self.corners.len() == 4 && (self.sides != Sides::Straight || convex())
+    }
 }
 
 /// One arch ring of a structure: voussoirs from springing to springing.

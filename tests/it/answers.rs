@@ -5,8 +5,8 @@ use voussoir::api::read::read_question;
 use voussoir::api::request::Request;
 use voussoir::api::response::JobResult;
 use voussoir::collapse::{
-    Answer, BeamReport, CollapseReport, Cost, Crushing, ElasticCrushing, Governs, LimitWindow, Mode, Outcome,
-    PlasticCrushing, Reach, SafetyPoint, StressField, SubblockStress, Zone,
+    Answer, BeamReport, CollapseReport, Cost, Crushing, ElasticCrushing, Governs, LimitWindow, Mode, Note, Outcome,
+    PlasticCrushing, Reach, SafetyPoint, SafetyZone, StressField, SubblockStress,
 };
 use voussoir::geometry::Vec2;
 
@@ -28,7 +28,7 @@ fn beam_request() -> Request {
 }
 
 fn subblock() -> SubblockStress {
-    let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 2.0], [0.0, 2.0]].map(Vec2::from);
+    let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 2.0], [0.0, 2.0]].map(Vec2::from).to_vec();
     SubblockStress { voussoir: 4, place: [1, 2], centre: Vec2::new(0.5, 1.0), corners, stress: [-5.0, 1.0, 4.0] }
 }
 
@@ -46,8 +46,8 @@ fn point() -> SafetyPoint {
         governing: Reach::Unknown,
         governed_by: Governs::Instability,
         mode: Some(Mode::CrownRises),
-        zone: Some(Zone::CrownRises),
-        notes: vec!["mind the gap".to_owned()],
+        zone: Some(SafetyZone::CrownRises),
+        notes: vec![Note::YieldTooLate],
     }
 }
 
@@ -136,7 +136,7 @@ fn safety() -> Value {
         "instability": {"state": "at", "load_factor": 2.5},
         "updated_geometry": {"state": "at", "load_factor": 2.25}, "elastic": {"state": "never"},
         "plastic_section": {"state": "does_not_stand"}, "governing": {"state": "unknown"},
-        "governed_by": "instability", "mode": "crown_rises", "zone": "crown_rises", "notes": ["mind the gap"]
+        "governed_by": "instability", "mode": "crown_rises", "zone": "crown_rises", "notes": [Note::YieldTooLate.to_string()]
     })
 }
 

@@ -1,9 +1,14 @@
-//! What the chart of speed against accuracy takes for exact, against the oracle; and the verb on a small part of it.
+//! What the chart of speed against accuracy takes for exact, against the oracle; and a small part of it run.
+
+#[allow(clippy::print_stderr)]
+#[path = "../../benches/chart/measure/mod.rs"]
+mod measure;
 
 use crate::common::door;
 use crate::common::oracle::{Aim, Bond, Problem};
+use clap::Parser;
+use measure::{Options, measure_and_write};
 use serde_json::Value;
-use std::process::Command;
 
 fn scenes() -> Value {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/cases/chart/scenes.json");
@@ -40,22 +45,21 @@ fn exact_intensities_are_those_of_the_oracle() {
 }
 
 #[test]
-fn the_verb_runs_chosen_models_on_chosen_scenes() {
+fn chosen_models_run_on_chosen_scenes() {
     let place = std::env::temp_dir().join(format!("voussoir-chart-{}", std::process::id()));
     let chart = |more: &[&str]| {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_voussoir"));
-        command.args(["chart", "--out", place.to_str().unwrap()]).args(more).output().unwrap()
+        let words = ["chart", "--out", place.to_str().unwrap()].into_iter().chain(more.iter().copied());
+        measure_and_write(&Options::try_parse_from(words).unwrap())
     };
     let scene = ["--scene", "27 voussoirs, crown load", "--scene", "curved beam, true sectors"];
-    let output =
-        chart(&[&scene[..], &["--model", "limit window", "--model", "4 x 4", "--model", "asked 0.1"]].concat());
+    let first = chart(&[&scene[..], &["--model", "limit window", "--model", "4 x 4", "--model", "asked 0.1"]].concat());
     let read = |name: &str| std::fs::read_to_string(place.join(name)).unwrap();
     let (table, pictures) = (read("chart.csv"), [read("collapse.svg"), read("stress.svg")]);
     let again =
         chart(&[&scene[..], &["--model", "1 x 1", "--peers", place.join("chart.csv").to_str().unwrap()]].concat());
     let both = read("chart.csv");
     std::fs::remove_dir_all(&place).unwrap();
-    assert!(output.status.success() && again.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert_eq!((first, again), (Ok(()), Ok(())));
     let models: Vec<_> = table.lines().skip(1).map(|line| line.split(',').rev().nth(6).unwrap().to_owned()).collect();
     assert_eq!(models, ["1 x 1", "4 x 4", "limit window", "1 x 1", "4 x 4", "asked 0.1"], "{table}");
     assert_eq!(both.lines().count(), 1 + 2 + models.len(), "{both}");
@@ -66,5 +70,5 @@ fn the_verb_runs_chosen_models_on_chosen_scenes() {
                 && picture.contains("limit window") == picture.contains("Collapse"))
     );
     let unknown = chart(&["--scene", "no such scene"]);
-    assert!(!unknown.status.success() && String::from_utf8_lossy(&unknown.stderr).contains("27 voussoirs, crown load"));
+    assert!(unknown.is_err_and(|error| error.contains("27 voussoirs, crown load")));
 }

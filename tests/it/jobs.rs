@@ -8,7 +8,9 @@ use std::time::{Duration, Instant};
 use voussoir::budget::{Budget, LoadStep};
 
 use voussoir::collapse::{AnalysisError, Answer, SafetyPoint};
-use voussoir::jobs::{Dismissal, Failure, Job, JobId, JobStore, Limits, Product, Refusal, State, Status, Submission};
+use voussoir::jobs::{
+    Dismissal, Failure, Job, JobId, JobState, JobStore, Limits, Product, Refusal, Status, Submission,
+};
 
 const QUICK: f64 = 0.0;
 const ENDLESS: f64 = 1.0;
@@ -93,7 +95,7 @@ fn a_job_runs_to_its_report() {
     let accepted = store.submit(order(QUICK)).unwrap();
     assert_eq!((accepted.status(), *accepted.request), (Status::Accepted, QUICK));
     let job = until(&store, accepted.id, ended);
-    assert_eq!(job.state, State::Successful(Arc::new(answer())));
+    assert_eq!(job.state, JobState::Successful(Arc::new(answer())));
     assert!(job.wall_time().is_some());
     assert_eq!(job.id.get_version_num(), 7);
 }
@@ -103,7 +105,7 @@ fn a_panic_fails_the_job_and_nothing_else() {
     let store = store(1, 10, 10);
     let bad = store.submit(order(PANIC)).unwrap();
     let good = store.submit(order(QUICK)).unwrap();
-    assert_eq!(until(&store, bad.id, ended).state, State::Failed(Failure::Defect));
+    assert_eq!(until(&store, bad.id, ended).state, JobState::Failed(Failure::Defect));
     assert_eq!(until(&store, good.id, ended).status(), Status::Successful);
 }
 
@@ -112,7 +114,7 @@ fn an_error_is_kept_with_the_job() {
     let store = store(1, 10, 10);
     let job = store.submit(order(ERROR)).unwrap();
     let error = AnalysisError::NotFinite { what: "asked to fail" };
-    assert_eq!(until(&store, job.id, ended).state, State::Failed(Failure::Analysis(error)));
+    assert_eq!(until(&store, job.id, ended).state, JobState::Failed(Failure::Analysis(error)));
 }
 
 #[test]
@@ -309,7 +311,7 @@ fn what_is_kept_is_bounded_in_bytes() {
 fn an_answer_larger_than_all_that_is_kept_can_still_be_read() {
     let store = with(Limits { bytes: 500, ..limits(1, 100, 100) });
     let first = store.submit(order(QUICK)).unwrap();
-    assert!(matches!(until(&store, first.id, ended).state, State::Successful(_)));
+    assert!(matches!(until(&store, first.id, ended).state, JobState::Successful(_)));
     let second = store.submit(order(QUICK)).unwrap();
     until(&store, second.id, ended);
     assert!(store.get(first.id).is_none());
@@ -332,7 +334,7 @@ fn a_job_that_takes_too_long_fails() {
     let store = with(Limits { time: Duration::from_millis(30), ..limits(1, 10, 10) });
     let late = store.submit(order(ENDLESS)).unwrap();
     let job = until(&store, late.id, ended);
-    assert!(matches!(job.state, State::Failed(Failure::Overdue { events, .. }) if events > 0), "{:?}", job.state);
+    assert!(matches!(job.state, JobState::Failed(Failure::Overdue { events, .. }) if events > 0), "{:?}", job.state);
     let next = store.submit(order(QUICK)).unwrap();
     assert_eq!(until(&store, next.id, ended).status(), Status::Successful);
 }

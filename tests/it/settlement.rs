@@ -45,7 +45,7 @@ fn updated(report: &CollapseReport) -> &SettlementPath {
 }
 
 fn thrust(path: &SettlementPath) -> f64 {
-    path.points.last().unwrap().thrust
+    path.points.last().unwrap().forces[0].x
 }
 
 #[test]
@@ -161,8 +161,8 @@ fn the_spread_at_which_an_arch_falls_does_not_depend_on_how_far_it_was_asked_to_
     let [a, b] = [0.16, 0.9].map(|asked| {
         let points = updated(&shorter(asked)).points.clone();
         let after = points.iter().position(|p| asked * p.share >= 0.1).unwrap();
-        let (p, q) = (points[after - 1], points[after]);
-        p.thrust + (q.thrust - p.thrust) * (0.1 / asked - p.share) / (q.share - p.share)
+        let (p, q) = (&points[after - 1], &points[after]);
+        p.forces[0].x + (q.forces[0].x - p.forces[0].x) * (0.1 / asked - p.share) / (q.share - p.share)
     });
     assert!((a / b - 1.0).abs() < 1e-9, "{a} {b}");
 }
@@ -221,7 +221,7 @@ fn the_thrust_grows_with_the_spread_as_statics_of_the_moved_arch_say() {
     {
         let after = points.iter().position(|p| 0.4 * p.share >= spread).unwrap();
         let (a, b) = (&points[after - 1], &points[after]);
-        let thrust = a.thrust + (b.thrust - a.thrust) * (spread / 0.4 - a.share) / (b.share - a.share);
+        let thrust = a.forces[0].x + (b.forces[0].x - a.forces[0].x) * (spread / 0.4 - a.share) / (b.share - a.share);
         assert!((thrust / weight / expected - 1.0).abs() < 1e-3, "{spread}: {} not {expected}", thrust / weight);
     }
 }
@@ -241,9 +241,9 @@ fn springings_that_settle_or_turn_keep_the_thrust_within_its_range() {
         assert_eq!(path.end, SettlementEnd::Follows, "{left}");
         for point in &path.points {
             let slack = 1e-6 * range.highest;
-            assert!((range.lowest - slack..=range.highest + slack).contains(&point.thrust), "{left}: {}", point.thrust);
-            let weight = point.left + point.right.unwrap();
-            assert!((weight / (path.points[0].left + path.points[0].right.unwrap()) - 1.0).abs() < 1e-8);
+            assert!((range.lowest - slack..=range.highest + slack).contains(&point.forces[0].x), "{left}: {:?}", point);
+            let weight = |forces: &[Vec2]| forces[0].y + forces[1].y;
+            assert!((weight(&point.forces) / weight(&path.points[0].forces) - 1.0).abs() < 1e-8);
         }
     }
 }

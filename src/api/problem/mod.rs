@@ -6,7 +6,7 @@ use super::fault::Fault;
 use crate::jobs::{Failure, JobId, Refusal};
 use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
-use kinds::Kind;
+use kinds::ProblemKind;
 use serde::Serialize;
 use std::time::Duration;
 use utoipa::ToSchema;
@@ -37,14 +37,17 @@ pub struct Problem {
 
 impl Problem {
     /// A problem of a kind of ours.
-    pub fn of(kind: Kind, detail: impl Into<String>) -> Self {
-        let Kind { uri, status, title } = kind;
+    pub fn of(kind: ProblemKind, detail: impl Into<String>) -> Self {
+        let ProblemKind { uri, status, title } = kind;
         Problem { kind: uri, title, status: status.as_u16(), detail: detail.into(), errors: Vec::new() }
     }
 
     /// A problem that its status code says all about.
     pub fn plain(status: StatusCode, detail: impl Into<String>) -> Self {
-        Problem::of(Kind { uri: "about:blank", status, title: status.canonical_reason().unwrap_or("Error") }, detail)
+        Problem::of(
+            ProblemKind { uri: "about:blank", status, title: status.canonical_reason().unwrap_or("Error") },
+            detail,
+        )
     }
 
     /// The request is JSON, but describes no analysis.

@@ -3,9 +3,10 @@
 use super::plan::error as error_of;
 use super::summary::bare;
 use super::wording;
-use crate::api::request::{CurvedBeamRequest, SeamsRequest};
+use crate::api::prose::Digits;
+use crate::api::request::CurvedBeamRequest;
 use crate::api::response::{BeamResult, mesh_in_words};
-use crate::collapse::Digits;
+use crate::collapse::Seams;
 use std::time::Duration;
 
 /// Error and energy.
@@ -17,7 +18,7 @@ pub fn summary(result: &BeamResult, wall_time: Duration) -> String {
     let CurvedBeamRequest { inner_radius_m: inner, outer_radius_m: outer, end_shear_n_per_m: shear, .. } =
         request.curved_beam;
     let sides = if request.curved_beam.curved_sides { "true sectors" } else { "straight sides" };
-    let seams = if request.mesh.seams == SeamsRequest::Split { "split springs" } else { "corner springs" };
+    let seams = if request.mesh.seams == Seams::Split { "split springs" } else { "corner springs" };
     let off = 100.0 * (result.energy_j_per_m / result.exact_energy_j_per_m - 1.0);
     let energy = [result.energy_j_per_m, result.exact_energy_j_per_m].map(Digits);
     let mesh = match &result.plan {

@@ -5,8 +5,9 @@ use super::noun::in_its_words;
 use super::safety::{mesh, reach, zone};
 use super::summary::{append, bare, paragraph};
 use super::wording::{self, word};
-use crate::api::response::{CurvePointBody, GovernsWord, ReachBody, SafetyCurveResult};
-use crate::collapse::Digits;
+use crate::api::prose::Digits;
+use crate::api::response::{CurvePointBody, ReachBody, SafetyCurveResult};
+use crate::collapse::Governs;
 use comfy_table::Table;
 use std::time::Duration;
 
@@ -39,7 +40,7 @@ fn headline(result: &SafetyCurveResult) -> String {
             in_its_words(&result.request, &format!("The arch does not stand at abscissa {at}."))
         }
         (None, Some((factor, abscissa, governs))) => {
-            let what = if governs == GovernsWord::Crushing { "crushing" } else { "instability" };
+            let what = if governs == Governs::Crushing { "crushing" } else { "instability" };
             let (factor, at) = (Digits(factor), place(result, abscissa));
             format!("The least safety factor is {factor}, at abscissa {at}; {what} governs there.")
         }

@@ -1,10 +1,10 @@
 //! What was given, in words: the structure and its loads.
 
 use super::noun::noun;
+use crate::api::prose::Digits;
 use crate::api::request::{
     AnalysisRequest, ArchRequest, BridgeRequest, FillPressure, LoadEntry, LoadRequest, PointLoad, ProfileRequest,
 };
-use crate::collapse::Digits;
 
 /// What the structure is called, and the structure in a few words.
 pub fn structure(request: &AnalysisRequest) -> (&'static str, String) {

@@ -3,8 +3,8 @@
 
 use super::summary::bare;
 use super::wording::word;
+use crate::api::prose::Digits;
 use crate::api::response::{AnalysisResult, CrushedJointBody, HingeBody, LiftOffBody, SlideBody, StructureBody};
-use crate::collapse::Digits;
 use comfy_table::Table;
 
 /// Forces below this share of the largest are round-off.

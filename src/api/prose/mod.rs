@@ -2,10 +2,12 @@
 
 mod beam;
 mod curve;
+mod digits;
 mod figure;
 mod given;
 mod joints;
 mod moving;
+mod notes;
 mod noun;
 mod plan;
 mod safety;
@@ -13,6 +15,7 @@ mod sliding;
 mod summary;
 mod wording;
 
+pub use digits::Digits;
 pub use figure::figure;
 pub use noun::in_its_words;
 

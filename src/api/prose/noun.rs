@@ -17,7 +17,8 @@ pub fn in_its_words(request: &AnalysisRequest, text: &str) -> String {
     if noun == "arch" {
         return text.to_owned();
     }
-    let (mut words, mut rest) = (String::with_capacity(text.len()), text);
+    let text = text.replace("springings", "supports");
+    let (mut words, mut rest) = (String::with_capacity(text.len()), text.as_str());
     while let Some(at) = rest.find("arch") {
         let (before, after) = (&rest[..at], &rest[at + "arch".len()..]);
         let inside = |c: char| c.is_alphanumeric() || c == '_';

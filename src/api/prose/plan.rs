@@ -1,7 +1,7 @@
 //! In words what was modelled, and how accurate it is.
 
+use crate::api::prose::Digits;
 use crate::api::response::{EstimateBody, PlanBody};
-use crate::collapse::Digits;
 
 /// The mesh that was picked, and the errors.
 pub fn facts(plan: &PlanBody) -> Vec<(&'static str, String)> {

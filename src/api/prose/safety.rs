@@ -1,12 +1,13 @@
 //! Crushing and safety in words.
 
 use super::wording::{self, word};
-use crate::api::request::{AimRequest, CrushingRequest, MeshRequest, SeamsRequest, Subblocks, SubblocksRequest};
+use crate::api::prose::Digits;
+use crate::api::request::{AimRequest, MeshRequest, Subblocks, SubblocksRequest};
 use crate::api::response::{
-    AnalysisResult, CrushedSubblock, CrushingBody, ElasticCrushingBody, GovernsWord, PlasticCrushingBody, ReachBody,
-    SafetyBody, ZoneWord, mesh_in_words,
+    AnalysisResult, CrushedSubblock, CrushingBody, ElasticCrushingBody, PlasticCrushingBody, ReachBody, SafetyBody,
+    mesh_in_words,
 };
-use crate::collapse::Digits;
+use crate::collapse::{CrushingKind, Governs, SafetyZone, Seams};
 
 /// The mesh; none where every voussoir is one block.
 pub fn mesh(mesh: &MeshRequest) -> Option<String> {
@@ -16,8 +17,8 @@ pub fn mesh(mesh: &MeshRequest) -> Option<String> {
         SubblocksRequest::PerVoussoir(list) => list.iter().all(|each| *each == one),
     };
     let seams = match mesh.seams {
-        SeamsRequest::Split => "",
-        SeamsRequest::Corners => ", held at the corners of their seams",
+        Seams::Split => "",
+        Seams::Corners => ", held at the corners of their seams",
     };
     (!whole).then(|| format!("{}{seams}", mesh_in_words(mesh)))
 }
@@ -25,11 +26,11 @@ pub fn mesh(mesh: &MeshRequest) -> Option<String> {
 /// One sentence.
 pub fn headline(result: &AnalysisResult, safety: &SafetyBody) -> String {
     let kind = match &result.request.analysis {
-        AimRequest::Safety(request) if request.crushing == CrushingRequest::Elastic => "first yield",
+        AimRequest::Safety(request) if request.crushing == CrushingKind::Elastic => "first yield",
         _ => "plastic section",
     };
     let what = match safety.governed_by {
-        GovernsWord::Crushing => format!("its stone crushes ({kind})"),
+        Governs::Crushing => format!("its stone crushes ({kind})"),
         _ => "it falls".to_owned(),
     };
     match safety.governing {
@@ -47,7 +48,7 @@ pub fn headline(result: &AnalysisResult, safety: &SafetyBody) -> String {
             )
         }
         ReachBody::DoesNotStand => match safety.governed_by {
-            GovernsWord::Crushing => "The stone crushes under the scaled loads in full.".to_owned(),
+            Governs::Crushing => "The stone crushes under the scaled loads in full.".to_owned(),
             _ => "The arch does not stand under its scaled loads in full.".to_owned(),
         },
         ReachBody::Unknown => "No safety factor: it cannot be told. The notes say why.".to_owned(),
@@ -65,11 +66,11 @@ pub fn reach(reach: ReachBody) -> String {
 }
 
 /// The number of a zone of the paper.
-pub fn zone(zone: Option<ZoneWord>) -> &'static str {
+pub fn zone(zone: Option<SafetyZone>) -> &'static str {
     match zone {
-        Some(ZoneWord::CrownRises) => "I",
-        Some(ZoneWord::Crushing) => "II",
-        Some(ZoneWord::CrownDescends) => "III",
+        Some(SafetyZone::CrownRises) => "I",
+        Some(SafetyZone::Crushing) => "II",
+        Some(SafetyZone::CrownDescends) => "III",
         None => "-",
     }
 }

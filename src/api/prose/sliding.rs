@@ -1,7 +1,7 @@
 //! From where to where the load of an arch whose joints slide may lie.
 
+use crate::api::prose::Digits;
 use crate::api::response::Collapse;
-use crate::collapse::Digits;
 
 /// What it may bear beyond the least, in a sentence; nothing where that is the same.
 pub fn sentence(collapse: &Collapse, unit: &str) -> String {

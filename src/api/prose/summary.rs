@@ -1,10 +1,11 @@
 //! The answer as a person reads it.
 
 use super::noun::in_its_words;
-use super::wording::{self, Limit, word};
+use super::wording::{self, LimitEnd, word};
 use super::{given, joints, moving, plan, safety, sliding};
-use crate::api::response::{AnalysisResult, OutcomeWord};
-use crate::collapse::Digits;
+use crate::api::prose::Digits;
+use crate::api::response::AnalysisResult;
+use crate::collapse::Outcome;
 use comfy_table::{Table, presets};
 use std::fmt::Write;
 use std::time::Duration;
@@ -15,7 +16,7 @@ pub fn summary(result: &AnalysisResult, wall_time: Duration) -> String {
     let headline = wording::wrapped(&wording::headline(result));
     let mut text = format!("{name}{headline}\n\n{}\n", facts(result, wall_time).trim_fmt());
     let structure = result.structure.as_ref();
-    if result.outcome == OutcomeWord::StandsInWindow {
+    if result.outcome == Outcome::StandsInWindow {
         for (name, limit) in ["Lower", "Upper"].into_iter().zip(wording::limits(result)) {
             window_end(&mut text, name, limit, result);
         }
@@ -24,7 +25,7 @@ pub fn summary(result: &AnalysisResult, wall_time: Duration) -> String {
         append(&mut text, "Sliding joints", joints::slides(&result.slides, structure));
         append(&mut text, "Joints that part altogether", joints::lift_offs(&result.lift_offs, structure));
     }
-    let at = if result.outcome == OutcomeWord::StandsInWindow {
+    let at = if result.outcome == Outcome::StandsInWindow {
         format!("the {}", wording::shown(result))
     } else {
         "the end of the path".to_owned()
@@ -95,12 +96,12 @@ fn collapse_facts(result: &AnalysisResult) -> Vec<(&'static str, String)> {
     let mut lines = Vec::new();
     if let Some(collapse) = &result.collapse {
         // An arch that falls as built has no load to fall at; a window has two.
-        if matches!(result.outcome, OutcomeWord::Collapse | OutcomeWord::CannotTell) {
+        if matches!(result.outcome, Outcome::Collapse | Outcome::CannotTell) {
             lines.push(("intensity", wording::intensity(result, collapse)));
             lines.push(("load factor", Digits(collapse.load_factor).to_string()));
             lines.extend(sliding::fact(collapse, wording::unit(result)).map(|range| ("range", range)));
         }
-        if result.outcome != OutcomeWord::StandsInWindow {
+        if result.outcome != Outcome::StandsInWindow {
             lines.push(("mode", word(&collapse.mode)));
         }
         if result.safety.is_none() {
@@ -127,7 +128,7 @@ fn explanation(result: &AnalysisResult) -> &'static str {
     }
 }
 
-fn window_end(text: &mut String, name: &str, limit: Option<Limit<'_>>, result: &AnalysisResult) {
+fn window_end(text: &mut String, name: &str, limit: Option<LimitEnd<'_>>, result: &AnalysisResult) {
     let Some(limit) = limit else {
         return paragraph(text, &format!("{name} end: none was found."));
     };

@@ -2,11 +2,9 @@
 
 use super::noun::in_its_words;
 use super::{moving, safety, sliding};
-use crate::api::request::DirectionRequest;
-use crate::api::response::{
-    AnalysisResult, Collapse, HingeBody, LiftOffBody, MethodWord, MotionBody, OutcomeWord, SlideBody,
-};
-use crate::collapse::Digits;
+use crate::api::prose::Digits;
+use crate::api::response::{AnalysisResult, Collapse, HingeBody, LiftOffBody, MethodWord, MotionBody, SlideBody};
+use crate::collapse::{Direction, Outcome};
 use serde::Serialize;
 
 /// Longest line of prose, characters.
@@ -14,7 +12,7 @@ const WIDTH: usize = 100;
 
 /// One end of the range of intensities in which an arch stands.
 #[derive(Clone, Copy)]
-pub struct Limit<'a> {
+pub struct LimitEnd<'a> {
     pub collapse: &'a Collapse,
     pub hinges: &'a [HingeBody],
     pub slides: &'a [SlideBody],
@@ -22,14 +20,14 @@ pub struct Limit<'a> {
 }
 
 /// Lower and upper end of the path, each where there is one. The path runs both ways only in a window.
-pub fn limits(result: &AnalysisResult) -> [Option<Limit<'_>>; 2] {
-    let main = result.collapse.as_ref().map(|collapse| Limit {
+pub fn limits(result: &AnalysisResult) -> [Option<LimitEnd<'_>>; 2] {
+    let main = result.collapse.as_ref().map(|collapse| LimitEnd {
         collapse,
         hinges: &result.hinges,
         slides: &result.slides,
         lift_offs: &result.lift_offs,
     });
-    let other = result.other_end.as_ref().map(|end| Limit {
+    let other = result.other_end.as_ref().map(|end| LimitEnd {
         collapse: &end.collapse,
         hinges: &end.hinges,
         slides: &end.slides,
@@ -68,25 +66,25 @@ fn of_an_arch(result: &AnalysisResult) -> String {
         return moving::headline(settlement);
     }
     let sentence = match (result.outcome, &result.collapse) {
-        (OutcomeWord::Collapse, Some(collapse)) if collapse.load_factor == 0.0 => at_once(result),
-        (OutcomeWord::Collapse, Some(collapse)) => {
+        (Outcome::Collapse, Some(collapse)) if collapse.load_factor == 0.0 => at_once(result),
+        (Outcome::Collapse, Some(collapse)) => {
             let first = if result.updated_geometry.is_some() { " at first order" } else { "" };
             let moved = moving::before_the_start(result).unwrap_or_default();
             let more = sliding::sentence(collapse, unit(result));
             format!("The arch collapses{first} {}.{more}{}{moved}", reached(result, collapse), with_strength(result))
         }
-        (OutcomeWord::StandsInWindow, _) => in_window(result) + &with_strength(result),
-        (OutcomeWord::FallsAsBuilt, _) => falls(result).to_owned(),
-        (OutcomeWord::SlidesAsBuilt, _) => {
+        (Outcome::StandsInWindow, _) => in_window(result) + &with_strength(result),
+        (Outcome::FallsAsBuilt, _) => falls(result).to_owned(),
+        (Outcome::SlidesAsBuilt, _) => {
             "The arch slides as its loads come on, although limit analysis finds equilibrium: whether it stands depends on \
              how it was built."
                 .to_owned()
         }
-        (OutcomeWord::NeverCollapses, _) => stands(result) + &with_strength(result),
-        (OutcomeWord::CannotTell, _) => {
+        (Outcome::NeverCollapses, _) => stands(result) + &with_strength(result),
+        (Outcome::CannotTell, _) => {
             "No answer: what was found cannot be trusted. The notes say why.".to_owned()
         }
-        (OutcomeWord::Crushes, _) => {
+        (Outcome::Crushes, _) => {
             "The stone crushes before the scaled loads begin to act. The notes say how.".to_owned()
         }
         (outcome, _) => format!("Outcome: {}.", word(&outcome)),
@@ -115,7 +113,7 @@ fn with_strength(result: &AnalysisResult) -> String {
     let start = result.start_load_factor * result.request.load_factor.intensity_per_unit;
     let [low, high] = plastic.window.unwrap_or([Some(f64::INFINITY), None]);
     let stands = low.is_none_or(|low| low <= start) && high.is_none_or(|high| high >= start);
-    if let (true, OutcomeWord::Collapse, Some(collapse)) = (stands, result.outcome, &result.collapse) {
+    if let (true, Outcome::Collapse, Some(collapse)) = (stands, result.outcome, &result.collapse) {
         let end = if collapse.load_factor < 0.0 { low } else { high };
         let before = end.filter(|end| end.abs() < (1.0 - VISIBLE) * collapse.intensity.abs());
         let words = |end| format!(" Its joints crush before, at {} {} (plastic section).", Digits(end), unit(result));
@@ -179,10 +177,10 @@ fn stands(result: &AnalysisResult) -> String {
     let factor = &result.request.load_factor;
     let (tried, unit) = (Digits(result.cap * factor.intensity_per_unit), unit(result));
     match factor.direction {
-        DirectionRequest::Increase => {
+        Direction::Increase => {
             format!("The arch does not collapse: it stands up to {tried} {unit}, the most that was tried.")
         }
-        DirectionRequest::Decrease => format!(
+        Direction::Decrease => format!(
             "The arch does not collapse under its scaled loads reversed: it stands down to -{tried} {unit}, the most that was tried."
         ),
     }
@@ -195,7 +193,7 @@ pub fn shown(result: &AnalysisResult) -> &'static str {
 }
 
 fn reversed(result: &AnalysisResult) -> bool {
-    result.request.load_factor.direction == DirectionRequest::Decrease
+    result.request.load_factor.direction == Direction::Decrease
 }
 
 /// What limit analysis allows.

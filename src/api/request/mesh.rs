@@ -1,5 +1,6 @@
-//! How voussoirs are cut into subblocks.
+//! How bodies are cut into subblocks.
 
+use crate::collapse::Seams;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -8,23 +9,24 @@ pub const MAX_SUBBLOCKS_EACH_WAY: usize = 48;
 /// Most subblocks of an analysis.
 pub const MAX_SUBBLOCKS: usize = 100_000;
 
-/// Bonded subblocks inside every voussoir: at most 100,000 in all.
+/// Bonded subblocks inside every voussoir, and every body of a bridge or of blocks: at most 100,000 in all.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(default)]
 pub struct MeshRequest {
     /// How many.
     pub subblocks: SubblocksRequest,
     /// What holds them together.
-    pub seams: SeamsRequest,
+    pub seams: Seams,
 }
 
 /// Subblocks, the same in every voussoir or each its own.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SubblocksRequest {
-    /// The same in every voussoir; 1 x 1 by default: every voussoir is one block.
+    /// The same in every voussoir; 1 x 1 by default: every voussoir is one block. Of a bridge and of blocks the same in every
+    /// convex body with four corners; others are one block each, which the notes say.
     Uniform(Subblocks),
-    /// One entry per voussoir of the whole arch, left to right. Half an arch uses those of its own voussoirs, half a
+    /// One entry per voussoir of the whole arch, left to right, or per body in the order of `structure.bodies`. Half an arch uses those of its own voussoirs, half a
     /// keystone half of its number along, rounded up. Not with `curved_beam`.
     PerVoussoir(Vec<Subblocks>),
 }
@@ -38,21 +40,10 @@ impl Default for SubblocksRequest {
 /// Subblocks of one voussoir.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 pub struct Subblocks {
-    /// From intrados to extrados, 1 to 48.
+    /// From intrados to extrados, 1 to 48; of a body that is no voussoir, along its side from corner 0 to its last.
     #[schema(minimum = 1, maximum = 48)]
     pub radial: usize,
-    /// Along the arch, 1 to 48.
+    /// Along the arch, 1 to 48; of a body that is no voussoir, along its side from corner 0 to corner 1.
     #[schema(minimum = 1, maximum = 48)]
     pub along: usize,
-}
-
-/// What holds subblocks of one voussoir together.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum SeamsRequest {
-    /// A stiff pair of springs in the middle of every seam, and weak ones on what is linear along it.
-    #[default]
-    Split,
-    /// Stiff pairs of springs at both ends, as the paper's text reads; for comparison only, it locks in bending.
-    Corners,
 }

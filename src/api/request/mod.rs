@@ -12,6 +12,8 @@ mod motion;
 mod question;
 mod stones;
 
+use crate::collapse::{DEFAULT_PENALTY_RATIO, Direction, Geometry, PlaneModel};
+use crate::structure::Stone;
 pub use accuracy::*;
 pub use arch::*;
 pub use beam::*;
@@ -21,11 +23,8 @@ pub use loads::*;
 pub use mesh::*;
 pub use motion::*;
 pub use question::*;
-pub use stones::*;
-
-use crate::collapse::DEFAULT_PENALTY_RATIO;
-use crate::structure::Stone;
 use serde::{Deserialize, Serialize};
+pub use stones::*;
 use utoipa::ToSchema;
 
 /// Longest `name` and `unit`, characters.
@@ -74,11 +73,11 @@ pub struct AnalysisRequest {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schema(max_items = 100)]
     pub stones: Vec<NamedStone>,
-    /// Joints that differ from the rest; of an arch only.
+    /// Joints that differ from the rest.
     #[serde(default)]
-    #[schema(max_items = 2002)]
+    #[schema(max_items = 8000)]
     pub joint_overrides: Vec<JointOverride>,
-    /// How the voussoirs are cut into subblocks.
+    /// How the bodies are cut into subblocks.
     #[serde(default)]
     pub mesh: MeshRequest,
     /// How accurate the answer has to be.
@@ -96,12 +95,13 @@ pub struct AnalysisRequest {
     /// How the load path is followed.
     #[serde(default)]
     pub method: MethodRequest,
-    /// Whether it is followed on the moving arch too.
+    /// Whether it is followed on the moving arch too; that answer stands in `updated_geometry`, and needs method `event_path`.
     #[serde(default)]
-    pub geometry: GeometryRequest,
-    /// Whether joints crush on the load path: where joints of plastic sections crush, no contact is pressed harder than the least
-    /// compressive strength, so that collapse, hinges and thrust line are those of an arch whose joints crush. For a collapse at
-    /// first order, found event by event, of whole stones. Without it crushing is told beside the path of stone that does not.
+    pub geometry: Geometry,
+    /// Whether joints crush on the load path: where joints of plastic sections crush, no contact is pressed harder than the
+    /// compressive strength of the weaker stone, so that collapse, hinges and thrust line are those of an arch whose joints crush. For
+    /// a collapse at first order, found event by event, of whole stones. Without it crushing is told beside the path of stone that
+    /// does not.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub crushing_in_path: bool,
     /// What the answer shows.
@@ -142,7 +142,7 @@ pub struct StoneRequest {
     #[schema(minimum = 1e3, maximum = 1e30)]
     pub compressive_strength_pa: f64,
     /// Plane stress or plane strain inside the stones.
-    pub plane: PlaneRequest,
+    pub plane: PlaneModel,
     /// Contact penalty as a multiple of Young's modulus, a pure number. Left out: 10, and 1 for a bridge and for blocks, whose
     /// joints slide: where they are stiffer than the stones, a load path may end higher.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -180,28 +180,18 @@ impl Default for StoneRequest {
             friction_angle_deg: (stone.friction_angle.to_degrees() * 1e9).round() / 1e9,
             cohesion_pa: stone.cohesion,
             compressive_strength_pa: stone.compressive_strength,
-            plane: PlaneRequest::Stress,
+            plane: PlaneModel::Stress,
             penalty_ratio: None,
             shear_penalty_ratio: 1.0,
         }
     }
 }
 
-/// Plane stress (no stress across the arch) or plane strain (no strain across it).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum PlaneRequest {
-    /// Plane stress.
-    Stress,
-    /// Plane strain.
-    Strain,
-}
-
 /// A joint with a law of its own; what is left out is that of the stone.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct JointOverride {
-    /// Which joint, from 0 at the left springing.
-    #[schema(maximum = 2001)]
+    /// Which joint, from 0; of an arch from the left springing, else as `structure.joints` of the answer has them.
+    #[schema(maximum = 8000)]
     pub joint: usize,
     /// Friction angle, degrees.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -218,7 +208,7 @@ pub struct JointOverride {
 #[serde(default)]
 pub struct LoadFactorRequest {
     /// From 0 upwards or downwards.
-    pub direction: DirectionRequest,
+    pub direction: Direction,
     /// Largest absolute load factor to try.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(exclusive_minimum = 0.0, maximum = 1e12)]
@@ -233,23 +223,8 @@ pub struct LoadFactorRequest {
 
 impl Default for LoadFactorRequest {
     fn default() -> Self {
-        LoadFactorRequest {
-            direction: DirectionRequest::Increase,
-            cap: None,
-            unit: "-".to_owned(),
-            intensity_per_unit: 1.0,
-        }
+        LoadFactorRequest { direction: Direction::Increase, cap: None, unit: "-".to_owned(), intensity_per_unit: 1.0 }
     }
-}
-
-/// Which way the load factor goes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum DirectionRequest {
-    /// From 0 upwards.
-    Increase,
-    /// From 0 downwards.
-    Decrease,
 }
 
 /// How the load path is followed.

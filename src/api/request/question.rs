@@ -1,5 +1,6 @@
 //! What is asked of an arch, and what the answer shows.
 
+use crate::collapse::CrushingKind;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -17,18 +18,49 @@ pub enum AimRequest {
     Collapse,
     /// How far the scaled loads, in full at load factor 1, can grow until the arch falls or its stone crushes.
     Safety(SafetyRequest),
-    /// What becomes of the arch as its springings move, its loads staying as they are.
+    /// What becomes of the structure as its supports move, its loads staying as they are.
     Settlement(SettlementRequest),
 }
 
-/// Where the springings end up. They move there in proportion; no load may be scaled.
+/// Most supports that move.
+pub const MAX_MOVEMENTS: usize = 2001;
+
+/// Where the supports end up. They move there in proportion; no load may be scaled.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(default)]
 pub struct SettlementRequest {
-    /// The left springing.
+    /// The left springing of an arch.
     pub left: MovementRequest,
-    /// The right springing; not for half an arch, whose other half moves as its mirror image.
+    /// The right springing of an arch; not for half an arch, whose other half moves as its mirror image.
     pub right: MovementRequest,
+    /// Supports of a bridge (`ground.left`, `ground.pier0` and so on, `ground.right`) or of blocks; the others stay.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schema(max_items = 2001)]
+    pub supports: Vec<SupportMovementRequest>,
+}
+
+/// Movement of one support. Components are at most as large as the structure.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct SupportMovementRequest {
+    /// The support's name.
+    #[schema(max_length = 200, pattern = "^[^\\x00-\\x1f\\x7f]*$")]
+    pub support: String,
+    /// To the right, m; negative to the left.
+    #[serde(default)]
+    #[schema(minimum = -1e5, maximum = 1e5)]
+    pub rightwards_m: f64,
+    /// Downwards, m; negative upwards.
+    #[serde(default)]
+    #[schema(minimum = -1e5, maximum = 1e5)]
+    pub downwards_m: f64,
+    /// Counter-clockwise, degrees.
+    #[serde(default)]
+    #[schema(minimum = -90.0, maximum = 90.0)]
+    pub rotation_deg: f64,
+    /// The point [x, y] that it turns about and whose movement is given, m. Left out: the middle of its joints, each with the
+    /// weight of its length.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub about_m: Option<[f64; 2]>,
 }
 
 /// Movement of one springing. Components are at most as large as the arch.
@@ -46,39 +78,15 @@ pub struct MovementRequest {
     pub rotation_deg: f64,
 }
 
-/// Whether equilibrium is that of the arch as built, or of the arch where its loads have moved it.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum GeometryRequest {
-    /// As built: first order, what limit analysis certifies.
-    #[default]
-    FirstOrder,
-    /// Both: besides, the load path is followed on the arch as it moves, with finite rotations; its answer stands in
-    /// `updated_geometry`. It depends on Young's modulus and the penalty. Needs method `event_path`.
-    Updated,
-}
-
 /// Safety against falling and crushing; needs scaled loads, direction `increase` and method `event_path`.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(default)]
 pub struct SafetyRequest {
     /// Which of the two answers about crushing counts; both are given.
-    pub crushing: CrushingRequest,
+    pub crushing: CrushingKind,
     /// Asks for a curve: the safety factor at every abscissa of a list.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub curve: Option<CurveRequest>,
-}
-
-/// When stone is taken to crush.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum CrushingRequest {
-    /// A joint would have to carry its normal force N so far off its middle that less than N / strength of its length
-    /// is left, and no other equilibrium avoids it. Does not depend on the mesh.
-    #[default]
-    PlasticSection,
-    /// The equivalent stress of Tresca reaches the strength in some subblock, as in the paper. Depends on the mesh.
-    Elastic,
 }
 
 /// What the safety factor is drawn over. Loads with `per_abscissa` are multiplied by the abscissa, at least one is.

@@ -2,7 +2,7 @@
 
 use super::Scale;
 use super::words::PlaceWord;
-use crate::collapse::{BlockState, ContactForce, HistoryPoint, Snapshot, Thrust};
+use crate::collapse::{BlockState, ContactPoint, HistoryPoint, Snapshot, Thrust};
 use serde::Serialize;
 use utoipa::ToSchema;
 
@@ -129,7 +129,7 @@ pub struct ContactColumns {
 }
 
 impl ContactColumns {
-    fn new(rows: &[ContactForce]) -> Self {
+    fn new(rows: &[ContactPoint]) -> Self {
         ContactColumns {
             joint: column(rows, |row| row.joint),
             face: column(rows, |row| PlaceWord::at(row.position)),
@@ -148,9 +148,10 @@ pub struct HistoryColumns {
     pub load_factor: Vec<f64>,
     /// Intensity.
     pub intensity: Vec<f64>,
-    /// Displacement of the stone at the crown, to the right.
+    /// Displacement of the stone at the crown, to the right: of several rings and spans that of the first which carries the most
+    /// of the scaled loads, of blocks the highest.
     pub crown_x_m: Vec<f64>,
-    /// Displacement of the stone at the crown, upwards.
+    /// The same, upwards.
     pub crown_y_m: Vec<f64>,
     /// Largest displacement of any centroid.
     pub largest_m: Vec<f64>,

@@ -2,8 +2,7 @@
 
 use super::Scale;
 use super::columns::column;
-use super::words::FaceWord;
-use crate::collapse::{FallingMotion, MotionContact, MotionEnd, MotionFrame, OpenHinge, Slid};
+use crate::collapse::{Face, FallingMotion, MotionContact, MotionEnd, MotionFrame, OpenHinge, Slid};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -118,7 +117,7 @@ pub struct OpenHingeColumns {
     /// Joint number.
     pub joint: Vec<usize>,
     /// Face at which the joint touches.
-    pub face: Vec<FaceWord>,
+    pub face: Vec<Face>,
     /// Angle between its two sides.
     pub opening_rad: Vec<f64>,
 }
@@ -232,7 +231,7 @@ impl OpenHingeColumns {
         OpenHingeColumns {
             frame: column(rows, |row| row.0),
             joint: column(rows, |row| row.1.joint),
-            face: column(rows, |row| row.1.face.into()),
+            face: column(rows, |row| row.1.face),
             opening_rad: column(rows, |row| row.1.opening),
         }
     }

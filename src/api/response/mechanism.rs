@@ -1,9 +1,9 @@
 //! One end of the load path: where it ends and how the arch falls there.
 
+use super::Scale;
 use super::columns::{ThrustColumns, VelocityColumns};
-use super::words::{FaceWord, GovernedBy, ModeWord};
-use super::{Scale, words};
-use crate::collapse::{CrushedJoint, Hinge, LiftOff, LimitWindow, LoadRange, PathEnd, Slide};
+use super::words::GovernedBy;
+use crate::collapse::{CrushedJoint, Face, Hinge, LiftOff, LimitWindow, LoadRange, Mode, PathEnd, Slide};
 use serde::Serialize;
 use utoipa::ToSchema;
 
@@ -24,7 +24,7 @@ pub struct Collapse {
     /// Lowest and highest intensity of the static theorem, null where unbounded; null where nothing stands.
     pub limit_window: Option<[Option<f64>; 2]>,
     /// How the arch moves.
-    pub mode: ModeWord,
+    pub mode: Mode,
     /// What ends the load path.
     pub governed_by: GovernedBy,
 }
@@ -56,9 +56,9 @@ pub struct HingeBody {
     /// Joint number: of an arch from 0 at the left springing, else the place in `structure.joints`.
     pub joint: usize,
     /// Face at which the joint stays pressed: the axis of rotation.
-    pub face: FaceWord,
+    pub face: Face,
     /// Face at which it opens.
-    pub opens: FaceWord,
+    pub opens: Face,
     /// The point that it turns about, [x, y]: the joint's end on `face`, or that of the block that is crushed there.
     pub at_m: [f64; 2],
     /// Position: angle from the nearer springing, about the angle centre of its span; null of a joint of no span.
@@ -102,7 +102,7 @@ pub struct CrushedJointBody {
     /// Joint number: of an arch from 0 at the left springing, else the place in `structure.joints`.
     pub joint: usize,
     /// The face.
-    pub face: FaceWord,
+    pub face: Face,
     /// The joint's end there, [x, y].
     pub at_m: [f64; 2],
     /// Length of the block: the normal force over the strength.
@@ -112,13 +112,13 @@ pub struct CrushedJointBody {
 impl From<&CrushedJoint> for CrushedJointBody {
     fn from(crushed: &CrushedJoint) -> Self {
         let CrushedJoint { joint, face, at, length } = *crushed;
-        CrushedJointBody { joint, face: face.into(), at_m: [at.x, at.y], length_m: length }
+        CrushedJointBody { joint, face, at_m: [at.x, at.y], length_m: length }
     }
 }
 
 /// One end of the load path.
 #[derive(Debug, Clone, Serialize, ToSchema)]
-pub struct End {
+pub struct EndBody {
     /// Where it is.
     #[serde(flatten)]
     pub collapse: Collapse,
@@ -137,9 +137,9 @@ pub struct End {
     pub velocities: VelocityColumns,
 }
 
-impl End {
+impl EndBody {
     pub(super) fn new(end: &PathEnd, window: Option<LimitWindow>, scale: &Scale<'_>) -> Self {
-        End {
+        EndBody {
             collapse: Collapse {
                 intensity: scale.intensity(end.load_factor),
                 unit: scale.unit.to_owned(),
@@ -147,7 +147,7 @@ impl End {
                 range: end.range.as_ref().map(|range| RangeBody::new(range, scale)),
                 residual: end.residual,
                 limit_window: window.map(|window| scale.window(window)),
-                mode: end.mechanism.mode.into(),
+                mode: end.mechanism.mode,
                 governed_by: if end.crushed.is_empty() { GovernedBy::Instability } else { GovernedBy::Crushing },
             },
             hinges: end.mechanism.hinges.iter().map(HingeBody::from).collect(),
@@ -177,7 +177,7 @@ impl RangeBody {
 
 impl From<&Hinge> for HingeBody {
     fn from(hinge: &Hinge) -> Self {
-        let face = words::FaceWord::from(hinge.face);
+        let face = hinge.face;
         HingeBody {
             joint: hinge.joint,
             face,

@@ -2,7 +2,7 @@
 
 use super::columns::column;
 use super::stress::counts_in_words;
-use crate::collapse::{BeamPlan, Estimate, MeshTried, Plan};
+use crate::collapse::{BeamPlan, Estimate, MeshTried, Plan, PlanReason};
 use serde::Serialize;
 use utoipa::ToSchema;
 
@@ -97,7 +97,7 @@ impl From<&Plan> for PlanBody {
             stress: plan.stress.map(Into::into),
             first_yield_change: plan.first_yield,
             meshes: plan.meshes.iter().copied().map(Into::into).collect(),
-            why: plan.why.clone(),
+            why: plan.why.iter().map(PlanReason::to_string).collect(),
         }
     }
 }

@@ -1,9 +1,11 @@
 //! Safety factors, at one point and along a curve.
 
+use super::StructureBody;
 use super::assumptions::assumptions;
-use super::words::{CrushingWord, GovernsWord, ModeWord, ZoneWord};
+use crate::api::prose::in_its_words;
 use crate::api::request::{AimRequest, AnalysisRequest, SafetyRequest};
-use crate::collapse::{Reach, SafetyPoint};
+use crate::api::translate;
+use crate::collapse::{CrushingKind, Governs, Mode, Note, Reach, SafetyPoint, SafetyZone};
 use serde::Serialize;
 use utoipa::ToSchema;
 
@@ -49,11 +51,11 @@ pub struct SafetyBody {
     /// The first of instability, on moving geometry too where asked, and the kind of crushing that counts.
     pub governing: ReachBody,
     /// Which of the two that is.
-    pub governed_by: GovernsWord,
+    pub governed_by: Governs,
     /// How the arch moves when it becomes a mechanism; null where it does not.
-    pub mode: Option<ModeWord>,
+    pub mode: Option<Mode>,
     /// Zone of Figs. 10 and 13 of the paper; null where nothing limits, or where the arch sways or slides.
-    pub zone: Option<ZoneWord>,
+    pub zone: Option<SafetyZone>,
     /// What to know before using the numbers.
     pub notes: Vec<String>,
 }
@@ -66,10 +68,10 @@ impl From<&SafetyPoint> for SafetyBody {
             elastic: point.elastic.into(),
             plastic_section: point.plastic_section.into(),
             governing: point.governing.into(),
-            governed_by: point.governed_by.into(),
-            mode: point.mode.map(Into::into),
-            zone: point.zone.map(Into::into),
-            notes: point.notes.clone(),
+            governed_by: point.governed_by,
+            mode: point.mode,
+            zone: point.zone,
+            notes: point.notes.iter().map(Note::to_string).collect(),
         }
     }
 }
@@ -80,7 +82,7 @@ pub struct SafetyCurveResult {
     /// Unit of the abscissae.
     pub unit: String,
     /// Which kind of crushing counts.
-    pub crushing: CrushingWord,
+    pub crushing: CrushingKind,
     /// One point per abscissa, in their order.
     pub points: Vec<CurvePointBody>,
     /// The request, defaults filled in.
@@ -101,14 +103,16 @@ impl SafetyCurveResult {
     /// Puts the points in the request's words; none for a request that asks for no curve.
     pub fn new(request: &AnalysisRequest, points: &[SafetyPoint]) -> Option<Self> {
         let AimRequest::Safety(SafetyRequest { crushing, curve: Some(curve) }) = &request.analysis else { return None };
+        let assumptions = assumptions(request, translate::named(request).map(StructureBody::from).as_ref());
         let body = |(point, &abscissa): (&SafetyPoint, &f64)| {
             let mut safety = SafetyBody::from(point);
-            safety.notes.extend(assumptions(request));
+            safety.notes.extend(assumptions.iter().cloned());
+            safety.notes.iter_mut().for_each(|note| *note = in_its_words(request, note));
             CurvePointBody { abscissa, safety }
         };
         Some(SafetyCurveResult {
             unit: curve.unit.clone(),
-            crushing: (*crushing).into(),
+            crushing: *crushing,
             points: points.iter().zip(&curve.abscissae).map(body).collect(),
             request: request.clone(),
         })

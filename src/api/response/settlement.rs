@@ -1,27 +1,12 @@
-//! What the movement of springings does.
+//! What the movement of supports does.
 
 use super::columns::{ThrustColumns, column};
 use super::mechanism::{HingeBody, LiftOffBody, SlideBody};
-use super::words::ModeWord;
-use crate::collapse::{SettlementEnd, SettlementPath, SettlementPoint, SettlementReport};
+use crate::collapse::{Mode, SettlementEnd, SettlementPath, SettlementPoint, SettlementReport};
 use serde::Serialize;
 use utoipa::ToSchema;
 
-/// How a movement ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum SettlementEndWord {
-    /// The arch follows to the end of the movement.
-    Follows,
-    /// The arch falls before the movement is complete.
-    Collapse,
-    /// On moving geometry the arch falls under its loads before any movement.
-    FallsAsLoaded,
-    /// The path could not be followed.
-    CannotTell,
-}
-
-/// What the movement of springings does, at first order and on moving geometry.
+/// What the movement of supports does, at first order and on moving geometry.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct SettlementBody {
     /// On the geometry as built: where the thrust ends up, the least or the greatest that limit analysis allows if the
@@ -35,7 +20,7 @@ pub struct SettlementBody {
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct SettlementPathBody {
     /// How it ended.
-    pub end: SettlementEndWord,
+    pub end: SettlementEnd,
     /// Why there is no answer, in words; null where there is one.
     pub why: Option<String>,
     /// The last share of the movement that the arch can reach: 1, or less where it falls; where the path was lost, the highest
@@ -43,14 +28,14 @@ pub struct SettlementPathBody {
     pub share_of_movement: f64,
     /// Share of the movement through which the arch follows without a snap: what can be relied on.
     pub safe_share_of_movement: f64,
-    /// Horizontal thrust at the end, with which the left springing pushes the arch to the right.
-    pub thrust_n_per_m: f64,
+    /// Horizontal thrust at the end, with which the left springing pushes the arch to the right; null of a bridge and of blocks.
+    pub thrust_n_per_m: Option<f64>,
     /// The path, event by event, from the arch as it stands before the movement to the largest share it reaches. Where the
     /// share falls in between, the arch snaps into another shape.
     pub history: SettlementColumns,
     /// How the crown goes on at the end.
-    pub mode: ModeWord,
-    /// Hinges on which the arch follows its springings, or falls, at the end.
+    pub mode: Mode,
+    /// Hinges on which the arch follows its supports, or falls, at the end.
     pub hinges: Vec<HingeBody>,
     /// Joints that slide at the end.
     pub slides: Vec<SlideBody>,
@@ -58,7 +43,7 @@ pub struct SettlementPathBody {
     pub lift_offs: Vec<LiftOffBody>,
     /// Resultant per joint at the end, as places on the joints as built.
     pub thrust_line: ThrustColumns,
-    /// Displacement of every voussoir at the end.
+    /// Displacement of every body at the end.
     pub displacements: DisplacementColumns,
     /// Share of the movement at which the arch first snaps into another shape; null where it does not.
     pub snap_share_of_movement: Option<f64>,
@@ -66,20 +51,33 @@ pub struct SettlementPathBody {
     pub residual: f64,
 }
 
-/// Thrust and reactions as the springings move.
+/// Forces of the ground as the supports move: of an arch thrust and reactions, of a bridge and of blocks `supports`.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct SettlementColumns {
     /// Share of the movement.
     pub share_of_movement: Vec<f64>,
-    /// Horizontal force of the left springing on the arch, to the right.
-    pub thrust_n_per_m: Vec<f64>,
+    /// Horizontal force of the left springing on the arch, to the right; null of a bridge and of blocks, as are the next two.
+    pub thrust_n_per_m: Option<Vec<f64>>,
     /// Vertical force of the left springing on the arch, upwards.
-    pub left_reaction_n_per_m: Vec<f64>,
+    pub left_reaction_n_per_m: Option<Vec<f64>>,
     /// Vertical force of the right springing on the arch, upwards; null for half an arch.
-    pub right_reaction_n_per_m: Vec<Option<f64>>,
+    pub right_reaction_n_per_m: Option<Vec<Option<f64>>>,
+    /// Every support of a bridge or of blocks; of an arch none.
+    pub supports: Vec<SupportForces>,
 }
 
-/// Displacement of every voussoir, left to right.
+/// Force of one support on what it carries.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub struct SupportForces {
+    /// The support's name.
+    pub support: String,
+    /// To the right.
+    pub rightwards_n_per_m: Vec<f64>,
+    /// Upwards.
+    pub upwards_n_per_m: Vec<f64>,
+}
+
+/// Displacement of every body, of an arch from left to right.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct DisplacementColumns {
     /// Of the centroid, to the right.
@@ -90,25 +88,32 @@ pub struct DisplacementColumns {
     pub rotation_rad: Vec<f64>,
 }
 
-impl From<&SettlementReport> for SettlementBody {
-    fn from(report: &SettlementReport) -> Self {
+/// Whose supports move.
+pub(super) enum Grounds<'a> {
+    Arch { half: bool },
+    Named(&'a [String]),
+}
+
+impl SettlementBody {
+    pub(super) fn new(report: &SettlementReport, grounds: &Grounds<'_>) -> Self {
         SettlementBody {
-            first_order: (&report.first_order).into(),
-            updated_geometry: report.updated.as_ref().map(Into::into),
+            first_order: SettlementPathBody::new(&report.first_order, grounds),
+            updated_geometry: report.updated.as_ref().map(|path| SettlementPathBody::new(path, grounds)),
         }
     }
 }
 
-impl From<&SettlementPath> for SettlementPathBody {
-    fn from(path: &SettlementPath) -> Self {
+impl SettlementPathBody {
+    fn new(path: &SettlementPath, grounds: &Grounds<'_>) -> Self {
+        let history = SettlementColumns::new(&path.points, grounds);
         SettlementPathBody {
-            end: path.end.into(),
+            end: path.end,
             why: path.why.map(|why| why.to_string()),
             share_of_movement: path.share,
             safe_share_of_movement: path.safe,
-            thrust_n_per_m: path.points.last().map_or(0.0, |point| point.thrust),
-            history: SettlementColumns::new(&path.points),
-            mode: path.mechanism.mode.into(),
+            thrust_n_per_m: history.thrust_n_per_m.as_ref().map(|thrust| thrust.last().copied().unwrap_or(0.0)),
+            history,
+            mode: path.mechanism.mode,
             hinges: path.mechanism.hinges.iter().map(Into::into).collect(),
             slides: path.mechanism.slides.iter().map(Into::into).collect(),
             lift_offs: path.mechanism.lift_offs.iter().map(Into::into).collect(),
@@ -125,23 +130,35 @@ impl From<&SettlementPath> for SettlementPathBody {
 }
 
 impl SettlementColumns {
-    fn new(rows: &[SettlementPoint]) -> Self {
-        SettlementColumns {
-            share_of_movement: column(rows, |row| row.share),
-            thrust_n_per_m: column(rows, |row| row.thrust),
-            left_reaction_n_per_m: column(rows, |row| row.left),
-            right_reaction_n_per_m: column(rows, |row| row.right),
-        }
-    }
-}
-
-impl From<SettlementEnd> for SettlementEndWord {
-    fn from(end: SettlementEnd) -> Self {
-        match end {
-            SettlementEnd::Follows => SettlementEndWord::Follows,
-            SettlementEnd::Collapse => SettlementEndWord::Collapse,
-            SettlementEnd::FallsAsLoaded => SettlementEndWord::FallsAsLoaded,
-            SettlementEnd::CannotTell => SettlementEndWord::CannotTell,
+    fn new(rows: &[SettlementPoint], grounds: &Grounds<'_>) -> Self {
+        let forces = |support: usize| {
+            [0, 1].map(|axis| column(rows, |row| row.forces.get(support).map_or(0.0, |force| force[axis])))
+        };
+        let share_of_movement = column(rows, |row| row.share);
+        match grounds {
+            Grounds::Arch { half } => {
+                let ([thrust, left], [_, right]) = (forces(0), forces(1));
+                SettlementColumns {
+                    share_of_movement,
+                    thrust_n_per_m: Some(thrust),
+                    left_reaction_n_per_m: Some(left),
+                    right_reaction_n_per_m: Some(right.into_iter().map(|up| (!half).then_some(up)).collect()),
+                    supports: Vec::new(),
+                }
+            }
+            Grounds::Named(names) => {
+                let support = |(k, name): (usize, &String)| {
+                    let [rightwards_n_per_m, upwards_n_per_m] = forces(k);
+                    SupportForces { support: name.clone(), rightwards_n_per_m, upwards_n_per_m }
+                };
+                SettlementColumns {
+                    share_of_movement,
+                    thrust_n_per_m: None,
+                    left_reaction_n_per_m: None,
+                    right_reaction_n_per_m: None,
+                    supports: names.iter().enumerate().map(support).collect(),
+                }
+            }
         }
     }
 }

@@ -14,7 +14,7 @@ pub struct StressFieldBody {
     pub load_factor: f64,
     /// Intensity.
     pub intensity: f64,
-    /// Every subblock: voussoir by voussoir, in it from joint to joint, in that from intrados to extrados.
+    /// Every subblock: voussoir by voussoir (body by body), in it from joint to joint, in that from intrados to extrados.
     pub subblocks: SubblockColumns,
 }
 
@@ -31,20 +31,20 @@ impl StressFieldBody {
 /// Subblocks and the state of stress in them, which is constant in each; compression negative.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct SubblockColumns {
-    /// Which voussoir, from 0 on the left.
+    /// Which voussoir, from 0 on the left; of a bridge and of blocks which of `structure.bodies`.
     pub voussoir: Vec<usize>,
-    /// Place from the intrados, from 0.
+    /// Place from the intrados, from 0; of a body that is no voussoir, from its side between corners 0 and 1.
     pub radial: Vec<usize>,
-    /// Place from the joint before the voussoir, from 0.
+    /// Place from the joint before the voussoir, from 0; of a body that is no voussoir, from its side between corners 3 and 0.
     pub along: Vec<usize>,
     /// Centroid.
     pub centre_x_m: Vec<f64>,
     /// Centroid.
     pub centre_y_m: Vec<f64>,
-    /// Corners, counter-clockwise from the intrados end at the joint before.
-    pub corners_x_m: Vec<[f64; 4]>,
-    /// Corners, counter-clockwise from the intrados end at the joint before.
-    pub corners_y_m: Vec<[f64; 4]>,
+    /// Corners, counter-clockwise from the intrados end at the joint before: four, but all of a whole body that has more or less.
+    pub corners_x_m: Vec<Vec<f64>>,
+    /// The same corners.
+    pub corners_y_m: Vec<Vec<f64>>,
     /// Horizontal normal stress.
     pub sigma_x_pa: Vec<f64>,
     /// Vertical normal stress.
@@ -67,8 +67,8 @@ impl SubblockColumns {
             along: column(rows, |row| row.place[1]),
             centre_x_m: column(rows, |row| row.centre.x),
             centre_y_m: column(rows, |row| row.centre.y),
-            corners_x_m: column(rows, |row| row.corners.map(|corner| corner.x)),
-            corners_y_m: column(rows, |row| row.corners.map(|corner| corner.y)),
+            corners_x_m: column(rows, |row| row.corners.iter().map(|corner| corner.x).collect()),
+            corners_y_m: column(rows, |row| row.corners.iter().map(|corner| corner.y).collect()),
             sigma_x_pa: column(rows, |row| row.stress[0]),
             sigma_y_pa: column(rows, |row| row.stress[1]),
             tau_xy_pa: column(rows, |row| row.stress[2]),

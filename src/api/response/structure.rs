@@ -14,6 +14,9 @@ pub struct StructureBody {
     pub joints: Vec<JointBody>,
     /// Names of all pieces of ground.
     pub supports: Vec<String>,
+    /// Bodies that no mesh cuts.
+    #[serde(skip)]
+    pub(super) whole: Vec<usize>,
 }
 
 /// A body: a stone, or a block of a pier or an abutment.
@@ -49,6 +52,7 @@ impl From<Layout> for StructureBody {
         let corners = structure.bodies.iter().map(|body| body.corners.iter().map(|&corner| corner.into()).collect());
         let bodies =
             bodies.iter().cloned().zip(corners).map(|(name, corners_m)| BodyBody { name, corners_m }).collect();
-        StructureBody { bodies, joints, supports }
+        let whole = structure.bodies.iter().enumerate().filter(|(_, body)| !body.is_quadrilateral());
+        StructureBody { bodies, joints, supports, whole: whole.map(|(k, _)| k).collect() }
     }
 }

@@ -2,33 +2,16 @@
 
 use super::Scale;
 use super::mechanism::{HingeBody, LiftOffBody, SlideBody};
-use super::words::ModeWord;
-use crate::collapse::{CollapseReport, Outcome, UpdatedEnd, UpdatedGeometry};
+use crate::collapse::{CollapseReport, Mode, Outcome, UpdatedEnd, UpdatedGeometry};
 use serde::Serialize;
 use utoipa::ToSchema;
-
-/// How the path on moving geometry ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum UpdatedEndWord {
-    /// The arch falls at the highest load of the path.
-    Collapse,
-    /// The arch falls before the loads at the start of the path have come on in full.
-    FallsAsLoaded,
-    /// Stands up to the cap.
-    StandsToCap,
-    /// Stands up to a load that strains the stone, or moves the arch, beyond what the model describes.
-    BeyondModel,
-    /// The path could not be followed.
-    CannotTell,
-}
 
 /// The answer on moving geometry. It depends on Young's modulus and the penalty: as they grow it tends to the first-order one, unless
 /// joints slide and the path takes another turn.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct UpdatedBody {
     /// How the path ended.
-    pub end: UpdatedEndWord,
+    pub end: UpdatedEnd,
     /// Why there is no answer, in words; null where there is one.
     pub why: Option<String>,
     /// Intensity there: at collapse, or the highest at which the arch is known to stand; null where it falls as loaded, or where
@@ -46,7 +29,7 @@ pub struct UpdatedBody {
     /// Largest displacement of a stone's centroid at that load.
     pub largest_displacement_m: Option<f64>,
     /// How the crown moves as the arch begins to fall; null where it does not.
-    pub mode: Option<ModeWord>,
+    pub mode: Option<Mode>,
     /// Hinges as the arch begins to fall.
     pub hinges: Vec<HingeBody>,
     /// Sliding joints as the arch begins to fall.
@@ -66,7 +49,7 @@ impl UpdatedBody {
         let over = updated.load_factor.zip(first_order).map(|(updated, first)| updated / first);
         let mechanism = updated.mechanism.as_ref();
         UpdatedBody {
-            end: updated.end.into(),
+            end: updated.end,
             why: updated.why.map(|why| why.to_string()),
             intensity: updated.load_factor.map(|factor| scale.intensity(factor)),
             load_factor: updated.load_factor,
@@ -75,24 +58,12 @@ impl UpdatedBody {
             share_of_loads: updated.share_of_loads,
             crown_displacement_m: updated.crown.map(Into::into),
             largest_displacement_m: updated.largest,
-            mode: mechanism.map(|mechanism| mechanism.mode.into()),
+            mode: mechanism.map(|mechanism| mechanism.mode),
             hinges: mechanism.map_or_else(Vec::new, |m| m.hinges.iter().map(Into::into).collect()),
             slides: mechanism.map_or_else(Vec::new, |m| m.slides.iter().map(Into::into).collect()),
             lift_offs: mechanism.map_or_else(Vec::new, |m| m.lift_offs.iter().map(Into::into).collect()),
             snap_intensity: updated.snap.map(|at| scale.intensity(at)),
             residual: updated.residual,
-        }
-    }
-}
-
-impl From<UpdatedEnd> for UpdatedEndWord {
-    fn from(end: UpdatedEnd) -> Self {
-        match end {
-            UpdatedEnd::Collapse => UpdatedEndWord::Collapse,
-            UpdatedEnd::FallsAsLoaded => UpdatedEndWord::FallsAsLoaded,
-            UpdatedEnd::StandsToCap => UpdatedEndWord::StandsToCap,
-            UpdatedEnd::BeyondModel => UpdatedEndWord::BeyondModel,
-            UpdatedEnd::CannotTell => UpdatedEndWord::CannotTell,
         }
     }
 }

@@ -2,10 +2,9 @@
 
 use crate::api::fault::Faults;
 use crate::api::request::{
-    AccuracyRequest, AimRequest, AnalysisRequest, GeometryRequest, MAX_SUBBLOCKS, MethodRequest, SeamsRequest,
-    SubblocksRequest,
+    AccuracyRequest, AimRequest, AnalysisRequest, MAX_SUBBLOCKS, MethodRequest, SubblocksRequest,
 };
-use crate::collapse::Accuracy;
+use crate::collapse::{Accuracy, Geometry, Seams};
 use crate::structure::{Sides, Structure};
 
 /// The accuracy asked for, where one is.
@@ -16,7 +15,7 @@ pub fn accuracy(request: &AnalysisRequest, structure: Option<&Structure>, faults
     faults.require(request.method == MethodRequest::EventPath, "/method", detail);
     let detail = "on moving geometry the answer depends on the mesh by an error that is not estimated: leave accuracy out \
                   and name a mesh, or set geometry to `first_order`";
-    faults.require(request.geometry == GeometryRequest::FirstOrder, "/geometry", detail);
+    faults.require(request.geometry == Geometry::FirstOrder, "/geometry", detail);
     let curve = matches!(&request.analysis, AimRequest::Safety(safety) if safety.curve.is_some());
     faults.require(!curve, "/accuracy", "a curve does not tell how accurate its points are: leave accuracy out");
     let settles = matches!(request.analysis, AimRequest::Settlement(_));
@@ -26,7 +25,7 @@ pub fn accuracy(request: &AnalysisRequest, structure: Option<&Structure>, faults
         let detail = "accuracy.stress finds the mesh itself: leave the subblocks out, or accuracy.stress";
         faults.require(own, "/mesh/subblocks", detail);
         let detail = "stress converges with split seams only: set seams to `split`, or leave accuracy.stress out";
-        faults.require(request.mesh.seams == SeamsRequest::Split, "/mesh/seams", detail);
+        faults.require(request.mesh.seams == Seams::Split, "/mesh/seams", detail);
         if let Some(k) = structure
             .and_then(|structure| structure.voussoirs().iter().position(|stone| stone.sides == Sides::Compound))
         {

@@ -4,6 +4,7 @@ use super::MAX_LENGTH_M;
 use super::profile::profile;
 use super::stone::joint_law;
 use crate::api::fault::{Faults, Shown};
+use crate::api::prose::Digits;
 use crate::api::request::{
     ArchRequest, ExtradosCircle, JointsRequest, LineRequest, ProfileRequest, SpringingJoints, Surveyed,
     ThicknessRequest,
@@ -11,7 +12,6 @@ use crate::api::request::{
 use crate::arch::profile::Profile;
 use crate::arch::ring::{JointEnds, JointLines, Line, Ring, Thickness, stations};
 use crate::arch::{ArchFault, MAX_VOUSSOIRS, assemble, stand_on_abutments, straight_voussoirs};
-use crate::collapse::Digits;
 use crate::geometry::Vec2;
 use crate::structure::{Joint, JointLaw, Stone, Structure};
 

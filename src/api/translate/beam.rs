@@ -2,8 +2,8 @@
 
 use super::{MAX_FORCE_N_PER_M, MAX_LENGTH_M, check_text, mesh, stone};
 use crate::api::fault::{Faults, Shown};
-use crate::api::request::{BeamRequest, SeamsRequest, Subblocks, SubblocksRequest};
-use crate::collapse::CurvedBeam;
+use crate::api::request::{BeamRequest, Subblocks, SubblocksRequest};
+use crate::collapse::{CurvedBeam, Seams};
 
 /// Ratio of the radii for which the closed form keeps its digits.
 const RATIO: [f64; 2] = [1.001, 1000.0];
@@ -38,7 +38,7 @@ pub fn beam(request: &BeamRequest, faults: &mut Faults) -> Option<CurvedBeam> {
         let own = request.mesh.subblocks == BeamRequest::default_mesh().subblocks;
         faults.require(own, "/mesh/subblocks", detail);
         let detail = "stress converges with split seams only: set seams to `split`, or leave accuracy out";
-        faults.require(request.mesh.seams == SeamsRequest::Split, "/mesh/seams", detail);
+        faults.require(request.mesh.seams == Seams::Split, "/mesh/seams", detail);
     }
     let Subblocks { radial, along } = subblocks(request, faults)?;
     Some(CurvedBeam {
@@ -46,10 +46,10 @@ pub fn beam(request: &BeamRequest, faults: &mut Faults) -> Option<CurvedBeam> {
         outer_radius: outer,
         shear,
         stone,
-        plane: request.stone.plane.into(),
+        plane: request.stone.plane,
         subblocks: [radial, along],
         accuracy,
-        seams: request.mesh.seams.into(),
+        seams: request.mesh.seams,
         curved_sides: beam.curved_sides,
     })
 }

@@ -1,7 +1,8 @@
 //! Crushing in the load path.
 
 use crate::api::fault::Faults;
-use crate::api::request::{AimRequest, AnalysisRequest, GeometryRequest, MethodRequest};
+use crate::api::request::{AimRequest, AnalysisRequest, MethodRequest};
+use crate::collapse::Geometry;
 
 /// What crushing in the path does not go with.
 pub fn check(request: &AnalysisRequest, subblocks: &[[usize; 2]], faults: &mut Faults) {
@@ -17,7 +18,7 @@ pub fn check(request: &AnalysisRequest, subblocks: &[[usize; 2]], faults: &mut F
         ),
         (
             "/geometry",
-            request.geometry == GeometryRequest::FirstOrder,
+            request.geometry == Geometry::FirstOrder,
             "joints crush on the arch as built only: set geometry to `first_order`",
         ),
         (

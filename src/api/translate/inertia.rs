@@ -1,6 +1,6 @@
 //! What the mass of fill does in an acceleration.
 
-use super::loads::{Forces, as_fill};
+use super::loads::{LoadForces, as_fill};
 use crate::api::fault::Faults;
 use crate::api::request::{LoadEntry, LoadRequest};
 use crate::geometry::Vec2;
@@ -9,7 +9,7 @@ use crate::structure::{GRAVITY, Structure};
 
 /// Adds what all fill among `entries` does in the acceleration `entry`. The force has the coefficients of both, and is scaled
 /// where one of the two is. A fill that does not fit the arch has a fault of its own.
-pub fn add(entries: &[LoadEntry], entry: &LoadEntry, structure: &Structure, pieces: &[usize], forces: &mut Forces) {
+pub fn add(entries: &[LoadEntry], entry: &LoadEntry, structure: &Structure, pieces: &[usize], forces: &mut LoadForces) {
     let LoadRequest::BodyAcceleration(body) = &entry.load else { return };
     let acceleration = GRAVITY * Vec2::new(body.x_g, body.y_g);
     for (other, fill) in fills(entries) {

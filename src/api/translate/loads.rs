@@ -5,11 +5,11 @@ use super::{
     MAX_DENSITY_KG_M3, MAX_FACTOR, MAX_FORCE_N_PER_M, MAX_LENGTH_M, MAX_STRESS_PA, check_text, friction_angle, inertia,
 };
 use crate::api::fault::{Faults, Shown};
+use crate::api::prose::Digits;
 use crate::api::request::{
     AnalysisRequest, FillPressure, LateralPressure, LoadEntry, LoadRequest, PatchLoad, PointForceLoad, PointLoad,
 };
 use crate::arch::MAX_VOUSSOIRS;
-use crate::collapse::Digits;
 use crate::geometry::{Vec2, distance_from_segment, lies_inside};
 use crate::structure::load::{Band, Fill, Load, LoadFault, Place};
 use crate::structure::{GRAVITY, PointForce};
@@ -39,14 +39,14 @@ pub fn forces_per_voussoir_of(entries: &[LoadEntry]) -> usize {
 
 /// Forces on voussoirs.
 #[derive(Default)]
-pub struct Forces {
+pub struct LoadForces {
     /// Those that stay.
     pub fixed: Vec<PointForce>,
     /// Those that the load factor multiplies.
     pub scaled: Vec<PointForce>,
 }
 
-impl Forces {
+impl LoadForces {
     /// Those that stay, or those that are scaled.
     pub fn of(&mut self, scaled: bool) -> &mut Vec<PointForce> {
         if scaled { &mut self.scaled } else { &mut self.fixed }
@@ -60,8 +60,8 @@ pub fn loads(
     whole: Option<&Layout>,
     pieces: &[usize],
     faults: &mut Faults,
-) -> Forces {
-    let mut all = Forces::default();
+) -> LoadForces {
+    let mut all = LoadForces::default();
     faults.require(
         !entries.is_empty(),
         "/loads",

@@ -3,12 +3,12 @@
 use super::MAX_FACTOR;
 use crate::api::fault::Faults;
 use crate::api::request::{
-    MAX_FIELDS, MAX_SUBBLOCKS, MAX_SUBBLOCKS_EACH_WAY, MeshRequest, ReportRequest, SeamsRequest, StressFieldRequest,
-    Subblocks, SubblocksRequest,
+    MAX_FIELDS, MAX_SUBBLOCKS, MAX_SUBBLOCKS_EACH_WAY, MeshRequest, ReportRequest, StressFieldRequest, Subblocks,
+    SubblocksRequest,
 };
 use crate::arch::MAX_VOUSSOIRS;
-use crate::collapse::{FieldAt, Seams};
-use crate::structure::{Sides, Structure};
+use crate::collapse::FieldAt;
+use crate::structure::{Body, Sides, Structure};
 
 /// Most subblocks in all stress fields of one answer together.
 const MAX_FIELD_SUBBLOCKS: usize = 400_000;
@@ -19,7 +19,7 @@ const MAX_VOUSSOIR_FAULTS: usize = 20;
 const UNIFORM: &str = "/mesh/subblocks/uniform";
 const PER_VOUSSOIR: &str = "/mesh/subblocks/per_voussoir";
 
-/// Subblocks of every voussoir of the whole arch, of which the first `analysed` count; one each where there are faults.
+/// Subblocks of every body of the whole structure (abutment blocks of an arch left out), of which the first `analysed` count; one each where there are faults.
 pub fn subblocks(
     request: &MeshRequest,
     whole: Option<&Structure>,
@@ -31,7 +31,8 @@ pub fn subblocks(
     let given = match &request.subblocks {
         SubblocksRequest::Uniform(each) => {
             check(UNIFORM, *each, faults);
-            vec![[each.radial, each.along]; voussoirs.unwrap_or(0)]
+            let cut = |body: &Body| if body.is_quadrilateral() { [each.radial, each.along] } else { [1, 1] };
+            whole.map_or_else(Vec::new, |whole| whole.voussoirs().iter().map(cut).collect())
         }
         SubblocksRequest::PerVoussoir(list) => {
             let detail = format!("{} entries for {} voussoirs: give one each", list.len(), voussoirs.unwrap_or(0));
@@ -67,7 +68,7 @@ pub fn check(here: &str, subblocks: Subblocks, faults: &mut Faults) {
     }
 }
 
-/// A voussoir with several arcs on a side has no sectors to be cut into.
+/// A voussoir with several arcs on a side has no sectors to be cut into, and a body that is no quadrilateral no grid.
 fn check_sides(request: &MeshRequest, structure: &Structure, subblocks: &[[usize; 2]], faults: &mut Faults) {
     let compound = |k: &usize| structure.bodies[*k].sides == Sides::Compound && subblocks[*k] != [1, 1];
     let uniform = matches!(request.subblocks, SubblocksRequest::Uniform(_));
@@ -79,6 +80,11 @@ fn check_sides(request: &MeshRequest, structure: &Structure, subblocks: &[[usize
              where the arcs meet, set curved_sides to false, or leave this voussoir at 1 x 1"
         );
         faults.add(pointer, detail);
+    }
+    let whole = |k: &usize| !structure.bodies[*k].is_quadrilateral() && subblocks[*k] != [1, 1];
+    for k in (0..structure.voussoirs().len()).filter(whole).take(MAX_VOUSSOIR_FAULTS) {
+        let detail = format!("body {k} is not convex with four corners, so it is not cut: leave it at 1 x 1");
+        faults.add(format!("{PER_VOUSSOIR}/{k}"), detail);
     }
 }
 
@@ -107,15 +113,6 @@ impl From<StressFieldRequest> for FieldAt {
             StressFieldRequest::UnitLoad => FieldAt::LoadFactor(1.0),
             StressFieldRequest::NearCollapse => FieldAt::NearCollapse,
             StressFieldRequest::LoadFactor(factor) => FieldAt::LoadFactor(factor),
-        }
-    }
-}
-
-impl From<SeamsRequest> for Seams {
-    fn from(seams: SeamsRequest) -> Self {
-        match seams {
-            SeamsRequest::Split => Seams::Split,
-            SeamsRequest::Corners => Seams::Corners,
         }
     }
 }

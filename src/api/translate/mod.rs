@@ -21,7 +21,7 @@ mod structure;
 use super::fault::{Fault, Faults};
 use super::request::{AimRequest, AnalysisRequest, MAX_TEXT, Request};
 use crate::collapse::Question;
-use site::Site;
+use site::Unloaded;
 use stone::friction_angle;
 
 pub use structure::{Layout, NO_STRUCTURE, named};
@@ -54,7 +54,7 @@ pub fn translate(request: &Request) -> Result<Question, Vec<Fault>> {
 }
 
 fn structure_question(request: &AnalysisRequest, faults: &mut Faults) -> Option<Question> {
-    let site = Site::new(request, faults);
+    let site = Unloaded::new(request, faults);
     let curve = match &request.analysis {
         AimRequest::Collapse => None,
         AimRequest::Safety(safety) => {

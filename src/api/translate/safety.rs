@@ -1,12 +1,10 @@
 //! Safety analyses of a request, alone or along a curve.
 
-use super::site::Site;
+use super::site::Unloaded;
 use super::{MAX_FACTOR, check_text, loads, mesh};
 use crate::api::fault::{Fault, Faults, Shown, lies_under};
-use crate::api::request::{
-    AimRequest, AnalysisRequest, CrushingRequest, CurveRequest, DirectionRequest, LoadEntry, MAX_ABSCISSAE,
-};
-use crate::collapse::{Aim, CrushingKind, CurvePoint};
+use crate::api::request::{AnalysisRequest, CurveRequest, LoadEntry, MAX_ABSCISSAE};
+use crate::collapse::{CurvePoint, Direction};
 use std::collections::BTreeSet;
 
 /// Most subblocks at all abscissae of a curve together.
@@ -24,7 +22,7 @@ pub fn check(request: &AnalysisRequest, faults: &mut Faults) {
     let detail = "a safety factor needs loads that grow: set scaled to true in at least one of loads";
     faults.require(scaled, "/analysis/safety", detail);
     let detail = "in a safety analysis loads grow: set direction to `increase`";
-    let increases = request.load_factor.direction == DirectionRequest::Increase;
+    let increases = request.load_factor.direction == Direction::Increase;
     faults.require(increases, "/load_factor/direction", detail);
     if let Some(cap) = request.load_factor.cap.filter(|&cap| cap > 0.0 && cap <= 1.0) {
         let detail = format!(
@@ -53,7 +51,7 @@ pub fn check_flags(request: &AnalysisRequest, curve: Option<&CurveRequest>, faul
 }
 
 /// The analysis at every abscissa; what is wrong with the loads at several of them is said once.
-pub fn points(site: &Site<'_>, curve: &CurveRequest, faults: &mut Faults) -> Option<Vec<CurvePoint>> {
+pub fn points(site: &Unloaded<'_>, curve: &CurveRequest, faults: &mut Faults) -> Option<Vec<CurvePoint>> {
     check_text(&format!("{CURVE}/unit"), &curve.unit, faults);
     let entries = &site.request.loads;
     if !(check_abscissae(curve, faults) && check_size(site, curve.abscissae.len(), faults)) {
@@ -117,7 +115,7 @@ fn check_abscissae(curve: &CurveRequest, faults: &mut Faults) -> bool {
 }
 
 /// Whether the curve keeps within what a job may take.
-fn check_size(site: &Site<'_>, abscissae: usize, faults: &mut Faults) -> bool {
+fn check_size(site: &Unloaded<'_>, abscissae: usize, faults: &mut Faults) -> bool {
     let subblocks = abscissae * mesh::total(site.subblocks().iter());
     let detail = format!(
         "abscissae times subblocks come to {subblocks}: keep to {MAX_CURVE_SUBBLOCKS} by fewer abscissae or a \
@@ -131,24 +129,5 @@ fn check_size(site: &Site<'_>, abscissae: usize, faults: &mut Faults) -> bool {
              {MAX_CURVE_FORCES} by fewer abscissae, by joining loads or by a coarser mesh"
         );
         faults.require(forces <= MAX_CURVE_FORCES, ABSCISSAE, detail)
-    }
-}
-
-impl From<&AimRequest> for Aim {
-    fn from(aim: &AimRequest) -> Self {
-        match aim {
-            AimRequest::Collapse => Aim::Collapse,
-            AimRequest::Safety(safety) => Aim::Safety { crushing: safety.crushing.into() },
-            AimRequest::Settlement(settlement) => Aim::Settlement([settlement.left, settlement.right].map(Into::into)),
-        }
-    }
-}
-
-impl From<CrushingRequest> for CrushingKind {
-    fn from(crushing: CrushingRequest) -> Self {
-        match crushing {
-            CrushingRequest::PlasticSection => CrushingKind::PlasticSection,
-            CrushingRequest::Elastic => CrushingKind::Elastic,
-        }
     }
 }

@@ -1,25 +1,28 @@
-//! Movements of springings.
+//! Movements of supports.
 
 use super::MAX_LENGTH_M;
-use super::site::Site;
+use super::site::Unloaded;
+use super::structure::Layout;
 use crate::api::fault::{Faults, Shown};
-use crate::api::request::{AnalysisRequest, DirectionRequest, MovementRequest, ReportRequest, SettlementRequest};
-use crate::collapse::{Digits, SpringingMovement};
+use crate::api::prose::Digits;
+use crate::api::request::{
+    AnalysisRequest, MAX_MOVEMENTS, MovementRequest, ReportRequest, SettlementRequest, SupportMovementRequest,
+};
+use crate::collapse::{Direction, SupportMovement};
+use crate::geometry::Vec2;
+use crate::structure::{Side, Structure};
 
-/// Whether a movement of springings can be followed.
-pub fn check(request: &AnalysisRequest, settlement: &SettlementRequest, site: &Site<'_>, faults: &mut Faults) {
-    let sides = [("left", settlement.left), ("right", settlement.right)];
-    let size = site.size();
-    for (side, movement) in sides {
-        check_movement(&format!("/analysis/settlement/{side}"), movement, size, faults);
+const HERE: &str = "/analysis/settlement";
+const SUPPORTS: &str = "/analysis/settlement/supports";
+
+/// Whether a movement of supports can be followed.
+pub fn check(request: &AnalysisRequest, settlement: &SettlementRequest, site: &Unloaded<'_>, faults: &mut Faults) {
+    match request.arch {
+        Some(_) => check_springings(request, settlement, site.size(), faults),
+        None => check_supports(settlement, site, faults),
     }
-    let still = |movement: MovementRequest| movement == MovementRequest::default();
-    let detail = "nothing moves: give left or right a movement, such as outwards_m";
-    faults.require(sides.iter().any(|(_, movement)| !still(*movement)), "/analysis/settlement", detail);
-    let detail = "the other half moves as the mirror image of this one: move left only, or set half to false";
-    faults.require(!request.half() || still(settlement.right), "/analysis/settlement/right", detail);
     for (i, _) in request.loads.iter().enumerate().filter(|(_, entry)| entry.scaled) {
-        let detail = "while springings move no load grows: set scaled to false, or leave the load out";
+        let detail = "while supports move no load grows: set scaled to false, or leave the load out";
         faults.add(format!("/loads/{i}/scaled"), detail);
     }
     check_idle(request, faults);
@@ -27,34 +30,109 @@ pub fn check(request: &AnalysisRequest, settlement: &SettlementRequest, site: &S
     faults.require(request.report.stress_fields.is_empty(), "/report/stress_fields", detail);
 }
 
+fn check_springings(request: &AnalysisRequest, settlement: &SettlementRequest, size: Option<f64>, faults: &mut Faults) {
+    let sides = [("left", settlement.left), ("right", settlement.right)];
+    for (side, movement) in sides {
+        let shift = [("outwards_m", movement.outwards_m), ("downwards_m", movement.downwards_m)];
+        check_movement(&format!("{HERE}/{side}"), shift, movement.rotation_deg, size, faults);
+    }
+    let detail = "an arch has no named supports: give left or right";
+    faults.require(settlement.supports.is_empty(), SUPPORTS, detail);
+    let detail = "nothing moves: give left or right a movement, such as outwards_m";
+    faults.require(sides.iter().any(|(_, movement)| !still(*movement)), HERE, detail);
+    let detail = "the other half moves as the mirror image of this one: move left only, or set half to false";
+    faults.require(!request.half() || still(settlement.right), format!("{HERE}/right"), detail);
+}
+
+fn check_supports(settlement: &SettlementRequest, site: &Unloaded<'_>, faults: &mut Faults) {
+    for (side, movement) in [("left", settlement.left), ("right", settlement.right)] {
+        let detail = "only an arch has this: name the support in settlement.supports";
+        faults.require(still(movement), format!("{HERE}/{side}"), detail);
+    }
+    let list = &settlement.supports;
+    if !faults.listing(SUPPORTS, list.len(), 0..=MAX_MOVEMENTS, "supports") {
+        return;
+    }
+    let (size, names) = (site.size(), site.layout().map(|layout| &layout.supports));
+    for (i, moved) in list.iter().enumerate() {
+        let here = format!("{SUPPORTS}/{i}");
+        if let Some(names) = names {
+            let detail = format!("there is no support {:?}: give one of {}", moved.support, names.join(", "));
+            faults.require(names.contains(&moved.support), format!("{here}/support"), detail);
+        }
+        let again = list[..i].iter().any(|other| other.support == moved.support);
+        let detail = format!("support {:?} moves twice: keep one", moved.support);
+        faults.require(!again, format!("{here}/support"), detail);
+        let shift = [("rightwards_m", moved.rightwards_m), ("downwards_m", moved.downwards_m)];
+        check_movement(&here, shift, moved.rotation_deg, size, faults);
+        for (axis, &coordinate) in moved.about_m.iter().flatten().enumerate() {
+            faults.either_way(format!("{here}/about_m/{axis}"), coordinate, MAX_LENGTH_M);
+        }
+    }
+    let moves = |by: &SupportMovementRequest| [by.rightwards_m, by.downwards_m, by.rotation_deg] != [0.0; 3];
+    let detail = "nothing moves: give one of supports a movement, such as downwards_m";
+    faults.require(list.iter().any(moves), HERE, detail);
+}
+
+fn still(movement: MovementRequest) -> bool {
+    movement == MovementRequest::default()
+}
+
 /// What means something only where loads grow keeps its default.
 fn check_idle(request: &AnalysisRequest, faults: &mut Faults) {
     let (factor, usual) = (&request.load_factor, ReportRequest::default());
-    let detail = "while springings move no load grows: leave this out";
-    faults.require(factor.direction == DirectionRequest::Increase, "/load_factor/direction", detail);
+    let detail = "while supports move no load grows: leave this out";
+    faults.require(factor.direction == Direction::Increase, "/load_factor/direction", detail);
     faults.require(factor.cap.is_none(), "/load_factor/cap", detail);
-    let detail = "a movement of springings shows nothing on the way to collapse: leave this out";
+    let detail = "a movement of supports shows nothing on the way to collapse: leave this out";
     let same = request.report.share_of_collapse == usual.share_of_collapse;
     faults.require(same, "/report/share_of_collapse", detail);
 }
 
-fn check_movement(here: &str, movement: MovementRequest, size: Option<f64>, faults: &mut Faults) {
+fn check_movement(here: &str, shift: [(&str, f64); 2], rotation: f64, size: Option<f64>, faults: &mut Faults) {
     let most = size.unwrap_or(f64::INFINITY);
     let largest = Digits(most);
-    for (name, by) in [("outwards_m", movement.outwards_m), ("downwards_m", movement.downwards_m)] {
+    for (name, by) in shift {
         let pointer = format!("{here}/{name}");
         let detail = format!("{} is too far: keep within {largest} m, the size of the arch, either way", Shown(by));
         let _ = faults.either_way(&pointer, by, MAX_LENGTH_M) && faults.require(by.abs() <= most, pointer, detail);
     }
-    faults.either_way(format!("{here}/rotation_deg"), movement.rotation_deg, 90.0);
+    faults.either_way(format!("{here}/rotation_deg"), rotation, 90.0);
 }
 
-impl From<MovementRequest> for SpringingMovement {
-    fn from(movement: MovementRequest) -> Self {
-        SpringingMovement {
-            outwards: movement.outwards_m,
-            downwards: movement.downwards_m,
-            rotation: movement.rotation_deg.to_radians(),
-        }
+/// The movements of the supports of this structure.
+pub fn movements(settlement: &SettlementRequest, layout: &Layout) -> Vec<SupportMovement> {
+    let structure = &layout.structure;
+    if layout.supports.is_empty() {
+        return springings(settlement, structure).to_vec();
     }
+    let number = |name: &String| layout.supports.iter().position(|other| other == name);
+    let movement = |moved: &SupportMovementRequest| {
+        let support = number(&moved.support)?;
+        Some(SupportMovement {
+            support,
+            about: moved.about_m.map_or_else(|| middle(structure, support), Vec2::from),
+            by: Vec2::new(moved.rightwards_m, -moved.downwards_m),
+            rotation: moved.rotation_deg.to_radians(),
+        })
+    };
+    settlement.supports.iter().filter_map(movement).collect()
+}
+
+/// Those of both springings: outwards is to the left on the left, and a rotation that opens the intrados there turns clockwise.
+fn springings(settlement: &SettlementRequest, structure: &Structure) -> [SupportMovement; 2] {
+    let ends = [structure.ring().first(), structure.ring().last()];
+    [(0, -1.0, settlement.left), (1, 1.0, settlement.right)].map(|(support, sign, moved)| SupportMovement {
+        support,
+        about: ends[support].map_or(Vec2::zeros(), |joint| joint.middle()),
+        by: Vec2::new(sign * moved.outwards_m, -moved.downwards_m),
+        rotation: sign * moved.rotation_deg.to_radians(),
+    })
+}
+
+/// The middle of a support's joints, each with the weight of its length.
+fn middle(structure: &Structure, support: usize) -> Vec2 {
+    let joints = || structure.joints.iter().filter(|joint| joint.between.contains(&Side::Support(support)));
+    let length: f64 = joints().map(|joint| joint.length()).sum();
+    joints().map(|joint| joint.middle() * (joint.length() / length)).sum()
 }

@@ -2,16 +2,16 @@
 
 use super::stone::{Stones, check_overrides, override_joints};
 use super::structure::{self, Layout};
-use super::{MAX_FACTOR, MAX_LENGTH_M, accuracy, check_text, crushing, half, loads, mesh, motion};
+use super::{MAX_FACTOR, MAX_LENGTH_M, accuracy, check_text, crushing, half, loads, mesh, motion, settlement};
 use crate::api::fault::Faults;
-use crate::api::request::{AimRequest, AnalysisRequest, DirectionRequest, GeometryRequest, LoadEntry, MethodRequest};
+use crate::api::request::{AimRequest, AnalysisRequest, LoadEntry, MethodRequest};
 use crate::arch::MAX_VOUSSOIRS;
-use crate::collapse::{Accuracy, Analysis, Direction, FieldAt, Geometry, LOAD_PIECES, Mesh, Method, MotionAsked};
+use crate::collapse::{Accuracy, Aim, Analysis, FieldAt, Geometry, LOAD_PIECES, Mesh, Method, MotionAsked};
 use crate::geometry::Vec2;
 use crate::structure::{PointForce, Structure};
 
 /// Everything of a request but its loads.
-pub struct Site<'a> {
+pub struct Unloaded<'a> {
     /// The request.
     pub request: &'a AnalysisRequest,
     /// The whole structure, where it can be built.
@@ -28,7 +28,7 @@ pub struct Site<'a> {
     motion: Option<MotionAsked>,
 }
 
-impl<'a> Site<'a> {
+impl<'a> Unloaded<'a> {
     /// Checks and translates all but the loads.
     pub fn new(request: &'a AnalysisRequest, faults: &mut Faults) -> Self {
         check_text("/name", request.name.as_deref().unwrap_or(""), faults);
@@ -36,9 +36,7 @@ impl<'a> Site<'a> {
         let stones = Stones::new(request, faults);
         let mut layout = structure::layout(request, &stones, faults);
         structure::check(request, faults);
-        if let Some(arch) = &request.arch {
-            check_overrides(request, arch, layout.as_ref().map(|layout| &layout.structure), faults);
-        }
+        check_overrides(request, layout.as_ref().map(|layout| &layout.structure), faults);
         if let Some(layout) = &mut layout {
             override_joints(request, &mut layout.structure);
         }
@@ -65,7 +63,12 @@ impl<'a> Site<'a> {
         let pieces = refined.map_or(pieces, |accuracy| accuracy.most_subblocks);
         let fields = mesh::fields(&request.report, pieces, faults);
         let motion = motion::motion(request, analysed.unwrap_or(0), faults);
-        Site { request, whole: layout, structure, subblocks, cut, method, accuracy, fields, motion }
+        Unloaded { request, whole: layout, structure, subblocks, cut, method, accuracy, fields, motion }
+    }
+
+    /// The whole structure with its names; none where it cannot be built.
+    pub fn layout(&self) -> Option<&Layout> {
+        self.whole.as_ref()
     }
 
     /// Into how many pieces the extrados side of every voussoir of the whole arch is cut.
@@ -106,40 +109,26 @@ impl<'a> Site<'a> {
         Some(Analysis {
             fixed: halve(forces.fixed),
             scaled: halve(forces.scaled),
-            plane: request.stone.plane.into(),
+            plane: request.stone.plane,
             penalty_ratio: request.stone.penalty_ratio_of(request.arch.is_some()),
             shear_penalty_ratio: request.stone.shear_penalty_ratio,
-            direction: request.load_factor.direction.into(),
+            direction: request.load_factor.direction,
             cap: request.load_factor.cap,
             method: self.method,
-            geometry: request.geometry.into(),
+            geometry: request.geometry,
             crushing_in_path: request.crushing_in_path,
             share: request.report.share_of_collapse,
-            mesh: Mesh { subblocks: self.subblocks().to_vec(), seams: request.mesh.seams.into() },
+            mesh: Mesh { subblocks: self.subblocks().to_vec(), seams: request.mesh.seams },
             accuracy: self.accuracy,
             fields: self.fields.clone(),
             motion: self.motion,
-            aim: (&request.analysis).into(),
+            aim: match &request.analysis {
+                AimRequest::Collapse => Aim::Collapse,
+                AimRequest::Safety(safety) => Aim::Safety { crushing: safety.crushing },
+                AimRequest::Settlement(moved) => Aim::Settlement(settlement::movements(moved, self.layout()?)),
+            },
             structure: structure.clone(),
         })
-    }
-}
-
-impl From<DirectionRequest> for Direction {
-    fn from(direction: DirectionRequest) -> Self {
-        match direction {
-            DirectionRequest::Increase => Direction::Increase,
-            DirectionRequest::Decrease => Direction::Decrease,
-        }
-    }
-}
-
-impl From<GeometryRequest> for Geometry {
-    fn from(geometry: GeometryRequest) -> Self {
-        match geometry {
-            GeometryRequest::FirstOrder => Geometry::FirstOrder,
-            GeometryRequest::Updated => Geometry::Updated,
-        }
     }
 }
 
@@ -155,9 +144,9 @@ fn check_load_factor(request: &AnalysisRequest, faults: &mut Faults) {
 fn check_method(request: &AnalysisRequest, faults: &mut Faults) {
     let what = match (&request.analysis, request.geometry) {
         (AimRequest::Safety(_), _) => "a safety analysis",
-        (AimRequest::Settlement(_), _) => "a movement of springings",
-        (AimRequest::Collapse, GeometryRequest::Updated) => "a path on moving geometry",
-        (AimRequest::Collapse, GeometryRequest::FirstOrder) => return,
+        (AimRequest::Settlement(_), _) => "a movement of supports",
+        (AimRequest::Collapse, Geometry::Updated) => "a path on moving geometry",
+        (AimRequest::Collapse, Geometry::FirstOrder) => return,
     };
     let detail = format!("{what} is followed exactly: set method to `event_path`");
     faults.require(request.method == MethodRequest::EventPath, "/method", detail);

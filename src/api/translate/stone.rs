@@ -2,11 +2,7 @@
 
 use super::{MAX_DENSITY_KG_M3, MAX_STRESS_PA, check_text};
 use crate::api::fault::{Faults, child};
-use crate::api::request::{
-    AnalysisRequest, ArchRequest, MAX_STONES, NamedStone, PlaneRequest, SpringingJoints, StoneRequest,
-};
-use crate::arch::MAX_VOUSSOIRS;
-use crate::collapse::PlaneModel;
+use crate::api::request::{AnalysisRequest, MAX_GIVEN_JOINTS, MAX_STONES, NamedStone, StoneRequest};
 use crate::structure::{JointLaw, Stone, Structure};
 use std::collections::BTreeMap;
 
@@ -123,14 +119,9 @@ pub fn joint_law(stone: &Stone) -> JointLaw {
     JointLaw::Dry { friction: stone.friction_angle.tan(), cohesion: stone.cohesion }
 }
 
-/// Whether the overrides fit the arch.
-pub fn check_overrides(
-    request: &AnalysisRequest,
-    arch: &ArchRequest,
-    structure: Option<&Structure>,
-    faults: &mut Faults,
-) {
-    faults.listing("/joint_overrides", request.joint_overrides.len(), 0..=MAX_VOUSSOIRS + 1, "overrides");
+/// Whether the overrides fit the structure.
+pub fn check_overrides(request: &AnalysisRequest, structure: Option<&Structure>, faults: &mut Faults) {
+    faults.listing("/joint_overrides", request.joint_overrides.len(), 0..=MAX_GIVEN_JOINTS, "overrides");
     let mut seen = std::collections::BTreeSet::new();
     for (i, item) in request.joint_overrides.iter().enumerate() {
         let here = child("/joint_overrides", &i.to_string());
@@ -138,16 +129,14 @@ pub fn check_overrides(
         if !seen.insert(item.joint) {
             faults.add(&joint, format!("joint {} is overridden twice: keep one", item.joint));
         }
-        let numbered = faults.counted(&joint, item.joint, 0..=MAX_VOUSSOIRS, "joints");
-        if let Some(last) = structure.map(|structure| structure.ring().len() - 1).filter(|_| numbered) {
-            let detail = format!("there is no joint {}; joints run from 0 to {last}", item.joint);
-            faults.require(item.joint <= last, &joint, detail);
-            let glued = arch.springing_joints == SpringingJoints::Bonded && [0, last].contains(&item.joint);
-            faults.require(
-                !glued,
-                &joint,
-                "the springing joints are bonded and have no friction: set springing_joints to `dry` or leave this out",
-            );
+        let numbered = faults.counted(&joint, item.joint, 0..=MAX_GIVEN_JOINTS, "joints");
+        if let Some(ring) = structure.map(Structure::ring).filter(|_| numbered) {
+            let detail = format!("there is no joint {}; joints run from 0 to {}", item.joint, ring.len() - 1);
+            faults.require(item.joint < ring.len(), &joint, detail);
+            let glued = ring.get(item.joint).is_some_and(|joint| joint.law == JointLaw::Bonded);
+            let remedy = if request.arch.is_some() { "set springing_joints to `dry`" } else { "set bonded to false" };
+            let detail = format!("this joint is bonded and has no friction: {remedy} or leave this out");
+            faults.require(!glued, &joint, detail);
         }
         if let Some(angle) = item.friction_angle_deg {
             friction_angle(&format!("{here}/friction_angle_deg"), angle, faults);
@@ -167,15 +156,6 @@ pub fn override_joints(request: &AnalysisRequest, structure: &mut Structure) {
         if let JointLaw::Dry { friction, cohesion } = &mut joint.law {
             *friction = item.friction_angle_deg.map_or(*friction, |angle| angle.to_radians().tan());
             *cohesion = item.cohesion_pa.unwrap_or(*cohesion);
-        }
-    }
-}
-
-impl From<PlaneRequest> for PlaneModel {
-    fn from(plane: PlaneRequest) -> Self {
-        match plane {
-            PlaneRequest::Stress => PlaneModel::Stress,
-            PlaneRequest::Strain => PlaneModel::Strain,
         }
     }
 }

@@ -3,9 +3,7 @@
 use super::stone::Stones;
 use super::{arch, blocks, bridge};
 use crate::api::fault::Faults;
-use crate::api::request::{
-    AimRequest, AnalysisRequest, BlocksRequest, BridgeRequest, GeometryRequest, MeshRequest, MethodRequest,
-};
+use crate::api::request::{AnalysisRequest, BlocksRequest, BridgeRequest};
 use crate::structure::Structure;
 
 /// The fault of a request without a structure.
@@ -74,25 +72,12 @@ pub fn check(request: &AnalysisRequest, faults: &mut Faults) {
         (None, Some(_)) => "blocks",
         _ => return,
     };
-    let first_order = request.geometry == GeometryRequest::FirstOrder;
-    let followed = request.method == MethodRequest::EventPath;
-    let stays = !matches!(request.analysis, AimRequest::Settlement(_));
-    let of_joints = match what {
-        "blocks" => "give them in blocks.joints.given",
-        _ => "give the parts of the bridge stones of their own",
-    };
     let refusals = [
-        (request.accuracy.is_none(), "/accuracy", "the error of the answer is not estimated: leave accuracy out"),
         (request.motion.is_none(), "/motion", "the motion after collapse is not followed: leave motion out"),
-        (stays, "/analysis/settlement", "supports cannot be moved: set analysis to `collapse`"),
-        (first_order, "/geometry", "the path on moving geometry is not followed: set geometry to `first_order`"),
-        (followed, "/method", "fixed steps are not taken: set method to `event_path`"),
-        (request.mesh == MeshRequest::default(), "/mesh", "every stone is one block: leave mesh out"),
-        (request.joint_overrides.is_empty(), "/joint_overrides", of_joints),
         (
-            request.report.stress_fields.is_empty(),
-            "/report/stress_fields",
-            "there are no stress fields: leave them out",
+            request.accuracy.is_none_or(|accuracy| accuracy.stress.is_none()),
+            "/accuracy/stress",
+            "meshes are not refined: leave this out and name a mesh",
         ),
     ];
     for (allowed, pointer, detail) in refusals {

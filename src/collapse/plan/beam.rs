@@ -12,13 +12,13 @@ use std::f64::consts::FRAC_PI_4;
 const SERIES: [usize; 2] = [2, 3];
 
 /// Length of the subblocks over their height: along the beam stress follows a sine, which few of them show.
-const ASPECT: f64 = 3.0;
+const BEAM_ASPECT: f64 = 3.0;
 /// Most subblocks along over those across: a long beam would else use up all there may be in its first meshes. At least there are as
 /// many, so that both are halved from mesh to mesh.
 const MOST_COLUMNS: f64 = 3.0;
 
 /// Its stress is smooth.
-const ORDERS: Orders = [1.0, 2.0];
+const BEAM_ORDERS: Orders = [1.0, 2.0];
 
 /// No load comes in pieces: a multiple of all numbers along that come up.
 const PIECES: usize = 3 << 8;
@@ -60,13 +60,13 @@ fn off_centre(field: &StressField) -> f64 {
 pub(in super::super) fn solve(beam: &CurvedBeam, budget: &Budget) -> Result<BeamReport, AnalysisError> {
     let Some(asked) = beam.accuracy else { return beam::solve(beam, budget) };
     let length = FRAC_PI_4 * (beam.inner_radius + beam.outer_radius) / (beam.outer_radius - beam.inner_radius);
-    let columns = (length / ASPECT).clamp(1.0, MOST_COLUMNS);
+    let columns = (length / BEAM_ASPECT).clamp(1.0, MOST_COLUMNS);
     let mut meshes: Vec<(usize, [usize; 2])> = Vec::new();
     for (which, first) in SERIES.into_iter().enumerate() {
         meshes.extend(rungs(first, columns, PIECES).into_iter().map(|mesh| (which, mesh)));
     }
     meshes.sort_by_key(|(_, [radial, _])| *radial);
-    let mut series = SERIES.map(|_| Series { coarse: None, errors: FieldErrors::new(1, ORDERS) });
+    let mut series = SERIES.map(|_| Series { coarse: None, errors: FieldErrors::new(1, BEAM_ORDERS) });
     let (mut tried, mut last) = (Vec::new(), None);
     for (which, subblocks) in meshes {
         let report = beam::solve(&CurvedBeam { subblocks, ..*beam }, budget)?;

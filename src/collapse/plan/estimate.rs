@@ -3,6 +3,7 @@
 //! The two meshes nest, so that every subblock of the coarser is made up of whole ones of the finer. What the coarser
 //! says of it is held against the mean over these: stress in a subblock is a mean, and means can be compared exactly.
 
+use crate::collapse::report::tresca;
 use crate::collapse::{StressField, SubblockStress};
 use crate::geometry::Region;
 
@@ -40,7 +41,7 @@ fn difference(coarse: &[SubblockStress], fine: &[SubblockStress]) -> Difference 
     }
     let mut difference = Difference::default();
     for (subblock, (area, stress)) in coarse.iter().zip(sums) {
-        let equivalent = SubblockStress { stress: stress.map(|s| s / area), ..*subblock }.tresca();
+        let equivalent = tresca(stress.map(|s| s / area));
         difference.apart += area * (equivalent - subblock.tresca()).powi(2);
         difference.whole += area * equivalent * equivalent;
     }

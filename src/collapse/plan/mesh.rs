@@ -9,7 +9,7 @@ pub const LOAD_PIECES: usize = 96;
 /// Subblocks from intrados to extrados in a voussoir's first mesh: the least that bend.
 const FIRST_RADIAL: usize = 2;
 /// Most subblocks in either direction.
-const MOST: usize = 48;
+const MOST_EACH_WAY: usize = 48;
 
 /// Length along the arch over height of the subblocks that the meshes aim at: stress changes more across a stone than along it
 /// (measured: 4 x 2 subblocks are as accurate as 4 x 4 in a stone three quarters as long as it is thick).
@@ -32,10 +32,10 @@ pub(super) fn ladder(structure: &Structure, k: usize) -> Vec<[usize; 2]> {
 /// What is not halved along has no part in the change from mesh to mesh: where it should be and cannot be, the ladder ends.
 pub(super) fn rungs(radial: usize, columns: f64, pieces: usize) -> Vec<[usize; 2]> {
     let apart = |along: &usize| (*along as f64 / (radial as f64 * columns)).ln().abs();
-    let fits = |along: usize| along <= MOST && pieces.is_multiple_of(along);
-    let first = (1..=MOST).filter(|&along| fits(along)).min_by(|a, b| apart(a).total_cmp(&apart(b)));
+    let fits = |along: usize| along <= MOST_EACH_WAY && pieces.is_multiple_of(along);
+    let first = (1..=MOST_EACH_WAY).filter(|&along| fits(along)).min_by(|a, b| apart(a).total_cmp(&apart(b)));
     let mut rungs = vec![[radial, first.unwrap_or(1)]];
-    while let Some(&[radial, along]) = rungs.last().filter(|[radial, _]| 2 * radial <= MOST) {
+    while let Some(&[radial, along]) = rungs.last().filter(|[radial, _]| 2 * radial <= MOST_EACH_WAY) {
         let flat = SHORTER * along as f64 > radial as f64 * columns;
         if !flat && !fits(2 * along) {
             break;
@@ -62,7 +62,7 @@ mod tests {
                 for [radial, along] in rungs {
                     // Of subblocks that are meant to be square.
                     let aspect = columns * radial as f64 / along as f64;
-                    assert!(radial <= MOST && along <= MOST && pieces.is_multiple_of(along));
+                    assert!(radial <= MOST_EACH_WAY && along <= MOST_EACH_WAY && pieces.is_multiple_of(along));
                     assert!(along == 1 || aspect > 0.6, "{columns}: {radial} x {along}");
                     assert!(aspect < 1.5, "{columns}: {radial} x {along}");
                 }

@@ -1,6 +1,6 @@
 //! Refines the mesh voussoir by voussoir until the stress is as accurate as asked.
 
-use super::super::{Analysis, AnalysisError, CollapseReport, Estimate, MeshTried, Outcome, verdict};
+use super::super::{Analysis, AnalysisError, CollapseReport, Estimate, MeshTried, Outcome, PlanReason, verdict};
 use super::estimate::{FieldErrors, Orders, differences};
 use super::mesh::ladder;
 use super::with_mesh;
@@ -22,7 +22,7 @@ pub(super) struct Refined {
     pub first_yield: Option<f64>,
     pub meshes: Vec<MeshTried>,
     /// Why it ended there.
-    pub why: String,
+    pub why: PlanReason,
 }
 
 /// A mesh, the answer on it, and how far its stress is off.
@@ -43,16 +43,16 @@ pub(super) fn solve(
     most: usize,
     asked: f64,
     budget: &Budget,
-) -> Result<Result<Refined, String>, AnalysisError> {
+) -> Result<Result<Refined, PlanReason>, AnalysisError> {
     let ladders: Vec<_> = (0..analysis.structure.voussoirs().len()).map(|k| ladder(&analysis.structure, k)).collect();
     let coarsest: Vec<_> = ladders.iter().map(|ladder| ladder[0]).collect();
     let fewest = total(&coarsest);
     if fewest > most {
-        return Ok(Err(format!("The coarsest mesh that bends would have {fewest} subblocks, and {most} are allowed.")));
+        return Ok(Err(PlanReason::CoarsestTooLarge { subblocks: fewest, allowed: most }));
     }
     let report = verdict::solve(&with_mesh(analysis, coarsest), budget)?;
     if report.outcome == Outcome::CannotTell || report.stress_fields.is_empty() {
-        return Ok(Err("On the coarsest mesh that bends the load path could not be followed.".into()));
+        return Ok(Err(PlanReason::CoarsestLost));
     }
     let mut mesh = Refinement::new(ladders, report);
     let mut levels = mesh.raised(&vec![true; mesh.levels.len()]);
@@ -62,11 +62,11 @@ pub(super) fn solve(
         }
         let report = verdict::solve(&with_mesh(analysis, mesh.subblocks(&levels)), budget)?;
         if report.outcome == Outcome::CannotTell || report.stress_fields.len() != mesh.errors.len() {
-            break "On the next mesh the load path could not be followed to the same fields.".into();
+            break PlanReason::NextLost;
         }
         mesh.take(levels, report);
         if mesh.estimate() <= asked {
-            break "The stress is as accurate as asked.".into();
+            break PlanReason::AccurateEnough;
         }
         levels = mesh.raised(&mesh.marked(asked));
     };
@@ -97,12 +97,12 @@ impl Refinement {
     }
 
     /// Why the mesh is the last, and none of these levels is tried.
-    fn last_before(&self, levels: &[usize], most: usize) -> Option<String> {
+    fn last_before(&self, levels: &[usize], most: usize) -> Option<PlanReason> {
         let subblocks = total(&self.subblocks(levels));
         if levels == self.levels {
-            return Some("No finer mesh is left: next to a hinge, or a force on a point, stress has no bound.".into());
+            return Some(PlanReason::Finest);
         }
-        (subblocks > most).then(|| format!("The next mesh would have {subblocks} subblocks, and {most} are allowed."))
+        (subblocks > most).then_some(PlanReason::NextTooLarge { subblocks, allowed: most })
     }
 
     /// Takes in the answer on a finer mesh.
@@ -114,7 +114,7 @@ impl Refinement {
         }
         let yields = |report: &CollapseReport| {
             let elastic = report.crushing.as_ref()?.elastic.as_ref()?;
-            Some((elastic.load_factor?, elastic.where_largest?.voussoir))
+            Some((elastic.load_factor?, elastic.where_largest.as_ref()?.voussoir))
         };
         // A mesh that leaves the stone as it was tells nothing of it.
         let now = yields(&report).filter(|(_, voussoir)| refined[*voussoir]);

@@ -4,7 +4,7 @@
 //! the right half are the mirror image of those of the left.
 
 use super::super::{
-    BlockState, CollapseReport, ContactForce, Crushing, HistoryPoint, Snapshot, StressField, SubblockStress,
+    BlockState, CollapseReport, ContactPoint, Crushing, HistoryPoint, Snapshot, StressField, SubblockStress,
 };
 use crate::geometry::{Vec2, mirrored};
 use crate::structure::Structure;
@@ -52,10 +52,10 @@ fn unfolded(structure: &Structure, left: &Snapshot) -> Snapshot {
     let start = |joint: usize| left.contacts.partition_point(|contact| contact.joint < joint);
     let joint = |k: usize| left.contacts[start(k)..start(k + 1)].iter();
     let crown = |k: usize| keystone.is_none() && 2 * k == n;
-    let contact = |k: usize, contact: &ContactForce| match (crown(k), 2 * k > n) {
+    let contact = |k: usize, contact: &ContactPoint| match (crown(k), 2 * k > n) {
         // The wall stands for the other stone, which moves away from it as far.
-        (true, _) => ContactForce { gap: 2.0 * contact.gap, ..*contact },
-        (_, true) => ContactForce { joint: k, tangential: -contact.tangential, ..*contact },
+        (true, _) => ContactPoint { gap: 2.0 * contact.gap, ..*contact },
+        (_, true) => ContactPoint { joint: k, tangential: -contact.tangential, ..*contact },
         _ => *contact,
     };
     let contacts = (0..=n).flat_map(|k| joint(k.min(n - k)).map(move |c| contact(k, c)));
@@ -88,6 +88,9 @@ fn unfolded_field(structure: &Structure, left: &StressField) -> StressField {
 
 /// A subblock on the other side, its corners counter-clockwise from the intrados end at the joint before again.
 fn mirror_image_of(subblock: &SubblockStress, axis: f64) -> SubblockStress {
-    let ([a, b, c, d], [x, y, tau]) = (subblock.corners.map(|corner| mirrored(corner, axis)), subblock.stress);
-    SubblockStress { centre: mirrored(subblock.centre, axis), corners: [b, a, d, c], stress: [x, y, -tau], ..*subblock }
+    let [x, y, tau] = subblock.stress;
+    // The first two and the last two change places.
+    let mut corners: Vec<Vec2> = subblock.corners.iter().map(|&corner| mirrored(corner, axis)).collect();
+    corners.chunks_mut(2).for_each(<[Vec2]>::reverse);
+    SubblockStress { centre: mirrored(subblock.centre, axis), corners, stress: [x, y, -tau], ..subblock.clone() }
 }

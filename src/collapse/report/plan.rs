@@ -15,8 +15,59 @@ pub struct Plan {
     pub first_yield: Option<f64>,
     /// The meshes that were tried, coarsest first.
     pub meshes: Vec<MeshTried>,
-    /// What was decided, in sentences.
-    pub why: Vec<String>,
+    /// What was decided, and why.
+    pub why: Vec<PlanReason>,
+}
+
+/// A decision on the way to a model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PlanReason {
+    /// Limit analysis finds no equilibrium to load the arch from.
+    NoEquilibrium,
+    /// The arch slides as its loads come on.
+    SlidesAsLoaded,
+    /// Limit analysis finds equilibrium at any load in reach.
+    NoEndInReach,
+    /// Path and limit analysis do not agree.
+    Disagreement,
+    /// Joints slide at collapse, so the load is a range that no mesh narrows.
+    SlidesAtCollapse,
+    /// Without sliding the collapse load does not depend on the mesh.
+    LoadNeedsNoMesh,
+    /// No accuracy of the stress is asked for.
+    MeshAsGiven,
+    /// No load is known under which the arch stands, so there is no stress.
+    NoStress,
+    /// The load path passes none of the stress fields asked for.
+    NoField,
+    /// Half the symmetric arch is modelled for the stress.
+    HalfModelled,
+    /// The arch is half an arch already.
+    HalfAlready,
+    /// Something is not symmetric, or slides: the whole arch is modelled for the stress.
+    WholeModelled,
+    /// The coarsest mesh that bends has more subblocks than allowed.
+    CoarsestTooLarge {
+        /// Subblocks that it would have.
+        subblocks: usize,
+        /// Most allowed.
+        allowed: usize,
+    },
+    /// On the coarsest mesh that bends the load path could not be followed.
+    CoarsestLost,
+    /// The next mesh has more subblocks than allowed.
+    NextTooLarge {
+        /// Subblocks that it would have.
+        subblocks: usize,
+        /// Most allowed.
+        allowed: usize,
+    },
+    /// On the next mesh the load path could not be followed to the same fields.
+    NextLost,
+    /// No finer mesh is left.
+    Finest,
+    /// The stress is as accurate as asked.
+    AccurateEnough,
 }
 
 /// An accuracy asked for, and what was had.

@@ -1,9 +1,12 @@
-//! What the movement of springings does.
+//! What the movement of supports does.
 
 use super::{Mechanism, Thrust, Unfollowed};
+use crate::geometry::Vec2;
 
 /// How a movement ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "server", derive(serde::Serialize, utoipa::ToSchema))]
+#[cfg_attr(feature = "server", serde(rename_all = "snake_case"))]
 pub enum SettlementEnd {
     /// The arch follows to the end of the movement.
     Follows,
@@ -16,19 +19,15 @@ pub enum SettlementEnd {
 }
 
 /// One point of a movement.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct SettlementPoint {
     /// Share of the movement that has happened.
     pub share: f64,
-    /// Horizontal force of the left springing on the arch, to the right positive, N/m.
-    pub thrust: f64,
-    /// Vertical force of the left springing on the arch, upwards positive, N/m.
-    pub left: f64,
-    /// The same of the right springing; none for half an arch.
-    pub right: Option<f64>,
+    /// Force of every support on the structure, N/m; of an arch, of its springings, the left one first.
+    pub forces: Vec<Vec2>,
 }
 
-/// The arch on a movement of its springings.
+/// The structure on a movement of its supports.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SettlementPath {
     /// How it ended.
@@ -42,11 +41,11 @@ pub struct SettlementPath {
     pub safe: f64,
     /// The path, event by event, from the arch as it stands before the movement.
     pub points: Vec<SettlementPoint>,
-    /// How the arch moves on at the end: the hinges on which it follows its springings, or falls.
+    /// How the structure moves on at the end: the hinges on which it follows its supports, or falls.
     pub mechanism: Mechanism,
     /// Resultants per joint at the end.
     pub thrust_line: Vec<Thrust>,
-    /// Displacement (u, v) of every voussoir's centroid and its rotation at the end, m and rad.
+    /// Displacement (u, v) of every body's centroid and its rotation at the end, m and rad.
     pub displacements: Vec<[f64; 3]>,
     /// Share at which the arch first snaps into another shape: the path dips by more than a hundredth, then goes on further.
     pub snap: Option<f64>,

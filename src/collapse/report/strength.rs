@@ -1,19 +1,19 @@
 //! Stress, crushing and safety in an answer, and the curved beam's.
 
-use super::{BeamPlan, LimitWindow, Mode};
+use super::{BeamPlan, LimitWindow, Mode, Note};
 use crate::geometry::Vec2;
 
 /// State of stress in one subblock, constant in it.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct SubblockStress {
-    /// Which voussoir.
+    /// Which body.
     pub voussoir: usize,
     /// Place in it: from the intrados, and from the joint before it, both from 0.
     pub place: [usize; 2],
     /// Centroid, m.
     pub centre: Vec2,
-    /// Corners, counter-clockwise from the intrados end at the joint before, m.
-    pub corners: [Vec2; 4],
+    /// Corners, counter-clockwise from the intrados end at the joint before, m; four, unless it is a whole body of another shape.
+    pub corners: Vec<Vec2>,
     /// sigma_x, sigma_y, tau_xy, Pa, compression negative.
     pub stress: [f64; 3],
 }
@@ -98,25 +98,29 @@ pub enum Reach {
 
 /// What limits the safety factor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "server", derive(serde::Serialize, utoipa::ToSchema))]
+#[cfg_attr(feature = "server", serde(rename_all = "snake_case"))]
 pub enum Governs {
     /// The arch becomes a mechanism.
     Instability,
     /// The stone crushes.
     Crushing,
-    /// Nothing, up to the cap.
+    /// Nothing does, up to the cap.
     Nothing,
-    /// Cannot be told.
+    /// It cannot be told.
     Unknown,
 }
 
 /// Zone of Figs. 10 and 13 of the paper.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Zone {
-    /// I: instability, the crown rises.
+#[cfg_attr(feature = "server", derive(serde::Serialize, utoipa::ToSchema))]
+#[cfg_attr(feature = "server", serde(rename_all = "snake_case"))]
+pub enum SafetyZone {
+    /// Zone I: instability, the crown rises.
     CrownRises,
-    /// II: crushing.
+    /// Zone II: crushing.
     Crushing,
-    /// III: instability, the crown descends.
+    /// Zone III: instability, the crown descends.
     CrownDescends,
 }
 
@@ -140,9 +144,9 @@ pub struct SafetyPoint {
     /// How the arch moves when it becomes a mechanism, where it does.
     pub mode: Option<Mode>,
     /// Zone of Figs. 10 and 13; None where nothing limits, or where the arch sways or slides.
-    pub zone: Option<Zone>,
+    pub zone: Option<SafetyZone>,
     /// What an engineer should know.
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
 }
 
 /// The curved beam, solved and held against the theory of elasticity.

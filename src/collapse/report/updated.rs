@@ -5,6 +5,8 @@ use crate::geometry::Vec2;
 
 /// How the path on moving geometry ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "server", derive(serde::Serialize, utoipa::ToSchema))]
+#[cfg_attr(feature = "server", serde(rename_all = "snake_case"))]
 pub enum UpdatedEnd {
     /// The arch falls at the highest load of the path.
     Collapse,

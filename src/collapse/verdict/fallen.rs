@@ -1,17 +1,12 @@
 //! Arches that do not stand where the load path starts.
 
-use super::{Attempted, Question};
+use super::{Attempted, Setup};
 use crate::collapse::certificate::{any_fixed, loaded};
 use crate::collapse::discretise::Model;
-use crate::collapse::doubt::Doubt;
-use crate::collapse::{Aim, AnalysisError, CollapseReport, LoadRange, Outcome, PathEnd, ending, motion};
+use crate::collapse::{Aim, AnalysisError, CollapseReport, Doubt, LoadRange, Note, Outcome, PathEnd, ending, motion};
 use crate::dda::Tracer;
 
-/// Note on an arch whose limit window ends where no scaled load acts.
-const ENDS_AT_ZERO: &str = "The arch stands at load factor 0 and at none beyond it in the direction asked. Hinges, slides and \
-     velocities are those in which it falls as soon as the load factor leaves 0.";
-
-impl Question<'_> {
+impl Setup<'_> {
     /// The arch did not stand under its loads at the start.
     pub(super) fn fallen(
         &self,
@@ -29,7 +24,7 @@ impl Question<'_> {
         self.budget.check()?;
         let doubt = doubt.or(self.certificate.standing_doubt(fall.residual));
         if self.certificate.ends_at_zero(self.sign) {
-            report.notes.extend(doubt.is_none().then(|| ENDS_AT_ZERO.into()));
+            report.notes.extend(doubt.is_none().then_some(Note::FallsFromZero));
             return Ok(Attempted { report: self.at_zero(report, fall), doubt });
         }
         let safety = matches!(self.analysis.aim, Aim::Safety { .. });

@@ -1,17 +1,17 @@
 //! One leg of a load path: followed to its end, and the end held against the limit window.
 
-use super::{Progress, Question};
-use crate::collapse::certificate::{CRUSHES_AND_SLIDES, LATER_MECHANISM, fixed_steps_note, range_note};
-use crate::collapse::doubt::Doubt;
+use super::{OnEvent, Setup};
+use crate::collapse::certificate::range_note;
 use crate::collapse::ending::{self, Ending};
 use crate::collapse::path::{Leg, follow};
-use crate::collapse::record::{MOST_STEPS, Recorder, snapshot};
-use crate::collapse::sliding::{SAME, Search};
+use crate::collapse::record::{MOST_FIXED_STEPS, Recorder, snapshot};
+use crate::collapse::sliding::Search;
 use crate::collapse::state::States;
-use crate::collapse::{AnalysisError, CollapseReport, Cost, LoadRange, Method, Outcome};
+use crate::collapse::tolerances::TOLERANCES;
+use crate::collapse::{AnalysisError, CollapseReport, Cost, Doubt, LoadRange, Method, Note, Outcome};
 use crate::dda::Tracer;
 
-impl Question<'_> {
+impl Setup<'_> {
     /// Follows the path one way and writes down what was seen; returns a doubt where path and certificate disagree.
     pub(super) fn leg(
         &self,
@@ -20,7 +20,7 @@ impl Question<'_> {
         tracer: &mut Tracer,
         fixed: &[f64],
         sign: f64,
-        progress: &mut Progress,
+        progress: &mut OnEvent,
     ) -> Result<Option<Doubt>, AnalysisError> {
         let (analysis, model) = (self.analysis, states.model);
         let mut recorder = Recorder::new(model, analysis, [self.start, sign]);
@@ -37,7 +37,7 @@ impl Question<'_> {
         let mut peak_load = None;
         let (ending, turned_back) = match leg {
             Leg::Stopped => return Err(self.budget.stopped().into()),
-            Leg::TooManySteps => return Err(AnalysisError::TooManySteps { most: MOST_STEPS }),
+            Leg::TooManySteps => return Err(AnalysisError::TooManySteps { most: MOST_FIXED_STEPS }),
             Leg::Lost => return Ok(Some(Doubt::Lost)),
             Leg::Endless => {
                 report.add_fields(analysis, states, &recorder, None)?;
@@ -78,7 +78,8 @@ impl Question<'_> {
         let path = ending.end.load_factor;
         let doubt = match self.analysis.method {
             Method::FixedSteps { step, .. } => {
-                report.notes.push(fixed_steps_note(step, self.certificate.end(sign).unwrap_or(0.0)));
+                let limit = self.certificate.end(sign).unwrap_or(0.0);
+                report.notes.push(Note::ReadAtSteps { step, limit });
                 None
             }
             Method::EventPath => {
@@ -91,10 +92,10 @@ impl Question<'_> {
                 }
             }
         };
-        report.notes.extend(ending.later.then(|| LATER_MECHANISM.into()));
+        report.notes.extend(ending.later.then_some(Note::LaterMechanism));
         report.notes.extend(ending.end.range.as_ref().map(range_note));
         let slides = self.analysis.crushing_in_path && !ending.end.mechanism.slides.is_empty();
-        report.notes.extend(slides.then(|| CRUSHES_AND_SLIDES.into()));
+        report.notes.extend(slides.then_some(Note::CrushesAndSlides));
         report.outcome = Outcome::Collapse;
         report.end = Some(ending.end);
         Ok(doubt)
@@ -110,13 +111,13 @@ impl Question<'_> {
         let (found, mechanisms_tried) = search.least(at_limits);
         self.budget.check()?;
         let slides = found.filter(|found| !found.mechanism.slides.is_empty());
-        if let Some(found) = slides.filter(|found| !search.is_beyond(found.load_factor, path, ending::POLISH)) {
+        if let Some(found) = slides.filter(|found| !search.is_beyond(found.load_factor, path, TOLERANCES.polish)) {
             // A path that nothing polished carries the disturbance of its attempt: what is as near is the same load.
-            if !search.is_beyond(path, found.load_factor, ending::POLISH) {
+            if !search.is_beyond(path, found.load_factor, TOLERANCES.polish) {
                 path = found.load_factor;
             }
             // The path's own mechanism is the smallest motion of its joints, where it has one at its peak.
-            if search.is_beyond(path, found.load_factor, SAME) || *later {
+            if search.is_beyond(path, found.load_factor, TOLERANCES.same_load) || *later {
                 end.mechanism = found.mechanism;
                 end.thrust_line = ending::thrust_line(&analysis.structure, &found.forces);
                 *later = false;

@@ -19,6 +19,10 @@ const STIFFNESS_ROUNDING: f64 = 1e-7;
 pub(super) struct Mirror {
     place: Vec<usize>,
     sign: Vec<f64>,
+    /// Which body is the image of every body.
+    bodies: Vec<usize>,
+    /// Abscissa of the axis, m.
+    axis: f64,
 }
 
 /// The mirror image of an interface, and whether what lies before is exchanged with what lies after.
@@ -27,7 +31,7 @@ type Image = (usize, bool);
 impl Assembly {
     /// Displacements of the nodes (or loads on them) of the mirror image, where the assembly is its own; else as they are.
     pub fn mirrored(&self, d: &[f64]) -> Vec<f64> {
-        let Some(Mirror { place, sign }) = &self.mirror else { return d.to_vec() };
+        let Some(Mirror { place, sign, .. }) = &self.mirror else { return d.to_vec() };
         place.iter().zip(sign).map(|(&place, sign)| sign * d[place]).collect()
     }
 
@@ -46,10 +50,16 @@ impl Assembly {
         self.mirror.is_some()
     }
 
+    /// Which body is the mirror image of every body, and the abscissa of the axis, m; none where the assembly is not its own.
+    pub fn images_of_bodies(&self) -> Option<(&[usize], f64)> {
+        self.mirror.as_ref().map(|mirror| (mirror.bodies.as_slice(), mirror.axis))
+    }
+
     /// The mirror image, if the assembly is its own.
     pub(super) fn find_mirror(&self) -> Option<Mirror> {
-        let images = self.images()?;
-        let mut mirror = Mirror { place: vec![0; self.node_unknowns()], sign: vec![0.0; self.node_unknowns()] };
+        let (images, axis) = self.images()?;
+        let unknowns = self.node_unknowns();
+        let mut mirror = Mirror { place: vec![0; unknowns], sign: vec![0.0; unknowns], bodies: Vec::new(), axis };
         let mut bodies = vec![None; self.bodies.len()];
         for (k, &(image, swapped)) in images.iter().enumerate() {
             self.pair_bodies(k, (image, swapped), &mut bodies)?;
@@ -69,12 +79,12 @@ impl Assembly {
                 }
             }
         }
-        let bodies: Vec<usize> = bodies.into_iter().collect::<Option<_>>()?;
-        bodies.iter().enumerate().all(|(a, &b)| self.has_mirror_image(a, b, &mirror)).then_some(mirror)
+        mirror.bodies = bodies.into_iter().collect::<Option<_>>()?;
+        mirror.bodies.iter().enumerate().all(|(a, &b)| self.has_mirror_image(a, b, &mirror)).then_some(mirror)
     }
 
-    /// The mirror image of every interface; none where one has none.
-    fn images(&self) -> Option<Vec<Image>> {
+    /// The mirror image of every interface, and the axis; none where one has none.
+    fn images(&self) -> Option<(Vec<Image>, f64)> {
         let middle = |k: usize| {
             let points = &self.sites[self.at_interface(k)];
             Some(0.5 * (points.first()?.at + points.last()?.at))
@@ -95,7 +105,7 @@ impl Assembly {
                 self.facing(k, other).filter(|_| near).map(|swapped| (other, swapped))
             })
         };
-        (0..middles.len()).map(image).collect()
+        Some(((0..middles.len()).map(image).collect::<Option<_>>()?, axis))
     }
 
     /// Whether what lies before and after is exchanged between an interface and its mirror image; none where the other is not.

@@ -1,51 +1,60 @@
 //! The Newton system of the interior point method; the only file of this room that knows faer.
 
 use super::super::linear_program::dot;
+use super::cone::Scaling;
 use super::{Point, Sparse, Square, largest, sum};
 use faer::linalg::solvers::Solve;
 use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
 use faer::sparse::{SparseColMat, SymbolicSparseColMat};
 use faer::{Mat, Side};
-use std::collections::BTreeMap;
 
 /// Root of the curvature of a block without rows.
 const UNREACHED: f64 = 1e-4;
+/// Residuals of a solution of the Newton system that no correction betters much, relative to the right-hand sides.
+const EXACT: f64 = 1e-12;
 /// Corrections of a solution of the Newton system.
 const REFINEMENTS: usize = 3;
 /// Added to the Hessian of a block that its rows leave singular, relative to its largest entry.
 const RIDGE: f64 = 1e-10;
 
 /// The pattern of S and its elimination order, found once.
-pub(super) struct Pattern {
+#[derive(Debug, Clone)]
+pub struct Pattern {
     columns: Vec<usize>,
     rows: Vec<usize>,
-    /// Of every pair of bodies with a block in the lower triangle: where the block's columns start.
-    places: BTreeMap<(usize, usize), [usize; 3]>,
+    /// Of every joint the pairs of its bodies (places in its list) with a block in the lower triangle: where its columns start.
+    places: Vec<Vec<([usize; 2], [usize; 3])>>,
     order: SymbolicLlt<usize>,
 }
 
 impl Pattern {
-    pub(super) fn new(programme: &Sparse) -> Option<Self> {
-        let n = programme.bodies;
-        let mut below: Vec<Vec<usize>> = (0..n).map(|body| vec![body]).collect();
-        for block in &programme.blocks {
-            for (a, _) in block {
-                block.iter().filter(|(b, _)| b > a).for_each(|(b, _)| below[*a].push(*b));
+    /// Of so many bodies and the lists of those that each joint touches; None where there is no memory for it.
+    pub fn new(bodies: usize, joints: &[Vec<usize>]) -> Option<Self> {
+        let mut below: Vec<Vec<usize>> = (0..bodies).map(|body| vec![body]).collect();
+        for joint in joints {
+            for a in joint {
+                below[*a].extend(joint.iter().filter(|b| *b > a));
             }
         }
-        let (mut columns, mut rows, mut places) = (vec![0], Vec::new(), BTreeMap::new());
-        for (a, neighbours) in below.iter_mut().enumerate() {
+        let (mut columns, mut rows) = (vec![0], Vec::new());
+        for neighbours in &mut below {
             neighbours.sort_unstable();
             neighbours.dedup();
-            for column in 0..3 {
-                for &b in neighbours.iter() {
-                    places.entry((b, a)).or_insert([0; 3])[column] = rows.len();
-                    rows.extend(3 * b..3 * b + 3);
-                }
+            for _ in 0..3 {
+                rows.extend(neighbours.iter().flat_map(|b| 3 * b..3 * b + 3));
                 columns.push(rows.len());
             }
         }
-        let symbolic = SymbolicSparseColMat::new_checked(3 * n, 3 * n, columns.clone(), None, rows.clone());
+        let place = |a: usize, b: usize| {
+            let row = 3 * below[a].iter().position(|other| *other == b)?;
+            Some([0, 1, 2].map(|column| columns[3 * a + column] + row))
+        };
+        let pairs = |joint: &Vec<usize>| {
+            let all = (0..joint.len()).flat_map(|i| (0..joint.len()).map(move |j| [i, j]));
+            all.filter_map(|pair| Some((pair, place(joint[pair[0]], joint[pair[1]])?))).collect()
+        };
+        let places = joints.iter().map(pairs).collect();
+        let symbolic = SymbolicSparseColMat::new_checked(3 * bodies, 3 * bodies, columns.clone(), None, rows.clone());
         let order = SymbolicLlt::try_new(symbolic.as_ref(), Side::Lower).ok()?;
         Some(Pattern { columns, rows, places, order })
     }
@@ -54,8 +63,7 @@ impl Pattern {
 /// The Newton system at a point, factored.
 pub(super) struct Newton<'p> {
     programme: &'p Sparse,
-    /// z / s of every row.
-    pub(super) weights: Vec<f64>,
+    pub(super) scaling: Scaling,
     /// C of every block, H^-1 = C C'.
     roots: Vec<Square>,
     factors: Llt<usize, f64>,
@@ -66,21 +74,19 @@ pub(super) struct Newton<'p> {
 
 impl<'p> Newton<'p> {
     pub(super) fn new(programme: &'p Sparse, pattern: &Pattern, point: &Point) -> Option<Self> {
-        let weights: Vec<f64> = point.z.iter().zip(&point.s).map(|(z, s)| z / s).collect();
+        let scaling = Scaling::new(programme, point);
         let n = programme.blocks.len();
-        let mut scaled: Vec<Vec<[f64; 4]>> = vec![Vec::new(); n];
+        let mut scaled: Vec<Vec<[f64; 3]>> = vec![Vec::new(); n];
         let mut last = 0.0;
-        for (row, weight) in programme.rows.iter().zip(&weights) {
-            if row.block == n {
-                last += weight * row.a[0] * row.a[0];
-            } else {
-                let [a, b, c] = row.a.map(|a| a * weight.sqrt());
-                scaled[row.block].push([*weight, a, b, c]);
+        for (block, row) in scaling.rows(programme) {
+            match scaled.get_mut(block) {
+                Some(rows) => rows.push(row),
+                None => last += row[0] * row[0],
             }
         }
-        let roots: Vec<Square> = scaled.iter_mut().map(|rows| inverse_root(rows.as_mut_slice())).collect();
+        let roots: Vec<Square> = scaled.iter_mut().map(|rows| inverse_root(rows)).collect();
         let factors = factor(programme, pattern, &roots)?;
-        let mut newton = Newton { programme, weights, roots, factors, growth: Vec::new(), schur: 0.0 };
+        let mut newton = Newton { programme, scaling, roots, factors, growth: Vec::new(), schur: 0.0 };
         newton.growth = newton.solve_bodies(&programme.growth);
         newton.schur = last + dot(&programme.growth, &newton.growth);
         if last == 0.0 && programme.growth.iter().all(|g| *g == 0.0) {
@@ -138,7 +144,7 @@ impl<'p> Newton<'p> {
                 break;
             }
             (x, y, rest, others) = (next_x, next_y, next_rest, next_others);
-            if next > 0.5 * left || next == 0.0 {
+            if next > 0.5 * left || next < EXACT {
                 break;
             }
             left = next;
@@ -147,31 +153,32 @@ impl<'p> Newton<'p> {
     }
 
     fn residuals(&self, first: &[f64], second: &[f64], x: &[f64], y: &[f64]) -> (Vec<f64>, Vec<f64>) {
-        let weighted: Vec<f64> = self.programme.rows_times(x).iter().zip(&self.weights).map(|(a, w)| a * w).collect();
+        let weighted = self.scaling.weighted(&self.programme.rows_times(x));
         let mut rest = sum(first, &self.programme.motion(y), -1.0);
         self.programme.add_transposed(&weighted, -1.0, &mut rest);
         (rest, sum(second, &self.programme.balance(x), -1.0))
     }
 }
 
-/// C with C C' = (sum of w a a')^-1 from rows (w, sqrt(w) a), by an orthogonal decomposition of the rows, the heaviest first and
+/// C with C C' = (sum of a a')^-1 from rows a, by an orthogonal decomposition of the rows, the heaviest first and
 /// the longest column first, so that a light row keeps its digits beside a heavy one. A direction that no row reaches is held
 /// by a ridge.
 #[allow(clippy::needless_range_loop, reason = "indices are the mathematics here")]
-fn inverse_root(rows: &mut [[f64; 4]]) -> Square {
-    rows.sort_by(|a, b| b[0].total_cmp(&a[0]));
-    let size = rows.iter().map(|row| row[1..].iter().fold(0.0, |m: f64, x| m.max(x.abs()))).fold(0.0, f64::max);
+fn inverse_root(rows: &mut [[f64; 3]]) -> Square {
+    let weight = |row: &[f64; 3]| row.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    rows.sort_by(|a, b| weight(b).total_cmp(&weight(a)));
+    let size = rows.first().map_or(0.0, weight);
     let ridge = if size > 0.0 { size * RIDGE.sqrt() } else { UNREACHED };
-    let mut m: Vec<[f64; 3]> = rows.iter().map(|row| [row[1], row[2], row[3]]).collect();
+    let m = rows;
     let mut order = [0, 1, 2];
     let mut r: Square = [[0.0; 3]; 3];
     for k in 0..3 {
         let length = |m: &[[f64; 3]], c: usize| m.iter().skip(k).map(|row| row[c] * row[c]).sum::<f64>();
-        let longest = (k..3).max_by(|&a, &b| length(&m, a).total_cmp(&length(&m, b))).unwrap_or(k);
+        let longest = (k..3).max_by(|&a, &b| length(m, a).total_cmp(&length(m, b))).unwrap_or(k);
         m.iter_mut().for_each(|row| row.swap(k, longest));
         r.iter_mut().take(k).for_each(|row| row.swap(k, longest));
         order.swap(k, longest);
-        let alpha = length(&m, k).sqrt();
+        let alpha = length(m, k).sqrt();
         if k >= m.len() || alpha <= SMALLEST * size || alpha == 0.0 {
             (k..3).for_each(|i| r[i][i] = ridge);
             break;
@@ -207,19 +214,14 @@ const SMALLEST: f64 = 1e-14;
 fn factor(programme: &Sparse, pattern: &Pattern, roots: &[Square]) -> Option<Llt<usize, f64>> {
     let n = 3 * programme.bodies;
     let mut values = vec![0.0; pattern.rows.len()];
-    for (block, root) in programme.blocks.iter().zip(roots) {
+    for ((block, root), places) in programme.blocks.iter().zip(roots).zip(&pattern.places) {
         let product = |e: &Square| -> Square {
             std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| e[i][k] * root[k][j]).sum()))
         };
-        let halves: Vec<(usize, Square)> = block.iter().map(|(body, e)| (*body, product(e))).collect();
-        for (a, left) in &halves {
-            for (b, right) in halves.iter().filter(|(b, _)| b >= a) {
-                let starts = pattern.places[&(*b, *a)];
-                for (column, start) in starts.into_iter().enumerate() {
-                    for row in 0..3 {
-                        values[start + row] += dot(&right[row], &left[column]);
-                    }
-                }
+        let halves: Vec<Square> = block.iter().map(|(_, e)| product(e)).collect();
+        for &([i, j], starts) in places {
+            for (left, start) in halves[i].iter().zip(starts) {
+                (0..3).for_each(|row| values[start + row] += dot(&halves[j][row], left));
             }
         }
     }

@@ -5,7 +5,7 @@
 //! embankment, and the body below carries that. Surfaces that overhang carry no column.
 
 use super::super::{PointForce, Structure};
-use super::{Fill, GAUSS_2, LoadFault, Side, clip, cut, pieces_of};
+use super::{Fill, GAUSS_2, LoadFault, LoadedSide, clip, cut, pieces_of};
 use crate::geometry::{Vec2, perpendicular};
 
 impl Fill {
@@ -37,7 +37,7 @@ impl Fill {
     }
 
     /// The part of a side on which columns stand.
-    fn foot(&self, (k, a, b): Side) -> Option<Side> {
+    fn foot(&self, (k, a, b): LoadedSide) -> Option<LoadedSide> {
         if b.x <= a.x {
             return None;
         }
@@ -48,7 +48,7 @@ impl Fill {
     }
 
     /// What a piece of a foot carries: its columns' force, and its share of the pressure that carries the foot's `moment`.
-    fn carried(&self, piece: Side, foot: Side, acceleration: Vec2, moment: f64) -> [PointForce; 2] {
+    fn carried(&self, piece: LoadedSide, foot: LoadedSide, acceleration: Vec2, moment: f64) -> [PointForce; 2] {
         let ((body, a, b), (_, from, to)) = (piece, foot);
         let (length, middle) = ((to - from).norm(), 0.5 * (from + to));
         let (along, slope) = ((to - from) / length, 12.0 * moment / length.powi(3));
@@ -61,7 +61,7 @@ impl Fill {
     }
 
     /// Integral over the plan width of a foot of what the depth of fill over it gives; exact to its third power.
-    fn along(&self, (_, a, b): Side, of: impl Fn(f64) -> f64) -> f64 {
+    fn along(&self, (_, a, b): LoadedSide, of: impl Fn(f64) -> f64) -> f64 {
         GAUSS_2.iter().map(|&share| 0.5 * (b.x - a.x) * of(self.depth(a + share * (b - a)))).sum()
     }
 

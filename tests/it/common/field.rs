@@ -42,7 +42,8 @@ pub fn error(coarse: &StressField, fine: &StressField) -> f64 {
             let (mut area, mut sum) = (0.0, [0.0; 3]);
             for s in &fine.subblocks {
                 let shares = [0, 1].map(|k| overlap(subblock.place[k], coarse.counts[k], s.place[k], fine.counts[k]));
-                let here = shares[0] * shares[1] * polygon(&s.corners.map(Into::into)).0;
+                let corners: Vec<[f64; 2]> = s.corners.iter().map(|&corner| corner.into()).collect();
+                let here = shares[0] * shares[1] * polygon(&corners).0;
                 area += here;
                 (0..3).for_each(|c| sum[c] += here * s.stress[c]);
             }

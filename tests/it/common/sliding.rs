@@ -8,7 +8,7 @@ use super::{door, sliding_arch};
 use serde_json::Value;
 use voussoir::budget::Budget;
 
-use voussoir::collapse::{Analysis, CollapseReport, Direction, PathEnd, run};
+use voussoir::collapse::{Analysis, CollapseReport, Direction, Note, PathEnd, run};
 use voussoir::structure::Face;
 
 /// Load factors that differ by less than this share of their size, or of that at which the scaled loads are as large as the
@@ -91,8 +91,7 @@ impl Checked {
             }
         };
         // At some ends of the window no motion without dilation is driven by the scaled loads: the answer says so.
-        let full = !self.exhaustive.is_some_and(f64::is_infinite)
-            && !report.notes.iter().any(|note| note.contains("make no mechanism"));
+        let full = !self.exhaustive.is_some_and(f64::is_infinite) && !report.notes.contains(&Note::LaterMechanism);
         complain(full && exceeds(self.gap.worst(), FULL), format!("no full solution: {:?}", self.gap));
         complain(
             full && exceeds(1e-9, sign * self.gap.driving),
@@ -117,7 +116,11 @@ impl Checked {
         }
         let open = lower(self.least, self.greatest);
         let silent = (self.slides || open)
-            && (end.range.is_none() || !report.notes.iter().any(|note| note.contains("Joints slide")));
+            && (end.range.is_none()
+                || !report
+                    .notes
+                    .iter()
+                    .any(|note| matches!(note, Note::SoleSlidingLoad(_) | Note::ManySlidingLoads(_))));
         complain(silent, "slides without a range or a note".into());
         if self.slides && full {
             let by_programme = Problem { limits: limits(end), ..problem.clone() };

@@ -2,7 +2,7 @@
 //!
 //! All figures are shares of the loads: the sum of the sizes of all forces at the state's load factor.
 
-use voussoir::collapse::{Analysis, CollapseReport, ContactForce, Method, PathEnd, Snapshot};
+use voussoir::collapse::{Analysis, CollapseReport, ContactPoint, Method, PathEnd, Snapshot};
 use voussoir::geometry::Vec2;
 use voussoir::structure::{Joint, JointLaw, PointForce, Structure};
 
@@ -102,7 +102,7 @@ pub fn broken(analysis: &Analysis, state: &Snapshot) -> Broken {
 }
 
 /// Contacts of a joint.
-fn at_joint(state: &Snapshot, joint: usize) -> impl Iterator<Item = &ContactForce> {
+fn at_joint(state: &Snapshot, joint: usize) -> impl Iterator<Item = &ContactPoint> {
     state.contacts.iter().filter(move |contact| contact.joint == joint)
 }
 
@@ -114,8 +114,8 @@ fn share(places: &[f64], j: usize) -> f64 {
 }
 
 /// Tension, friction and overlap of one contact, N/m.
-fn of_contact(analysis: &Analysis, k: usize, joint: &Joint, share: f64, contact: &ContactForce) -> Broken {
-    let ContactForce { normal, tangential, gap, .. } = *contact;
+fn of_contact(analysis: &Analysis, k: usize, joint: &Joint, share: f64, contact: &ContactPoint) -> Broken {
+    let ContactPoint { normal, tangential, gap, .. } = *contact;
     let arch = &analysis.structure;
     let last = k + 1 == arch.ring().len();
     let Some([friction, cohesion]) = joint.law.coulomb() else {

@@ -108,7 +108,7 @@ fn judged(scene: &Scene, report: &CollapseReport) -> Judged {
     let wrong = |what: String| Judged::Wrong(format!("{what}; outcome {:?}, oracle {window:?}", report.outcome));
     let stands = window.is_some_and(|(low, high)| low <= SAME && high >= -SAME);
     if report.outcome == Outcome::CannotTell {
-        return Judged::CannotTell(format!("{}; oracle {window:?}", report.notes.join(" ")));
+        return Judged::CannotTell(format!("{:?}; oracle {window:?}", report.notes));
     }
     let ours = report.limit_window.as_ref().map(|window| (window.lowest, window.highest));
     let agree = match (ours, window) {

@@ -105,7 +105,7 @@ impl Checked {
         let cannot = report.outcome == Outcome::CannotTell;
         self.complain(cannot, || {
             let window = report.limit_window.map(|w| (w.lowest, w.highest));
-            format!("cannot tell: {} (limit window {window:?}, start {})", report.notes.join(" "), report.start)
+            format!("cannot tell: {:?} (limit window {window:?}, start {})", report.notes, report.start)
         });
         let sign = if analysis.direction == Direction::Increase { 1.0 } else { -1.0 };
         let Some(window) = report.limit_window else { return };

@@ -93,7 +93,7 @@ pub fn limits(workers: usize, queue: usize) -> Limits {
 
 /// An open service.
 pub fn settings() -> Settings {
-    let limits = api::Limits {
+    let limits = api::ApiLimits {
         body: BODY_LIMIT,
         request_time: Duration::from_secs(30),
         voussoirs: 200,

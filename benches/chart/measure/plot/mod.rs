@@ -3,11 +3,11 @@
 mod axis;
 mod labels;
 
-use super::canvas::{Canvas, WIDTH};
-use crate::geometry::Vec2;
 use axis::Axis;
 use labels::{Labels, text_width};
 use std::f64::consts::TAU;
+use voussoir::geometry::Vec2;
+use voussoir::render::canvas::{Canvas, WIDTH};
 
 /// Edges of the field of decades, pixels.
 const LEFT: f64 = 92.0;

@@ -97,7 +97,13 @@ mod tests {
             let (i0, j0) = (i as f64, j as f64);
             let corners = [at(i0, j0), at(i0, j0 + 1.0), at(i0 + 1.0, j0 + 1.0), at(i0 + 1.0, j0)];
             let centre = at(i0 + 0.5, j0 + 0.5);
-            SubblockStress { voussoir, place: [i, j], centre, corners, stress: stress(centre.x, centre.y) }
+            SubblockStress {
+                voussoir,
+                place: [i, j],
+                centre,
+                corners: corners.to_vec(),
+                stress: stress(centre.x, centre.y),
+            }
         };
         let places = meshes
             .iter()

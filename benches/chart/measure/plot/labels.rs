@@ -1,6 +1,6 @@
 //! Names beside marks, where there is room.
 
-use crate::geometry::Vec2;
+use voussoir::geometry::Vec2;
 
 /// Size of the letters, pixels.
 const SIZE: f64 = 12.0;

@@ -1,8 +1,8 @@
 //! Rows of the table as marks of a chart.
 
+use super::plot::{Chart, Point, Series, svg};
 use super::scenes::Scenes;
 use super::table::{Kind, Row};
-use voussoir::render::chart::{Chart, Point, Series, svg};
 
 /// Runs nearer to limit analysis than this count as exact: the reference has no more digits.
 const EXACT: f64 = 1e-9;

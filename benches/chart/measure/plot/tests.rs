@@ -1,5 +1,8 @@
+#[path = "../../../../src/render/checks.rs"]
+mod checks;
+
 use super::*;
-use crate::render::checks::{attributes, well_formed};
+use checks::{attributes, well_formed};
 
 fn point(time: f64, error: Option<f64>, label: Option<&str>) -> Point {
     Point { time, error, label: label.map(str::to_owned) }

@@ -165,11 +165,16 @@ fn unmet(report: &CollapseReport) -> bool {
     estimates.any(|estimate| !estimate.met)
 }
 
+/// Why a report has not what was asked for.
+fn unfinished(report: &CollapseReport) -> String {
+    report.notes.iter().fold(format!("{:?}:", report.outcome), |words, note| format!("{words} {note}"))
+}
+
 /// Collapse intensity (the scenes call load factor 1 intensity 1), and whether it is not as accurate as asked.
 fn first_order(report: &CollapseReport) -> Result<(f64, bool), String> {
     match (&report.end, report.outcome) {
         (Some(end), Outcome::Collapse) => Ok((end.load_factor, unmet(report))),
-        (_, outcome) => Err(format!("{outcome:?}: {}", report.notes.join(" "))),
+        _ => Err(unfinished(report)),
     }
 }
 
@@ -191,7 +196,7 @@ fn on_stress(scene: &StressScene, model: &Model, reference: &mut Option<Stresses
         Ok(Answer::CurvedBeam(beam)) => Ok((beam.error, beam.plan.is_some_and(|plan| !plan.stress.met))),
         Ok(Answer::One(report)) => match Stresses::new(&report) {
             Some(stresses) => Ok((stresses.error(fine(scene, reference)?), unmet(&report))),
-            None => Err(format!("{:?}: {}", report.outcome, report.notes.join(" "))),
+            None => Err(unfinished(&report)),
         },
         Ok(_) => return Err("no stress asked for".to_owned()),
         Err(error) => Err(error.to_string()),

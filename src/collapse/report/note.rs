@@ -1,0 +1,182 @@
+//! What an engineer should know before using the numbers: data. The sentences are the wire's.
+
+use super::{FieldAt, LimitWindow, LoadRange};
+
+/// What has to be said of an answer.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Note {
+    /// The load path is not taken at its word.
+    Doubt(Doubt),
+    /// This quantity was not finite, so nothing but the limit window is told.
+    NotFinite(&'static str),
+    /// The load path cannot start inside the limit window.
+    StandsOnlyWithin {
+        /// Load factors in equilibrium.
+        window: LimitWindow,
+        /// Why none of them is tried.
+        why: Unreached,
+    },
+    /// The arch stands at load factor 0 and at none beyond it.
+    FallsFromZero,
+    /// No load grows.
+    NothingGrows,
+    /// Hinges and slides are not those of the joints at their limits at the collapse load.
+    LaterMechanism,
+    /// Joints crush and slide: the load is that of the path, and none lower is looked for.
+    CrushesAndSlides,
+    /// Joints slide, and no other load was found at which the arch falls.
+    SoleSlidingLoad(LoadRange),
+    /// Joints slide, and the arch may fall at any load of a range.
+    ManySlidingLoads(LoadRange),
+    /// The collapse load was read at whole steps.
+    ReadAtSteps {
+        /// Step of the load factor.
+        step: f64,
+        /// What limit analysis gives.
+        limit: f64,
+    },
+    /// Subblocks so many times as long as wide show stresses across them that are not there.
+    SlenderSubblocks {
+        /// Length over width of the worst.
+        slenderness: f64,
+        /// Most that is trusted.
+        trusted: f64,
+    },
+    /// The cohesion of a joint is shared out to its contact points.
+    CohesionByPoint,
+    /// On moving geometry stones of one subblock do not bend.
+    UnbentStones,
+    /// On moving geometry the arch stands up to this load factor, and leaves the model beyond it.
+    MovesBeyondModel {
+        /// Load factor.
+        stands_to: f64,
+    },
+    /// The limit window with plastic sections could not be computed.
+    NoPlasticSections,
+    /// First yield comes after plastic collapse: the mesh is too coarse.
+    YieldTooLate,
+    /// Plastic sections never fail, so first yield counts.
+    SectionsNeverFail,
+    /// With plastic sections the arch does not stand at the start of the load path.
+    CrushesAtStart {
+        /// Compressive strength, Pa.
+        strength: f64,
+        /// Load factor at the start.
+        start: f64,
+        /// Load factors at which it does stand, if any.
+        window: Option<LimitWindow>,
+    },
+    /// A stress field was asked for that the load path does not have.
+    NoStressField {
+        /// Which.
+        at: FieldAt,
+        /// Whether the arch falls.
+        falls: bool,
+    },
+    /// Arch and loads are symmetric, but there is more than one state.
+    SeveralStates {
+        /// Which of them is given.
+        given: OtherStates,
+        /// Load factors at which there are several.
+        load_factors: Vec<f64>,
+        /// Joints at which they differ.
+        joints: Vec<usize>,
+    },
+    /// The motion knows no bonded joints between stones that can move.
+    MotionOfBondedStones,
+    /// The motion knows no stone cut in half.
+    MotionOfHalfStone,
+    /// A motion could not be followed to its end.
+    MotionLost,
+    /// In some steps of the motion friction is beyond its bound, by at most this share of the loads.
+    MotionBeyondFriction(f64),
+}
+
+/// Why a path is not taken at its word.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Doubt {
+    /// The thickest joint is so short that rounding would decide.
+    Slender {
+        /// Its length, m.
+        thickness: f64,
+        /// As a share of the arch's size.
+        share: f64,
+    },
+    /// The loads at the start could not be brought on.
+    NotLoaded,
+    /// There is no limit window.
+    NoCertificate,
+    /// Equilibrium was kept to this share of the loads only.
+    Unbalanced(f64),
+    /// A state on the path breaks the contact law.
+    BreaksLaw {
+        /// Its load factor.
+        load_factor: f64,
+        /// At which joint.
+        joint: usize,
+        /// Forces missing, as a share of the loads.
+        amount: f64,
+    },
+    /// The path could not be followed to its end.
+    Lost,
+    /// The path stands where limit analysis finds no equilibrium.
+    StandsOutside,
+    /// The path falls without sliding where limit analysis finds equilibrium.
+    FallsInside,
+    /// The path falls by sliding where limit analysis, whose joints dilate, finds equilibrium.
+    SlidesInside,
+    /// Stones without weight or load are free to move.
+    LooseStones,
+    /// After this load factor, its highest, the path runs back past its start, without a mechanism.
+    TurnedBack(f64),
+    /// The path ends in sliding joints that are not at the limit of their friction.
+    Stray {
+        /// Load factor of the path's end.
+        path: f64,
+        /// End of the limit window, infinite where there is none.
+        limit: f64,
+    },
+    /// The path passes the limit window.
+    Above {
+        /// Load factor of the path's end.
+        path: f64,
+        /// End of the limit window.
+        limit: f64,
+    },
+    /// The path ends without sliding, short of the limit window.
+    Short {
+        /// Load factor of the path's end.
+        path: f64,
+        /// End of the limit window.
+        limit: f64,
+    },
+}
+
+impl Doubt {
+    /// True where path and certificate cannot both be right; sliding may part them without either being wrong.
+    pub(in crate::collapse) fn is_contradiction(&self) -> bool {
+        !matches!(self, Doubt::SlidesInside | Doubt::TurnedBack(_))
+    }
+}
+
+/// Why the load path does not reach a limit window.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unreached {
+    /// It lies beyond the cap.
+    BeyondCap,
+    /// The arch needs more than its scaled loads in full.
+    TooLittleLoad,
+    /// The arch needs its scaled loads reversed.
+    Reversed,
+}
+
+/// Why the state of a symmetric arch at a load factor is not the only one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum OtherStates {
+    /// Joints may be open by more or less while no force changes; the state given is the symmetric one.
+    Free,
+    /// The path leant to one side, with other forces; the state given is the symmetric one.
+    Leaning,
+    /// The state given leans to one side: no symmetric one was found.
+    Lopsided,
+}
