@@ -3,14 +3,17 @@
 
 use crate::common::dice::Dice;
 use crate::common::oracle::{Problem, distance};
+use crate::common::structures::{self, FAMILIES};
 use crate::common::{door, random_arch};
 use crate::crushing::{mean_stress, oval, relative};
 use serde_json::{Value, json};
 use voussoir::budget::Budget;
-use voussoir::collapse::{Analysis, CollapseReport, ContactForce, Direction, Outcome, run};
+use voussoir::collapse::{Analysis, CollapseReport, ContactPoint, Direction, Outcome, run};
 
 /// How many random arches, from seed 0.
 const ARCHES: u64 = 150;
+/// How many random structures of each family.
+const STRUCTURES: u64 = 20;
 /// Path and linear programme with the same points agree to this share.
 const EQUAL: f64 = 1e-7;
 /// Path and plastic sections agree to this share, the path being below.
@@ -32,7 +35,7 @@ fn crushing(request: &Value, strength: f64) -> Result<Analysis, String> {
 
 /// The arch whose joints bear on these contacts alone where the contacts leave out a joint's ends, each capped at the strength
 /// times what it is the middle of.
-fn capped(analysis: &Analysis, contacts: &[ContactForce], strength: f64) -> Problem {
+fn capped(analysis: &Analysis, contacts: &[ContactPoint], strength: f64) -> Problem {
     let mut problem = door::problem(analysis);
     for (joint, seam) in problem.seams.iter().enumerate() {
         let places: Vec<f64> = contacts.iter().filter(|c| c.joint == joint).map(|c| c.position).collect();
@@ -99,7 +102,7 @@ fn random_arches_crush_on_the_path_where_the_programme_says() {
         match report.outcome {
             Outcome::CannotTell => {
                 cannot_tell += 1;
-                println!("seed {seed}: {}", report.notes.join(" "));
+                println!("seed {seed}: {:?}", report.notes);
             }
             Outcome::Collapse if report.end.as_ref().is_some_and(|end| end.load_factor != 0.0) => {
                 match hold(&analysis, &report) {
@@ -204,4 +207,37 @@ fn a_pier_bears_its_strength_over_what_lies_about_its_force() {
         println!("{off}: {found} of {exact}, {:?}", report.end.as_ref().unwrap().mechanism.mode);
         assert!(found <= exact * (1.0 + 1e-6) && found >= 0.995 * exact, "{off}: {found} {exact}");
     }
+}
+
+#[test]
+fn random_structures_crush_on_the_path_within_plastic_sections() {
+    let (mut crushed, mut slid, mut cannot_tell, mut worst) = (0, 0, 0, 0.0_f64);
+    let mut complaints = Vec::new();
+    for (name, scene) in FAMILIES
+        .iter()
+        .flat_map(|(name, scene)| (0..STRUCTURES).map(move |seed| (format!("{name} {seed}"), scene(seed))))
+    {
+        let mut analysis = structures::analysis(&scene);
+        let strength = Dice::new(name.len() as u64 + crushed + slid).decades(1e5, 1e7);
+        analysis.structure.stones[0].compressive_strength = strength;
+        analysis.crushing_in_path = true;
+        let report = run(&analysis, &Budget::unlimited()).unwrap_or_else(|error| panic!("{name}: {error}"));
+        cannot_tell += u64::from(report.outcome == Outcome::CannotTell);
+        if report.outcome == Outcome::CannotTell {
+            println!("{name}, {strength} Pa: {:?}", report.notes);
+        }
+        let window = report.crushing.as_ref().and_then(|c| c.plastic_section.as_ref()).and_then(|p| p.window);
+        let (Outcome::Collapse, Some(end), Some(window)) = (report.outcome, &report.end, window) else { continue };
+        let slides = !end.mechanism.slides.is_empty();
+        let short = (window.highest - end.load_factor) / window.highest.abs().max(SMALL);
+        crushed += u64::from(!end.crushed.is_empty());
+        slid += u64::from(slides);
+        worst = if slides { worst } else { worst.max(short) };
+        if short < -ABOVE || (!slides && short > SHORT) {
+            complaints.push(format!("{name}, {strength} Pa: {} of {}", end.load_factor, window.highest));
+        }
+    }
+    println!("{crushed} crush, {slid} slide, {cannot_tell} cannot tell; short by {worst:.1e} at most");
+    assert!(complaints.is_empty(), "{} complaints:\n{}", complaints.len(), complaints.join("\n"));
+    assert!(crushed >= STRUCTURES && cannot_tell <= STRUCTURES / 10);
 }
