@@ -188,10 +188,10 @@ fn pier(off: f64) -> CollapseReport {
     };
     let request = json!({
         "blocks": {"polygons": (0..3).map(block).collect::<Vec<_>>(), "joints": "found", "supports": [{"name": "ground", "sides": [{"block": "b0", "side": 0}]}]},
-        "stone": {"compressive_strength_pa": 1e6, "density_kg_m3": 1e-3},
+        "stone": {"compressive_strength_pa": 1e6, "density_kg_m3": 0.1},
         "loads": [
             {"load": {"self_weight": {}}},
-            {"load": {"point_load": {"block": "b2", "at_m": [1.0 + off, 3], "force_n_per_m": 1000}}, "scaled": true}
+            {"load": {"point_force": {"block": "b2", "at_m": [1.0 + off, 3], "force_n_per_m": [0, -1000]}}, "scaled": true}
         ],
         "crushing_in_path": true,
     });
