@@ -100,7 +100,7 @@ pub struct AnalysisResult {
     pub settlement: Option<SettlementBody>,
     /// Safety factors, where `analysis` asks for them.
     pub safety: Option<SafetyBody>,
-    /// How the arch moves on from its collapse, where `motion` asks for it.
+    /// How the structure moves on from its collapse, where `motion` asks for it.
     pub motion: Option<MotionBody>,
     /// How it moves on from `other_end`, where `motion` asks for it.
     pub other_motion: Option<MotionBody>,

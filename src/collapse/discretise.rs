@@ -33,7 +33,7 @@ pub(super) struct Model<'p> {
     /// Bodies and joints that are told of: all but abutment blocks.
     pub bodies: usize,
     pub joints: usize,
-    /// The subblocks of these bodies.
+    /// The subblocks of all bodies, those first that are told of.
     pub grids: Vec<Grid>,
     /// Places of every joint's contact points: 0 at its first end, 1 at its second.
     positions: Vec<Vec<f64>>,
@@ -68,61 +68,94 @@ impl Scatter {
     }
 }
 
-/// Cuts every body of the structure into the subblocks of a macroblock. No joint crushes.
-pub(super) fn discretise<'p>(
-    analysis: &Analysis,
-    attempt: Attempt,
-    budget: &'p Budget<'p>,
-) -> Result<Model<'p>, AnalysisError> {
-    discretise_crushing(analysis, &Strips::default(), attempt, budget)
+/// The model of the analysis that was looked at last. Stones are condensed only where structure or mesh are not those of the one
+/// before: other loads are filled in, and another attempt scatters the stiffness of the contacts.
+pub(super) struct Discretisation<'a> {
+    pub budget: &'a Budget<'a>,
+    of: Option<(&'a Analysis, Strips, Model<'a>)>,
+    /// Stones condensed so far, those of one shape once.
+    condensed: usize,
 }
 
-/// The same, with joints that crush in strips.
-pub(super) fn discretise_crushing<'p>(
-    analysis: &Analysis,
-    strips: &Strips,
-    attempt: Attempt,
-    budget: &'p Budget<'p>,
-) -> Result<Model<'p>, AnalysisError> {
+impl<'a> Discretisation<'a> {
+    /// Of nothing yet.
+    pub(super) fn new(budget: &'a Budget<'a>) -> Self {
+        Discretisation { budget, of: None, condensed: 0 }
+    }
+
+    /// The model of an analysis, with ties broken as in this attempt; no joint crushes.
+    ///
+    /// # Errors
+    /// When a stone is loose, or when stopped.
+    pub(super) fn model(&mut self, analysis: &'a Analysis, attempt: Attempt) -> Result<&Model<'a>, AnalysisError> {
+        self.crushing(analysis, &Strips::default(), attempt)
+    }
+
+    /// The same with joints that crush in strips.
+    ///
+    /// # Errors
+    /// When a stone is loose, or when stopped.
+    pub(super) fn crushing(
+        &mut self,
+        analysis: &'a Analysis,
+        strips: &Strips,
+        attempt: Attempt,
+    ) -> Result<&Model<'a>, AnalysisError> {
+        let same = |before: &Analysis, other: &Strips| same_stones(before, analysis) && strips == other;
+        let mut model = match self.of.take() {
+            Some((before, other, model)) if same(before, &other) && same_loads(before, analysis) => model,
+            Some((before, other, mut model)) if same(before, &other) => {
+                model.take_loads(analysis)?;
+                model
+            }
+            _ => {
+                let model = discretise(analysis, strips, self.budget)?;
+                self.condensed += model.assembly.kinds();
+                model
+            }
+        };
+        model.scatter(attempt);
+        Ok(&self.of.insert((analysis, strips.clone(), model)).2)
+    }
+}
+
+/// Whether two analyses are of the same stones, joints and subblocks.
+fn same_stones(a: &Analysis, b: &Analysis) -> bool {
+    let stiffness = |of: &Analysis| (of.plane, of.penalty_ratio, of.shear_penalty_ratio);
+    stiffness(a) == stiffness(b) && a.mesh == b.mesh && a.structure == b.structure
+}
+
+fn same_loads(a: &Analysis, b: &Analysis) -> bool {
+    a.geometry == b.geometry && a.fixed == b.fixed && a.scaled == b.scaled
+}
+
+/// Cuts every body of the structure into the subblocks of a macroblock, and condenses it.
+fn discretise<'p>(analysis: &Analysis, strips: &Strips, budget: &'p Budget<'p>) -> Result<Model<'p>, AnalysisError> {
     let structure = &analysis.structure;
-    let mut grids = grids(analysis);
-    let assembly = assembly(analysis, &grids, strips, attempt, budget)?;
-    let (bodies, joints) = (structure.voussoirs().len(), structure.ring().len());
+    let grids = grids(analysis);
+    let assembly = assembly(analysis, &grids, strips, budget)?;
     let positions = structure.ring().iter().enumerate();
     let positions = positions.map(|(k, joint)| points(strips.of(k), joint.law, &around(joint, &grids)).0).collect();
-    let on_subblocks = |force: &PointForce| pushes(force, &grids);
-    let straight = |forces: &[PointForce]| assembly.loads(forces.iter().flat_map(on_subblocks), budget);
-    let turned = |forces: &[PointForce]| match analysis.geometry {
-        Geometry::FirstOrder => Ok(Vec::new()),
-        Geometry::Updated => assembly.turned_loads(forces.iter().flat_map(on_subblocks), budget),
-    };
-    let [fixed, scaled] = [straight(&analysis.fixed)?, straight(&analysis.scaled)?];
-    let turned = [turned(&analysis.fixed)?, turned(&analysis.scaled)?];
-    grids.truncate(bodies);
-    Ok(Model {
-        turned,
+    let mut model = Model {
         symmetric: !structure.is_half() && assembly.is_symmetric(),
-        fixed,
-        scaled,
+        fixed: Loads::default(),
+        scaled: Loads::default(),
+        turned: Default::default(),
         budget,
-        bodies,
-        joints,
+        bodies: structure.voussoirs().len(),
+        joints: structure.ring().len(),
         size: extent(structure.ring().iter().flat_map(|j| [j.intrados, j.extrados])),
-        softest: assembly.contacts().iter().map(|contact| contact.stiffness[0]).fold(f64::INFINITY, f64::min),
+        softest: f64::INFINITY,
         positions,
         assembly,
         grids,
-    })
+    };
+    model.take_loads(analysis)?;
+    Ok(model)
 }
 
-/// The bodies cut like this, joined as the structure says, their contacts scattered.
-fn assembly(
-    analysis: &Analysis,
-    grids: &[Grid],
-    strips: &Strips,
-    attempt: Attempt,
-    budget: &Budget,
-) -> Result<Assembly, AnalysisError> {
+/// The bodies cut like this, joined as the structure says.
+fn assembly(analysis: &Analysis, grids: &[Grid], strips: &Strips, budget: &Budget) -> Result<Assembly, AnalysisError> {
     let structure = &analysis.structure;
     let mut macroblocks = Vec::with_capacity(grids.len());
     for (body, grid) in grids.iter().enumerate() {
@@ -146,10 +179,7 @@ fn assembly(
         );
         builder.join(between, touches);
     }
-    let mut assembly = builder.finish(budget)?;
-    let mut scatter = Scatter::new(attempt.seed);
-    assembly.scatter(|| [(); 2].map(|()| 1.0 + attempt.scatter * scatter.next()));
-    Ok(assembly)
+    Ok(builder.finish(budget)?)
 }
 
 /// What lies before and after a joint, and where the joint lies on it; none: the ground.
@@ -300,6 +330,29 @@ fn extent(points: impl Iterator<Item = Vec2>) -> f64 {
 }
 
 impl Model<'_> {
+    /// Fills in the loads of an analysis of the same stones.
+    fn take_loads(&mut self, analysis: &Analysis) -> Result<(), AnalysisError> {
+        let (assembly, budget) = (&self.assembly, self.budget);
+        let on_subblocks = |force: &PointForce| pushes(force, &self.grids);
+        let straight = |forces: &[PointForce]| assembly.loads(forces.iter().flat_map(on_subblocks), budget);
+        let turned = |forces: &[PointForce]| match analysis.geometry {
+            Geometry::FirstOrder => Ok(Vec::new()),
+            Geometry::Updated => assembly.turned_loads(forces.iter().flat_map(on_subblocks), budget),
+        };
+        let [fixed, scaled] = [straight(&analysis.fixed)?, straight(&analysis.scaled)?];
+        let turned = [turned(&analysis.fixed)?, turned(&analysis.scaled)?];
+        (self.fixed, self.scaled, self.turned) = (fixed, scaled, turned);
+        Ok(())
+    }
+
+    /// Scatters the stiffness of the contacts as one attempt does.
+    fn scatter(&mut self, attempt: Attempt) {
+        let mut scatter = Scatter::new(attempt.seed);
+        self.assembly.scatter(|| [(); 2].map(|()| 1.0 + attempt.scatter * scatter.next()));
+        let stiffness = self.assembly.contacts().iter().map(|contact| contact.stiffness[0]);
+        self.softest = stiffness.fold(f64::INFINITY, f64::min);
+    }
+
     /// All loads at a load factor, each with its own.
     pub(super) fn loads_at(&self, load_factor: f64) -> [(&Loads, f64); 2] {
         [(&self.fixed, 1.0), (&self.scaled, load_factor)]

@@ -1,4 +1,4 @@
-//! Motion after collapse: from an arch, its loads and its report to rigid blocks on the move, and back to frames.
+//! Motion after collapse: from a structure, its loads and its report to rigid bodies on the move, and back to frames.
 
 use super::{
     Analysis, AnalysisError, CollapseReport, Direction, FallingMotion, MotionAsked, MotionContact, MotionEnd,
@@ -6,9 +6,9 @@ use super::{
 };
 use crate::budget::Budget;
 
-use crate::dda::falling::{Advance, Block, Corners, Falling, Frame, Friction};
-use crate::geometry::Vec2;
-use crate::structure::{Face, Joint, JointLaw, Structure};
+use crate::dda::falling::{Advance, Carried, Configuration, Falling, Interface, Member, Opening, RigidBody};
+use crate::geometry::{Vec2, perpendicular};
+use crate::structure::{Face, Joint, JointLaw, Side, Structure};
 
 /// The scaled loads are so much larger in the motion than at collapse, lest a perfectly balanced arch stay where it is.
 const OVERLOAD: f64 = 0.01;
@@ -16,8 +16,12 @@ const OVERLOAD: f64 = 0.01;
 const SMALL: f64 = 0.01;
 /// Stones closer than this share of the thickness touch; joints that open or slide by more are hinges and slides.
 const NEAR: f64 = 1e-3;
-/// An arch that has moved by less than this share of its thickness has not begun to fall.
+/// A structure that has moved by less than this share of its thickness has not begun to fall.
 const BEGUN: f64 = 0.02;
+/// Joints on one line to this share of the extent share the ground between them.
+const ON_LINE: f64 = 1e-6;
+/// The ground at a level and the wall at the crown of half an arch go on for so many extents.
+const FAR: f64 = 10.0;
 
 /// Friction beyond its bound by more than this share of the loads is told.
 const BEYOND: f64 = 1e-6;
@@ -31,11 +35,6 @@ pub(super) fn follow(analysis: &Analysis, report: &mut CollapseReport, budget: &
     let as_built = matches!(report.outcome, Outcome::FallsAsBuilt | Outcome::SlidesAsBuilt);
     let falls = as_built || matches!(report.outcome, Outcome::Collapse | Outcome::StandsInWindow);
     if !falls || (report.end.is_none() && report.other_end.is_none()) {
-        return Ok(());
-    }
-    let halved = analysis.structure.ring().iter().any(|joint| joint.law == JointLaw::Mirror);
-    if halved || !holds_together(&analysis.structure) {
-        report.notes.push(if halved { Note::MotionOfHalfStone } else { Note::MotionOfBondedStones });
         return Ok(());
     }
     let sign = if analysis.direction == Direction::Increase { 1.0 } else { -1.0 };
@@ -104,21 +103,16 @@ fn run(
     report: &CollapseReport,
     budget: &Budget,
 ) -> Result<FallingMotion, AnalysisError> {
-    let structure = &analysis.structure;
-    let thickness = structure.ring().iter().map(Joint::length).fold(f64::INFINITY, f64::min);
-    let span = span(structure);
-    let mut falling = falling(analysis, load_factor, thickness);
-    let mut frame = falling.frame();
-    let mut frames = vec![read(&frame, thickness)];
+    let moving = Moving::new(analysis, load_factor, asked.ground_level);
+    let Moving { mut falling, span, thickness, .. } = moving.clone();
+    let mut configuration = falling.configuration();
+    let mut frames = vec![moving.read(&configuration)];
     let end = loop {
         let events = report.cost.events + frames.len();
         if budget.step(load_factor, events).is_break() {
             return Err(budget.stopped().into());
         }
-        if let Some(joint) = falling.parted(&frame) {
-            break MotionEnd::StoneFree { voussoir: freed(&frame, &frames, joint), joint };
-        }
-        if frame.displacement >= asked.share_of_span * span {
+        if configuration.displacement >= asked.share_of_span * span {
             break MotionEnd::Moved;
         }
         if frames.len() > asked.most_frames {
@@ -127,116 +121,214 @@ fn run(
         let advance = falling.advance(budget);
         budget.check()?;
         match advance {
-            Ok(Advance::Moved(next)) => frame = *next,
+            Ok(Advance::Moved(next)) => configuration = *next,
             Ok(Advance::Rest) => break MotionEnd::AtRest,
-            Ok(Advance::Meet(voussoirs)) => break MotionEnd::StonesMeet { voussoirs },
             Err(_) => break MotionEnd::Lost,
         }
-        frames.push(read(&frame, thickness));
+        frames.push(moving.read(&configuration));
     };
     Ok(FallingMotion { end, load_factor, overload, span, thickness, frames })
 }
 
-/// Of the two stones at a joint that has opened through the one that moved more in the last step.
-fn freed(frame: &Frame, frames: &[MotionFrame], joint: usize) -> usize {
-    let before = &frames[frames.len().saturating_sub(2)];
-    let moved = |k: usize| frame.places.get(k).map(|place| (place.centroid - before.centroids[k]).norm());
-    match (joint.checked_sub(1).and_then(moved), moved(joint)) {
-        (Some(a), Some(b)) if a > b => joint - 1,
-        (Some(_), None) => joint - 1,
-        _ => joint,
+/// A structure as rigid bodies: stones that are bonded are one, and what is bonded to the ground cannot move.
+#[derive(Clone)]
+struct Moving<'a> {
+    structure: &'a Structure,
+    falling: Falling,
+    /// The rigid body of every stone that is told of, and the stone's centroid from that body's at the start, m.
+    stones: Vec<(usize, Vec2)>,
+    span: f64,
+    thickness: f64,
+}
+
+impl<'a> Moving<'a> {
+    fn new(analysis: &'a Analysis, load_factor: f64, ground_level: Option<f64>) -> Self {
+        let structure = &analysis.structure;
+        let (span, thickness) = (span(structure), thickness(structure));
+        let group = groups(structure);
+        let (mut bodies, mut body_of) = (Vec::new(), vec![0; group.len()]);
+        for (k, &first) in group.iter().enumerate() {
+            body_of[k] = body_of[first];
+            if first == k {
+                body_of[k] = bodies.len();
+                let members = (k..group.len()).filter(|&other| group[other] == k).map(|k| member(structure, k));
+                bodies.push(RigidBody::new(members.collect()));
+            }
+        }
+        for joint in &structure.joints {
+            let ([Some(body), None] | [None, Some(body)]) = joint.between.map(Side::body) else { continue };
+            match joint.law {
+                JointLaw::Bonded => bodies[body_of[body]].free = [false; 3],
+                // What the plane of symmetry cuts through stays upright on it.
+                JointLaw::Mirror => bodies[body_of[body]].free = [false, true, false],
+                _ => {}
+            }
+        }
+        for (forces, factor) in [(&analysis.fixed, 1.0), (&analysis.scaled, load_factor)] {
+            forces.iter().for_each(|f| bodies[body_of[f.body]].push(f.at, f.force * factor));
+        }
+        let centroid = |k: usize| RigidBody::new(vec![member(structure, k)]).centroid;
+        let stone = |k: usize| (body_of[k], centroid(k) - bodies[body_of[k]].centroid);
+        let stones = (0..structure.voussoirs().len()).map(stone).collect();
+        bodies.extend(grounds(structure, ground_level));
+        let falling =
+            Falling::new(bodies, structure.joints.iter().map(|j| interface(structure, j)).collect(), thickness);
+        Moving { structure, falling, stones, span, thickness }
+    }
+
+    fn read(&self, configuration: &Configuration) -> MotionFrame {
+        let near = NEAR * self.thickness;
+        let body = |number: usize| (number < self.structure.bodies.len()).then_some(number);
+        let contact = |c: &Carried| MotionContact {
+            bodies: c.between.map(body),
+            joint: c.interface,
+            at: c.at,
+            direction: c.direction,
+            normal: c.normal,
+            tangential: c.tangential,
+            gap: c.gap,
+        };
+        let (mut hinges, mut slides) = (Vec::new(), Vec::new());
+        let joints = self.structure.joints.iter().map(|joint| joint.law.coulomb().is_some());
+        for (joint, (opening, dry)) in configuration.openings.iter().zip(joints).enumerate() {
+            let Opening { gaps, slid, angle, facing } = *opening;
+            let open = gaps.map(|gap| gap > near);
+            if !dry || !facing || open == [true; 2] {
+                continue;
+            }
+            if open[0] != open[1] {
+                let face = if open[0] { Face::Extrados } else { Face::Intrados };
+                hinges.push(OpenHinge { joint, face, opening: angle.abs() });
+            }
+            if slid.abs() > near {
+                slides.push(Slid { joint, by: slid });
+            }
+        }
+        let places = || self.stones.iter().map(|&(body, arm)| (&configuration.places[body], arm));
+        MotionFrame {
+            parameter: configuration.parameter,
+            centroids: places().map(|(place, arm)| place.point(arm)).collect(),
+            rotations: places().map(|(place, _)| place.angle).collect(),
+            contacts: configuration.carried.iter().map(contact).collect(),
+            hinges,
+            slides,
+            displacement: configuration.displacement,
+            penetration: configuration.overlap / self.thickness,
+            residual: configuration.residual,
+            excess: configuration.excess,
+            work: configuration.work,
+        }
     }
 }
 
-/// Between the middles of the springing joints; of half an arch, twice the half.
+fn member(structure: &Structure, k: usize) -> Member {
+    let stone = structure.stone_of(k);
+    let corners = structure.bodies[k].corners.clone();
+    Member { number: k, corners, density: stone.density, friction: stone.friction_angle.tan() }
+}
+
+/// Supports are members too, after all bodies.
+fn interface(structure: &Structure, joint: &Joint) -> Interface {
+    let [friction, cohesion] = joint.law.coulomb().unwrap_or_default();
+    let number = |side: Side| match side {
+        Side::Body(body) => body,
+        Side::Support(support) => structure.bodies.len() + support,
+    };
+    let ends = [joint.intrados, joint.extrados];
+    Interface { between: joint.between.map(number), ends, friction, cohesion: cohesion * joint.length() }
+}
+
+/// Lowest and highest coordinates of all stones, and the longer side of the box between them.
+fn around(structure: &Structure) -> ([Vec2; 2], f64) {
+    let corners = || structure.bodies.iter().flat_map(|body| &body.corners);
+    let low = corners().fold(Vec2::repeat(f64::INFINITY), |low, corner| low.inf(corner));
+    let high = corners().fold(low, |high, corner| high.sup(corner));
+    ([low, high], (high - low).amax())
+}
+
+/// The longest between the middles of springing joints; of half an arch, twice the half; of blocks their extent.
 fn span(structure: &Structure) -> f64 {
-    let (first, last) = (structure.joints[0].middle(), structure.joints[structure.ring().len() - 1].middle());
-    if structure.is_half() { 2.0 * (last.x - first.x).abs() } else { (last - first).norm() }
-}
-
-/// True unless a bonded joint joins stones that can move.
-fn holds_together(structure: &Structure) -> bool {
-    let fixed = fixed(structure);
-    let bonded = |(k, joint): (usize, &Joint)| {
-        let stands = |stone: Option<usize>| stone.and_then(|stone| fixed.get(stone)).is_none_or(|&fixed| fixed);
-        joint.law != JointLaw::Bonded || (stands(k.checked_sub(1)) && stands(Some(k)))
+    let ends = |range: &std::ops::Range<usize>| {
+        structure.joints[range.end - 1].middle() - structure.joints[range.start].middle()
     };
-    structure.ring().iter().enumerate().all(bonded)
-}
-
-/// Stones that are bonded to the ground, directly or through others.
-fn fixed(structure: &Structure) -> Vec<bool> {
-    let n = structure.voussoirs().len();
-    let bonded = |k: &usize| structure.joints[*k].law == JointLaw::Bonded;
-    let left = (0..n).take_while(bonded).count();
-    let right = (1..=n).rev().take_while(bonded).count();
-    (0..n).map(|k| k < left || k + right >= n).collect()
-}
-
-fn falling(analysis: &Analysis, load_factor: f64, thickness: f64) -> Falling {
-    let structure = &analysis.structure;
-    let stone = |(k, two): (usize, &[Joint])| {
-        let corners = [two[0].intrados, two[1].intrados, two[1].extrados, two[0].extrados];
-        Block::new(corners, structure.stone_of(k).density)
+    let of = |span: &crate::structure::Span| match structure.is_half() {
+        true => 2.0 * ends(&span.joints).x.abs(),
+        false => ends(&span.joints).norm(),
     };
-    let mut blocks: Vec<Block> = structure.ring().windows(2).enumerate().map(stone).collect();
-    for (block, fixed) in blocks.iter_mut().zip(fixed(structure)) {
-        block.fixed = fixed;
-    }
-    for (forces, factor) in [(&analysis.fixed, 1.0), (&analysis.scaled, load_factor)] {
-        forces.iter().for_each(|force| blocks[force.body].push(force.at, force.force * factor));
-    }
-    let friction = |joint: &Joint| {
-        let [coefficient, cohesion] = joint.law.coulomb().unwrap_or_default();
-        Friction { coefficient, cohesion: cohesion * joint.length() }
-    };
-    Falling::new(blocks, grounds(structure), structure.ring().iter().map(friction).collect(), thickness)
+    structure.spans.iter().map(of).reduce(f64::max).unwrap_or_else(|| around(structure).1)
 }
 
-/// What the springing joints stand on: as wide as they are, and as deep as wide. The wall at the crown of half an arch
-/// goes on above and below.
-fn grounds(structure: &Structure) -> [Option<Corners>; 2] {
-    let [first, last] = [structure.joints[0], structure.joints[structure.ring().len() - 1]];
-    let back = first.normal() * -first.length();
-    let left = [first.intrados + back, first.intrados, first.extrados, first.extrados + back];
-    let on = last.normal() * last.length();
-    let beyond: Vec2 = last.tangent() * if structure.is_half() { 10.0 * span(structure) } else { 0.0 };
-    let (inner, outer) = (last.intrados - beyond, last.extrados + beyond);
-    [Some(left), Some([inner, inner + on, outer + on, outer])]
+/// Of the longest joint of every stone, the shortest.
+fn thickness(structure: &Structure) -> f64 {
+    let longest = |all: &Vec<usize>| all.iter().map(|&k| structure.joints[k].length()).reduce(f64::max);
+    structure.joints_of_bodies().iter().filter_map(longest).fold(f64::INFINITY, f64::min)
 }
 
-fn read(frame: &Frame, thickness: f64) -> MotionFrame {
-    let contact = |c: &crate::dda::falling::Carried| MotionContact {
-        joint: c.interface,
-        at: c.at,
-        direction: c.direction,
-        normal: c.normal,
-        tangential: c.tangential,
-        gap: c.gap,
-    };
-    let (mut hinges, mut slides) = (Vec::new(), Vec::new());
-    for (joint, meeting) in frame.meetings.iter().enumerate() {
-        let Some(meeting) = meeting.filter(|m| m.facing && m.distance <= NEAR * thickness) else { continue };
-        let open = meeting.touches.map(|touch| touch.is_none_or(|touch| touch.gap > NEAR * thickness));
-        if open[0] != open[1] {
-            let face = if open[0] { Face::Extrados } else { Face::Intrados };
-            hinges.push(OpenHinge { joint, face, opening: meeting.opening.abs() });
+/// For every body the lowest of those that it is bonded to, directly or through others.
+fn groups(structure: &Structure) -> Vec<usize> {
+    let mut group: Vec<usize> = (0..structure.bodies.len()).collect();
+    let bonded = structure.joints.iter().filter(|joint| joint.law == JointLaw::Bonded);
+    let pairs: Vec<[usize; 2]> =
+        bonded.filter_map(|joint| Some([joint.between[0].body()?, joint.between[1].body()?])).collect();
+    loop {
+        let before = group.clone();
+        for &[a, b] in &pairs {
+            let low = group[a].min(group[b]);
+            (group[a], group[b]) = (low, low);
         }
-        if frame.slid[joint].abs() > NEAR * thickness {
-            slides.push(Slid { joint, by: frame.slid[joint] });
+        if group == before {
+            return group;
         }
     }
-    MotionFrame {
-        parameter: frame.parameter,
-        centroids: frame.places.iter().map(|place| place.centroid).collect(),
-        rotations: frame.places.iter().map(|place| place.angle).collect(),
-        contacts: frame.carried.iter().map(contact).collect(),
-        hinges,
-        slides,
-        displacement: frame.displacement,
-        penetration: frame.overlap / thickness,
-        residual: frame.residual,
-        excess: frame.excess,
-        work: frame.work,
+}
+
+/// Ground below a straight line.
+struct Ground {
+    number: usize,
+    /// Unit normal out of it, and how far out the line is, m.
+    normal: Vec2,
+    level: f64,
+    /// From where to where it goes along the line, to the right as one looks along the normal, m.
+    reach: [f64; 2],
+    friction: f64,
+}
+
+impl Ground {
+    /// As deep as it is wide.
+    fn body(&self) -> RigidBody {
+        let [from, to] = self.reach;
+        let at = |along: f64, depth: f64| self.normal * (self.level - depth) - perpendicular(self.normal) * along;
+        let corners = vec![at(from, to - from), at(to, to - from), at(to, 0.0), at(from, 0.0)];
+        RigidBody::fixed(corners, self.number, self.friction)
     }
+}
+
+/// The ground of every support: below its joints, from the first to the last of those on one line. The wall at the crown of half
+/// an arch goes on above and below. And the ground at a level, if one is stated.
+fn grounds(structure: &Structure, level: Option<f64>) -> Vec<RigidBody> {
+    let ([low, high], extent) = around(structure);
+    let (far, first) = (FAR * extent, structure.bodies.len());
+    let mut grounds: Vec<Ground> = Vec::new();
+    for joint in &structure.joints {
+        let (support, normal) = match joint.between {
+            [Side::Support(support), _] => (support, joint.normal()),
+            [_, Side::Support(support)] => (support, -joint.normal()),
+            _ => continue,
+        };
+        let (number, level) = (first + support, normal.dot(&joint.intrados));
+        let ends = [joint.intrados, joint.extrados].map(|end| -perpendicular(normal).dot(&end));
+        let (beyond, friction) = if joint.is_symmetry() { (far, 0.0) } else { (0.0, f64::INFINITY) };
+        let reach = [ends[0].min(ends[1]) - beyond, ends[0].max(ends[1]) + beyond];
+        let on_line = |other: &&mut Ground| {
+            let off = (other.level - level).abs() + (other.normal - normal).norm() * extent;
+            other.number == number && off < ON_LINE * extent
+        };
+        match grounds.iter_mut().find(on_line) {
+            Some(other) => other.reach = [other.reach[0].min(reach[0]), other.reach[1].max(reach[1])],
+            None => grounds.push(Ground { number, normal, level, reach, friction }),
+        }
+    }
+    let (number, reach) = (first + structure.supports, [low.x - far, high.x + far]);
+    let flat = |level| Ground { number, normal: Vec2::y(), level, reach, friction: f64::INFINITY };
+    grounds.iter().chain(level.map(flat).iter()).map(Ground::body).collect()
 }

@@ -189,7 +189,7 @@ impl MotionFrame {
         let MotionFrame { parameter, displacement, penetration, residual, excess, work, .. } = self;
         finite("motion", [*parameter, *displacement, *penetration, *residual, *excess, *work])?;
         finite("motion", centroids.iter().copied().flat_map(both).chain(rotations.iter().copied()))?;
-        for MotionContact { joint: _, at, direction, normal, tangential, gap } in contacts {
+        for MotionContact { bodies: _, joint: _, at, direction, normal, tangential, gap } in contacts {
             let numbers = [*normal, *tangential, *gap].into_iter();
             finite("contact forces in motion", numbers.chain(both(*at)).chain(both(*direction)))?;
         }
@@ -213,8 +213,15 @@ mod tests {
     }
 
     fn motion(change: impl Fn(&mut MotionFrame)) -> FallingMotion {
-        let contact =
-            MotionContact { joint: 0, at: Vec2::zeros(), direction: Vec2::x(), normal: 0.0, tangential: 0.0, gap: 0.0 };
+        let contact = MotionContact {
+            bodies: [None; 2],
+            joint: None,
+            at: Vec2::zeros(),
+            direction: Vec2::x(),
+            normal: 0.0,
+            tangential: 0.0,
+            gap: 0.0,
+        };
         let mut frame = MotionFrame {
             parameter: 0.0,
             centroids: Vec::new(),

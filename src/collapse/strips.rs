@@ -30,13 +30,13 @@ const CRUSHED: f64 = 1.0 + 1e-6;
 const LOADED: f64 = 1e-6;
 
 /// Strips of every joint that crushes.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Strips {
     joints: Vec<Section>,
 }
 
 /// A joint that may crush.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 struct Section {
     /// Length, m, and force that it bears where it is crushed all over, N/m; infinite where it does not crush.
     length: f64,

@@ -39,8 +39,6 @@ impl fmt::Display for Note {
             Note::NoPlasticSections => NO_PLASTIC_SECTIONS.into(),
             Note::YieldTooLate => YIELD_TOO_LATE.into(),
             Note::SectionsNeverFail => SECTIONS_NEVER_FAIL.into(),
-            Note::MotionOfBondedStones => MOTION_OF_BONDED.into(),
-            Note::MotionOfHalfStone => "No motion is shown: it knows no stone cut in half. Set half to false.".into(),
             Note::MotionLost => MOTION_LOST.into(),
         })
     }
@@ -62,7 +60,6 @@ const YIELD_TOO_LATE: &str = "First yield comes after collapse with plastic sect
      coarse to see the highest stress, so its first yield means nothing.";
 const SECTIONS_NEVER_FAIL: &str =
     "Plastic sections never fail, since bonded joints are taken not to crush; first yield counts instead.";
-const MOTION_OF_BONDED: &str = "No motion is shown: it knows no bonded joints between stones that can move.";
 const MOTION_LOST: &str = "The motion could not be followed to one of its ends: no further step was found.";
 
 fn stands_only(window: &LimitWindow, why: Unreached) -> String {

@@ -10,14 +10,10 @@ use utoipa::ToSchema;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum MotionEndWord {
-    /// A joint has opened through: the stone is clear of its neighbour or of the ground by 2 % of the thickness.
-    StoneFree,
     /// Some corner has moved by the stated share of the span.
     Moved,
     /// Nothing moves any more: the stones have found an equilibrium.
     AtRest,
-    /// Two stones that are no neighbours, or a stone and the ground, touch; what follows is not modelled.
-    StonesMeet,
     /// The frames asked for are used up.
     StepLimit,
     /// No further step was found.
@@ -25,26 +21,24 @@ pub enum MotionEndWord {
 }
 
 /// Motion after collapse: rigid stones (sides along intrados and extrados straight) under constant loads, without inertia,
-/// as in a thick fluid. Frames are numbered from 0, the arch as built.
+/// as in a thick fluid. Stones that are bonded move as one. Frames are numbered from 0, the structure as built.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct MotionBody {
     /// How it ended.
     pub end: MotionEndWord,
     /// The same as a sentence.
     pub why: String,
-    /// The stone that is free, or the stones that meet; one that meets the ground stands alone.
-    pub voussoirs: Vec<usize>,
-    /// The joint that has opened through.
-    pub joint: Option<usize>,
+    /// Stones that touch nothing in the last frame.
+    pub free_stones: Vec<usize>,
     /// Load factor of the loads during the motion.
     pub load_factor: f64,
     /// The same as an intensity.
     pub intensity: f64,
     /// By how much the load factor is beyond that of collapse.
     pub overload: f64,
-    /// The span that displacements are compared with.
+    /// What displacements are compared with: the longest span; of blocks the longer side of the box around them.
     pub span_m: f64,
-    /// Length of the shortest joint.
+    /// Scale of lengths: of the longest joint of every stone the shortest.
     pub thickness_m: f64,
     /// Every frame.
     pub frames: FrameColumns,
@@ -75,7 +69,7 @@ pub struct FrameColumns {
     pub work_j_per_m: Vec<f64>,
 }
 
-/// One array of stones, left to right, a frame.
+/// One array of stones, in the order of the structure, a frame.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct PlaceColumns {
     /// Centroid of the stone between straight sides.
@@ -91,19 +85,24 @@ pub struct PlaceColumns {
 pub struct MotionContactColumns {
     /// Frame.
     pub frame: Vec<usize>,
-    /// Joint number.
-    pub joint: Vec<usize>,
+    /// The first stone; none is the ground.
+    pub first: Vec<Option<usize>>,
+    /// The second stone; none is the ground.
+    pub second: Vec<Option<usize>>,
+    /// Joint number; none where there was no joint between them.
+    pub joint: Vec<Option<usize>>,
     /// Where.
     pub x_m: Vec<f64>,
     /// Where.
     pub y_m: Vec<f64>,
-    /// Unit normal, into the stone after the joint.
+    /// Unit normal, into the second.
     pub normal_x: Vec<f64>,
-    /// Unit normal, into the stone after the joint.
+    /// Unit normal, into the second.
     pub normal_y: Vec<f64>,
     /// Normal force in the step to this frame, compression positive; 0 in the first frame.
     pub normal_n_per_m: Vec<f64>,
-    /// Tangential force on the stone after the joint, towards the extrados positive; 0 in the first frame.
+    /// Tangential force on the second, positive to the left of the normal, towards the extrados of an arch; 0 in the first
+    /// frame.
     pub tangential_n_per_m: Vec<f64>,
     /// Gap, positive when open.
     pub gap_m: Vec<f64>,
@@ -141,21 +140,16 @@ fn rows<'a, T>(frames: &'a [MotionFrame], of: impl Fn(&'a MotionFrame) -> &'a [T
 impl MotionBody {
     pub(super) fn new(motion: &FallingMotion, scale: &Scale<'_>) -> Self {
         let frames = &motion.frames;
-        let (end, voussoirs, joint) = match motion.end {
-            MotionEnd::StoneFree { voussoir, joint } => (MotionEndWord::StoneFree, vec![voussoir], Some(joint)),
-            MotionEnd::Moved => (MotionEndWord::Moved, vec![], None),
-            MotionEnd::AtRest => (MotionEndWord::AtRest, vec![], None),
-            MotionEnd::StonesMeet { voussoirs } => {
-                (MotionEndWord::StonesMeet, voussoirs.into_iter().flatten().collect(), None)
-            }
-            MotionEnd::StepLimit => (MotionEndWord::StepLimit, vec![], None),
-            MotionEnd::Lost => (MotionEndWord::Lost, vec![], None),
+        let end = match motion.end {
+            MotionEnd::Moved => MotionEndWord::Moved,
+            MotionEnd::AtRest => MotionEndWord::AtRest,
+            MotionEnd::StepLimit => MotionEndWord::StepLimit,
+            MotionEnd::Lost => MotionEndWord::Lost,
         };
         MotionBody {
             end,
             why: why(motion),
-            voussoirs,
-            joint,
+            free_stones: free(motion),
             load_factor: motion.load_factor,
             intensity: scale.intensity(motion.load_factor),
             overload: motion.overload,
@@ -174,27 +168,23 @@ impl MotionBody {
     }
 }
 
+/// Stones that touch nothing in the last frame.
+fn free(motion: &FallingMotion) -> Vec<usize> {
+    let Some(last) = motion.frames.last() else { return Vec::new() };
+    let touches = |k: usize| last.contacts.iter().any(|contact| contact.bodies.contains(&Some(k)));
+    (0..last.centroids.len()).filter(|&k| !touches(k)).collect()
+}
+
 /// Why the motion ended, for people.
 fn why(motion: &FallingMotion) -> String {
     let last = motion.frames.last();
     let share = last.map_or(0.0, |frame| 100.0 * frame.displacement / motion.span);
-    let stone = |voussoir: Option<usize>| voussoir.map_or("the ground".to_owned(), |k| format!("voussoir {k}"));
     match motion.end {
-        MotionEnd::StoneFree { voussoir, joint } => {
-            format!("Joint {joint} has opened through: voussoir {voussoir} is clear of what it rested on.")
-        }
-        MotionEnd::Moved => format!("The arch has moved by {share:.1} % of its span."),
+        MotionEnd::Moved => format!("Some corner has moved by {share:.1} % of the span."),
         MotionEnd::AtRest => format!("The stones are in equilibrium after {share:.1} % of the span."),
-        MotionEnd::StonesMeet { voussoirs: [a, b] } => {
-            format!("{} touches {}, which is no neighbour of it.", capital(&stone(a.or(b))), stone(a.and(b)))
-        }
         MotionEnd::StepLimit => format!("The frames asked for are used up, after {share:.1} % of the span."),
         MotionEnd::Lost => "No further step was found: what follows cannot be told.".to_owned(),
     }
-}
-
-fn capital(words: &str) -> String {
-    words.chars().take(1).flat_map(char::to_uppercase).chain(words.chars().skip(1)).collect()
 }
 
 impl FrameColumns {
@@ -214,6 +204,8 @@ impl MotionContactColumns {
     fn new(rows: &[(usize, &MotionContact)]) -> Self {
         MotionContactColumns {
             frame: column(rows, |row| row.0),
+            first: column(rows, |row| row.1.bodies[0]),
+            second: column(rows, |row| row.1.bodies[1]),
             joint: column(rows, |row| row.1.joint),
             x_m: column(rows, |row| row.1.at.x),
             y_m: column(rows, |row| row.1.at.y),

@@ -1,23 +1,33 @@
 //! Motion after collapse.
 
+use super::MAX_LENGTH_M;
 use crate::api::fault::Faults;
 use crate::api::request::{AimRequest, AnalysisRequest, MAX_MOTION_FRAMES};
 use crate::collapse::MotionAsked;
+use crate::structure::Structure;
 
-/// Most frames times voussoirs of one motion: about 15 MB of answer.
+/// Most frames times stones of one motion: about 15 MB of answer.
 const MAX_PLACES: usize = 60_000;
+/// The ground may be so much higher than the lowest corner, as a share of its depth below y = 0 or of 1 m: round-off.
+const ROUND_OFF: f64 = 1e-9;
 
-/// What is asked of the motion of so many voussoirs, where it is.
-pub fn motion(request: &AnalysisRequest, voussoirs: usize, faults: &mut Faults) -> Option<MotionAsked> {
+/// What is asked of the motion of a structure, where it is.
+pub fn motion(request: &AnalysisRequest, structure: Option<&Structure>, faults: &mut Faults) -> Option<MotionAsked> {
     let asked = request.motion.as_ref()?;
     let detail = "only an analysis of collapse shows a motion: leave it out, or set analysis to `collapse`";
     faults.require(request.analysis == AimRequest::Collapse, "/motion", detail);
     let frames = asked.most_frames;
     if faults.counted("/motion/most_frames", frames, 1..=MAX_MOTION_FRAMES, "frames") {
-        let places = frames * voussoirs;
-        let detail = format!("frames times voussoirs come to {places}: keep to {MAX_PLACES} by fewer frames");
+        let places = frames * structure.map_or(0, |structure| structure.voussoirs().len());
+        let detail = format!("frames times stones come to {places}: keep to {MAX_PLACES} by fewer frames");
         faults.require(places <= MAX_PLACES, "/motion/most_frames", detail);
     }
     faults.within("/motion/share_of_span", asked.share_of_span, 0.0, 1.0);
-    Some(MotionAsked { most_frames: frames, share_of_span: asked.share_of_span })
+    if let Some(level) = asked.ground_level_m {
+        let corners = structure.iter().flat_map(|structure| &structure.bodies).flat_map(|body| &body.corners);
+        let lowest = corners.map(|corner| corner.y).fold(MAX_LENGTH_M, f64::min);
+        let most = lowest + ROUND_OFF * lowest.abs().max(1.0);
+        faults.within("/motion/ground_level_m", level, -MAX_LENGTH_M, most);
+    }
+    Some(MotionAsked { most_frames: frames, share_of_span: asked.share_of_span, ground_level: asked.ground_level_m })
 }

@@ -62,7 +62,7 @@ impl<'a> Unloaded<'a> {
         let refined = accuracy.filter(|accuracy| accuracy.stress.is_some());
         let pieces = refined.map_or(pieces, |accuracy| accuracy.most_subblocks);
         let fields = mesh::fields(&request.report, pieces, faults);
-        let motion = motion::motion(request, analysed.unwrap_or(0), faults);
+        let motion = motion::motion(request, structure.as_ref(), faults);
         Unloaded { request, whole: layout, structure, subblocks, cut, method, accuracy, fields, motion }
     }
 

@@ -1,4 +1,4 @@
-//! How the arch moves on after it has begun to fall.
+//! How a structure moves on after it has begun to fall.
 
 use crate::geometry::Vec2;
 use crate::structure::Face;
@@ -6,22 +6,10 @@ use crate::structure::Face;
 /// How a motion ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MotionEnd {
-    /// A stone is clear of what it rested on: the joint has opened through.
-    StoneFree {
-        /// The stone.
-        voussoir: usize,
-        /// The joint.
-        joint: usize,
-    },
     /// Some corner has moved by the stated share of the span.
     Moved,
-    /// The arch has come to rest: a new equilibrium, or the old one.
+    /// All has come to rest: a new equilibrium, or the old one.
     AtRest,
-    /// Two that are no neighbours touch (none: the ground beside a springing joint); what follows is not modelled.
-    StonesMeet {
-        /// The two.
-        voussoirs: [Option<usize>; 2],
-    },
     /// As many steps were made as were allowed.
     StepLimit,
     /// No further step was found: the motion up to here holds, what follows cannot be told.
@@ -37,22 +25,22 @@ pub struct FallingMotion {
     pub load_factor: f64,
     /// By how much it is beyond the one at collapse.
     pub overload: f64,
-    /// Span that displacements are measured in, m.
+    /// Span that displacements are measured in, m: the longest; of blocks the longer side of the box around them.
     pub span: f64,
-    /// Thickness of the thinnest joint, m.
+    /// Scale of lengths, m: of the longest joint of every stone the shortest.
     pub thickness: f64,
-    /// The arch as built, and after every step.
+    /// The structure as built, and after every step.
     pub frames: Vec<MotionFrame>,
 }
 
-/// The arch in one moment of a motion.
+/// The structure in one moment of a motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MotionFrame {
     /// Time-like parameter, s2: a stone that nothing holds falls by g times it.
     pub parameter: f64,
-    /// Place of every voussoir's centroid, m (of the stone between straight sides).
+    /// Place of every stone's centroid, m (of the stone between straight sides).
     pub centroids: Vec<Vec2>,
-    /// Rotation of every voussoir since the start, counter-clockwise, rad.
+    /// Rotation of every stone since the start, counter-clockwise, rad.
     pub rotations: Vec<f64>,
     /// Where stones touch.
     pub contacts: Vec<MotionContact>,
@@ -75,15 +63,17 @@ pub struct MotionFrame {
 /// A point at which stones touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MotionContact {
-    /// Joint number.
-    pub joint: usize,
+    /// The stones; none is the ground.
+    pub bodies: [Option<usize>; 2],
+    /// Joint number; none where there was no joint between them.
+    pub joint: Option<usize>,
     /// Where, m.
     pub at: Vec2,
-    /// Unit normal, into the stone after the joint.
+    /// Unit normal, into the second.
     pub direction: Vec2,
     /// Normal force, compression positive, N/m.
     pub normal: f64,
-    /// Tangential force on the stone after the joint, towards the extrados positive, N/m.
+    /// Tangential force on the second, positive to the left of the normal (towards the extrados of an arch), N/m.
     pub tangential: f64,
     /// Gap, m.
     pub gap: f64,

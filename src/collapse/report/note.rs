@@ -82,10 +82,6 @@ pub enum Note {
         /// Joints at which they differ.
         joints: Vec<usize>,
     },
-    /// The motion knows no bonded joints between stones that can move.
-    MotionOfBondedStones,
-    /// The motion knows no stone cut in half.
-    MotionOfHalfStone,
     /// A motion could not be followed to its end.
     MotionLost,
     /// In some steps of the motion friction is beyond its bound, by at most this share of the loads.

@@ -1,8 +1,8 @@
-//! One quasi-static step: the increments of all blocks that balance their loads with contact forces and a resistance
+//! One quasi-static step: the increments of all bodies that balance their loads with contact forces and a resistance
 //! proportional to mass, by a primal-dual interior-point method (Mehrotra's predictor and corrector).
 //!
-//! Unknown are the increments `q` of a chain of blocks and, at every contact, the normal force `N` and the tangential force
-//! `T` on the block after it:
+//! Unknown are the increments `q` of the bodies and, at every contact, the normal force `N` and the tangential force `T` on
+//! the second body:
 //!
 //! ```text
 //! K q = F + G_n' N + G_t' T            K: mass over the square of the time-like step
@@ -11,13 +11,16 @@
 //! ```
 //!
 //! With `slope` = 0 this is a convex quadratic programme. Everything is in units of the caller's that make loads and lengths
-//! about one.
+//! about one. The equations of an iteration tie bodies in contact; friction makes them unsymmetric, so that they are solved by
+//! the same LU on a tree as those of the load path.
 
-use super::pair::{Contact, Pair, Targets};
-use super::tridiagonal::Tridiagonal;
+use super::constraint::{Constraint, Pair, Targets};
 use crate::budget::Budget;
-
+use crate::dda::elements::{Elements, Pattern};
+use crate::dda::factor::Factor;
+use crate::dda::tree::Tree;
 use nalgebra::{Matrix3, Vector3};
+use std::collections::BTreeMap;
 
 /// Iterations after which a step has failed; ten to twenty are usual.
 const MOST_ITERATIONS: usize = 80;
@@ -35,20 +38,20 @@ const STARTS: [[f64; 2]; 3] = [[0.1, 0.01], [1.0, 0.01], [0.1, 1.0]];
 /// A step to be made.
 #[derive(Debug, Clone)]
 pub(super) struct Problem {
-    /// Resistance of every block, diagonal.
+    /// Resistance of every body, diagonal.
     pub resistance: Vec<Vector3<f64>>,
-    /// Load on every block.
+    /// Load on every body.
     pub load: Vec<Vector3<f64>>,
     /// All contacts.
-    pub contacts: Vec<Contact>,
+    pub contacts: Vec<Constraint>,
 }
 
 /// A step made.
 #[derive(Debug, Clone)]
 pub(super) struct Solution {
-    /// Increments of every block.
+    /// Increments of every body.
     pub increments: Vec<Vector3<f64>>,
-    /// Normal and tangential force of every contact, the latter on the block after it.
+    /// Normal and tangential force of every contact, the latter on the second body.
     pub forces: Vec<[f64; 2]>,
     /// Largest residual of equilibrium.
     pub residual: f64,
@@ -91,10 +94,13 @@ impl Problem {
     /// # Errors
     /// When the iteration converges from none of its starts, or where the budget is spent.
     pub(super) fn solve(&self, budget: &Budget) -> Result<Solution, Unsolved> {
-        STARTS.iter().find_map(|&start| self.solve_from(start, budget).ok()).ok_or(Unsolved)
+        let (pattern, elements) = self.pattern();
+        let tree = Tree::new(&pattern, |_| true);
+        let mut system = System { elements, matrix: Elements::zeros(&pattern), factor: Factor::new(&tree) };
+        STARTS.iter().find_map(|&start| self.solve_from(start, &mut system, budget).ok()).ok_or(Unsolved)
     }
 
-    fn solve_from(&self, start: [f64; 2], budget: &Budget) -> Result<Solution, Unsolved> {
+    fn solve_from(&self, start: [f64; 2], system: &mut System<'_>, budget: &Budget) -> Result<Solution, Unsolved> {
         let mut increments = vec![Vector3::zeros(); self.load.len()];
         let mut pairs: Vec<Pair> = self.contacts.iter().map(|contact| contact.start(start)).collect();
         for _ in 0..MOST_ITERATIONS {
@@ -110,7 +116,7 @@ impl Problem {
                 let forces = pairs.iter().map(|pair| [pair.normal, pair.tangential]).collect();
                 return Ok(Solution { increments, forces, residual });
             }
-            let (step, changes) = self.direction(&pairs, &apart, &unbalanced, mean).ok_or(Unsolved)?;
+            let (step, changes) = self.direction(&pairs, &apart, &unbalanced, mean, system, budget)?;
             let share = (NEARLY * largest_share(self, &pairs, &changes)).min(1.0);
             if !share.is_finite() || share < 1e-10 {
                 return Err(Unsolved);
@@ -121,7 +127,7 @@ impl Problem {
         Err(Unsolved)
     }
 
-    /// Load and contact forces less resistance, per block.
+    /// Load and contact forces less resistance, per body.
     fn unbalanced(&self, increments: &[Vector3<f64>], pairs: &[Pair]) -> Vec<Vector3<f64>> {
         let mut left: Vec<Vector3<f64>> = (self.load.iter().zip(&self.resistance).zip(increments))
             .map(|((load, resistance), q)| load - resistance.component_mul(q))
@@ -139,24 +145,25 @@ impl Problem {
         apart: &[[f64; 2]],
         unbalanced: &[Vector3<f64>],
         mean: f64,
-    ) -> Option<(Vec<Vector3<f64>>, Vec<Pair>)> {
+        system: &mut System<'_>,
+        budget: &Budget,
+    ) -> Result<(Vec<Vector3<f64>>, Vec<Pair>), Unsolved> {
         let to_nothing = |pair: &Pair| -> Targets {
             [-pair.normal * pair.distance, -pair.room[0] * pair.slip[0], -pair.room[1] * pair.slip[1]]
         };
         let mut targets: Vec<Targets> = pairs.iter().map(to_nothing).collect();
-        let matrix = self.matrix(pairs, apart, &targets);
-        let factors = matrix.factor()?;
-        let solve = |targets: &[Targets]| {
+        self.fill(pairs, apart, &targets, system);
+        let mut solve = |targets: &[Targets], again: bool| {
             let mut step = unbalanced.to_vec();
             for (c, contact) in self.contacts.iter().enumerate() {
                 contact.spread(&mut step, contact.linear(&pairs[c], apart[c], &targets[c]).base);
             }
-            factors.solve(&mut step);
-            let change = |(c, contact): (usize, &Contact)| contact.change(&pairs[c], apart[c], &targets[c], &step);
+            system.solve(&mut step, again, budget)?;
+            let change = |(c, contact): (usize, &Constraint)| contact.change(&pairs[c], apart[c], &targets[c], &step);
             let changes: Vec<Pair> = self.contacts.iter().enumerate().map(change).collect();
-            (step, changes)
+            Ok((step, changes))
         };
-        let (_, predicted) = solve(&targets);
+        let (_, predicted) = solve(&targets, false)?;
         let (sum, count) = products(self, pairs, Some((&predicted, largest_share(self, pairs, &predicted))));
         let centred = mean * (sum / count.max(1) as f64 / mean).clamp(0.0, 1.0).powi(3);
         // Products far below what is asked for only make the equations worse conditioned.
@@ -167,36 +174,87 @@ impl Problem {
                 *target += centred - two[0].1 * two[1].1;
             }
         }
-        Some(solve(&targets))
+        solve(&targets, true)
     }
 
-    fn matrix(&self, pairs: &[Pair], apart: &[[f64; 2]], targets: &[Targets]) -> Tridiagonal {
-        let blocks = self.load.len();
-        let mut matrix = Tridiagonal {
-            diagonal: self.resistance.iter().map(Matrix3::from_diagonal).collect(),
-            upper: vec![Matrix3::zeros(); blocks.saturating_sub(1)],
-            lower: vec![Matrix3::zeros(); blocks.saturating_sub(1)],
+    /// What the equations tie: an element for every body, then one for every two that are in contact; and every contact's.
+    fn pattern(&self) -> (Pattern, Vec<usize>) {
+        let bodies = self.load.len();
+        let mut faces: Vec<Vec<usize>> = (0..bodies).map(|body| vec![body]).collect();
+        let mut known = BTreeMap::new();
+        let element = |contact: &Constraint| match contact.bodies {
+            [Some(a), Some(b)] => *known.entry([a.min(b), a.max(b)]).or_insert_with(|| {
+                faces.push(vec![a.min(b), a.max(b)]);
+                faces.len() - 1
+            }),
+            [a, b] => a.or(b).unwrap_or(0),
         };
+        let elements = self.contacts.iter().map(element).collect();
+        (Pattern { start: (0..=bodies).map(|body| 3 * body).collect(), faces }, elements)
+    }
+
+    fn fill(&self, pairs: &[Pair], apart: &[[f64; 2]], targets: &[Targets], system: &mut System<'_>) {
+        let bodies = self.load.len();
+        for element in 0..bodies.max(system.elements.iter().map(|&e| e + 1).max().unwrap_or(0)) {
+            system.matrix.get_mut(element).fill(0.0);
+            system.factor.invalidate(element);
+        }
+        for (body, resistance) in self.resistance.iter().enumerate() {
+            add(system.matrix.get_mut(body), 3, [0; 2], &Matrix3::from_diagonal(resistance));
+        }
         for (c, contact) in self.contacts.iter().enumerate() {
             let stiffness = contact.linear(&pairs[c], apart[c], &targets[c]).stiffness;
             // rows[i]' * stiffness * rows[j]
             let block = |i: usize, j: usize| {
-                let [n, t] = contact.rows[i];
-                let [m, s] = contact.rows[j];
+                let ([n, t], [m, s]) = (contact.rows[i], contact.rows[j]);
                 n * m.transpose() * stiffness[0][0]
                     + t * (m.transpose() * stiffness[1][0] + s.transpose() * stiffness[1][1])
             };
-            for (side, at) in contact.blocks.iter().enumerate() {
-                if let Some(at) = at {
-                    matrix.diagonal[*at] += block(side, side);
+            let entries = system.matrix.get_mut(system.elements[c]);
+            match contact.bodies {
+                [Some(a), Some(b)] => {
+                    let place = [if a < b { 0 } else { 3 }, if a < b { 3 } else { 0 }];
+                    for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                        add(entries, 6, [place[i], place[j]], &block(i, j));
+                    }
+                }
+                [a, _] => {
+                    let side = usize::from(a.is_none());
+                    add(entries, 3, [0; 2], &block(side, side));
                 }
             }
-            if let [Some(before), Some(_)] = contact.blocks {
-                matrix.upper[before] += block(0, 1);
-                matrix.lower[before] += block(1, 0);
-            }
         }
-        matrix
+    }
+}
+
+/// The equations of an iteration, and the element of every contact.
+struct System<'t> {
+    elements: Vec<usize>,
+    matrix: Elements,
+    factor: Factor<'t>,
+}
+
+impl System<'_> {
+    /// Solves for a right-hand side, in its place; `again` with the factors of the last one.
+    fn solve(&mut self, x: &mut [Vector3<f64>], again: bool, budget: &Budget) -> Result<(), Unsolved> {
+        let b: Vec<f64> = x.iter().flat_map(|x| [x.x, x.y, x.z]).collect();
+        let mut flat = vec![0.0; b.len()];
+        let solved = match again {
+            true => self.factor.solve(&b, &mut flat, budget),
+            false => self.factor.update(&self.matrix, &b, &mut flat, 0, budget),
+        };
+        solved.map_err(|_| Unsolved)?;
+        x.iter_mut().zip(flat.chunks(3)).for_each(|(x, flat)| *x = Vector3::from_column_slice(flat));
+        if flat.iter().all(|x| x.is_finite()) { Ok(()) } else { Err(Unsolved) }
+    }
+}
+
+/// Adds a block into a square matrix whose rows are `size` apart.
+fn add(entries: &mut [f64], size: usize, [row, column]: [usize; 2], block: &Matrix3<f64>) {
+    for i in 0..3 {
+        for j in 0..3 {
+            entries[(row + i) * size + column + j] += block[(i, j)];
+        }
     }
 }
 
@@ -207,8 +265,8 @@ mod tests {
     /// A point of mass 1 / step on a floor, loaded with (along, down); the floor's normal is y.
     fn on_floor(load: [f64; 2], slope: f64, constant: f64) -> Solution {
         let nothing = Vector3::zeros();
-        let contact = Contact {
-            blocks: [None, Some(0)],
+        let contact = Constraint {
+            bodies: [None, Some(0)],
             rows: [[nothing; 2], [Vector3::y(), Vector3::x()]],
             gap: 0.0,
             slope,

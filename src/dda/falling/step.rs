@@ -1,11 +1,13 @@
 //! Step after step: loads, contacts, increments, and whether they may stand.
 
-use super::block::{Block, Corners, Place};
-use super::contact::Meeting;
-use super::frame::{Advance, Carried, Frame, Stuck};
-use super::neighbours::{Placed, overlap};
+use super::body::{Part, Place, RigidBody};
+use super::configuration::{Advance, Carried, Configuration, Stuck};
+use super::entrance::{AtCorner, Outline};
+use super::interface::Interface;
+use super::near::Placed;
 use super::trial::Trial;
 use crate::budget::Budget;
+use std::collections::BTreeMap;
 
 /// Corners move by about this share of the thickness in a step. A larger one bends paths and overlaps more.
 const STRIDE: f64 = 0.02;
@@ -15,59 +17,49 @@ const LONGEST: f64 = 0.03;
 const SHORTEST: f64 = 0.01;
 /// Largest overlap after a step, as a share of the thickness; a step that leaves more is shortened.
 pub(super) const OVERLAP: f64 = 5e-4;
-/// Blocks whose gap is at most this share of the thickness touch.
-const NEAR: f64 = 1e-3;
-/// Blocks further apart than this share of the thickness are clear of each other.
-const CLEAR: f64 = 0.02;
-/// Blocks at rest move slower than this share of what their loads would do to them if nothing held them.
+/// Bodies whose gap is at most this share of the thickness touch; two corners this near may pass on either side.
+pub(super) const NEAR: f64 = 1e-3;
+/// Bodies at rest move slower than this share of what their loads would do to them if nothing held them.
 const REST: f64 = 1e-7;
 /// Cohesion is lost where an interface has opened or slid by this share of the thickness.
-const TORN: f64 = 1e-4;
-/// A step is shortened so often before friction is taken from bounds that lag behind.
-const FAILURES: usize = 3;
+pub(super) const TORN: f64 = 1e-4;
 /// Times that one step is shortened or lengthened.
 const MOST_TRIALS: usize = 40;
 
-/// Friction at an interface: |T| <= coefficient N + cohesion.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Friction {
-    /// Coefficient.
-    pub coefficient: f64,
-    /// Cohesion of the whole interface, N/m, half of it at either end; an end that opens or slides loses it for good.
-    pub cohesion: f64,
-}
-
-/// A chain of rigid blocks on the move. Interface `k` lies between block `k - 1` and block `k`; grounds take the places of
-/// blocks that are not there.
+/// Rigid bodies on the move.
 #[derive(Debug, Clone)]
 pub struct Falling {
-    pub(super) blocks: Vec<Block>,
-    pub(super) grounds: [Option<Corners>; 2],
-    pub(super) friction: Vec<Friction>,
+    pub(super) bodies: Vec<RigidBody>,
+    pub(super) parts: Vec<Part>,
+    pub(super) interfaces: Vec<Interface>,
+    /// Bodies before and after every interface.
+    pub(super) beside: Vec<[usize; 2]>,
+    /// Interfaces between two members.
+    pub(super) by_members: BTreeMap<[usize; 2], Vec<usize>>,
+    /// Pairs of parts that lie in each other from the start, one of them fixed, and know nothing of each other.
+    pub(super) apart: Vec<[usize; 2]>,
     /// Scale of lengths, m.
     pub(super) thickness: f64,
     /// Sum of all loads, N/m.
     pub(super) loads: f64,
-    /// Sum of all masses, kg/m.
+    /// Sum of all masses that can move, kg/m.
     pub(super) mass: f64,
     pub(super) places: Vec<Place>,
-    pub(super) parameter: f64,
+    parameter: f64,
     /// Step of the parameter to try next.
     pub(super) step: f64,
-    /// Normal forces of the step before, share of the loads.
-    pub(super) normals: Vec<[f64; 2]>,
+    /// Normal forces of the step before, share of the loads, by parts and end.
+    pub(super) normals: BTreeMap<([usize; 2], usize), f64>,
     /// Whether the ends of every interface have their cohesion.
     pub(super) intact: Vec<[bool; 2]>,
-    /// Offsets of the corners at every interface at the start, m.
-    pub(super) offsets: Vec<[f64; 2]>,
 }
 
 /// What a trial is worth.
 enum Verdict {
     /// Nothing moves.
     Rests,
-    /// These two, no neighbours, overlap.
-    Meets([Option<usize>; 2]),
+    /// These enter each other where they had no contact: two corners have met.
+    Entered(Vec<Placed>),
     /// Better a step of this share of it.
     TooLong(f64),
     /// Better a step of this many times it.
@@ -77,53 +69,59 @@ enum Verdict {
 }
 
 impl Falling {
-    /// Blocks at their start between two grounds (the second may be missing), with friction at every interface. `thickness`
-    /// is the scale of lengths: that of the thinnest block.
-    pub fn new(blocks: Vec<Block>, grounds: [Option<Corners>; 2], friction: Vec<Friction>, thickness: f64) -> Self {
-        let loads = blocks.iter().map(Block::pushed).sum::<f64>().max(f64::MIN_POSITIVE);
-        let mass = blocks.iter().map(|block| block.inertia[0]).sum::<f64>();
-        let interfaces = friction.len();
+    /// Bodies at their start, those that are fixed being the ground. Interfaces are between their members. `thickness` is the
+    /// scale of lengths: that of the thinnest body.
+    pub fn new(bodies: Vec<RigidBody>, interfaces: Vec<Interface>, thickness: f64) -> Self {
+        let parts: Vec<Part> = bodies.iter().enumerate().flat_map(|(k, body)| body.parts(k)).collect();
+        let body_of = |number: usize| parts.iter().find(|part| part.member == number).map_or(0, |part| part.body);
+        let beside: Vec<[usize; 2]> = interfaces.iter().map(|interface| interface.between.map(body_of)).collect();
+        let mut by_members: BTreeMap<[usize; 2], Vec<usize>> = BTreeMap::new();
+        for (k, Interface { between: [a, b], .. }) in interfaces.iter().enumerate() {
+            by_members.entry([*a.min(b), *a.max(b)]).or_default().push(k);
+        }
+        let loads = bodies.iter().map(RigidBody::pushed).sum::<f64>().max(f64::MIN_POSITIVE);
+        let mass = bodies.iter().filter(|body| body.movable()).map(|body| body.inertia[0]).sum::<f64>();
         let mut falling = Falling {
-            places: blocks.iter().map(Block::start).collect(),
+            places: bodies.iter().map(RigidBody::start).collect(),
             parameter: 0.0,
             step: STRIDE * thickness * mass / loads,
-            normals: vec![[0.0; 2]; interfaces],
-            intact: vec![[true; 2]; interfaces],
-            offsets: Vec::new(),
-            blocks,
-            grounds,
-            friction,
+            normals: BTreeMap::new(),
+            intact: vec![[true; 2]; interfaces.len()],
+            apart: Vec::new(),
+            bodies,
+            parts,
+            interfaces,
+            beside,
+            by_members,
             thickness,
             loads,
             mass,
         };
-        let meetings = falling.meetings(&falling.places);
-        falling.offsets = meetings.iter().map(|m| m.map_or([0.0; 2], |m| m.offsets)).collect();
+        let outlines = falling.outlines(&falling.places);
+        let near = falling.near(&outlines, &Budget::unlimited()).unwrap_or_default();
+        let fixed = |part: usize| !falling.bodies[falling.parts[part].body].movable();
+        let mut apart = falling.overlaps(&near, &outlines).1;
+        apart.retain(|pair| pair.iter().any(|&part| fixed(part)));
+        falling.apart = apart;
         falling
     }
 
-    /// The chain as it is, before a step.
-    pub fn frame(&self) -> Frame {
-        let meetings = self.meetings(&self.places);
-        Frame {
+    /// The bodies as they are, before a step.
+    pub fn configuration(&self) -> Configuration {
+        let outlines = self.outlines(&self.places);
+        let pairs = self.near(&outlines, &Budget::unlimited()).unwrap_or_default();
+        let contacts = self.touching(&pairs, &outlines);
+        Configuration {
             parameter: self.parameter,
             places: self.places.clone(),
-            overlap: overlap(&meetings),
-            carried: self.carried(&meetings, &[], &[]),
+            openings: self.openings(&self.places),
+            overlap: self.overlaps(&pairs, &outlines).0,
+            carried: self.carried(&contacts, &outlines, &[]),
             displacement: self.displacement(),
             work: 0.0,
             residual: 0.0,
             excess: 0.0,
-            slid: self.slid(&meetings),
-            meetings,
         }
-    }
-
-    /// The interface at which blocks are clear of each other, if there is one: the one with the widest gap.
-    pub fn parted(&self, frame: &Frame) -> Option<usize> {
-        let gap = |k: usize| frame.meetings[k].filter(|_| self.movable(k)).map_or(0.0, |meeting| meeting.distance);
-        let widest = (0..frame.meetings.len()).max_by(|&a, &b| gap(a).total_cmp(&gap(b)))?;
-        (gap(widest) > CLEAR * self.thickness).then_some(widest)
     }
 
     /// Makes a step.
@@ -131,61 +129,66 @@ impl Falling {
     /// # Errors
     /// When none is found, or the budget is spent.
     pub fn advance(&mut self, budget: &Budget) -> Result<Advance, Stuck> {
-        let contacts = self.touches(&self.meetings(&self.places));
-        let (mut met, mut failures, mut longest) = (None, 0, f64::INFINITY);
+        let outlines = self.outlines(&self.places);
+        let pairs = self.near(&outlines, budget).map_err(|_| Stuck)?;
+        let mut contacts = self.touching(&pairs, &outlines);
+        let mut longest = f64::INFINITY;
         for _ in 0..MOST_TRIALS {
             budget.check().map_err(|_| Stuck)?;
-            let Ok(trial) = self.attempt(&contacts, failures >= FAILURES, budget) else {
-                failures += 1;
+            let Ok(trial) = self.attempt(&contacts, budget) else {
                 longest = self.step;
                 self.step *= 0.5;
                 continue;
             };
-            let meetings = self.meetings(&trial.places);
-            match self.judge(&trial, &meetings, budget) {
+            let outlines = self.outlines(&trial.places);
+            match self.judge(&trial, &pairs, &contacts, &outlines) {
                 Verdict::Rests => return Ok(Advance::Rest),
-                Verdict::Meets(two) if trial.moved < NEAR * self.thickness => return Ok(Advance::Meet(two)),
-                Verdict::Meets(two) => {
-                    met = Some(two);
-                    longest = self.step;
-                    self.step *= 0.5;
-                }
+                Verdict::Entered(entered) => contacts.extend(entered),
                 Verdict::TooLong(factor) => {
                     longest = self.step;
                     self.step *= factor;
                 }
-                Verdict::TooShort(factor) if met.is_none() && factor * self.step < longest => self.step *= factor,
+                Verdict::TooShort(factor) if factor * self.step < longest => self.step *= factor,
+                // It has undone an overlap, and longer ones go against the loads.
+                Verdict::TooShort(_) if self.work(&trial.places) < 0.0 => return Ok(Advance::Rest),
                 Verdict::TooShort(_) | Verdict::Right => {
-                    return Ok(Advance::Moved(Box::new(self.accept(trial, meetings, &contacts))));
+                    let overlap = self.overlaps(&pairs, &outlines).0;
+                    return Ok(Advance::Moved(Box::new(self.accept(trial, overlap, &contacts, &outlines))));
                 }
             }
         }
-        met.map(Advance::Meet).ok_or(Stuck)
+        Err(Stuck)
     }
 
-    fn judge(&self, trial: &Trial, meetings: &[Option<Meeting>], budget: &Budget) -> Verdict {
+    fn judge(&self, trial: &Trial, pairs: &[[usize; 2]], contacts: &[Placed], outlines: &[Outline]) -> Verdict {
         let (moved, stride) = (trial.moved / self.thickness, self.stride(trial));
-        if trial.moved * self.mass < REST * self.loads * self.step && moved < SHORTEST {
+        let slow = trial.moved * self.mass < REST * self.loads * self.step;
+        if slow && moved < NEAR {
             return Verdict::Rests;
         }
         if moved > LONGEST {
             return Verdict::TooLong(stride.clamp(0.01, 0.8));
         }
-        if let Some(two) = self.strangers(&trial.places, budget) {
-            return Verdict::Meets(two);
+        let (overlap, beyond) = self.overlaps(pairs, outlines);
+        let known = |pair: &[usize; 2]| contacts.iter().any(|contact| contact.parts == *pair);
+        let new = beyond.iter().filter(|pair| !known(pair));
+        let entered: Vec<Placed> = new.flat_map(|&pair| self.placed(pair, outlines, AtCorner::Nearest)).collect();
+        if !entered.is_empty() {
+            return Verdict::Entered(entered);
         }
         // A step against the loads has gone past an equilibrium; or it undoes an overlap, which takes little.
         let against = moved > NEAR && self.work(&trial.places) < 0.0;
-        if against || overlap(meetings) > OVERLAP * self.thickness {
+        if against || overlap > OVERLAP * self.thickness {
             return Verdict::TooLong(0.5);
         }
-        if moved < SHORTEST { Verdict::TooShort(stride.clamp(1.0, 100.0)) } else { Verdict::Right }
+        // What is slow has come to rest on the way.
+        if moved < SHORTEST && !slow { Verdict::TooShort(stride.clamp(1.0, 100.0)) } else { Verdict::Right }
     }
 
     /// Work of the loads on the way to these places, N.
     fn work(&self, places: &[Place]) -> f64 {
-        let work = |((block, from), to): ((&Block, &Place), &Place)| block.work(from, to);
-        self.blocks.iter().zip(&self.places).zip(places).map(work).sum()
+        let work = |((body, from), to): ((&RigidBody, &Place), &Place)| body.work(from, to);
+        self.bodies.iter().zip(&self.places).zip(places).map(work).sum()
     }
 
     /// The stride that is wanted over that of a trial.
@@ -193,68 +196,47 @@ impl Falling {
         STRIDE * self.thickness / trial.moved
     }
 
-    fn accept(&mut self, trial: Trial, meetings: Vec<Option<Meeting>>, contacts: &[Placed]) -> Frame {
+    fn accept(&mut self, trial: Trial, overlap: f64, contacts: &[Placed], outlines: &[Outline]) -> Configuration {
         let stride = self.stride(&trial);
         let work = self.work(&trial.places);
-        self.normals.iter_mut().for_each(|ends| *ends = [0.0; 2]);
-        for (&(k, end, _), force) in contacts.iter().zip(&trial.solution.forces) {
-            self.normals[k][end] = force[0];
-        }
-        self.tear(&meetings);
+        let forces = trial.solution.forces;
+        let normals = contacts.iter().zip(&forces).map(|(contact, force)| ((contact.parts, contact.end), force[0]));
+        self.normals = normals.collect();
         self.places = trial.places;
+        let openings = self.openings(&self.places);
+        self.tear(&openings);
         self.parameter += self.step;
         self.step *= stride.clamp(0.5, 2.0);
-        Frame {
+        Configuration {
             parameter: self.parameter,
             places: self.places.clone(),
-            carried: self.carried(&meetings, contacts, &trial.solution.forces),
+            openings,
+            carried: self.carried(contacts, outlines, &forces),
             displacement: self.displacement(),
-            overlap: overlap(&meetings),
+            overlap,
             work,
             residual: trial.solution.residual,
             excess: trial.excess,
-            slid: self.slid(&meetings),
-            meetings,
         }
     }
 
-    /// Takes their cohesion from ends that have opened or slid.
-    fn tear(&mut self, meetings: &[Option<Meeting>]) {
-        let (most, slid) = (TORN * self.thickness, self.slid(meetings));
-        for ((intact, meeting), slid) in self.intact.iter_mut().zip(meetings).zip(slid) {
-            let Some(meeting) = meeting else { continue };
-            for (end, touch) in meeting.touches.iter().enumerate() {
-                let open = touch.is_none_or(|touch| touch.gap > most);
-                intact[end] &= meeting.facing && !open && slid.abs() <= most;
+    /// Which of these contacts touch, with their forces, where there are any.
+    fn carried(&self, contacts: &[Placed], outlines: &[Outline], forces: &[[f64; 2]]) -> Vec<Carried> {
+        let carried = |(c, placed): (usize, &Placed)| {
+            let touching = self.at(placed, outlines);
+            let [normal, tangential] = forces.get(c).map_or([0.0; 2], |force| force.map(|force| force * self.loads));
+            let between = placed.parts.map(|part| self.parts[part].member);
+            Carried {
+                between,
+                interface: placed.interface.map(|(k, _)| k),
+                at: touching.at,
+                direction: touching.normal,
+                normal,
+                tangential,
+                gap: touching.gap,
             }
-        }
-    }
-
-    /// How far blocks have slid, read off the end that is nearer to closed.
-    fn slid(&self, meetings: &[Option<Meeting>]) -> Vec<f64> {
-        let at = |(meeting, start): (&Option<Meeting>, &[f64; 2])| {
-            let Some(meeting) = meeting else { return 0.0 };
-            let gaps = meeting.touches.map(|touch| touch.map_or(f64::INFINITY, |touch| touch.gap));
-            let end = usize::from(gaps[1] < gaps[0]);
-            meeting.offsets[end] - start[end]
         };
-        meetings.iter().zip(&self.offsets).map(at).collect()
-    }
-
-    /// What touches in these meetings, with forces that were carried at the same interface and end.
-    fn carried(&self, meetings: &[Option<Meeting>], contacts: &[Placed], forces: &[[f64; 2]]) -> Vec<Carried> {
-        let force = |k: usize, end: usize| {
-            let place = contacts.iter().position(|&(interface, at, _)| (interface, at) == (k, end));
-            place.map_or([0.0; 2], |place| forces[place].map(|force| force * self.loads))
-        };
-        let near = |placed: &Placed| placed.2.gap <= NEAR * self.thickness;
-        let carried = |(interface, end, touch): Placed| {
-            let [normal, tangential] = force(interface, end);
-            Carried { interface, at: touch.at, direction: touch.normal, normal, tangential, gap: touch.gap }
-        };
-        self.touches(meetings).into_iter().filter(near).map(carried).collect()
+        let all = contacts.iter().enumerate().map(carried);
+        all.filter(|carried| carried.gap <= NEAR * self.thickness).collect()
     }
 }
-
-#[cfg(test)]
-mod tests;

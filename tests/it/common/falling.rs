@@ -2,8 +2,8 @@
 
 use super::state::{larger, weight};
 use voussoir::collapse::{Analysis, FallingMotion, MotionContact, MotionFrame};
-use voussoir::geometry::{Region, Vec2, cross, perpendicular};
-use voussoir::structure::Structure;
+use voussoir::geometry::{Region, Vec2, cross, distance_from_segment, lies_inside, perpendicular};
+use voussoir::structure::{Body, Structure};
 
 /// What was measured on a motion.
 #[derive(Debug, Clone, Copy, Default)]
@@ -24,42 +24,58 @@ pub struct Measured {
     pub frames: usize,
 }
 
-type Corners = [Vec2; 4];
-
 /// Corners of every stone in a frame.
-pub fn stones(arch: &Structure, frame: &MotionFrame) -> Vec<Corners> {
-    let place = |(k, two): (usize, &[voussoir::structure::Joint])| {
-        let corners = [two[0].intrados, two[1].intrados, two[1].extrados, two[0].extrados];
-        let centroid = Region::polygon(&corners).centroid;
+pub fn stones(structure: &Structure, frame: &MotionFrame) -> Vec<Vec<Vec2>> {
+    let place = |(k, body): (usize, &Body)| {
+        let centroid = Region::polygon(&body.corners).centroid;
         let (sin, cos) = frame.rotations[k].sin_cos();
-        corners.map(|c| frame.centroids[k] + (c - centroid) * cos + perpendicular(c - centroid) * sin)
+        let moved = |c: &Vec2| frame.centroids[k] + (c - centroid) * cos + perpendicular(c - centroid) * sin;
+        body.corners.iter().map(moved).collect()
     };
-    arch.ring().windows(2).enumerate().map(place).collect()
+    structure.voussoirs().iter().enumerate().map(place).collect()
 }
 
-/// How deep two convex stones have entered each other; negative for a distance along some side.
-pub fn depth(a: &Corners, b: &Corners) -> f64 {
-    let from = |a: &Corners, b: &Corners| {
-        (0..4).fold(f64::INFINITY, |least: f64, i| {
-            let (p, q) = (a[i], a[(i + 1) % 4]);
+fn sides(corners: &[Vec2]) -> impl Iterator<Item = (Vec2, Vec2)> {
+    (0..corners.len()).map(|i| (corners[i], corners[(i + 1) % corners.len()])).filter(|(p, q)| (q - p).norm() > 0.0)
+}
+
+fn convex(corners: &[Vec2]) -> bool {
+    sides(corners).all(|(p, q)| corners.iter().all(|c| cross((q - p).normalize(), c - p) > -1e-9 * (q - p).norm()))
+}
+
+/// How deep two stones have entered each other; negative or nought for a distance. Of convex ones along the shortest way out,
+/// else how deep a corner of one lies in the other.
+pub fn depth(a: &[Vec2], b: &[Vec2]) -> f64 {
+    let way_out = |a: &[Vec2], b: &[Vec2]| {
+        let entered = |(p, q): (Vec2, Vec2)| {
             let along = (q - p).normalize();
-            let entered = b.iter().map(|c| cross(along, c - p)).fold(f64::NEG_INFINITY, f64::max);
-            if (q - p).norm() > 0.0 { least.min(entered) } else { least }
-        })
+            b.iter().map(|c| cross(along, c - p)).fold(f64::NEG_INFINITY, f64::max)
+        };
+        sides(a).map(entered).fold(f64::INFINITY, f64::min)
     };
-    from(a, b).min(from(b, a))
+    let corners_in = |a: &[Vec2], b: &[Vec2]| {
+        let depth = |c: &Vec2| sides(a).map(|(p, q)| distance_from_segment(*c, p, q)).fold(f64::INFINITY, f64::min);
+        b.iter().filter(|c| lies_inside(**c, a)).map(depth).fold(0.0, f64::max)
+    };
+    if convex(a) && convex(b) { way_out(a, b).min(way_out(b, a)) } else { corners_in(a, b).max(corners_in(b, a)) }
 }
 
-fn near(a: &Corners, b: &Corners) -> bool {
-    let radius = |c: &Corners| (c[0] - c[2]).norm().max((c[1] - c[3]).norm());
+fn near(a: &[Vec2], b: &[Vec2]) -> bool {
+    let radius = |all: &[Vec2]| all.iter().map(|c| (c - all[0]).norm()).fold(0.0, f64::max);
     (a[0] - b[0]).norm() <= radius(a) + radius(b)
 }
 
-/// Shear beyond friction and half the joint's cohesion, N/m.
-fn beyond(arch: &Structure, contact: &MotionContact) -> f64 {
-    let joint = &arch.joints[contact.joint];
-    let Some([friction, cohesion]) = joint.law.coulomb() else { return 0.0 };
-    contact.tangential.abs() - friction * contact.normal - 0.5 * cohesion * joint.length()
+/// Shear beyond friction and half the joint's cohesion, N/m; where there was no joint, beyond the friction of the weaker stone.
+fn beyond(structure: &Structure, contact: &MotionContact) -> f64 {
+    let stones = contact.bodies.iter().flatten().map(|&body| structure.stone_of(body).friction_angle.tan());
+    let [friction, cohesion] = match contact.joint.map(|joint| &structure.joints[joint]) {
+        Some(joint) => match joint.law.coulomb() {
+            Some([friction, cohesion]) => [friction, cohesion * joint.length()],
+            None => return 0.0,
+        },
+        None => [stones.fold(f64::INFINITY, f64::min), 0.0],
+    };
+    contact.tangential.abs() - friction * contact.normal - 0.5 * cohesion
 }
 
 pub fn measure(analysis: &Analysis, motion: &FallingMotion) -> Measured {

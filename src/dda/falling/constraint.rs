@@ -5,11 +5,11 @@ use nalgebra::Vector3;
 /// Bounds on friction below this are none.
 const SMOOTH: f64 = 1e-9;
 
-/// A contact between a block and the one after it in the chain; none is what does not move.
+/// A contact between two bodies; none is what does not move.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Contact {
-    /// The blocks, neighbours in the chain.
-    pub blocks: [Option<usize>; 2],
+pub(super) struct Constraint {
+    /// The bodies.
+    pub bodies: [Option<usize>; 2],
     /// What their increments add to the distance along the normal and to the slip along the tangent.
     pub rows: [[Vector3<f64>; 2]; 2],
     /// Distance.
@@ -43,14 +43,14 @@ pub(super) struct Linear {
 /// What the products of force and distance are to become, at the normal and at either bound on friction.
 pub(super) type Targets = [f64; 3];
 
-impl Contact {
+impl Constraint {
     pub(super) fn rubs(&self) -> bool {
         self.slope > SMOOTH || self.constant > SMOOTH
     }
 
     /// What `increments` add along row `r` (0 normal, 1 tangent).
     pub(super) fn along(&self, r: usize, increments: &[Vector3<f64>]) -> f64 {
-        (0..2).filter_map(|side| self.blocks[side].map(|block| self.rows[side][r].dot(&increments[block]))).sum()
+        (0..2).filter_map(|side| self.bodies[side].map(|body| self.rows[side][r].dot(&increments[body]))).sum()
     }
 
     /// Residuals of distance and slip.
@@ -128,12 +128,12 @@ impl Contact {
     }
 }
 
-impl Contact {
-    /// Adds what contact forces do to the blocks.
+impl Constraint {
+    /// Adds what contact forces do to the bodies.
     pub(super) fn spread(&self, to: &mut [Vector3<f64>], forces: [f64; 2]) {
-        for (side, block) in self.blocks.iter().enumerate() {
-            if let Some(block) = block {
-                to[*block] += self.rows[side][0] * forces[0] + self.rows[side][1] * forces[1];
+        for (side, body) in self.bodies.iter().enumerate() {
+            if let Some(body) = body {
+                to[*body] += self.rows[side][0] * forces[0] + self.rows[side][1] * forces[1];
             }
         }
     }
