@@ -2,6 +2,7 @@
 
 mod beam;
 mod certificate;
+mod crushed;
 mod discretise;
 mod ending;
 mod falling;
@@ -21,6 +22,7 @@ mod settlement;
 mod sliding;
 mod smallest_motion;
 mod state;
+mod strips;
 mod tally;
 mod task;
 mod tolerances;

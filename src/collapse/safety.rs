@@ -67,12 +67,12 @@ pub(super) fn judge(report: &mut CollapseReport, counted: CrushingKind) {
 }
 
 /// An arch that stands at the start of its path, but not on joints of the stone's strength: a note; and where its stones
-/// yield there already, it crushes.
-pub(super) fn crushed_at_start(report: &mut CollapseReport) {
+/// yield there already, it crushes. Not where crushing is in the path.
+pub(super) fn crushed_at_start(report: &mut CollapseReport, in_path: bool) {
     let stands = |window: Option<LimitWindow>| {
         window.is_some_and(|window| (window.lowest..=window.highest).contains(&report.start))
     };
-    if report.outcome == Outcome::CannotTell {
+    if report.outcome == Outcome::CannotTell || in_path {
         return;
     }
     let Crushing { strength, elastic, plastic_section } = &report.crushing;

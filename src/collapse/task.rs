@@ -55,6 +55,9 @@ pub struct SettlementTask {
 pub enum Method {
     /// Followed exactly from event to event to the peak of the path.
     EventPath(Path),
+    /// The same where joints crush: pressure at their contact points is capped by the strength of the weaker stone beside, as
+    /// where joints of plastic sections crush. For whole stones only, and without a motion.
+    CrushingPath,
     /// As in section 4.2 of the paper, for comparison only: the path is looked at every `step` of load factor, and
     /// collapse is the first step at which `hinges` joints have opened by more than `opening`.
     FixedSteps {
@@ -131,6 +134,11 @@ impl Task {
         if self.method() == Method::EventPath(Path::Updated) { Geometry::Updated } else { Geometry::FirstOrder }
     }
 
+    /// Whether joints crush on the load path.
+    pub fn crushes_on_path(&self) -> bool {
+        self.method() == Method::CrushingPath
+    }
+
     /// How accurate the answer has to be, where that decides on the mesh.
     pub fn accuracy(&self) -> Option<Accuracy> {
         if let Method::EventPath(Path::Refined(accuracy)) = self.method() { Some(accuracy) } else { None }
@@ -138,7 +146,7 @@ impl Task {
 
     /// How far the structure is followed after it has begun to fall, where it is.
     pub fn motion(&self) -> Option<MotionAsked> {
-        if let Task::Collapse(task) = self { task.motion } else { None }
+        if let Task::Collapse(task) = self { task.motion.filter(|_| !self.crushes_on_path()) } else { None }
     }
 
     /// What is reported of the states on a load path; none where no load grows.

@@ -2,7 +2,7 @@
 
 use super::stone::{Stones, check_overrides, override_joints};
 use super::structure::{self, Layout};
-use super::{MAX_FACTOR, MAX_LENGTH_M, accuracy, check_text, half, loads, mesh, motion, settlement};
+use super::{MAX_FACTOR, MAX_LENGTH_M, accuracy, check_text, crushing, half, loads, mesh, motion, settlement};
 use crate::api::fault::Faults;
 use crate::api::request::{AimRequest, AnalysisRequest, LoadEntry, MethodRequest};
 use crate::arch::MAX_VOUSSOIRS;
@@ -59,6 +59,7 @@ impl<'a> Unloaded<'a> {
         let steps = steps(&request.method, joints, faults);
         check_load_factor(request, faults);
         check_method(request, faults);
+        crushing::check(request, &subblocks, faults);
         faults.inside("/report/share_of_collapse", request.report.share_of_collapse, 0.0, 1.0);
         let accuracy = accuracy::accuracy(request, whole, faults);
         let pieces = mesh::total(subblocks.iter().take(analysed.unwrap_or(0)));
@@ -134,7 +135,11 @@ impl<'a> Unloaded<'a> {
             AimRequest::Collapse => Task::Collapse(CollapseTask {
                 direction: request.load_factor.direction,
                 cap,
-                method: self.steps.unwrap_or(Method::EventPath(path)),
+                method: match self.steps {
+                    Some(steps) => steps,
+                    None if request.crushing_in_path => Method::CrushingPath,
+                    None => Method::EventPath(path),
+                },
                 states,
                 motion: self.motion,
             }),

@@ -80,8 +80,10 @@ impl Setup<'_> {
                 report.notes.push(Note::ReadAtSteps { step, limit });
                 None
             }
-            Method::EventPath(_) => {
-                self.take_least(&mut ending, sign)?;
+            Method::EventPath(_) | Method::CrushingPath => {
+                if !self.analysis.task.crushes_on_path() {
+                    self.take_least(&mut ending, sign)?;
+                }
                 match self.certificate.compare(&ending.end, sign) {
                     Err(doubt) => Some(doubt),
                     Ok(short) => (turned_back && short && ending.later).then_some(Doubt::TurnedBack(path)),
@@ -90,6 +92,8 @@ impl Setup<'_> {
         };
         report.notes.extend(ending.later.then_some(Note::LaterMechanism));
         report.notes.extend(ending.end.range.as_ref().map(range_note));
+        let slides = self.analysis.task.crushes_on_path() && !ending.end.mechanism.slides.is_empty();
+        report.notes.extend(slides.then_some(Note::CrushesAndSlides));
         report.outcome = Outcome::Collapse;
         report.end = Some(ending.end);
         Ok(doubt)
@@ -127,7 +131,7 @@ impl Setup<'_> {
     /// The collapse load as the method reads it: exact, or the first whole step beyond.
     fn read_off(&self, load_factor: f64, sign: f64) -> f64 {
         match self.analysis.task.method() {
-            Method::EventPath(_) => load_factor,
+            Method::EventPath(_) | Method::CrushingPath => load_factor,
             Method::FixedSteps { step, .. } => {
                 let steps = ((load_factor - self.start).abs() / step).floor() + 1.0;
                 self.start + sign * steps * step
