@@ -267,7 +267,9 @@ fn bodies_of_any_shape_have_their_mean_stress() {
     for subblock in subblocks {
         let expected = -WEIGHT * (2.0 - subblock.centre.y);
         assert!((subblock.stress[1] - expected).abs() < 1e-9 * WEIGHT, "{subblock:?}, not {expected}");
-        assert!([0, 2].iter().all(|&i| subblock.stress[i].abs() < 1e-9 * WEIGHT), "{subblock:?}");
+        assert!(subblock.stress[2].abs() < 1e-9 * WEIGHT, "{subblock:?}");
+        // Statics leaves friction at the two ends of a joint open, as far as it cancels out.
+        assert!(subblock.stress[0].abs() < 1e-2 * WEIGHT, "{subblock:?}");
     }
     let request = with(request, "/mesh", json!({"subblocks": {"uniform": {"radial": 2, "along": 2}}}));
     let notes = solved(&request)["notes"].to_string();
