@@ -70,6 +70,7 @@ mod references;
 #[cfg(feature = "server")]
 mod refined;
 mod rigid_blocks;
+mod rigid_motion;
 mod rooms;
 #[cfg(feature = "server")]
 mod safety;
