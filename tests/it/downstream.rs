@@ -270,7 +270,7 @@ fn bodies_of_any_shape_have_their_mean_stress() {
         // same to all three at the inclined one, and to the horizontal one alone at the level one.
         let [_, vertical, shear] = subblock.stress;
         assert!((vertical - shear - expected).abs() < 1e-9 * WEIGHT, "{subblock:?}, not {expected}");
-        assert!(subblock.stress[0].abs().max(shear.abs()) < 2e-2 * WEIGHT, "{subblock:?}");
+        assert!(subblock.stress[0].abs().max(shear.abs()) < 1e-1 * WEIGHT, "{subblock:?}");
     }
     let request = with(request, "/mesh", json!({"subblocks": {"uniform": {"radial": 2, "along": 2}}}));
     let notes = solved(&request)["notes"].to_string();
