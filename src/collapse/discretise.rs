@@ -126,7 +126,7 @@ fn same_stones(a: &Analysis, b: &Analysis) -> bool {
 }
 
 fn same_loads(a: &Analysis, b: &Analysis) -> bool {
-    a.geometry == b.geometry && a.fixed == b.fixed && a.scaled == b.scaled
+    a.task.geometry() == b.task.geometry() && a.fixed == b.fixed && a.scaled == b.scaled
 }
 
 /// Cuts every body of the structure into the subblocks of a macroblock, and condenses it.
@@ -335,7 +335,7 @@ impl Model<'_> {
         let (assembly, budget) = (&self.assembly, self.budget);
         let on_subblocks = |force: &PointForce| pushes(force, &self.grids);
         let straight = |forces: &[PointForce]| assembly.loads(forces.iter().flat_map(on_subblocks), budget);
-        let turned = |forces: &[PointForce]| match analysis.geometry {
+        let turned = |forces: &[PointForce]| match analysis.task.geometry() {
             Geometry::FirstOrder => Ok(Vec::new()),
             Geometry::Updated => assembly.turned_loads(forces.iter().flat_map(on_subblocks), budget),
         };
