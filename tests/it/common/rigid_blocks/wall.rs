@@ -104,6 +104,7 @@ impl Published {
     }
 }
 
+#[allow(dead_code, reason = "the benchmark of growth asks for it")]
 /// A wall in running bond of so many courses, with so many whole blocks in every other one.
 pub fn running_bond(courses: usize, columns: usize) -> Scene {
     let course = |course: usize| {
