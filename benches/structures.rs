@@ -13,7 +13,8 @@ mod common;
 #[path = "support/measure.rs"]
 mod measure;
 
-use common::rigid_blocks::wall::running_bond;
+use common::rigid_blocks::scene::{Scene, rectangle};
+use common::rigid_blocks::wall::{FRICTION, standing};
 use common::structures::{FAMILIES, Family, Judged, analysis, judge};
 use measure::{exponent, processor_seconds};
 use std::cell::Cell;
@@ -45,7 +46,7 @@ fn main() {
     }
 }
 
-fn table(name: &str, scene: fn(u64) -> common::rigid_blocks::scene::Scene, seeds: &[u64], tell: bool) {
+fn table(name: &str, scene: fn(u64) -> Scene, seeds: &[u64], tell: bool) {
     let (mut counts, mut longest) = ([0; 6], Duration::ZERO);
     for &seed in seeds {
         let scene = scene(seed);
@@ -105,4 +106,17 @@ fn path(analysis: &voussoir::collapse::Analysis) -> (usize, f64) {
     let _stopped = run(analysis, &Budget::new(&ask));
     let (events, first, last) = seen.get();
     (events, last - first)
+}
+
+/// A wall in running bond of so many courses, with so many whole blocks in every other one.
+fn running_bond(courses: usize, columns: usize) -> Scene {
+    let course = |course: usize| {
+        let whole = course.is_multiple_of(2);
+        (0..=columns - usize::from(whole)).map(move |k| {
+            let (from, to) = if whole { (k as f64, k as f64 + 1.0) } else { (k as f64 - 0.5, k as f64 + 0.5) };
+            let (from, to) = (from.max(0.0), to.min(columns as f64));
+            rectangle(0.4 * from, 0.175 * course as f64, 0.4 * (to - from), 0.175)
+        })
+    };
+    Scene { friction_angle_deg: FRICTION.atan().to_degrees(), ..standing((0..courses).flat_map(course).collect(), 1.0) }
 }

@@ -7,7 +7,7 @@ use super::{
 use crate::budget::Budget;
 
 use crate::dda::falling::{Advance, Carried, Configuration, Falling, Interface, Member, Opening, RigidBody};
-use crate::geometry::Vec2;
+use crate::geometry::{Vec2, perpendicular};
 use crate::structure::{Face, Joint, JointLaw, Side, Structure};
 
 /// The scaled loads are so much larger in the motion than at collapse, lest a perfectly balanced arch stay where it is.
@@ -146,29 +146,31 @@ impl<'a> Moving<'a> {
         let structure = &analysis.structure;
         let (span, thickness) = (span(structure), thickness(structure));
         let group = groups(structure);
-        let mut of_group = vec![usize::MAX; structure.bodies.len()];
-        let mut bodies = Vec::new();
-        for first in (0..group.len()).filter(|&k| group[k] == k) {
-            of_group[first] = bodies.len();
-            let members = (first..group.len()).filter(|&k| group[k] == first).map(|k| member(structure, k)).collect();
-            bodies.push(RigidBody::new(members));
+        let (mut bodies, mut body_of) = (Vec::new(), vec![0; group.len()]);
+        for (k, &first) in group.iter().enumerate() {
+            body_of[k] = body_of[first];
+            if first == k {
+                body_of[k] = bodies.len();
+                let members = (k..group.len()).filter(|&other| group[other] == k).map(|k| member(structure, k));
+                bodies.push(RigidBody::new(members.collect()));
+            }
         }
         for joint in &structure.joints {
             let ([Some(body), None] | [None, Some(body)]) = joint.between.map(Side::body) else { continue };
             match joint.law {
-                JointLaw::Bonded => bodies[of_group[group[body]]].free = [false; 3],
+                JointLaw::Bonded => bodies[body_of[body]].free = [false; 3],
                 // What the plane of symmetry cuts through stays upright on it.
-                JointLaw::Mirror => bodies[of_group[group[body]]].free = [false, true, false],
+                JointLaw::Mirror => bodies[body_of[body]].free = [false, true, false],
                 _ => {}
             }
         }
         for (forces, factor) in [(&analysis.fixed, 1.0), (&analysis.scaled, load_factor)] {
-            forces.iter().for_each(|f| bodies[of_group[group[f.body]]].push(f.at, f.force * factor));
+            forces.iter().for_each(|f| bodies[body_of[f.body]].push(f.at, f.force * factor));
         }
         let centroid = |k: usize| RigidBody::new(vec![member(structure, k)]).centroid;
-        let stone = |k: usize| (of_group[group[k]], centroid(k) - bodies[of_group[group[k]]].centroid);
+        let stone = |k: usize| (body_of[k], centroid(k) - bodies[body_of[k]].centroid);
         let stones = (0..structure.voussoirs().len()).map(stone).collect();
-        bodies.extend(grounds(structure, span, ground_level));
+        bodies.extend(grounds(structure, ground_level));
         let falling =
             Falling::new(bodies, structure.joints.iter().map(|j| interface(structure, j)).collect(), thickness);
         Moving { structure, falling, stones, span, thickness }
@@ -236,11 +238,12 @@ fn interface(structure: &Structure, joint: &Joint) -> Interface {
     Interface { between: joint.between.map(number), ends, friction, cohesion: cohesion * joint.length() }
 }
 
-/// The longer side of the box around all stones.
-fn extent(structure: &Structure) -> f64 {
+/// Lowest and highest coordinates of all stones, and the longer side of the box between them.
+fn around(structure: &Structure) -> ([Vec2; 2], f64) {
     let corners = || structure.bodies.iter().flat_map(|body| &body.corners);
     let low = corners().fold(Vec2::repeat(f64::INFINITY), |low, corner| low.inf(corner));
-    (corners().fold(low, |high, corner| high.sup(corner)) - low).amax()
+    let high = corners().fold(low, |high, corner| high.sup(corner));
+    ([low, high], (high - low).amax())
 }
 
 /// The longest between the middles of springing joints; of half an arch, twice the half; of blocks their extent.
@@ -252,7 +255,7 @@ fn span(structure: &Structure) -> f64 {
         true => 2.0 * ends(&span.joints).x.abs(),
         false => ends(&span.joints).norm(),
     };
-    structure.spans.iter().map(of).reduce(f64::max).unwrap_or_else(|| extent(structure))
+    structure.spans.iter().map(of).reduce(f64::max).unwrap_or_else(|| around(structure).1)
 }
 
 /// Of the longest joint of every stone, the shortest.
@@ -279,62 +282,53 @@ fn groups(structure: &Structure) -> Vec<usize> {
     }
 }
 
-/// The ground of every support: below its joints, from the first to the last of those on one line, and as deep as that is
-/// wide. The wall at the crown of half an arch goes on above and below. And the ground at a level, if one is stated.
-fn grounds(structure: &Structure, span: f64, level: Option<f64>) -> Vec<RigidBody> {
-    let extent = extent(structure);
-    let far = FAR * (span + extent);
-    let mut grounds: Vec<(Ground, usize, f64)> = Vec::new();
+/// Ground below a straight line.
+struct Ground {
+    number: usize,
+    /// Unit normal out of it, and how far out the line is, m.
+    normal: Vec2,
+    level: f64,
+    /// From where to where it goes along the line, to the right as one looks along the normal, m.
+    reach: [f64; 2],
+    friction: f64,
+}
+
+impl Ground {
+    /// As deep as it is wide.
+    fn body(&self) -> RigidBody {
+        let [from, to] = self.reach;
+        let at = |along: f64, depth: f64| self.normal * (self.level - depth) - perpendicular(self.normal) * along;
+        let corners = vec![at(from, to - from), at(to, to - from), at(to, 0.0), at(from, 0.0)];
+        RigidBody::fixed(corners, self.number, self.friction)
+    }
+}
+
+/// The ground of every support: below its joints, from the first to the last of those on one line. The wall at the crown of half
+/// an arch goes on above and below. And the ground at a level, if one is stated.
+fn grounds(structure: &Structure, level: Option<f64>) -> Vec<RigidBody> {
+    let ([low, high], extent) = around(structure);
+    let (far, first) = (FAR * extent, structure.bodies.len());
+    let mut grounds: Vec<Ground> = Vec::new();
     for joint in &structure.joints {
         let (support, normal) = match joint.between {
             [Side::Support(support), _] => (support, joint.normal()),
             [_, Side::Support(support)] => (support, -joint.normal()),
             _ => continue,
         };
-        let beyond = if joint.is_symmetry() { joint.tangent() * far } else { Vec2::zeros() };
-        let friction = if joint.is_symmetry() { 0.0 } else { f64::INFINITY };
-        let ground = Ground::new([joint.intrados - beyond, joint.extrados + beyond], normal);
-        let number = structure.bodies.len() + support;
-        let same = |(other, known, _): &&mut (Ground, usize, f64)| {
-            *known == number && other.in_line(&ground, ON_LINE * extent)
+        let (number, level) = (first + support, normal.dot(&joint.intrados));
+        let ends = [joint.intrados, joint.extrados].map(|end| -perpendicular(normal).dot(&end));
+        let (beyond, friction) = if joint.is_symmetry() { (far, 0.0) } else { (0.0, f64::INFINITY) };
+        let reach = [ends[0].min(ends[1]) - beyond, ends[0].max(ends[1]) + beyond];
+        let on_line = |other: &&mut Ground| {
+            let off = (other.level - level).abs() + (other.normal - normal).norm() * extent;
+            other.number == number && off < ON_LINE * extent
         };
-        match grounds.iter_mut().find(same) {
-            Some((other, ..)) => other.reach_to(&ground),
-            None => grounds.push((ground, number, friction)),
+        match grounds.iter_mut().find(on_line) {
+            Some(other) => other.reach = [other.reach[0].min(reach[0]), other.reach[1].max(reach[1])],
+            None => grounds.push(Ground { number, normal, level, reach, friction }),
         }
     }
-    let level = level.map(|y| Ground::new([Vec2::new(-far, y), Vec2::new(far, y)], Vec2::y()));
-    grounds.extend(level.map(|level| (level, structure.bodies.len() + structure.supports, f64::INFINITY)));
-    grounds.into_iter().map(|(ground, number, friction)| RigidBody::fixed(ground.corners(), number, friction)).collect()
-}
-
-/// Ground below a straight line: from one end to the other, and the unit normal out of it.
-struct Ground {
-    ends: [Vec2; 2],
-    normal: Vec2,
-}
-
-impl Ground {
-    /// With these ends in either order.
-    fn new([a, b]: [Vec2; 2], normal: Vec2) -> Self {
-        let ends = if normal.perp(&(b - a)) < 0.0 { [a, b] } else { [b, a] };
-        Ground { ends, normal }
-    }
-
-    fn in_line(&self, other: &Ground, tolerance: f64) -> bool {
-        let off = other.ends.map(|end| self.normal.dot(&(end - self.ends[0])).abs());
-        self.normal.dot(&other.normal) > 0.0 && off.iter().all(|&off| off < tolerance)
-    }
-
-    fn reach_to(&mut self, other: &Ground) {
-        let along = self.ends[1] - self.ends[0];
-        let further = |a: Vec2, b: Vec2, sign: f64| if sign * along.dot(&(b - a)) > 0.0 { b } else { a };
-        self.ends = [further(self.ends[0], other.ends[0], -1.0), further(self.ends[1], other.ends[1], 1.0)];
-    }
-
-    fn corners(&self) -> Vec<Vec2> {
-        let [from, to] = self.ends;
-        let down = self.normal * -(to - from).norm();
-        vec![from + down, to + down, to, from]
-    }
+    let (number, reach) = (first + structure.supports, [low.x - far, high.x + far]);
+    let flat = |level| Ground { number, normal: Vec2::y(), level, reach, friction: f64::INFINITY };
+    grounds.iter().chain(level.map(flat).iter()).map(Ground::body).collect()
 }

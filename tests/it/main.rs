@@ -30,6 +30,8 @@ mod contract;
 #[cfg(feature = "server")]
 mod crushing;
 #[cfg(feature = "server")]
+mod crushing_path;
+#[cfg(feature = "server")]
 mod determinism;
 #[cfg(feature = "server")]
 mod downstream;
@@ -70,6 +72,7 @@ mod references;
 #[cfg(feature = "server")]
 mod refined;
 mod rigid_blocks;
+mod rigid_motion;
 mod rooms;
 #[cfg(feature = "server")]
 mod safety;

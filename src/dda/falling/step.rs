@@ -23,8 +23,6 @@ pub(super) const NEAR: f64 = 1e-3;
 const REST: f64 = 1e-7;
 /// Cohesion is lost where an interface has opened or slid by this share of the thickness.
 pub(super) const TORN: f64 = 1e-4;
-/// A step is shortened so often before friction is taken from bounds that lag behind.
-const FAILURES: usize = 3;
 /// Times that one step is shortened or lengthened.
 const MOST_TRIALS: usize = 40;
 
@@ -134,11 +132,10 @@ impl Falling {
         let outlines = self.outlines(&self.places);
         let pairs = self.near(&outlines, budget).map_err(|_| Stuck)?;
         let mut contacts = self.touching(&pairs, &outlines);
-        let (mut failures, mut longest) = (0, f64::INFINITY);
+        let mut longest = f64::INFINITY;
         for _ in 0..MOST_TRIALS {
             budget.check().map_err(|_| Stuck)?;
-            let Ok(trial) = self.attempt(&contacts, failures >= FAILURES, budget) else {
-                failures += 1;
+            let Ok(trial) = self.attempt(&contacts, budget) else {
                 longest = self.step;
                 self.step *= 0.5;
                 continue;
@@ -243,6 +240,3 @@ impl Falling {
         all.filter(|carried| carried.gap <= NEAR * self.thickness).collect()
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -23,8 +23,7 @@ pub struct Published {
 pub const FRICTION: f64 = 0.65;
 
 /// Layout: instances `fr_block1` to `fr_block6` of the public GAMS library MPECLib. Published figures: public table of load
-/// multipliers of the programme HybriDFEM 3.1, after Ferris and Tin-Loi (2001) and Gilbert et al. (2006). Restated from
-/// `references/ferris_tinloi_wall*.json` of the project's shared notes.
+/// multipliers of the programme HybriDFEM 3.1, after Ferris and Tin-Loi (2001) and Gilbert et al. (2006).
 pub const PUBLISHED: [Published; 4] = [
     Published {
         number: 1,
@@ -104,22 +103,8 @@ impl Published {
     }
 }
 
-#[allow(dead_code, reason = "the benchmark of growth asks for it")]
-/// A wall in running bond of so many courses, with so many whole blocks in every other one.
-pub fn running_bond(courses: usize, columns: usize) -> Scene {
-    let course = |course: usize| {
-        let whole = course % 2 == 0;
-        (0..=columns - usize::from(whole)).map(move |k| {
-            let (from, to) = if whole { (k as f64, k as f64 + 1.0) } else { (k as f64 - 0.5, k as f64 + 0.5) };
-            let (from, to) = (from.max(0.0), to.min(columns as f64));
-            rectangle(0.4 * from, 0.175 * course as f64, 0.4 * (to - from), 0.175)
-        })
-    };
-    Scene { friction_angle_deg: FRICTION.atan().to_degrees(), ..standing((0..courses).flat_map(course).collect(), 1.0) }
-}
-
 /// Blocks on level ground at y = 0, shaken to the side that `sign` says.
-fn standing(blocks: Vec<Vec<[f64; 2]>>, sign: f64) -> Scene {
+pub fn standing(blocks: Vec<Vec<[f64; 2]>>, sign: f64) -> Scene {
     let sides = (0..blocks.len()).filter(|&k| blocks[k][0][1] == 0.0).map(|k| (k, 0)).collect();
     let supports = vec![Support { name: "ground".into(), sides }];
     let scaled = vec![Load::Acceleration([sign, 0.0])];
