@@ -19,6 +19,10 @@
 #[allow(dead_code, reason = "only the arch is wanted")]
 mod semicircle;
 
+#[path = "support/measure.rs"]
+mod measure;
+
+use measure::{exponent, processor_seconds};
 use semicircle::semicircle;
 use serde_json::json;
 use std::process::Command;
@@ -135,26 +139,12 @@ fn row(family: &str, voussoirs: usize, each_way: usize) {
     );
 }
 
-/// Time this thread has had on a processor, s.
-fn processor_seconds() -> f64 {
-    let nanoseconds = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
-    nanoseconds.split_whitespace().next().and_then(|word| word.parse::<f64>().ok()).map_or(f64::NAN, |ns| 1e-9 * ns)
-}
-
 /// Most memory this process has had, MiB.
 fn peak_mebibytes() -> f64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
     let kibibytes = line.and_then(|line| line.trim().trim_end_matches(" kB").parse::<f64>().ok());
     kibibytes.map_or(f64::NAN, |kibibytes| kibibytes / 1024.0)
-}
-
-/// Exponent of a power law through these points, by least squares of the logarithms.
-fn exponent(points: &[(f64, f64)]) -> f64 {
-    let logs: Vec<(f64, f64)> = points.iter().map(|(x, y)| (x.ln(), y.ln())).collect();
-    let mean = |of: &dyn Fn(&(f64, f64)) -> f64| logs.iter().map(of).sum::<f64>() / logs.len() as f64;
-    let (x, y) = (mean(&|p| p.0), mean(&|p| p.1));
-    mean(&|p| (p.0 - x) * (p.1 - y)) / mean(&|p| (p.0 - x).powi(2))
 }
 
 /// A semicircle of stones of these lengths under its weight and a point load at `x` times the radius.

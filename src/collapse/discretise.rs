@@ -32,7 +32,7 @@ pub(super) struct Model<'p> {
     /// Bodies and joints that are told of: all but abutment blocks.
     pub bodies: usize,
     pub joints: usize,
-    /// The subblocks of these bodies.
+    /// The subblocks of all bodies, those first that are told of.
     pub grids: Vec<Grid>,
     /// Places of every joint's contact points: 0 at its first end, 1 at its second.
     positions: Vec<Vec<f64>>,
@@ -67,44 +67,78 @@ impl Scatter {
     }
 }
 
-/// Cuts every body of the structure into the subblocks of a macroblock.
-pub(super) fn discretise<'p>(
-    analysis: &Analysis,
-    attempt: Attempt,
-    budget: &'p Budget<'p>,
-) -> Result<Model<'p>, AnalysisError> {
-    let structure = &analysis.structure;
-    let mut grids = grids(analysis);
-    let assembly = assembly(analysis, &grids, attempt, budget)?;
-    let (bodies, joints) = (structure.voussoirs().len(), structure.ring().len());
-    let positions = structure.ring().iter().map(|joint| places(joint.law, &around(joint, &grids))).collect();
-    let on_subblocks = |force: &PointForce| pushes(force, &grids);
-    let straight = |forces: &[PointForce]| assembly.loads(forces.iter().flat_map(on_subblocks), budget);
-    let turned = |forces: &[PointForce]| match analysis.geometry {
-        Geometry::FirstOrder => Ok(Vec::new()),
-        Geometry::Updated => assembly.turned_loads(forces.iter().flat_map(on_subblocks), budget),
-    };
-    let [fixed, scaled] = [straight(&analysis.fixed)?, straight(&analysis.scaled)?];
-    let turned = [turned(&analysis.fixed)?, turned(&analysis.scaled)?];
-    grids.truncate(bodies);
-    Ok(Model {
-        turned,
-        symmetric: !structure.is_half() && assembly.is_symmetric(),
-        fixed,
-        scaled,
-        budget,
-        bodies,
-        joints,
-        size: extent(structure.ring().iter().flat_map(|j| [j.intrados, j.extrados])),
-        softest: assembly.contacts().iter().map(|contact| contact.stiffness[0]).fold(f64::INFINITY, f64::min),
-        positions,
-        assembly,
-        grids,
-    })
+/// The model of the analysis that was looked at last. Stones are condensed only where structure or mesh are not those of the one
+/// before: other loads are filled in, and another attempt scatters the stiffness of the contacts.
+pub(super) struct Discretisation<'a> {
+    pub budget: &'a Budget<'a>,
+    of: Option<(&'a Analysis, Model<'a>)>,
+    /// Stones condensed so far, those of one shape once.
+    condensed: usize,
 }
 
-/// The bodies cut like this, joined as the structure says, their contacts scattered.
-fn assembly(analysis: &Analysis, grids: &[Grid], attempt: Attempt, budget: &Budget) -> Result<Assembly, AnalysisError> {
+impl<'a> Discretisation<'a> {
+    /// Of nothing yet.
+    pub(super) fn new(budget: &'a Budget<'a>) -> Self {
+        Discretisation { budget, of: None, condensed: 0 }
+    }
+
+    /// The model of an analysis, with ties broken as in this attempt.
+    ///
+    /// # Errors
+    /// When a stone is loose, or when stopped.
+    pub(super) fn model(&mut self, analysis: &'a Analysis, attempt: Attempt) -> Result<&Model<'a>, AnalysisError> {
+        let mut model = match self.of.take() {
+            Some((before, model)) if same_stones(before, analysis) && same_loads(before, analysis) => model,
+            Some((before, mut model)) if same_stones(before, analysis) => {
+                model.take_loads(analysis)?;
+                model
+            }
+            _ => {
+                let model = discretise(analysis, self.budget)?;
+                self.condensed += model.assembly.kinds();
+                model
+            }
+        };
+        model.scatter(attempt);
+        Ok(&self.of.insert((analysis, model)).1)
+    }
+}
+
+/// Whether two analyses are of the same stones, joints and subblocks.
+fn same_stones(a: &Analysis, b: &Analysis) -> bool {
+    let stiffness = |of: &Analysis| (of.plane, of.penalty_ratio, of.shear_penalty_ratio);
+    stiffness(a) == stiffness(b) && a.mesh == b.mesh && a.structure == b.structure
+}
+
+fn same_loads(a: &Analysis, b: &Analysis) -> bool {
+    a.geometry == b.geometry && a.fixed == b.fixed && a.scaled == b.scaled
+}
+
+/// Cuts every body of the structure into the subblocks of a macroblock, and condenses it.
+fn discretise<'p>(analysis: &Analysis, budget: &'p Budget<'p>) -> Result<Model<'p>, AnalysisError> {
+    let structure = &analysis.structure;
+    let grids = grids(analysis);
+    let assembly = assembly(analysis, &grids, budget)?;
+    let mut model = Model {
+        symmetric: !structure.is_half() && assembly.is_symmetric(),
+        fixed: Loads::default(),
+        scaled: Loads::default(),
+        turned: Default::default(),
+        budget,
+        bodies: structure.voussoirs().len(),
+        joints: structure.ring().len(),
+        size: extent(structure.ring().iter().flat_map(|j| [j.intrados, j.extrados])),
+        softest: f64::INFINITY,
+        positions: structure.ring().iter().map(|joint| places(joint.law, &around(joint, &grids))).collect(),
+        assembly,
+        grids,
+    };
+    model.take_loads(analysis)?;
+    Ok(model)
+}
+
+/// The bodies cut like this, joined as the structure says.
+fn assembly(analysis: &Analysis, grids: &[Grid], budget: &Budget) -> Result<Assembly, AnalysisError> {
     let structure = &analysis.structure;
     let mut macroblocks = Vec::with_capacity(grids.len());
     for (body, grid) in grids.iter().enumerate() {
@@ -121,10 +155,7 @@ fn assembly(analysis: &Analysis, grids: &[Grid], attempt: Attempt, budget: &Budg
         });
         builder.join(between, touches(joint, &around(joint, grids), penalties(analysis, joint)));
     }
-    let mut assembly = builder.finish(budget)?;
-    let mut scatter = Scatter::new(attempt.seed);
-    assembly.scatter(|| [(); 2].map(|()| 1.0 + attempt.scatter * scatter.next()));
-    Ok(assembly)
+    Ok(builder.finish(budget)?)
 }
 
 /// What lies before and after a joint, and where the joint lies on it; none: the ground.
@@ -249,6 +280,29 @@ fn extent(points: impl Iterator<Item = Vec2>) -> f64 {
 }
 
 impl Model<'_> {
+    /// Fills in the loads of an analysis of the same stones.
+    fn take_loads(&mut self, analysis: &Analysis) -> Result<(), AnalysisError> {
+        let (assembly, budget) = (&self.assembly, self.budget);
+        let on_subblocks = |force: &PointForce| pushes(force, &self.grids);
+        let straight = |forces: &[PointForce]| assembly.loads(forces.iter().flat_map(on_subblocks), budget);
+        let turned = |forces: &[PointForce]| match analysis.geometry {
+            Geometry::FirstOrder => Ok(Vec::new()),
+            Geometry::Updated => assembly.turned_loads(forces.iter().flat_map(on_subblocks), budget),
+        };
+        let [fixed, scaled] = [straight(&analysis.fixed)?, straight(&analysis.scaled)?];
+        let turned = [turned(&analysis.fixed)?, turned(&analysis.scaled)?];
+        (self.fixed, self.scaled, self.turned) = (fixed, scaled, turned);
+        Ok(())
+    }
+
+    /// Scatters the stiffness of the contacts as one attempt does.
+    fn scatter(&mut self, attempt: Attempt) {
+        let mut scatter = Scatter::new(attempt.seed);
+        self.assembly.scatter(|| [(); 2].map(|()| 1.0 + attempt.scatter * scatter.next()));
+        let stiffness = self.assembly.contacts().iter().map(|contact| contact.stiffness[0]);
+        self.softest = stiffness.fold(f64::INFINITY, f64::min);
+    }
+
     /// All loads at a load factor, each with its own.
     pub(super) fn loads_at(&self, load_factor: f64) -> [(&Loads, f64); 2] {
         [(&self.fixed, 1.0), (&self.scaled, load_factor)]

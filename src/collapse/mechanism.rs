@@ -291,7 +291,7 @@ fn crowns(structure: &Structure) -> impl Iterator<Item = (Range<usize>, [usize; 
         let (low, high) = heights.clone().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), y| (l.min(y), h.max(y)));
         let mut top = heights.enumerate().filter(|(_, y)| *y >= high - 1e-9 * (high - low)).map(|(k, _)| k);
         let first = top.next().unwrap_or(0);
-        (bodies.clone(), [first, top.last().unwrap_or(first)].map(|k| bodies.start + k))
+        (bodies.clone(), [first, top.next_back().unwrap_or(first)].map(|k| bodies.start + k))
     })
 }
 

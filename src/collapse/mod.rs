@@ -34,6 +34,7 @@ use crate::budget::{Budget, Stopped};
 use crate::dda::Unbuilt;
 use crate::geometry::Vec2;
 use crate::structure::{PointForce, Stone, Structure};
+use discretise::Discretisation;
 
 /// Contact penalty as a multiple of Young's modulus in Table 1 of the paper (1e10 N/m over 1e9 Pa).
 pub const DEFAULT_PENALTY_RATIO: f64 = 10.0;
@@ -316,9 +317,10 @@ impl From<Unbuilt> for AnalysisError {
 /// # Errors
 /// When stopped by `budget`, or when a result is not finite.
 pub fn answer(question: &Question, budget: &Budget) -> Result<Answer, AnalysisError> {
+    let built = &mut Discretisation::new(budget);
     let answer = match question {
-        Question::One(analysis) => verdict::run(analysis, budget).map(|report| Answer::One(Box::new(report))),
-        Question::Curve(points) => safety::curve(points, budget).map(Answer::Curve),
+        Question::One(analysis) => verdict::run(analysis, built).map(|report| Answer::One(Box::new(report))),
+        Question::Curve(points) => safety::curve(points, built).map(Answer::Curve),
         Question::CurvedBeam(beam) => plan::beam(beam, budget).map(Answer::CurvedBeam),
     }?;
     // Where it is spent there is no answer, whatever was computed.
@@ -332,7 +334,7 @@ pub fn answer(question: &Question, budget: &Budget) -> Result<Answer, AnalysisEr
 /// # Errors
 /// When stopped by `budget`, or when a result is not finite.
 pub fn run(analysis: &Analysis, budget: &Budget) -> Result<CollapseReport, AnalysisError> {
-    let report = verdict::run(analysis, budget)?;
+    let report = verdict::run(analysis, &mut Discretisation::new(budget))?;
     budget.check()?;
     report.check_finite()?;
     Ok(report)

@@ -238,12 +238,13 @@ pub(super) fn snapshot(model: &Model, state: &Standing) -> Result<Snapshot, Anal
 /// Stress in every subblock in a state, under the loads at `load_factor`.
 pub(super) fn stress_field(model: &Model, load_factor: f64, state: &Standing) -> Result<StressField, AnalysisError> {
     let mut subblocks = Vec::new();
-    for (voussoir, grid) in model.grids.iter().enumerate() {
+    let grids = &model.grids[..model.bodies];
+    for (voussoir, grid) in grids.iter().enumerate() {
         model.budget.work(model.work_of_stresses(voussoir))?;
         subblocks.extend(grid.field(voussoir, &model.stresses(voussoir, load_factor, &state.displacements)));
     }
     if let Some(mirror) = model.assembly.images_of_bodies().filter(|_| state.symmetric) {
-        subblocks = evened_stresses(&subblocks, &model.grids, mirror);
+        subblocks = evened_stresses(&subblocks, grids, mirror);
     }
     Ok(StressField { load_factor, subblocks })
 }

@@ -1,16 +1,19 @@
 //! Safety factors: the first of instability and crushing as the scaled loads grow from their full size.
 
+use super::discretise::Discretisation;
 use super::tolerances::TOLERANCES;
 use super::{
     AnalysisError, CollapseReport, Crushing, CrushingKind, CurvePoint, Governs, LimitWindow, Mode, Note, Outcome,
     Reach, SafetyPoint, SafetyZone, UpdatedEnd, UpdatedGeometry, verdict,
 };
-use crate::budget::Budget;
 
 /// Safety factors over a list of abscissae.
-pub(super) fn curve(points: &[CurvePoint], budget: &Budget) -> Result<Vec<SafetyPoint>, AnalysisError> {
-    let solve = |point: &CurvePoint| {
-        let report = verdict::run(&point.analysis, budget)?;
+pub(super) fn curve<'a>(
+    points: &'a [CurvePoint],
+    built: &mut Discretisation<'a>,
+) -> Result<Vec<SafetyPoint>, AnalysisError> {
+    let solve = |point: &'a CurvePoint| {
+        let report = verdict::run(&point.analysis, built)?;
         let safety =
             report.safety.map(|safety| SafetyPoint { abscissa: Some(point.abscissa), notes: report.notes, ..safety });
         Ok(safety.unwrap_or_else(|| SafetyPoint::unknown(Some(point.abscissa))))

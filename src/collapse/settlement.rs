@@ -4,11 +4,9 @@
 //! there: the arch has become a three-hinge arch, which follows any movement. On moving geometry its thrust goes on changing
 //! until it no longer finds room in the stones.
 
-use super::discretise::{Model, discretise};
+use super::discretise::{Discretisation, Model};
 use super::path::{Attempt, Moved, disturbed, first_that_tells, lost, stand, stand_moved};
 use super::tolerances::TOLERANCES;
-use crate::budget::Budget;
-
 use super::{
     Analysis, AnalysisError, Cost, Geometry, SettlementEnd, SettlementPath, SettlementPoint, SettlementReport,
     SupportMovement, Unfollowed, ending,
@@ -27,47 +25,48 @@ const PATIENCE: Patience = Patience { fall: 0.9, rise: 0.01, movement: [0.02, 0.
 ///
 /// # Errors
 /// When stopped.
-pub(super) fn follow(
-    analysis: &Analysis,
+pub(super) fn follow<'a>(
+    analysis: &'a Analysis,
     movements: &[SupportMovement],
     weight: f64,
     cost: &mut Cost,
-    budget: &Budget,
+    built: &mut Discretisation<'a>,
 ) -> Result<Option<SettlementReport>, AnalysisError> {
     let mut path = |geometry: Geometry| -> Result<Option<SettlementPath>, AnalysisError> {
         let tells =
             |path: &Option<SettlementPath>| path.as_ref().is_some_and(|path| path.end != SettlementEnd::CannotTell);
-        first_that_tells(tells, |number| attempt(analysis, movements, geometry, weight, number, cost, budget))
+        first_that_tells(tells, |number| attempt(analysis, movements, geometry, weight, number, cost, built))
     };
     let Some(first_order) = path(Geometry::FirstOrder)? else { return Ok(None) };
     let updated = if analysis.geometry == Geometry::Updated { path(Geometry::Updated)? } else { None };
     Ok(Some(SettlementReport { first_order, updated }))
 }
 
-fn attempt(
-    analysis: &Analysis,
+fn attempt<'a>(
+    analysis: &'a Analysis,
     movements: &[SupportMovement],
     geometry: Geometry,
     weight: f64,
     attempt: Attempt,
     cost: &mut Cost,
-    budget: &Budget,
+    built: &mut Discretisation<'a>,
 ) -> Result<Option<SettlementPath>, AnalysisError> {
-    let model = discretise(analysis, attempt, budget)?;
-    let base = disturbed(&model, 0.0, attempt);
+    let budget = built.budget;
+    let model = built.model(analysis, attempt)?;
+    let base = disturbed(model, 0.0, attempt);
     let mut see = |tracer: &Tracer, share: f64| budget.step(share, tracer.events());
     let zeros = vec![0.0; base.len()];
     let turned = [model.turned[0].clone(), zeros.clone()];
     let target = largest(movements, model.size);
     let mut ground = ground(analysis.structure.supports, movements, target);
-    ground[0].velocity.y += uneven(&model, weight, attempt) * model.size;
+    ground[0].velocity.y += uneven(model, weight, attempt) * model.size;
     let drive = Drive { base, rate: zeros, turned, ground, ..Drive::default() };
-    let followed = trace(analysis, &model, geometry, Driven { drive, target }, weight, cost, &mut see);
+    let followed = trace(analysis, model, geometry, Driven { drive, target }, weight, cost, &mut see);
     cost.add(&followed.tracer, Cost::default());
     match followed.stood {
         _ if followed.end == End::Stopped => Err(budget.stopped().into()),
         Moved::FallsAsBuilt => Ok(None),
-        _ => Ok(Some(describe(analysis, &model, geometry, followed))),
+        _ => Ok(Some(describe(analysis, model, geometry, followed))),
     }
 }
 

@@ -1,10 +1,8 @@
 //! Collapse on moving geometry: the load path of the arch in the place to which its loads have moved it.
 
-use super::discretise::{Model, discretise};
+use super::discretise::{Discretisation, Model};
 use super::path::{Attempt, FALLEN, MOVED, Moved, disturbed, first_that_tells, lost, stand_moved};
 use super::tolerances::TOLERANCES;
-use crate::budget::Budget;
-
 use super::{Analysis, AnalysisError, Cost, Unfollowed, UpdatedEnd, UpdatedGeometry, ending, mechanism};
 use crate::dda::{Drive, End, Patience, Tracer};
 
@@ -46,31 +44,32 @@ impl Course {
 ///
 /// # Errors
 /// When stopped.
-pub(super) fn follow(
-    analysis: &Analysis,
+pub(super) fn follow<'a>(
+    analysis: &'a Analysis,
     course: Course,
     cost: &mut Cost,
-    budget: &Budget,
+    built: &mut Discretisation<'a>,
 ) -> Result<UpdatedGeometry, AnalysisError> {
     let tells = |answer: &UpdatedGeometry| answer.end != UpdatedEnd::CannotTell;
-    first_that_tells(tells, |number| attempt(analysis, course, number, cost, budget))
+    first_that_tells(tells, |number| attempt(analysis, course, number, cost, built))
 }
 
-fn attempt(
-    analysis: &Analysis,
+fn attempt<'a>(
+    analysis: &'a Analysis,
     course: Course,
     attempt: Attempt,
     cost: &mut Cost,
-    budget: &Budget,
+    built: &mut Discretisation<'a>,
 ) -> Result<UpdatedGeometry, AnalysisError> {
-    let model = discretise(analysis, attempt, budget)?;
-    let fixed = disturbed(&model, course.start, attempt);
+    let budget = built.budget;
+    let model = built.model(analysis, attempt)?;
+    let fixed = disturbed(model, course.start, attempt);
     let see = |tracer: &Tracer, load_factor: f64| budget.step(load_factor, tracer.events());
     let at_start = &mut |t: &Tracer| see(t, course.start);
-    let (mut tracer, stood) = stand_moved(&model, &fixed, course.start, course.weight, cost, at_start);
+    let (mut tracer, stood) = stand_moved(model, &fixed, course.start, course.weight, cost, at_start);
     let mut end = End::Stopped;
     if stood == Moved::Stands {
-        tracer.drive_on(drive(&model, fixed, course.sign), course.sign * course.start);
+        tracer.drive_on(drive(model, fixed, course.sign), course.sign * course.start);
         end = tracer.trace_moving(course.cap, course.patience(), &mut |t| see(t, course.sign * t.parameter()));
     }
     cost.add(&tracer, Cost::default());
@@ -80,7 +79,7 @@ fn attempt(
     // A path that hardly rises, or comes back the way it went, and runs past its start has found the other end of the loads that
     // the arch can bear.
     let turned_back = tracer.parameter() < course.sign * course.start && !course.fell(&tracer);
-    let why = lost(&model, &tracer);
+    let why = lost(model, &tracer);
     let falls = end == End::Mechanism && !turned_back && tracer.return_to_peak();
     let residual = tracer.worst_residual();
     let end = match (stood, end) {
@@ -93,7 +92,7 @@ fn attempt(
         (Moved::Stands, _) => Err(why),
         _ => Err(Unfollowed::NotLoaded),
     };
-    Ok(describe(analysis, &model, &tracer, course.sign, end))
+    Ok(describe(analysis, model, &tracer, course.sign, end))
 }
 
 fn drive(model: &Model, fixed: Vec<f64>, sign: f64) -> Drive {

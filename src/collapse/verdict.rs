@@ -4,7 +4,7 @@ mod fallen;
 mod leg;
 
 use super::certificate::{Certificate, any_fixed, loaded, mesh_notes};
-use super::discretise::{Model, discretise};
+use super::discretise::{Discretisation, Model};
 use super::path::{ATTEMPTS, Attempt, disturbed, nothing_grows, stand, total};
 use crate::budget::Budget;
 
@@ -48,16 +48,18 @@ struct Attempted {
 /// Is told of every event: the tracer and its load factor.
 type OnEvent<'w> = dyn FnMut(&Tracer, f64) -> ControlFlow<()> + 'w;
 
-pub(super) fn run(analysis: &Analysis, budget: &Budget) -> Result<CollapseReport, AnalysisError> {
-    let question = Setup::new(analysis, budget)?;
-    let report = question.answer()?;
+/// The whole answer; stones that are in `built` already are not condensed again.
+pub(super) fn run<'a>(analysis: &'a Analysis, built: &mut Discretisation<'a>) -> Result<CollapseReport, AnalysisError> {
+    let question = Setup::new(analysis, built.budget)?;
+    let report = question.answer(built)?;
     Ok(report.or_cannot_tell(question.blank(0)))
 }
 
 /// Limit window and load path on the mesh given; what follows from them is left to [`run`].
 pub(super) fn solve(analysis: &Analysis, budget: &Budget) -> Result<CollapseReport, AnalysisError> {
-    Setup::new(analysis, budget)?.solve()
+    Setup::new(analysis, budget)?.solve(&mut Discretisation::new(budget))
 }
+
 impl Attempted {
     /// The less doubtful of two attempts, with the work of both.
     fn or_better(self, next: Attempted) -> Attempted {
@@ -94,9 +96,9 @@ impl<'a> Setup<'a> {
     }
 
     /// Limit window, load path and all that follows from them.
-    fn answer(&self) -> Result<CollapseReport, AnalysisError> {
+    fn answer(&self, built: &mut Discretisation<'a>) -> Result<CollapseReport, AnalysisError> {
         let (analysis, budget) = (self.analysis, self.budget);
-        let mut report = self.solve()?;
+        let mut report = self.solve(built)?;
         if let Some(accuracy) = analysis.accuracy {
             report = plan::refined(analysis, accuracy, report, budget)?;
         }
@@ -105,11 +107,11 @@ impl<'a> Setup<'a> {
         if analysis.geometry == Geometry::Updated && unbent && report.at_start.is_some() {
             report.notes.push(Note::UnbentStones);
         }
-        report.updated = self.updated(&mut report)?;
+        report.updated = self.updated(&mut report, built)?;
         match &analysis.aim {
             Aim::Collapse => safety::crushed_at_start(&mut report),
             &Aim::Safety { crushing } => safety::judge(&mut report, crushing),
-            Aim::Settlement(movements) => self.settle(&mut report, movements)?,
+            Aim::Settlement(movements) => self.settle(&mut report, movements, built)?,
         }
         falling::follow(analysis, &mut report, budget)?;
         budget.ask()?;
@@ -117,11 +119,11 @@ impl<'a> Setup<'a> {
     }
 
     /// The answer of the first attempt that is not in doubt, or of the one least so.
-    fn solve(&self) -> Result<CollapseReport, AnalysisError> {
+    fn solve(&self, built: &mut Discretisation<'a>) -> Result<CollapseReport, AnalysisError> {
         let slender = rounding::too_slender(&self.analysis.structure);
         let attempted = match slender {
             Some(doubt) => Attempted { report: self.blank(0), doubt: Some(doubt) },
-            None => self.attempts()?,
+            None => self.attempts(built)?,
         };
         let Attempted { mut report, doubt } = attempted;
         if let Some(doubt) = doubt {
@@ -134,41 +136,41 @@ impl<'a> Setup<'a> {
     }
 
     /// The first attempt that is not in doubt, or the one least so.
-    fn attempts(&self) -> Result<Attempted, AnalysisError> {
-        let mut attempted = self.attempt(Attempt::number(0))?;
+    fn attempts(&self, built: &mut Discretisation<'a>) -> Result<Attempted, AnalysisError> {
+        let mut attempted = self.attempt(Attempt::number(0), built)?;
         for i in 1..ATTEMPTS {
             if attempted.doubt.is_none() {
                 break;
             }
-            let next = self.attempt(Attempt::number(i))?;
+            let next = self.attempt(Attempt::number(i), built)?;
             attempted = attempted.or_better(next);
         }
         Ok(attempted)
     }
 
-    fn attempt(&self, attempt: Attempt) -> Result<Attempted, AnalysisError> {
+    fn attempt(&self, attempt: Attempt, built: &mut Discretisation<'a>) -> Result<Attempted, AnalysisError> {
         let analysis = self.analysis;
-        let model = discretise(analysis, attempt, self.budget)?;
-        let fixed = disturbed(&model, self.start, attempt);
+        let model = built.model(analysis, attempt)?;
+        let fixed = disturbed(model, self.start, attempt);
         let mut progress = |tracer: &Tracer, load_factor: f64| self.budget.step(load_factor, tracer.events());
         let mut report = self.blank(model.assembly.unknowns());
-        report.notes = self.mesh_notes(&model);
+        report.notes = self.mesh_notes(model);
         let (mut tracer, end) =
-            stand(&model, &fixed, self.start, self.weight, &mut |t| progress(t, self.start * t.parameter()));
+            stand(model, &fixed, self.start, self.weight, &mut |t| progress(t, self.start * t.parameter()));
         report.cost.add(&tracer, Cost::default());
         match end {
             End::Stopped => return Err(self.budget.stopped().into()),
             End::Reached if self.certificate.stands_at(self.start) => {}
             End::Reached => return Ok(Attempted { report, doubt: Some(Doubt::StandsOutside) }),
-            End::Mechanism => return self.fallen(report, &model, &tracer),
+            End::Mechanism => return self.fallen(report, model, &tracer),
             End::Rising | End::Lost => return Ok(Attempted { report, doubt: Some(Doubt::NotLoaded) }),
         }
-        let mut states = States::new(&model);
+        let mut states = States::new(model);
         let at_start = states.find(self.start, tracer.displacements())?;
-        report.at_start = at_start.as_ref().map(|state| snapshot(&model, state)).transpose()?;
-        if nothing_grows(&model, total(&analysis.scaled)) {
+        report.at_start = at_start.as_ref().map(|state| snapshot(model, state)).transpose()?;
+        if nothing_grows(model, total(&analysis.scaled)) {
             report.outcome = Outcome::NeverCollapses;
-            at_start.map(|state| report.fields_at_rest(analysis, &model, &state)).transpose()?;
+            at_start.map(|state| report.fields_at_rest(analysis, model, &state)).transpose()?;
             if !matches!(analysis.aim, Aim::Settlement(_)) {
                 report.notes.push(Note::NothingGrows);
             }
@@ -189,7 +191,11 @@ impl<'a> Setup<'a> {
     }
 
     /// The answer on moving geometry, where it is asked for and the arch stands at first order.
-    fn updated(&self, report: &mut CollapseReport) -> Result<Option<UpdatedGeometry>, AnalysisError> {
+    fn updated(
+        &self,
+        report: &mut CollapseReport,
+        built: &mut Discretisation<'a>,
+    ) -> Result<Option<UpdatedGeometry>, AnalysisError> {
         let stands = report.at_start.is_some() && report.outcome != Outcome::CannotTell;
         let settles = matches!(self.analysis.aim, Aim::Settlement(_));
         if self.analysis.geometry == Geometry::FirstOrder || !stands || settles {
@@ -199,16 +205,21 @@ impl<'a> Setup<'a> {
         let as_much = weight / total(&self.analysis.scaled).max(f64::MIN_POSITIVE);
         let rise = report.end.as_ref().map_or(as_much, |end| (end.on_path() - start).abs());
         let course = Course { start, sign, cap, rise, ends: report.end.is_some(), weight };
-        updated::follow(self.analysis, course, &mut report.cost, self.budget).map(Some)
+        updated::follow(self.analysis, course, &mut report.cost, built).map(Some)
     }
 
     /// What becomes of a standing structure as its supports move.
-    fn settle(&self, report: &mut CollapseReport, movements: &[SupportMovement]) -> Result<(), AnalysisError> {
+    fn settle(
+        &self,
+        report: &mut CollapseReport,
+        movements: &[SupportMovement],
+        built: &mut Discretisation<'a>,
+    ) -> Result<(), AnalysisError> {
         safety::crushed_at_start(report);
         if report.at_start.is_none() || report.outcome == Outcome::CannotTell {
             return Ok(());
         }
-        report.settlement = settlement::follow(self.analysis, movements, self.weight, &mut report.cost, self.budget)?;
+        report.settlement = settlement::follow(self.analysis, movements, self.weight, &mut report.cost, built)?;
         if report.outcome != Outcome::Crushes {
             let settlement = report.settlement.as_ref();
             report.outcome = match settlement.map(|s| s.updated.as_ref().unwrap_or(&s.first_order).end) {
@@ -221,7 +232,7 @@ impl<'a> Setup<'a> {
     }
 
     fn mesh_notes(&self, model: &Model) -> Vec<Note> {
-        let slenderness = model.grids.iter().map(|grid| grid.slenderness()).fold(1.0, f64::max);
+        let slenderness = model.grids[..model.bodies].iter().map(|grid| grid.slenderness()).fold(1.0, f64::max);
         let several = self.analysis.mesh.subblocks.iter().any(|&subblocks| subblocks != [1, 1]);
         let cohesive = |joint: &Joint| matches!(joint.law, JointLaw::Dry { cohesion, .. } if cohesion > 0.0);
         mesh_notes(slenderness, several, self.analysis.structure.ring().iter().any(cohesive))

@@ -67,7 +67,7 @@ struct Site {
 }
 
 /// Loads on an assembly.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Loads {
     /// What they are worth on the nodes, N/m.
     pub on_nodes: Vec<f64>,

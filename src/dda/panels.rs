@@ -55,14 +55,31 @@ pub fn subtract_applied(a: &[f64], x: &[f64], y: &mut [f64]) {
     match x.len() {
         0 => {}
         4 => subtract_applied_of(a, x, y, 4),
+        8 => subtract_applied_of(a, x, y, 8),
         n => subtract_applied_of(a, x, y, n),
     }
 }
 
+/// Two rows at a time, so that x is read half as often.
 #[inline(always)]
 fn subtract_applied_of(a: &[f64], x: &[f64], y: &mut [f64], n: usize) {
-    for (row, entry) in a.chunks_exact(n).zip(y) {
-        *entry -= dot(&row[..n], &x[..n]);
+    let ((by_two, last), height) = (x[..n].as_chunks::<2>(), y.len());
+    let (pairs, single) = y.as_chunks_mut::<2>();
+    for (rows, pair) in a.chunks_exact(2 * n).zip(pairs) {
+        let (upper, lower) = rows.split_at(n);
+        let mut sums = [[0.0; 2]; 2];
+        for ((x, a), b) in by_two.iter().zip(upper.as_chunks::<2>().0).zip(lower.as_chunks::<2>().0) {
+            (0..2).for_each(|lane| sums[0][lane] += a[lane] * x[lane]);
+            (0..2).for_each(|lane| sums[1][lane] += b[lane] * x[lane]);
+        }
+        if let [x] = last {
+            sums[0][0] += upper[n - 1] * x;
+            sums[1][0] += lower[n - 1] * x;
+        }
+        (0..2).for_each(|row| pair[row] -= sums[row][0] + sums[row][1]);
+    }
+    if let [entry] = single {
+        *entry -= dot(&a[(height - 1) * n..height * n], &x[..n]);
     }
 }
 

@@ -28,26 +28,21 @@ impl Pivot {
         match (self.n, columns) {
             (0, _) => self.ratio = f64::INFINITY,
             // Two contact points a joint: shapes known to the compiler run several times faster.
-            (4, 4) => self.factor_of(4, 4, rows, solved, ends),
-            (8, 0) => self.factor_of(8, 0, rows, solved, ends),
+            (4, 4) => self.factor_fixed::<4, 8>(rows, solved, ends),
+            (8, 0) => self.factor_fixed::<8, 8>(rows, solved, ends),
             (n, columns) => self.factor_of(n, columns, rows, solved, ends),
         }
     }
 
     /// Rows of [a | b] are kept together: an elimination step is one operation on neighbours, which compilers turn into
     /// vector instructions.
-    #[inline(always)]
     fn factor_of(&mut self, n: usize, columns: usize, rows: &mut [f64], b: &mut [f64], ends: &[usize]) {
         let width = n + columns;
         let rows = &mut rows[..n * width];
         self.rows.resize(n * n, 0.0);
-        self.order.resize(n, 0);
-        self.order.iter_mut().enumerate().for_each(|(i, place)| *place = i);
-        let of_a = rows.chunks_exact(width).flat_map(|row| &row[..n]);
-        let scale = of_a.fold(f64::MIN_POSITIVE / f64::EPSILON, |scale, x| scale.max(x.abs()));
-        self.ratio = f64::INFINITY;
-        let (mut smallest, mut largest, mut ends) = (f64::INFINITY, 0f64, ends.iter());
-        let mut end = ends.next();
+        self.order.clear();
+        self.order.extend(0..n);
+        let mut ratios = Ratios::new(ends);
         for k in 0..n {
             let size = |i: usize| rows[i * width + k].abs();
             let best = (k + 1..n).fold(k, |best, i| if size(i) > size(best) { i } else { best });
@@ -56,14 +51,8 @@ impl Pivot {
                 above[k * width..(k + 1) * width].swap_with_slice(&mut below[..width]);
                 self.order.swap(k, best);
             }
-            // An exactly singular block is left singular to working precision: its inverse then points along the
-            // mechanism, which is what the caller looks for.
-            let pivot = if rows[k * width + k] == 0.0 { scale * f64::EPSILON } else { rows[k * width + k] };
-            (smallest, largest) = (smallest.min(pivot.abs()), largest.max(pivot.abs()));
-            if end.is_none_or(|&end| k + 1 >= end) {
-                self.ratio = self.ratio.min(smallest / largest);
-                (smallest, largest, end) = (f64::INFINITY, 0.0, ends.next());
-            }
+            let pivot = regular(rows[k * width + k], rows);
+            ratios.see(k, pivot);
             let reciprocal = 1.0 / pivot;
             let (above, below) = rows.split_at_mut((k + 1) * width);
             let pivot_row = &mut above[k * width..];
@@ -89,6 +78,51 @@ impl Pivot {
             self.rows[i * n..(i + 1) * n].copy_from_slice(left);
             b[i * columns..(i + 1) * columns].copy_from_slice(right);
         }
+        self.ratio = ratios.least;
+    }
+
+    /// The same where `W` numbers are in each of `N` rows. Whole rows, without asking which columns are left, take fewer
+    /// instructions.
+    fn factor_fixed<const N: usize, const W: usize>(&mut self, rows: &mut [f64], b: &mut [f64], ends: &[usize]) {
+        let Some(rows) = rows.as_chunks_mut::<W>().0.first_chunk_mut::<N>() else { return };
+        let (mut factors, mut order) = ([[0.0; N]; N], std::array::from_fn::<usize, N, _>(|i| i));
+        let mut ratios = Ratios::new(ends);
+        for k in 0..N {
+            let (mut best, mut most) = (k, rows[k][k].abs());
+            for i in k + 1..N {
+                let size = rows[i][k].abs();
+                (best, most) = if size > most { (i, size) } else { (best, most) };
+            }
+            if best != k {
+                rows.swap(k, best);
+                factors.swap(k, best);
+                order.swap(k, best);
+            }
+            let pivot = regular(rows[k][k], rows.as_flattened());
+            ratios.see(k, pivot);
+            let (reciprocal, pivot_row) = (1.0 / pivot, rows[k]);
+            for i in k + 1..N {
+                let l = rows[i][k] * reciprocal;
+                factors[i][k] = l;
+                (0..W).for_each(|j| rows[i][j] -= l * pivot_row[j]);
+            }
+            factors[k][k] = reciprocal;
+        }
+        for i in (0..N).rev() {
+            let mut row = rows[i];
+            for j in i + 1..N {
+                factors[i][j] = row[j];
+                (N..W).for_each(|column| row[column] -= factors[i][j] * rows[j][column]);
+            }
+            (N..W).for_each(|column| row[column] *= factors[i][i]);
+            rows[i] = row;
+            b[i * (W - N)..(i + 1) * (W - N)].copy_from_slice(&row[N..]);
+        }
+        self.rows.clear();
+        self.rows.extend_from_slice(factors.as_flattened());
+        self.order.clear();
+        self.order.extend_from_slice(&order);
+        self.ratio = ratios.least;
     }
 
     /// Solves a x = b in place. `work` is scratch.
@@ -113,6 +147,41 @@ impl Pivot {
             let (before, after) = x.split_at_mut(i + 1);
             let row = &self.rows[i * n..(i + 1) * n];
             before[i] = (before[i] - dot(&row[i + 1..], after)) * row[i];
+        }
+    }
+}
+
+/// A pivot, or where that is zero, one that is so to working precision: an exactly singular block's inverse then points along
+/// the mechanism, which is what the caller looks for.
+#[inline(always)]
+fn regular(pivot: f64, rows: &[f64]) -> f64 {
+    if pivot != 0.0 {
+        return pivot;
+    }
+    f64::EPSILON * rows.iter().fold(f64::MIN_POSITIVE / f64::EPSILON, |scale, x| scale.max(x.abs()))
+}
+
+/// The least ratio of the smallest to the largest pivot within a group of columns.
+struct Ratios<'e> {
+    least: f64,
+    smallest: f64,
+    largest: f64,
+    ends: &'e [usize],
+}
+
+impl<'e> Ratios<'e> {
+    fn new(ends: &'e [usize]) -> Self {
+        Ratios { least: f64::INFINITY, smallest: f64::INFINITY, largest: 0.0, ends }
+    }
+
+    /// Takes in the pivot of column `k`.
+    #[inline(always)]
+    fn see(&mut self, k: usize, pivot: f64) {
+        (self.smallest, self.largest) = (self.smallest.min(pivot.abs()), self.largest.max(pivot.abs()));
+        if self.ends.first().is_none_or(|&end| k + 1 >= end) {
+            self.least = self.least.min(self.smallest / self.largest);
+            (self.smallest, self.largest) = (f64::INFINITY, 0.0);
+            self.ends = self.ends.get(1..).unwrap_or_default();
         }
     }
 }

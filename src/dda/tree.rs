@@ -58,9 +58,13 @@ pub struct Front {
 impl Front {
     /// Multiplications of eliminating, and of solving with the factors.
     pub fn work(&self) -> [usize; 2] {
-        let [removed, kept] = self.sizes;
-        [removed * (removed * removed / 3 + removed * kept + kept * kept), removed * (removed + 2 * kept)]
+        work(self.sizes)
     }
+}
+
+/// Multiplications of eliminating so many unknowns while so many are kept, and of solving with the factors.
+fn work([removed, kept]: [usize; 2]) -> [usize; 2] {
+    [removed * (removed * removed / 3 + removed * kept + kept * kept), removed * (removed + 2 * kept)]
 }
 
 /// Cliques, the edges between them, and the fronts: front `2 e` goes along edge `e`, front `2 e + 1` the other way, and the one
@@ -87,7 +91,14 @@ struct Clique {
     faces: Vec<usize>,
     parent: Option<usize>,
     shared: usize,
+    /// Multiplications of eliminating and of solving, were none of the cliques it was made of put together.
+    apart: [usize; 2],
 }
+
+/// Cliques are put together where eliminating takes so many multiplications more at most, and solving so many times as many: a
+/// front has costs of its own. In a row of bodies with two contact points a joint it does not pay.
+const TOGETHER: [usize; 2] = [2000, 5];
+const OF_APART: usize = 4;
 
 impl Tree {
     /// The tree of those elements of a pattern that are `wanted`.
@@ -259,7 +270,10 @@ fn cliques(pattern: &Pattern, wanted: impl Fn(usize) -> bool) -> Ordered {
         }
         tied[face] = around;
     }
-    hung_up(&order, &tied)
+    let mut ordered = hung_up(&order, &tied);
+    ordered.put_together(pattern);
+    ordered.hang_together();
+    ordered
 }
 
 /// Two sorted lists without repetition, `but` left out.
@@ -293,7 +307,7 @@ fn hung_up(order: &[usize], tied: &[Vec<usize>]) -> Ordered {
             usize::MAX => {
                 let mut faces = vec![face];
                 faces.extend(&tied[face]);
-                cliques.push(Clique { faces, parent: None, shared: tied[face].len() });
+                cliques.push(Clique { faces, parent: None, shared: tied[face].len(), apart: [0; 2] });
                 cliques.len() - 1
             }
             clique => {
@@ -312,13 +326,63 @@ fn hung_up(order: &[usize], tied: &[Vec<usize>]) -> Ordered {
     for clique in &mut cliques {
         // Last those that are shared, in the order of elimination, as all cliques have them.
         clique.faces.sort_unstable_by_key(|&face| turn[face]);
-        let first_shared = clique.faces.len() - clique.shared;
-        clique.parent = clique.faces.get(first_shared).map(|&face| of_face[face]);
-    }
-    // Parts that nothing ties to each other hang together by nothing.
-    let roots: Vec<usize> = (0..cliques.len()).filter(|&c| cliques[c].parent.is_none()).collect();
-    for pair in roots.windows(2) {
-        cliques[pair[0]].parent = Some(pair[1]);
     }
     Ordered { cliques, of_face, turn }
+}
+
+impl Clique {
+    /// The faces that are eliminated in it.
+    fn own(&self) -> &[usize] {
+        &self.faces[..self.faces.len() - self.shared]
+    }
+}
+
+impl Ordered {
+    /// Puts cliques and those they hang on together where that takes hardly more multiplications.
+    fn put_together(&mut self, pattern: &Pattern) {
+        let size = |faces: &[usize]| faces.iter().map(|&face| pattern.range(face).len()).sum::<usize>();
+        let sizes = |clique: &Clique| [size(clique.own()), size(&clique.faces) - size(clique.own())];
+        self.cliques.iter_mut().for_each(|clique| clique.apart = work(sizes(clique)));
+        for child in 0..self.cliques.len() {
+            let Some(&shared) = self.cliques[child].faces.get(self.cliques[child].own().len()) else { continue };
+            let parent = self.of_face[shared];
+            let ([own, _], [removed, kept]) = (sizes(&self.cliques[child]), sizes(&self.cliques[parent]));
+            let (together, apart) = (
+                work([own + removed, kept]),
+                [0, 1].map(|i| self.cliques[child].apart[i] + self.cliques[parent].apart[i]),
+            );
+            if together[0] <= apart[0] + TOGETHER[0] && OF_APART * together[1] <= TOGETHER[1] * apart[1] {
+                let clique = &mut self.cliques[child];
+                clique.faces.truncate(clique.faces.len() - clique.shared);
+                let mut faces = std::mem::take(&mut clique.faces);
+                (clique.shared, clique.parent) = (0, None);
+                faces.iter().for_each(|&face| self.of_face[face] = parent);
+                faces.append(&mut self.cliques[parent].faces);
+                (self.cliques[parent].faces, self.cliques[parent].apart) = (faces, apart);
+            }
+        }
+        let mut number = 0;
+        let numbers: Vec<usize> = self
+            .cliques
+            .iter()
+            .map(|clique| {
+                number += usize::from(!clique.faces.is_empty());
+                number - usize::from(!clique.faces.is_empty())
+            })
+            .collect();
+        self.cliques.retain(|clique| !clique.faces.is_empty());
+        self.of_face.iter_mut().for_each(|clique| *clique = numbers[*clique]);
+    }
+
+    /// Hangs every clique on that in which the first of the faces they share is eliminated; parts that nothing ties to each other
+    /// hang together by nothing.
+    fn hang_together(&mut self) {
+        for clique in &mut self.cliques {
+            clique.parent = clique.faces.get(clique.own().len()).map(|&face| self.of_face[face]);
+        }
+        let roots: Vec<usize> = (0..self.cliques.len()).filter(|&c| self.cliques[c].parent.is_none()).collect();
+        for pair in roots.windows(2) {
+            self.cliques[pair[0]].parent = Some(pair[1]);
+        }
+    }
 }

@@ -87,7 +87,7 @@ impl StaticTheorem {
         let first = |section: &Section| FIRST_CUTS.map(|at| section.tangents(at, self));
         cut.limits = sections.iter().flat_map(first).flatten().collect();
         conic.sections = sections.clone();
-        conic.error = Some(NEARLY);
+        conic.errors[1] = NEARLY;
         let mut window = CrushingWindow { ends: [0.0; 2], joints: [Vec::new(), Vec::new()] };
         for (end, sign) in [-1.0, 1.0].into_iter().enumerate() {
             let objective = Objective::load_factor(sign);

@@ -18,8 +18,6 @@ pub use newton::Pattern;
 
 /// Iterations after which the method has failed (it needs 10 to 40).
 const MOST_ITERATIONS: usize = 120;
-/// Residuals and gap at which it goes no further, relative to the size of the data and of the point.
-const ENOUGH: f64 = 1e-13;
 /// A proof that there is no optimum may be off by this: what is feasible, or no better, has a size of 1e9 at least.
 const PROVEN: f64 = 1e-9;
 /// The same where rounding stops the proof short of that and no optimum is near.
@@ -28,8 +26,9 @@ const BARELY_PROVEN: f64 = 1e-7;
 const VANISHED: f64 = 1e-13;
 /// Share of the way to the boundary that a step goes.
 const STEP: f64 = 0.99;
-/// Iterations without a better point after which rounding has won.
-const PATIENCE: usize = 20;
+/// Iterations without a better point after which rounding has won; the second where the best is as close as this to the optimum.
+const PATIENCE: [usize; 2] = [20, 2];
+const CLOSE: f64 = 1e-10;
 /// So much worse than a best point that is as near as this to the optimum: rounding has won.
 const BLOWN_UP: f64 = 1e4;
 const NEAR: f64 = 1e-6;
@@ -175,8 +174,9 @@ impl Residuals {
     }
 }
 
-/// Solves a programme of this `pattern`; an optimum's `error` bounds what is left of residuals and gap, relative to the data and the point.
-pub fn minimise(programme: &Sparse, pattern: &Pattern, budget: &Budget) -> Found {
+/// Solves a programme of this `pattern`; goes no further where no more than `enough` is left of residuals and
+/// gap, relative to the data and the point.
+pub fn minimise(programme: &Sparse, pattern: &Pattern, enough: f64, budget: &Budget) -> Found {
     let constants = programme.constants();
     let mut point = Point::start(programme);
     let (mut best, mut since) = (None::<(f64, Vec<f64>, Vec<f64>)>, 0);
@@ -208,7 +208,8 @@ pub fn minimise(programme: &Sparse, pattern: &Pattern, budget: &Budget) -> Found
             best = Some((error, by_tau(&point.x), by_tau(&point.z)));
             since = 0;
         }
-        if error < ENOUGH || since > PATIENCE {
+        let close = best.as_ref().is_some_and(|best| best.0 < CLOSE);
+        if error < enough || since > PATIENCE[usize::from(close)] {
             break;
         }
         let Some(newton) = Newton::new(programme, pattern, &point) else { break };

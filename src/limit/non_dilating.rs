@@ -15,7 +15,11 @@ use crate::structure::{Face, Joint, JointLaw};
 const MOVES: f64 = 1e-9;
 /// Error of the programme of motions of many loops that is put up with: joints that do not move carry any force, which costs the
 /// interior point method its last digits, while the rates tell long before which joints move.
-const ROUGH: f64 = 1e-2;
+const ROUGH: [f64; 2] = [1e-9, 1e-2];
+/// The same of a corner of many loops, of which only what is at its limits counts.
+const CORNER: [f64; 2] = [1e-9, 1e-8];
+/// A motion may close gaps at so many times the largest cost, and so not at all where there is any other.
+const CLOSING: f64 = 1e4;
 /// Rates of such a motion below this share of the fastest are none.
 const MOVES_ROUGHLY: f64 = 1e-7;
 
@@ -88,6 +92,9 @@ impl StaticTheorem {
             programme.limits.extend(self.at_limit(joint, release, moving.iter().any(turns)));
         }
         programme.bounds[if sign > 0.0 { 0 } else { 1 }] = start;
+        if !tilts.is_empty() {
+            programme.errors = CORNER;
+        }
         let forces = tilts.iter().copied().enumerate().collect();
         match programme.maximise(&Objective { load_factor: -sign, forces }, budget) {
             Outcome::At(equilibrium, _) => Ok(Some(equilibrium)),
@@ -132,26 +139,58 @@ impl StaticTheorem {
     ) -> Option<Vec<f64>> {
         let programme = self.motion_programme(releases, costs);
         let Outcome::At(_, rates) = programme.maximise(&Objective::load_factor(sign), budget) else { return None };
+        let (rates, closing) = rates.split_at(releases.len());
         let fastest = rates.iter().copied().fold(0.0, f64::max);
+        if closing.iter().any(|rate| *rate > MOVES_ROUGHLY * fastest) {
+            return None;
+        }
         let moves = if self.has_few_unknowns() { MOVES } else { MOVES_ROUGHLY };
-        Some(rates.into_iter().map(|rate| if rate > moves * fastest { rate } else { 0.0 }).collect())
+        Some(rates.iter().map(|&rate| if rate > moves * fastest { rate } else { 0.0 }).collect())
     }
 
     /// Forces under the scaled loads that do no more work in any release than it costs.
     pub(super) fn motion_programme(&self, releases: &[(usize, Release)], costs: &[f64]) -> Programme<'_> {
         let mut programme = Programme::unlimited(self);
-        let bound = |(&(joint, release), cost): (&(usize, Release), &f64)| {
-            let length = self.joints[joint].length();
-            let work = match release {
-                Release::Rotation(Face::Intrados) => [0.0, length, 0.0],
-                Release::Rotation(Face::Extrados) => [length, 0.0, 0.0],
-                Release::Sliding(sign) => [0.0, 0.0, sign],
-            };
-            Limit { joint, weights: work.map(|w| w / self.force), constant: *cost }
-        };
+        let bound = |(&(joint, release), &cost): (&(usize, Release), &f64)| self.work_bound(joint, release, cost);
         programme.limits = releases.iter().zip(costs).map(bound).collect();
-        programme.error = Some(ROUGH);
+        programme.limits.extend(self.closings(releases, costs));
+        programme.errors = ROUGH;
         programme
+    }
+
+    /// Forces of a joint that do no more work in a release than it costs.
+    fn work_bound(&self, joint: usize, release: Release, cost: f64) -> Limit {
+        let length = self.joints[joint].length();
+        let work = match release {
+            Release::Rotation(Face::Intrados) => [0.0, length, 0.0],
+            Release::Rotation(Face::Extrados) => [length, 0.0, 0.0],
+            Release::Sliding(sign) => [0.0, 0.0, sign],
+        };
+        Limit { joint, weights: work.map(|w| w / self.force), constant: cost }
+    }
+
+    /// Bounds of all other forces, which keep the programme well posed: motions in all other ways, at a cost that only those pay
+    /// that cannot move otherwise.
+    fn closings(&self, releases: &[(usize, Release)], costs: &[f64]) -> Vec<Limit> {
+        if self.has_few_unknowns() {
+            return Vec::new();
+        }
+        let cost = CLOSING * costs.iter().copied().fold(0.0, f64::max);
+        let mut released = vec![Vec::new(); self.joints.len()];
+        releases.iter().for_each(|&(joint, release)| released[joint].push(release));
+        let of_joint = |(joint, released): (usize, &Vec<Release>)| {
+            let rotations = [Face::Intrados, Face::Extrados].map(Release::Rotation).map(|release| (release, -1.0));
+            let both = [rotations, rotations.map(|(release, _)| (release, 1.0))].concat();
+            let slides = [1.0, -1.0].map(|sign| (Release::Sliding(sign), 1.0));
+            let others =
+                both.into_iter().chain(slides).filter(|(release, way)| *way < 0.0 || !released.contains(release));
+            let bound = |(release, way)| {
+                let limit = self.work_bound(joint, release, cost);
+                Limit { weights: limit.weights.map(|w| way * w), ..limit }
+            };
+            others.map(bound).collect::<Vec<_>>()
+        };
+        released.iter().enumerate().flat_map(of_joint).collect()
     }
 }
 

@@ -12,6 +12,8 @@ const NO_ROW: f64 = 1e-12;
 const UNREACHED: f64 = 1e-10;
 /// Most unknowns for which the dense simplex method is tried where the sparse one fails.
 const MOST_DENSE: usize = 200;
+/// Errors of a certificate.
+const CERTAIN: [f64; 2] = [1e-12, 1e-9];
 
 /// What is to be as large as possible.
 #[derive(Debug, Clone)]
@@ -61,15 +63,23 @@ pub(super) struct Programme<'t> {
     pub bounds: [f64; 2],
     /// By how much every limit may be violated, in units of the loads.
     pub slack: f64,
-    /// Error of an optimum of many unknowns, relative to its value, that is put up with; None: no more than for a certificate.
-    pub error: Option<f64>,
+    /// Errors of an optimum of many unknowns, relative to its value: what is asked for, and what is put up with.
+    pub errors: [f64; 2],
 }
 
 impl<'t> Programme<'t> {
     /// All admissible equilibria.
     pub(super) fn new(theorem: &'t StaticTheorem) -> Self {
         let bounds = [f64::NEG_INFINITY, f64::INFINITY];
-        Programme { theorem, complete: true, limits: Vec::new(), sections: Vec::new(), bounds, slack: 0.0, error: None }
+        Programme {
+            theorem,
+            complete: true,
+            limits: Vec::new(),
+            sections: Vec::new(),
+            bounds,
+            slack: 0.0,
+            errors: CERTAIN,
+        }
     }
 
     /// The equilibria under the scaled loads alone, whatever the joints carry.

@@ -9,8 +9,6 @@ use super::static_theorem::{Equilibrium, Limit, Resultant, StaticTheorem};
 use crate::geometry::{Vec2, cross};
 use crate::structure::Joint;
 
-/// Error of an optimum, relative to its value, that is taken for none.
-const SOLVED: f64 = 1e-9;
 /// Limits of one joint whose normals and constants differ by less than this are opposite.
 const OPPOSITE: f64 = 1e-13;
 /// Joint forces are measured in so many times the largest load on a body.
@@ -46,8 +44,8 @@ impl Programme<'_> {
         let programme = self.assemble(objective, &forces, rows, pinned, unit);
         let own = if theorem.pattern.is_none() { theorem.find_pattern() } else { None };
         let Some(pattern) = theorem.pattern.as_ref().or(own.as_ref()) else { return Outcome::Lost };
-        match minimise(&programme, pattern, budget) {
-            Found::Optimum { x, z, error } if error < self.error.unwrap_or(SOLVED) => {
+        match minimise(&programme, pattern, self.errors[0], budget) {
+            Found::Optimum { x, z, error } if error < self.errors[1] => {
                 let mut multipliers = vec![0.0; self.limits.len()];
                 for ((place, scale), z) in places.iter().zip(&z) {
                     place.iter().for_each(|&limit| multipliers[limit] = z * scale);

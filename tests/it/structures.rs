@@ -2,7 +2,12 @@
 //!
 //! `cargo bench --bench structures` holds many more.
 
-use crate::common::structures::{FAMILIES, Judged, judge};
+use crate::common::rigid_blocks::full_solution::{Gap, measure};
+use crate::common::rigid_blocks::recheck::{Reported, recheck};
+use crate::common::rigid_blocks::wall::PUBLISHED;
+use crate::common::structures::{FAMILIES, Judged, analysis, judge};
+use voussoir::budget::Budget;
+use voussoir::collapse::{Thrust, run};
 
 /// How many of each kind.
 const SCENES: u64 = 12;
@@ -45,4 +50,36 @@ fn mirrored_structures_have_mirrored_answers() {
             }
         }
     }
+}
+
+/// Sliding that does not dilate: the least load found is a full solution, and as low as any that is known.
+#[test]
+fn walls_of_the_literature_fall_at_the_least_load_known() {
+    for wall in &PUBLISHED {
+        let scene = wall.scene();
+        let (report, problem) = (run(&analysis(&scene), &Budget::unlimited()).unwrap(), scene.problem());
+        let high = report.limit_window.unwrap().highest;
+        assert!((high / wall.associated - 1.0).abs() < 2e-6, "wall {}: {high}", wall.number);
+        let end = report.end.unwrap();
+        let range = end.range.unwrap();
+        println!("wall {}: {range:?}, {:.6} known", wall.number, wall.least_found);
+        assert!((range.path / wall.published - 1.0).abs() < 0.01 && range.least == end.load_factor);
+        // Six digits are known, of an upper estimate.
+        assert!(
+            range.least < wall.least_found * 1.001 && range.least > wall.least_found * 0.98,
+            "wall {}",
+            wall.number
+        );
+        let forces: Vec<Reported> = end.thrust_line.iter().map(reported).collect();
+        let statics = recheck(&problem, end.load_factor, &forces);
+        assert!(statics.residual < 1e-9 && statics.violation < 1e-9, "wall {}: {statics:?}", wall.number);
+        let motion @ Gap { entering, opens_under_force, slides_freely, power } =
+            measure(&problem, end.load_factor, &forces, &end.mechanism.velocities);
+        let fine = entering < 1e-7 && opens_under_force < 1e-9 && slides_freely < 1e-9 && power > 1e-3;
+        assert!(fine, "wall {}: {motion:?}", wall.number);
+    }
+}
+
+fn reported(thrust: &Thrust) -> Reported {
+    Reported { normal: thrust.normal, shear: thrust.shear, eccentricity: thrust.eccentricity }
 }

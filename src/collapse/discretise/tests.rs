@@ -2,7 +2,7 @@ use super::*;
 use crate::arch::profile::Profile;
 use crate::arch::ring::{JointLines, Line, Ring, Thickness, stations};
 use crate::arch::{assemble, straight_voussoirs};
-use crate::collapse::{Aim, Direction, Mesh, Method};
+use crate::collapse::{Aim, CrushingKind, CurvePoint, Direction, Mesh, Method, safety};
 use crate::geometry::perpendicular;
 
 /// A semicircle of `n` equal stones, cut into `subblocks` each, without loads.
@@ -39,7 +39,9 @@ fn semicircle(n: usize, subblocks: [usize; 2], curved: bool) -> Analysis {
 }
 
 fn model<'p>(analysis: &Analysis, budget: &'p Budget<'p>) -> Model<'p> {
-    discretise(analysis, Attempt::number(0), budget).unwrap()
+    let mut model = discretise(analysis, budget).unwrap();
+    model.scatter(Attempt::number(0));
+    model
 }
 
 /// Of so many kinds are its stones.
@@ -56,6 +58,37 @@ fn stones_of_one_shape_are_condensed_once() {
         analysis.mesh.subblocks[30] = [5, 2];
         assert_eq!(kinds(&analysis), 4);
     }
+}
+
+#[test]
+fn another_attempt_other_loads_and_another_abscissa_condense_no_stone_again() {
+    let weighed = |push: f64| {
+        let stones = semicircle(9, [1, 1], false);
+        let on = |force: Vec2| move |body: usize| (body, force);
+        let at =
+            |(body, force)| PointForce { body, at: stones.structure.bodies[body].region.centroid, force, spread: true };
+        let fixed = (0..9).map(on(Vec2::new(0.0, -1e4))).map(at).collect();
+        let scaled = [on(Vec2::new(push, -1e3))(3)].map(at).to_vec();
+        Analysis { aim: Aim::Safety { crushing: CrushingKind::PlasticSection }, fixed, scaled, ..stones }
+    };
+    let updated = |push: f64| Analysis { geometry: Geometry::Updated, ..weighed(push) };
+    let (analyses, budget) = ([weighed(0.0), updated(0.0), updated(100.0)], Budget::unlimited());
+    let points = analyses.map(|analysis| CurvePoint { abscissa: 0.0, analysis });
+    let mut built = Discretisation::new(&budget);
+    assert_eq!(safety::curve(&points, &mut built).unwrap().len(), 3);
+    assert_eq!(built.condensed, 1, "all stones are of one shape");
+    for (point, i) in points.iter().zip(0..) {
+        let (attempt, mut fresh) = (Attempt::number(i), discretise(&point.analysis, &budget).unwrap());
+        fresh.scatter(attempt);
+        let model = built.model(&point.analysis, attempt).unwrap();
+        assert_eq!(model.assembly.contacts(), fresh.assembly.contacts());
+        assert_eq!((&model.fixed, &model.scaled, &model.turned), (&fresh.fixed, &fresh.scaled, &fresh.turned));
+        assert_eq!(model.softest, fresh.softest);
+    }
+    assert_eq!(built.condensed, 1);
+    let finer = semicircle(9, [2, 2], false);
+    built.model(&finer, Attempt::number(0)).unwrap();
+    assert_eq!(built.condensed, 2, "another mesh is another macroblock");
 }
 
 #[test]

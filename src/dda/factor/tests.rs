@@ -31,7 +31,27 @@ fn patterns() -> Vec<Pattern> {
         pattern(&[4, 4, 2, 6, 4, 4, 3, 4, 2], &loops),
         pattern(&[4, 2, 4, 4, 0, 4, 4, 4, 2], &forest),
         pattern(&[3], &[&[0]]),
+        cores(),
     ]
+}
+
+/// Four bodies of six unknowns, each tied to every other by two faces of four.
+fn cores() -> Pattern {
+    let pairs = (0..4).flat_map(|a| (a + 1..4).map(move |b| [a, b]));
+    let of_pair = |(k, [a, b]): (usize, [usize; 2])| {
+        let [before, after] = [4 + 2 * k, 5 + 2 * k];
+        [vec![a, before], vec![before, after], vec![after, b]]
+    };
+    let elements: Vec<Vec<usize>> = pairs.enumerate().flat_map(of_pair).chain((0..4).map(|core| vec![core])).collect();
+    let sizes: Vec<usize> = (0..16).map(|face| if face < 4 { 6 } else { 4 }).collect();
+    pattern(&sizes, &elements.iter().map(Vec::as_slice).collect::<Vec<_>>())
+}
+
+#[test]
+fn the_two_faces_of_an_interface_between_cores_are_eliminated_together() {
+    let tree = Tree::new(&cores(), |_| true);
+    assert!(tree.fronts[..tree.directed()].iter().any(|front| front.sizes == [8, 12]));
+    assert_eq!(tree.into.len(), 8, "cliques of 16 faces and cores");
 }
 
 fn matrix(pattern: &Pattern) -> Elements {

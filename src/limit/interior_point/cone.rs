@@ -106,9 +106,7 @@ pub(super) fn reach(s: &[f64], d: &[f64]) -> f64 {
     // The smallest positive root of a t^2 + 2 b t + c.
     let (a, b, c) = (determinant(d), s[0] * d[0] - s[1] * d[1] - s[2] * d[2], determinant(s));
     let root = (b * b - a * c).max(0.0).sqrt();
-    if b >= 0.0 && a >= 0.0 && d[0] >= 0.0 {
-        f64::INFINITY
-    } else if b < 0.0 && b * b < a * c {
+    if a >= 0.0 && b >= 0.0 {
         f64::INFINITY
     } else if b > 0.0 {
         (b + root) / -a
@@ -147,10 +145,8 @@ mod tests {
 
     #[test]
     fn the_scaling_takes_s_and_z_to_the_same_point_and_a_step_ends_on_the_cone() {
-        for (s, z) in [([2.0, 1.0, -0.5], [1.0, 0.3, 0.9]), ([1.0, 0.999, 0.0], [3.0, -1.0, 2.8]), ([1.0; 3], [1.0; 3])]
-        {
-            let s = if s == [1.0; 3] { [1.0, 0.0, 0.0] } else { s };
-            let z = if z == [1.0; 3] { [1.0, 0.0, 0.0] } else { z };
+        let unit = [1.0, 0.0, 0.0];
+        for (s, z) in [([2.0, 1.0, -0.5], [1.0, 0.3, 0.9]), ([1.0, 0.999, 0.0], [3.0, -1.0, 2.8]), (unit, unit)] {
             let cone = Cone::new(s, z);
             let (one, other) = (cone.times(s, 1), cone.scaled);
             assert!((0..3).all(|i| (one[i] - other[i]).abs() < 1e-12), "{one:?} {other:?}");

@@ -14,6 +14,7 @@ mod assembly;
 pub mod body;
 pub mod bridge;
 pub mod contacts;
+pub mod full_solution;
 pub mod interior_point;
 pub mod portal;
 pub mod recheck;

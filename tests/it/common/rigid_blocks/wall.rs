@@ -23,8 +23,7 @@ pub struct Published {
 pub const FRICTION: f64 = 0.65;
 
 /// Layout: instances `fr_block1` to `fr_block6` of the public GAMS library MPECLib. Published figures: public table of load
-/// multipliers of the programme HybriDFEM 3.1, after Ferris and Tin-Loi (2001) and Gilbert et al. (2006). Restated from
-/// `references/ferris_tinloi_wall*.json` of the project's shared notes.
+/// multipliers of the programme HybriDFEM 3.1, after Ferris and Tin-Loi (2001) and Gilbert et al. (2006).
 pub const PUBLISHED: [Published; 4] = [
     Published {
         number: 1,
@@ -105,7 +104,7 @@ impl Published {
 }
 
 /// Blocks on level ground at y = 0, shaken to the side that `sign` says.
-fn standing(blocks: Vec<Vec<[f64; 2]>>, sign: f64) -> Scene {
+pub fn standing(blocks: Vec<Vec<[f64; 2]>>, sign: f64) -> Scene {
     let sides = (0..blocks.len()).filter(|&k| blocks[k][0][1] == 0.0).map(|k| (k, 0)).collect();
     let supports = vec![Support { name: "ground".into(), sides }];
     let scaled = vec![Load::Acceleration([sign, 0.0])];
