@@ -116,7 +116,7 @@ fn misfit(_pointer: &str) -> &'static str {
 
 /// What to do about a field that does not belong beside `curved_beam`.
 fn beam_misfit(pointer: &str) -> &'static str {
-    const OF_A_STRUCTURE: [&str; 12] = [
+    const OF_A_STRUCTURE: [&str; 13] = [
         "/arch",
         "/bridge",
         "/blocks",
@@ -127,6 +127,7 @@ fn beam_misfit(pointer: &str) -> &'static str {
         "/load_factor",
         "/method",
         "/geometry",
+        "/crushing_in_path",
         "/report",
         "/motion",
     ];

@@ -20,7 +20,7 @@ pub use columns::{BlockColumns, ContactColumns, HistoryColumns, SnapshotBody, Th
 pub use falling::{
     FrameColumns, MotionBody, MotionContactColumns, MotionEndWord, OpenHingeColumns, PlaceColumns, SlidColumns,
 };
-pub use mechanism::{Collapse, EndBody, HingeBody, LiftOffBody, RangeBody, SlideBody};
+pub use mechanism::{Collapse, CrushedJointBody, EndBody, HingeBody, LiftOffBody, RangeBody, SlideBody};
 pub use plan::{BeamPlanBody, EstimateBody, MeshBody, PlanBody, SubblockCounts};
 pub use result::JobResult;
 pub use safety::{CurvePointBody, ReachBody, SafetyBody, SafetyCurveResult};
@@ -68,6 +68,9 @@ pub struct AnalysisResult {
     pub slides: Vec<SlideBody>,
     /// Joints that part altogether, in their order.
     pub lift_offs: Vec<LiftOffBody>,
+    /// Joints that crush at collapse, where `crushing_in_path` is set.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub crushed_joints: Vec<CrushedJointBody>,
     /// Resultant per joint at collapse; null where nothing collapses.
     pub thrust_line: Option<ThrustColumns>,
     /// Velocity of every voussoir in the mechanism; null where nothing collapses.
@@ -165,8 +168,9 @@ impl AnalysisResult {
         let window = report.limit_window;
         let snapshot = |snapshot| SnapshotBody::new(snapshot, &scale);
         let main = report.end.as_ref().map(|end| EndBody::new(end, window, &scale));
-        let joints = |end: &EndBody| (end.hinges.clone(), end.slides.clone(), end.lift_offs.clone());
-        let (hinges, slides, lift_offs) = main.as_ref().map(joints).unwrap_or_default();
+        let joints =
+            |end: &EndBody| (end.hinges.clone(), end.slides.clone(), end.lift_offs.clone(), end.crushed_joints.clone());
+        let (hinges, slides, lift_offs, crushed_joints) = main.as_ref().map(joints).unwrap_or_default();
         let (collapse, thrust_line, velocities) = match main {
             Some(end) => (Some(end.collapse), Some(end.thrust_line), Some(end.velocities)),
             None => (None, None, None),
@@ -190,6 +194,7 @@ impl AnalysisResult {
             hinges,
             slides,
             lift_offs,
+            crushed_joints,
             thrust_line,
             velocities,
             other_end: report.other_end.as_ref().map(|end| EndBody::new(end, window, &scale)),

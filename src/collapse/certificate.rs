@@ -7,8 +7,8 @@ use crate::budget::Budget;
 use super::{
     Analysis, AnalysisError, Crushing, Doubt, LimitWindow, LoadRange, Note, PathEnd, PlasticCrushing, Unreached,
 };
-use crate::limit::{CrushingWindow, StaticTheorem};
-use crate::structure::{Joint, Structure};
+use crate::limit::{Resultant, StaticTheorem};
+use crate::structure::Structure;
 
 /// Share of the load factor at which scaled and fixed loads are equal at which an arch that falls beyond 0 is seen to fall.
 const SOON: f64 = 1e-3;
@@ -23,6 +23,8 @@ pub(super) struct Certificate {
     pub solved: bool,
     /// True where some load does not grow.
     any_fixed: bool,
+    /// Shares by which a path without sliding may end short of the window, and any may pass it.
+    agrees: [f64; 2],
 }
 
 impl Certificate {
@@ -33,7 +35,13 @@ impl Certificate {
         let window = theorem.window(budget);
         budget.check()?;
         let solved = window.is_ok();
-        let mut certificate = Certificate { theorem, window: None, solved, any_fixed: any_fixed(analysis) };
+        let mut certificate = Certificate {
+            theorem,
+            window: None,
+            solved,
+            any_fixed: any_fixed(analysis),
+            agrees: [TOLERANCES.agreement, TOLERANCES.above_window],
+        };
         certificate.window = window.ok().and_then(|window| certificate.tidy(window));
         Ok(certificate)
     }
@@ -85,20 +93,30 @@ impl Certificate {
         }
     }
 
-    /// What limit analysis says of stones of finite strength: a joint has that of the weaker stone beside it.
-    pub(super) fn crushing(&self, structure: &Structure, budget: &Budget) -> Result<Crushing, AnalysisError> {
-        let weaker = |joint: &Joint| {
-            structure.stones_at(joint).map(|stone| stone.compressive_strength).fold(f64::INFINITY, f64::min)
-        };
-        let strengths: Vec<f64> = structure.joints.iter().map(weaker).collect();
+    /// What limit analysis says of stones of finite strength: a joint has that of the weaker stone beside it; and the forces of all
+    /// joints at either end of its window, where it has one.
+    pub(super) fn crushing(
+        &self,
+        structure: &Structure,
+        budget: &Budget,
+    ) -> Result<(Crushing, [Vec<Resultant>; 2]), AnalysisError> {
+        let strengths: Vec<f64> = structure.joints.iter().map(|joint| structure.strength_at(joint)).collect();
         let found = self.theorem.crushing_window(&strengths, budget);
         budget.check()?;
+        let mut forces = Default::default();
         let plastic_section = found.ok().map(|window| {
-            let (ends, joints) = window.map(|CrushingWindow { ends, joints }| (ends, joints)).unzip();
+            let (ends, joints) = window.map(|window| (forces = window.forces, (window.ends, window.joints)).1).unzip();
             let window = self.tidy(ends).map(|[lowest, highest]| LimitWindow { lowest, highest });
             PlasticCrushing { window, joints: joints.unwrap_or_default() }
         });
-        Ok(Crushing { strength: structure.least_strength(), elastic: None, plastic_section })
+        Ok((Crushing { strength: structure.least_strength(), elastic: None, plastic_section }, forces))
+    }
+
+    /// The path is held against the window of plastic sections from now on: its joints crush.
+    pub(super) fn hold_to(&mut self, crushing: &Crushing) {
+        let plastic = crushing.plastic_section.as_ref();
+        (self.solved, self.agrees) = (plastic.is_some(), TOLERANCES.crushing_agreement);
+        self.window = plastic.and_then(|plastic| plastic.window).map(|window| [window.lowest, window.highest]);
     }
 
     /// `settled`: every stone carries a fixed load.
@@ -125,9 +143,9 @@ impl Certificate {
         let (path, limit) = (end.on_path(), self.end(sign).unwrap_or(0.0));
         let scale = limit.abs().max(path.abs()).max(TOLERANCES.small_factor * self.theorem.load_factor_scale());
         let short = if limit.is_finite() { sign * (limit - path) / scale } else { f64::INFINITY };
-        if short < -TOLERANCES.above_window {
+        if short < -self.agrees[1] {
             Err(Doubt::Above { path, limit })
-        } else if short <= TOLERANCES.agreement {
+        } else if short <= self.agrees[0] {
             Ok(false)
         } else if end.mechanism.slides.is_empty() {
             Err(Doubt::Short { path, limit })

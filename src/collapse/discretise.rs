@@ -2,6 +2,7 @@
 
 use super::grid::{Grid, ON_LINE, OnSide};
 use super::path::Attempt;
+use super::strips::Strips;
 use crate::budget::Budget;
 
 use super::{Analysis, AnalysisError, Geometry, PlaneModel, Seams};
@@ -71,7 +72,7 @@ impl Scatter {
 /// before: other loads are filled in, and another attempt scatters the stiffness of the contacts.
 pub(super) struct Discretisation<'a> {
     pub budget: &'a Budget<'a>,
-    of: Option<(&'a Analysis, Model<'a>)>,
+    of: Option<(&'a Analysis, Strips, Model<'a>)>,
     /// Stones condensed so far, those of one shape once.
     condensed: usize,
 }
@@ -82,25 +83,39 @@ impl<'a> Discretisation<'a> {
         Discretisation { budget, of: None, condensed: 0 }
     }
 
-    /// The model of an analysis, with ties broken as in this attempt.
+    /// The model of an analysis, with ties broken as in this attempt; no joint crushes.
     ///
     /// # Errors
     /// When a stone is loose, or when stopped.
     pub(super) fn model(&mut self, analysis: &'a Analysis, attempt: Attempt) -> Result<&Model<'a>, AnalysisError> {
+        self.crushing(analysis, &Strips::default(), attempt)
+    }
+
+    /// The same with joints that crush in strips.
+    ///
+    /// # Errors
+    /// When a stone is loose, or when stopped.
+    pub(super) fn crushing(
+        &mut self,
+        analysis: &'a Analysis,
+        strips: &Strips,
+        attempt: Attempt,
+    ) -> Result<&Model<'a>, AnalysisError> {
+        let same = |before: &Analysis, other: &Strips| same_stones(before, analysis) && strips == other;
         let mut model = match self.of.take() {
-            Some((before, model)) if same_stones(before, analysis) && same_loads(before, analysis) => model,
-            Some((before, mut model)) if same_stones(before, analysis) => {
+            Some((before, other, model)) if same(before, &other) && same_loads(before, analysis) => model,
+            Some((before, other, mut model)) if same(before, &other) => {
                 model.take_loads(analysis)?;
                 model
             }
             _ => {
-                let model = discretise(analysis, self.budget)?;
+                let model = discretise(analysis, strips, self.budget)?;
                 self.condensed += model.assembly.kinds();
                 model
             }
         };
         model.scatter(attempt);
-        Ok(&self.of.insert((analysis, model)).1)
+        Ok(&self.of.insert((analysis, strips.clone(), model)).2)
     }
 }
 
@@ -115,10 +130,12 @@ fn same_loads(a: &Analysis, b: &Analysis) -> bool {
 }
 
 /// Cuts every body of the structure into the subblocks of a macroblock, and condenses it.
-fn discretise<'p>(analysis: &Analysis, budget: &'p Budget<'p>) -> Result<Model<'p>, AnalysisError> {
+fn discretise<'p>(analysis: &Analysis, strips: &Strips, budget: &'p Budget<'p>) -> Result<Model<'p>, AnalysisError> {
     let structure = &analysis.structure;
     let grids = grids(analysis);
-    let assembly = assembly(analysis, &grids, budget)?;
+    let assembly = assembly(analysis, &grids, strips, budget)?;
+    let positions = structure.ring().iter().enumerate();
+    let positions = positions.map(|(k, joint)| points(strips.of(k), joint.law, &around(joint, &grids)).0).collect();
     let mut model = Model {
         symmetric: !structure.is_half() && assembly.is_symmetric(),
         fixed: Loads::default(),
@@ -129,7 +146,7 @@ fn discretise<'p>(analysis: &Analysis, budget: &'p Budget<'p>) -> Result<Model<'
         joints: structure.ring().len(),
         size: extent(structure.ring().iter().flat_map(|j| [j.intrados, j.extrados])),
         softest: f64::INFINITY,
-        positions: structure.ring().iter().map(|joint| places(joint.law, &around(joint, &grids))).collect(),
+        positions,
         assembly,
         grids,
     };
@@ -138,7 +155,7 @@ fn discretise<'p>(analysis: &Analysis, budget: &'p Budget<'p>) -> Result<Model<'
 }
 
 /// The bodies cut like this, joined as the structure says.
-fn assembly(analysis: &Analysis, grids: &[Grid], budget: &Budget) -> Result<Assembly, AnalysisError> {
+fn assembly(analysis: &Analysis, grids: &[Grid], strips: &Strips, budget: &Budget) -> Result<Assembly, AnalysisError> {
     let structure = &analysis.structure;
     let mut macroblocks = Vec::with_capacity(grids.len());
     for (body, grid) in grids.iter().enumerate() {
@@ -148,12 +165,19 @@ fn assembly(analysis: &Analysis, grids: &[Grid], budget: &Budget) -> Result<Asse
         budget.work(CUT * grid.radial * grid.along)?;
     }
     let mut builder = AssemblyBuilder::new(macroblocks);
-    for joint in &structure.joints {
+    for (k, joint) in structure.joints.iter().enumerate() {
         let between = joint.between.map(|side| match side {
             Side::Body(body) => Beside::Body(body),
             Side::Support(support) => Beside::Ground(support),
         });
-        builder.join(between, touches(joint, &around(joint, grids), penalties(analysis, joint)));
+        let touches = touches(
+            joint,
+            strips.of(k),
+            structure.strength_at(joint),
+            &around(joint, grids),
+            penalties(analysis, joint),
+        );
+        builder.join(between, touches);
     }
     Ok(builder.finish(budget)?)
 }
@@ -201,20 +225,26 @@ fn grids(analysis: &Analysis) -> Vec<Grid> {
     analysis.structure.bodies.iter().enumerate().map(|(k, body)| Grid::of(body, subblocks(k))).collect()
 }
 
-/// Contact points of a joint between two bodies (none: the ground): its ends, and where subblocks on either side meet,
-/// each with the share of the joint that is nearest to it.
-fn touches<'a>(joint: &'a Joint, around: &Around<'a>, penalty: [f64; 2]) -> impl Iterator<Item = Touch> + 'a {
+/// Contact points of a joint between two bodies (none: the ground), each with its share of the joint; in strips each is capped at
+/// the strength, Pa, times the length of its own.
+fn touches<'a>(
+    joint: &'a Joint,
+    strips: Option<Vec<f64>>,
+    strength: f64,
+    around: &Around<'a>,
+    penalty: [f64; 2],
+) -> impl Iterator<Item = Touch> + 'a {
     let [before, after] = *around;
     let links = around.iter().flatten().count() as f64;
     let contact = 1.0 / (1.0 - links / LINK);
-    let places = places(joint.law, around);
+    let pressure = if strips.is_some() { strength } else { f64::INFINITY };
+    let (places, shares) = points(strips, joint.law, around);
     // A mirror plane holds across and lets slide along.
     let held = [1.0, if joint.law == JointLaw::Mirror { 0.0 } else { 1.0 }];
     (0..places.len()).map(move |j| {
         let eta = places[j];
-        let below = if j == 0 { eta } else { 0.5 * (eta - places[j - 1]) };
-        let above = if j + 1 == places.len() { 1.0 - eta } else { 0.5 * (places[j + 1] - eta) };
-        let (sides, share) = ([below, above], below + above);
+        let sides = shares[j];
+        let share = sides[0] + sides[1];
         // Two corners alone have the penalty each.
         let stiffness = penalty.map(|penalty| 2.0 * penalty * share);
         let nobody = [(0, 0.0); 2];
@@ -223,11 +253,28 @@ fn touches<'a>(joint: &'a Joint, around: &Around<'a>, penalty: [f64; 2]) -> impl
             normal: joint.normal(),
             stiffness: [0, 1].map(|way| held[way] * contact * stiffness[way]),
             link: stiffness.map(|stiffness| LINK * stiffness),
-            law: law(joint, share),
+            law: law(joint, share, pressure),
             before: before.map_or(nobody, |(grid, on)| grid.on_joint(on, eta, sides)),
             after: after.map_or(nobody, |(grid, on)| grid.on_joint(on, eta, sides)),
         }
     })
+}
+
+/// Places of a joint's contact points, and how much of the joint each stands for, towards its first end and towards its second:
+/// the middles of its strips, where it has any; else what is nearest to each of [`places`].
+fn points(strips: Option<Vec<f64>>, law: JointLaw, around: &Around) -> (Vec<f64>, Vec<[f64; 2]>) {
+    if let Some(ends) = strips {
+        let strip = |ends: &[f64]| (0.5 * (ends[0] + ends[1]), [0.5 * (ends[1] - ends[0]); 2]);
+        return ends.windows(2).map(strip).unzip();
+    }
+    let places = places(law, around);
+    let sides = |(j, &eta): (usize, &f64)| {
+        let below = if j == 0 { eta } else { 0.5 * (eta - places[j - 1]) };
+        let above = if j + 1 == places.len() { 1.0 - eta } else { 0.5 * (places[j + 1] - eta) };
+        [below, above]
+    };
+    let sides = places.iter().enumerate().map(sides).collect();
+    (places, sides)
 }
 
 /// Places of the contact points of a joint between two bodies, from 0 at its first end to 1 at its second.
@@ -246,10 +293,13 @@ fn places(law: JointLaw, around: &Around<'_>) -> Vec<f64> {
     places
 }
 
-/// Law of a contact point that has this share of the joint.
-fn law(joint: &Joint, share: f64) -> Law {
+/// Law of a contact point that has this share of the joint, under a pressure of so much at most, Pa.
+fn law(joint: &Joint, share: f64, pressure: f64) -> Law {
     match joint.law.coulomb() {
-        Some([friction, cohesion]) => Law::Coulomb { friction, cohesion: share * cohesion * joint.length() },
+        Some([friction, cohesion]) => {
+            let [cohesion, cap] = [cohesion, pressure].map(|stress| share * stress * joint.length());
+            Law::Coulomb { friction, cohesion, cap }
+        }
         None => Law::Bonded,
     }
 }
@@ -347,6 +397,11 @@ impl Model<'_> {
     /// Contacts of joint `k`, from its first end to its second.
     pub(super) fn contacts(&self, joint: usize) -> std::ops::Range<usize> {
         self.assembly.at_interface(joint)
+    }
+
+    /// Whether the contact points of joint `k` are capped.
+    pub(super) fn crushes(&self, joint: usize) -> bool {
+        self.contacts(joint).any(|p| self.assembly.contacts()[p].cap().is_finite())
     }
 
     /// Place of contact `p` on joint `k`: 0 at its first end, 1 at its second.

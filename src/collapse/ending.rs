@@ -1,11 +1,12 @@
 //! One end of a load path: its load polished on the unperturbed statics, its mechanism and its thrust line.
 
+use super::crushed;
 use super::discretise::Model;
 use super::mechanism::{self, Released};
 use super::motion::{Motion, motion_at};
 use super::path::{Fall, total};
 use super::tolerances::TOLERANCES;
-use super::{Analysis, PathEnd, Thrust};
+use super::{Analysis, Mode, PathEnd, Thrust};
 use crate::dda::{Peak, State, Tracer, Zone};
 use crate::limit::{Condition, Resultant, StaticTheorem};
 use crate::structure::{JointLaw, PointForce, Structure};
@@ -43,12 +44,18 @@ pub(super) fn at_peak(
     };
     let driving = driving(analysis, peak.parameter, sign);
     let slipping: Vec<Option<f64>> = (0..structure.ring().len()).map(|k| sliding_shear(model, k, peak)).collect();
-    let found =
-        mechanism::from_statics(structure, &forces, &slipping, &driving, TOLERANCES.corner_polished, model.budget);
+    let crushing = analysis.crushing_in_path.then(|| crushed::turning(model, structure, &forces, peak));
+    let (turning, acting) = crushing.as_ref().map_or((structure, &forces), |(structure, forces)| (structure, forces));
+    let found = mechanism::from_statics(turning, acting, &slipping, &driving, TOLERANCES.corner_polished, model.budget);
     let later = found.is_none();
-    let mechanism = found.unwrap_or_else(|| {
-        from_direction(model, structure, if fall.turned_back { &peak.direction } else { &fall.direction })
+    let mut mechanism = found.unwrap_or_else(|| {
+        from_direction(model, turning, if fall.turned_back { &peak.direction } else { &fall.direction })
     });
+    let at_peak = model.assembly.contact_forces(model.assembly.contacts(), &peak.displacements);
+    let crushed = crushed::crushed(model, structure, |p| at_peak[p].normal);
+    if !crushed.is_empty() && mechanism::released(&mechanism).is_empty() {
+        mechanism.mode = Mode::Crushing;
+    }
     let left = resultants(model, |p| fall.forces[p]);
     let at_limits = vec![
         mechanism::released(&mechanism),
@@ -61,7 +68,8 @@ pub(super) fn at_peak(
         mechanism::all_releases(structure, &left, &vec![None; left.len()], TOLERANCES.corner_on_path),
     ];
     let load_factor = polished.map_or(peak.parameter, |e| e.load_factor);
-    let end = PathEnd { load_factor, range: None, residual, mechanism, thrust_line: thrust_line(structure, &forces) };
+    let thrust_line = thrust_line(structure, &forces);
+    let end = PathEnd { load_factor, range: None, residual, mechanism, thrust_line, crushed };
     Ending { end, later, at_limits }
 }
 
@@ -90,7 +98,8 @@ pub(super) fn at_fall(analysis: &Analysis, model: &Model, tracer: &Tracer, start
     let (carried, budget) = (resultants(model, |p| forces[p]), model.budget);
     let smallest = mechanism::from_statics(structure, &carried, &none, &driving, TOLERANCES.corner_on_path, budget);
     let mechanism = smallest.filter(|m| along_path.slides.is_empty() && m.slides.is_empty()).unwrap_or(along_path);
-    PathEnd { load_factor, range: None, residual: tracer.worst_residual(), mechanism, thrust_line: Vec::new() }
+    let (residual, crushed) = (tracer.worst_residual(), crushed::crushed(model, structure, |p| forces[p][0]));
+    PathEnd { load_factor, range: None, residual, mechanism, thrust_line: Vec::new(), crushed }
 }
 
 /// The motion at a load at which the fixed-steps criterion was met: the displacements themselves.
@@ -103,7 +112,7 @@ pub(super) fn at_criterion(
 ) -> PathEnd {
     let mechanism = from_direction(model, &analysis.structure, displacements);
     let thrust_line = thrust_line(&analysis.structure, &carried(model, displacements));
-    PathEnd { load_factor, range: None, residual, mechanism, thrust_line }
+    PathEnd { load_factor, range: None, residual, mechanism, thrust_line, crushed: Vec::new() }
 }
 
 /// How an arch goes on in the direction of its path: joints that are open at one end turn about the other, be it further
@@ -157,14 +166,16 @@ fn conditions(model: &Model, structure: &Structure, peak: &Peak) -> Vec<Conditio
             conditions.push(Condition { joint, weights: [0.0, 0.0, 1.0], constant: 0.0 });
         }
         let contacts = model.contacts(joint);
+        let crushing = crushed::conditions(model, joint, peak);
         // With force at one end alone there is none at the other.
-        for (face, but) in [(0, contacts.end - 1), (1, contacts.start)] {
+        for (face, but) in [(0, contacts.end - 1), (1, contacts.start)].into_iter().filter(|_| crushing.is_none()) {
             if contacts.clone().all(|p| p == but || !is_pressed(peak.states[p])) {
                 let mut weights = [0.0; 3];
                 weights[face] = 1.0;
                 conditions.push(Condition { joint, weights, constant: 0.0 });
             }
         }
+        conditions.extend(crushing.into_iter().flatten());
         if let Some((weights, constant)) = shear_condition(model, joint, peak) {
             conditions.push(Condition { joint, weights, constant });
         }
@@ -191,10 +202,10 @@ fn shear_condition(model: &Model, joint: usize, peak: &Peak) -> Option<([f64; 3]
                     Zone::Adhering => {
                         constant -= sign * contact.capacity(zone, model.assembly.gap(p, &peak.displacements)[0]);
                     }
-                    Zone::Pressed => {
-                        let friction = contact.slope(zone) / contact.stiffness[0];
+                    Zone::Pressed | Zone::Capped => {
+                        let friction = contact.slope(Zone::Pressed) / contact.stiffness[0];
                         weights = [-sign * friction, -sign * friction, 1.0];
-                        constant -= sign * contact.capacity(zone, 0.0);
+                        constant -= sign * contact.capacity(Zone::Pressed, 0.0);
                     }
                 }
             }

@@ -3,8 +3,8 @@
 //! Structures are taken apart field by field, so that a field that is added has to be looked at here.
 
 use super::{
-    AnalysisError, Answer, BlockState, CollapseReport, ContactPoint, FallingMotion, Hinge, HistoryPoint, LiftOff,
-    LoadRange, Mechanism, MotionContact, MotionFrame, OpenHinge, PathEnd, Reach, SafetyPoint, SettlementPath,
+    AnalysisError, Answer, BlockState, CollapseReport, ContactPoint, CrushedJoint, FallingMotion, Hinge, HistoryPoint,
+    LiftOff, LoadRange, Mechanism, MotionContact, MotionFrame, OpenHinge, PathEnd, Reach, SafetyPoint, SettlementPath,
     SettlementPoint, Slid, Slide, Snapshot, StressField, Thrust, UpdatedGeometry,
 };
 use crate::geometry::Vec2;
@@ -70,7 +70,7 @@ impl CollapseReport {
 
 impl PathEnd {
     fn check_finite(&self) -> Checked {
-        let PathEnd { load_factor, range, residual, mechanism, thrust_line } = self;
+        let PathEnd { load_factor, range, residual, mechanism, thrust_line, crushed } = self;
         finite("collapse load", [*load_factor, *residual])?;
         let known = |LoadRange { least, greatest, path, .. }: &LoadRange| {
             // No window's end may bound it.
@@ -78,6 +78,8 @@ impl PathEnd {
         };
         finite("range of the collapse load", range.iter().flat_map(known))?;
         mechanism.check_finite()?;
+        let blocks = crushed.iter().flat_map(|CrushedJoint { joint: _, face: _, at, length }| [at.x, at.y, *length]);
+        finite("crushed joints", blocks)?;
         check_line(thrust_line)
     }
 }

@@ -2,6 +2,7 @@
 
 mod beam;
 mod certificate;
+mod crushed;
 mod discretise;
 mod ending;
 mod falling;
@@ -21,6 +22,7 @@ mod settlement;
 mod sliding;
 mod smallest_motion;
 mod state;
+mod strips;
 mod tally;
 mod tolerances;
 mod updated;
@@ -241,6 +243,9 @@ pub struct Analysis {
     pub method: Method,
     /// Whether the path on the moving arch is followed too.
     pub geometry: Geometry,
+    /// Whether joints crush on the load path: its contact points are then capped by the least strength of the stones, where joints
+    /// of plastic sections crush. For collapse at first order, without `accuracy`, `motion` or fixed steps, of whole stones only.
+    pub crushing_in_path: bool,
     /// At which share of the way to collapse displacements and contact forces are reported, in (0, 1).
     pub share: f64,
     /// How the voussoirs are cut into subblocks; how many, where `accuracy` does not find out.

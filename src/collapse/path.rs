@@ -95,8 +95,10 @@ pub(super) fn stand<'a>(
     see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>,
 ) -> (Tracer<'a>, End) {
     let target = at(model, fixed, start);
-    // Deep enough that nothing has opened yet when the true loads begin to act.
-    let preload = target.len() as f64 * largest(&target) / model.softest;
+    // Deep enough that nothing has opened yet when the true loads begin to act, and not so deep that anything is capped.
+    let floor = model.assembly.contacts().iter().map(|contact| contact.cap() / contact.stiffness[0]);
+    let preload =
+        (target.len() as f64 * largest(&target) / model.softest).min(0.5 * floor.fold(f64::INFINITY, f64::min));
     let drive = covering(&model.assembly, &target, preload);
     let mut tracer = Tracer::new(&model.assembly, drive, model.size, load_scale, model.budget);
     let end = match tracer.trace(1.0, see) {

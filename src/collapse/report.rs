@@ -62,6 +62,8 @@ pub enum Mode {
     Sliding,
     /// Blocks turn over, in a structure without spans.
     Overturning,
+    /// Joints crush over their whole length, and none opens or slides.
+    Crushing,
 }
 
 /// A joint pressed at one face and opening at the other.
@@ -71,7 +73,7 @@ pub struct Hinge {
     pub joint: usize,
     /// Face at which the joint stays pressed (the axis of rotation); it opens at the other.
     pub face: Face,
-    /// The point that it turns about: the end of the joint on that face, m.
+    /// The point that it turns about: the end of the joint on that face, or of the block that is crushed there, m.
     pub at: Vec2,
     /// Angle of the joint from the nearer springing of its span, about the angle centre of that, rad; None of a joint of no
     /// span.
@@ -209,6 +211,8 @@ pub struct PathEnd {
     pub mechanism: Mechanism,
     /// Resultants per joint at collapse.
     pub thrust_line: Vec<Thrust>,
+    /// Joints that crush there, where crushing is in the path.
+    pub crushed: Vec<CrushedJoint>,
 }
 
 impl PathEnd {
@@ -216,6 +220,19 @@ impl PathEnd {
     pub fn on_path(&self) -> f64 {
         self.range.map_or(self.load_factor, |range| range.path)
     }
+}
+
+/// A joint that carries its strength over a block of its length at one face.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CrushedJoint {
+    /// Joint number.
+    pub joint: usize,
+    /// The face.
+    pub face: Face,
+    /// The joint's end there, m.
+    pub at: Vec2,
+    /// Length of the block: its normal force over the strength, m.
+    pub length: f64,
 }
 
 /// How the arch falls.

@@ -71,15 +71,15 @@ pub(super) fn judge(report: &mut CollapseReport, counted: CrushingKind) {
 }
 
 /// An arch that stands at the start of its path, but not on joints of the stone's strength: a note; and where its stones
-/// yield there already, it crushes.
-pub(super) fn crushed_at_start(report: &mut CollapseReport) {
+/// yield there already, it crushes. Not where crushing is in the path.
+pub(super) fn crushed_at_start(report: &mut CollapseReport, in_path: bool) {
     let stands = |window: Option<LimitWindow>| {
         window.is_some_and(|window| (window.lowest..=window.highest).contains(&report.start))
     };
     if report.outcome == Outcome::CannotTell {
         return;
     }
-    let Some(crushing) = &report.crushing else { return };
+    let Some(crushing) = report.crushing.as_ref().filter(|_| !in_path) else { return };
     let Some(plastic) = &crushing.plastic_section else { return report.notes.push(Note::NoPlasticSections) };
     if !stands(report.limit_window) || stands(plastic.window) {
         return;

@@ -7,6 +7,8 @@ pub(super) struct Tolerances {
     pub agreement: f64,
     /// The path may pass the window by this share before it is disbelieved.
     pub above_window: f64,
+    /// Both where joints crush in strips (measured: 3e-3 and 4e-6): blocks of a hundred-thousandth of a joint are taken for none.
+    pub crushing_agreement: [f64; 2],
     /// A path that ends short of the window by more than this share has its sliding joints at the limit of their friction
     /// (measured: 0.11 at most where they are not, as the load falls before the arch can move freely).
     pub stray: f64,
@@ -45,6 +47,7 @@ pub(super) struct Tolerances {
 pub(super) const TOLERANCES: Tolerances = Tolerances {
     agreement: 1e-7,
     above_window: 1e-6,
+    crushing_agreement: [0.01, 1e-4],
     stray: 0.5,
     zero: 1e-12,
     small_factor: 1e-6,

@@ -10,6 +10,7 @@ use crate::budget::Budget;
 
 use super::record::snapshot;
 use super::state::States;
+use super::strips::Strips;
 use super::updated::{self, Course};
 use super::{
     Aim, Analysis, AnalysisError, CollapseReport, Cost, Crushing, Direction, Doubt, Geometry, LimitWindow, Note,
@@ -37,6 +38,10 @@ struct Setup<'a> {
     thrust_range: Option<ThrustRange>,
     /// What limit analysis says of crushing.
     crushing: Crushing,
+    /// Limit window of rigid stones.
+    rigid: Option<[f64; 2]>,
+    /// Joints that crush on the path.
+    strips: Strips,
 }
 
 /// A report, and why it is not believed as it stands, if so.
@@ -73,7 +78,12 @@ impl Attempted {
 
 impl<'a> Setup<'a> {
     fn new(analysis: &'a Analysis, budget: &'a Budget<'a>) -> Result<Self, AnalysisError> {
-        let certificate = Certificate::new(analysis, budget)?;
+        let mut certificate = Certificate::new(analysis, budget)?;
+        let rigid = certificate.window;
+        let (crushing, forces) = certificate.crushing(&analysis.structure, budget)?;
+        if analysis.crushing_in_path {
+            certificate.hold_to(&crushing);
+        }
         let (fixed, scaled) = (total(&analysis.fixed), total(&analysis.scaled));
         let balance = if fixed > 0.0 && scaled > 0.0 { fixed / scaled } else { 1.0 };
         let sign = if analysis.direction == Direction::Increase { 1.0 } else { -1.0 };
@@ -91,8 +101,13 @@ impl<'a> Setup<'a> {
         budget.check()?;
         let thrust_range = thrust.map(|[lowest, highest]| ThrustRange { lowest, highest });
         let weight = fixed + scaled * start.abs();
-        let crushing = certificate.crushing(&analysis.structure, budget)?;
-        Ok(Setup { analysis, budget, certificate, thrust_range, crushing, sign, start, cap, weight })
+        let mut strips = Strips::default();
+        if analysis.crushing_in_path {
+            strips = Strips::new(&analysis.structure, !certificate.stands_at(start));
+            let ends = forces.iter().zip([-1.0, 1.0]).filter(|(_, end)| *end == sign || !certificate.stands_at(0.0));
+            ends.for_each(|(forces, _)| strips.expect(forces));
+        }
+        Ok(Setup { analysis, budget, certificate, thrust_range, crushing, rigid, strips, sign, start, cap, weight })
     }
 
     /// Limit window, load path and all that follows from them.
@@ -109,7 +124,7 @@ impl<'a> Setup<'a> {
         }
         report.updated = self.updated(&mut report, built)?;
         match &analysis.aim {
-            Aim::Collapse => safety::crushed_at_start(&mut report),
+            Aim::Collapse => safety::crushed_at_start(&mut report, analysis.crushing_in_path),
             &Aim::Safety { crushing } => safety::judge(&mut report, crushing),
             Aim::Settlement(movements) => self.settle(&mut report, movements, built)?,
         }
@@ -148,9 +163,29 @@ impl<'a> Setup<'a> {
         Ok(attempted)
     }
 
+    /// Until no joint crushes at the end of the path but those in strips.
     fn attempt(&self, attempt: Attempt, built: &mut Discretisation<'a>) -> Result<Attempted, AnalysisError> {
+        let (mut strips, mut cost) = (self.strips.clone(), Cost::default());
+        loop {
+            let mut attempted = self.attempt_with(&strips, attempt, built)?;
+            attempted.report.cost.join(cost);
+            cost = attempted.report.cost;
+            let report = &attempted.report;
+            let ends = report.end.iter().chain(&report.other_end).filter(|_| self.analysis.crushing_in_path);
+            if !ends.fold(false, |more, end| strips.expect_more(&end.thrust_line) || more) {
+                return Ok(attempted);
+            }
+        }
+    }
+
+    fn attempt_with(
+        &self,
+        strips: &Strips,
+        attempt: Attempt,
+        built: &mut Discretisation<'a>,
+    ) -> Result<Attempted, AnalysisError> {
         let analysis = self.analysis;
-        let model = built.model(analysis, attempt)?;
+        let model = built.crushing(analysis, strips, attempt)?;
         let fixed = disturbed(model, self.start, attempt);
         let mut progress = |tracer: &Tracer, load_factor: f64| self.budget.step(load_factor, tracer.events());
         let mut report = self.blank(model.assembly.unknowns());
@@ -215,7 +250,7 @@ impl<'a> Setup<'a> {
         movements: &[SupportMovement],
         built: &mut Discretisation<'a>,
     ) -> Result<(), AnalysisError> {
-        safety::crushed_at_start(report);
+        safety::crushed_at_start(report, false);
         if report.at_start.is_none() || report.outcome == Outcome::CannotTell {
             return Ok(());
         }
@@ -240,7 +275,7 @@ impl<'a> Setup<'a> {
 
     /// A report of nothing but the limit window, on a model of so many `unknowns`.
     fn blank(&self, unknowns: usize) -> CollapseReport {
-        let window = self.certificate.window;
+        let window = self.rigid;
         CollapseReport {
             outcome: Outcome::CannotTell,
             limit_window: window.map(|[lowest, highest]| LimitWindow { lowest, highest }),

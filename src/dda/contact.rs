@@ -5,12 +5,15 @@
 pub enum Law {
     /// Neither opens nor slides.
     Bonded,
-    /// Unilateral, with |T| <= friction N + cohesion.
+    /// Unilateral, with 0 <= N <= cap and |T| <= friction N + cohesion.
     Coulomb {
         /// tan(phi).
         friction: f64,
         /// Cohesion force of this point, N/m.
         cohesion: f64,
+        /// Largest normal force, N/m; infinite where nothing crushes. What closes further does so at this force, and what opens
+        /// again goes back the way it came: N is a function of the gap alone.
+        cap: f64,
     },
 }
 
@@ -28,6 +31,8 @@ pub enum Zone {
     Pressed,
     /// 0 <= gap < reach: N = 0, capacity falls from the cohesion to zero.
     Adhering,
+    /// Gap < -cap / k_n: N = cap, capacity = friction cap + cohesion.
+    Capped,
 }
 
 /// State of a contact point.
@@ -63,12 +68,15 @@ pub struct Contact {
     pub stiffness: [f64; 2],
     /// Its law.
     pub law: Law,
-    /// Shear capacity without normal force, N/m.
-    cohesion: f64,
-    /// Fall of the capacity per unit of gap while pressed and while adhering, N/m2.
-    slopes: [f64; 2],
+    /// Shear capacity in every zone were the gap zero, N/m.
+    capacities: [f64; 3],
+    /// Fall of the capacity per unit of gap in every zone, N/m2.
+    slopes: [f64; 3],
     /// Gap at which the point has nothing left to carry shear with, m.
     reach: f64,
+    /// Largest normal force, N/m, and the gap below which it is carried, m.
+    cap: f64,
+    floor: f64,
 }
 
 /// Force and opening at a contact point.
@@ -93,27 +101,40 @@ pub(super) fn force_change([nn, nt, tn, tt]: [f64; 4], [gap, slip]: [f64; 2]) ->
 impl Contact {
     /// A contact point with the given stiffness and law.
     pub fn new(stiffness: [f64; 2], law: Law) -> Self {
-        let (friction, cohesion) = match law {
-            Law::Bonded => (0.0, 0.0),
-            Law::Coulomb { friction, cohesion } => (friction, cohesion),
+        let (friction, cohesion, cap) = match law {
+            Law::Bonded => (0.0, 0.0, f64::INFINITY),
+            Law::Coulomb { friction, cohesion, cap } => (friction, cohesion, cap),
         };
-        let slopes = [friction * stiffness[0], stiffness[0] / ADHESION_REACH];
-        Contact { stiffness, law, cohesion, slopes, reach: ADHESION_REACH * cohesion / stiffness[0] }
+        let crushed = if cap.is_finite() { friction * cap + cohesion } else { cohesion };
+        Contact {
+            stiffness,
+            law,
+            capacities: [cohesion, cohesion, crushed],
+            slopes: [friction * stiffness[0], stiffness[0] / ADHESION_REACH, 0.0],
+            reach: ADHESION_REACH * cohesion / stiffness[0],
+            cap,
+            floor: -cap / stiffness[0],
+        }
     }
 
-    /// Fall of the shear capacity per unit of gap in a zone, N/m2: the capacity is cohesion - slope * gap.
+    /// Fall of the shear capacity per unit of gap in a zone, N/m2.
     pub fn slope(&self, zone: Zone) -> f64 {
         self.slopes[zone as usize]
     }
 
     /// Shear capacity in a zone, N/m.
     pub fn capacity(&self, zone: Zone, gap: f64) -> f64 {
-        self.cohesion - self.slope(zone) * gap
+        self.capacities[zone as usize] - self.slope(zone) * gap
+    }
+
+    /// Largest normal force, N/m; infinite where nothing crushes.
+    pub fn cap(&self) -> f64 {
+        self.cap
     }
 
     /// True where the point can carry no shear at all.
     pub fn frictionless(&self) -> bool {
-        matches!(self.law, Law::Coulomb { friction: 0.0, cohesion: 0.0 })
+        matches!(self.law, Law::Coulomb { friction: 0.0, cohesion: 0.0, .. })
     }
 
     /// Tangential force as if it had stuck from the start, N/m.
@@ -124,7 +145,11 @@ impl Contact {
     /// Normal and tangential force in a state, as the linear functions they are within it, N/m.
     pub fn force_in(&self, state: State, gap: f64, slip: f64) -> [f64; 2] {
         let pressure = -self.stiffness[0] * gap;
-        let normal = |zone| if zone == Zone::Pressed { pressure } else { 0.0 };
+        let normal = |zone| match zone {
+            Zone::Pressed => pressure,
+            Zone::Adhering => 0.0,
+            Zone::Capped => self.cap,
+        };
         match state {
             State::Open => [0.0, 0.0],
             State::Bonded => [pressure, self.trial_shear(slip)],
@@ -150,16 +175,24 @@ impl Contact {
         }
     }
 
-    /// Force by the law itself, whatever the state: N = max(0, -k_n gap), T = trial T within the capacity.
+    /// Zone of a gap below the reach.
+    fn zone_at(&self, gap: f64) -> Zone {
+        match gap {
+            _ if gap > 0.0 => Zone::Adhering,
+            _ if gap < self.floor => Zone::Capped,
+            _ => Zone::Pressed,
+        }
+    }
+
+    /// Force by the law itself, whatever the state: 0 <= N = -k_n gap <= cap, T = trial T within the capacity.
     pub fn force(&self, gap: f64, slip: f64) -> ContactForce {
         let trial = self.trial_shear(slip);
         let [normal, tangential] = match self.law {
             Law::Bonded => self.force_in(State::Bonded, gap, slip),
             _ if gap >= self.reach.max(0.0) => [0.0, 0.0],
             _ => {
-                let zone = if gap < 0.0 { Zone::Pressed } else { Zone::Adhering };
-                let capacity = self.capacity(zone, gap);
-                [(-self.stiffness[0] * gap).max(0.0), trial.clamp(-capacity, capacity)]
+                let capacity = self.capacity(self.zone_at(gap), gap);
+                [(-self.stiffness[0] * gap).max(0.0).min(self.cap), trial.clamp(-capacity, capacity)]
             }
         };
         ContactForce { normal, tangential, gap }
@@ -173,7 +206,7 @@ impl Contact {
         if gap > self.reach {
             return State::Open;
         }
-        let zone = if gap <= 0.0 { Zone::Pressed } else { Zone::Adhering };
+        let zone = self.zone_at(gap);
         let (trial, capacity) = (self.trial_shear(slip), self.capacity(zone, gap));
         let sign = if trial < 0.0 { -1.0 } else { 1.0 };
         if trial.abs() < capacity { State::Stick(zone) } else { State::Slip { sign, zone } }
@@ -195,7 +228,8 @@ impl Contact {
         let capacity = |zone| [self.capacity(zone, gap[0]), -self.slope(zone) * gap[1]];
         let negative = |x: Moving| [-x[0], -x[1]];
         let excess = |sign: f64, zone: Zone| [0, 1].map(|i| sign * trial[i] - capacity(zone)[i]);
-        let adhesive = self.cohesion > 0.0;
+        let (adhesive, crushes) = (self.capacities[0] > 0.0, self.cap < f64::INFINITY);
+        let above_floor = [gap[0] - self.floor, gap[1]];
         match state {
             State::Bonded => {}
             State::Open => {
@@ -210,6 +244,10 @@ impl Contact {
                     Zone::Pressed if adhesive => see(negative(gap), State::Stick(Zone::Adhering)),
                     Zone::Pressed => see(negative(gap), State::Open),
                     Zone::Adhering => see(gap, State::Stick(Zone::Pressed)),
+                    Zone::Capped => see(negative(above_floor), State::Stick(Zone::Pressed)),
+                }
+                if crushes && zone == Zone::Pressed {
+                    see(above_floor, State::Stick(Zone::Capped));
                 }
                 for sign in [1.0, -1.0] {
                     see(negative(excess(sign, zone)), State::Slip { sign, zone });
@@ -219,10 +257,14 @@ impl Contact {
                 match zone {
                     Zone::Pressed if adhesive => see(negative(gap), State::Slip { sign, zone: Zone::Adhering }),
                     Zone::Pressed => see(negative(gap), State::Open),
+                    Zone::Capped => see(negative(above_floor), State::Slip { sign, zone: Zone::Pressed }),
                     Zone::Adhering => {
                         see(gap, State::Slip { sign, zone: Zone::Pressed });
                         see([self.reach - gap[0], -gap[1]], State::Open);
                     }
+                }
+                if crushes && zone == Zone::Pressed {
+                    see(above_floor, State::Slip { sign, zone: Zone::Capped });
                 }
                 if !self.frictionless() {
                     see(excess(sign, zone), State::Stick(zone));
@@ -236,10 +278,20 @@ impl Contact {
 mod tests {
     use super::*;
 
+    /// Every combination of cohesion and cap; N reaches the cap at a gap of -2 mm.
+    fn contacts() -> impl Iterator<Item = Contact> {
+        let laws = [0.0, 3.0].into_iter().flat_map(|cohesion| [f64::INFINITY, 20.0].map(|cap| (cohesion, cap)));
+        laws.map(|(cohesion, cap)| Contact::new([1e4, 2e4], Law::Coulomb { friction: 0.5, cohesion, cap }))
+    }
+
+    fn contact(cohesion: f64) -> Contact {
+        Contact::new([1e4, 2e4], Law::Coulomb { friction: 0.5, cohesion, cap: 20.0 })
+    }
+
     #[test]
     fn the_tangent_stiffness_is_the_derivative_of_the_force() {
         let c = contact(3.0);
-        for zone in [Zone::Pressed, Zone::Adhering] {
+        for zone in [Zone::Pressed, Zone::Adhering, Zone::Capped] {
             for state in [State::Stick(zone), State::Slip { sign: -1.0, zone }, State::Bonded, State::Open] {
                 let at = |gap: f64, slip: f64| c.force_in(state, gap, slip);
                 let (here, [a, b, d, e]) = (at(1e-4, 2e-4), c.tangent_stiffness(state));
@@ -252,31 +304,51 @@ mod tests {
         }
     }
 
-    fn contact(cohesion: f64) -> Contact {
-        Contact::new([1e4, 2e4], Law::Coulomb { friction: 0.5, cohesion })
+    #[test]
+    fn the_tangent_stiffness_of_the_state_at_a_gap_is_the_derivative_of_the_law() {
+        for c in contacts() {
+            for (gap, slip) in
+                [-3e-3, -2.1e-3, -1e-3, -1e-4, 1e-4, 5e-3].into_iter().flat_map(|g| [-1e-4, 3e-3].map(|s| (g, s)))
+            {
+                let ([a, b, d, e], h) = (c.tangent_stiffness(c.state_at([gap, slip])), 1e-7);
+                let at = |g: f64, s: f64| c.force(gap + g, slip + s);
+                let (opens, slides) = ([at(-h, 0.0), at(h, 0.0)], [at(0.0, -h), at(0.0, h)]);
+                let rate =
+                    |of: fn(&ContactForce) -> f64, ends: &[ContactForce; 2]| (of(&ends[1]) - of(&ends[0])) / (2.0 * h);
+                let (n, t) = (|f: &ContactForce| f.normal, |f: &ContactForce| f.tangential);
+                for (rate, stiffness) in
+                    [rate(n, &opens), rate(n, &slides), rate(t, &opens), rate(t, &slides)].iter().zip([a, b, d, e])
+                {
+                    assert!((rate + stiffness).abs() < 1e-3, "{c:?} {gap} {slip}");
+                }
+            }
+        }
     }
 
     #[test]
-    fn the_law_is_continuous_and_within_coulomb() {
-        for cohesion in [0.0, 3.0] {
-            let c = contact(cohesion);
+    fn the_law_is_continuous_and_within_coulomb_and_the_cap() {
+        for c in contacts() {
+            let Law::Coulomb { cohesion, cap, .. } = c.law else { panic!() };
             let reach = 10.0 * cohesion / 1e4;
             let at = |gap: f64, slip: f64| c.force(gap, slip);
             for i in -200..200 {
-                let (gap, slip) = (f64::from(i) * reach.max(1e-3) / 100.0, -1.0);
+                let (gap, slip) = (f64::from(i) * reach.max(2e-3) / 100.0, -1.0);
                 let (here, next) = (at(gap, slip), at(gap + 1e-12, slip));
                 assert!((here.tangential - next.tangential).abs() < 1e-7 && (here.normal - next.normal).abs() < 1e-7);
-                assert!(here.tangential.abs() <= 0.5 * here.normal + cohesion + 1e-12);
+                assert!(here.tangential.abs() <= 0.5 * here.normal + cohesion + 1e-12 && here.normal <= cap);
             }
             assert_eq!((at(-1e-3, 0.0).normal, at(reach + 1e-9, -1.0).tangential), (10.0, 0.0));
+            assert_eq!(
+                (at(-5e-3, 0.0).normal, at(-5e-3, -1.0).tangential),
+                (cap.min(50.0), 0.5 * cap.min(50.0) + cohesion)
+            );
         }
     }
 
     #[test]
     fn the_state_at_a_gap_and_a_slip_carries_the_force_of_the_law() {
-        for cohesion in [0.0, 3.0] {
-            let c = contact(cohesion);
-            for gap in [-2e-3, -1e-4, 1e-4, 2e-3, 4e-3] {
+        for c in contacts() {
+            for gap in [-3e-3, -2e-3, -1e-4, 1e-4, 2e-3, 4e-3] {
                 for slip in [-1e-2, -1e-4, 0.0, 1e-5, 1e-2] {
                     let (by_law, state) = (c.force(gap, slip), c.state_at([gap, slip]));
                     let [normal, shear] = c.force_in(state, gap, slip);
@@ -288,16 +360,22 @@ mod tests {
 
     #[test]
     fn both_states_carry_the_same_force_on_the_border_between_them() {
-        let c = contact(3.0);
-        let slip = [-1.3e-4, -2.0];
-        for (state, gap) in [
-            (State::Stick(Zone::Pressed), [-1e-4, 1.0]),
-            (State::Slip { sign: 1.0, zone: Zone::Pressed }, [-1e-4, 1.0]),
-            (State::Slip { sign: 1.0, zone: Zone::Adhering }, [1e-3, 0.3]),
-            (State::Stick(Zone::Adhering), [1e-3, 0.3]),
-            (State::Open, [4e-3, -1.0]),
+        let (c, slip) = (contact(3.0), [-1.3e-4, -2.0]);
+        let slides = |zone| State::Slip { sign: 1.0, zone };
+        for (state, gap, ways) in [
+            (State::Stick(Zone::Pressed), [-1e-4, 1.0], 4),
+            (State::Stick(Zone::Pressed), [-1e-4, -1.0], 4),
+            (slides(Zone::Pressed), [-1e-4, 1.0], 3),
+            (slides(Zone::Pressed), [-1e-4, -1.0], 3),
+            (slides(Zone::Adhering), [1e-3, 0.3], 3),
+            (State::Stick(Zone::Adhering), [1e-3, 0.3], 3),
+            (State::Stick(Zone::Capped), [-3e-3, 0.3], 3),
+            (slides(Zone::Capped), [-3e-3, 0.3], 2),
+            (State::Open, [4e-3, -1.0], 1),
         ] {
+            let mut seen = 0;
             c.ways_out(state, gap, slip, |value, next| {
+                seen += 1;
                 if value[1] == 0.0 {
                     return;
                 }
@@ -306,6 +384,7 @@ mod tests {
                 let (here, there) = (c.force_in(state, gap, slip), c.force_in(next, gap, slip));
                 assert!((here[0] - there[0]).abs() + (here[1] - there[1]).abs() < 1e-9, "{state:?} -> {next:?}");
             });
+            assert_eq!(seen, ways, "{state:?}");
         }
     }
 

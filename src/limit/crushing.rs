@@ -7,7 +7,7 @@
 //! tangents so close together that rounding confuses them defeat it, the parabolas are cones of the interior point method.
 
 use super::programme::{Objective, Outcome, Programme};
-use super::static_theorem::{Equilibrium, Limit};
+use super::static_theorem::{Equilibrium, Limit, Resultant};
 use super::{StaticTheorem, Unsolved};
 use crate::budget::Budget;
 
@@ -35,6 +35,8 @@ pub struct CrushingWindow {
     /// Dry joints on their parabola at either end whose block of stress takes a hundredth of the joint or more (less is a hinge);
     /// none where the end is infinite.
     pub joints: [Vec<usize>; 2],
+    /// Forces of all joints at either end; none where it is infinite.
+    pub forces: [Vec<Resultant>; 2],
 }
 
 /// One dry joint of finite strength.
@@ -88,7 +90,7 @@ impl StaticTheorem {
         cut.limits = sections.iter().flat_map(first).flatten().collect();
         conic.sections = sections.clone();
         conic.errors[1] = NEARLY;
-        let mut window = CrushingWindow { ends: [0.0; 2], joints: [Vec::new(), Vec::new()] };
+        let mut window = CrushingWindow { ends: [0.0; 2], joints: Default::default(), forces: Default::default() };
         for (end, sign) in [-1.0, 1.0].into_iter().enumerate() {
             let objective = Objective::load_factor(sign);
             let few = self.has_few_unknowns();
@@ -98,6 +100,7 @@ impl StaticTheorem {
                 Outcome::At(equilibrium, _) => {
                     window.ends[end] = equilibrium.load_factor;
                     window.joints[end] = self.crushed(&sections, &equilibrium);
+                    window.forces[end] = equilibrium.forces;
                 }
                 Outcome::Unbounded(_) => window.ends[end] = sign * f64::INFINITY,
                 Outcome::Infeasible => return Ok(None),

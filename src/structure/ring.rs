@@ -50,6 +50,11 @@ impl Structure {
         self.stones.iter().map(|stone| stone.compressive_strength).fold(f64::INFINITY, f64::min)
     }
 
+    /// Compressive strength of the weaker stone beside a joint, Pa.
+    pub fn strength_at(&self, joint: &Joint) -> f64 {
+        self.stones_at(joint).map(|stone| stone.compressive_strength).fold(f64::INFINITY, f64::min)
+    }
+
     /// The stones on both sides of a joint.
     pub fn stones_at(&self, joint: &Joint) -> impl Iterator<Item = &Stone> {
         joint.between.into_iter().filter_map(Side::body).map(|body| self.stone_of(body))

@@ -467,6 +467,32 @@ fn one_cause_is_one_fault() {
 }
 
 #[test]
+fn what_does_not_go_with_crushing_in_the_path_is_refused() {
+    let mut request = good();
+    set(&mut request, "/crushing_in_path", json!(true));
+    set(&mut request, "/method", json!("event_path"));
+    set(&mut request, "/mesh", json!({}));
+    assert!(read_analysis(request.to_string().as_bytes()).is_ok());
+    for (pointer, value) in [
+        ("/analysis", json!({"safety": {}})),
+        ("/analysis", json!({"settlement": {"left": {"outwards_m": 0.1}}})),
+        ("/geometry", json!("updated")),
+        ("/method", json!({"fixed_steps": {"step": 1}})),
+        ("/mesh", json!({"subblocks": {"uniform": {"radial": 2, "along": 2}}})),
+        ("/accuracy", json!({"collapse_intensity": 0.1})),
+        ("/motion", json!({})),
+    ] {
+        let mut request = request.clone();
+        set(&mut request, pointer, value);
+        let found = faults(&request);
+        assert!(
+            found.iter().any(|fault| fault.detail.contains("crushing_in_path") && fault.pointer.starts_with(pointer)),
+            "{found:?}"
+        );
+    }
+}
+
+#[test]
 fn what_a_settlement_makes_no_use_of_is_refused() {
     let mut request = good();
     for pointer in ["/method", "/load_factor/unit", "/report/stress_fields"] {

@@ -25,7 +25,7 @@ fn theorem(analysis: &Analysis) -> StaticTheorem {
 }
 
 /// Half the loads over the mean joint, Pa: about the mean stress at a springing.
-fn mean_stress(analysis: &Analysis) -> f64 {
+pub fn mean_stress(analysis: &Analysis) -> f64 {
     let total = |forces: &[PointForce]| forces.iter().map(|f| f.force.norm()).sum::<f64>();
     let loads = [total(&analysis.fixed), total(&analysis.scaled)].into_iter().find(|&sum| sum > 0.0).unwrap();
     let joints = &analysis.structure.ring();
@@ -33,7 +33,7 @@ fn mean_stress(analysis: &Analysis) -> f64 {
 }
 
 /// Difference of two load factors, relative; infinities equal themselves.
-fn relative(a: f64, b: f64, floor: f64) -> f64 {
+pub fn relative(a: f64, b: f64, floor: f64) -> f64 {
     if a == b { 0.0 } else { (a - b).abs() / a.abs().max(b.abs()).max(floor) }
 }
 
@@ -159,7 +159,7 @@ const CROWN_LOAD: [[f64; 3]; 12] = [
 ];
 
 /// The oval under its weight and `loads` scaled.
-fn oval(embankment: f64, patch: Option<f64>) -> Value {
+pub fn oval(embankment: f64, patch: Option<f64>) -> Value {
     let arc = |radius: f64, angle: f64| json!({"radius_m": radius, "angle_deg": angle});
     let density = if embankment > 1.9 { 1600.0 } else { 1760.0 };
     let fill = json!({"fill_pressure": {

@@ -59,7 +59,7 @@ fn chain(rectangles: &[Rectangle], faces: &[Face], friction: f64) -> Assembly {
             // A little scatter in stiffness, as analyses have it, so that ties resolve.
             stiffness: [contact * (1.0 + 1e-5 * (2 * i + j) as f64); 2],
             link: [4.0 * PENALTY; 2],
-            law: Law::Coulomb { friction, cohesion: 0.0 },
+            law: Law::Coulomb { friction, cohesion: 0.0, cap: f64::INFINITY },
             before: [(0, 1.0), (0, 0.0)],
             after: [(0, 1.0), (0, 0.0)],
         };

@@ -30,6 +30,8 @@ mod contract;
 #[cfg(feature = "server")]
 mod crushing;
 #[cfg(feature = "server")]
+mod crushing_path;
+#[cfg(feature = "server")]
 mod determinism;
 #[cfg(feature = "server")]
 mod downstream;

@@ -94,7 +94,7 @@ fn a_column_under_an_eccentric_load_falls_when_its_lever_reaches_the_edge() {
         let mut builder = AssemblyBuilder::new(blocks);
         for i in 0..n {
             let point = |(j, x): (usize, f64)| {
-                let law = Law::Coulomb { friction: 2.0, cohesion: 0.0 };
+                let law = Law::Coulomb { friction: 2.0, cohesion: 0.0, cap: f64::INFINITY };
                 // In series with its links, each ten times as stiff, a contact is as stiff as the formula's.
                 let contact = stiffness / (1.0 - if i == 0 { 0.1 } else { 0.2 });
                 let scattered = contact * (1.0 + 1e-6 * (2 * i + j) as f64);

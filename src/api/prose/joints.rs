@@ -4,7 +4,7 @@
 use super::summary::bare;
 use super::wording::word;
 use crate::api::prose::Digits;
-use crate::api::response::{AnalysisResult, HingeBody, LiftOffBody, SlideBody, StructureBody};
+use crate::api::response::{AnalysisResult, CrushedJointBody, HingeBody, LiftOffBody, SlideBody, StructureBody};
 use comfy_table::Table;
 
 /// Forces below this share of the largest are round-off.
@@ -53,6 +53,12 @@ pub fn hinges(hinges: &[HingeBody], structure: Option<&StructureBody>) -> Option
     };
     let header = ["joint", "pressed at", "deg from springing", "deg from crown", "rotation"];
     table(header, hinges.iter().map(row).collect())
+}
+
+/// Joints that crush, each with the length that does.
+pub fn crushed(joints: &[CrushedJointBody]) -> String {
+    let of = |c: &CrushedJointBody| format!("{} ({} m at the {})", c.joint, Digits(c.length_m), word(&c.face));
+    joints.iter().map(of).collect::<Vec<_>>().join(", ")
 }
 
 pub fn slides(slides: &[SlideBody], structure: Option<&StructureBody>) -> Option<Table> {

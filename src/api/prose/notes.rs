@@ -33,6 +33,7 @@ impl fmt::Display for Note {
             Note::FallsFromZero => FALLS_FROM_ZERO.into(),
             Note::NothingGrows => "Nothing grows with the load factor: the answer says only that the arch stands.".into(),
             Note::LaterMechanism => LATER_MECHANISM.into(),
+            Note::CrushesAndSlides => CRUSHES_AND_SLIDES.into(),
             Note::CohesionByPoint => COHESION_BY_POINT.into(),
             Note::UnbentStones => UNBENT_STONES.into(),
             Note::NoPlasticSections => NO_PLASTIC_SECTIONS.into(),
@@ -45,6 +46,8 @@ impl fmt::Display for Note {
 
 const FALLS_FROM_ZERO: &str = "The arch stands at load factor 0 and at none beyond it in the direction asked. Hinges, slides \
      and velocities are those in which it falls as soon as the load factor leaves 0.";
+const CRUSHES_AND_SLIDES: &str = "Joints crush and slide. The collapse load is that of this load path; where joints slide \
+     without dilating the arch may fall at others too, and where joints crush none lower is looked for.";
 const LATER_MECHANISM: &str = "Joints at their limits at the collapse load make no mechanism, as may be where they slide. \
      Hinges and slides are those in which the load path ends; the thrust line is that at the collapse load.";
 const COHESION_BY_POINT: &str = "Cohesion is shared out to a joint's contact points, and those that open lose theirs: where \

@@ -107,6 +107,9 @@ fn collapse_facts(result: &AnalysisResult) -> Vec<(&'static str, String)> {
         if result.safety.is_none() {
             lines.push(("governed by", word(&collapse.governed_by)));
         }
+        if !result.crushed_joints.is_empty() {
+            lines.push(("joints that crush", joints::crushed(&result.crushed_joints)));
+        }
         lines.push((
             "residual",
             in_its_words(&result.request, &format!("{:.1e} of the arch's weight", collapse.residual)),

@@ -109,7 +109,7 @@ fn reached(result: &AnalysisResult, collapse: &Collapse) -> String {
 /// What joints of the stone's strength make of an answer, where they change it visibly.
 fn with_strength(result: &AnalysisResult) -> String {
     let plastic = result.crushing.as_ref().and_then(|crushing| crushing.plastic_section.as_ref());
-    let Some(plastic) = plastic else { return String::new() };
+    let Some(plastic) = plastic.filter(|_| !result.request.crushing_in_path) else { return String::new() };
     let start = result.start_load_factor * result.request.load_factor.intensity_per_unit;
     let [low, high] = plastic.window.unwrap_or([Some(f64::INFINITY), None]);
     let stands = low.is_none_or(|low| low <= start) && high.is_none_or(|high| high >= start);

@@ -98,6 +98,12 @@ pub struct AnalysisRequest {
     /// Whether it is followed on the moving arch too; that answer stands in `updated_geometry`, and needs method `event_path`.
     #[serde(default)]
     pub geometry: Geometry,
+    /// Whether joints crush on the load path: where joints of plastic sections crush, no contact is pressed harder than the
+    /// compressive strength of the weaker stone, so that collapse, hinges and thrust line are those of an arch whose joints crush. For
+    /// a collapse at first order, found event by event, of whole stones. Without it crushing is told beside the path of stone that
+    /// does not.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub crushing_in_path: bool,
     /// What the answer shows.
     #[serde(default)]
     pub report: ReportRequest,

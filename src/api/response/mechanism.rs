@@ -3,7 +3,7 @@
 use super::Scale;
 use super::columns::{ThrustColumns, VelocityColumns};
 use super::words::GovernedBy;
-use crate::collapse::{Face, Hinge, LiftOff, LimitWindow, LoadRange, Mode, PathEnd, Slide};
+use crate::collapse::{CrushedJoint, Face, Hinge, LiftOff, LimitWindow, LoadRange, Mode, PathEnd, Slide};
 use serde::Serialize;
 use utoipa::ToSchema;
 
@@ -59,7 +59,7 @@ pub struct HingeBody {
     pub face: Face,
     /// Face at which it opens.
     pub opens: Face,
-    /// The point that it turns about, [x, y]: the joint's end on `face`.
+    /// The point that it turns about, [x, y]: the joint's end on `face`, or that of the block that is crushed there.
     pub at_m: [f64; 2],
     /// Position: angle from the nearer springing, about the angle centre of its span; null of a joint of no span.
     pub angle_from_springing_deg: Option<f64>,
@@ -96,6 +96,26 @@ pub struct LiftOffBody {
     pub extrados: f64,
 }
 
+/// A joint that crushes at collapse: it carries its strength over a block of its length at one face.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub struct CrushedJointBody {
+    /// Joint number: of an arch from 0 at the left springing, else the place in `structure.joints`.
+    pub joint: usize,
+    /// The face.
+    pub face: Face,
+    /// The joint's end there, [x, y].
+    pub at_m: [f64; 2],
+    /// Length of the block: the normal force over the strength.
+    pub length_m: f64,
+}
+
+impl From<&CrushedJoint> for CrushedJointBody {
+    fn from(crushed: &CrushedJoint) -> Self {
+        let CrushedJoint { joint, face, at, length } = *crushed;
+        CrushedJointBody { joint, face, at_m: [at.x, at.y], length_m: length }
+    }
+}
+
 /// One end of the load path.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct EndBody {
@@ -108,6 +128,9 @@ pub struct EndBody {
     pub slides: Vec<SlideBody>,
     /// Joints that part altogether, from left to right.
     pub lift_offs: Vec<LiftOffBody>,
+    /// Joints that crush, from left to right, where `crushing_in_path` is set.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub crushed_joints: Vec<CrushedJointBody>,
     /// Resultant per joint.
     pub thrust_line: ThrustColumns,
     /// Velocity of every voussoir.
@@ -125,11 +148,12 @@ impl EndBody {
                 residual: end.residual,
                 limit_window: window.map(|window| scale.window(window)),
                 mode: end.mechanism.mode,
-                governed_by: GovernedBy::Instability,
+                governed_by: if end.crushed.is_empty() { GovernedBy::Instability } else { GovernedBy::Crushing },
             },
             hinges: end.mechanism.hinges.iter().map(HingeBody::from).collect(),
             slides: end.mechanism.slides.iter().map(SlideBody::from).collect(),
             lift_offs: end.mechanism.lift_offs.iter().map(LiftOffBody::from).collect(),
+            crushed_joints: end.crushed.iter().map(CrushedJointBody::from).collect(),
             thrust_line: ThrustColumns::new(&end.thrust_line),
             velocities: VelocityColumns::new(&end.mechanism.velocities),
         }

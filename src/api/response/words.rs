@@ -20,6 +20,8 @@ pub enum MethodWord {
 pub enum GovernedBy {
     /// A mechanism of rigid stones.
     Instability,
+    /// A mechanism some of whose joints crush, where `crushing_in_path` is set.
+    Crushing,
 }
 
 /// Where a contact point lies on its joint.

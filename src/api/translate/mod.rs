@@ -5,6 +5,7 @@ mod arch;
 mod beam;
 mod blocks;
 mod bridge;
+mod crushing;
 mod half;
 mod inertia;
 mod loads;

@@ -2,7 +2,7 @@
 
 use super::stone::{Stones, check_overrides, override_joints};
 use super::structure::{self, Layout};
-use super::{MAX_FACTOR, MAX_LENGTH_M, accuracy, check_text, half, loads, mesh, motion, settlement};
+use super::{MAX_FACTOR, MAX_LENGTH_M, accuracy, check_text, crushing, half, loads, mesh, motion, settlement};
 use crate::api::fault::Faults;
 use crate::api::request::{AimRequest, AnalysisRequest, LoadEntry, MethodRequest};
 use crate::arch::MAX_VOUSSOIRS;
@@ -55,6 +55,7 @@ impl<'a> Unloaded<'a> {
         let method = method(&request.method, joints, faults);
         check_load_factor(request, faults);
         check_method(request, faults);
+        crushing::check(request, &subblocks, faults);
         faults.inside("/report/share_of_collapse", request.report.share_of_collapse, 0.0, 1.0);
         let accuracy = accuracy::accuracy(request, whole, faults);
         let pieces = mesh::total(subblocks.iter().take(analysed.unwrap_or(0)));
@@ -115,6 +116,7 @@ impl<'a> Unloaded<'a> {
             cap: request.load_factor.cap,
             method: self.method,
             geometry: request.geometry,
+            crushing_in_path: request.crushing_in_path,
             share: request.report.share_of_collapse,
             mesh: Mesh { subblocks: self.subblocks().to_vec(), seams: request.mesh.seams },
             accuracy: self.accuracy,

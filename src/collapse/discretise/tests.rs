@@ -30,6 +30,7 @@ fn semicircle(n: usize, subblocks: [usize; 2], curved: bool) -> Analysis {
         cap: None,
         method: Method::EventPath,
         geometry: Geometry::FirstOrder,
+        crushing_in_path: false,
         share: 0.999,
         mesh: Mesh { subblocks: vec![subblocks; n], seams: Seams::Split },
         accuracy: None,
@@ -39,7 +40,7 @@ fn semicircle(n: usize, subblocks: [usize; 2], curved: bool) -> Analysis {
 }
 
 fn model<'p>(analysis: &Analysis, budget: &'p Budget<'p>) -> Model<'p> {
-    let mut model = discretise(analysis, budget).unwrap();
+    let mut model = discretise(analysis, &Strips::default(), budget).unwrap();
     model.scatter(Attempt::number(0));
     model
 }
@@ -78,7 +79,8 @@ fn another_attempt_other_loads_and_another_abscissa_condense_no_stone_again() {
     assert_eq!(safety::curve(&points, &mut built).unwrap().len(), 3);
     assert_eq!(built.condensed, 1, "all stones are of one shape");
     for (point, i) in points.iter().zip(0..) {
-        let (attempt, mut fresh) = (Attempt::number(i), discretise(&point.analysis, &budget).unwrap());
+        let (attempt, mut fresh) =
+            (Attempt::number(i), discretise(&point.analysis, &Strips::default(), &budget).unwrap());
         fresh.scatter(attempt);
         let model = built.model(&point.analysis, attempt).unwrap();
         assert_eq!(model.assembly.contacts(), fresh.assembly.contacts());

@@ -22,6 +22,8 @@ pub enum Note {
     NothingGrows,
     /// Hinges and slides are not those of the joints at their limits at the collapse load.
     LaterMechanism,
+    /// Joints crush and slide: the load is that of the path, and none lower is looked for.
+    CrushesAndSlides,
     /// Joints slide, and no other load was found at which the arch falls.
     SoleSlidingLoad(LoadRange),
     /// Joints slide, and the arch may fall at any load of a range.

@@ -83,7 +83,9 @@ impl Setup<'_> {
                 None
             }
             Method::EventPath => {
-                self.take_least(&mut ending, sign)?;
+                if !self.analysis.crushing_in_path {
+                    self.take_least(&mut ending, sign)?;
+                }
                 match self.certificate.compare(&ending.end, sign) {
                     Err(doubt) => Some(doubt),
                     Ok(short) => (turned_back && short && ending.later).then_some(Doubt::TurnedBack(path)),
@@ -92,6 +94,8 @@ impl Setup<'_> {
         };
         report.notes.extend(ending.later.then_some(Note::LaterMechanism));
         report.notes.extend(ending.end.range.as_ref().map(range_note));
+        let slides = self.analysis.crushing_in_path && !ending.end.mechanism.slides.is_empty();
+        report.notes.extend(slides.then_some(Note::CrushesAndSlides));
         report.outcome = Outcome::Collapse;
         report.end = Some(ending.end);
         Ok(doubt)

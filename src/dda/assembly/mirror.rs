@@ -6,7 +6,7 @@
 //! the other way round. Gaps stay, slips change their sign.
 
 use super::{Assembly, Beside};
-use crate::dda::contact::Contact;
+use crate::dda::contact::{Contact, Law};
 use crate::geometry::{Vec2, mirrored};
 
 /// Numbers of two mirror images that differ by this share of the largest differ by rounding.
@@ -66,7 +66,7 @@ impl Assembly {
             let (here, there) = (self.at_interface(k), self.at_interface(image));
             for (j, p) in here.clone().enumerate() {
                 let q = if swapped { there.start + j } else { there.end - 1 - j };
-                let same = |a: &Contact, b: &Contact| a.law == b.law && near(&a.stiffness, &b.stiffness, ROUNDING);
+                let same = |a: &Contact, b: &Contact| alike(a.law, b.law) && near(&a.stiffness, &b.stiffness, ROUNDING);
                 if !same(&self.exact[p], &self.exact[q]) {
                     return None;
                 }
@@ -149,6 +149,16 @@ impl Assembly {
         };
         (0..size)
             .all(|i| (0..size).all(|j| apart(i, j) <= STIFFNESS_ROUNDING * of_a[(i, i)].abs().max(of_a[(j, j)].abs())))
+    }
+}
+
+/// True where two laws are the same; caps may differ by rounding.
+fn alike(a: Law, b: Law) -> bool {
+    match (a, b) {
+        (Law::Coulomb { cap: a_cap, .. }, Law::Coulomb { cap: b_cap, friction, cohesion }) if a_cap.is_finite() => {
+            near(&[a_cap], &[b_cap], ROUNDING) && a == Law::Coulomb { friction, cohesion, cap: a_cap }
+        }
+        _ => a == b,
     }
 }
 

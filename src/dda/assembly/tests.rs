@@ -18,7 +18,7 @@ fn tee() -> Assembly {
             normal,
             stiffness: [2e9, 1e9],
             link: [8e9, 4e9],
-            law: Law::Coulomb { friction: 0.6, cohesion: 0.0 },
+            law: Law::Coulomb { friction: 0.6, cohesion: 0.0, cap: f64::INFINITY },
             before: [(0, 1.0), (0, 0.0)],
             after: [(0, 1.0), (0, 0.0)],
         };

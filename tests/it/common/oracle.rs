@@ -62,6 +62,8 @@ pub struct Problem {
     pub strength: Option<f64>,
     /// Joints that are held to their limits.
     pub limits: Vec<(usize, Limit)>,
+    /// Joints that bear on points alone: each point's place (0 at the intrados, 1 at the extrados) and the most it carries.
+    pub points: Vec<(usize, Vec<Point>)>,
 }
 
 /// What a joint that moves without dilating is held to.

@@ -151,6 +151,7 @@ impl Programme {
                 self.right.push(strength);
             }
         }
+        self.points(problem, scale);
         for &(joint, limit) in &problem.limits {
             if let Limit::Shear(sign) = limit
                 && problem.opens(joint)
@@ -162,6 +163,20 @@ impl Programme {
             // Prestress can put any amount in hand; one is plenty.
             self.give(scale);
             self.right.push(1.0);
+        }
+    }
+
+    /// Forces 0 <= F <= c at points: about every one of them, the moment is at most that of all points on one side, fully
+    /// loaded, either way round. All normal forces and moments that the points can carry fulfil this, and no others: the set is
+    /// a sum of segments, whose sides are parallel to one of them each.
+    fn points(&mut self, problem: &Problem, scale: &Scale) {
+        for (joint, points) in &problem.points {
+            for (&[about, _], sign) in points.iter().flat_map(|point| [(point, 1.0), (point, -1.0)]) {
+                self.entry(3 * joint, -sign * about);
+                self.entry(3 * joint + 1, sign * (1.0 - about));
+                let most = points.iter().map(|&[at, cap]| cap * (sign * (at - about)).max(0.0)).sum::<f64>();
+                self.right.push(most / scale.force);
+            }
         }
     }
 

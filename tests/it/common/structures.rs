@@ -82,6 +82,7 @@ pub fn analysis(scene: &Scene) -> Analysis {
         plane: PlaneModel::Stress,
         penalty_ratio: 1.0,
         shear_penalty_ratio: 1.0,
+        crushing_in_path: false,
         direction: Direction::Increase,
         cap: None,
         method: Method::EventPath,

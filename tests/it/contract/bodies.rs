@@ -56,6 +56,7 @@ fn arch() -> Value {
         "load_factor": {"direction": "increase", "cap": 1000, "unit": "kN", "intensity_per_unit": 1},
         "method": {"fixed_steps": {"step": 1, "opening_m": 0.01, "hinges": 3}},
         "geometry": "first_order",
+        "crushing_in_path": false,
         "report": {"share_of_collapse": 0.99, "stress_fields": [{"load_factor": 2}, "unit_load", "near_collapse"]},
         "motion": {"most_frames": 10, "share_of_span": 0.1}
     })
