@@ -162,7 +162,9 @@ mod tests {
                 assert!(ends.len() <= 13 && ends.windows(2).all(|s| s[0] < s[1]), "{ends:?}");
                 let ([least, most], [here, _]) =
                     (borne(&ends, [1e-3, 1.0 - 1e-9]), borne(&ends, [0.995 * block, 1.005 * block]));
-                assert!(least > 0.96 && most < 1.0 + 1e-12 && here > 1.0 - 2e-4, "{block}: {least} {most} {here}");
+                // w^2 / (8 b) of the eccentricity (1 - b) / 2.
+                let short = 1.2 * NARROW * NARROW * block / (1.0 - 1.005 * block);
+                assert!(least > 0.96 && most < 1.0 + 1e-12 && here > 1.0 - short, "{block}: {least} {most} {here}");
             }
         }
     }
