@@ -52,8 +52,7 @@ pub(super) fn at_peak(
     let mut mechanism = found.unwrap_or_else(|| {
         from_direction(model, turning, if fall.turned_back { &peak.direction } else { &fall.direction })
     });
-    let at_peak = model.assembly.contact_forces(model.assembly.contacts(), &peak.displacements);
-    let crushed = crushed::crushed(model, structure, |p| at_peak[p].normal);
+    let crushed = crushed::at_peak(model, structure, peak);
     if !crushed.is_empty() && mechanism::released(&mechanism).is_empty() {
         mechanism.mode = Mode::Crushing;
     }

@@ -177,7 +177,6 @@ impl<'a> RigidStones<'a> {
     }
 
     fn read(&self, configuration: &Configuration) -> MotionFrame {
-        let near = TOUCHING * self.thickness;
         let body = |number: usize| (number < self.structure.bodies.len()).then_some(number);
         let contact = |c: &Carried| MotionContact {
             bodies: c.between.map(body),
@@ -188,22 +187,7 @@ impl<'a> RigidStones<'a> {
             tangential: c.tangential,
             gap: c.gap,
         };
-        let (mut hinges, mut slides) = (Vec::new(), Vec::new());
-        let joints = self.structure.joints.iter().map(|joint| joint.law.coulomb().is_some());
-        for (joint, (opening, dry)) in configuration.openings.iter().zip(joints).enumerate() {
-            let Opening { gaps, slid, angle, facing } = *opening;
-            let open = gaps.map(|gap| gap > near);
-            if !dry || !facing || open == [true; 2] {
-                continue;
-            }
-            if open[0] != open[1] {
-                let face = if open[0] { Face::Extrados } else { Face::Intrados };
-                hinges.push(OpenHinge { joint, face, opening: angle.abs() });
-            }
-            if slid.abs() > near {
-                slides.push(Slid { joint, by: slid });
-            }
-        }
+        let (hinges, slides) = self.hinges(&configuration.openings);
         let places = || self.stones.iter().map(|&(body, arm)| (&configuration.places[body], arm));
         MotionFrame {
             parameter: configuration.parameter,
@@ -218,6 +202,28 @@ impl<'a> RigidStones<'a> {
             excess: configuration.excess,
             work: configuration.work,
         }
+    }
+
+    /// Joints that touch at one end only, and those that have slid.
+    fn hinges(&self, openings: &[Opening]) -> (Vec<OpenHinge>, Vec<Slid>) {
+        let near = TOUCHING * self.thickness;
+        let (mut hinges, mut slides) = (Vec::new(), Vec::new());
+        let joints = self.structure.joints.iter().map(|joint| joint.law.coulomb().is_some());
+        for (joint, (opening, dry)) in openings.iter().zip(joints).enumerate() {
+            let Opening { gaps, slid, angle, facing } = *opening;
+            let open = gaps.map(|gap| gap > near);
+            if !dry || !facing || open == [true; 2] {
+                continue;
+            }
+            if open[0] != open[1] {
+                let face = if open[0] { Face::Extrados } else { Face::Intrados };
+                hinges.push(OpenHinge { joint, face, opening: angle.abs() });
+            }
+            if slid.abs() > near {
+                slides.push(Slid { joint, by: slid });
+            }
+        }
+        (hinges, slides)
     }
 }
 

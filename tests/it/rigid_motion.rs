@@ -88,6 +88,16 @@ fn a_block_slides_down_a_steeper_slope() {
 }
 
 #[test]
+fn without_friction_nothing_holds_a_block() {
+    let mut block = piece(0, [0.0, 0.0], [2.0, 1.0], 0.0);
+    block.push(block.centroid, Vec2::new(1e-3, 0.0));
+    let (all, _) = run(&mut on_ground(vec![block], [-50.0, 50.0], 0.0, 0.0), 3);
+    let (last, pace) = (all.last().unwrap(), GRAVITY * 1e-3 / 2.0);
+    let moved = last.places[0].centroid - all[0].places[0].centroid;
+    assert!(all.len() == 4 && (moved - Vec2::new(pace * last.parameter, 0.0)).norm() < 1e-7, "{moved}");
+}
+
+#[test]
 fn cohesion_holds_a_block_until_it_is_torn() {
     let glued = |cohesion: f64| {
         let block = piece(0, [0.0, 0.0], [2.0, 1.0], 0.4);
@@ -115,6 +125,10 @@ fn a_slender_block_topples_about_its_corner_until_it_lies() {
     let mut falling = on_ground(vec![block], [-50.0, 50.0], FRICTION, 0.5);
     let (all, _) = run(&mut falling, 40);
     let corner = |configuration: &Configuration| configuration.places[0].point(arm);
+    // At first about the corner: the parameter times the moment of its weight over its moment of inertia there.
+    let lever = 1.0 * 0.5f64.sin() - 0.5 * 0.5f64.cos();
+    let pace = GRAVITY * lever / ((1.0 + 4.0) / 3.0);
+    assert!((all[1].places[0].angle / (pace * all[1].parameter) - 1.0).abs() < 1e-6);
     let last = all.last().unwrap();
     assert!(last.places[0].angle > 0.2 && all.len() == 41);
     assert!((corner(last) - corner(&all[0])).norm() < 2e-3, "{}", corner(last));

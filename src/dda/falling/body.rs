@@ -156,33 +156,3 @@ fn second_moment(corners: &[Vec2]) -> f64 {
     let part = |(a, b): (Vec2, Vec2)| cross(a, b) * (a.dot(&a) + a.dot(&b) + b.dot(&b)) / 12.0;
     (0..corners.len()).map(|i| part(pair(i))).sum()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn rectangle(x: [f64; 2]) -> Member {
-        let corners = [(x[0], 1.0), (x[1], 1.0), (x[1], 3.0), (x[0], 3.0)].map(|(x, y)| Vec2::new(x, y));
-        Member { number: 0, corners: corners.to_vec(), density: 2.0, friction: 0.0 }
-    }
-
-    #[test]
-    fn members_together_have_the_mass_and_moment_of_inertia_of_the_whole() {
-        for members in [vec![rectangle([1.0, 5.0])], vec![rectangle([1.0, 2.0]), rectangle([2.0, 5.0])]] {
-            let body = RigidBody::new(members);
-            let [mass, inertia] = body.inertia;
-            assert!((mass - 16.0).abs() < 1e-12 && (body.centroid - Vec2::new(3.0, 2.0)).norm() < 1e-12);
-            assert!((inertia - mass * (16.0 + 4.0) / 12.0).abs() < 1e-12);
-        }
-    }
-
-    #[test]
-    fn a_force_moves_with_its_material_point_and_keeps_its_direction() {
-        let mut body = RigidBody::new(vec![rectangle([1.0, 5.0])]);
-        body.push(Vec2::new(5.0, 2.0), Vec2::new(0.0, -3.0));
-        assert_eq!(body.load(&body.start()), Vector3::new(0.0, -3.0, -6.0));
-        let upright = Position { angle: std::f64::consts::FRAC_PI_2, ..body.start() };
-        assert!((body.load(&upright) - Vector3::new(0.0, -3.0, 0.0)).norm() < 1e-12);
-        assert!((body.work(&body.start(), &upright) + 6.0).abs() < 1e-12);
-    }
-}
