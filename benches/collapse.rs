@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use voussoir::api::read::read_analysis;
 use voussoir::budget::Budget;
 
-use voussoir::collapse::{Analysis, FieldAt, run};
+use voussoir::collapse::{Analysis, CollapseTask, FieldAt, StatesAsked, Task, run};
 use voussoir::limit::StaticTheorem;
 
 /// Numbers of voussoirs.
@@ -92,7 +92,8 @@ fn paper_case_1(bencher: Bencher, joints: usize) {
 fn refined_quarter_point_load(bencher: Bencher, (voussoirs, each_way): (usize, usize)) {
     let mut analysis = semicircle(voussoirs, -0.5, 30.0);
     analysis.mesh.subblocks = vec![[each_way; 2]; voussoirs];
-    analysis.fields = vec![FieldAt::NearCollapse];
+    let states = StatesAsked { fields: vec![FieldAt::NearCollapse], ..StatesAsked::default() };
+    analysis.task = Task::Collapse(CollapseTask { states, ..CollapseTask::default() });
     collapse(bencher, &analysis);
 }
 

@@ -30,7 +30,9 @@ use std::time::Instant;
 use voussoir::api::read::read_analysis;
 use voussoir::budget::Budget;
 
-use voussoir::collapse::{Analysis, Answer, Cost, CurvedBeam, FieldAt, PlaneModel, Question, Seams, answer};
+use voussoir::collapse::{
+    Analysis, Answer, CollapseTask, Cost, CurvedBeam, FieldAt, PlaneModel, Question, Seams, StatesAsked, Task, answer,
+};
 use voussoir::structure::JointLaw;
 
 /// Most runs of a row, and seconds after which no other is begun.
@@ -166,7 +168,8 @@ fn elastic(voussoirs: usize, each_way: usize, lengths: &[f64]) -> Question {
     let mut analysis = arch(lengths, -0.5);
     analysis.structure.joints.iter_mut().for_each(|joint| joint.law = JointLaw::Bonded);
     analysis.mesh.subblocks = vec![[each_way; 2]; voussoirs];
-    analysis.fields = vec![FieldAt::LoadFactor(0.0)];
+    let states = StatesAsked { fields: vec![FieldAt::LoadFactor(0.0)], ..StatesAsked::default() };
+    analysis.task = Task::Collapse(CollapseTask { states, ..CollapseTask::default() });
     Question::One(Box::new(analysis))
 }
 

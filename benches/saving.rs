@@ -20,7 +20,8 @@ use voussoir::api::read::read_question;
 use voussoir::budget::Budget;
 
 use voussoir::collapse::{
-    Accuracy, Analysis, Answer, BeamReport, CollapseReport, CurvedBeam, FieldAt, Question, StressField, answer, run,
+    Accuracy, Analysis, Answer, BeamReport, CollapseReport, CollapseTask, CurvedBeam, FieldAt, Method, Path, Question,
+    SafetyTask, StatesAsked, StressField, Task, answer, run,
 };
 
 /// Subblocks across of the mesh that stands for the exact stress.
@@ -109,6 +110,20 @@ fn question(mut request: Value) -> Option<Question> {
     read_question(request.to_string().as_bytes()).ok().map(|(_, question)| question)
 }
 
+/// The same question but for its path, its stress fields and, where one is given, its cap.
+fn asking(analysis: &Analysis, path: Path, fields: Vec<FieldAt>, cap: Option<f64>) -> Analysis {
+    let states = StatesAsked { fields, ..StatesAsked::default() };
+    let task = match analysis.task.clone() {
+        Task::Safety(task) => Task::Safety(SafetyTask { path, states, cap: cap.or(task.cap), ..task }),
+        Task::Collapse(task) => {
+            let (cap, method) = (cap.or(task.cap), Method::EventPath(path));
+            Task::Collapse(CollapseTask { cap, method, states, ..task })
+        }
+        task => task,
+    };
+    Analysis { task, ..analysis.clone() }
+}
+
 enum Scene {
     Arch(Box<Arch>),
     Beam(CurvedBeam),
@@ -185,21 +200,23 @@ impl Arch {
     /// The arch half-way to collapse; none where it has no stress there.
     fn new(analysis: Analysis) -> Option<Self> {
         let voussoirs = analysis.structure.voussoirs().len();
-        let mut analysis = Analysis { accuracy: None, fields: Vec::new(), ..analysis };
+        let mut analysis = asking(&analysis, Path::FirstOrder, Vec::new(), None);
         let rigid = run(&analysis, &Budget::unlimited()).ok()?;
         let collapse = rigid.end.as_ref().map_or(2.0, |end| end.load_factor);
         let at = 0.5 * (rigid.start + collapse);
         if rigid.at_start.is_none() || voussoirs > MOST_VOUSSOIRS {
             return None;
         }
-        analysis.fields = vec![FieldAt::LoadFactor(at)];
+        let here = || vec![FieldAt::LoadFactor(at)];
+        analysis = asking(&analysis, Path::FirstOrder, here(), None);
         let square = |k: usize| {
             let [before, after] = [&analysis.structure.joints[k], &analysis.structure.joints[k + 1]];
             let along = (after.middle() - before.middle()).norm() / (0.5 * (before.length() + after.length()));
             [FINE, (along * FINE as f64).round().clamp(1.0, 48.0) as usize]
         };
         let fine: Vec<_> = (0..voussoirs).map(square).collect();
-        let up_to_there = Analysis { cap: Some(1.0001 * at.abs().max(rigid.start.abs())), ..analysis.clone() };
+        let cap = 1.0001 * at.abs().max(rigid.start.abs());
+        let up_to_there = asking(&analysis, Path::FirstOrder, here(), Some(cap));
         let exact = Arch { analysis: up_to_there, exact: StressField { load_factor: at, subblocks: Vec::new() } };
         let exact = exact.on_mesh(fine).0.stress_fields.into_iter().next()?;
         Some(Arch { analysis, exact })
@@ -214,7 +231,8 @@ impl Arch {
 
     fn found(&self, asked: f64) -> Option<(Tried, f64)> {
         let accuracy = Accuracy { collapse_intensity: None, stress: Some(asked), most_subblocks: 5000 };
-        let analysis = Analysis { accuracy: Some(accuracy), ..self.analysis.clone() };
+        let fields = self.analysis.task.fields().to_vec();
+        let analysis = asking(&self.analysis, Path::Refined(accuracy), fields, None);
         let start = Instant::now();
         let report = run(&analysis, &Budget::unlimited()).unwrap();
         let (seconds, plan) = (start.elapsed().as_secs_f64(), report.plan?);

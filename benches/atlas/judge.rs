@@ -138,7 +138,7 @@ impl Truth {
     }
 
     fn fault(&self, analysis: &Analysis, report: &CollapseReport) -> Option<String> {
-        let sign = if analysis.direction == Direction::Increase { 1.0 } else { -1.0 };
+        let sign = if analysis.task.direction() == Direction::Increase { 1.0 } else { -1.0 };
         let fits = match report.outcome {
             Outcome::FallsAsBuilt => self.falls() || self.out_of_reach(report.cap),
             Outcome::SlidesAsBuilt => report.end.as_ref().is_some_and(slides),

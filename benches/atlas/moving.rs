@@ -3,7 +3,9 @@
 use super::judge::{EQUAL, Mark, Truth};
 use crate::common::falling::measure;
 use crate::common::oracle::Aim;
-use voussoir::collapse::{Aim as Wanted, Analysis, CollapseReport, FallingMotion, MotionEnd, Outcome, SettlementPath};
+use voussoir::collapse::{
+    Analysis, CollapseReport, FallingMotion, MotionEnd, Outcome, SettlementPath, SettlementTask, Task,
+};
 
 /// A movement of springings, as a share of the radius, that surely ends on three hinges.
 const LARGE: f64 = 1e-3;
@@ -21,7 +23,7 @@ pub fn judge_settlement(analysis: &Analysis, report: &CollapseReport, truth: &Tr
         return Mark::Open;
     }
     let stands = !truth.falls();
-    let Some(settled) = report.settlement.as_ref() else {
+    let Some(settled) = report.settlement() else {
         // Where joints slide, standing depends on how the arch was built.
         let slides = report.end.as_ref().is_some_and(|end| !end.mechanism.slides.is_empty());
         let fits = match report.outcome {
@@ -47,8 +49,8 @@ fn thrust_fault(analysis: &Analysis, path: &SettlementPath, truth: &Truth) -> Op
     if let Some(point) = outside {
         return Some(format!("thrust {} outside {least} to {greatest}", point.forces[0].x));
     }
-    let Wanted::Settlement(moved) = &analysis.aim else { return None };
-    let [left, right] = moved.as_slice() else { return None };
+    let Task::Settlement(SettlementTask { movements, .. }) = &analysis.task else { return None };
+    let [left, right] = movements.as_slice() else { return None };
     let outwards = right.by.x - left.by.x;
     let size = analysis.structure.ring().iter().map(|joint| joint.intrados.y).fold(0.0, f64::max);
     if outwards.abs() < LARGE * size || !path.mechanism.slides.is_empty() {

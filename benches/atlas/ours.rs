@@ -9,7 +9,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 use voussoir::budget::Budget;
 
-use voussoir::collapse::{Aim, Analysis, CollapseReport, Outcome, run};
+use voussoir::collapse::{Analysis, CollapseReport, Outcome, Task, run};
 use voussoir::structure::{Joint, JointLaw};
 
 /// What our method made of a scene.
@@ -66,7 +66,7 @@ pub fn ours(scene: &Scene, analysis: &Analysis, truth: &Truth) -> Ours {
     let Some(report) = ours.one(analysis, truth) else { return ours };
     let Some(end) = report.end.as_ref().filter(|end| slides(end)) else { return ours };
     let falls = matches!(report.outcome, Outcome::Collapse | Outcome::StandsInWindow);
-    if !falls || analysis.aim != Aim::Collapse || analysis.motion.is_some() {
+    if !falls || !matches!(analysis.task, Task::Collapse(_)) || analysis.task.motion().is_some() {
         return ours;
     }
     ours.motion_fault = Some(truth.motion_fault(analysis, end));
@@ -105,11 +105,11 @@ impl Ours {
                 None
             }
             Ok(report) => {
-                self.mark = match analysis.aim {
-                    Aim::Settlement(_) => moving::judge_settlement(analysis, &report, truth),
+                self.mark = match analysis.task {
+                    Task::Settlement(_) => moving::judge_settlement(analysis, &report, truth),
                     _ => truth.judge(analysis, &report),
                 };
-                if analysis.motion.is_some() && self.mark == Mark::Right {
+                if analysis.task.motion().is_some() && self.mark == Mark::Right {
                     self.mark = moving::judge_motion(analysis, &report);
                 }
                 self.outcome = Some(report.outcome);

@@ -4,7 +4,7 @@ use super::classic::{Elastic, Found, Loading, METHODS, Model, bear_alone};
 use super::judge::{Mark, Truth};
 use super::ours::Ours;
 use std::time::Instant;
-use voussoir::collapse::{Aim, Analysis, Direction};
+use voussoir::collapse::{Analysis, Direction, Task};
 
 /// A classic method may miss the load by this share, or where joints slide the interval of ours by the second.
 const CLOSE: [f64; 2] = [0.01, 0.03];
@@ -26,15 +26,15 @@ pub struct Theirs {
 
 /// Runs and judges them; none where they do not apply.
 pub fn theirs(analysis: &Analysis, truth: &Truth, ours: &Ours) -> Vec<Option<Theirs>> {
-    let apply = analysis.aim == Aim::Collapse
-        && analysis.motion.is_none()
+    let apply = matches!(analysis.task, Task::Collapse(_))
+        && analysis.task.motion().is_none()
         && analysis.mesh.subblocks.iter().all(|cut| *cut == [1, 1])
         && analysis.structure.abutments() == [None, None]
         && analysis.structure.voussoirs().len() <= MOST;
     if !apply {
         return vec![None; METHODS.len()];
     }
-    let sign = if analysis.direction == Direction::Increase { 1.0 } else { -1.0 };
+    let sign = if analysis.task.direction() == Direction::Increase { 1.0 } else { -1.0 };
     let loading = loading(truth, sign);
     let stone = &analysis.structure.stones[0];
     let penalty = analysis.penalty_ratio * stone.youngs_modulus;

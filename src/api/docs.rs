@@ -9,7 +9,7 @@ use axum::response::{IntoResponse, Response};
 use utoipa_swagger_ui::{Config, SwaggerUi};
 
 /// The browser runs its own script and styles, and asks this service only.
-const POLICY: HeaderValue = HeaderValue::from_static(
+const PAGE_POLICY: HeaderValue = HeaderValue::from_static(
     "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data:; \
      connect-src 'self'; frame-ancestors 'none'",
 );
@@ -26,6 +26,6 @@ async fn finish(request: Request, next: Next) -> Response {
     if response.status() == StatusCode::NOT_FOUND {
         response = Problem::no_such_path(&path).into_response();
     }
-    response.headers_mut().insert(header::CONTENT_SECURITY_POLICY, POLICY);
+    response.headers_mut().insert(header::CONTENT_SECURITY_POLICY, PAGE_POLICY);
     response
 }

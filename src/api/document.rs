@@ -15,7 +15,7 @@ use utoipa::openapi::{Content, OpenApi, Ref, RefOr, Required, ResponseBuilder};
 const TOKEN: &str = "token";
 
 /// A bearer token has no scopes.
-const NONE: [&str; 0] = [];
+const NO_SCOPES: [&str; 0] = [];
 
 /// Status code, meaning, and the paths it holds for.
 type Common = (&'static str, &'static str, fn(&str) -> bool);
@@ -81,7 +81,8 @@ fn complete(document: &mut OpenApi) {
             }
             if is_guarded(path) {
                 // A token, or none where the service is open to all.
-                operation.security = Some(vec![SecurityRequirement::new(TOKEN, NONE), SecurityRequirement::default()]);
+                operation.security =
+                    Some(vec![SecurityRequirement::new(TOKEN, NO_SCOPES), SecurityRequirement::default()]);
             }
         }
     }

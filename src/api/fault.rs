@@ -25,12 +25,12 @@ pub fn lies_under(pointer: &str, place: &str) -> bool {
 }
 
 /// Most faults that are listed.
-const MOST_LISTED: usize = 100;
+const MOST_FAULTS_LISTED: usize = 100;
 
 /// The faults as they are listed: the first hundred, and how many more there are.
 pub fn listed(mut faults: Vec<Fault>) -> Vec<Fault> {
-    let more = faults.len().saturating_sub(MOST_LISTED);
-    faults.truncate(MOST_LISTED);
+    let more = faults.len().saturating_sub(MOST_FAULTS_LISTED);
+    faults.truncate(MOST_FAULTS_LISTED);
     if more > 0 {
         faults.push(Fault { pointer: String::new(), detail: format!("and {more} more: mend these first") });
     }

@@ -17,10 +17,10 @@ use serde::Deserialize;
 use utoipa::IntoParams;
 
 /// Jobs listed when nothing is asked.
-const LISTED: usize = 50;
+const JOBS_LISTED: usize = 50;
 
 /// Most jobs listed at once.
-const MOST_LISTED: usize = 1000;
+const MOST_JOBS_LISTED: usize = 1000;
 
 /// Which part of the list is asked for.
 #[derive(Debug, Deserialize, IntoParams)]
@@ -49,9 +49,9 @@ pub(super) async fn list(
     query: Result<Query<ListQuery>, QueryRejection>,
 ) -> Result<Json<JobList>, Problem> {
     let Query(query) = query.map_err(|rejection| query_fault(&rejection))?;
-    let limit = query.limit.unwrap_or(LISTED);
-    if !(1..=MOST_LISTED).contains(&limit) {
-        return Err(Problem::of(kinds::BAD_QUERY, format!("limit must lie between 1 and {MOST_LISTED}")));
+    let limit = query.limit.unwrap_or(JOBS_LISTED);
+    if !(1..=MOST_JOBS_LISTED).contains(&limit) {
+        return Err(Problem::of(kinds::BAD_QUERY, format!("limit must lie between 1 and {MOST_JOBS_LISTED}")));
     }
     // One more than asked for tells whether there is a next page.
     let mut jobs = state.jobs.list(query.status.map(Into::into), query.cursor, limit + 1);

@@ -64,7 +64,7 @@ fn place_of_stones(request: &AnalysisRequest) -> &'static str {
 fn size(question: &Question) -> (usize, usize) {
     let of = |analysis: &Analysis| {
         let given = || analysis.mesh.subblocks.iter().map(|[radial, along]| radial * along).sum();
-        let refined = analysis.accuracy.filter(|accuracy| accuracy.stress.is_some());
+        let refined = analysis.task.accuracy().filter(|accuracy| accuracy.stress.is_some());
         (analysis.structure.voussoirs().len(), refined.map_or_else(given, |accuracy| accuracy.most_subblocks))
     };
     match question {

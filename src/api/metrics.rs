@@ -23,7 +23,7 @@ const SECONDS: [f64; 13] = [1e-3, 3e-3, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30
 const EVENTS: [f64; 11] = [1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1e3, 3e3, 1e4, 3e4, 1e5];
 
 /// The media type of the exposition.
-const MEDIA_TYPE: &str = "application/openmetrics-text; version=1.0.0; charset=utf-8";
+const METRICS_MEDIA_TYPE: &str = "application/openmetrics-text; version=1.0.0; charset=utf-8";
 
 #[derive(Debug, Clone, PartialEq, Eq, Hash, EncodeLabelSet)]
 struct Answered {
@@ -125,5 +125,5 @@ impl Metrics {
 pub(super) async fn metrics(state: axum::extract::State<Service>) -> Result<impl IntoResponse, Problem> {
     let streams = state.limits.streams.saturating_sub(state.streams.available_permits());
     let text = state.metrics.text(state.jobs.load(), streams).map_err(|_| Problem::internal())?;
-    Ok(([(header::CONTENT_TYPE, MEDIA_TYPE)], text))
+    Ok(([(header::CONTENT_TYPE, METRICS_MEDIA_TYPE)], text))
 }

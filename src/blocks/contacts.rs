@@ -1,7 +1,7 @@
 //! Where faces meet.
 
 use super::fault::{BlocksFault, MAX_FAULTS};
-use super::outline::{Outline, Stretch};
+use super::outline::{Edge, Outline};
 use super::{Blocks, NEAR_MISS, overlap};
 use crate::geometry::{Vec2, cross};
 use crate::structure::{Joint, JointLaw, Side, Structure};
@@ -19,7 +19,7 @@ pub(super) struct Meeting {
 
 impl Meeting {
     /// Where two faces look at each other over more than the tolerance, however far apart.
-    pub fn of(a: Stretch, b: Stretch, tolerance: f64) -> Option<Meeting> {
+    pub fn of(a: Edge, b: Edge, tolerance: f64) -> Option<Meeting> {
         let (u, v) = (a.direction(), b.direction());
         if u.dot(&v) > FACING {
             return None;
@@ -33,7 +33,7 @@ impl Meeting {
         }
         let outside = |p: Vec2| cross(p - a.from, along);
         // Height of a face above the place `s`.
-        let height = |run: Stretch, s: f64| {
+        let height = |run: Edge, s: f64| {
             let share = (s - place(run.from)) / (place(run.to) - place(run.from));
             outside(run.from) + share * (outside(run.to) - outside(run.from))
         };
@@ -105,14 +105,14 @@ pub(super) fn found(
 }
 
 /// Where the faces `runs` look at faces of an outline that are near enough to matter.
-pub(super) fn meetings(runs: &[Stretch], outline: &Outline, tolerance: f64) -> Vec<Meeting> {
+pub(super) fn meetings(runs: &[Edge], outline: &Outline, tolerance: f64) -> Vec<Meeting> {
     let reach = NEAR_MISS * tolerance;
     let [low, high] = outline.bounds;
-    let near = |run: &&Stretch| {
+    let near = |run: &&Edge| {
         let (least, most) = (run.from.inf(&run.to), run.from.sup(&run.to));
         (0..2).all(|axis| least[axis] <= high[axis] + reach && low[axis] <= most[axis] + reach)
     };
-    let with_all = |run: &Stretch| {
+    let with_all = |run: &Edge| {
         let run = *run;
         outline.runs.iter().filter_map(move |&other| Meeting::of(run, other, tolerance))
     };

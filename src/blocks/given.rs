@@ -2,7 +2,7 @@
 
 use super::contacts::{Meeting, joint, meetings};
 use super::fault::BlocksFault;
-use super::outline::{Outline, Stretch};
+use super::outline::{Edge, Outline};
 use super::{Blocks, GivenJoint, GivenLaw, Rest};
 use crate::geometry::{Vec2, distance_from_segment};
 use crate::structure::{Joint, JointLaw, Side, Stone};
@@ -57,7 +57,7 @@ pub(super) fn grounds(
             };
             match found {
                 Ok(found) => {
-                    let at = |(body, run): (usize, Stretch)| ground(blocks, s, body, run);
+                    let at = |(body, run): (usize, Edge)| ground(blocks, s, body, run);
                     joints.extend(found.into_iter().map(at));
                 }
                 Err(more) => faults.extend(more),
@@ -68,7 +68,7 @@ pub(super) fn grounds(
 }
 
 /// The joint between a support and a face of a body, given in the sense of the body's outline.
-fn ground(blocks: &Blocks, support: usize, body: usize, run: Stretch) -> Joint {
+fn ground(blocks: &Blocks, support: usize, body: usize, run: Edge) -> Joint {
     let stone = &blocks.stones[blocks.polygons[body].stone];
     joint([Side::Support(support), Side::Body(body)], [run.to, run.from], stone.dry_joint_with(stone))
 }
@@ -79,7 +79,7 @@ fn whole_side(
     polygon: &str,
     side: usize,
     place: &str,
-) -> Result<(usize, Stretch), BlocksFault> {
+) -> Result<(usize, Edge), BlocksFault> {
     let body = names.polygon(polygon, place)?;
     let unknown = || BlocksFault::UnknownSide {
         place: place.to_owned(),
@@ -97,8 +97,8 @@ fn on_line(
     [from, to]: [Vec2; 2],
     (place, support): (&str, &str),
     tolerance: f64,
-) -> Result<Vec<(usize, Stretch)>, Vec<BlocksFault>> {
-    let (line, place) = (Stretch { from, to }, place.to_owned());
+) -> Result<Vec<(usize, Edge)>, Vec<BlocksFault>> {
+    let (line, place) = (Edge { from, to }, place.to_owned());
     let length = (to - from).norm();
     if !length.is_finite() || length <= tolerance {
         return Err(vec![BlocksFault::BadLine { place, tolerance }]);
@@ -107,7 +107,7 @@ fn on_line(
     for (body, outline) in outlines.iter().enumerate() {
         for meeting in meetings(&[line, line.reversed()], outline, tolerance) {
             if meeting.touches(tolerance) {
-                found.push((body, Stretch { from: meeting.ends[1], to: meeting.ends[0] }));
+                found.push((body, Edge { from: meeting.ends[1], to: meeting.ends[0] }));
             } else if let Some((at, gap)) = meeting.near_miss(tolerance) {
                 let between = [blocks.polygons[body].name.clone(), support.to_owned()];
                 faults.push(BlocksFault::NearMiss { between, at, gap, tolerance });
@@ -150,7 +150,7 @@ fn one(
     let sides = [names.any(&given.between[0], place)?, names.any(&given.between[1], place)?];
     let face = |body: usize| {
         let lies =
-            |run: &&Stretch| given.ends.iter().all(|&end| distance_from_segment(end, run.from, run.to) <= tolerance);
+            |run: &&Edge| given.ends.iter().all(|&end| distance_from_segment(end, run.from, run.to) <= tolerance);
         let off =
             || BlocksFault::OffSide { place: place.to_owned(), polygon: blocks.polygons[body].name.clone(), tolerance };
         let run = outlines[body].runs.iter().find(lies).ok_or_else(off)?;

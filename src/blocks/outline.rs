@@ -6,22 +6,22 @@ use crate::geometry::{Region, Vec2, cross, distance_from_segment, segments_meet}
 
 /// A straight piece of an outline: a side, or consecutive sides on one line. The stone lies to its left.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Stretch {
+pub(super) struct Edge {
     /// Its beginning, m.
     pub from: Vec2,
     /// Its end, m.
     pub to: Vec2,
 }
 
-impl Stretch {
+impl Edge {
     /// Unit vector along it.
     pub fn direction(&self) -> Vec2 {
         (self.to - self.from).normalize()
     }
 
     /// The same piece seen from the other side.
-    pub fn reversed(&self) -> Stretch {
-        Stretch { from: self.to, to: self.from }
+    pub fn reversed(&self) -> Edge {
+        Edge { from: self.to, to: self.from }
     }
 }
 
@@ -33,7 +33,7 @@ pub(super) struct Outline {
     /// Area (positive) and centroid.
     pub region: Region,
     /// Straight faces, in the order of the outline.
-    pub runs: Vec<Stretch>,
+    pub runs: Vec<Edge>,
     /// Least and greatest coordinates, m.
     pub bounds: [Vec2; 2],
     /// True when the corners were given clockwise.
@@ -77,11 +77,11 @@ impl Outline {
     }
 
     /// The side that was given with number `side`.
-    pub fn side(&self, side: usize) -> Option<Stretch> {
+    pub fn side(&self, side: usize) -> Option<Edge> {
         let n = self.corners.len();
         let last = n.checked_sub(side + 1)?;
         let here = if self.reversed { last } else { side };
-        Some(Stretch { from: self.corners[here], to: self.corners[(here + 1) % n] })
+        Some(Edge { from: self.corners[here], to: self.corners[(here + 1) % n] })
     }
 
     /// Number of sides.
@@ -140,7 +140,7 @@ fn crossing(corners: &[Vec2], tolerance: f64) -> Option<[usize; 2]> {
 }
 
 /// Straight faces: consecutive sides are one where the corners between them lie within the tolerance of the line from end to end.
-fn runs(corners: &[Vec2], tolerance: f64) -> Vec<Stretch> {
+fn runs(corners: &[Vec2], tolerance: f64) -> Vec<Edge> {
     let n = corners.len();
     let at = |i: usize| corners[i % n];
     // Begun at the sharpest corner, which ends a face however the corners are counted.
@@ -156,7 +156,7 @@ fn runs(corners: &[Vec2], tolerance: f64) -> Vec<Stretch> {
         while to < start + n && straight(to + 1) {
             to += 1;
         }
-        runs.push(Stretch { from: at(from), to: at(to) });
+        runs.push(Edge { from: at(from), to: at(to) });
         from = to;
     }
     runs

@@ -1,6 +1,6 @@
 //! Backing: masonry over the haunches up to a level.
 
-use super::below::SAME;
+use super::below::SAME_POINT;
 use super::fault::BridgeFault;
 use super::set_out::SetOut;
 use super::{Backing, Bridge, BridgeEnd, Works};
@@ -40,7 +40,7 @@ fn haunch(span: &SetOut, end: usize, level: f64) -> Option<Haunch> {
     if end == 1 {
         outer.reverse();
     }
-    let close = SAME * span.width();
+    let close = SAME_POINT * span.width();
     if outer[0].y > level - close {
         return None;
     }
@@ -83,13 +83,13 @@ impl Bridge {
             let out = if end == 0 { -1.0 } else { 1.0 };
             let beyond = |point: &Vec2| out * (point.x - span.springing(end)[0].x);
             let reach = haunch(span, end, level)?.points.iter().map(beyond).fold(0.0, f64::max);
-            (reach > beyond(&span.outer_end(end)) + SAME * span.width()).then_some(reach)
+            (reach > beyond(&span.outer_end(end)) + SAME_POINT * span.width()).then_some(reach)
         };
         let mut faults = Vec::new();
         for (end, what) in self.ends.iter().enumerate() {
             let span = &spans[if end == 0 { 0 } else { spans.len() - 1 }];
             let width = if let BridgeEnd::Abutment { width, .. } = what { *width } else { None };
-            let pinches = |reach: &f64| width.unwrap_or(0.0) <= reach + SAME * span.width();
+            let pinches = |reach: &f64| width.unwrap_or(0.0) <= reach + SAME_POINT * span.width();
             if let Some(least) = overhang(span, end).filter(pinches) {
                 faults.push(BridgeFault::BackingPinched { place: format!("ends[{end}]"), least });
             }
@@ -97,7 +97,7 @@ impl Bridge {
         for (j, pier) in self.piers.iter().enumerate() {
             let reach = [overhang(&spans[j], 1), overhang(&spans[j + 1], 0)];
             let least = spans[j].reach(1) + spans[j + 1].reach(0);
-            if reach.iter().any(Option::is_some) && pier.top_width <= least * (1.0 + SAME) {
+            if reach.iter().any(Option::is_some) && pier.top_width <= least * (1.0 + SAME_POINT) {
                 faults.push(BridgeFault::BackingPinched { place: format!("piers[{j}]"), least });
             }
         }
@@ -176,7 +176,7 @@ impl Works<'_> {
         let out = if end == 0 { -1.0 } else { 1.0 };
         let outer = span.outer_end(end).x;
         let reach = span.springing(end)[0].x + out * span.reach(end);
-        let plumb = if (reach - outer).abs() <= SAME * span.width() { outer } else { reach };
+        let plumb = if (reach - outer).abs() <= SAME_POINT * span.width() { outer } else { reach };
         self.back(end).unwrap_or(plumb)
     }
 

@@ -8,7 +8,7 @@ use crate::geometry::Vec2;
 use crate::structure::{Side, Surface};
 
 /// Points nearer to each other than this share of the size are one.
-pub(super) const SAME: f64 = 1e-9;
+pub(super) const SAME_POINT: f64 = 1e-9;
 
 /// How far the points of a springing reach below y = 0, m.
 fn depth(springing: &[Vec2]) -> f64 {
@@ -22,12 +22,12 @@ impl Bridge {
         let mut faults = Vec::new();
         for (j, pier) in self.piers.iter().enumerate() {
             let (least, width) = (spans[j].reach(1) + spans[j + 1].reach(0), pier.top_width);
-            if least > width * (1.0 + SAME) {
+            if least > width * (1.0 + SAME_POINT) {
                 faults.push(BridgeFault::PierTooNarrow { place: format!("piers[{j}].top_width"), width, least });
             }
             let height = pier.height / pier.courses as f64;
             let depth = depth(&spans[j].springing(1)).max(depth(&spans[j + 1].springing(0)));
-            if height <= depth * (1.0 + SAME) {
+            if height <= depth * (1.0 + SAME_POINT) {
                 faults.push(BridgeFault::TooLow { place: format!("piers[{j}].height"), height, depth, courses: true });
             }
         }
@@ -37,10 +37,10 @@ impl Bridge {
             let (least, depth) = (span.reach(end), depth(&span.springing(end)));
             // Springings that stand plumb reach nowhere: then a width has to be given.
             let width = width.unwrap_or(least);
-            if width < least * (1.0 - SAME) || width <= SAME * span.width() {
+            if width < least * (1.0 - SAME_POINT) || width <= SAME_POINT * span.width() {
                 faults.push(BridgeFault::AbutmentTooNarrow { place: format!("ends[{end}].width"), width, least });
             }
-            if height <= depth * (1.0 + SAME) {
+            if height <= depth * (1.0 + SAME_POINT) {
                 faults.push(BridgeFault::TooLow {
                     place: format!("ends[{end}].height"),
                     height,
@@ -65,7 +65,7 @@ impl Bridge {
         let left = span.checked_sub(1).map_or_else(|| abutment(0), pier)?;
         let right = pier(span).or_else(|| abutment(1))?;
         let between = width - (left.1 + right.1) * left.0.min(right.0);
-        (between <= SAME * width).then(|| BridgeFault::FeetMeet { place: format!("spans[{span}]") })
+        (between <= SAME_POINT * width).then(|| BridgeFault::FeetMeet { place: format!("spans[{span}]") })
     }
 }
 
@@ -131,7 +131,7 @@ impl Works<'_> {
         let out = if end == 0 { -1.0 } else { 1.0 };
         let back = span.springing(end)[0].x + out * width.unwrap_or(span.reach(end));
         let outer = span.outer_end(end).x;
-        Some(if (back - outer).abs() <= SAME * span.width() { outer } else { back })
+        Some(if (back - outer).abs() <= SAME_POINT * span.width() { outer } else { back })
     }
 
     /// The top of a pier, or of the backing on it.
@@ -147,7 +147,7 @@ impl Works<'_> {
         let pier = self.bridge.piers[j];
         let ends = [self.spans[j].outer_end(1), self.spans[j + 1].outer_end(0)];
         let body = self.numbers.piers[j] + pier.courses - 1;
-        ((ends[1] - ends[0]).norm() > SAME * pier.top_width).then_some(Surface { body, ends })
+        ((ends[1] - ends[0]).norm() > SAME_POINT * pier.top_width).then_some(Surface { body, ends })
     }
 
     /// The level top of an abutment.

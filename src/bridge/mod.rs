@@ -258,7 +258,7 @@ impl Works<'_> {
             for k in left.0..=right.0 {
                 let from = if k == left.0 { left.1.unwrap_or(outer[k]) } else { outer[k] };
                 let to = if k == right.0 { right.1.unwrap_or(outer[k + 1]) } else { outer[k + 1] };
-                if (to - from).norm() > below::SAME * span.width() {
+                if (to - from).norm() > below::SAME_POINT * span.width() {
                     let body = self.numbers.rings[j][m] + k;
                     self.structure.surfaces.push(Surface { body, ends: [from, to] });
                 }

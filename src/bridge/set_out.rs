@@ -6,7 +6,7 @@ use crate::arch::ring::{JointLines, Line, Ring, Thickness, stations};
 use crate::geometry::{Region, Vec2, segments_meet};
 
 /// Joints of two rings nearer to each other than this share of the length of the profile are one.
-const SAME: f64 = 1e-9;
+const SAME_JOINT: f64 = 1e-9;
 
 /// Where all joints of a span meet all lines between its rings.
 #[derive(Debug, Clone)]
@@ -162,13 +162,13 @@ fn places(rings: &[RingCourse], total: f64) -> (Vec<f64>, Vec<Vec<usize>>) {
     all.sort_by(f64::total_cmp);
     // What lies nearest to the middle stays, so that both halves keep the same places.
     all.dedup_by(|next, kept| {
-        let same = *next - *kept <= SAME * total;
+        let same = *next - *kept <= SAME_JOINT * total;
         if same && next.abs() < kept.abs() {
             *kept = *next;
         }
         same
     });
-    let nearest = |sigma: &f64| all.partition_point(|place| *place < sigma - SAME * total);
+    let nearest = |sigma: &f64| all.partition_point(|place| *place < sigma - SAME_JOINT * total);
     let joints = own.iter().map(|own| own.iter().map(nearest).collect()).collect();
     (all, joints)
 }

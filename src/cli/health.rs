@@ -8,7 +8,7 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 /// Longest wait for connection, request and answer each.
-const PATIENCE: Duration = Duration::from_secs(2);
+const REPLY_WAIT: Duration = Duration::from_secs(2);
 
 /// Succeeds when the service answers `/health/live` with 200.
 pub fn health(options: &HealthOptions) -> ExitCode {
@@ -23,9 +23,9 @@ pub fn health(options: &HealthOptions) -> ExitCode {
 /// The status line of `/health/live`.
 fn ask(bind: &str) -> io::Result<String> {
     let address = bind.to_socket_addrs()?.next().ok_or(io::ErrorKind::AddrNotAvailable)?;
-    let mut stream = TcpStream::connect_timeout(&reachable(address), PATIENCE)?;
-    stream.set_read_timeout(Some(PATIENCE))?;
-    stream.set_write_timeout(Some(PATIENCE))?;
+    let mut stream = TcpStream::connect_timeout(&reachable(address), REPLY_WAIT)?;
+    stream.set_read_timeout(Some(REPLY_WAIT))?;
+    stream.set_write_timeout(Some(REPLY_WAIT))?;
     write!(stream, "GET /health/live HTTP/1.1\r\nhost: {bind}\r\nconnection: close\r\n\r\n")?;
     let mut answer = Vec::new();
     stream.take(64 << 10).read_to_end(&mut answer)?;

@@ -1,7 +1,7 @@
 //! The exact limit window of an arch, and what to make of a load path that differs from it.
 
 use super::path::total;
-use super::tolerances::TOLERANCES;
+use super::tolerances;
 use crate::budget::Budget;
 
 use super::{
@@ -40,7 +40,7 @@ impl Certificate {
             window: None,
             solved,
             any_fixed: any_fixed(analysis),
-            agrees: [TOLERANCES.agreement, TOLERANCES.above_window],
+            agrees: [tolerances::AGREEMENT, tolerances::ABOVE_WINDOW],
         };
         certificate.window = window.ok().and_then(|window| certificate.tidy(window));
         Ok(certificate)
@@ -48,7 +48,7 @@ impl Certificate {
 
     /// A window without rounding.
     fn tidy(&self, window: Option<[f64; 2]>) -> Option<[f64; 2]> {
-        let round = |end: f64| if end.abs() < TOLERANCES.zero * self.theorem.load_factor_scale() { 0.0 } else { end };
+        let round = |end: f64| if end.abs() < tolerances::ZERO * self.theorem.load_factor_scale() { 0.0 } else { end };
         let window = window.map(|ends| ends.map(round));
         if self.any_fixed {
             return window;
@@ -115,7 +115,7 @@ impl Certificate {
     /// The path is held against the window of plastic sections from now on: its joints crush.
     pub(super) fn hold_to(&mut self, crushing: &Crushing) {
         let plastic = crushing.plastic_section.as_ref();
-        (self.solved, self.agrees) = (plastic.is_some(), TOLERANCES.crushing_agreement);
+        (self.solved, self.agrees) = (plastic.is_some(), tolerances::CRUSHING_AGREEMENT);
         self.window = plastic.and_then(|plastic| plastic.window).map(|window| [window.lowest, window.highest]);
     }
 
@@ -141,7 +141,7 @@ impl Certificate {
     /// Holds the end of a path against the window: a doubt, or whether it ends short of it, as sliding explains.
     pub(super) fn compare(&self, end: &PathEnd, sign: f64) -> Result<bool, Doubt> {
         let (path, limit) = (end.on_path(), self.end(sign).unwrap_or(0.0));
-        let scale = limit.abs().max(path.abs()).max(TOLERANCES.small_factor * self.theorem.load_factor_scale());
+        let scale = limit.abs().max(path.abs()).max(tolerances::SMALL_FACTOR * self.theorem.load_factor_scale());
         let short = if limit.is_finite() { sign * (limit - path) / scale } else { f64::INFINITY };
         if short < -self.agrees[1] {
             Err(Doubt::Above { path, limit })
@@ -149,7 +149,7 @@ impl Certificate {
             Ok(false)
         } else if end.mechanism.slides.is_empty() {
             Err(Doubt::Short { path, limit })
-        } else if short > TOLERANCES.stray && !self.slides_at_its_limits(end) {
+        } else if short > tolerances::STRAY && !self.slides_at_its_limits(end) {
             Err(Doubt::Stray { path, limit })
         } else {
             Ok(true)
@@ -163,7 +163,7 @@ impl Certificate {
             let (joint, thrust) = (self.theorem.joint(slide.joint), &end.thrust_line[slide.joint]);
             let Some([friction, cohesion]) = joint.law.coulomb() else { return true };
             let bound = friction * thrust.normal + cohesion * joint.length();
-            bound + slide.rate.signum() * thrust.shear <= TOLERANCES.at_friction * bound + TOLERANCES.margin * largest
+            bound + slide.rate.signum() * thrust.shear <= tolerances::AT_FRICTION * bound + tolerances::MARGIN * largest
         })
     }
 
@@ -183,7 +183,7 @@ impl Certificate {
         if !self.solved {
             return Some(Doubt::NoCertificate);
         }
-        (residual > TOLERANCES.residual).then_some(Doubt::Unbalanced(residual))
+        (residual > tolerances::RESIDUAL).then_some(Doubt::Unbalanced(residual))
     }
 
     /// Nothing happened up to the cap; that is believed if the window says so too.
@@ -196,11 +196,11 @@ impl Certificate {
     /// mechanism, as a share of the most they could. No answer where the budget is spent.
     pub(super) fn fallen(&self, start: f64, loose: bool, slides: bool, power: f64, budget: &Budget) -> Option<Doubt> {
         // The joints of unloaded stones carry nothing, which leaves the static theorem no room to be solved in.
-        if loose && !self.stands_at(start) && self.theorem.nearly_stands(start, TOLERANCES.margin, budget) {
+        if loose && !self.stands_at(start) && self.theorem.nearly_stands(start, tolerances::MARGIN, budget) {
             return Some(Doubt::LooseStones);
         }
         let doubt = match slides {
-            _ if power < TOLERANCES.no_work => Doubt::LooseStones,
+            _ if power < tolerances::NO_WORK => Doubt::LooseStones,
             true => Doubt::SlidesInside,
             false => Doubt::FallsInside,
         };
@@ -235,7 +235,7 @@ pub(super) fn mesh_notes(slenderness: f64, several: bool, cohesive: bool) -> Vec
 /// Note on a load at which joints slide: whether it is the only one found.
 pub(super) fn range_note(range: &LoadRange) -> Note {
     let LoadRange { least, greatest, .. } = *range;
-    match (greatest - least).abs() <= TOLERANCES.agreement * greatest.abs().max(least.abs()) {
+    match (greatest - least).abs() <= tolerances::AGREEMENT * greatest.abs().max(least.abs()) {
         true => Note::SoleSlidingLoad(*range),
         false => Note::ManySlidingLoads(*range),
     }

@@ -88,6 +88,16 @@ fn pivot(model: &Model, joint: usize, peak: &Peak) -> Option<(Face, f64)> {
     }
 }
 
+/// The joints that crush at the peak; none where no joint may.
+pub(super) fn at_peak(model: &Model, structure: &Structure, peak: &Peak) -> Vec<CrushedJoint> {
+    let contacts = model.assembly.contacts();
+    if contacts.iter().all(|contact| contact.cap().is_infinite()) {
+        return Vec::new();
+    }
+    let forces = model.assembly.contact_forces(contacts, &peak.displacements);
+    crushed(model, structure, |p| forces[p].normal)
+}
+
 /// The joints some of whose points carry all that they can, and the blocks in them.
 pub(super) fn crushed(model: &Model, structure: &Structure, force: impl Fn(usize) -> f64) -> Vec<CrushedJoint> {
     let contacts = model.assembly.contacts();

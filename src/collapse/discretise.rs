@@ -2,7 +2,7 @@
 
 use super::grid::{Grid, ON_LINE, OnSide};
 use super::path::Attempt;
-use super::strips::Strips;
+use super::strips::{Points, Strips, nearest};
 use crate::budget::Budget;
 
 use super::{Analysis, AnalysisError, Geometry, PlaneModel, Seams};
@@ -126,7 +126,7 @@ fn same_stones(a: &Analysis, b: &Analysis) -> bool {
 }
 
 fn same_loads(a: &Analysis, b: &Analysis) -> bool {
-    a.geometry == b.geometry && a.fixed == b.fixed && a.scaled == b.scaled
+    a.task.geometry() == b.task.geometry() && a.fixed == b.fixed && a.scaled == b.scaled
 }
 
 /// Cuts every body of the structure into the subblocks of a macroblock, and condenses it.
@@ -135,7 +135,7 @@ fn discretise<'p>(analysis: &Analysis, strips: &Strips, budget: &'p Budget<'p>) 
     let grids = grids(analysis);
     let assembly = assembly(analysis, &grids, strips, budget)?;
     let positions = structure.ring().iter().enumerate();
-    let positions = positions.map(|(k, joint)| points(strips.of(k), joint.law, &around(joint, &grids)).0).collect();
+    let positions = positions.map(|(k, joint)| points(strips.points(k), joint.law, &around(joint, &grids)).0).collect();
     let mut model = Model {
         symmetric: !structure.is_half() && assembly.is_symmetric(),
         fixed: Loads::default(),
@@ -172,7 +172,7 @@ fn assembly(analysis: &Analysis, grids: &[Grid], strips: &Strips, budget: &Budge
         });
         let touches = touches(
             joint,
-            strips.of(k),
+            strips.points(k),
             structure.strength_at(joint),
             &around(joint, grids),
             penalties(analysis, joint),
@@ -229,7 +229,7 @@ fn grids(analysis: &Analysis) -> Vec<Grid> {
 /// the strength, Pa, times the length of its own.
 fn touches<'a>(
     joint: &'a Joint,
-    strips: Option<Vec<f64>>,
+    strips: Option<Points>,
     strength: f64,
     around: &Around<'a>,
     penalty: [f64; 2],
@@ -260,21 +260,9 @@ fn touches<'a>(
     })
 }
 
-/// Places of a joint's contact points, and how much of the joint each stands for, towards its first end and towards its second:
-/// the middles of its strips, where it has any; else what is nearest to each of [`places`].
-fn points(strips: Option<Vec<f64>>, law: JointLaw, around: &Around) -> (Vec<f64>, Vec<[f64; 2]>) {
-    if let Some(ends) = strips {
-        let strip = |ends: &[f64]| (0.5 * (ends[0] + ends[1]), [0.5 * (ends[1] - ends[0]); 2]);
-        return ends.windows(2).map(strip).unzip();
-    }
-    let places = places(law, around);
-    let sides = |(j, &eta): (usize, &f64)| {
-        let below = if j == 0 { eta } else { 0.5 * (eta - places[j - 1]) };
-        let above = if j + 1 == places.len() { 1.0 - eta } else { 0.5 * (places[j + 1] - eta) };
-        [below, above]
-    };
-    let sides = places.iter().enumerate().map(sides).collect();
-    (places, sides)
+/// A joint's contact points: those of its strips, where it has any; else each of [`places`], with what is nearest to it.
+fn points(strips: Option<Points>, law: JointLaw, around: &Around) -> Points {
+    strips.unwrap_or_else(|| nearest(places(law, around)))
 }
 
 /// Places of the contact points of a joint between two bodies, from 0 at its first end to 1 at its second.
@@ -335,7 +323,7 @@ impl Model<'_> {
         let (assembly, budget) = (&self.assembly, self.budget);
         let on_subblocks = |force: &PointForce| pushes(force, &self.grids);
         let straight = |forces: &[PointForce]| assembly.loads(forces.iter().flat_map(on_subblocks), budget);
-        let turned = |forces: &[PointForce]| match analysis.geometry {
+        let turned = |forces: &[PointForce]| match analysis.task.geometry() {
             Geometry::FirstOrder => Ok(Vec::new()),
             Geometry::Updated => assembly.turned_loads(forces.iter().flat_map(on_subblocks), budget),
         };

@@ -5,7 +5,7 @@ use super::discretise::Model;
 use super::mechanism::{self, Released};
 use super::motion::{Motion, motion_at};
 use super::path::{Fall, total};
-use super::tolerances::TOLERANCES;
+use super::tolerances;
 use super::{Analysis, Mode, PathEnd, Thrust};
 use crate::dda::{Peak, State, Tracer, Zone};
 use crate::limit::{Condition, Resultant, StaticTheorem};
@@ -35,8 +35,8 @@ pub(super) fn at_peak(
     let conditions = conditions(model, structure, peak);
     let polished = theorem.solve(&conditions).filter(|e| {
         let scale = peak.parameter.abs().max(theorem.load_factor_scale());
-        (e.load_factor - peak.parameter).abs() <= TOLERANCES.polish * scale
-            && theorem.slack(e) >= -TOLERANCES.admissible
+        (e.load_factor - peak.parameter).abs() <= tolerances::POLISH * scale
+            && theorem.slack(e) >= -tolerances::ADMISSIBLE
     });
     let forces = match &polished {
         Some(equilibrium) => theorem.resultants(equilibrium),
@@ -44,15 +44,15 @@ pub(super) fn at_peak(
     };
     let driving = driving(analysis, peak.parameter, sign);
     let slipping: Vec<Option<f64>> = (0..structure.ring().len()).map(|k| sliding_shear(model, k, peak)).collect();
-    let crushing = analysis.crushing_in_path.then(|| crushed::turning(model, structure, &forces, peak));
+    let crushing = analysis.task.crushes_on_path().then(|| crushed::turning(model, structure, &forces, peak));
     let (turning, acting) = crushing.as_ref().map_or((structure, &forces), |(structure, forces)| (structure, forces));
-    let found = mechanism::from_statics(turning, acting, &slipping, &driving, TOLERANCES.corner_polished, model.budget);
+    let found =
+        mechanism::from_statics(turning, acting, &slipping, &driving, tolerances::CORNER_POLISHED, model.budget);
     let later = found.is_none();
     let mut mechanism = found.unwrap_or_else(|| {
         from_direction(model, turning, if fall.turned_back { &peak.direction } else { &fall.direction })
     });
-    let at_peak = model.assembly.contact_forces(model.assembly.contacts(), &peak.displacements);
-    let crushed = crushed::crushed(model, structure, |p| at_peak[p].normal);
+    let crushed = crushed::at_peak(model, structure, peak);
     if !crushed.is_empty() && mechanism::released(&mechanism).is_empty() {
         mechanism.mode = Mode::Crushing;
     }
@@ -63,9 +63,9 @@ pub(super) fn at_peak(
             structure,
             &forces,
             &slipping,
-            if polished.is_some() { TOLERANCES.corner_polished } else { TOLERANCES.corner_on_path },
+            if polished.is_some() { tolerances::CORNER_POLISHED } else { tolerances::CORNER_ON_PATH },
         ),
-        mechanism::all_releases(structure, &left, &vec![None; left.len()], TOLERANCES.corner_on_path),
+        mechanism::all_releases(structure, &left, &vec![None; left.len()], tolerances::CORNER_ON_PATH),
     ];
     let load_factor = polished.map_or(peak.parameter, |e| e.load_factor);
     let thrust_line = thrust_line(structure, &forces);
@@ -96,7 +96,7 @@ pub(super) fn at_fall(analysis: &Analysis, model: &Model, tracer: &Tracer, start
     let along_path = from_direction(model, structure, tracer.direction());
     let none = vec![None; structure.ring().len()];
     let (carried, budget) = (resultants(model, |p| forces[p]), model.budget);
-    let smallest = mechanism::from_statics(structure, &carried, &none, &driving, TOLERANCES.corner_on_path, budget);
+    let smallest = mechanism::from_statics(structure, &carried, &none, &driving, tolerances::CORNER_ON_PATH, budget);
     let mechanism = smallest.filter(|m| along_path.slides.is_empty() && m.slides.is_empty()).unwrap_or(along_path);
     let (residual, crushed) = (tracer.worst_residual(), crushed::crushed(model, structure, |p| forces[p][0]));
     PathEnd { load_factor, range: None, residual, mechanism, thrust_line: Vec::new(), crushed }

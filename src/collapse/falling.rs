@@ -1,8 +1,8 @@
 //! Motion after collapse: from a structure, its loads and its report to rigid bodies on the move, and back to frames.
 
 use super::{
-    Analysis, AnalysisError, CollapseReport, Direction, FallingMotion, MotionAsked, MotionContact, MotionEnd,
-    MotionFrame, Note, OpenHinge, Outcome, Slid,
+    Analysis, AnalysisError, CollapseReport, FallingMotion, MotionAsked, MotionContact, MotionEnd, MotionFrame, Note,
+    OpenHinge, Outcome, Slid,
 };
 use crate::budget::Budget;
 
@@ -13,15 +13,15 @@ use crate::structure::{Face, Joint, JointLaw, Side, Structure};
 /// The scaled loads are so much larger in the motion than at collapse, lest a perfectly balanced arch stay where it is.
 const OVERLOAD: f64 = 0.01;
 /// A load factor counts as at least this share of the one at which scaled and fixed loads are equal.
-const SMALL: f64 = 0.01;
+const SMALLEST_FACTOR: f64 = 0.01;
 /// Stones closer than this share of the thickness touch; joints that open or slide by more are hinges and slides.
-const NEAR: f64 = 1e-3;
+const TOUCHING: f64 = 1e-3;
 /// A structure that has moved by less than this share of its thickness has not begun to fall.
 const BEGUN: f64 = 0.02;
 /// Joints on one line to this share of the extent share the ground between them.
-const ON_LINE: f64 = 1e-6;
+const ONE_LINE: f64 = 1e-6;
 /// The ground at a level and the wall at the crown of half an arch go on for so many extents.
-const FAR: f64 = 10.0;
+const GROUND_EXTENTS: f64 = 10.0;
 
 /// Friction beyond its bound by more than this share of the loads is told.
 const BEYOND: f64 = 1e-6;
@@ -31,13 +31,13 @@ type Loading = (f64, f64);
 
 /// Moves the structure on from the collapse in a report, and from the other end of a window too.
 pub(super) fn follow(analysis: &Analysis, report: &mut CollapseReport, budget: &Budget) -> Result<(), AnalysisError> {
-    let Some(asked) = analysis.motion else { return Ok(()) };
+    let Some(asked) = analysis.task.motion() else { return Ok(()) };
     let as_built = matches!(report.outcome, Outcome::FallsAsBuilt | Outcome::SlidesAsBuilt);
     let falls = as_built || matches!(report.outcome, Outcome::Collapse | Outcome::StandsInWindow);
     if !falls || (report.end.is_none() && report.other_end.is_none()) {
         return Ok(());
     }
-    let sign = if analysis.direction == Direction::Increase { 1.0 } else { -1.0 };
+    let sign = analysis.task.sign();
     let of_end = |end: bool, report: &CollapseReport| {
         let (end, sign) = if end { (&report.end, sign) } else { (&report.other_end, -sign) };
         end.as_ref().map(|end| loadings(analysis, report, end.load_factor, sign))
@@ -71,7 +71,7 @@ fn loadings(analysis: &Analysis, report: &CollapseReport, at: f64, sign: f64) ->
         return vec![(report.start, report.start)];
     }
     let total = |forces: &[crate::structure::PointForce]| forces.iter().map(|f| f.force.norm()).sum::<f64>();
-    let small = SMALL * total(&analysis.fixed) / total(&analysis.scaled).max(f64::MIN_POSITIVE);
+    let small = SMALLEST_FACTOR * total(&analysis.fixed) / total(&analysis.scaled).max(f64::MIN_POSITIVE);
     let beyond = |at: f64| at + sign * OVERLOAD * at.abs().max(small);
     let limit = report.limit_window.map(|window| if sign > 0.0 { window.highest } else { window.lowest });
     let further = limit.filter(|limit| limit.is_finite() && sign * (beyond(*limit) - beyond(at)) > 0.0);
@@ -103,8 +103,8 @@ fn run(
     report: &CollapseReport,
     budget: &Budget,
 ) -> Result<FallingMotion, AnalysisError> {
-    let moving = Moving::new(analysis, load_factor, asked.ground_level);
-    let Moving { mut falling, span, thickness, .. } = moving.clone();
+    let moving = RigidStones::new(analysis, load_factor, asked.ground_level);
+    let RigidStones { mut falling, span, thickness, .. } = moving.clone();
     let mut configuration = falling.configuration();
     let mut frames = vec![moving.read(&configuration)];
     let end = loop {
@@ -132,7 +132,7 @@ fn run(
 
 /// A structure as rigid bodies: stones that are bonded are one, and what is bonded to the ground cannot move.
 #[derive(Clone)]
-struct Moving<'a> {
+struct RigidStones<'a> {
     structure: &'a Structure,
     falling: Falling,
     /// The rigid body of every stone that is told of, and the stone's centroid from that body's at the start, m.
@@ -141,7 +141,7 @@ struct Moving<'a> {
     thickness: f64,
 }
 
-impl<'a> Moving<'a> {
+impl<'a> RigidStones<'a> {
     fn new(analysis: &'a Analysis, load_factor: f64, ground_level: Option<f64>) -> Self {
         let structure = &analysis.structure;
         let (span, thickness) = (span(structure), thickness(structure));
@@ -173,7 +173,7 @@ impl<'a> Moving<'a> {
         bodies.extend(grounds(structure, ground_level));
         let falling =
             Falling::new(bodies, structure.joints.iter().map(|j| interface(structure, j)).collect(), thickness);
-        Moving { structure, falling, stones, span, thickness }
+        RigidStones { structure, falling, stones, span, thickness }
     }
 
     fn read(&self, configuration: &Configuration) -> MotionFrame {
@@ -206,7 +206,7 @@ impl<'a> Moving<'a> {
 
     /// Joints that touch at one end only, and those that have slid.
     fn hinges(&self, openings: &[Opening]) -> (Vec<OpenHinge>, Vec<Slid>) {
-        let near = NEAR * self.thickness;
+        let near = TOUCHING * self.thickness;
         let (mut hinges, mut slides) = (Vec::new(), Vec::new());
         let joints = self.structure.joints.iter().map(|joint| joint.law.coulomb().is_some());
         for (joint, (opening, dry)) in openings.iter().zip(joints).enumerate() {
@@ -313,7 +313,7 @@ impl Ground {
 /// an arch goes on above and below. And the ground at a level, if one is stated.
 fn grounds(structure: &Structure, level: Option<f64>) -> Vec<RigidBody> {
     let ([low, high], extent) = around(structure);
-    let (far, first) = (FAR * extent, structure.bodies.len());
+    let (far, first) = (GROUND_EXTENTS * extent, structure.bodies.len());
     let mut grounds: Vec<Ground> = Vec::new();
     for joint in &structure.joints {
         let (support, normal) = match joint.between {
@@ -327,7 +327,7 @@ fn grounds(structure: &Structure, level: Option<f64>) -> Vec<RigidBody> {
         let reach = [ends[0].min(ends[1]) - beyond, ends[0].max(ends[1]) + beyond];
         let on_line = |other: &&mut Ground| {
             let off = (other.level - level).abs() + (other.normal - normal).norm() * extent;
-            other.number == number && off < ON_LINE * extent
+            other.number == number && off < ONE_LINE * extent
         };
         match grounds.iter_mut().find(on_line) {
             Some(other) => other.reach = [other.reach[0].min(reach[0]), other.reach[1].max(reach[1])],

@@ -4,8 +4,8 @@
 
 use super::{
     AnalysisError, Answer, BlockState, CollapseReport, ContactPoint, CrushedJoint, FallingMotion, Hinge, HistoryPoint,
-    LiftOff, LoadRange, Mechanism, MotionContact, MotionFrame, OpenHinge, PathEnd, Reach, SafetyPoint, SettlementPath,
-    SettlementPoint, Slid, Slide, Snapshot, StressField, Thrust, UpdatedGeometry,
+    LiftOff, LoadRange, Mechanism, MotionContact, MotionFrame, OpenHinge, PathEnd, Reach, SafetyFactors, SafetyPoint,
+    SettlementPath, SettlementPoint, Slid, Slide, Snapshot, StressField, Thrust, UpdatedGeometry,
 };
 use crate::geometry::Vec2;
 
@@ -49,12 +49,12 @@ impl CollapseReport {
         let states = self.near_collapse.iter().chain(&self.at_unit_load).chain(&self.at_start);
         { states }.try_for_each(Snapshot::check_finite)?;
         self.stress_fields.iter().try_for_each(StressField::check_finite)?;
-        let elastic = self.crushing.iter().filter_map(|c| c.elastic.as_ref());
+        let elastic = self.crushing.elastic.iter();
         finite("first yield", elastic.clone().filter_map(|e| e.load_factor))?;
         finite("first yield", elastic.filter_map(|e| e.where_largest.as_ref()).flat_map(|subblock| subblock.stress))?;
-        self.safety.iter().try_for_each(SafetyPoint::check_finite)?;
+        self.safety().map_or(Ok(()), SafetyFactors::check_finite)?;
         self.updated.iter().try_for_each(UpdatedGeometry::check_finite)?;
-        let paths = self.settlement.iter().flat_map(|s| std::iter::once(&s.first_order).chain(&s.updated));
+        let paths = self.settlement().into_iter().flat_map(|s| std::iter::once(&s.first_order).chain(&s.updated));
         { paths }.try_for_each(SettlementPath::check_finite)?;
         self.motion.iter().chain(&self.other_motion).try_for_each(FallingMotion::check_finite)?;
         let plan = self.plan.iter().flat_map(|plan| [plan.collapse_intensity, plan.stress]);
@@ -133,11 +133,18 @@ impl StressField {
     }
 }
 
-impl SafetyPoint {
+impl SafetyFactors {
     fn check_finite(&self) -> Checked {
         let reaches = [self.instability, self.elastic, self.plastic_section, self.governing];
         let factor = |reach: Reach| if let Reach::At(factor) = reach { Some(factor) } else { None };
-        finite("safety factors", reaches.into_iter().chain(self.updated).filter_map(factor).chain(self.abscissa))
+        finite("safety factors", reaches.into_iter().chain(self.updated).filter_map(factor))
+    }
+}
+
+impl SafetyPoint {
+    fn check_finite(&self) -> Checked {
+        finite("abscissa", [self.abscissa])?;
+        self.factors.check_finite()
     }
 }
 

@@ -24,6 +24,7 @@ mod smallest_motion;
 mod state;
 mod strips;
 mod tally;
+mod task;
 mod tolerances;
 mod updated;
 mod verdict;
@@ -31,6 +32,7 @@ mod yielding;
 
 pub use plan::LOAD_PIECES;
 pub use report::*;
+pub use task::*;
 
 use crate::budget::{Budget, Stopped};
 use crate::dda::Unbuilt;
@@ -42,11 +44,12 @@ use discretise::Discretisation;
 pub const DEFAULT_PENALTY_RATIO: f64 = 10.0;
 
 /// Which way the load factor goes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "server", derive(serde::Serialize, serde::Deserialize, utoipa::ToSchema))]
 #[cfg_attr(feature = "server", serde(rename_all = "snake_case"))]
 pub enum Direction {
     /// From 0 upwards.
+    #[default]
     Increase,
     /// From 0 downwards.
     Decrease,
@@ -74,37 +77,6 @@ pub enum Geometry {
     /// Both: besides, the load path is followed on the arch as it moves, with finite rotations. That depends on Young's
     /// modulus and the penalty.
     Updated,
-}
-
-/// How the load path is read.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Method {
-    /// Followed exactly from event to event to the peak of the path.
-    EventPath,
-    /// As in section 4.2 of the paper, for comparison only: the path is looked at every `step` of load factor, and
-    /// collapse is the first step at which `hinges` joints have opened by more than `opening`.
-    FixedSteps {
-        /// Step of the load factor.
-        step: f64,
-        /// Critical opening of a joint's corner, m.
-        opening: f64,
-        /// How many joints must have opened.
-        hinges: usize,
-    },
-}
-
-/// What an analysis is after.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Aim {
-    /// The load factor at which the arch falls.
-    Collapse,
-    /// How far the scaled loads, which act in full at load factor 1, can grow until the arch falls or crushes.
-    Safety {
-        /// Which of the two answers about crushing counts.
-        crushing: CrushingKind,
-    },
-    /// What becomes of the structure as these supports move, its loads staying as they are; the others stay.
-    Settlement(Vec<SupportMovement>),
 }
 
 /// Where one support ends up, seen from where it was built.
@@ -218,45 +190,42 @@ pub enum Answer {
     CurvedBeam(BeamReport),
 }
 
-/// One question to the mechanics, in SI units and radians.
+/// One question to the mechanics, in SI units and radians: a structure under loads, how it is modelled, and what is asked.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Analysis {
-    /// What is wanted.
-    pub aim: Aim,
     /// The structure, with its stones.
     pub structure: Structure,
+    /// Loads that stay.
+    pub fixed: Vec<PointForce>,
+    /// Loads that the load factor multiplies.
+    pub scaled: Vec<PointForce>,
     /// Plane stress or plane strain.
     pub plane: PlaneModel,
     /// Contact penalty as a multiple of Young's modulus (per metre of depth and contact point).
     pub penalty_ratio: f64,
     /// Tangential contact penalty as a multiple of the normal one.
     pub shear_penalty_ratio: f64,
-    /// Loads that stay.
-    pub fixed: Vec<PointForce>,
-    /// Loads that the load factor multiplies.
-    pub scaled: Vec<PointForce>,
-    /// Which way the load factor goes.
-    pub direction: Direction,
-    /// Largest absolute load factor to try; by default the one at which the scaled loads are 1e6 times the fixed ones.
-    pub cap: Option<f64>,
-    /// How the path is read.
-    pub method: Method,
-    /// Whether the path on the moving arch is followed too.
-    pub geometry: Geometry,
-    /// Whether joints crush on the load path: its contact points are then capped by the least strength of the stones, where joints
-    /// of plastic sections crush. For collapse at first order, without `accuracy`, `motion` or fixed steps, of whole stones only.
-    pub crushing_in_path: bool,
-    /// At which share of the way to collapse displacements and contact forces are reported, in (0, 1).
-    pub share: f64,
-    /// How the voussoirs are cut into subblocks; how many, where `accuracy` does not find out.
+    /// How the voussoirs are cut into subblocks; how many, where an [`Accuracy`] does not find out.
     pub mesh: Mesh,
-    /// How accurate the answer has to be, if that decides on the mesh. On the reference geometry only, and while the springings
-    /// stay.
-    pub accuracy: Option<Accuracy>,
-    /// Where stress fields are reported.
-    pub fields: Vec<FieldAt>,
-    /// How far the arch is followed after it has begun to fall, where it is.
-    pub motion: Option<MotionAsked>,
+    /// What is wanted.
+    pub task: Task,
+}
+
+impl Analysis {
+    /// The collapse of a structure of rigid stones under loads that stay and loads that grow, modelled as in the paper.
+    pub fn new(structure: Structure, fixed: Vec<PointForce>, scaled: Vec<PointForce>) -> Self {
+        let subblocks = vec![[1, 1]; structure.voussoirs().len()];
+        Analysis {
+            structure,
+            fixed,
+            scaled,
+            plane: PlaneModel::Stress,
+            penalty_ratio: DEFAULT_PENALTY_RATIO,
+            shear_penalty_ratio: 1.0,
+            mesh: Mesh { subblocks, seams: Seams::Split },
+            task: Task::Collapse(CollapseTask::default()),
+        }
+    }
 }
 
 /// The curved beam of section 3.3 of the paper: a quarter ring in bending by end shear, cut into subblocks.

@@ -48,7 +48,8 @@ pub(super) fn refined(
             rigid
         }
     };
-    plan.collapse_intensity = accuracy.collapse_intensity.map(|asked| intensity(&report, analysis.direction, asked));
+    plan.collapse_intensity =
+        accuracy.collapse_intensity.map(|asked| intensity(&report, analysis.task.direction(), asked));
     report.plan = Some(plan);
     Ok(report)
 }
@@ -87,7 +88,7 @@ fn on_finer_meshes(
 
 /// The same question on another mesh.
 fn with_mesh(analysis: &Analysis, subblocks: Vec<[usize; 2]>) -> Analysis {
-    let mut analysis = Analysis { accuracy: None, ..analysis.clone() };
+    let mut analysis = analysis.clone();
     analysis.mesh.subblocks = subblocks;
     analysis
 }

@@ -47,14 +47,14 @@ pub(super) struct Recorder<'a> {
 impl<'a> Recorder<'a> {
     /// A recorder for a path that starts at load factor `start` and goes the way of `sign`.
     pub(super) fn new(model: &'a Model<'a>, analysis: &Analysis, [start, sign]: [f64; 2]) -> Self {
-        let fields = analysis.fields.iter().filter_map(|field| match field {
+        let fields = analysis.task.fields().iter().filter_map(|field| match field {
             FieldAt::LoadFactor(load_factor) => Some(*load_factor),
             FieldAt::NearCollapse => None,
         });
         Recorder {
             model,
-            method: analysis.method,
-            share: analysis.share,
+            method: analysis.task.method(),
+            share: analysis.task.share(),
             start,
             sign,
             crown: mechanism::crown(&analysis.structure, &analysis.scaled),

@@ -300,13 +300,11 @@ pub struct CollapseReport {
     /// Stress in every subblock, where asked.
     pub stress_fields: Vec<StressField>,
     /// When the stone crushes.
-    pub crushing: Option<Crushing>,
+    pub crushing: Crushing,
     /// The same question on moving geometry, where asked and where the arch stands at first order.
     pub updated: Option<UpdatedGeometry>,
-    /// What the springings' movement does, where asked and where the arch stands.
-    pub settlement: Option<SettlementReport>,
-    /// The safety factors, where asked.
-    pub safety: Option<SafetyPoint>,
+    /// What the task asked for besides.
+    pub task: TaskReport,
     /// The path, event by event.
     pub history: Vec<HistoryPoint>,
     /// How the arch moves on from `end`, where asked.
@@ -319,4 +317,27 @@ pub struct CollapseReport {
     pub cost: Cost,
     /// What an engineer should know before using the numbers: why intensity and window differ, what was not reached.
     pub notes: Vec<Note>,
+}
+
+/// What a task asks for besides the load path.
+#[derive(Debug, Clone, PartialEq)]
+pub enum TaskReport {
+    /// Of a collapse: nothing.
+    Collapse,
+    /// The safety factors.
+    Safety(SafetyFactors),
+    /// What the movement of supports does; none where the structure does not stand.
+    Settlement(Option<Box<SettlementReport>>),
+}
+
+impl CollapseReport {
+    /// The safety factors, of a safety analysis.
+    pub fn safety(&self) -> Option<&SafetyFactors> {
+        if let TaskReport::Safety(factors) = &self.task { Some(factors) } else { None }
+    }
+
+    /// What the movement of supports does, where it was asked and the structure stands.
+    pub fn settlement(&self) -> Option<&SettlementReport> {
+        if let TaskReport::Settlement(settlement) = &self.task { settlement.as_deref() } else { None }
+    }
 }

@@ -19,14 +19,7 @@ impl CollapseReport {
     /// The report or, where one of its numbers is not finite, `blank` with the reason.
     pub(super) fn or_cannot_tell(self, blank: CollapseReport) -> CollapseReport {
         let Err(AnalysisError::NotFinite { what }) = self.check_finite() else { return self };
-        let safety = self.safety.map(|safety| super::SafetyPoint::unknown(safety.abscissa));
-        CollapseReport {
-            outcome: Outcome::CannotTell,
-            cost: self.cost,
-            notes: vec![Note::NotFinite(what)],
-            safety,
-            ..blank
-        }
+        CollapseReport { outcome: Outcome::CannotTell, cost: self.cost, notes: vec![Note::NotFinite(what)], ..blank }
     }
 }
 

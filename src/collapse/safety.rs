@@ -1,10 +1,10 @@
 //! Safety factors: the first of instability and crushing as the scaled loads grow from their full size.
 
 use super::discretise::Discretisation;
-use super::tolerances::TOLERANCES;
+use super::tolerances;
 use super::{
     AnalysisError, CollapseReport, Crushing, CrushingKind, CurvePoint, Governs, LimitWindow, Mode, Note, Outcome,
-    Reach, SafetyPoint, SafetyZone, UpdatedEnd, UpdatedGeometry, verdict,
+    Reach, SafetyFactors, SafetyPoint, SafetyZone, TaskReport, UpdatedEnd, UpdatedGeometry, verdict,
 };
 
 /// Safety factors over a list of abscissae.
@@ -14,20 +14,18 @@ pub(super) fn curve<'a>(
 ) -> Result<Vec<SafetyPoint>, AnalysisError> {
     let solve = |point: &'a CurvePoint| {
         let report = verdict::run(&point.analysis, built)?;
-        let safety =
-            report.safety.map(|safety| SafetyPoint { abscissa: Some(point.abscissa), notes: report.notes, ..safety });
-        Ok(safety.unwrap_or_else(|| SafetyPoint::unknown(Some(point.abscissa))))
+        let factors = report.safety().copied().unwrap_or(SafetyFactors::UNKNOWN);
+        Ok(SafetyPoint { abscissa: point.abscissa, factors, notes: report.notes })
     };
     points.iter().map(solve).collect()
 }
 
 /// Reads the safety factors off a finished report, whose path started at the full loads if the arch stands under them.
 pub(super) fn judge(report: &mut CollapseReport, counted: CrushingKind) {
-    let missing = report.crushing.as_ref().is_none_or(|crushing| crushing.plastic_section.is_none());
+    let missing = report.crushing.plastic_section.is_none();
     report.notes.extend(missing.then_some(Note::NoPlasticSections));
-    let crushing = report.crushing.as_ref();
-    let (instability, elastic) = (instability(report), crushing.map_or(Reach::Unknown, elastic));
-    let plastic_section = crushing.map_or(Reach::Unknown, |crushing| plastic(crushing, report.cap));
+    let (instability, elastic) = (instability(report), elastic(&report.crushing));
+    let plastic_section = plastic(&report.crushing, report.cap);
     // Stresses below the strength everywhere are in equilibrium, so no plastic collapse can come before.
     let end = if let Reach::At(falls) = instability { falls } else { report.cap };
     let too_coarse = match (plastic_section, elastic) {
@@ -35,7 +33,7 @@ pub(super) fn judge(report: &mut CollapseReport, counted: CrushingKind) {
         (plastic, elastic) => is_before(plastic, elastic),
     };
     // Not merely beyond the cap: with dry joints alone every growing load crushes some joint in the end.
-    let window = crushing.and_then(|crushing| crushing.plastic_section.as_ref()).and_then(|plastic| plastic.window);
+    let window = report.crushing.plastic_section.as_ref().and_then(|plastic| plastic.window);
     let endless = window.is_some_and(|window| window.highest.is_infinite());
     let uncrushed = endless && matches!(elastic, Reach::At(_) | Reach::DoesNotStand);
     report.notes.extend(too_coarse.then_some(Note::YieldTooLate));
@@ -56,8 +54,7 @@ pub(super) fn judge(report: &mut CollapseReport, counted: CrushingKind) {
     if governed_by == Governs::Crushing {
         report.outcome = Outcome::Crushes;
     }
-    report.safety = Some(SafetyPoint {
-        abscissa: None,
+    report.task = TaskReport::Safety(SafetyFactors {
         instability,
         updated,
         elastic,
@@ -66,7 +63,6 @@ pub(super) fn judge(report: &mut CollapseReport, counted: CrushingKind) {
         governed_by,
         mode,
         zone,
-        notes: Vec::new(),
     });
 }
 
@@ -76,36 +72,18 @@ pub(super) fn crushed_at_start(report: &mut CollapseReport, in_path: bool) {
     let stands = |window: Option<LimitWindow>| {
         window.is_some_and(|window| (window.lowest..=window.highest).contains(&report.start))
     };
-    if report.outcome == Outcome::CannotTell {
+    if report.outcome == Outcome::CannotTell || in_path {
         return;
     }
-    let Some(crushing) = report.crushing.as_ref().filter(|_| !in_path) else { return };
-    let Some(plastic) = &crushing.plastic_section else { return report.notes.push(Note::NoPlasticSections) };
+    let Crushing { strength, elastic, plastic_section } = &report.crushing;
+    let Some(plastic) = plastic_section else { return report.notes.push(Note::NoPlasticSections) };
     if !stands(report.limit_window) || stands(plastic.window) {
         return;
     }
-    let (strength, start, window) = (crushing.strength, report.start, plastic.window);
+    let (strength, start, window) = (*strength, report.start, plastic.window);
     report.notes.push(Note::CrushesAtStart { strength, start, window });
-    if crushing.elastic.as_ref().is_some_and(|elastic| elastic.at_start) {
+    if elastic.as_ref().is_some_and(|elastic| elastic.at_start) {
         report.outcome = Outcome::Crushes;
-    }
-}
-
-impl SafetyPoint {
-    /// Nothing is known.
-    pub(super) fn unknown(abscissa: Option<f64>) -> Self {
-        SafetyPoint {
-            abscissa,
-            instability: Reach::Unknown,
-            updated: None,
-            elastic: Reach::Unknown,
-            plastic_section: Reach::Unknown,
-            governing: Reach::Unknown,
-            governed_by: Governs::Unknown,
-            mode: None,
-            zone: None,
-            notes: Vec::new(),
-        }
     }
 }
 
@@ -162,7 +140,7 @@ fn plastic(crushing: &Crushing, cap: f64) -> Reach {
 
 /// True where load factor `a` lies visibly below `b`.
 fn is_below(a: f64, b: f64) -> bool {
-    a < (1.0 - TOLERANCES.same_failure) * b
+    a < (1.0 - tolerances::SAME_FAILURE) * b
 }
 
 /// True where `a` comes before `b`, both known.

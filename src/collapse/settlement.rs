@@ -6,7 +6,7 @@
 
 use super::discretise::{Discretisation, Model};
 use super::path::{Attempt, Moved, disturbed, first_that_tells, lost, stand, stand_moved};
-use super::tolerances::TOLERANCES;
+use super::tolerances;
 use super::{
     Analysis, AnalysisError, Cost, Geometry, SettlementEnd, SettlementPath, SettlementPoint, SettlementReport,
     SupportMovement, Unfollowed, ending,
@@ -19,7 +19,7 @@ use std::ops::ControlFlow;
 /// The supports stay where they are while stones find another seat: hinges may move from joint to joint, and a joint that
 /// has opened far takes far to close. Where on the way they would have to come back by nine tenths of what they have done, the
 /// arch has fallen. Rises are in sizes of the arch, whatever movement is asked for.
-const PATIENCE: Patience = Patience { fall: 0.9, rise: 0.01, movement: [0.02, 0.2], creep: 0.0, loads: false };
+const SETTLING_PATIENCE: Patience = Patience { fall: 0.9, rise: 0.01, movement: [0.02, 0.2], creep: 0.0, loads: false };
 
 /// Follows the movement; the work is added to `cost`. None where the arch does not stand before it.
 ///
@@ -38,7 +38,7 @@ pub(super) fn follow<'a>(
         first_that_tells(tells, |number| attempt(analysis, movements, geometry, weight, number, cost, built))
     };
     let Some(first_order) = path(Geometry::FirstOrder)? else { return Ok(None) };
-    let updated = if analysis.geometry == Geometry::Updated { path(Geometry::Updated)? } else { None };
+    let updated = if analysis.task.geometry() == Geometry::Updated { path(Geometry::Updated)? } else { None };
     Ok(Some(SettlementReport { first_order, updated }))
 }
 
@@ -126,7 +126,7 @@ fn trace<'m>(
     };
     let end = match geometry {
         Geometry::FirstOrder => tracer.trace(target, &mut record),
-        Geometry::Updated => tracer.trace_moving(target, PATIENCE, &mut record),
+        Geometry::Updated => tracer.trace_moving(target, SETTLING_PATIENCE, &mut record),
     };
     Followed { tracer, stood, end, points, target }
 }
@@ -169,7 +169,7 @@ fn describe(analysis: &Analysis, model: &Model, geometry: Geometry, followed: Fo
 fn unfollowed(model: &Model, tracer: &Tracer, geometry: Geometry, stood: Moved, end: End) -> Option<Unfollowed> {
     let residual = tracer.worst_residual();
     match (stood, end) {
-        _ if residual > TOLERANCES.settled_residual => Some(Unfollowed::Coarse(residual)),
+        _ if residual > tolerances::SETTLED_RESIDUAL => Some(Unfollowed::Coarse(residual)),
         (Moved::Falls(_), _) | (Moved::Stands, End::Reached | End::Stopped) => None,
         (Moved::Stands, End::Mechanism) if geometry == Geometry::FirstOrder => Some(Unfollowed::Mechanism),
         (Moved::Stands, End::Mechanism) if tracer.peak().is_some() => None,

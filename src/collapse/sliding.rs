@@ -9,7 +9,7 @@ use super::discretise::Scatter;
 use super::mechanism::{Released, all_releases, columns, describe};
 use super::rigid_parts::RigidParts;
 use super::smallest_motion::nearest_motion;
-use super::tolerances::TOLERANCES;
+use super::tolerances;
 use super::{Analysis, Mechanism};
 use crate::budget::Budget;
 use crate::limit::{Equilibrium, Release, Resultant, StaticTheorem};
@@ -135,7 +135,7 @@ impl Hunt<'_> {
         let found = search.theorem.least_load(&moving, search.start, search.sign, search.budget);
         let Ok(Some(equilibrium)) = found else { return Some(false) };
         let best = self.best.as_ref().map(|best| best.equilibrium.load_factor);
-        if best.is_some_and(|best| !search.is_beyond(best, equilibrium.load_factor, TOLERANCES.same_load)) {
+        if best.is_some_and(|best| !search.is_beyond(best, equilibrium.load_factor, tolerances::SAME_LOAD)) {
             return Some(false);
         }
         if search.has_loops() {

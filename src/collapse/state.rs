@@ -5,7 +5,7 @@
 
 use super::discretise::Model;
 use super::record::{PathPoint, stress_field};
-use super::tolerances::TOLERANCES;
+use super::tolerances;
 use super::{AnalysisError, CollapseReport, Doubt, ElasticCrushing, Note, OtherStates, SubblockStress};
 use crate::dda::{Balanced, ContactForce, balanced, missing};
 
@@ -60,7 +60,7 @@ impl<'m> States<'m> {
             None => {
                 let broken = missing(assembly, &loads, on_path, model.budget);
                 let (amount, interface) = broken?;
-                if amount > TOLERANCES.broken_law {
+                if amount > tolerances::BROKEN_LAW {
                     let joint = interface.min(model.joints - 1);
                     self.doubt.get_or_insert(Doubt::BreaksLaw { load_factor, joint, amount });
                     return Ok(None);

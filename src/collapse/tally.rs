@@ -38,7 +38,7 @@ impl CollapseReport {
         path: &Recorder,
         near: Option<&PathPoint>,
     ) -> Result<(), AnalysisError> {
-        let found = analysis.fields.iter().filter_map(|field| match field {
+        let found = analysis.task.fields().iter().filter_map(|field| match field {
             FieldAt::LoadFactor(load_factor) => path.at(*load_factor).map(|d| (*load_factor, d)),
             FieldAt::NearCollapse => near.map(|(load_factor, d)| (*load_factor, d.as_slice())),
         });
@@ -57,7 +57,7 @@ impl CollapseReport {
         model: &Model,
         state: &Standing,
     ) -> Result<(), AnalysisError> {
-        let factors = analysis.fields.iter().filter_map(|field| match field {
+        let factors = analysis.task.fields().iter().filter_map(|field| match field {
             FieldAt::LoadFactor(factor) => Some(*factor),
             FieldAt::NearCollapse => None,
         });
@@ -85,7 +85,7 @@ impl CollapseReport {
     pub(super) fn settle_fields(&mut self, analysis: &Analysis) {
         let near = self.near_collapse.as_ref().map(|near| near.load_factor);
         let mut settled = Vec::new();
-        for field in &analysis.fields {
+        for field in analysis.task.fields() {
             let wanted = match field {
                 FieldAt::LoadFactor(load_factor) => Some(*load_factor),
                 FieldAt::NearCollapse => near,

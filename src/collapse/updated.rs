@@ -2,7 +2,7 @@
 
 use super::discretise::{Discretisation, Model};
 use super::path::{Attempt, FALLEN, MOVED, Moved, disturbed, first_that_tells, lost, stand_moved};
-use super::tolerances::TOLERANCES;
+use super::tolerances;
 use super::{Analysis, AnalysisError, Cost, Unfollowed, UpdatedEnd, UpdatedGeometry, ending, mechanism};
 use crate::dda::{Drive, End, Patience, Tracer};
 
@@ -83,7 +83,7 @@ fn attempt<'a>(
     let falls = end == End::Mechanism && !turned_back && tracer.return_to_peak();
     let residual = tracer.worst_residual();
     let end = match (stood, end) {
-        _ if residual > TOLERANCES.residual => Err(Unfollowed::Coarse(residual)),
+        _ if residual > tolerances::RESIDUAL => Err(Unfollowed::Coarse(residual)),
         (Moved::Falls(share), _) => Ok((UpdatedEnd::FallsAsLoaded, Some(share))),
         (Moved::Stands, End::Mechanism) if falls => Ok((UpdatedEnd::Collapse, None)),
         (Moved::Stands, End::Mechanism) => Err(Unfollowed::TurnedBack),

@@ -13,8 +13,9 @@ use super::state::States;
 use super::strips::Strips;
 use super::updated::{self, Course};
 use super::{
-    Aim, Analysis, AnalysisError, CollapseReport, Cost, Crushing, Direction, Doubt, Geometry, LimitWindow, Note,
-    Outcome, SettlementEnd, SupportMovement, ThrustRange, UpdatedGeometry, falling, plan, rounding, safety, settlement,
+    Analysis, AnalysisError, CollapseReport, Cost, Crushing, Doubt, Geometry, LimitWindow, Note, Outcome,
+    SafetyFactors, SettlementEnd, SupportMovement, Task, TaskReport, ThrustRange, UpdatedGeometry, falling, plan,
+    rounding, safety, settlement,
 };
 use crate::dda::{End, Tracer};
 use crate::structure::{Joint, JointLaw};
@@ -81,20 +82,20 @@ impl<'a> Setup<'a> {
         let mut certificate = Certificate::new(analysis, budget)?;
         let rigid = certificate.window;
         let (crushing, forces) = certificate.crushing(&analysis.structure, budget)?;
-        if analysis.crushing_in_path {
+        if analysis.task.crushes_on_path() {
             certificate.hold_to(&crushing);
         }
         let (fixed, scaled) = (total(&analysis.fixed), total(&analysis.scaled));
         let balance = if fixed > 0.0 && scaled > 0.0 { fixed / scaled } else { 1.0 };
-        let sign = if analysis.direction == Direction::Increase { 1.0 } else { -1.0 };
-        let cap = analysis.cap.unwrap_or(match analysis.aim {
-            Aim::Collapse | Aim::Settlement(_) => DEFAULT_CAP * balance,
-            Aim::Safety { .. } => DEFAULT_CAP * balance.max(1.0),
-        });
-        let settled = loaded(analysis)[0];
-        let start = match analysis.aim {
-            Aim::Collapse | Aim::Settlement(_) => certificate.start(settled, sign, cap),
-            Aim::Safety { .. } => certificate.full_load(settled, cap),
+        let (sign, settled) = (analysis.task.sign(), loaded(analysis)[0]);
+        let cap = match &analysis.task {
+            Task::Collapse(task) => task.cap.unwrap_or(DEFAULT_CAP * balance),
+            Task::Safety(task) => task.cap.unwrap_or(DEFAULT_CAP * balance.max(1.0)),
+            Task::Settlement(_) => DEFAULT_CAP * balance,
+        };
+        let start = match &analysis.task {
+            Task::Collapse(_) | Task::Settlement(_) => certificate.start(settled, sign, cap),
+            Task::Safety(_) => certificate.full_load(settled, cap),
         };
         let stands = any_fixed(analysis) && certificate.stands_at(0.0);
         let thrust = stands.then(|| certificate.theorem.thrust_range(0.0, budget)).flatten();
@@ -102,7 +103,7 @@ impl<'a> Setup<'a> {
         let thrust_range = thrust.map(|[lowest, highest]| ThrustRange { lowest, highest });
         let weight = fixed + scaled * start.abs();
         let mut strips = Strips::default();
-        if analysis.crushing_in_path {
+        if analysis.task.crushes_on_path() {
             strips = Strips::new(&analysis.structure, !certificate.stands_at(start));
             let ends = forces.iter().zip([-1.0, 1.0]).filter(|(_, end)| *end == sign || !certificate.stands_at(0.0));
             ends.for_each(|(forces, _)| strips.expect(forces));
@@ -114,19 +115,19 @@ impl<'a> Setup<'a> {
     fn answer(&self, built: &mut Discretisation<'a>) -> Result<CollapseReport, AnalysisError> {
         let (analysis, budget) = (self.analysis, self.budget);
         let mut report = self.solve(built)?;
-        if let Some(accuracy) = analysis.accuracy {
+        if let Some(accuracy) = analysis.task.accuracy() {
             report = plan::refined(analysis, accuracy, report, budget)?;
         }
         report.settle_fields(analysis);
         let unbent = analysis.mesh.subblocks.iter().any(|[radial, _]| *radial == 1);
-        if analysis.geometry == Geometry::Updated && unbent && report.at_start.is_some() {
+        if analysis.task.geometry() == Geometry::Updated && unbent && report.at_start.is_some() {
             report.notes.push(Note::UnbentStones);
         }
         report.updated = self.updated(&mut report, built)?;
-        match &analysis.aim {
-            Aim::Collapse => safety::crushed_at_start(&mut report, analysis.crushing_in_path),
-            &Aim::Safety { crushing } => safety::judge(&mut report, crushing),
-            Aim::Settlement(movements) => self.settle(&mut report, movements, built)?,
+        match &analysis.task {
+            Task::Collapse(_) => safety::crushed_at_start(&mut report, analysis.task.crushes_on_path()),
+            Task::Safety(task) => safety::judge(&mut report, task.crushing),
+            Task::Settlement(task) => self.settle(&mut report, &task.movements, built)?,
         }
         falling::follow(analysis, &mut report, budget)?;
         budget.ask()?;
@@ -171,7 +172,7 @@ impl<'a> Setup<'a> {
             attempted.report.cost.join(cost);
             cost = attempted.report.cost;
             let report = &attempted.report;
-            let ends = report.end.iter().chain(&report.other_end).filter(|_| self.analysis.crushing_in_path);
+            let ends = report.end.iter().chain(&report.other_end).filter(|_| self.analysis.task.crushes_on_path());
             if !ends.fold(false, |more, end| strips.expect_more(&end.thrust_line) || more) {
                 return Ok(attempted);
             }
@@ -206,13 +207,13 @@ impl<'a> Setup<'a> {
         if nothing_grows(model, total(&analysis.scaled)) {
             report.outcome = Outcome::NeverCollapses;
             at_start.map(|state| report.fields_at_rest(analysis, model, &state)).transpose()?;
-            if !matches!(analysis.aim, Aim::Settlement(_)) {
+            if !matches!(analysis.task, Task::Settlement(_)) {
                 report.notes.push(Note::NothingGrows);
             }
             let doubt = states.tell(&mut report);
             return Ok(Attempted { report, doubt });
         }
-        let both_ways = analysis.aim == Aim::Collapse && !self.certificate.stands_at(0.0);
+        let both_ways = matches!(analysis.task, Task::Collapse(_)) && !self.certificate.stands_at(0.0);
         let back = both_ways.then(|| tracer.clone());
         let mut doubt = self.leg(&mut report, &mut states, &mut tracer, &fixed, self.sign, &mut progress)?;
         if let Some(mut back) = back {
@@ -232,8 +233,8 @@ impl<'a> Setup<'a> {
         built: &mut Discretisation<'a>,
     ) -> Result<Option<UpdatedGeometry>, AnalysisError> {
         let stands = report.at_start.is_some() && report.outcome != Outcome::CannotTell;
-        let settles = matches!(self.analysis.aim, Aim::Settlement(_));
-        if self.analysis.geometry == Geometry::FirstOrder || !stands || settles {
+        let settles = matches!(self.analysis.task, Task::Settlement(_));
+        if self.analysis.task.geometry() == Geometry::FirstOrder || !stands || settles {
             return Ok(None);
         }
         let (start, sign, cap, weight) = (self.start, self.sign, self.cap, self.weight);
@@ -254,15 +255,16 @@ impl<'a> Setup<'a> {
         if report.at_start.is_none() || report.outcome == Outcome::CannotTell {
             return Ok(());
         }
-        report.settlement = settlement::follow(self.analysis, movements, self.weight, &mut report.cost, built)?;
+        let cost = &mut report.cost;
+        let settlement = settlement::follow(self.analysis, movements, self.weight, cost, built)?;
         if report.outcome != Outcome::Crushes {
-            let settlement = report.settlement.as_ref();
-            report.outcome = match settlement.map(|s| s.updated.as_ref().unwrap_or(&s.first_order).end) {
+            report.outcome = match settlement.as_ref().map(|s| s.updated.as_ref().unwrap_or(&s.first_order).end) {
                 Some(SettlementEnd::Follows) => Outcome::FollowsMovement,
                 Some(SettlementEnd::Collapse | SettlementEnd::FallsAsLoaded) => Outcome::FallsByMovement,
                 Some(SettlementEnd::CannotTell) | None => Outcome::CannotTell,
             };
         }
+        report.task = TaskReport::Settlement(settlement.map(Box::new));
         Ok(())
     }
 
@@ -284,15 +286,18 @@ impl<'a> Setup<'a> {
             other_end: None,
             start: self.start,
             cap: self.cap,
-            share: self.analysis.share,
+            share: self.analysis.task.share(),
             near_collapse: None,
             at_unit_load: None,
             at_start: None,
             stress_fields: Vec::new(),
-            crushing: Some(self.crushing.clone()),
+            crushing: self.crushing.clone(),
             updated: None,
-            settlement: None,
-            safety: None,
+            task: match self.analysis.task {
+                Task::Collapse(_) => TaskReport::Collapse,
+                Task::Safety(_) => TaskReport::Safety(SafetyFactors::UNKNOWN),
+                Task::Settlement(_) => TaskReport::Settlement(None),
+            },
             history: Vec::new(),
             motion: None,
             other_motion: None,

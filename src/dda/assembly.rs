@@ -28,7 +28,7 @@ const SOLVED: usize = 4;
 
 /// A body of the assembly: where its frame is, and which condensed macroblock it is a copy of.
 #[derive(Debug, Clone, PartialEq)]
-struct Body {
+struct Instance {
     origin: Vec2,
     x_axis: Vec2,
     kind: usize,
@@ -105,7 +105,7 @@ pub struct MeanMotion {
 /// and those of a body interface by interface (its faces).
 #[derive(Debug, Clone)]
 pub struct Assembly {
-    bodies: Vec<Body>,
+    bodies: Vec<Instance>,
     kinds: Vec<Kind>,
     /// Contacts as a path meets them, and as they were built.
     contacts: Vec<Contact>,
@@ -264,7 +264,7 @@ impl Assembly {
 
     /// Generalised loads on the subblocks of every body, in its frame.
     fn on_blocks(&self, pushes: impl IntoIterator<Item = Push>, budget: &Budget) -> Result<Vec<DVector<f64>>, Stopped> {
-        let zeros = |b: &Body| DVector::zeros(6 * self.kinds[b.kind].macroblock.blocks().len());
+        let zeros = |b: &Instance| DVector::zeros(6 * self.kinds[b.kind].macroblock.blocks().len());
         let mut on_blocks: Vec<DVector<f64>> = self.bodies.iter().map(zeros).collect();
         for push in pushes {
             let body = &self.bodies[push.body];
@@ -314,7 +314,7 @@ impl Assembly {
     }
 }
 
-impl Body {
+impl Instance {
     fn turned(&self, v: Vec2) -> Vec2 {
         Vec2::new(v.dot(&self.x_axis), cross(self.x_axis, v))
     }

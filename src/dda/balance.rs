@@ -32,14 +32,14 @@ use std::ops::ControlFlow;
 
 /// Residuals, as a share of the sum of all loads on the nodes, below which corrections are mere rounding, and up to which a
 /// state is one of equilibrium.
-const EXACT: f64 = 1e-15;
+const EXACT_BALANCE: f64 = 1e-15;
 const BALANCED: f64 = 1e-9;
 /// Most steps of Newton's method; from the states of a path one or two are enough.
 const STEPS: usize = 20;
 /// A residual that has grown so many times leads nowhere.
 const LOST: f64 = 1e3;
 /// A pivot ratio below this is a motion that changes no force, see the tracer.
-const SINGULAR: f64 = 1e-12;
+const FREE_PIVOT: f64 = 1e-12;
 
 /// A state of equilibrium.
 #[derive(Debug, Clone, PartialEq)]
@@ -84,13 +84,13 @@ fn by_newton(
     symmetric: bool,
     budget: &Budget,
 ) -> Result<Option<Balanced>, Stopped> {
-    let mut newton = Newton::new(assembly, symmetric, budget);
+    let mut newton = LawNewton::new(assembly, symmetric, budget);
     let mut d = if symmetric { assembly.symmetrised(near) } else { near.to_vec() };
     let (mut residual, mut best) = (vec![0.0; d.len()], (f64::INFINITY, Vec::new()));
     for _ in 0..STEPS {
         assembly.unbalance(newton.contacts, loads, &d, &mut residual, budget)?;
         let share = share_of(&residual, loads);
-        let settled = share <= EXACT || (share >= 0.5 * best.0 && best.0 <= BALANCED);
+        let settled = share <= EXACT_BALANCE || (share >= 0.5 * best.0 && best.0 <= BALANCED);
         let lost = share > LOST * best.0;
         if share < best.0 {
             best = (share, d.clone());
@@ -102,7 +102,7 @@ fn by_newton(
     }
     let (share, displacements) = best;
     let [factorisations, block_rows] = [newton.factorisations, newton.factor.eliminated()];
-    let found = Balanced { displacements, free: newton.factor.pivot_ratio() < SINGULAR, factorisations, block_rows };
+    let found = Balanced { displacements, free: newton.factor.pivot_ratio() < FREE_PIVOT, factorisations, block_rows };
     Ok((share <= BALANCED).then_some(found))
 }
 
@@ -157,7 +157,7 @@ fn total(loads: &[f64]) -> f64 {
 }
 
 /// Newton's method on the law of an assembly's exact contacts.
-struct Newton<'c> {
+struct LawNewton<'c> {
     assembly: &'c Assembly,
     contacts: &'c [Contact],
     symmetric: bool,
@@ -169,11 +169,11 @@ struct Newton<'c> {
     factorisations: usize,
 }
 
-impl<'c> Newton<'c> {
+impl<'c> LawNewton<'c> {
     fn new(assembly: &'c Assembly, symmetric: bool, budget: &'c Budget<'c>) -> Self {
         let (matrix, factor) = (assembly.elastic().copied(budget), Factor::new(assembly.tree()));
         let (states, contacts) = (Vec::new(), assembly.exact_contacts());
-        Newton { assembly, contacts, symmetric, budget, matrix, factor, states, factorisations: 0 }
+        LawNewton { assembly, contacts, symmetric, budget, matrix, factor, states, factorisations: 0 }
     }
 
     /// Adds the correction for a residual, by the tangent stiffness that the law has at displacements `d`.

@@ -79,12 +79,12 @@ struct Tie {
 
 /// So many columns of X at least, and less than twice as many, are solved for at a time: X as a whole is the largest thing
 /// there is, and nobody needs it.
-const AT_ONCE: usize = 16;
+const COLUMNS_AT_ONCE: usize = 16;
 /// Work of adding a block of stiffness, of setting one into its place, and of solving for an entry of a column, in
 /// multiplications.
 const ADDED: usize = 200;
 const PLACED: usize = 36;
-const SOLVED: usize = 50;
+const SOLVED_COLUMN: usize = 50;
 
 impl Condensed {
     /// Condenses `body` onto `nodes`, both seen from one frame. `see(j, x)` is shown every column of X, the displacements of
@@ -115,7 +115,7 @@ impl Condensed {
                 raw.column_mut(column).iter_mut().zip(&ties).for_each(|(entry, tie)| *entry -= tie.work(x));
                 see(column, x);
             }
-            budget.work(SOLVED * unknowns * part.len())?;
+            budget.work(SOLVED_COLUMN * unknowns * part.len())?;
         }
         let rigid = rigid_motions(body, nodes);
         let q = &rigid[0];
@@ -297,7 +297,7 @@ fn solve(factors: &Factors, right: &Mat<f64>) -> Mat<f64> {
 
 /// Columns in parts of which none is small.
 fn parts(columns: usize) -> impl Iterator<Item = Range<usize>> {
-    let count = (columns / AT_ONCE).max(1);
+    let count = (columns / COLUMNS_AT_ONCE).max(1);
     (0..count).map(move |i| i * columns / count..(i + 1) * columns / count)
 }
 

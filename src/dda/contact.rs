@@ -239,35 +239,33 @@ impl Contact {
                 let sign = if trial[0] + until * trial[1] < 0.0 { -1.0 } else { 1.0 };
                 see(above, State::Slip { sign, zone: if adhesive { Zone::Adhering } else { Zone::Pressed } });
             }
-            State::Stick(zone) => {
+            State::Stick(zone) | State::Slip { zone, .. } => {
+                let beside = |zone| {
+                    if let State::Slip { sign, .. } = state { State::Slip { sign, zone } } else { State::Stick(zone) }
+                };
                 match zone {
-                    Zone::Pressed if adhesive => see(negative(gap), State::Stick(Zone::Adhering)),
+                    Zone::Pressed if adhesive => see(negative(gap), beside(Zone::Adhering)),
                     Zone::Pressed => see(negative(gap), State::Open),
-                    Zone::Adhering => see(gap, State::Stick(Zone::Pressed)),
-                    Zone::Capped => see(negative(above_floor), State::Stick(Zone::Pressed)),
+                    Zone::Adhering => see(gap, beside(Zone::Pressed)),
+                    Zone::Capped => see(negative(above_floor), beside(Zone::Pressed)),
                 }
                 if crushes && zone == Zone::Pressed {
-                    see(above_floor, State::Stick(Zone::Capped));
+                    see(above_floor, beside(Zone::Capped));
                 }
-                for sign in [1.0, -1.0] {
-                    see(negative(excess(sign, zone)), State::Slip { sign, zone });
-                }
-            }
-            State::Slip { sign, zone } => {
-                match zone {
-                    Zone::Pressed if adhesive => see(negative(gap), State::Slip { sign, zone: Zone::Adhering }),
-                    Zone::Pressed => see(negative(gap), State::Open),
-                    Zone::Capped => see(negative(above_floor), State::Slip { sign, zone: Zone::Pressed }),
-                    Zone::Adhering => {
-                        see(gap, State::Slip { sign, zone: Zone::Pressed });
-                        see([self.reach - gap[0], -gap[1]], State::Open);
+                match state {
+                    State::Slip { sign, zone } => {
+                        if zone == Zone::Adhering {
+                            see([self.reach - gap[0], -gap[1]], State::Open);
+                        }
+                        if !self.frictionless() {
+                            see(excess(sign, zone), State::Stick(zone));
+                        }
                     }
-                }
-                if crushes && zone == Zone::Pressed {
-                    see(above_floor, State::Slip { sign, zone: Zone::Capped });
-                }
-                if !self.frictionless() {
-                    see(excess(sign, zone), State::Stick(zone));
+                    _ => {
+                        for sign in [1.0, -1.0] {
+                            see(negative(excess(sign, zone)), State::Slip { sign, zone });
+                        }
+                    }
                 }
             }
         }

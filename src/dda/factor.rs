@@ -27,9 +27,9 @@ pub struct Factor<'t> {
     below: Panels,
     left: Panels,
     /// Forward substitution of the kept right-hand side: what is removed, and what is passed on.
-    forward: Sides,
+    forward: RightSides,
     /// The same of any other.
-    other: Sides,
+    other: RightSides,
     /// The front in which the system was solved last.
     root: usize,
     eliminated: usize,
@@ -38,7 +38,7 @@ pub struct Factor<'t> {
 
 /// A right-hand side on its way to the root: for every front the solved part of what it removes, and what it passes on.
 #[derive(Debug, Clone, Default)]
-struct Sides {
+struct RightSides {
     removed: Panels,
     passed: Panels,
 }
@@ -54,9 +54,9 @@ struct Scratch {
     order: Vec<usize>,
 }
 
-impl Sides {
+impl RightSides {
     fn new(tree: &Tree) -> Self {
-        Sides {
+        RightSides {
             removed: Panels::zeros(tree.fronts.iter().map(|front| (front.sizes[0], 1))),
             passed: Panels::zeros(tree.fronts.iter().map(|front| (front.sizes[1], 1))),
         }
@@ -76,8 +76,8 @@ impl<'t> Factor<'t> {
             ahead: of(|front| (front.sizes[0], front.sizes[1])),
             below: of(|front| (front.sizes[1], front.sizes[0])),
             left: of(|front| (front.sizes[1], front.sizes[1])),
-            forward: Sides::new(tree),
-            other: Sides::new(tree),
+            forward: RightSides::new(tree),
+            other: RightSides::new(tree),
             root,
             eliminated: 0,
             scratch: Scratch::default(),

@@ -3,7 +3,7 @@
 use crate::budget::Budget;
 
 /// Entries that are copied between two questions to the budget.
-const AT_ONCE: usize = 1 << 18;
+const ENTRIES_AT_ONCE: usize = 1 << 18;
 /// Work of copying an entry to memory that is new, in multiplications.
 const COPIED: usize = 4;
 
@@ -30,7 +30,7 @@ impl Panels {
     /// The same again; zero from where it was stopped. Where there are many, the memory takes its time.
     pub fn copied(&self, budget: &Budget) -> Self {
         let mut entries = vec![0.0; self.entries.len()];
-        for (into, from) in entries.chunks_mut(AT_ONCE).zip(self.entries.chunks(AT_ONCE)) {
+        for (into, from) in entries.chunks_mut(ENTRIES_AT_ONCE).zip(self.entries.chunks(ENTRIES_AT_ONCE)) {
             into.copy_from_slice(from);
             if budget.work(COPIED * from.len()).is_err() {
                 break;

@@ -6,7 +6,7 @@
 //! the rigid arch until its answer lies on or within every parabola (cutting planes, Kelley 1960). Where they are many, or
 //! tangents so close together that rounding confuses them defeat it, the parabolas are cones of the interior point method.
 
-use super::programme::{Objective, Outcome, Programme};
+use super::programme::{Objective, Programme, ProgrammeOutcome};
 use super::static_theorem::{Equilibrium, Limit, Resultant};
 use super::{StaticTheorem, Unsolved};
 use crate::budget::Budget;
@@ -15,7 +15,7 @@ use crate::budget::Budget;
 /// programme grants its own rows, so that every cut moves the point.
 const VIOLATED: f64 = 1e-11;
 /// Error of the interior point method that is put up with: of the order of the above for the end of the window.
-const NEARLY: f64 = 1e-8;
+const NEARLY_SOLVED: f64 = 1e-8;
 /// A parabola this close is active; ten times the above, so that rounding hides no crushed joint.
 const ACTIVE: f64 = 1e-7;
 /// The block of stress that bears a joint's force takes at least this share of a joint that crushes; less is a hinge.
@@ -89,22 +89,24 @@ impl StaticTheorem {
         let first = |section: &Section| FIRST_CUTS.map(|at| section.tangents(at, self));
         cut.limits = sections.iter().flat_map(first).flatten().collect();
         conic.sections = sections.clone();
-        conic.errors[1] = NEARLY;
+        conic.errors[1] = NEARLY_SOLVED;
         let mut window = CrushingWindow { ends: [0.0; 2], joints: Default::default(), forces: Default::default() };
         for (end, sign) in [-1.0, 1.0].into_iter().enumerate() {
             let objective = Objective::load_factor(sign);
             let few = self.has_few_unknowns();
-            let outcome = if few { cut_until_inside(&objective, &mut cut, &sections, budget) } else { Outcome::Lost };
-            let outcome = if outcome == Outcome::Lost { conic.maximise_sparsely(&objective, budget) } else { outcome };
+            let outcome =
+                if few { cut_until_inside(&objective, &mut cut, &sections, budget) } else { ProgrammeOutcome::Lost };
+            let outcome =
+                if outcome == ProgrammeOutcome::Lost { conic.maximise_sparsely(&objective, budget) } else { outcome };
             match outcome {
-                Outcome::At(equilibrium, _) => {
+                ProgrammeOutcome::At(equilibrium, _) => {
                     window.ends[end] = equilibrium.load_factor;
                     window.joints[end] = self.crushed(&sections, &equilibrium);
                     window.forces[end] = equilibrium.forces;
                 }
-                Outcome::Unbounded(_) => window.ends[end] = sign * f64::INFINITY,
-                Outcome::Infeasible => return Ok(None),
-                Outcome::Lost => return Err(Unsolved),
+                ProgrammeOutcome::Unbounded(_) => window.ends[end] = sign * f64::INFINITY,
+                ProgrammeOutcome::Infeasible => return Ok(None),
+                ProgrammeOutcome::Lost => return Err(Unsolved),
             }
         }
         Ok(Some(window))
@@ -139,10 +141,12 @@ fn cut_until_inside(
     programme: &mut Programme,
     sections: &[Section],
     budget: &Budget,
-) -> Outcome {
+) -> ProgrammeOutcome {
     for _ in 0..MOST_ROUNDS {
         let outcome = programme.maximise_densely(objective, budget);
-        let (Outcome::At(equilibrium, _) | Outcome::Unbounded(equilibrium)) = &outcome else { return outcome };
+        let (ProgrammeOutcome::At(equilibrium, _) | ProgrammeOutcome::Unbounded(equilibrium)) = &outcome else {
+            return outcome;
+        };
         let tangents = sections.iter().flat_map(|section| section.tangents_at(equilibrium, programme.theorem));
         let cuts: Vec<Limit> =
             tangents.filter(|tangent| slack(tangent, equilibrium, programme.theorem) < -VIOLATED).collect();
@@ -151,7 +155,7 @@ fn cut_until_inside(
         }
         programme.limits.extend(cuts);
     }
-    Outcome::Lost
+    ProgrammeOutcome::Lost
 }
 
 #[cfg(test)]

@@ -14,7 +14,7 @@ use crate::budget::Budget;
 
 use cone::reach;
 use newton::Newton;
-pub use newton::Pattern;
+pub use newton::NewtonPattern;
 
 /// Iterations after which the method has failed (it needs 10 to 40).
 const MOST_ITERATIONS: usize = 120;
@@ -27,11 +27,11 @@ const VANISHED: f64 = 1e-13;
 /// Share of the way to the boundary that a step goes.
 const STEP: f64 = 0.99;
 /// Iterations without a better point after which rounding has won; the second where the best is as close as this to the optimum.
-const PATIENCE: [usize; 2] = [20, 2];
-const CLOSE: f64 = 1e-10;
+const MOST_IDLE: [usize; 2] = [20, 2];
+const CLOSE_OPTIMUM: f64 = 1e-10;
 /// So much worse than a best point that is as near as this to the optimum: rounding has won.
 const BLOWN_UP: f64 = 1e4;
-const NEAR: f64 = 1e-6;
+const NEAR_OPTIMUM: f64 = 1e-6;
 
 /// A 3 x 3 matrix by rows.
 pub type Square = [[f64; 3]; 3];
@@ -176,7 +176,7 @@ impl Residuals {
 
 /// Solves a programme of this `pattern`; goes no further where no more than `enough` is left of residuals and
 /// gap, relative to the data and the point.
-pub fn minimise(programme: &Sparse, pattern: &Pattern, enough: f64, budget: &Budget) -> Found {
+pub fn minimise(programme: &Sparse, pattern: &NewtonPattern, enough: f64, budget: &Budget) -> Found {
     let constants = programme.constants();
     let mut point = Point::start(programme);
     let (mut best, mut since) = (None::<(f64, Vec<f64>, Vec<f64>)>, 0);
@@ -199,7 +199,7 @@ pub fn minimise(programme: &Sparse, pattern: &Pattern, enough: f64, budget: &Bud
         if error.is_nan() {
             break;
         }
-        if best.as_ref().is_some_and(|best| best.0 < NEAR && error > BLOWN_UP * best.0) {
+        if best.as_ref().is_some_and(|best| best.0 < NEAR_OPTIMUM && error > BLOWN_UP * best.0) {
             break;
         }
         since += 1;
@@ -208,8 +208,8 @@ pub fn minimise(programme: &Sparse, pattern: &Pattern, enough: f64, budget: &Bud
             best = Some((error, by_tau(&point.x), by_tau(&point.z)));
             since = 0;
         }
-        let close = best.as_ref().is_some_and(|best| best.0 < CLOSE);
-        if error < enough || since > PATIENCE[usize::from(close)] {
+        let close = best.as_ref().is_some_and(|best| best.0 < CLOSE_OPTIMUM);
+        if error < enough || since > MOST_IDLE[usize::from(close)] {
             break;
         }
         let Some(newton) = Newton::new(programme, pattern, &point) else { break };
@@ -218,7 +218,7 @@ pub fn minimise(programme: &Sparse, pattern: &Pattern, enough: f64, budget: &Bud
     }
     match (best, barely) {
         (Some((error, x, z)), None) => Found::Optimum { x, z, error },
-        (Some((error, x, z)), _) if error < NEAR => Found::Optimum { x, z, error },
+        (Some((error, x, z)), _) if error < NEAR_OPTIMUM => Found::Optimum { x, z, error },
         (_, barely) => barely.unwrap_or(Found::Lost),
     }
 }

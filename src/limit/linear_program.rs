@@ -16,7 +16,7 @@ const NO_WEIGHT: f64 = 1e-13;
 /// Ratios of a multiplier to a weight that differ by less than this share of them are equal.
 const TIE: f64 = 1e-11;
 /// So are those that differ by rounding, of few unknowns and of more, whose multipliers gather it over many pivots.
-const ROUNDING: [f64; 2] = [1e-15, 1e-14];
+const EQUAL_RATIO: [f64; 2] = [1e-15, 1e-14];
 const FEW: usize = 4;
 /// Far above what the method needs (two to five pivots an unknown); reached only if rounding defeats the tie rule.
 const MOST_PIVOTS: usize = 10_000;
@@ -52,9 +52,9 @@ pub fn maximise(objective: &[f64], half_spaces: &HalfSpaces, budget: &Budget) ->
             return Optimum::Lost;
         }
         let found = basis.most_violated();
-        let Violation::Worst(entering) = found else {
+        let MostViolated::Worst(entering) = found else {
             match found {
-                Violation::NotANumber => return Optimum::Lost,
+                MostViolated::NotANumber => return Optimum::Lost,
                 _ if basis.fresh => return basis.optimum(),
                 _ => {}
             }
@@ -88,15 +88,15 @@ pub fn maximise(objective: &[f64], half_spaces: &HalfSpaces, budget: &Budget) ->
 
 /// A constraint: a row of the half spaces, or a wall of the box.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Constraint {
+enum Facet {
     Row(usize),
     /// sign x + BOX >= 0 for this unknown.
     Wall(usize, f64),
 }
 
-enum Violation {
+enum MostViolated {
     None,
-    Worst(Constraint),
+    Worst(Facet),
     NotANumber,
 }
 
@@ -104,7 +104,7 @@ enum Violation {
 struct Basis<'p> {
     objective: &'p [f64],
     half_spaces: &'p HalfSpaces,
-    constraints: Vec<Constraint>,
+    constraints: Vec<Facet>,
     /// Columns of the inverse of the matrix of the constraints' rows, one after the other.
     inverse: Vec<f64>,
     point: Vec<f64>,
@@ -123,7 +123,7 @@ impl<'p> Basis<'p> {
     /// The corner of the box where every unknown is at the bound that its (perturbed) objective pushes it to.
     fn new(objective: &'p [f64], half_spaces: &'p HalfSpaces) -> Self {
         let n = half_spaces.unknowns;
-        let constraints = (0..n).map(|i| Constraint::Wall(i, -corner_sign(objective[i]))).collect();
+        let constraints = (0..n).map(|i| Facet::Wall(i, -corner_sign(objective[i]))).collect();
         let [inverse, matrix] = [(); 2].map(|()| vec![0.0; n * n]);
         let [point, dual, row, weights] = [(); 4].map(|()| vec![0.0; n]);
         let mut basis = Basis {
@@ -149,11 +149,11 @@ impl<'p> Basis<'p> {
     }
 
     /// Coefficient `j` of a constraint, its constant if `j` is the number of unknowns.
-    fn entry(&self, constraint: Constraint, j: usize) -> f64 {
+    fn entry(&self, constraint: Facet, j: usize) -> f64 {
         match constraint {
-            Constraint::Row(row) => self.half_spaces.entry(row, j),
-            Constraint::Wall(_, _) if j == self.half_spaces.unknowns => BOX,
-            Constraint::Wall(unknown, sign) => {
+            Facet::Row(row) => self.half_spaces.entry(row, j),
+            Facet::Wall(_, _) if j == self.half_spaces.unknowns => BOX,
+            Facet::Wall(unknown, sign) => {
                 if j == unknown {
                     sign
                 } else {
@@ -163,8 +163,8 @@ impl<'p> Basis<'p> {
         }
     }
 
-    fn most_violated(&mut self) -> Violation {
-        let (n, mut worst, mut found) = (self.half_spaces.unknowns, 0.0, Violation::None);
+    fn most_violated(&mut self) -> MostViolated {
+        let (n, mut worst, mut found) = (self.half_spaces.unknowns, 0.0, MostViolated::None);
         for (number, tile) in self.half_spaces.tiles.chunks_exact(n + 1).enumerate() {
             let mut values = tile[n];
             for (column, x) in tile.iter().zip(&self.point) {
@@ -178,18 +178,18 @@ impl<'p> Basis<'p> {
             for (lane, &value) in values.iter().enumerate() {
                 // A value that is no number is taken for a violation, which ends in `Lost`.
                 if value.is_nan() {
-                    return Violation::NotANumber;
+                    return MostViolated::NotANumber;
                 }
                 let size = || tile.iter().zip(&self.point).map(|(column, x)| (column[lane] * x).abs()).sum::<f64>();
                 if value < worst && value < -TOLERANCE * (1.0 + size()) {
-                    (worst, found) = (value, Violation::Worst(Constraint::Row(number * LANES + lane)));
+                    (worst, found) = (value, MostViolated::Worst(Facet::Row(number * LANES + lane)));
                 }
             }
         }
         for (unknown, x) in self.point.iter().enumerate() {
             let value = BOX - x.abs();
             if value < worst && value < -TOLERANCE * (1.0 + x.abs()) {
-                (worst, found) = (value, Violation::Worst(Constraint::Wall(unknown, -x.signum())));
+                (worst, found) = (value, MostViolated::Worst(Facet::Wall(unknown, -x.signum())));
             }
         }
         self.violation = worst;
@@ -197,7 +197,7 @@ impl<'p> Basis<'p> {
     }
 
     /// Weights with which the entering row is a combination of the rows in the basis.
-    fn weigh(&mut self, entering: Constraint) {
+    fn weigh(&mut self, entering: Facet) {
         let n = self.half_spaces.unknowns;
         for j in 0..n {
             self.row[j] = self.entry(entering, j);
@@ -229,8 +229,8 @@ impl<'p> Basis<'p> {
         (0..n).filter(|&i| self.weights[i] > NO_WEIGHT * largest).min_by(|&a, &b| {
             let ratios = (0..=n).map(|k| (ratio(a, k), ratio(b, k)));
             let rounding = match n <= FEW {
-                true => ROUNDING[0],
-                false => ROUNDING[1] * (1.0 / self.weights[a] + 1.0 / self.weights[b]),
+                true => EQUAL_RATIO[0],
+                false => EQUAL_RATIO[1] * (1.0 / self.weights[a] + 1.0 / self.weights[b]),
             };
             let differing = ratios.into_iter().find(|(x, y)| (x - y).abs() > TIE * (x.abs() + y.abs()) + rounding);
             differing.map_or(a.cmp(&b), |(x, y)| x.total_cmp(&y))
@@ -238,7 +238,7 @@ impl<'p> Basis<'p> {
     }
 
     /// Puts the entering constraint in the place of the leaving one.
-    fn exchange(&mut self, leaving: usize, entering: Constraint) {
+    fn exchange(&mut self, leaving: usize, entering: Facet) {
         let n = self.half_spaces.unknowns;
         let pivot = 1.0 / self.weights[leaving];
         let (before, rest) = self.inverse.split_at_mut(leaving * n);
@@ -281,13 +281,13 @@ impl<'p> Basis<'p> {
     }
 
     fn optimum(self) -> Optimum {
-        let is_wall = |constraint: &Constraint| matches!(constraint, Constraint::Wall(..));
+        let is_wall = |constraint: &Facet| matches!(constraint, Facet::Wall(..));
         let pairs = || self.constraints.iter().zip(&self.dual);
         if pairs().any(|(constraint, &y)| is_wall(constraint) && y > TOLERANCE) {
             return Optimum::Unbounded(self.point);
         }
         let held = pairs().filter_map(|(constraint, &y)| match *constraint {
-            Constraint::Row(row) if y > 0.0 => Some((row, y)),
+            Facet::Row(row) if y > 0.0 => Some((row, y)),
             _ => None,
         });
         let held = held.collect();

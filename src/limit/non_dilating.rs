@@ -5,7 +5,7 @@
 //! the end that opens, shear at its bound against the motion. These are linear conditions on the unknowns of the static
 //! theorem, and what they leave open is a whole range of load factors. Its least value is a linear programme.
 
-use super::programme::{Objective, Outcome, Programme};
+use super::programme::{Objective, Programme, ProgrammeOutcome};
 use super::static_theorem::{Equilibrium, Limit, Resultant, StaticTheorem, Unsolved};
 use crate::budget::Budget;
 
@@ -97,9 +97,9 @@ impl StaticTheorem {
         }
         let forces = tilts.iter().copied().enumerate().collect();
         match programme.maximise(&Objective { load_factor: -sign, forces }, budget) {
-            Outcome::At(equilibrium, _) => Ok(Some(equilibrium)),
-            Outcome::Infeasible => Ok(None),
-            Outcome::Unbounded(_) | Outcome::Lost => Err(Unsolved),
+            ProgrammeOutcome::At(equilibrium, _) => Ok(Some(equilibrium)),
+            ProgrammeOutcome::Infeasible => Ok(None),
+            ProgrammeOutcome::Unbounded(_) | ProgrammeOutcome::Lost => Err(Unsolved),
         }
     }
 
@@ -138,7 +138,9 @@ impl StaticTheorem {
         budget: &Budget,
     ) -> Option<Vec<f64>> {
         let programme = self.motion_programme(releases, costs);
-        let Outcome::At(_, rates) = programme.maximise(&Objective::load_factor(sign), budget) else { return None };
+        let ProgrammeOutcome::At(_, rates) = programme.maximise(&Objective::load_factor(sign), budget) else {
+            return None;
+        };
         let (rates, closing) = rates.split_at(releases.len());
         let fastest = rates.iter().copied().fold(0.0, f64::max);
         if closing.iter().any(|rate| *rate > MOVES_ROUGHLY * fastest) {

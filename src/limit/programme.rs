@@ -9,7 +9,7 @@ use crate::budget::Budget;
 const NO_ROW: f64 = 1e-12;
 
 /// A limit that the unknowns do not reach may be violated by this, in units of the loads: rounding of the loads themselves.
-const UNREACHED: f64 = 1e-10;
+const UNREACHED_LIMIT: f64 = 1e-10;
 /// Most unknowns for which the dense simplex method is tried where the sparse one fails.
 const MOST_DENSE: usize = 200;
 /// Errors of a certificate.
@@ -38,7 +38,7 @@ impl Objective {
 
 /// What comes of a programme.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Outcome {
+pub(super) enum ProgrammeOutcome {
     /// The best equilibrium, and the multipliers y >= 0 of the programme's own limits (in proportion to each other).
     At(Equilibrium, Vec<f64>),
     /// Better than any bound; a very good equilibrium.
@@ -88,19 +88,19 @@ impl<'t> Programme<'t> {
     }
 
     /// By the method that suits the size; where rounding keeps that from an answer, by the other.
-    pub(super) fn maximise(&self, objective: &Objective, budget: &Budget) -> Outcome {
+    pub(super) fn maximise(&self, objective: &Objective, budget: &Budget) -> ProgrammeOutcome {
         let few = self.theorem.has_few_unknowns();
         let first =
             if few { self.maximise_densely(objective, budget) } else { self.maximise_sparsely(objective, budget) };
         match first {
-            Outcome::Lost if few => self.maximise_sparsely(objective, budget),
-            Outcome::Lost if self.theorem.unknowns() <= MOST_DENSE => self.maximise_densely(objective, budget),
+            ProgrammeOutcome::Lost if few => self.maximise_sparsely(objective, budget),
+            ProgrammeOutcome::Lost if self.theorem.unknowns() <= MOST_DENSE => self.maximise_densely(objective, budget),
             first => first,
         }
     }
 
     /// The exact method in loop space.
-    pub(super) fn maximise_densely(&self, objective: &Objective, budget: &Budget) -> Outcome {
+    pub(super) fn maximise_densely(&self, objective: &Objective, budget: &Budget) -> ProgrammeOutcome {
         let theorem = self.theorem;
         let (mut rows, first) = match (&theorem.rows, self.complete) {
             (Some(rows), true) if self.is_plain() => {
@@ -128,10 +128,10 @@ impl<'t> Programme<'t> {
     }
 
     /// Rows from `first` on are those of the programme's own limits.
-    fn solve(&self, objective: &Objective, rows: &Rows, first: usize, budget: &Budget) -> Outcome {
+    fn solve(&self, objective: &Objective, rows: &Rows, first: usize, budget: &Budget) -> ProgrammeOutcome {
         let (theorem, n) = (self.theorem, self.theorem.unknowns());
         if rows.contradicted(self.slack) {
-            return Outcome::Infeasible;
+            return ProgrammeOutcome::Infeasible;
         }
         let mut row = vec![0.0; n + 1];
         objective.forces.iter().for_each(|&(joint, weights)| theorem.add_row(joint, weights, &mut row));
@@ -145,11 +145,11 @@ impl<'t> Programme<'t> {
                         multipliers[*limit] = multiplier * scale;
                     }
                 }
-                Outcome::At(theorem.equilibrium(&point), multipliers)
+                ProgrammeOutcome::At(theorem.equilibrium(&point), multipliers)
             }
-            Optimum::Unbounded(point) => Outcome::Unbounded(theorem.equilibrium(&point)),
-            Optimum::Infeasible => Outcome::Infeasible,
-            Optimum::Lost => Outcome::Lost,
+            Optimum::Unbounded(point) => ProgrammeOutcome::Unbounded(theorem.equilibrium(&point)),
+            Optimum::Infeasible => ProgrammeOutcome::Infeasible,
+            Optimum::Lost => ProgrammeOutcome::Lost,
         }
     }
 }
@@ -209,6 +209,6 @@ impl Rows {
 
     /// True where a limit that the unknowns do not reach is violated.
     fn contradicted(&self, slack: f64) -> bool {
-        self.unreached + slack < -UNREACHED
+        self.unreached + slack < -UNREACHED_LIMIT
     }
 }

@@ -1,10 +1,10 @@
 //! A programme over the forces of all joints in equilibrium form, for the sparse solver.
 
-use super::interior_point::{Found, Pattern, Row, Sparse, Square, minimise};
+use super::interior_point::{Found, NewtonPattern, Row, Sparse, Square, minimise};
 use crate::budget::Budget;
 
 use super::crushing::Section;
-use super::programme::{Objective, Outcome, Programme};
+use super::programme::{Objective, Programme, ProgrammeOutcome};
 use super::static_theorem::{Equilibrium, Limit, Resultant, StaticTheorem};
 use crate::geometry::{Vec2, cross};
 use crate::structure::Joint;
@@ -14,7 +14,7 @@ const OPPOSITE: f64 = 1e-13;
 /// Joint forces are measured in so many times the largest load on a body.
 const LOADED: f64 = 10.0;
 /// Rows shorter than this are none.
-const NO_ROW: f64 = 1e-12;
+const NO_SPARSE_ROW: f64 = 1e-12;
 
 /// A joint whose forces are `origin` and any combination of `basis`, in units of the loads.
 struct Forces {
@@ -24,7 +24,7 @@ struct Forces {
 
 impl Programme<'_> {
     /// The interior point method over the forces of every joint and the equilibrium of every body.
-    pub(super) fn maximise_sparsely(&self, objective: &Objective, budget: &Budget) -> Outcome {
+    pub(super) fn maximise_sparsely(&self, objective: &Objective, budget: &Budget) -> ProgrammeOutcome {
         let theorem = self.theorem;
         let unit = unit(theorem);
         // Without loads that grow the load factor is any.
@@ -39,11 +39,11 @@ impl Programme<'_> {
             limits[limit.joint].push((limit, place));
         }
         let forces: Vec<Forces> = limits.iter().map(|limits| held(limits)).collect();
-        let Some((mut rows, places)) = self.rows(&limits, &forces, pinned) else { return Outcome::Infeasible };
+        let Some((mut rows, places)) = self.rows(&limits, &forces, pinned) else { return ProgrammeOutcome::Infeasible };
         rows.extend(self.sections.iter().flat_map(|section| cones(section, &forces[section.joint], unit)));
         let programme = self.assemble(objective, &forces, rows, pinned, unit);
         let own = if theorem.pattern.is_none() { theorem.find_pattern() } else { None };
-        let Some(pattern) = theorem.pattern.as_ref().or(own.as_ref()) else { return Outcome::Lost };
+        let Some(pattern) = theorem.pattern.as_ref().or(own.as_ref()) else { return ProgrammeOutcome::Lost };
         match minimise(&programme, pattern, self.errors[0], budget) {
             Found::Optimum { x, z, error } if error < self.errors[1] => {
                 let mut multipliers = vec![0.0; self.limits.len()];
@@ -52,13 +52,17 @@ impl Programme<'_> {
                 }
                 let equilibrium = self.equilibrium(&x, &forces, pinned, unit);
                 let bounded = grows || objective.load_factor == 0.0;
-                if bounded { Outcome::At(equilibrium, multipliers) } else { Outcome::Unbounded(equilibrium) }
+                if bounded {
+                    ProgrammeOutcome::At(equilibrium, multipliers)
+                } else {
+                    ProgrammeOutcome::Unbounded(equilibrium)
+                }
             }
             Found::Unbounded => {
-                Outcome::Unbounded(self.equilibrium(&vec![0.0; programme.cost.len()], &forces, pinned, unit))
+                ProgrammeOutcome::Unbounded(self.equilibrium(&vec![0.0; programme.cost.len()], &forces, pinned, unit))
             }
-            Found::Infeasible => Outcome::Infeasible,
-            Found::Optimum { .. } | Found::Lost => Outcome::Lost,
+            Found::Infeasible => ProgrammeOutcome::Infeasible,
+            Found::Optimum { .. } | Found::Lost => ProgrammeOutcome::Lost,
         }
     }
 
@@ -78,10 +82,10 @@ impl Programme<'_> {
                     std::array::from_fn(|i| forces.basis.get(i).map_or(0.0, |basis| dot(limit.weights, *basis)));
                 let constant = limit.constant + dot(limit.weights, forces.origin);
                 let (norm, size) = (dot(a, a).sqrt(), dot(limit.weights, limit.weights).sqrt());
-                if norm > NO_ROW * size {
+                if norm > NO_SPARSE_ROW * size {
                     rows.push(Row { block, a: a.map(|x| x / norm), constant: constant / norm });
                     places.push((*place, 1.0 / norm));
-                } else if constant < -NO_ROW * size.max(1.0) {
+                } else if constant < -NO_SPARSE_ROW * size.max(1.0) {
                     return None;
                 }
             }
@@ -173,9 +177,9 @@ impl Programme<'_> {
 
 impl StaticTheorem {
     /// How bodies hang together through joints, for the interior point method.
-    pub(super) fn find_pattern(&self) -> Option<Pattern> {
+    pub(super) fn find_pattern(&self) -> Option<NewtonPattern> {
         let bodies = |joint: &Joint| joint.between.iter().filter_map(|side| side.body()).collect();
-        Pattern::new(self.loads[0].len(), &self.joints.iter().map(bodies).collect::<Vec<_>>())
+        NewtonPattern::new(self.loads[0].len(), &self.joints.iter().map(bodies).collect::<Vec<_>>())
     }
 }
 

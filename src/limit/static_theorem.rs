@@ -1,8 +1,8 @@
 //! The static theorem of any structure: forces round its loops, and what every joint then carries.
 
-use super::interior_point::Pattern;
+use super::interior_point::NewtonPattern;
 use super::linear_program::norm;
-use super::programme::{Objective, Outcome, Programme, Rows};
+use super::programme::{Objective, Programme, ProgrammeOutcome, Rows};
 use crate::budget::Budget;
 
 use crate::geometry::{Vec2, cross};
@@ -63,9 +63,9 @@ pub struct StaticTheorem {
     pub(super) joints: Vec<Joint>,
     pub(super) loops: Loops,
     /// Of every loop.
-    frames: Vec<Frame>,
+    frames: Vec<Units>,
     /// Of all joints.
-    pub(super) frame: Frame,
+    pub(super) frame: Units,
     /// What fixed loads, and scaled loads of load factor 1, add to the three forces of every joint down the tree, N/m.
     pub(super) carried: [Vec<[f64; 3]>; 2],
     /// The same loads on every body: F_x, F_y and M about the middle of all joints.
@@ -74,22 +74,22 @@ pub struct StaticTheorem {
     /// The limits over the unknowns, where these are few.
     pub(super) rows: Option<Rows>,
     /// How bodies hang together, where the unknowns are many.
-    pub(super) pattern: Option<Pattern>,
+    pub(super) pattern: Option<NewtonPattern>,
     pub(super) force: f64,
     pub(super) factor: f64,
 }
 
 /// Where moments are taken about, and the length that makes forces of them, m.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Frame {
+pub(super) struct Units {
     pub origin: Vec2,
     length: f64,
 }
 
-impl Frame {
+impl Units {
     fn of<'j>(joints: impl Iterator<Item = &'j Joint> + Clone) -> Self {
         let origin = joints.clone().map(Joint::middle).sum::<Vec2>() / joints.clone().count() as f64;
-        Frame { origin, length: joints.map(|j| (j.middle() - origin).norm()).fold(0.0, f64::max) }
+        Units { origin, length: joints.map(|j| (j.middle() - origin).norm()).fold(0.0, f64::max) }
     }
 }
 
@@ -131,8 +131,8 @@ impl StaticTheorem {
     pub fn new(structure: &Structure, fixed: &[PointForce], scaled: &[PointForce]) -> Result<Self, Vec<Unconnected>> {
         let loops = Loops::new(structure)?;
         let joints = structure.joints.clone();
-        let frame = Frame::of(joints.iter());
-        let frames = loops.joints().iter().map(|of| Frame::of(of.iter().map(|&k| &joints[k]))).collect();
+        let frame = Units::of(joints.iter());
+        let frames = loops.joints().iter().map(|of| Units::of(of.iter().map(|&k| &joints[k]))).collect();
         let total = |loads: &[PointForce]| loads.iter().map(|l| l.force.norm()).sum::<f64>();
         let (total_fixed, total_scaled) = (total(fixed), total(scaled));
         let force = [total_fixed, total_scaled, 1.0].into_iter().find(|&f| f > 0.0).unwrap_or(1.0);
@@ -208,7 +208,7 @@ impl StaticTheorem {
     /// `weights . (intrados, extrados, shear)` of a joint over (unknowns; 1), added to `row`.
     pub(super) fn add_row(&self, joint: usize, weights: [f64; 3], row: &mut [f64]) {
         for &(number, sign) in self.loops.through(joint) {
-            let Frame { origin, length } = self.frames[number];
+            let Units { origin, length } = self.frames[number];
             let functionals = joint_functionals(&self.joints[joint], origin);
             let units = [self.force, self.force, self.force * length];
             for i in 0..3 {
@@ -227,10 +227,10 @@ impl StaticTheorem {
     /// When rounding, or `budget`, kept the linear programme from an answer.
     pub fn window(&self, budget: &Budget) -> Result<Option<[f64; 2]>, Unsolved> {
         let end = |sign: f64| match Programme::new(self).maximise(&Objective::load_factor(sign), budget) {
-            Outcome::At(equilibrium, _) => Ok(Some(equilibrium.load_factor)),
-            Outcome::Unbounded(_) => Ok(Some(sign * f64::INFINITY)),
-            Outcome::Infeasible => Ok(None),
-            Outcome::Lost => Err(Unsolved),
+            ProgrammeOutcome::At(equilibrium, _) => Ok(Some(equilibrium.load_factor)),
+            ProgrammeOutcome::Unbounded(_) => Ok(Some(sign * f64::INFINITY)),
+            ProgrammeOutcome::Infeasible => Ok(None),
+            ProgrammeOutcome::Lost => Err(Unsolved),
         };
         Ok(end(-1.0)?.zip(end(1.0)?).map(|(low, high)| [low, high]))
     }
@@ -240,7 +240,10 @@ impl StaticTheorem {
         let mut programme = Programme::new(self);
         programme.bounds = [at - slack * self.factor, at + slack * self.factor];
         programme.slack = slack;
-        matches!(programme.maximise(&Objective::load_factor(1.0), budget), Outcome::At(..) | Outcome::Unbounded(_))
+        matches!(
+            programme.maximise(&Objective::load_factor(1.0), budget),
+            ProgrammeOutcome::At(..) | ProgrammeOutcome::Unbounded(_)
+        )
     }
 
     /// Least and greatest horizontal thrust of the first support at load factor `at`, N/m; None when nothing stands.
@@ -272,9 +275,9 @@ impl StaticTheorem {
             Objective { load_factor: 0.0, forces: self.joints.iter().enumerate().filter_map(on_support).collect() }
         };
         let end = |sign: f64| match programme.maximise(&thrust(sign), budget) {
-            Outcome::At(equilibrium, _) => Some(sign * thrust(sign).value(&equilibrium)),
-            Outcome::Unbounded(_) => Some(sign * f64::INFINITY),
-            Outcome::Infeasible | Outcome::Lost => None,
+            ProgrammeOutcome::At(equilibrium, _) => Some(sign * thrust(sign).value(&equilibrium)),
+            ProgrammeOutcome::Unbounded(_) => Some(sign * f64::INFINITY),
+            ProgrammeOutcome::Infeasible | ProgrammeOutcome::Lost => None,
         };
         Some([end(-1.0)?, end(1.0)?])
     }
@@ -313,7 +316,7 @@ impl StaticTheorem {
             let factor = unknowns[n] * self.factor;
             let mut forces: [f64; 3] = std::array::from_fn(|c| fixed[c] + factor * scaled[c]);
             for &(number, sign) in self.loops.through(k) {
-                let Frame { origin, length } = self.frames[number];
+                let Units { origin, length } = self.frames[number];
                 let x = &unknowns[3 * number..3 * number + 3];
                 let wrench = [x[0], x[1], x[2] * length].map(|component| sign * self.force * component);
                 let functionals = joint_functionals(&self.joints[k], origin);

@@ -70,7 +70,7 @@ pub fn svg(structure: &Structure, end: &PathEnd, caption: &str) -> String {
         true => canvas.finish(lines.first().unwrap_or(&"Arch at collapse"), STYLE),
         false => {
             let title = lines.first().unwrap_or(&"Structure at collapse");
-            canvas.finish(title, &format!("{STYLE}{}", bodies::STYLE))
+            canvas.finish(title, &format!("{STYLE}{}", bodies::BODY_STYLE))
         }
     }
 }

@@ -29,7 +29,7 @@ fn collapse_loads_are_as_accurate_as_asked() {
         let (Outcome::Collapse, Some(end)) = (report.outcome, &report.end) else { continue };
         let problem = door::problem(&analysis);
         let Some((lowest, highest)) = problem.window() else { continue };
-        let limit = if analysis.direction == Direction::Increase { highest } else { lowest };
+        let limit = if analysis.task.direction() == Direction::Increase { highest } else { lowest };
         if limit.is_infinite() {
             assert!(estimate.estimate.is_none() && !estimate.met, "seed {seed}: {estimate:?}");
             boundless += 1;

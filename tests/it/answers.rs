@@ -6,7 +6,7 @@ use voussoir::api::request::Request;
 use voussoir::api::response::JobResult;
 use voussoir::collapse::{
     Answer, BeamReport, CollapseReport, Cost, Crushing, ElasticCrushing, Governs, LimitWindow, Mode, Note, Outcome,
-    PlasticCrushing, Reach, SafetyPoint, SafetyZone, StressField, SubblockStress,
+    PlasticCrushing, Reach, SafetyFactors, SafetyPoint, SafetyZone, StressField, SubblockStress, TaskReport,
 };
 use voussoir::geometry::Vec2;
 
@@ -36,10 +36,9 @@ fn field(load_factor: f64) -> StressField {
     StressField { load_factor, subblocks: vec![subblock(); 2] }
 }
 
-fn point() -> SafetyPoint {
-    SafetyPoint {
+fn factors() -> SafetyFactors {
+    SafetyFactors {
         updated: Some(Reach::At(2.25)),
-        abscissa: Some(0.5),
         instability: Reach::At(2.5),
         elastic: Reach::Never,
         plastic_section: Reach::DoesNotStand,
@@ -47,7 +46,6 @@ fn point() -> SafetyPoint {
         governed_by: Governs::Instability,
         mode: Some(Mode::CrownRises),
         zone: Some(SafetyZone::CrownRises),
-        notes: vec![Note::YieldTooLate],
     }
 }
 
@@ -68,10 +66,9 @@ fn report() -> CollapseReport {
         at_unit_load: None,
         at_start: None,
         stress_fields: vec![field(1.0)],
-        crushing: Some(Crushing { strength: 1e7, elastic: Some(elastic), plastic_section: Some(plastic) }),
+        crushing: Crushing { strength: 1e7, elastic: Some(elastic), plastic_section: Some(plastic) },
         updated: None,
-        settlement: None,
-        safety: Some(point()),
+        task: TaskReport::Safety(factors()),
         history: vec![],
         motion: None,
         other_motion: None,
@@ -136,18 +133,18 @@ fn safety() -> Value {
         "instability": {"state": "at", "load_factor": 2.5},
         "updated_geometry": {"state": "at", "load_factor": 2.25}, "elastic": {"state": "never"},
         "plastic_section": {"state": "does_not_stand"}, "governing": {"state": "unknown"},
-        "governed_by": "instability", "mode": "crown_rises", "zone": "crown_rises", "notes": [Note::YieldTooLate.to_string()]
+        "governed_by": "instability", "mode": "crown_rises", "zone": "crown_rises", "notes": []
     })
 }
 
 #[test]
 fn what_was_not_found_is_null() {
-    let nothing = CollapseReport { stress_fields: vec![], crushing: None, safety: None, ..report() };
+    let nothing = CollapseReport { stress_fields: vec![], task: TaskReport::Collapse, ..report() };
     let answer = served(&request(json!("collapse")), &Answer::One(Box::new(nothing)));
     assert_eq!(answer["stress_fields"], json!([]));
-    assert!(answer["crushing"].is_null() && answer["safety"].is_null());
+    assert!(answer["safety"].is_null());
     let crushing = Crushing { strength: 1e7, elastic: None, plastic_section: None };
-    let little = CollapseReport { crushing: Some(crushing), ..report() };
+    let little = CollapseReport { crushing, ..report() };
     let answer = served(&request(json!("collapse")), &Answer::One(Box::new(little)));
     assert_eq!(answer["crushing"], json!({"strength_pa": 1e7, "elastic": null, "plastic_section": null}));
 }
@@ -156,11 +153,13 @@ fn what_was_not_found_is_null() {
 fn a_curve_is_served_point_by_point() {
     let curve = json!({"abscissae": [0.5, 2], "unit": "m"});
     let request = request(json!({"safety": {"crushing": "elastic", "curve": curve}}));
-    let second = SafetyPoint { abscissa: Some(2.0), mode: None, zone: None, ..point() };
-    let answer = served(&request, &Answer::Curve(vec![point(), second]));
+    let point = |abscissa, factors| SafetyPoint { abscissa, factors, notes: vec![Note::YieldTooLate] };
+    let second = SafetyFactors { mode: None, zone: None, ..factors() };
+    let answer = served(&request, &Answer::Curve(vec![point(0.5, factors()), point(2.0, second)]));
     assert_eq!((&answer["unit"], &answer["crushing"]), (&json!("m"), &json!("elastic")));
     let mut first = safety();
     first["abscissa"] = json!(0.5);
+    first["notes"] = json!([Note::YieldTooLate.to_string()]);
     assert_eq!(answer["points"][0], first);
     assert_eq!(answer["points"][1]["abscissa"], 2.0);
     assert!(answer["points"][1]["mode"].is_null() && answer["points"][1]["zone"].is_null());
@@ -185,7 +184,7 @@ fn a_number_that_is_none_is_never_served() {
     stressed.stress_fields[0].subblocks[1].stress[2] = f64::NAN;
     assert!(one(stressed).is_none());
     let mut reaching = report();
-    reaching.safety = Some(SafetyPoint { elastic: Reach::At(f64::INFINITY), ..point() });
+    reaching.task = TaskReport::Safety(SafetyFactors { elastic: Reach::At(f64::INFINITY), ..factors() });
     assert!(one(reaching).is_none());
     let spoilt = BeamReport { error: f64::NAN, ..beam() };
     assert!(JobResult::new(&beam_request(), &Answer::CurvedBeam(spoilt)).is_none());

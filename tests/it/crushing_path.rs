@@ -8,7 +8,7 @@ use crate::common::{door, random_arch};
 use crate::crushing::{mean_stress, oval, relative};
 use serde_json::{Value, json};
 use voussoir::budget::Budget;
-use voussoir::collapse::{Analysis, CollapseReport, ContactPoint, Direction, Outcome, run};
+use voussoir::collapse::{Analysis, CollapseReport, CollapseTask, ContactPoint, Direction, Method, Outcome, Task, run};
 
 /// How many random arches, from seed 0.
 const ARCHES: u64 = 150;
@@ -68,9 +68,9 @@ fn hold(analysis: &Analysis, report: &CollapseReport) -> Result<Option<Found>, S
     let problem = capped(analysis, &near.contacts, strength);
     let points = problem.points.iter().map(|(_, points)| points.len()).max().unwrap_or(0);
     let floor = SMALL * report.cap / 1e6;
-    let sections = report.crushing.as_ref().and_then(|c| c.plastic_section.as_ref()).and_then(|p| p.window);
+    let sections = report.crushing.plastic_section.as_ref().and_then(|p| p.window);
     let (sections, linear) = sections.zip(problem.window()).ok_or("no window")?;
-    let up = analysis.direction == Direction::Increase;
+    let up = analysis.task.direction() == Direction::Increase;
     let (exact, linear) = if up { (sections.highest, linear.1) } else { (sections.lowest, linear.0) };
     let path = end.load_factor;
     let beyond = |limit: f64| (if up { path - limit } else { limit - path }) / limit.abs().max(floor);
@@ -220,13 +220,14 @@ fn random_structures_crush_on_the_path_within_plastic_sections() {
         let mut analysis = structures::analysis(&scene);
         let strength = Dice::new(name.len() as u64 + crushed + slid).decades(1e5, 1e7);
         analysis.structure.stones[0].compressive_strength = strength;
-        analysis.crushing_in_path = true;
+        let method = Method::CrushingPath;
+        analysis.task = Task::Collapse(CollapseTask { method, ..CollapseTask::default() });
         let report = run(&analysis, &Budget::unlimited()).unwrap_or_else(|error| panic!("{name}: {error}"));
         cannot_tell += u64::from(report.outcome == Outcome::CannotTell);
         if report.outcome == Outcome::CannotTell {
             println!("{name}, {strength} Pa: {:?}", report.notes);
         }
-        let window = report.crushing.as_ref().and_then(|c| c.plastic_section.as_ref()).and_then(|p| p.window);
+        let window = report.crushing.plastic_section.as_ref().and_then(|p| p.window);
         let (Outcome::Collapse, Some(end), Some(window)) = (report.outcome, &report.end, window) else { continue };
         let slides = !end.mechanism.slides.is_empty();
         let short = (window.highest - end.load_factor) / window.highest.abs().max(SMALL);

@@ -10,7 +10,8 @@ use std::time::Instant;
 use voussoir::budget::{Budget, LoadStep, Stopped};
 
 use voussoir::collapse::{
-    Analysis, AnalysisError, CollapseReport, FallingMotion, MotionAsked, MotionEnd, MotionFrame, run,
+    Analysis, AnalysisError, CollapseReport, CollapseTask, FallingMotion, MotionAsked, MotionEnd, MotionFrame, Task,
+    run,
 };
 use voussoir::structure::JointLaw;
 
@@ -147,7 +148,8 @@ fn random_structures_fall_to_one_of_the_ends() {
             let corners = analysis.structure.bodies.iter().flat_map(|body| &body.corners);
             let lowest = corners.map(|corner| corner.y).fold(f64::INFINITY, f64::min);
             let ground_level = seed.is_multiple_of(2).then_some(lowest);
-            analysis.motion = Some(MotionAsked { most_frames: 200, share_of_span: 0.5, ground_level });
+            let motion = Some(MotionAsked { most_frames: 200, share_of_span: 0.5, ground_level });
+            analysis.task = Task::Collapse(CollapseTask { motion, ..CollapseTask::default() });
             let report = run(&analysis, &Budget::unlimited()).unwrap();
             for motion in report.motion.iter().chain(&report.other_motion) {
                 let (name, measured) = (format!("{family} {seed}"), measure(&analysis, motion));

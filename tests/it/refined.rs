@@ -40,7 +40,7 @@ fn solve(analysis: &Analysis) -> Result<CollapseReport, String> {
 /// Ends of the path, each with the end of the limit window it must not pass and the direction it was reached in.
 fn ends<'r>(analysis: &Analysis, report: &'r CollapseReport) -> Vec<(&'r PathEnd, f64, f64)> {
     let Some(window) = report.limit_window else { return Vec::new() };
-    let sign = if analysis.direction == Direction::Increase { 1.0 } else { -1.0 };
+    let sign = if analysis.task.direction() == Direction::Increase { 1.0 } else { -1.0 };
     [(&report.end, sign), (&report.other_end, -sign)]
         .into_iter()
         .filter_map(|(end, sign)| Some((end.as_ref()?, if sign > 0.0 { window.highest } else { window.lowest }, sign)))

@@ -4,7 +4,7 @@ use crate::common::folders;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use voussoir::api::read::{read, read_analysis, read_question};
-use voussoir::collapse::{Analysis, Direction, Method};
+use voussoir::collapse::{Analysis, CollapseTask, Direction, Method, Task};
 use voussoir::structure::JointLaw;
 
 fn cases() -> Vec<PathBuf> {
@@ -101,8 +101,9 @@ fn everything_asked_arrives_in_si() {
     assert_eq!(analysis.structure.joints[3].law, JointLaw::Dry { friction: 0.0, cohesion: 7.0 });
     let JointLaw::Dry { friction, cohesion } = analysis.structure.joints[4].law else { panic!() };
     assert!((friction - 1.0).abs() < 1e-15 && cohesion == 1.0);
-    assert_eq!((analysis.direction, analysis.cap), (Direction::Decrease, Some(40.0)));
-    assert_eq!(analysis.method, Method::FixedSteps { step: 5.0, opening: 0.01, hinges: 3 });
+    let method = Method::FixedSteps { step: 5.0, opening: 0.01, hinges: 3 };
+    let task = CollapseTask { direction: Direction::Decrease, cap: Some(40.0), method, ..CollapseTask::default() };
+    assert_eq!(analysis.task, Task::Collapse(task));
     assert!(analysis.scaled.is_empty() && analysis.fixed.len() == 8);
 }
 

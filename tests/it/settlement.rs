@@ -37,11 +37,11 @@ fn parting(arch: Value, each: f64, geometry: &str) -> CollapseReport {
 }
 
 fn first_order(report: &CollapseReport) -> &SettlementPath {
-    &report.settlement.as_ref().unwrap().first_order
+    &report.settlement().unwrap().first_order
 }
 
 fn updated(report: &CollapseReport) -> &SettlementPath {
-    report.settlement.as_ref().unwrap().updated.as_ref().unwrap()
+    report.settlement().unwrap().updated.as_ref().unwrap()
 }
 
 fn thrust(path: &SettlementPath) -> f64 {

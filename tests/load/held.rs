@@ -8,7 +8,7 @@ use voussoir::api::request::Request;
 use voussoir::api::response::JobResult;
 use voussoir::budget::Budget;
 
-use voussoir::collapse::{self, Analysis, Question};
+use voussoir::collapse::{self, Analysis, Question, Task};
 use voussoir::structure::{JointLaw, PointForce, Structure};
 
 /// Reads a body; what was asked, where it was not refused.
@@ -72,7 +72,13 @@ fn analysis_is_finite(analysis: &Analysis) -> bool {
             stone.compressive_strength,
         ]
     });
-    let numbers = [analysis.penalty_ratio, analysis.shear_penalty_ratio, analysis.cap.unwrap_or(0.0), analysis.share];
+    let cap = match &analysis.task {
+        Task::Collapse(task) => task.cap,
+        Task::Safety(task) => task.cap,
+        Task::Settlement(_) => None,
+    };
+    let share = analysis.task.share();
+    let numbers = [analysis.penalty_ratio, analysis.shear_penalty_ratio, cap.unwrap_or(0.0), share];
     let force = |force: &PointForce| force.at.iter().chain(force.force.iter()).all(|number| number.is_finite());
     numbers.into_iter().chain(of_stones).all(f64::is_finite)
         && analysis.fixed.iter().chain(&analysis.scaled).all(force)
@@ -106,7 +112,7 @@ pub fn is_small(question: &Question) -> bool {
     let small = |analysis: &Analysis| {
         analysis.structure.voussoirs().len() <= 60
             && analysis.mesh.subblocks.iter().map(|[radial, along]| radial * along).sum::<usize>() <= 200
-            && analysis.motion.is_none_or(|motion| motion.most_frames <= 30)
+            && analysis.task.motion().is_none_or(|motion| motion.most_frames <= 30)
     };
     match question {
         Question::One(analysis) => small(analysis),

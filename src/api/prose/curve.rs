@@ -12,7 +12,7 @@ use comfy_table::Table;
 use std::time::Duration;
 
 /// Most abscissae named with a note.
-const NAMED: usize = 5;
+const ABSCISSAE_NAMED: usize = 5;
 
 /// The curve as a table.
 pub fn summary(result: &SafetyCurveResult, wall_time: Duration) -> String {
@@ -112,7 +112,7 @@ fn notes(points: &[CurvePointBody]) -> Vec<(&str, String)> {
 }
 
 fn named(abscissae: &[f64]) -> String {
-    let named: Vec<_> = abscissae.iter().take(NAMED).map(|&abscissa| Digits(abscissa).to_string()).collect();
+    let named: Vec<_> = abscissae.iter().take(ABSCISSAE_NAMED).map(|&abscissa| Digits(abscissa).to_string()).collect();
     let more = abscissae.len() - named.len();
     let more = if more > 0 { format!(" and {more} more") } else { String::new() };
     format!("{}{more}", named.join(", "))

@@ -46,12 +46,13 @@ fn arch(arch: &ArchRequest) -> String {
 }
 
 /// Most loads listed, beside fill, which always is.
-const LISTED: usize = 6;
+const LOADS_LISTED: usize = 6;
 
 /// The fixed or the scaled loads, a line each.
 pub fn loads(entries: &[LoadEntry], scaled: bool) -> String {
     let entries: Vec<&LoadEntry> = entries.iter().filter(|entry| entry.scaled == scaled).collect();
-    let listed = |(i, entry): &(usize, &&LoadEntry)| *i < LISTED || matches!(entry.load, LoadRequest::FillPressure(_));
+    let listed =
+        |(i, entry): &(usize, &&LoadEntry)| *i < LOADS_LISTED || matches!(entry.load, LoadRequest::FillPressure(_));
     let mut lines: Vec<String> = entries
         .iter()
         .enumerate()

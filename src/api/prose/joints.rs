@@ -10,7 +10,7 @@ use comfy_table::Table;
 /// Forces below this share of the largest are round-off.
 const ROUND_OFF: f64 = 1e-12;
 /// Most joints on the ground that are listed.
-const LISTED: usize = 12;
+const JOINTS_LISTED: usize = 12;
 
 /// What lies on both sides of a joint.
 fn between(structure: &StructureBody, joint: usize) -> String {
@@ -108,8 +108,8 @@ pub fn outer(result: &AnalysisResult) -> (&'static str, Option<Table>) {
     };
     let named = |k: usize| row(k, format!("{}: {}", thrust.joint[k], between(structure, thrust.joint[k])));
     let mut rows: Vec<_> = (0..=last).filter(grounded).map(named).collect();
-    let more = rows.len().saturating_sub(LISTED);
-    rows.truncate(LISTED);
+    let more = rows.len().saturating_sub(JOINTS_LISTED);
+    rows.truncate(JOINTS_LISTED);
     if more > 0 {
         rows.push([format!("and {more} more"), String::new(), String::new(), String::new()]);
     }

@@ -8,7 +8,7 @@ use crate::collapse::{Direction, Outcome};
 use serde::Serialize;
 
 /// Longest line of prose, characters.
-const WIDTH: usize = 100;
+const LINE_WIDTH: usize = 100;
 
 /// One end of the range of intensities in which an arch stands.
 #[derive(Clone, Copy)]
@@ -50,7 +50,7 @@ pub fn motion(from: &str, motion: &MotionBody, unit: &str) -> String {
 }
 
 /// Crushing that takes less than this share off a collapse load is not worth a word in the first line.
-const VISIBLE: f64 = 1e-3;
+const CRUSHING_SHOWN: f64 = 1e-3;
 
 /// One sentence.
 pub fn headline(result: &AnalysisResult) -> String {
@@ -115,12 +115,12 @@ fn with_strength(result: &AnalysisResult) -> String {
     let stands = low.is_none_or(|low| low <= start) && high.is_none_or(|high| high >= start);
     if let (true, Outcome::Collapse, Some(collapse)) = (stands, result.outcome, &result.collapse) {
         let end = if collapse.load_factor < 0.0 { low } else { high };
-        let before = end.filter(|end| end.abs() < (1.0 - VISIBLE) * collapse.intensity.abs());
+        let before = end.filter(|end| end.abs() < (1.0 - CRUSHING_SHOWN) * collapse.intensity.abs());
         let words = |end| format!(" Its joints crush before, at {} {} (plastic section).", Digits(end), unit(result));
         return before.map(words).unwrap_or_default();
     }
     let same = |a: Option<f64>, b: Option<f64>| match (a, b) {
-        (Some(a), Some(b)) => (a - b).abs() <= VISIBLE * b.abs(),
+        (Some(a), Some(b)) => (a - b).abs() <= CRUSHING_SHOWN * b.abs(),
         (a, b) => a == b,
     };
     let rigid = result.limit_window.unwrap_or([None, None]);
@@ -233,7 +233,7 @@ pub fn wrapped(text: &str) -> String {
     let mut length = 0;
     for word in text.split_whitespace() {
         let more = word.chars().count();
-        if length > 0 && length + 1 + more > WIDTH {
+        if length > 0 && length + 1 + more > LINE_WIDTH {
             lines.push('\n');
             length = 0;
         } else if length > 0 {
@@ -254,7 +254,7 @@ mod tests {
     fn lines_are_broken_between_words() {
         let text = "word ".repeat(60);
         let lines = wrapped(&text);
-        assert!(lines.lines().all(|line| line.len() <= WIDTH && line.ends_with("word")));
+        assert!(lines.lines().all(|line| line.len() <= LINE_WIDTH && line.ends_with("word")));
         assert_eq!(lines.split_whitespace().count(), 60);
         assert_eq!(wrapped("short"), "short");
     }

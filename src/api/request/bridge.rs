@@ -6,8 +6,6 @@ use utoipa::ToSchema;
 
 /// Most spans of a bridge.
 pub const MAX_SPANS: usize = 200;
-/// Most rings of a span.
-pub const MAX_RINGS: usize = 20;
 
 /// Spans of one or more rings between abutments and piers. The springing level of all spans is y = 0; x = 0 lies in the middle
 /// between the first springing and the last. At most 2001 stones and blocks in all.

@@ -9,7 +9,7 @@ const FILL_IS_SHAKEN: &str = "Fill has mass: in the acceleration the column of f
      What lies beside the arch does not push.";
 
 /// Most bodies that are named in a note.
-const NAMED: usize = 6;
+const BODIES_NAMED: usize = 6;
 
 /// Notes on what is assumed of the loads, and of the bodies of a bridge or of blocks.
 pub(super) fn assumptions(request: &AnalysisRequest, structure: Option<&StructureBody>) -> Vec<String> {
@@ -26,8 +26,9 @@ fn uncut(request: &AnalysisRequest, structure: &StructureBody) -> Option<String>
         return None;
     }
     let whole: Vec<&str> = structure.whole.iter().map(|&body| structure.bodies[body].name.as_str()).collect();
-    let more = if whole.len() > NAMED { format!(" and {} more", whole.len() - NAMED) } else { String::new() };
-    let names = whole.iter().take(NAMED).copied().collect::<Vec<_>>().join(", ");
+    let more =
+        if whole.len() > BODIES_NAMED { format!(" and {} more", whole.len() - BODIES_NAMED) } else { String::new() };
+    let names = whole.iter().take(BODIES_NAMED).copied().collect::<Vec<_>>().join(", ");
     let words = format!(
         "Only convex bodies with four corners are cut into subblocks. One block each, with one state of stress: {names}{more}."
     );

@@ -5,7 +5,7 @@ use super::assumptions::assumptions;
 use crate::api::prose::in_its_words;
 use crate::api::request::{AimRequest, AnalysisRequest, SafetyRequest};
 use crate::api::translate;
-use crate::collapse::{CrushingKind, Governs, Mode, Note, Reach, SafetyPoint, SafetyZone};
+use crate::collapse::{CrushingKind, Governs, Mode, Note, Reach, SafetyFactors, SafetyPoint, SafetyZone};
 use serde::Serialize;
 use utoipa::ToSchema;
 
@@ -60,8 +60,8 @@ pub struct SafetyBody {
     pub notes: Vec<String>,
 }
 
-impl From<&SafetyPoint> for SafetyBody {
-    fn from(point: &SafetyPoint) -> Self {
+impl SafetyBody {
+    pub(super) fn new(point: &SafetyFactors, notes: &[Note]) -> Self {
         SafetyBody {
             instability: point.instability.into(),
             updated_geometry: point.updated.map(Into::into),
@@ -71,7 +71,7 @@ impl From<&SafetyPoint> for SafetyBody {
             governed_by: point.governed_by,
             mode: point.mode,
             zone: point.zone,
-            notes: point.notes.iter().map(Note::to_string).collect(),
+            notes: notes.iter().map(Note::to_string).collect(),
         }
     }
 }
@@ -105,7 +105,7 @@ impl SafetyCurveResult {
         let AimRequest::Safety(SafetyRequest { crushing, curve: Some(curve) }) = &request.analysis else { return None };
         let assumptions = assumptions(request, translate::named(request).map(StructureBody::from).as_ref());
         let body = |(point, &abscissa): (&SafetyPoint, &f64)| {
-            let mut safety = SafetyBody::from(point);
+            let mut safety = SafetyBody::new(&point.factors, &point.notes);
             safety.notes.extend(assumptions.iter().cloned());
             safety.notes.iter_mut().for_each(|note| *note = in_its_words(request, note));
             CurvePointBody { abscissa, safety }

@@ -5,8 +5,8 @@ use super::profile::profile;
 use super::stone::{Stones, friction_angle};
 use super::structure::Layout;
 use crate::api::fault::{Faults, child};
-use crate::api::request::{BridgeAbutment, BridgeRequest, MAX_RINGS, MAX_SPANS, PierRequest, RingRequest, SpanRequest};
-use crate::bridge::{Backing, Bridge, BridgeEnd, BridgeFault, BridgeSpan, MAX_BODIES, Pier, RingCourse};
+use crate::api::request::{BridgeAbutment, BridgeRequest, MAX_SPANS, PierRequest, RingRequest, SpanRequest};
+use crate::bridge::{Backing, Bridge, BridgeEnd, BridgeFault, BridgeSpan, MAX_BODIES, MAX_RINGS, Pier, RingCourse};
 
 const SPANS: &str = "/bridge/spans";
 const PIERS: &str = "/bridge/piers";

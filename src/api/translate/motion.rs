@@ -9,7 +9,7 @@ use crate::structure::Structure;
 /// Most frames times stones of one motion: about 15 MB of answer.
 const MAX_PLACES: usize = 60_000;
 /// The ground may be so much higher than the lowest corner, as a share of its depth below y = 0 or of 1 m: round-off.
-const ROUND_OFF: f64 = 1e-9;
+const LEVEL_ROUND_OFF: f64 = 1e-9;
 
 /// What is asked of the motion of a structure, where it is.
 pub fn motion(request: &AnalysisRequest, structure: Option<&Structure>, faults: &mut Faults) -> Option<MotionAsked> {
@@ -26,7 +26,7 @@ pub fn motion(request: &AnalysisRequest, structure: Option<&Structure>, faults: 
     if let Some(level) = asked.ground_level_m {
         let corners = structure.iter().flat_map(|structure| &structure.bodies).flat_map(|body| &body.corners);
         let lowest = corners.map(|corner| corner.y).fold(MAX_LENGTH_M, f64::min);
-        let most = lowest + ROUND_OFF * lowest.abs().max(1.0);
+        let most = lowest + LEVEL_ROUND_OFF * lowest.abs().max(1.0);
         faults.within("/motion/ground_level_m", level, -MAX_LENGTH_M, most);
     }
     Some(MotionAsked { most_frames: frames, share_of_span: asked.share_of_span, ground_level: asked.ground_level_m })

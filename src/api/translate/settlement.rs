@@ -13,7 +13,7 @@ use crate::geometry::Vec2;
 use crate::structure::{Side, Structure};
 
 const HERE: &str = "/analysis/settlement";
-const SUPPORTS: &str = "/analysis/settlement/supports";
+const MOVED_SUPPORTS: &str = "/analysis/settlement/supports";
 
 /// Whether a movement of supports can be followed.
 pub fn check(request: &AnalysisRequest, settlement: &SettlementRequest, site: &Unloaded<'_>, faults: &mut Faults) {
@@ -37,7 +37,7 @@ fn check_springings(request: &AnalysisRequest, settlement: &SettlementRequest, s
         check_movement(&format!("{HERE}/{side}"), shift, movement.rotation_deg, size, faults);
     }
     let detail = "an arch has no named supports: give left or right";
-    faults.require(settlement.supports.is_empty(), SUPPORTS, detail);
+    faults.require(settlement.supports.is_empty(), MOVED_SUPPORTS, detail);
     let detail = "nothing moves: give left or right a movement, such as outwards_m";
     faults.require(sides.iter().any(|(_, movement)| !still(*movement)), HERE, detail);
     let detail = "the other half moves as the mirror image of this one: move left only, or set half to false";
@@ -50,12 +50,12 @@ fn check_supports(settlement: &SettlementRequest, site: &Unloaded<'_>, faults: &
         faults.require(still(movement), format!("{HERE}/{side}"), detail);
     }
     let list = &settlement.supports;
-    if !faults.listing(SUPPORTS, list.len(), 0..=MAX_MOVEMENTS, "supports") {
+    if !faults.listing(MOVED_SUPPORTS, list.len(), 0..=MAX_MOVEMENTS, "supports") {
         return;
     }
     let (size, names) = (site.size(), site.layout().map(|layout| &layout.supports));
     for (i, moved) in list.iter().enumerate() {
-        let here = format!("{SUPPORTS}/{i}");
+        let here = format!("{MOVED_SUPPORTS}/{i}");
         if let Some(names) = names {
             let detail = format!("there is no support {:?}: give one of {}", moved.support, names.join(", "));
             faults.require(names.contains(&moved.support), format!("{here}/support"), detail);

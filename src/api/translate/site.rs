@@ -6,7 +6,10 @@ use super::{MAX_FACTOR, MAX_LENGTH_M, accuracy, check_text, crushing, half, load
 use crate::api::fault::Faults;
 use crate::api::request::{AimRequest, AnalysisRequest, LoadEntry, MethodRequest};
 use crate::arch::MAX_VOUSSOIRS;
-use crate::collapse::{Accuracy, Aim, Analysis, FieldAt, Geometry, LOAD_PIECES, Mesh, Method, MotionAsked};
+use crate::collapse::{
+    Accuracy, Analysis, CollapseTask, FieldAt, Geometry, LOAD_PIECES, Mesh, Method, MotionAsked, Path, SafetyTask,
+    SettlementTask, StatesAsked, Task,
+};
 use crate::geometry::Vec2;
 use crate::structure::{PointForce, Structure};
 
@@ -22,7 +25,8 @@ pub struct Unloaded<'a> {
     subblocks: Vec<[usize; 2]>,
     /// The voussoir that is cut in half.
     cut: Option<usize>,
-    method: Method,
+    /// The fixed steps that are asked for.
+    steps: Option<Method>,
     accuracy: Option<Accuracy>,
     fields: Vec<FieldAt>,
     motion: Option<MotionAsked>,
@@ -52,7 +56,7 @@ impl<'a> Unloaded<'a> {
             *along = along.div_ceil(2);
         }
         let joints = structure.as_ref().map_or(usize::MAX, |structure| structure.ring().len());
-        let method = method(&request.method, joints, faults);
+        let steps = steps(&request.method, joints, faults);
         check_load_factor(request, faults);
         check_method(request, faults);
         crushing::check(request, &subblocks, faults);
@@ -63,7 +67,7 @@ impl<'a> Unloaded<'a> {
         let pieces = refined.map_or(pieces, |accuracy| accuracy.most_subblocks);
         let fields = mesh::fields(&request.report, pieces, faults);
         let motion = motion::motion(request, structure.as_ref(), faults);
-        Unloaded { request, whole: layout, structure, subblocks, cut, method, accuracy, fields, motion }
+        Unloaded { request, whole: layout, structure, subblocks, cut, steps, accuracy, fields, motion }
     }
 
     /// The whole structure with its names; none where it cannot be built.
@@ -107,27 +111,43 @@ impl<'a> Unloaded<'a> {
             None => forces,
         };
         Some(Analysis {
+            structure: structure.clone(),
             fixed: halve(forces.fixed),
             scaled: halve(forces.scaled),
             plane: request.stone.plane,
             penalty_ratio: request.stone.penalty_ratio_of(request.arch.is_some()),
             shear_penalty_ratio: request.stone.shear_penalty_ratio,
-            direction: request.load_factor.direction,
-            cap: request.load_factor.cap,
-            method: self.method,
-            geometry: request.geometry,
-            crushing_in_path: request.crushing_in_path,
-            share: request.report.share_of_collapse,
             mesh: Mesh { subblocks: self.subblocks().to_vec(), seams: request.mesh.seams },
-            accuracy: self.accuracy,
-            fields: self.fields.clone(),
-            motion: self.motion,
-            aim: match &request.analysis {
-                AimRequest::Collapse => Aim::Collapse,
-                AimRequest::Safety(safety) => Aim::Safety { crushing: safety.crushing },
-                AimRequest::Settlement(moved) => Aim::Settlement(settlement::movements(moved, self.layout()?)),
-            },
-            structure: structure.clone(),
+            task: self.task()?,
+        })
+    }
+
+    /// What is asked. Of options that do not go together, which are faults, the first counts.
+    fn task(&self) -> Option<Task> {
+        let (request, cap) = (self.request, self.request.load_factor.cap);
+        let path = match (self.accuracy, request.geometry) {
+            (Some(accuracy), _) => Path::Refined(accuracy),
+            (None, Geometry::Updated) => Path::Updated,
+            (None, Geometry::FirstOrder) => Path::FirstOrder,
+        };
+        let states = StatesAsked { share: request.report.share_of_collapse, fields: self.fields.clone() };
+        Some(match &request.analysis {
+            AimRequest::Collapse => Task::Collapse(CollapseTask {
+                direction: request.load_factor.direction,
+                cap,
+                method: match self.steps {
+                    Some(steps) => steps,
+                    None if request.crushing_in_path => Method::CrushingPath,
+                    None => Method::EventPath(path),
+                },
+                states,
+                motion: self.motion,
+            }),
+            AimRequest::Safety(safety) => Task::Safety(SafetyTask { crushing: safety.crushing, cap, path, states }),
+            AimRequest::Settlement(moved) => Task::Settlement(SettlementTask {
+                movements: settlement::movements(moved, self.layout()?),
+                geometry: request.geometry,
+            }),
         })
     }
 }
@@ -152,18 +172,15 @@ fn check_method(request: &AnalysisRequest, faults: &mut Faults) {
     faults.require(request.method == MethodRequest::EventPath, "/method", detail);
 }
 
-fn method(request: &MethodRequest, joints: usize, faults: &mut Faults) -> Method {
-    match request {
-        MethodRequest::EventPath => Method::EventPath,
-        MethodRequest::FixedSteps(steps) => {
-            let here = "/method/fixed_steps";
-            faults.within(format!("{here}/step"), steps.step, 0.0, MAX_FACTOR);
-            faults.within(format!("{here}/opening_m"), steps.opening_m, 0.0, MAX_LENGTH_M);
-            let (pointer, hinges) = (format!("{here}/hinges"), steps.hinges);
-            let detail = format!("{hinges} hinges are more than the {joints} joints of the arch: give fewer");
-            let _ = faults.counted(&pointer, hinges, 1..=MAX_VOUSSOIRS + 1, "hinges")
-                && faults.require(hinges <= joints, pointer, detail);
-            Method::FixedSteps { step: steps.step, opening: steps.opening_m, hinges: steps.hinges }
-        }
-    }
+/// The fixed steps asked for, where they are.
+fn steps(request: &MethodRequest, joints: usize, faults: &mut Faults) -> Option<Method> {
+    let MethodRequest::FixedSteps(steps) = request else { return None };
+    let here = "/method/fixed_steps";
+    faults.within(format!("{here}/step"), steps.step, 0.0, MAX_FACTOR);
+    faults.within(format!("{here}/opening_m"), steps.opening_m, 0.0, MAX_LENGTH_M);
+    let (pointer, hinges) = (format!("{here}/hinges"), steps.hinges);
+    let detail = format!("{hinges} hinges are more than the {joints} joints of the arch: give fewer");
+    let _ = faults.counted(&pointer, hinges, 1..=MAX_VOUSSOIRS + 1, "hinges")
+        && faults.require(hinges <= joints, pointer, detail);
+    Some(Method::FixedSteps { step: steps.step, opening: steps.opening_m, hinges: steps.hinges })
 }

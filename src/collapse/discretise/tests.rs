@@ -2,7 +2,7 @@ use super::*;
 use crate::arch::profile::Profile;
 use crate::arch::ring::{JointLines, Line, Ring, Thickness, stations};
 use crate::arch::{assemble, straight_voussoirs};
-use crate::collapse::{Aim, CrushingKind, CurvePoint, Direction, Mesh, Method, safety};
+use crate::collapse::{CurvePoint, Mesh, Path, SafetyTask, Task, safety};
 use crate::geometry::perpendicular;
 
 /// A semicircle of `n` equal stones, cut into `subblocks` each, without loads.
@@ -18,25 +18,9 @@ fn semicircle(n: usize, subblocks: [usize; 2], curved: bool) -> Analysis {
     let ends = ring.set_out().unwrap();
     let stones = if curved { ring.curved_voussoirs(&ends).unwrap() } else { straight_voussoirs(&ends).unwrap() };
     let law = JointLaw::Dry { friction: 0.6, cohesion: 0.0 };
-    Analysis {
-        aim: Aim::Collapse,
-        structure: assemble(&ends, stones, Stone::default(), law, Vec2::zeros()),
-        plane: PlaneModel::Stress,
-        penalty_ratio: 10.0,
-        shear_penalty_ratio: 1.0,
-        fixed: Vec::new(),
-        scaled: Vec::new(),
-        direction: Direction::Increase,
-        cap: None,
-        method: Method::EventPath,
-        geometry: Geometry::FirstOrder,
-        crushing_in_path: false,
-        share: 0.999,
-        mesh: Mesh { subblocks: vec![subblocks; n], seams: Seams::Split },
-        accuracy: None,
-        fields: Vec::new(),
-        motion: None,
-    }
+    let structure = assemble(&ends, stones, Stone::default(), law, Vec2::zeros());
+    let mesh = Mesh { subblocks: vec![subblocks; n], seams: Seams::Split };
+    Analysis { mesh, ..Analysis::new(structure, Vec::new(), Vec::new()) }
 }
 
 fn model<'p>(analysis: &Analysis, budget: &'p Budget<'p>) -> Model<'p> {
@@ -70,9 +54,12 @@ fn another_attempt_other_loads_and_another_abscissa_condense_no_stone_again() {
             |(body, force)| PointForce { body, at: stones.structure.bodies[body].region.centroid, force, spread: true };
         let fixed = (0..9).map(on(Vec2::new(0.0, -1e4))).map(at).collect();
         let scaled = [on(Vec2::new(push, -1e3))(3)].map(at).to_vec();
-        Analysis { aim: Aim::Safety { crushing: CrushingKind::PlasticSection }, fixed, scaled, ..stones }
+        Analysis { task: Task::Safety(SafetyTask::default()), fixed, scaled, ..stones }
     };
-    let updated = |push: f64| Analysis { geometry: Geometry::Updated, ..weighed(push) };
+    let updated = |push: f64| Analysis {
+        task: Task::Safety(SafetyTask { path: Path::Updated, ..SafetyTask::default() }),
+        ..weighed(push)
+    };
     let (analyses, budget) = ([weighed(0.0), updated(0.0), updated(100.0)], Budget::unlimited());
     let points = analyses.map(|analysis| CurvePoint { abscissa: 0.0, analysis });
     let mut built = Discretisation::new(&budget);

@@ -113,7 +113,7 @@ impl Refinement {
             errors.take(&differences(coarse, fine, refined.len()), &refined);
         }
         let yields = |report: &CollapseReport| {
-            let elastic = report.crushing.as_ref()?.elastic.as_ref()?;
+            let elastic = report.crushing.elastic.as_ref()?;
             Some((elastic.load_factor?, elastic.where_largest.as_ref()?.voussoir))
         };
         // A mesh that leaves the stone as it was tells nothing of it.

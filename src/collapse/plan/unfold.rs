@@ -23,13 +23,12 @@ pub(super) fn whole(structure: &Structure, half: CollapseReport, rigid: &Collaps
     let snapshot = |snapshot: Option<Snapshot>| snapshot.map(|left| unfolded(structure, &left));
     let mut notes = rigid.notes.clone();
     notes.extend(half.notes.into_iter().filter(|note| !rigid.notes.contains(note)));
-    let elastic = half.crushing.and_then(|crushing| crushing.elastic);
     CollapseReport {
         near_collapse: snapshot(half.near_collapse),
         at_unit_load: snapshot(half.at_unit_load),
         at_start: snapshot(half.at_start),
         stress_fields: half.stress_fields.iter().map(|field| unfolded_field(structure, field)).collect(),
-        crushing: rigid.crushing.clone().map(|crushing| Crushing { elastic, ..crushing }),
+        crushing: Crushing { elastic: half.crushing.elastic, ..rigid.crushing.clone() },
         history: half.history.into_iter().map(on_axis).collect(),
         cost: half.cost,
         notes,

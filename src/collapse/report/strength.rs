@@ -124,11 +124,9 @@ pub enum SafetyZone {
     CrownDescends,
 }
 
-/// Safety of an arch under its scaled loads in full.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SafetyPoint {
-    /// What it is drawn over, on a curve.
-    pub abscissa: Option<f64>,
+/// Safety of a structure under its scaled loads in full.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SafetyFactors {
     /// Against becoming a mechanism.
     pub instability: Reach,
     /// The same on moving geometry, where asked.
@@ -145,6 +143,29 @@ pub struct SafetyPoint {
     pub mode: Option<Mode>,
     /// Zone of Figs. 10 and 13; None where nothing limits, or where the arch sways or slides.
     pub zone: Option<SafetyZone>,
+}
+
+impl SafetyFactors {
+    /// Nothing is known.
+    pub const UNKNOWN: SafetyFactors = SafetyFactors {
+        instability: Reach::Unknown,
+        updated: None,
+        elastic: Reach::Unknown,
+        plastic_section: Reach::Unknown,
+        governing: Reach::Unknown,
+        governed_by: Governs::Unknown,
+        mode: None,
+        zone: None,
+    };
+}
+
+/// One point of a safety curve.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SafetyPoint {
+    /// What it is drawn over.
+    pub abscissa: f64,
+    /// The safety factors there.
+    pub factors: SafetyFactors,
     /// What an engineer should know.
     pub notes: Vec<Note>,
 }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::collapse::{Cost, HistoryPoint, LimitWindow, Reach, SafetyPoint};
+use crate::collapse::{Cost, Crushing, HistoryPoint, LimitWindow, Reach, SafetyFactors, TaskReport};
 use crate::geometry::Vec2;
 
 /// A report of nothing but its limit window.
@@ -17,10 +17,9 @@ fn blank() -> CollapseReport {
         at_unit_load: None,
         at_start: None,
         stress_fields: Vec::new(),
-        crushing: None,
+        crushing: Crushing { strength: 1e7, elastic: None, plastic_section: None },
         updated: None,
-        settlement: None,
-        safety: None,
+        task: TaskReport::Safety(SafetyFactors::UNKNOWN),
         history: Vec::new(),
         motion: None,
         other_motion: None,
@@ -40,11 +39,11 @@ fn collapse(crown: f64) -> CollapseReport {
 fn a_number_that_is_none_leaves_the_window_and_a_reason() {
     assert_eq!(collapse(1.0).or_cannot_tell(blank()), collapse(1.0));
     for crown in [f64::NAN, f64::INFINITY] {
-        let safety = SafetyPoint { governing: Reach::At(2.0), ..SafetyPoint::unknown(None) };
-        let report = CollapseReport { safety: Some(safety), ..collapse(crown) }.or_cannot_tell(blank());
+        let task = TaskReport::Safety(SafetyFactors { governing: Reach::At(2.0), ..SafetyFactors::UNKNOWN });
+        let report = CollapseReport { task, ..collapse(crown) }.or_cannot_tell(blank());
         assert_eq!((report.outcome, report.history.len()), (Outcome::CannotTell, 0));
         assert_eq!(report.limit_window, blank().limit_window);
-        assert_eq!(report.safety, Some(SafetyPoint::unknown(None)));
+        assert_eq!(report.safety(), Some(&SafetyFactors::UNKNOWN));
         assert_eq!(report.notes, [Note::NotFinite("history")]);
         assert_eq!(report.check_finite(), Ok(()));
     }

@@ -3,7 +3,7 @@
 use super::{Attempted, Setup};
 use crate::collapse::certificate::{any_fixed, loaded};
 use crate::collapse::discretise::Model;
-use crate::collapse::{Aim, AnalysisError, CollapseReport, Doubt, LoadRange, Note, Outcome, PathEnd, ending, motion};
+use crate::collapse::{AnalysisError, CollapseReport, Doubt, LoadRange, Note, Outcome, PathEnd, Task, ending, motion};
 use crate::dda::Tracer;
 
 impl Setup<'_> {
@@ -27,7 +27,7 @@ impl Setup<'_> {
             report.notes.extend(doubt.is_none().then_some(Note::FallsFromZero));
             return Ok(Attempted { report: self.at_zero(report, fall), doubt });
         }
-        let safety = matches!(self.analysis.aim, Aim::Safety { .. });
+        let safety = matches!(self.analysis.task, Task::Safety(_));
         report.notes.extend(self.certificate.out_of_reach(self.start, safety));
         let slides = doubt == Some(Doubt::SlidesInside);
         report.outcome = if slides { Outcome::SlidesAsBuilt } else { Outcome::FallsAsBuilt };

@@ -7,7 +7,7 @@ use crate::collapse::path::{Leg, follow};
 use crate::collapse::record::{MOST_FIXED_STEPS, Recorder, snapshot};
 use crate::collapse::sliding::Search;
 use crate::collapse::state::States;
-use crate::collapse::tolerances::TOLERANCES;
+use crate::collapse::tolerances;
 use crate::collapse::{AnalysisError, CollapseReport, Cost, Doubt, LoadRange, Method, Note, Outcome};
 use crate::dda::Tracer;
 
@@ -29,10 +29,8 @@ impl Setup<'_> {
         report.cost.add(tracer, before);
         let at_unit_load = recorder.at(1.0).map(|d| states.find(1.0, d)).transpose()?.flatten();
         report.at_unit_load = at_unit_load.map(|state| snapshot(model, &state)).transpose()?;
-        if let Some(crushing) = &mut report.crushing {
-            let (first_yield, at) = (recorder.first_yield(), recorder.yields_at());
-            crushing.elastic = Some(states.first_yield(first_yield, at, crushing.strength)?);
-        }
+        let (first_yield, at) = (recorder.first_yield(), recorder.yields_at());
+        report.crushing.elastic = Some(states.first_yield(first_yield, at, report.crushing.strength)?);
         let residual = tracer.worst_residual();
         let mut peak_load = None;
         let (ending, turned_back) = match leg {
@@ -76,14 +74,14 @@ impl Setup<'_> {
         turned_back: bool,
     ) -> Result<Option<Doubt>, AnalysisError> {
         let path = ending.end.load_factor;
-        let doubt = match self.analysis.method {
+        let doubt = match self.analysis.task.method() {
             Method::FixedSteps { step, .. } => {
                 let limit = self.certificate.end(sign).unwrap_or(0.0);
                 report.notes.push(Note::ReadAtSteps { step, limit });
                 None
             }
-            Method::EventPath => {
-                if !self.analysis.crushing_in_path {
+            Method::EventPath(_) | Method::CrushingPath => {
+                if !self.analysis.task.crushes_on_path() {
                     self.take_least(&mut ending, sign)?;
                 }
                 match self.certificate.compare(&ending.end, sign) {
@@ -94,7 +92,7 @@ impl Setup<'_> {
         };
         report.notes.extend(ending.later.then_some(Note::LaterMechanism));
         report.notes.extend(ending.end.range.as_ref().map(range_note));
-        let slides = self.analysis.crushing_in_path && !ending.end.mechanism.slides.is_empty();
+        let slides = self.analysis.task.crushes_on_path() && !ending.end.mechanism.slides.is_empty();
         report.notes.extend(slides.then_some(Note::CrushesAndSlides));
         report.outcome = Outcome::Collapse;
         report.end = Some(ending.end);
@@ -111,13 +109,13 @@ impl Setup<'_> {
         let (found, mechanisms_tried) = search.least(at_limits);
         self.budget.check()?;
         let slides = found.filter(|found| !found.mechanism.slides.is_empty());
-        if let Some(found) = slides.filter(|found| !search.is_beyond(found.load_factor, path, TOLERANCES.polish)) {
+        if let Some(found) = slides.filter(|found| !search.is_beyond(found.load_factor, path, tolerances::POLISH)) {
             // A path that nothing polished carries the disturbance of its attempt: what is as near is the same load.
-            if !search.is_beyond(path, found.load_factor, TOLERANCES.polish) {
+            if !search.is_beyond(path, found.load_factor, tolerances::POLISH) {
                 path = found.load_factor;
             }
             // The path's own mechanism is the smallest motion of its joints, where it has one at its peak.
-            if search.is_beyond(path, found.load_factor, TOLERANCES.same_load) || *later {
+            if search.is_beyond(path, found.load_factor, tolerances::SAME_LOAD) || *later {
                 end.mechanism = found.mechanism;
                 end.thrust_line = ending::thrust_line(&analysis.structure, &found.forces);
                 *later = false;
@@ -132,8 +130,8 @@ impl Setup<'_> {
 
     /// The collapse load as the method reads it: exact, or the first whole step beyond.
     fn read_off(&self, load_factor: f64, sign: f64) -> f64 {
-        match self.analysis.method {
-            Method::EventPath => load_factor,
+        match self.analysis.task.method() {
+            Method::EventPath(_) | Method::CrushingPath => load_factor,
             Method::FixedSteps { step, .. } => {
                 let steps = ((load_factor - self.start).abs() / step).floor() + 1.0;
                 self.start + sign * steps * step

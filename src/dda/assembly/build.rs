@@ -1,6 +1,6 @@
 //! Building an assembly: contact points, and stones of one shape condensed once.
 
-use super::{Assembly, Beside, Body, Kind, Site, stresses};
+use super::{Assembly, Beside, Instance, Kind, Site, stresses};
 use crate::budget::Budget;
 
 use crate::dda::condense::{Condensed, Loose, Node, Unbuilt};
@@ -13,9 +13,9 @@ use crate::geometry::{Vec2, cross, perpendicular};
 use nalgebra::{DMatrix, DVectorView};
 
 /// Coordinates that differ by this share of the farthest from the origin differ by rounding: some operations' worth.
-const ROUNDING: f64 = 256.0 * f64::EPSILON;
+const COORDINATE_ROUNDING: f64 = 256.0 * f64::EPSILON;
 /// Work of seeing a subblock from another frame, or of comparing a body with a kind, in multiplications.
-const WORK: usize = 300;
+const BODY_WORK: usize = 300;
 /// Most entries of a kind's stress by its nodes that are kept, 32 MB. Where there are more, solving for the subblocks each
 /// time, with factors that are there anyway, takes hardly longer.
 const MOST_KEPT: usize = 1 << 22;
@@ -45,12 +45,12 @@ pub struct Touch {
 #[derive(Debug)]
 pub struct AssemblyBuilder {
     macroblocks: Vec<Macroblock>,
-    interfaces: Vec<Interface>,
+    interfaces: Vec<Joined>,
 }
 
 /// An interface as it is built.
 #[derive(Debug)]
-struct Interface {
+struct Joined {
     between: [Beside; 2],
     touches: Vec<Touch>,
 }
@@ -63,7 +63,7 @@ impl AssemblyBuilder {
 
     /// Joins what lies before an interface to what lies after it, by these contact points.
     pub fn join(&mut self, between: [Beside; 2], touches: impl IntoIterator<Item = Touch>) {
-        self.interfaces.push(Interface { between, touches: touches.into_iter().collect() });
+        self.interfaces.push(Joined { between, touches: touches.into_iter().collect() });
     }
 
     /// The assembly.
@@ -79,9 +79,9 @@ impl AssemblyBuilder {
                 of_bodies[i].iter().flat_map(|&(k, side)| nodes(&self.interfaces[k].touches, side)).collect();
             let (origin, x_axis) = nodes.first().map(|n| (n.at, n.axes[0])).ok_or(Loose)?;
             let (seen, nodes) = (macroblock.seen_from(origin, x_axis), seen_nodes(&nodes, origin, x_axis));
-            let rounding = ROUNDING * (origin.amax() + extent(&nodes));
+            let rounding = COORDINATE_ROUNDING * (origin.amax() + extent(&nodes));
             // A kind is compared, or a new one made.
-            budget.work(WORK * (1 + kinds.len() + seen.blocks().len()))?;
+            budget.work(BODY_WORK * (1 + kinds.len() + seen.blocks().len()))?;
             let same = |kind: &Kind| alike(kind, &seen, &nodes, rounding);
             let kind = match kinds.iter().rposition(same) {
                 Some(kind) => kind,
@@ -90,7 +90,7 @@ impl AssemblyBuilder {
                     kinds.len() - 1
                 }
             };
-            bodies.push(Body { origin, x_axis, kind });
+            bodies.push(Instance { origin, x_axis, kind });
         }
         self.put_together(&of_bodies, bodies, kinds, budget)
     }
@@ -111,7 +111,7 @@ impl AssemblyBuilder {
     fn put_together(
         self,
         of_bodies: &[Vec<(usize, usize)>],
-        bodies: Vec<Body>,
+        bodies: Vec<Instance>,
         kinds: Vec<Kind>,
         budget: &Budget,
     ) -> Result<Assembly, Unbuilt> {
@@ -154,7 +154,7 @@ impl AssemblyBuilder {
         self.interfaces.iter().for_each(|i| first.push(first[first.len() - 1] + i.touches.len()));
         let touches = || self.interfaces.iter().flat_map(|interface| &interface.touches);
         let contacts: Vec<_> = touches().map(|t| Contact::new(t.stiffness, t.law)).collect();
-        let of_contact = |(k, i): (usize, &Interface)| vec![k; i.touches.len()];
+        let of_contact = |(k, i): (usize, &Joined)| vec![k; i.touches.len()];
         let mut assembly = Assembly {
             exact: contacts.clone(),
             contacts,

@@ -10,7 +10,7 @@ use crate::dda::contact::{Contact, Law};
 use crate::geometry::{Vec2, mirrored};
 
 /// Numbers of two mirror images that differ by this share of the largest differ by rounding.
-const ROUNDING: f64 = 1e-9;
+const MIRROR_ROUNDING: f64 = 1e-9;
 /// The same for the stiffness of condensed bodies, which took many operations.
 const STIFFNESS_ROUNDING: f64 = 1e-7;
 
@@ -42,7 +42,7 @@ impl Assembly {
 
     /// True where the assembly and `loads` on its nodes are their own mirror image.
     pub fn are_symmetric(&self, loads: &[f64]) -> bool {
-        self.is_symmetric() && near(&self.mirrored(loads), loads, ROUNDING)
+        self.is_symmetric() && near(&self.mirrored(loads), loads, MIRROR_ROUNDING)
     }
 
     /// True where the assembly is its own mirror image: places, normals, exact contacts and elastic stiffness.
@@ -66,7 +66,8 @@ impl Assembly {
             let (here, there) = (self.at_interface(k), self.at_interface(image));
             for (j, p) in here.clone().enumerate() {
                 let q = if swapped { there.start + j } else { there.end - 1 - j };
-                let same = |a: &Contact, b: &Contact| alike(a.law, b.law) && near(&a.stiffness, &b.stiffness, ROUNDING);
+                let same =
+                    |a: &Contact, b: &Contact| alike(a.law, b.law) && near(&a.stiffness, &b.stiffness, MIRROR_ROUNDING);
                 if !same(&self.exact[p], &self.exact[q]) {
                     return None;
                 }
@@ -93,7 +94,7 @@ impl Assembly {
         let (low, high) = middles
             .iter()
             .fold((Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY)), |(l, h), m| (l.inf(m), h.sup(m)));
-        let (axis, rounding) = (0.5 * (low.x + high.x), ROUNDING * (high - low).amax());
+        let (axis, rounding) = (0.5 * (low.x + high.x), MIRROR_ROUNDING * (high - low).amax());
         let mut by_height: Vec<usize> = (0..middles.len()).collect();
         by_height.sort_by(|&a, &b| middles[a].y.total_cmp(&middles[b].y));
         let image = |k: usize| {
@@ -112,7 +113,7 @@ impl Assembly {
     fn facing(&self, k: usize, image: usize) -> Option<bool> {
         let (here, there) = (self.at_interface(k), self.at_interface(image));
         let (a, b) = (mirrored(self.sites[here.start].normal, 0.0), self.sites[there.start].normal);
-        let same = |b: Vec2| near(&[a.x, a.y], &[b.x, b.y], ROUNDING);
+        let same = |b: Vec2| near(&[a.x, a.y], &[b.x, b.y], MIRROR_ROUNDING);
         let swapped = if same(-b) { Some(true) } else { same(b).then_some(false) };
         swapped.filter(|_| here.len() == there.len())
     }
@@ -156,7 +157,7 @@ impl Assembly {
 fn alike(a: Law, b: Law) -> bool {
     match (a, b) {
         (Law::Coulomb { cap: a_cap, .. }, Law::Coulomb { cap: b_cap, friction, cohesion }) if a_cap.is_finite() => {
-            near(&[a_cap], &[b_cap], ROUNDING) && a == Law::Coulomb { friction, cohesion, cap: a_cap }
+            near(&[a_cap], &[b_cap], MIRROR_ROUNDING) && a == Law::Coulomb { friction, cohesion, cap: a_cap }
         }
         _ => a == b,
     }

@@ -7,18 +7,18 @@ use nalgebra::Vector3;
 /// What has no weight has this density, kg/m3: something has to resist.
 const LEAST_DENSITY: f64 = 1e-9;
 /// A component of a unit vector that is nought.
-const SMALL: f64 = 1e-9;
+const NOUGHT: f64 = 1e-9;
 
 /// Where a body is.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Place {
+pub struct Position {
     /// Its centroid, m.
     pub centroid: Vec2,
     /// Turned by so much since the start, counter-clockwise, rad.
     pub angle: f64,
 }
 
-impl Place {
+impl Position {
     /// Where the material point at `arm` from the centroid at the start is now.
     pub fn point(&self, arm: Vec2) -> Vec2 {
         let (sin, cos) = self.angle.sin_cos();
@@ -26,8 +26,8 @@ impl Place {
     }
 
     /// Moved by (u, v, rotation).
-    pub(super) fn moved(&self, by: &Vector3<f64>) -> Place {
-        Place { centroid: self.centroid + Vec2::new(by.x, by.y), angle: self.angle + by.z }
+    pub(super) fn moved(&self, by: &Vector3<f64>) -> Position {
+        Position { centroid: self.centroid + Vec2::new(by.x, by.y), angle: self.angle + by.z }
     }
 }
 
@@ -96,8 +96,8 @@ impl RigidBody {
     }
 
     /// Where it is at the start.
-    pub fn start(&self) -> Place {
-        Place { centroid: self.centroid, angle: 0.0 }
+    pub fn start(&self) -> Position {
+        Position { centroid: self.centroid, angle: 0.0 }
     }
 
     pub(super) fn movable(&self) -> bool {
@@ -107,7 +107,7 @@ impl RigidBody {
     /// Whether a force in this direction can move it.
     pub(super) fn yields_to(&self, force: Vec2) -> bool {
         let [x, y, turn] = self.free;
-        turn || (x && force.x.abs() > SMALL) || (y && force.y.abs() > SMALL)
+        turn || (x && force.x.abs() > NOUGHT) || (y && force.y.abs() > NOUGHT)
     }
 
     /// Its convex parts, it being body number `body`.
@@ -121,13 +121,13 @@ impl RigidBody {
     }
 
     /// Largest displacement of a corner between two places, m.
-    pub(super) fn moved(&self, from: &Place, to: &Place) -> f64 {
+    pub(super) fn moved(&self, from: &Position, to: &Position) -> f64 {
         let arms = self.members.iter().flat_map(|member| &member.corners).map(|corner| corner - self.centroid);
         arms.map(|arm| (to.point(arm) - from.point(arm)).norm()).fold(0.0, f64::max)
     }
 
     /// Resultant of its forces in a place, where it is free to follow: force, N/m, and moment about the centroid, N.
-    pub(super) fn load(&self, place: &Place) -> Vector3<f64> {
+    pub(super) fn load(&self, place: &Position) -> Vector3<f64> {
         let part = |&(arm, force): &(Vec2, Vec2)| {
             Vector3::new(force.x, force.y, cross(place.point(arm) - place.centroid, force))
         };
@@ -140,7 +140,7 @@ impl RigidBody {
     }
 
     /// Work of its forces between two places, N.
-    pub(super) fn work(&self, from: &Place, to: &Place) -> f64 {
+    pub(super) fn work(&self, from: &Position, to: &Position) -> f64 {
         self.pushes.iter().map(|&(arm, force)| force.dot(&(to.point(arm) - from.point(arm)))).sum()
     }
 

@@ -1,6 +1,6 @@
 //! What a step leads to.
 
-use super::body::Place;
+use super::body::Position;
 use super::interface::Opening;
 use crate::geometry::Vec2;
 
@@ -29,7 +29,7 @@ pub struct Configuration {
     /// Sum of all steps of the time-like parameter, s2.
     pub parameter: f64,
     /// Every body's place.
-    pub places: Vec<Place>,
+    pub places: Vec<Position>,
     /// How the sides of every interface lie to each other.
     pub openings: Vec<Opening>,
     /// Contacts that touch, with the forces that they carried in the step.

@@ -3,10 +3,10 @@
 use crate::geometry::{Vec2, perpendicular};
 
 /// Cosine of the angle beyond which two sides do not lie against each other any more.
-const OPEN: f64 = 0.5;
+const OPPOSED: f64 = 0.5;
 
 /// A convex polygon where it is: corners, m, and whether the side from each is a side of the body, no cut through it.
-pub(super) type Outline = Vec<(Vec2, bool)>;
+pub(super) type CutPolygon = Vec<(Vec2, bool)>;
 
 /// A corner of one of two polygons before a side of the other.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,7 +50,7 @@ pub(super) enum AtCorner {
 
 impl Entrance {
     /// Where it is now.
-    pub fn touching(&self, pair: [&Outline; 2]) -> Touching {
+    pub fn touching(&self, pair: [&CutPolygon; 2]) -> Touching {
         let (from, normal) = side(pair[self.owner], self.side);
         let at = pair[1 - self.owner][self.corner].0;
         let sign = if self.owner == 0 { 1.0 } else { -1.0 };
@@ -59,13 +59,13 @@ impl Entrance {
 }
 
 /// One end of a side and its unit normal, out of its polygon.
-fn side(of: &Outline, number: usize) -> (Vec2, Vec2) {
+fn side(of: &CutPolygon, number: usize) -> (Vec2, Vec2) {
     let (from, to) = (of[number].0, of[(number + 1) % of.len()].0);
     (from, -perpendicular((to - from).normalize()))
 }
 
 /// The side of either that separates them best.
-pub(super) fn separation(pair: [&Outline; 2]) -> Separation {
+pub(super) fn separation(pair: [&CutPolygon; 2]) -> Separation {
     let mut best = Separation { owner: 0, side: 0, distance: f64::NEG_INFINITY };
     for owner in 0..2 {
         for number in 0..pair[owner].len() {
@@ -82,7 +82,7 @@ pub(super) fn separation(pair: [&Outline; 2]) -> Separation {
 
 /// Where two polygons touch or would first. Sides that lie against each other touch at both ends of what they share, where
 /// a corner of either lies on the other's side. Nothing where the best side is a cut: the part beyond it touches.
-pub(super) fn entrances(pair: [&Outline; 2], best: &Separation, at_corner: AtCorner) -> [Option<Entrance>; 2] {
+pub(super) fn entrances(pair: [&CutPolygon; 2], best: &Separation, at_corner: AtCorner) -> [Option<Entrance>; 2] {
     let Separation { owner, side: number, .. } = *best;
     let (own, other) = (pair[owner], pair[1 - owner]);
     if !own[number].1 {
@@ -91,7 +91,7 @@ pub(super) fn entrances(pair: [&Outline; 2], best: &Separation, at_corner: AtCor
     let (from, normal) = side(own, number);
     let opposite = |&i: &usize| normal.dot(&side(other, i).1);
     let facing = (0..other.len()).filter(|&i| other[i].1).min_by(|a, b| opposite(a).total_cmp(&opposite(b)));
-    if let Some(facing) = facing.filter(|facing| -opposite(facing) > OPEN) {
+    if let Some(facing) = facing.filter(|facing| -opposite(facing) > OPPOSED) {
         let along = perpendicular(normal) - perpendicular(side(other, facing).1);
         // Ends of both sides, in the sense of the first.
         let (mine, theirs) = ([number, (number + 1) % own.len()], [(facing + 1) % other.len(), facing]);
@@ -131,11 +131,11 @@ mod tests {
 
     const FREE: AtCorner = AtCorner::Free(1e-3);
 
-    fn square(x: f64, y: f64) -> Outline {
+    fn square(x: f64, y: f64) -> CutPolygon {
         [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(u, v)| (Vec2::new(x + u, y + v), true)).to_vec()
     }
 
-    fn touching(a: &Outline, b: &Outline, at_corner: AtCorner) -> (f64, Vec<Touching>) {
+    fn touching(a: &CutPolygon, b: &CutPolygon, at_corner: AtCorner) -> (f64, Vec<Touching>) {
         let best = separation([a, b]);
         let all = entrances([a, b], &best, at_corner);
         (best.distance, all.iter().flatten().map(|entrance| entrance.touching([a, b])).collect())
@@ -155,7 +155,7 @@ mod tests {
     #[test]
     fn a_sharp_corner_touches_a_side_and_passes_a_corner() {
         let tip = |x: f64| vec![(x, 0.0), (x + 0.2, 1.0), (x - 0.2, 1.0)];
-        let wedge = |x| tip(x).into_iter().map(|(x, y)| (Vec2::new(x, y + 1.02), true)).collect::<Outline>();
+        let wedge = |x| tip(x).into_iter().map(|(x, y)| (Vec2::new(x, y + 1.02), true)).collect::<CutPolygon>();
         let (distance, all) = touching(&square(0.0, 0.0), &wedge(0.4), FREE);
         assert!((distance - 0.02).abs() < 1e-12 && all.len() == 1 && (all[0].normal - Vec2::y()).norm() < 1e-12);
         assert_eq!(touching(&square(0.0, 0.0), &wedge(1.0), FREE).1.len(), 0);

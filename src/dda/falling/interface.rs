@@ -1,6 +1,6 @@
 //! What two members have in common at the start: how far it has opened and slid since.
 
-use super::body::Place;
+use super::body::Position;
 use super::step::{Falling, TORN};
 use crate::geometry::{Vec2, perpendicular};
 
@@ -39,17 +39,17 @@ impl Falling {
         self.carried_along(interface, end, &self.places)
     }
 
-    fn carried_along(&self, interface: usize, end: usize, places: &[Place]) -> [Vec2; 2] {
+    fn carried_along(&self, interface: usize, end: usize, places: &[Position]) -> [Vec2; 2] {
         let at = self.interfaces[interface].ends[end];
         self.beside[interface].map(|body| places[body].point(at - self.bodies[body].centroid))
     }
 
     /// How the sides of every interface lie to each other in these places.
-    pub(super) fn openings(&self, places: &[Place]) -> Vec<Opening> {
+    pub(super) fn openings(&self, places: &[Position]) -> Vec<Opening> {
         (0..self.interfaces.len()).map(|k| self.opening(k, places)).collect()
     }
 
-    fn opening(&self, k: usize, places: &[Place]) -> Opening {
+    fn opening(&self, k: usize, places: &[Position]) -> Opening {
         let [first, last] = [0, 1].map(|end| self.carried_along(k, end, places));
         let along = [0, 1].map(|side| (last[side] - first[side]).normalize());
         let middle = (along[0] + along[1]).normalize();

@@ -21,7 +21,7 @@ mod solver;
 mod step;
 mod trial;
 
-pub use body::{Member, Place, RigidBody};
+pub use body::{Member, Position, RigidBody};
 pub use configuration::{Advance, Carried, Configuration, Stuck};
 pub use interface::{Interface, Opening};
 pub use step::Falling;

@@ -1,7 +1,7 @@
 //! Which parts of bodies are near to each other, and where they touch.
 
-use super::body::Place;
-use super::entrance::{AtCorner, Entrance, Outline, Touching, entrances, separation};
+use super::body::Position;
+use super::entrance::{AtCorner, CutPolygon, Entrance, Touching, entrances, separation};
 use super::step::{Falling, NEAR, OVERLAP};
 use crate::budget::{Budget, Stopped};
 use crate::geometry::Vec2;
@@ -13,7 +13,7 @@ const SEEN: usize = 100;
 
 /// An entrance of two parts, the first of which belongs to what lies before their interface.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Placed {
+pub(super) struct PlacedEntrance {
     pub parts: [usize; 2],
     /// Which of two, along a side of the first part.
     pub end: usize,
@@ -23,7 +23,7 @@ pub(super) struct Placed {
 }
 
 impl Falling {
-    pub(super) fn outlines(&self, places: &[Place]) -> Vec<Outline> {
+    pub(super) fn outlines(&self, places: &[Position]) -> Vec<CutPolygon> {
         let outline = |part: &super::body::Part| {
             let place = &places[part.body];
             part.arms.iter().map(|&(arm, real)| (place.point(arm), real)).collect()
@@ -35,9 +35,9 @@ impl Falling {
     ///
     /// # Errors
     /// When stopped.
-    pub(super) fn near(&self, outlines: &[Outline], budget: &Budget) -> Result<Vec<[usize; 2]>, Stopped> {
+    pub(super) fn near(&self, outlines: &[CutPolygon], budget: &Budget) -> Result<Vec<[usize; 2]>, Stopped> {
         let reach = Vec2::repeat(0.5 * REACH * self.thickness);
-        let around = |outline: &Outline| {
+        let around = |outline: &CutPolygon| {
             let of = |pick: fn(&Vec2, &Vec2) -> Vec2| outline.iter().fold(outline[0].0, |all, c| pick(&all, &c.0));
             [of(Vec2::inf) - reach, of(Vec2::sup) + reach]
         };
@@ -79,7 +79,12 @@ impl Falling {
     }
 
     /// Where a pair of parts touches.
-    pub(super) fn placed(&self, parts: [usize; 2], outlines: &[Outline], at_corner: AtCorner) -> Vec<Placed> {
+    pub(super) fn placed(
+        &self,
+        parts: [usize; 2],
+        outlines: &[CutPolygon],
+        at_corner: AtCorner,
+    ) -> Vec<PlacedEntrance> {
         let pair = parts.map(|part| &outlines[part]);
         let best = separation(pair);
         if best.distance > REACH * self.thickness {
@@ -91,13 +96,13 @@ impl Falling {
             let touching = entrance.touching(pair);
             let yields = parts.iter().any(|&part| self.bodies[self.parts[part].body].yields_to(touching.normal));
             let interface = self.nearest_end(parts, touching.at);
-            yields.then_some(Placed { parts, end, entrance, interface })
+            yields.then_some(PlacedEntrance { parts, end, entrance, interface })
         };
         all.filter_map(placed).collect()
     }
 
     /// All of these pairs that touch; corners may pass each other on either side.
-    pub(super) fn touching(&self, pairs: &[[usize; 2]], outlines: &[Outline]) -> Vec<Placed> {
+    pub(super) fn touching(&self, pairs: &[[usize; 2]], outlines: &[CutPolygon]) -> Vec<PlacedEntrance> {
         let free = AtCorner::Free(NEAR * self.thickness);
         pairs.iter().flat_map(|&pair| self.placed(pair, outlines, free)).collect()
     }
@@ -110,7 +115,7 @@ impl Falling {
     }
 
     /// How far these pairs of parts overlap at most, m, and which do by more than is allowed.
-    pub(super) fn overlaps(&self, pairs: &[[usize; 2]], outlines: &[Outline]) -> (f64, Vec<[usize; 2]>) {
+    pub(super) fn overlaps(&self, pairs: &[[usize; 2]], outlines: &[CutPolygon]) -> (f64, Vec<[usize; 2]>) {
         let (mut most, mut beyond): (f64, Vec<[usize; 2]>) = (0.0, Vec::new());
         for pair in pairs {
             let outlines = pair.map(|part| &outlines[part]);
@@ -126,13 +131,13 @@ impl Falling {
         (most, beyond)
     }
 
-    pub(super) fn at(&self, placed: &Placed, outlines: &[Outline]) -> Touching {
+    pub(super) fn at(&self, placed: &PlacedEntrance, outlines: &[CutPolygon]) -> Touching {
         placed.entrance.touching(placed.parts.map(|part| &outlines[part]))
     }
 
     /// Largest displacement of a corner since the start, m.
     pub(super) fn displacement(&self) -> f64 {
-        let moved = |(body, place): (&super::body::RigidBody, &Place)| body.moved(&body.start(), place);
+        let moved = |(body, place): (&super::body::RigidBody, &Position)| body.moved(&body.start(), place);
         self.bodies.iter().zip(&self.places).map(moved).fold(0.0, f64::max)
     }
 }

@@ -23,13 +23,13 @@ use nalgebra::{Matrix3, Vector3};
 use std::collections::BTreeMap;
 
 /// Iterations after which a step has failed; ten to twenty are usual.
-const MOST_ITERATIONS: usize = 80;
+const MOST_STEP_ITERATIONS: usize = 80;
 /// Work of one iteration over the number of contacts, in multiplications.
 const ITERATED: usize = 1000;
 /// Mean product of force and distance left at the end.
 const CLOSED: f64 = 1e-10;
 /// Largest residual left at the end.
-const BALANCED: f64 = 1e-9;
+const BALANCED_STEP: f64 = 1e-9;
 /// Share of the way to the nearest bound that is gone.
 const NEARLY: f64 = 0.995;
 /// Forces and distances that the iteration starts from: the first from which it converges, which is nearly always the first.
@@ -37,7 +37,7 @@ const STARTS: [[f64; 2]; 3] = [[0.1, 0.01], [1.0, 0.01], [0.1, 1.0]];
 
 /// A step to be made.
 #[derive(Debug, Clone)]
-pub(super) struct Problem {
+pub(super) struct StepProblem {
     /// Resistance of every body, diagonal.
     pub resistance: Vec<Vector3<f64>>,
     /// Load on every body.
@@ -59,10 +59,10 @@ pub(super) struct Solution {
 
 /// The iteration did not converge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Unsolved;
+pub(super) struct NotConverged;
 
 /// Sum of products of what complements each other after `share` of the change, and how many they are.
-fn products(problem: &Problem, pairs: &[Pair], changes: Option<(&[Pair], f64)>) -> (f64, usize) {
+fn products(problem: &StepProblem, pairs: &[Pair], changes: Option<(&[Pair], f64)>) -> (f64, usize) {
     let (mut sum, mut count) = (0.0, 0);
     for (c, contact) in problem.contacts.iter().enumerate() {
         let change = changes.map_or(Pair::NOTHING, |(all, _)| all[c]);
@@ -76,7 +76,7 @@ fn products(problem: &Problem, pairs: &[Pair], changes: Option<(&[Pair], f64)>) 
 }
 
 /// The largest share, at most 1, of a change that keeps everything positive.
-fn largest_share(problem: &Problem, pairs: &[Pair], changes: &[Pair]) -> f64 {
+fn largest_share(problem: &StepProblem, pairs: &[Pair], changes: &[Pair]) -> f64 {
     let mut share: f64 = 1.0;
     for ((contact, pair), change) in problem.contacts.iter().zip(pairs).zip(changes) {
         for (value, by) in contact.positives(pair, change) {
@@ -88,23 +88,23 @@ fn largest_share(problem: &Problem, pairs: &[Pair], changes: &[Pair]) -> f64 {
     share
 }
 
-impl Problem {
+impl StepProblem {
     /// Makes the step.
     ///
     /// # Errors
     /// When the iteration converges from none of its starts, or where the budget is spent.
-    pub(super) fn solve(&self, budget: &Budget) -> Result<Solution, Unsolved> {
+    pub(super) fn solve(&self, budget: &Budget) -> Result<Solution, NotConverged> {
         let (pattern, elements) = self.pattern();
         let tree = Tree::new(&pattern, |_| true);
         let mut system = System { elements, matrix: Elements::zeros(&pattern), factor: Factor::new(&tree) };
-        STARTS.iter().find_map(|&start| self.solve_from(start, &mut system, budget).ok()).ok_or(Unsolved)
+        STARTS.iter().find_map(|&start| self.solve_from(start, &mut system, budget).ok()).ok_or(NotConverged)
     }
 
-    fn solve_from(&self, start: [f64; 2], system: &mut System<'_>, budget: &Budget) -> Result<Solution, Unsolved> {
+    fn solve_from(&self, start: [f64; 2], system: &mut System<'_>, budget: &Budget) -> Result<Solution, NotConverged> {
         let mut increments = vec![Vector3::zeros(); self.load.len()];
         let mut pairs: Vec<Pair> = self.contacts.iter().map(|contact| contact.start(start)).collect();
-        for _ in 0..MOST_ITERATIONS {
-            budget.work(ITERATED * self.contacts.len()).map_err(|_| Unsolved)?;
+        for _ in 0..MOST_STEP_ITERATIONS {
+            budget.work(ITERATED * self.contacts.len()).map_err(|_| NotConverged)?;
             let unbalanced = self.unbalanced(&increments, &pairs);
             let apart: Vec<[f64; 2]> =
                 self.contacts.iter().zip(&pairs).map(|(c, p)| c.residuals(p, &increments)).collect();
@@ -112,19 +112,19 @@ impl Problem {
             let gaping = apart.iter().flatten().fold(0.0, |most: f64, r| most.max(r.abs()));
             let (sum, count) = products(self, &pairs, None);
             let mean = sum / count.max(1) as f64;
-            if mean < CLOSED && residual < BALANCED && gaping < BALANCED {
+            if mean < CLOSED && residual < BALANCED_STEP && gaping < BALANCED_STEP {
                 let forces = pairs.iter().map(|pair| [pair.normal, pair.tangential]).collect();
                 return Ok(Solution { increments, forces, residual });
             }
             let (step, changes) = self.direction(&pairs, &apart, &unbalanced, mean, system, budget)?;
             let share = (NEARLY * largest_share(self, &pairs, &changes)).min(1.0);
             if !share.is_finite() || share < 1e-10 {
-                return Err(Unsolved);
+                return Err(NotConverged);
             }
             increments.iter_mut().zip(&step).for_each(|(q, by)| *q += by * share);
             pairs.iter_mut().zip(&changes).for_each(|(pair, change)| pair.add(change, share));
         }
-        Err(Unsolved)
+        Err(NotConverged)
     }
 
     /// Load and contact forces less resistance, per body.
@@ -147,7 +147,7 @@ impl Problem {
         mean: f64,
         system: &mut System<'_>,
         budget: &Budget,
-    ) -> Result<(Vec<Vector3<f64>>, Vec<Pair>), Unsolved> {
+    ) -> Result<(Vec<Vector3<f64>>, Vec<Pair>), NotConverged> {
         let to_nothing = |pair: &Pair| -> Targets {
             [-pair.normal * pair.distance, -pair.room[0] * pair.slip[0], -pair.room[1] * pair.slip[1]]
         };
@@ -236,16 +236,16 @@ struct System<'t> {
 
 impl System<'_> {
     /// Solves for a right-hand side, in its place; `again` with the factors of the last one.
-    fn solve(&mut self, x: &mut [Vector3<f64>], again: bool, budget: &Budget) -> Result<(), Unsolved> {
+    fn solve(&mut self, x: &mut [Vector3<f64>], again: bool, budget: &Budget) -> Result<(), NotConverged> {
         let b: Vec<f64> = x.iter().flat_map(|x| [x.x, x.y, x.z]).collect();
         let mut flat = vec![0.0; b.len()];
         let solved = match again {
             true => self.factor.solve(&b, &mut flat, budget),
             false => self.factor.update(&self.matrix, &b, &mut flat, 0, budget),
         };
-        solved.map_err(|_| Unsolved)?;
+        solved.map_err(|_| NotConverged)?;
         x.iter_mut().zip(flat.chunks(3)).for_each(|(x, flat)| *x = Vector3::from_column_slice(flat));
-        if flat.iter().all(|x| x.is_finite()) { Ok(()) } else { Err(Unsolved) }
+        if flat.iter().all(|x| x.is_finite()) { Ok(()) } else { Err(NotConverged) }
     }
 }
 

@@ -1,10 +1,10 @@
 //! Step after step: loads, contacts, increments, and whether they may stand.
 
-use super::body::{Part, Place, RigidBody};
+use super::body::{Part, Position, RigidBody};
 use super::configuration::{Advance, Carried, Configuration, Stuck};
-use super::entrance::{AtCorner, Outline};
+use super::entrance::{AtCorner, CutPolygon};
 use super::interface::Interface;
-use super::near::Placed;
+use super::near::PlacedEntrance;
 use super::trial::Trial;
 use crate::budget::Budget;
 use std::collections::BTreeMap;
@@ -46,7 +46,7 @@ pub struct Falling {
     pub(super) loads: f64,
     /// Sum of all masses that can move, kg/m.
     pub(super) mass: f64,
-    pub(super) places: Vec<Place>,
+    pub(super) places: Vec<Position>,
     parameter: f64,
     /// Step of the parameter to try next.
     pub(super) step: f64,
@@ -57,11 +57,11 @@ pub struct Falling {
 }
 
 /// What a trial is worth.
-enum Verdict {
+enum Judgement {
     /// Nothing moves.
     Rests,
     /// These enter each other where they had no contact: two corners have met.
-    Entered(Vec<Placed>),
+    Entered(Vec<PlacedEntrance>),
     /// Better a step of this share of it.
     TooLong(f64),
     /// Better a step of this many times it.
@@ -146,17 +146,17 @@ impl Falling {
             let outlines = self.outlines(&trial.places);
             match self.judge(&trial, &pairs, &contacts, &outlines) {
                 // So short a step that all that is left of it is round-off tells nothing.
-                Verdict::Rests if failures > FAILURES => return Err(Stuck),
-                Verdict::Rests => return Ok(Advance::Rest),
-                Verdict::Entered(entered) => contacts.extend(entered),
-                Verdict::TooLong(factor) => {
+                Judgement::Rests if failures > FAILURES => return Err(Stuck),
+                Judgement::Rests => return Ok(Advance::Rest),
+                Judgement::Entered(entered) => contacts.extend(entered),
+                Judgement::TooLong(factor) => {
                     longest = self.step;
                     self.step *= factor;
                 }
-                Verdict::TooShort(factor) if factor * self.step < longest => self.step *= factor,
+                Judgement::TooShort(factor) if factor * self.step < longest => self.step *= factor,
                 // It has undone an overlap, and longer ones go against the loads.
-                Verdict::TooShort(_) if self.work(&trial.places) < 0.0 => return Ok(Advance::Rest),
-                Verdict::TooShort(_) | Verdict::Right => {
+                Judgement::TooShort(_) if self.work(&trial.places) < 0.0 => return Ok(Advance::Rest),
+                Judgement::TooShort(_) | Judgement::Right => {
                     let overlap = self.overlaps(&pairs, &outlines).0;
                     return Ok(Advance::Moved(Box::new(self.accept(trial, overlap, &contacts, &outlines))));
                 }
@@ -165,34 +165,41 @@ impl Falling {
         Err(Stuck)
     }
 
-    fn judge(&self, trial: &Trial, pairs: &[[usize; 2]], contacts: &[Placed], outlines: &[Outline]) -> Verdict {
+    fn judge(
+        &self,
+        trial: &Trial,
+        pairs: &[[usize; 2]],
+        contacts: &[PlacedEntrance],
+        outlines: &[CutPolygon],
+    ) -> Judgement {
         let (moved, stride) = (trial.moved / self.thickness, self.stride(trial));
         let slow = trial.moved * self.mass < REST * self.loads * self.step;
         if slow && moved < NEAR {
-            return Verdict::Rests;
+            return Judgement::Rests;
         }
         if moved > LONGEST {
-            return Verdict::TooLong(stride.clamp(0.01, 0.8));
+            return Judgement::TooLong(stride.clamp(0.01, 0.8));
         }
         let (overlap, beyond) = self.overlaps(pairs, outlines);
         let known = |pair: &[usize; 2]| contacts.iter().any(|contact| contact.parts == *pair);
         let new = beyond.iter().filter(|pair| !known(pair));
-        let entered: Vec<Placed> = new.flat_map(|&pair| self.placed(pair, outlines, AtCorner::Nearest)).collect();
+        let entered: Vec<PlacedEntrance> =
+            new.flat_map(|&pair| self.placed(pair, outlines, AtCorner::Nearest)).collect();
         if !entered.is_empty() {
-            return Verdict::Entered(entered);
+            return Judgement::Entered(entered);
         }
         // A step against the loads has gone past an equilibrium; or it undoes an overlap, which takes little.
         let against = moved > NEAR && self.work(&trial.places) < 0.0;
         if against || overlap > OVERLAP * self.thickness {
-            return Verdict::TooLong(0.5);
+            return Judgement::TooLong(0.5);
         }
         // What is slow has come to rest on the way.
-        if moved < SHORTEST && !slow { Verdict::TooShort(stride.clamp(1.0, 100.0)) } else { Verdict::Right }
+        if moved < SHORTEST && !slow { Judgement::TooShort(stride.clamp(1.0, 100.0)) } else { Judgement::Right }
     }
 
     /// Work of the loads on the way to these places, N.
-    fn work(&self, places: &[Place]) -> f64 {
-        let work = |((body, from), to): ((&RigidBody, &Place), &Place)| body.work(from, to);
+    fn work(&self, places: &[Position]) -> f64 {
+        let work = |((body, from), to): ((&RigidBody, &Position), &Position)| body.work(from, to);
         self.bodies.iter().zip(&self.places).zip(places).map(work).sum()
     }
 
@@ -201,7 +208,13 @@ impl Falling {
         STRIDE * self.thickness / trial.moved
     }
 
-    fn accept(&mut self, trial: Trial, overlap: f64, contacts: &[Placed], outlines: &[Outline]) -> Configuration {
+    fn accept(
+        &mut self,
+        trial: Trial,
+        overlap: f64,
+        contacts: &[PlacedEntrance],
+        outlines: &[CutPolygon],
+    ) -> Configuration {
         let stride = self.stride(&trial);
         let work = self.work(&trial.places);
         let forces = trial.solution.forces;
@@ -226,8 +239,8 @@ impl Falling {
     }
 
     /// Which of these contacts touch, with their forces, where there are any.
-    fn carried(&self, contacts: &[Placed], outlines: &[Outline], forces: &[[f64; 2]]) -> Vec<Carried> {
-        let carried = |(c, placed): (usize, &Placed)| {
+    fn carried(&self, contacts: &[PlacedEntrance], outlines: &[CutPolygon], forces: &[[f64; 2]]) -> Vec<Carried> {
+        let carried = |(c, placed): (usize, &PlacedEntrance)| {
             let touching = self.at(placed, outlines);
             let [normal, tangential] = forces.get(c).map_or([0.0; 2], |force| force.map(|force| force * self.loads));
             let between = placed.parts.map(|part| self.parts[part].member);

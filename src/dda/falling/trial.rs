@@ -1,10 +1,10 @@
 //! One trial of a step: the problem it poses, its solution, and where that takes the bodies.
 
-use super::body::{Place, RigidBody};
+use super::body::{Position, RigidBody};
 use super::configuration::Stuck;
 use super::constraint::Constraint;
-use super::near::Placed;
-use super::solver::{Problem, Solution};
+use super::near::PlacedEntrance;
+use super::solver::{Solution, StepProblem};
 use super::step::Falling;
 use crate::budget::Budget;
 
@@ -18,7 +18,7 @@ const RUBBED: f64 = 1e-6;
 
 /// A step that may be made.
 pub(super) struct Trial {
-    pub places: Vec<Place>,
+    pub places: Vec<Position>,
     pub solution: Solution,
     /// Friction beyond its bound, share of the loads.
     pub excess: f64,
@@ -31,7 +31,7 @@ impl Falling {
     ///
     /// # Errors
     /// When it cannot: try a shorter one, or `lagging` bounds on friction; and where the budget is spent.
-    pub(super) fn attempt(&self, contacts: &[Placed], lagging: bool, budget: &Budget) -> Result<Trial, Stuck> {
+    pub(super) fn attempt(&self, contacts: &[PlacedEntrance], lagging: bool, budget: &Budget) -> Result<Trial, Stuck> {
         let mut problem = self.problem(contacts);
         // Bounds on friction: coefficient of the normal force, and cohesion.
         let bounds: Vec<[f64; 2]> = problem.contacts.iter().map(|c| [c.slope, c.constant]).collect();
@@ -57,7 +57,7 @@ impl Falling {
     }
 
     /// The step's problem in units of thickness and loads.
-    fn problem(&self, contacts: &[Placed]) -> Problem {
+    fn problem(&self, contacts: &[PlacedEntrance]) -> StepProblem {
         let of_step = self.mass * self.thickness / (self.loads * self.step);
         let resistance = |body: &RigidBody| {
             let [mass, inertia] = body.inertia.map(|i| i / self.mass);
@@ -68,22 +68,22 @@ impl Falling {
                 Vector3::repeat(1.0)
             }
         };
-        let load = |(body, place): (&RigidBody, &Place)| {
+        let load = |(body, place): (&RigidBody, &Position)| {
             let load = body.load(place);
             Vector3::new(load.x, load.y, load.z / self.thickness) / self.loads
         };
-        Problem {
+        StepProblem {
             resistance: self.bodies.iter().map(resistance).collect(),
             load: self.bodies.iter().zip(&self.places).map(load).collect(),
             contacts: self.constraints(contacts),
         }
     }
 
-    fn constraints(&self, contacts: &[Placed]) -> Vec<Constraint> {
+    fn constraints(&self, contacts: &[PlacedEntrance]) -> Vec<Constraint> {
         let outlines = self.outlines(&self.places);
         let mut sharing = vec![[0usize; 2]; self.interfaces.len()];
         contacts.iter().filter_map(|contact| contact.interface).for_each(|(k, end)| sharing[k][end] += 1);
-        let constraint = |placed: &Placed| {
+        let constraint = |placed: &PlacedEntrance| {
             let touching = self.at(placed, &outlines);
             let (slope, constant) = match placed.interface {
                 Some((k, end)) => {
@@ -117,7 +117,7 @@ impl Falling {
 
 /// The same step with `bounds` on friction that do not depend on it, brought up to date round by round. Each round is a convex
 /// programme.
-fn with_given_bounds(problem: &mut Problem, bounds: &[[f64; 2]], budget: &Budget) -> Result<Solution, Stuck> {
+fn with_given_bounds(problem: &mut StepProblem, bounds: &[[f64; 2]], budget: &Budget) -> Result<Solution, Stuck> {
     for (contact, [slope, _]) in problem.contacts.iter_mut().zip(bounds) {
         contact.slope = 0.0;
         contact.constant += slope * contact.guess;

@@ -10,7 +10,7 @@ use super::turn::{Turn, cross, dot};
 
 /// How a face has turned.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Line {
+struct SideLine {
     turn: Turn,
     /// Unit vector from its first point to its last.
     along: [f64; 2],
@@ -21,7 +21,7 @@ struct Line {
 /// Where an interface is: its two faces, none beside the ground, and how far its normal has turned.
 #[derive(Debug, Clone)]
 pub struct Frame {
-    lines: [Option<Line>; 2],
+    lines: [Option<SideLine>; 2],
     pub turn: Turn,
 }
 
@@ -34,7 +34,7 @@ pub struct Bearing {
     pub tangent: [f64; 4],
 }
 
-impl Line {
+impl SideLine {
     /// The line of a face that was `line` (m) and whose points are displaced by `d`.
     fn new(line: [f64; 2], d: &[f64]) -> Self {
         let n = d.len();
@@ -42,7 +42,7 @@ impl Line {
         let now = [line[0] + change[0], line[1] + change[1]];
         let turn = Turn::onto(dot(&line, &line) + dot(&line, &change), cross(&line, &change));
         let length = now[0].hypot(now[1]);
-        Line { turn, along: now.map(|x| x / length), length }
+        SideLine { turn, along: now.map(|x| x / length), length }
     }
 
     /// Change of phi per displacement of the face's last point; its first has the opposite.
@@ -66,7 +66,7 @@ impl Frame {
     /// the place of one.
     pub fn new(line: [f64; 2], d: [Option<&[f64]>; 2], ground: f64) -> Self {
         let [Some(before), Some(after)] = d else { return Frame { lines: [None; 2], turn: Turn::by(ground) } };
-        let lines = [before, after].map(|d| Line::new(line, d));
+        let lines = [before, after].map(|d| SideLine::new(line, d));
         let angles = lines.map(|line| line.turn.angle());
         Frame { lines: lines.map(Some), turn: Turn::by(0.5 * (angles[0] + angles[1])) }
     }
@@ -78,7 +78,7 @@ impl Frame {
 
     /// Rate of phi for velocities of the faces' points, or of the ground.
     pub fn spin(&self, d: [Option<&[f64]>; 2], ground: f64) -> f64 {
-        let of = |(line, d): (&Option<Line>, Option<&[f64]>)| {
+        let of = |(line, d): (&Option<SideLine>, Option<&[f64]>)| {
             let (line, d) = line.as_ref().zip(d)?;
             let (n, lever) = (d.len(), line.lever());
             Some(lever[0] * (d[n - 2] - d[0]) + lever[1] * (d[n - 1] - d[1]))
@@ -124,7 +124,7 @@ pub struct Stiffness {
     of_levers: f64,
     of_curvature: f64,
     levers: [Option<Vec<f64>>; 2],
-    lines: [Option<Line>; 2],
+    lines: [Option<SideLine>; 2],
 }
 
 impl Stiffness {
@@ -193,7 +193,7 @@ impl Stiffness {
 
     /// The second derivative of phi by the displacements of one face: -(e p' + p e') / (2 length^2) between the
     /// differences of its outermost points, with e along the face and p across it.
-    fn add_curvature(&self, line: &Line, panel: &mut [f64]) {
+    fn add_curvature(&self, line: &SideLine, panel: &mut [f64]) {
         let (n, [c, s]) = (2 * self.direct.len(), line.along);
         let factor = -0.5 * self.of_curvature / (line.length * line.length);
         let second = [-2.0 * c * s, c * c - s * s, c * c - s * s, 2.0 * c * s].map(|x| x * factor);

@@ -4,7 +4,7 @@ use super::Tracer;
 use crate::dda::contact::{Moving, State, zone};
 
 /// In a mechanism, gap rates below this are rounding (the direction's largest entry is 1).
-const STILL: f64 = 1e-7;
+const STILL_GAP: f64 = 1e-7;
 /// Where no pivot ratio is below this, a soft direction is none of rounding (measured: singular pivots are blurred to 1e-10 at most).
 const BLUR: f64 = 1e-9;
 
@@ -26,7 +26,7 @@ impl Tracer<'_> {
     /// The next change of state along the current direction, but the one that is barred.
     pub(super) fn nearest_event(&self, barred: Option<(usize, State)>) -> Option<Event> {
         let rounded = self.moving.is_none() && self.is_mechanism() && self.factor.pivot_ratio() < BLUR;
-        let still = if rounded { STILL } else { 0.0 };
+        let still = if rounded { STILL_GAP } else { 0.0 };
         let mut nearest: Option<Event> = None;
         for (p, &state) in self.states.iter().enumerate() {
             let stiffness = self.assembly.contacts()[p].stiffness[0];

@@ -7,7 +7,7 @@
 
 use super::correct::{EQUILIBRIUM, FAILED, Hold};
 use super::lost::Lost;
-use super::point::Point;
+use super::point::PathState;
 use super::{End, Tracer};
 use crate::dda::factor::Factor;
 use crate::dda::moving::{Placed, quarter};
@@ -16,13 +16,13 @@ use std::ops::ControlFlow;
 
 /// Longest step between two linearisations, as a share of the assembly's size: joints of slender stones then turn by a
 /// degree at most.
-const LONGEST: f64 = 2e-3;
+const LONGEST_STEP: f64 = 2e-3;
 /// Limit points are not looked for in steps shorter than this share of the size.
-const NEAR: f64 = 2e-5;
+const SHORTEST_LOOK: f64 = 2e-5;
 /// Steps shorter than this share of the size are rounding.
-const ROUNDING: f64 = 1e-10;
+const SHORTEST_STEP: f64 = 1e-10;
 /// A path has at most so many events, and so many more per contact; real ones have about two per contact.
-const MOST_EVENTS: [usize; 2] = [200, 6];
+const MOST_MOVING_EVENTS: [usize; 2] = [200, 6];
 /// So many halvings of a step in a row mean that the path is lost.
 const HALVINGS: usize = 40;
 /// A path has at most so many steps that end at no change of state; real ones have up to two hundred.
@@ -34,7 +34,7 @@ const DEEP: f64 = 0.5;
 /// A snap is worth telling where the parameter falls by this share of what it rose.
 const SNAP: f64 = 0.01;
 /// Displacements beyond this share of the size are no arch of this shape any more.
-const FAR: f64 = 0.3;
+const FARTHEST: f64 = 0.3;
 /// A path that comes back to its start with less movement since its peak than so many times what it had moved by there, or than this
 /// share of the little that has to be seen, has come the way it went: that is no fall, but a wrong turn.
 const THERE_AND_BACK: [f64; 2] = [3.0, 0.25];
@@ -157,10 +157,10 @@ impl Tracer<'_> {
         see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>,
     ) -> Result<End, Lost> {
         let start = self.parameter;
-        let mut longest = LONGEST * self.size;
+        let mut longest = LONGEST_STEP * self.size;
         let (mut halvings, mut zero_steps, mut steps, mut barred, mut refined) = (0, 0, 0, None, false);
         let most_zero_steps = super::MOST_ZERO_STEPS[0] + super::MOST_ZERO_STEPS[1] * self.states.len();
-        let most_events = self.events + MOST_EVENTS[0] + MOST_EVENTS[1] * self.states.len();
+        let most_events = self.events + MOST_MOVING_EVENTS[0] + MOST_MOVING_EVENTS[1] * self.states.len();
         let residual = self.find_residual();
         if residual > FAILED + self.rounding() || target <= start {
             return Err(Lost::OutOfBalance(residual));
@@ -200,7 +200,7 @@ impl Tracer<'_> {
             let direction = self.direction.clone();
             let held = self.step(step, hold, target);
             // A limit point short of the next event is a point of the path too.
-            let passed = rate > 0.0 && self.parameter < before.parameter && step >= NEAR * self.size;
+            let passed = rate > 0.0 && self.parameter < before.parameter && step >= SHORTEST_LOOK * self.size;
             let passed = |hold: &Hold| passed && matches!(hold, Hold::Border(..));
             let Some(hold) = held.filter(|hold| !passed(hold) && self.went_on(&before.displacements, step)) else {
                 self.go_to(&before);
@@ -248,7 +248,7 @@ impl Tracer<'_> {
                         let residual = self.find_residual();
                         return Err(self.why_stuck(residual));
                     }
-                    longest = (2.0 * longest).min(LONGEST * self.size);
+                    longest = (2.0 * longest).min(LONGEST_STEP * self.size);
                 }
             }
         }
@@ -257,12 +257,12 @@ impl Tracer<'_> {
     /// True unless a correction has undone a step from displacements `before`, and more.
     fn went_on(&self, before: &[f64], step: f64) -> bool {
         let moved = self.displacements.iter().zip(before).zip(&self.direction).map(|((d, b), t)| (d - b) * t);
-        step < ROUNDING * self.size || moved.sum::<f64>() >= 0.0
+        step < SHORTEST_STEP * self.size || moved.sum::<f64>() >= 0.0
     }
 
     /// Goes back to `before`, a step ago, where the parameter's rate was `rate`, and stops where the parameter is highest in
     /// between: the rate falls about linearly through zero. False where that point is not found.
-    fn stop_at_limit_point(&mut self, before: &Point, rate: f64, step: f64) -> bool {
+    fn stop_at_limit_point(&mut self, before: &PathState, rate: f64, step: f64) -> bool {
         let share = rate / (rate - self.rate);
         self.go_to(before);
         self.find_residual();
@@ -275,7 +275,7 @@ impl Tracer<'_> {
     }
 
     /// How the path has ended, if it has.
-    fn is_over(&mut self, from: &Point, patience: Patience) -> Option<End> {
+    fn is_over(&mut self, from: &PathState, patience: Patience) -> Option<End> {
         let start = from.parameter;
         let below = self.peak.as_ref().filter(|peak| self.parameter < peak.parameter);
         let is_below = below.is_some();
@@ -297,7 +297,7 @@ impl Tracer<'_> {
                 self.dip = self.dip.or(Some(peak.parameter));
             }
         }
-        let far = self.displacements.iter().fold(0.0, |far: f64, d| far.max(d.abs())) > FAR * self.size;
+        let far = self.displacements.iter().fold(0.0, |far: f64, d| far.max(d.abs())) > FARTHEST * self.size;
         let strained = self.moving.as_ref().is_some_and(|moving| moving.largest_strain() > STRAINED);
         (far || strained).then_some(if is_below { End::Mechanism } else { End::Rising })
     }

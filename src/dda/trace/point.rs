@@ -5,7 +5,7 @@ use crate::dda::moving::Twofold;
 
 /// A point of the path: displacements of the nodes and the parameter, and what rounding has taken off each.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Point {
+pub(super) struct PathState {
     pub displacements: Vec<f64>,
     pub parameter: f64,
     rests: Vec<f64>,
@@ -14,13 +14,13 @@ pub(super) struct Point {
 
 impl Tracer<'_> {
     /// Where the path is.
-    pub(super) fn point(&self) -> Point {
+    pub(super) fn point(&self) -> PathState {
         let (displacements, rests) = (self.displacements.clone(), self.rests.clone());
-        Point { displacements, parameter: self.parameter, rests, rest: self.parameter_rest }
+        PathState { displacements, parameter: self.parameter, rests, rest: self.parameter_rest }
     }
 
     /// Goes to a point; forces and rates are not renewed.
-    pub(super) fn go_to(&mut self, point: &Point) {
+    pub(super) fn go_to(&mut self, point: &PathState) {
         self.displacements.clone_from(&point.displacements);
         self.rests.clone_from(&point.rests);
         (self.parameter, self.parameter_rest) = (point.parameter, point.rest);

@@ -5,7 +5,7 @@ use crate::dda::assembly::MeanMotion;
 use crate::geometry::{Vec2, perpendicular};
 
 /// Peaks that differ by less than this share are one, passed on two sides of a tie.
-const SAME: f64 = 1e-4;
+const SAME_PEAK: f64 = 1e-4;
 
 impl Tracer<'_> {
     /// Parameter reached.
@@ -78,7 +78,7 @@ impl Tracer<'_> {
 
     /// Where the path on moving geometry first dipped, only to rise higher later on, or as it is now, where it was lost.
     pub fn snap(&self) -> Option<f64> {
-        let higher = |dip: f64| self.peak.as_ref().is_none_or(|peak| peak.parameter - dip > SAME * dip.abs());
+        let higher = |dip: f64| self.peak.as_ref().is_none_or(|peak| peak.parameter - dip > SAME_PEAK * dip.abs());
         self.dip.filter(|&dip| self.lost.is_some() || higher(dip))
     }
 

@@ -9,9 +9,9 @@ use faer::sparse::{SparseColMat, SymbolicSparseColMat};
 use faer::{Mat, Side};
 
 /// Root of the curvature of a block without rows.
-const UNREACHED: f64 = 1e-4;
+const EMPTY_BLOCK: f64 = 1e-4;
 /// Residuals of a solution of the Newton system that no correction betters much, relative to the right-hand sides.
-const EXACT: f64 = 1e-12;
+const EXACT_NEWTON: f64 = 1e-12;
 /// Corrections of a solution of the Newton system.
 const REFINEMENTS: usize = 3;
 /// Added to the Hessian of a block that its rows leave singular, relative to its largest entry.
@@ -19,7 +19,7 @@ const RIDGE: f64 = 1e-10;
 
 /// The pattern of S and its elimination order, found once.
 #[derive(Debug, Clone)]
-pub struct Pattern {
+pub struct NewtonPattern {
     columns: Vec<usize>,
     rows: Vec<usize>,
     /// Of every joint the pairs of its bodies (places in its list) with a block in the lower triangle: where its columns start.
@@ -27,7 +27,7 @@ pub struct Pattern {
     order: SymbolicLlt<usize>,
 }
 
-impl Pattern {
+impl NewtonPattern {
     /// Of so many bodies and the lists of those that each joint touches; None where there is no memory for it.
     pub fn new(bodies: usize, joints: &[Vec<usize>]) -> Option<Self> {
         let mut below: Vec<Vec<usize>> = (0..bodies).map(|body| vec![body]).collect();
@@ -56,7 +56,7 @@ impl Pattern {
         let places = joints.iter().map(pairs).collect();
         let symbolic = SymbolicSparseColMat::new_checked(3 * bodies, 3 * bodies, columns.clone(), None, rows.clone());
         let order = SymbolicLlt::try_new(symbolic.as_ref(), Side::Lower).ok()?;
-        Some(Pattern { columns, rows, places, order })
+        Some(NewtonPattern { columns, rows, places, order })
     }
 }
 
@@ -73,7 +73,7 @@ pub(super) struct Newton<'p> {
 }
 
 impl<'p> Newton<'p> {
-    pub(super) fn new(programme: &'p Sparse, pattern: &Pattern, point: &Point) -> Option<Self> {
+    pub(super) fn new(programme: &'p Sparse, pattern: &NewtonPattern, point: &Point) -> Option<Self> {
         let scaling = Scaling::new(programme, point);
         let n = programme.blocks.len();
         let mut scaled: Vec<Vec<[f64; 3]>> = vec![Vec::new(); n];
@@ -144,7 +144,7 @@ impl<'p> Newton<'p> {
                 break;
             }
             (x, y, rest, others) = (next_x, next_y, next_rest, next_others);
-            if next > 0.5 * left || next < EXACT {
+            if next > 0.5 * left || next < EXACT_NEWTON {
                 break;
             }
             left = next;
@@ -168,7 +168,7 @@ fn inverse_root(rows: &mut [[f64; 3]]) -> Square {
     let weight = |row: &[f64; 3]| row.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
     rows.sort_by(|a, b| weight(b).total_cmp(&weight(a)));
     let size = rows.first().map_or(0.0, weight);
-    let ridge = if size > 0.0 { size * RIDGE.sqrt() } else { UNREACHED };
+    let ridge = if size > 0.0 { size * RIDGE.sqrt() } else { EMPTY_BLOCK };
     let m = rows;
     let mut order = [0, 1, 2];
     let mut r: Square = [[0.0; 3]; 3];
@@ -211,7 +211,7 @@ fn inverse_root(rows: &mut [[f64; 3]]) -> Square {
 const SMALLEST: f64 = 1e-14;
 
 /// S = sum E C C' E', factored; a share of its diagonal is added where rounding makes it indefinite.
-fn factor(programme: &Sparse, pattern: &Pattern, roots: &[Square]) -> Option<Llt<usize, f64>> {
+fn factor(programme: &Sparse, pattern: &NewtonPattern, roots: &[Square]) -> Option<Llt<usize, f64>> {
     let n = 3 * programme.bodies;
     let mut values = vec![0.0; pattern.rows.len()];
     for ((block, root), places) in programme.blocks.iter().zip(roots).zip(&pattern.places) {

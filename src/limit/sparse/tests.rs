@@ -8,12 +8,12 @@ use crate::structure::{Face, JointLaw, PointForce, Structure};
 
 const DRY: JointLaw = JointLaw::Dry { friction: 0.6, cohesion: 0.0 };
 
-fn value(outcome: &Outcome) -> f64 {
+fn value(outcome: &ProgrammeOutcome) -> f64 {
     match outcome {
-        Outcome::At(equilibrium, _) => equilibrium.load_factor,
-        Outcome::Unbounded(_) => f64::INFINITY,
-        Outcome::Infeasible => f64::NEG_INFINITY,
-        Outcome::Lost => f64::NAN,
+        ProgrammeOutcome::At(equilibrium, _) => equilibrium.load_factor,
+        ProgrammeOutcome::Unbounded(_) => f64::INFINITY,
+        ProgrammeOutcome::Infeasible => f64::NEG_INFINITY,
+        ProgrammeOutcome::Lost => f64::NAN,
     }
 }
 
@@ -78,7 +78,7 @@ fn an_optimum_is_an_admissible_equilibrium() {
     let [fixed, scaled] = seismic(&structure);
     let theorem = StaticTheorem::new(&structure, &fixed, &scaled).unwrap();
     let outcome = Programme::new(&theorem).maximise_sparsely(&Objective::load_factor(1.0), &Budget::unlimited());
-    let Outcome::At(found, _) = outcome else { panic!() };
+    let ProgrammeOutcome::At(found, _) = outcome else { panic!() };
     assert!(theorem.slack(&found) > -1e-10, "{}", theorem.slack(&found));
     let mut sums = vec![[0.0; 3]; structure.bodies.len()];
     let mut add = |body: usize, at: Vec2, force: Vec2| {
@@ -111,7 +111,8 @@ fn both_solvers_find_the_same_cheapest_motion() {
     let costs: Vec<f64> = (0..releases.len()).map(|i| 1.0 + 0.9 * (1.7 * i as f64).sin()).collect();
     let programme = theorem.motion_programme(&releases, &costs);
     let [dense, sparse] = [Programme::maximise_densely, Programme::maximise_sparsely].map(|maximise| {
-        let Outcome::At(_, rates) = maximise(&programme, &Objective::load_factor(1.0), &Budget::unlimited()) else {
+        let ProgrammeOutcome::At(_, rates) = maximise(&programme, &Objective::load_factor(1.0), &Budget::unlimited())
+        else {
             panic!()
         };
         let cost: f64 = rates.iter().zip(&costs).map(|(rate, cost)| rate * cost).sum();

@@ -10,7 +10,7 @@ use crate::structure::{Side, Structure};
 const AT_REST: f64 = 1e-3;
 
 /// Added to the style of an arch.
-pub(super) const STYLE: &str = ".resultant{fill:#c8392b}\n";
+pub(super) const BODY_STYLE: &str = ".resultant{fill:#c8392b}\n";
 
 /// Outlines of the bodies that move, moved.
 pub(super) fn moved(structure: &Structure, end: &PathEnd) -> Vec<Vec<Vec2>> {

@@ -42,7 +42,7 @@ pub struct Checked {
 
 /// The ends of an answer with the direction in which its path went to each.
 fn ends<'r>(analysis: &Analysis, report: &'r CollapseReport) -> Vec<(&'r PathEnd, f64)> {
-    let sign = if analysis.direction == Direction::Increase { 1.0 } else { -1.0 };
+    let sign = if analysis.task.direction() == Direction::Increase { 1.0 } else { -1.0 };
     let ends = report.end.iter().map(|end| (end, sign)).chain(report.other_end.iter().map(|end| (end, -sign)));
     if report.at_start.is_none() { Vec::new() } else { ends.collect() }
 }

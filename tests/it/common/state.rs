@@ -78,7 +78,7 @@ pub fn states(report: &CollapseReport) -> impl Iterator<Item = (&'static str, &S
 
 /// The ends of a report's path that have a thrust line at their load factor.
 pub fn ends<'a>(analysis: &Analysis, report: &'a CollapseReport) -> impl Iterator<Item = &'a PathEnd> {
-    let exact = analysis.method == Method::EventPath;
+    let exact = !matches!(analysis.task.method(), Method::FixedSteps { .. });
     report.end.iter().chain(&report.other_end).filter(move |end| exact && !end.thrust_line.is_empty())
 }
 

@@ -6,9 +6,7 @@ use super::rigid_blocks::{Push, bridge, portal, wall};
 use voussoir::blocks::{Blocks, Joints, Polygon, Rest, Support};
 use voussoir::budget::Budget;
 
-use voussoir::collapse::{
-    Aim, Analysis, CollapseReport, Direction, Geometry, Mesh, Method, Outcome, PathEnd, PlaneModel, Seams, run,
-};
+use voussoir::collapse::{Analysis, CollapseReport, Outcome, PathEnd, run};
 use voussoir::geometry::Vec2;
 use voussoir::structure::{PointForce, Stone};
 
@@ -74,25 +72,8 @@ pub fn analysis(scene: &Scene) -> Analysis {
         };
         pushes.iter().map(force).collect()
     };
-    Analysis {
-        aim: Aim::Collapse,
-        fixed: forces(&problem.fixed),
-        scaled: forces(&problem.scaled),
-        structure,
-        plane: PlaneModel::Stress,
-        penalty_ratio: 1.0,
-        shear_penalty_ratio: 1.0,
-        crushing_in_path: false,
-        direction: Direction::Increase,
-        cap: None,
-        method: Method::EventPath,
-        geometry: Geometry::FirstOrder,
-        share: 0.999,
-        mesh: Mesh { subblocks: Vec::new(), seams: Seams::Split },
-        accuracy: None,
-        fields: Vec::new(),
-        motion: None,
-    }
+    let (fixed, scaled) = (forces(&problem.fixed), forces(&problem.scaled));
+    Analysis { penalty_ratio: 1.0, ..Analysis::new(structure, fixed, scaled) }
 }
 
 /// Solves a scene and judges the answer.

@@ -107,7 +107,7 @@ impl Checked {
             let window = report.limit_window.map(|w| (w.lowest, w.highest));
             format!("cannot tell: {:?} (limit window {window:?}, start {})", report.notes, report.start)
         });
-        let sign = if analysis.direction == Direction::Increase { 1.0 } else { -1.0 };
+        let sign = if analysis.task.direction() == Direction::Increase { 1.0 } else { -1.0 };
         let Some(window) = report.limit_window else { return };
         for (end, sign) in [(&report.end, sign), (&report.other_end, -sign)] {
             if let Some(end) = end {
@@ -192,7 +192,7 @@ impl Checked {
             Some((low, high)) if low.abs() < floor || high.abs() < floor => return,
             Some((low, high)) if low > 0.0 || high < 0.0 => Outcome::StandsInWindow,
             Some((low, high)) => {
-                let limit = if analysis.direction == Direction::Increase { high } else { -low };
+                let limit = if analysis.task.direction() == Direction::Increase { high } else { -low };
                 if limit < report.cap { Outcome::Collapse } else { Outcome::NeverCollapses }
             }
         };

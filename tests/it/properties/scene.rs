@@ -29,7 +29,7 @@ impl Solved {
 
     /// Ends of the path with the direction in which each was reached.
     pub fn ends(&self) -> Vec<(&PathEnd, f64)> {
-        let sign = if self.analysis.direction == voussoir::collapse::Direction::Increase { 1.0 } else { -1.0 };
+        let sign = if self.analysis.task.direction() == voussoir::collapse::Direction::Increase { 1.0 } else { -1.0 };
         let both = [(self.report.end.as_ref(), sign), (self.report.other_end.as_ref(), -sign)];
         both.into_iter().filter_map(|(end, sign)| Some((end?, sign))).collect()
     }

@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 use voussoir::api::read::read_analysis;
 use voussoir::budget::Budget;
 
-use voussoir::collapse::{Analysis, CollapseReport, FieldAt, run};
+use voussoir::collapse::{Analysis, CollapseReport, CollapseTask, FieldAt, StatesAsked, Task, run};
 use voussoir::geometry::Vec2;
 
 /// Stones of the arch, its radii, half its opening angle in degrees.
@@ -30,7 +30,8 @@ fn solved(loaded: usize, mesh: [usize; 2], penalty_ratio: f64) -> (Analysis, Col
     let (_, mut analysis) = read_analysis(request.as_bytes()).unwrap();
     analysis.penalty_ratio = penalty_ratio;
     analysis.mesh.subblocks = vec![mesh; COUNT];
-    analysis.fields = vec![FieldAt::LoadFactor(1.0)];
+    let states = StatesAsked { fields: vec![FieldAt::LoadFactor(1.0)], ..StatesAsked::default() };
+    analysis.task = Task::Collapse(CollapseTask { states, ..CollapseTask::default() });
     let report = run(&analysis, &Budget::unlimited()).unwrap();
     assert_eq!(report.stress_fields.len(), 1, "{:?}", report.notes);
     (analysis, report)

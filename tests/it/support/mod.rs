@@ -28,11 +28,11 @@ pub const ERROR: f64 = 0.125;
 /// The mechanics, except for requests that ask for trouble by their `share_of_collapse`.
 fn analyse(question: &Question, budget: &Budget) -> Result<collapse::Answer, AnalysisError> {
     let Question::One(analysis) = question else { return collapse::answer(question, budget) };
-    if analysis.share == ENDLESS {
+    if analysis.task.share() == ENDLESS {
         return endless(budget);
     }
-    assert!(analysis.share != PANIC, "asked to panic");
-    if analysis.share == ERROR {
+    assert!(analysis.task.share() != PANIC, "asked to panic");
+    if analysis.task.share() == ERROR {
         return Err(AnalysisError::NotFinite { what: "asked to fail" });
     }
     collapse::answer(question, budget)

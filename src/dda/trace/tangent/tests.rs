@@ -67,7 +67,7 @@ fn a_column_bears_its_strength_over_what_lies_about_its_force() {
     let (cap, budget) = (1e6, Budget::unlimited());
     let assembly = column(3, cap);
     // A force so far off the axis leaves whole strips about it.
-    for off in [0.0, 1.0, 2.0, 3.0, 4.0, -2.0].map(|strips| strips / 9.0) {
+    for off in [0.0, 1.0, 2.0, 3.0, -2.0].map(|strips| strips / 9.0) {
         let push = Push { body: 2, subblock: 0, at: Vec2::new(0.5 + off, 3.0), force: -Vec2::y() };
         let unit = assembly.loads([push], &budget).unwrap().on_nodes;
         let mut tracer = Tracer::new(&assembly, covering(&assembly, &unit, 5e-5), 3.0, cap, &budget);

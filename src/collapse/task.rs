@@ -1,0 +1,170 @@
+//! What is asked of a structure: each task with the options that mean something for it, and no others.
+
+use super::{Accuracy, CrushingKind, Direction, FieldAt, Geometry, MotionAsked, SupportMovement};
+
+/// What an analysis is after.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Task {
+    /// The load factor at which the structure falls.
+    Collapse(CollapseTask),
+    /// How far the scaled loads, which act in full at load factor 1, can grow until the structure falls or crushes.
+    Safety(SafetyTask),
+    /// What becomes of it as supports move, its loads staying as they are.
+    Settlement(SettlementTask),
+}
+
+/// The load factor at which a structure falls.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct CollapseTask {
+    /// Which way the load factor goes.
+    pub direction: Direction,
+    /// Largest absolute load factor to try; by default the one at which the scaled loads are 1e6 times the fixed ones.
+    pub cap: Option<f64>,
+    /// How the path is read.
+    pub method: Method,
+    /// What is reported of the states on it.
+    pub states: StatesAsked,
+    /// How far the structure is followed after it has begun to fall, where it is.
+    pub motion: Option<MotionAsked>,
+}
+
+/// How far scaled loads can grow.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct SafetyTask {
+    /// Which of the two answers about crushing counts.
+    pub crushing: CrushingKind,
+    /// Largest load factor to try, more than 1; by default as in [`CollapseTask`].
+    pub cap: Option<f64>,
+    /// What the load path is to show.
+    pub path: Path,
+    /// What is reported of the states on it.
+    pub states: StatesAsked,
+}
+
+/// What moving supports do.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SettlementTask {
+    /// Where supports end up; those that are not named stay.
+    pub movements: Vec<SupportMovement>,
+    /// Whether the path on the moving structure is followed too.
+    pub geometry: Geometry,
+}
+
+/// How the load path is read.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Method {
+    /// Followed exactly from event to event to the peak of the path.
+    EventPath(Path),
+    /// The same where joints crush: pressure at their contact points is capped by the strength of the weaker stone beside, as
+    /// where joints of plastic sections crush. For whole stones only, and without a motion.
+    CrushingPath,
+    /// As in section 4.2 of the paper, for comparison only: the path is looked at every `step` of load factor, and
+    /// collapse is the first step at which `hinges` joints have opened by more than `opening`.
+    FixedSteps {
+        /// Step of the load factor.
+        step: f64,
+        /// Critical opening of a joint's corner, m.
+        opening: f64,
+        /// How many joints must have opened.
+        hinges: usize,
+    },
+}
+
+impl Default for Method {
+    fn default() -> Self {
+        Method::EventPath(Path::default())
+    }
+}
+
+/// What an exact load path is to show.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Path {
+    /// The structure as built, on the mesh given.
+    #[default]
+    FirstOrder,
+    /// The structure as built, on the least mesh that is so accurate.
+    Refined(Accuracy),
+    /// Besides, the path on the moving structure.
+    Updated,
+}
+
+/// What is reported of the states on a load path.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StatesAsked {
+    /// At which share of the way to collapse displacements and contact forces are reported, in (0, 1).
+    pub share: f64,
+    /// Where stress fields are reported.
+    pub fields: Vec<FieldAt>,
+}
+
+impl Default for StatesAsked {
+    fn default() -> Self {
+        StatesAsked { share: Self::SHARE, fields: Vec::new() }
+    }
+}
+
+impl StatesAsked {
+    /// Share of the way to collapse, where none is asked for.
+    pub const SHARE: f64 = 0.999;
+}
+
+impl Task {
+    /// Which way the load factor goes.
+    pub fn direction(&self) -> Direction {
+        if let Task::Collapse(task) = self { task.direction } else { Direction::Increase }
+    }
+
+    /// +1 where the load factor increases, -1 where it decreases.
+    pub(super) fn sign(&self) -> f64 {
+        if self.direction() == Direction::Increase { 1.0 } else { -1.0 }
+    }
+
+    /// How the load path is read.
+    pub fn method(&self) -> Method {
+        match self {
+            Task::Collapse(task) => task.method,
+            Task::Safety(task) => Method::EventPath(task.path),
+            Task::Settlement(SettlementTask { geometry: Geometry::FirstOrder, .. }) => Method::default(),
+            Task::Settlement(SettlementTask { geometry: Geometry::Updated, .. }) => Method::EventPath(Path::Updated),
+        }
+    }
+
+    /// Whether the path on the moving structure is followed too.
+    pub fn geometry(&self) -> Geometry {
+        if self.method() == Method::EventPath(Path::Updated) { Geometry::Updated } else { Geometry::FirstOrder }
+    }
+
+    /// Whether joints crush on the load path.
+    pub fn crushes_on_path(&self) -> bool {
+        self.method() == Method::CrushingPath
+    }
+
+    /// How accurate the answer has to be, where that decides on the mesh.
+    pub fn accuracy(&self) -> Option<Accuracy> {
+        if let Method::EventPath(Path::Refined(accuracy)) = self.method() { Some(accuracy) } else { None }
+    }
+
+    /// How far the structure is followed after it has begun to fall, where it is.
+    pub fn motion(&self) -> Option<MotionAsked> {
+        if let Task::Collapse(task) = self { task.motion.filter(|_| !self.crushes_on_path()) } else { None }
+    }
+
+    /// What is reported of the states on a load path; none where no load grows.
+    fn states(&self) -> Option<&StatesAsked> {
+        match self {
+            Task::Collapse(task) => Some(&task.states),
+            Task::Safety(task) => Some(&task.states),
+            Task::Settlement(_) => None,
+        }
+    }
+
+    /// Share of the way to collapse at which a state is reported.
+    pub fn share(&self) -> f64 {
+        self.states().map_or(StatesAsked::SHARE, |states| states.share)
+    }
+
+    /// Where stress fields are reported.
+    pub fn fields(&self) -> &[FieldAt] {
+        self.states().map_or(&[], |states| &states.fields)
+    }
+}
