@@ -29,7 +29,7 @@ const BEYOND: f64 = 1e-6;
 /// A load factor and how far it is beyond that of collapse.
 type Loading = (f64, f64);
 
-/// Moves the arch on from the collapse in a report, and from the other end of a window too.
+/// Moves the structure on from the collapse in a report, and from the other end of a window too.
 pub(super) fn follow(analysis: &Analysis, report: &mut CollapseReport, budget: &Budget) -> Result<(), AnalysisError> {
     let Some(asked) = analysis.task.motion() else { return Ok(()) };
     let as_built = matches!(report.outcome, Outcome::FallsAsBuilt | Outcome::SlidesAsBuilt);
