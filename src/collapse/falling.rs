@@ -19,7 +19,7 @@ const TOUCHING: f64 = 1e-3;
 /// A structure that has moved by less than this share of its thickness has not begun to fall.
 const BEGUN: f64 = 0.02;
 /// Joints on one line to this share of the extent share the ground between them.
-const ONE_LINE: f64 = 1e-6;
+const COLLINEAR: f64 = 1e-6;
 /// The ground at a level and the wall at the crown of half an arch go on for so many extents.
 const GROUND_EXTENTS: f64 = 10.0;
 
@@ -327,7 +327,7 @@ fn grounds(structure: &Structure, level: Option<f64>) -> Vec<RigidBody> {
         let reach = [ends[0].min(ends[1]) - beyond, ends[0].max(ends[1]) + beyond];
         let on_line = |other: &&mut Ground| {
             let off = (other.level - level).abs() + (other.normal - normal).norm() * extent;
-            other.number == number && off < ONE_LINE * extent
+            other.number == number && off < COLLINEAR * extent
         };
         match grounds.iter_mut().find(on_line) {
             Some(other) => other.reach = [other.reach[0].min(reach[0]), other.reach[1].max(reach[1])],
