@@ -49,7 +49,10 @@ pub(super) fn smallest_motion(columns: &[Column], unknowns: usize, budget: &Budg
         let ridge = 1e-14 * hessian.trace().max(1e-6);
         (0..unknowns).for_each(|i| hessian[(i, i)] += ridge);
         budget.work(unknowns.pow(3) / 3).ok()?;
-        let step = hessian.lu().solve(&-&gradient)?;
+        let step = match hessian.clone().cholesky() {
+            Some(factors) => factors.solve(&-&gradient),
+            None => hessian.lu().solve(&-&gradient)?,
+        };
         let (before, slope) = (value(&y), gradient.dot(&step));
         let mut length = 1.0;
         while value(&(&y + &step * length)) > before + 1e-4 * length * slope + VALUE_ROUNDING * before.abs()

@@ -112,6 +112,11 @@ impl StaticTheorem {
         Ok(Some(window))
     }
 
+    /// Whether any joint of these strengths, Pa, crushes under loads in reach.
+    pub fn crushes(&self, strengths: &[f64]) -> bool {
+        !self.sections(strengths).is_empty()
+    }
+
     /// Joints so strong that no load in reach crushes them are none.
     fn sections(&self, strengths: &[f64]) -> Vec<Section> {
         let dry = |(joint, strength): (usize, &f64)| {
