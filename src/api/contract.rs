@@ -123,6 +123,7 @@ fn bound_members(components: &mut Components) {
         ("GivenJointRequest", &["ends_m", ITEM]),
         ("SupportRequest", &["segments_m", ITEM, ITEM]),
         ("PointForceLoad", &["at_m"]),
+        ("SupportMovementRequest", &["about_m"]),
     ];
     for (name, path) in points {
         length(components, name, path, [2, 2]);

@@ -54,11 +54,11 @@ pub(super) fn turning(
     peak: &Peak,
 ) -> (Structure, Vec<Resultant>) {
     let (mut structure, mut forces) = (structure.clone(), forces.to_vec());
-    for k in 0..model.joints {
+    for (k, (joint, force)) in structure.joints.iter_mut().zip(&mut forces).take(model.joints).enumerate() {
         let Some((face, at)) = pivot(model, k, peak) else { continue };
-        let (joint, normal) = (&mut structure.joints[k], forces[k].normal());
+        let normal = force.normal();
         let place = joint.intrados + (joint.extrados - joint.intrados) * at;
-        (forces[k].intrados, forces[k].extrados) = match face {
+        (force.intrados, force.extrados) = match face {
             Face::Intrados => (normal, 0.0),
             Face::Extrados => (0.0, normal),
         };

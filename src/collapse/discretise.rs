@@ -2,6 +2,7 @@
 
 use super::grid::{Grid, ON_LINE, OnSide};
 use super::path::Attempt;
+use super::scatter::Scatter;
 use super::strips::{Points, Strips, nearest};
 use crate::budget::Budget;
 
@@ -48,24 +49,6 @@ pub(super) struct Model<'p> {
     pub scaled: Loads,
     /// Both with every force turned by -90 degrees, on the nodes; only where the path on moving geometry is asked for.
     pub turned: [Vec<f64>; 2],
-}
-
-/// Numbers in (-1, 1) that look random and are always the same (SplitMix64).
-pub(super) struct Scatter(u64);
-
-impl Scatter {
-    pub(super) fn new(seed: u64) -> Self {
-        Scatter(seed)
-    }
-
-    pub(super) fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^= z >> 31;
-        (z >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
 }
 
 /// The model of the analysis that was looked at last. Stones are condensed only where structure or mesh are not those of the one

@@ -19,7 +19,7 @@ const TOUCHING: f64 = 1e-3;
 /// A structure that has moved by less than this share of its thickness has not begun to fall.
 const BEGUN: f64 = 0.02;
 /// Joints on one line to this share of the extent share the ground between them.
-const ONE_LINE: f64 = 1e-6;
+const COLLINEAR: f64 = 1e-6;
 /// The ground at a level and the wall at the crown of half an arch go on for so many extents.
 const GROUND_EXTENTS: f64 = 10.0;
 
@@ -29,7 +29,7 @@ const BEYOND: f64 = 1e-6;
 /// A load factor and how far it is beyond that of collapse.
 type Loading = (f64, f64);
 
-/// Moves the arch on from the collapse in a report, and from the other end of a window too.
+/// Moves the structure on from the collapse in a report, and from the other end of a window too.
 pub(super) fn follow(analysis: &Analysis, report: &mut CollapseReport, budget: &Budget) -> Result<(), AnalysisError> {
     let Some(asked) = analysis.task.motion() else { return Ok(()) };
     let as_built = matches!(report.outcome, Outcome::FallsAsBuilt | Outcome::SlidesAsBuilt);
@@ -327,7 +327,7 @@ fn grounds(structure: &Structure, level: Option<f64>) -> Vec<RigidBody> {
         let reach = [ends[0].min(ends[1]) - beyond, ends[0].max(ends[1]) + beyond];
         let on_line = |other: &&mut Ground| {
             let off = (other.level - level).abs() + (other.normal - normal).norm() * extent;
-            other.number == number && off < ONE_LINE * extent
+            other.number == number && off < COLLINEAR * extent
         };
         match grounds.iter_mut().find(on_line) {
             Some(other) => other.reach = [other.reach[0].min(reach[0]), other.reach[1].max(reach[1])],

@@ -18,6 +18,7 @@ pub mod report;
 mod rigid_parts;
 mod rounding;
 mod safety;
+mod scatter;
 mod settlement;
 mod sliding;
 mod smallest_motion;

@@ -1,7 +1,8 @@
 //! The load path: from an unstressed start to the loads that stand, and on to collapse.
 
-use super::discretise::{Model, Scatter};
+use super::discretise::Model;
 use super::record::Recorder;
+use super::scatter::Scatter;
 use super::{AnalysisError, Cost, Unfollowed};
 use crate::dda::{Drive, End, Lost, Patience, Peak, Tracer, Violation, covering};
 use crate::structure::PointForce;

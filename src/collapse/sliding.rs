@@ -5,9 +5,9 @@
 //! is a linear programme (see [`crate::limit`]). At its optimum more joints are at their limits, so that other mechanisms can
 //! move there, each with a programme of its own: mechanisms are exchanged until none is found that gives less.
 
-use super::discretise::Scatter;
 use super::mechanism::{Released, all_releases, columns, describe};
 use super::rigid_parts::RigidParts;
+use super::scatter::Scatter;
 use super::smallest_motion::nearest_motion;
 use super::tolerances;
 use super::{Analysis, Mechanism};

@@ -172,8 +172,11 @@ impl<'a> Setup<'a> {
             attempted.report.cost.join(cost);
             cost = attempted.report.cost;
             let report = &attempted.report;
-            let ends = report.end.iter().chain(&report.other_end).filter(|_| self.analysis.task.crushes_on_path());
-            if !ends.fold(false, |more, end| strips.expect_more(&end.thrust_line) || more) {
+            if !self.analysis.task.crushes_on_path() {
+                return Ok(attempted);
+            }
+            let ends = report.end.iter().chain(&report.other_end);
+            if ends.filter(|end| strips.expect_more(&end.thrust_line)).count() == 0 {
                 return Ok(attempted);
             }
         }

@@ -18,8 +18,9 @@ pub struct MotionRequest {
     /// around them).
     #[schema(exclusive_minimum = 0.0, maximum = 1.0)]
     pub share_of_span: f64,
-    /// Height of level ground below all stones. Without it there is only the ground below the joints of every support, from the
+    /// Height of level ground below all stones, m. Without it there is only the ground below the joints of every support, from the
     /// first to the last of those on one line: what falls past it falls on.
+    #[schema(exclusive_minimum = -1e5, maximum = 1e5)]
     pub ground_level_m: Option<f64>,
 }
 

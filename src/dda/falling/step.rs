@@ -23,6 +23,8 @@ pub(super) const NEAR: f64 = 1e-3;
 const REST: f64 = 1e-7;
 /// Cohesion is lost where an interface has opened or slid by this share of the thickness.
 pub(super) const TORN: f64 = 1e-4;
+/// A step is shortened so often before friction is taken from bounds that lag behind.
+const FAILURES: usize = 3;
 /// Times that one step is shortened or lengthened.
 const MOST_TRIALS: usize = 40;
 
@@ -132,16 +134,19 @@ impl Falling {
         let outlines = self.outlines(&self.places);
         let pairs = self.near(&outlines, budget).map_err(|_| Stuck)?;
         let mut contacts = self.touching(&pairs, &outlines);
-        let mut longest = f64::INFINITY;
+        let (mut failures, mut longest) = (0, f64::INFINITY);
         for _ in 0..MOST_TRIALS {
             budget.check().map_err(|_| Stuck)?;
-            let Ok(trial) = self.attempt(&contacts, budget) else {
+            let Ok(trial) = self.attempt(&contacts, failures >= FAILURES, budget) else {
+                failures += 1;
                 longest = self.step;
                 self.step *= 0.5;
                 continue;
             };
             let outlines = self.outlines(&trial.places);
             match self.judge(&trial, &pairs, &contacts, &outlines) {
+                // So short a step that all that is left of it is round-off tells nothing.
+                Judgement::Rests if failures > FAILURES => return Err(Stuck),
                 Judgement::Rests => return Ok(Advance::Rest),
                 Judgement::Entered(entered) => contacts.extend(entered),
                 Judgement::TooLong(factor) => {

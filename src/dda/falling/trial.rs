@@ -11,6 +11,11 @@ use crate::budget::Budget;
 use crate::geometry::{cross, perpendicular};
 use nalgebra::Vector3;
 
+/// Bounds on friction that do not depend on the step are brought up to date so often, starting from the step before.
+const ROUNDS: usize = 100;
+/// They are up to date when they change by less than this share of the loads.
+const RUBBED: f64 = 1e-6;
+
 /// A step that may be made.
 pub(super) struct Trial {
     pub places: Vec<Position>,
@@ -25,12 +30,18 @@ impl Falling {
     /// The step of the present size, if it can be made.
     ///
     /// # Errors
-    /// When it cannot: try a shorter one; and where the budget is spent.
-    pub(super) fn attempt(&self, contacts: &[PlacedEntrance], budget: &Budget) -> Result<Trial, Stuck> {
-        let problem = self.problem(contacts);
-        let solution = problem.solve(budget).map_err(|_| Stuck)?;
-        let beyond = |(c, force): (&Constraint, &[f64; 2])| force[1].abs() - c.slope * force[0] - c.constant;
-        let excess = problem.contacts.iter().zip(&solution.forces).map(beyond).fold(0.0, f64::max);
+    /// When it cannot: try a shorter one, or `lagging` bounds on friction; and where the budget is spent.
+    pub(super) fn attempt(&self, contacts: &[PlacedEntrance], lagging: bool, budget: &Budget) -> Result<Trial, Stuck> {
+        let mut problem = self.problem(contacts);
+        // Bounds on friction: coefficient of the normal force, and cohesion.
+        let bounds: Vec<[f64; 2]> = problem.contacts.iter().map(|c| [c.slope, c.constant]).collect();
+        let solution = match problem.solve(budget) {
+            Ok(solution) => solution,
+            Err(_) if !lagging => return Err(Stuck),
+            Err(_) => with_given_bounds(&mut problem, &bounds, budget)?,
+        };
+        let beyond = |(force, bound): (&[f64; 2], &[f64; 2])| force[1].abs() - bound[0] * force[0] - bound[1];
+        let excess = solution.forces.iter().zip(&bounds).map(beyond).fold(0.0, f64::max);
         let mut moved: f64 = 0.0;
         let mut places = Vec::with_capacity(self.places.len());
         for ((body, place), by) in self.bodies.iter().zip(&self.places).zip(&solution.increments) {
@@ -102,4 +113,28 @@ impl Falling {
         };
         contacts.iter().map(constraint).collect()
     }
+}
+
+/// The same step with `bounds` on friction that do not depend on it, brought up to date round by round. Each round is a convex
+/// programme.
+fn with_given_bounds(problem: &mut StepProblem, bounds: &[[f64; 2]], budget: &Budget) -> Result<Solution, Stuck> {
+    for (contact, [slope, _]) in problem.contacts.iter_mut().zip(bounds) {
+        contact.slope = 0.0;
+        contact.constant += slope * contact.guess;
+    }
+    let mut last = Err(Stuck);
+    for _ in 0..ROUNDS {
+        let Ok(solution) = problem.solve(budget) else { break };
+        let mut change: f64 = 0.0;
+        for ((contact, [slope, cohesion]), force) in problem.contacts.iter_mut().zip(bounds).zip(&solution.forces) {
+            let bound = cohesion + slope * force[0];
+            change = change.max((bound - contact.constant).abs());
+            contact.constant = 0.5 * (contact.constant + bound);
+        }
+        last = Ok(solution);
+        if change < RUBBED {
+            break;
+        }
+    }
+    last
 }

@@ -115,6 +115,18 @@ fn blocks() -> Value {
     })
 }
 
+fn sinking() -> Value {
+    let movement = json!({
+        "support": "ground", "rightwards_m": 0.01, "downwards_m": 0.01, "rotation_deg": 1, "about_m": [0.5, 0]
+    });
+    json!({
+        "blocks": blocks()["blocks"],
+        "stones": blocks()["stones"],
+        "loads": [{"load": {"self_weight": {}}}],
+        "analysis": {"settlement": {"supports": [movement]}},
+    })
+}
+
 fn given() -> Value {
     let joints = json!([
         {"between": ["low", "high"], "ends_m": [[0, 1], [1, 1]], "friction_angle_deg": 30, "cohesion_pa": 5, "bonded": false},
@@ -195,6 +207,7 @@ pub fn bodies() -> Vec<Value> {
         settlement(),
         surveyed(),
         blocks(),
+        sinking(),
         given(),
         on_a_line(),
         bridge(),
