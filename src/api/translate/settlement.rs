@@ -1,8 +1,8 @@
 //! Movements of supports.
 
-use super::MAX_LENGTH_M;
 use super::site::Unloaded;
 use super::structure::Layout;
+use super::{MAX_LENGTH_M, check_text};
 use crate::api::fault::{Faults, Shown};
 use crate::api::prose::Digits;
 use crate::api::request::{
@@ -13,6 +13,9 @@ use crate::geometry::Vec2;
 use crate::structure::{Side, Structure};
 
 const HERE: &str = "/analysis/settlement";
+/// So many names are shown as an example, and so many letters of each.
+const FEW: usize = 4;
+const SHOWN: usize = 40;
 const MOVED_SUPPORTS: &str = "/analysis/settlement/supports";
 
 /// Whether a movement of supports can be followed.
@@ -56,13 +59,17 @@ fn check_supports(settlement: &SettlementRequest, site: &Unloaded<'_>, faults: &
     let (size, names) = (site.size(), site.layout().map(|layout| &layout.supports));
     for (i, moved) in list.iter().enumerate() {
         let here = format!("{MOVED_SUPPORTS}/{i}");
+        let support = format!("{here}/support");
+        if !check_text(&support, &moved.support, faults) {
+            continue;
+        }
         if let Some(names) = names {
-            let detail = format!("there is no support {:?}: give one of {}", moved.support, names.join(", "));
-            faults.require(names.contains(&moved.support), format!("{here}/support"), detail);
+            let few = names.iter().take(FEW).map(|name| name.chars().take(SHOWN).collect::<String>());
+            let detail = format!("there is no such support: give its name, as {}", few.collect::<Vec<_>>().join(", "));
+            faults.require(names.contains(&moved.support), support.as_str(), detail);
         }
         let again = list[..i].iter().any(|other| other.support == moved.support);
-        let detail = format!("support {:?} moves twice: keep one", moved.support);
-        faults.require(!again, format!("{here}/support"), detail);
+        faults.require(!again, support, "this support moves twice: keep one movement");
         let shift = [("rightwards_m", moved.rightwards_m), ("downwards_m", moved.downwards_m)];
         check_movement(&here, shift, moved.rotation_deg, size, faults);
         for (axis, &coordinate) in moved.about_m.iter().flatten().enumerate() {
