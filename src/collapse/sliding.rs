@@ -76,11 +76,14 @@ impl Search<'_> {
     fn motion(&self, released: &[Released], costs: &mut Scatter) -> Option<(Vec<Released>, Vec<f64>)> {
         let cost = |random: f64| if self.has_loops() { 10f64.powf(random) } else { 1.0 + 0.99 * random };
         let costs: Vec<f64> = released.iter().map(|_| cost(costs.next())).collect();
+        if !self.has_loops() {
+            let rates = self.theorem.cheapest_motion(released, &costs, self.sign, self.budget)?;
+            return Some(moving(released, rates));
+        }
         let parts = RigidParts::new(&self.analysis.structure, released)?;
         let theorem = StaticTheorem::new(&parts.structure, &[], &parts.loads(&self.analysis.scaled)).ok()?;
         let rates = theorem.cheapest_motion(&parts.released, &parts.of_parts(&costs), self.sign, self.budget)?;
-        let rates = parts.of_all(&rates, released.len());
-        Some(released.iter().zip(rates).filter(|(_, rate)| *rate > 0.0).unzip())
+        Some(moving(released, parts.of_all(&rates, released.len())))
     }
 
     fn at_limits(&self, equilibrium: &Equilibrium) -> Vec<Released> {
@@ -124,26 +127,39 @@ struct Candidate {
     rates: Vec<f64>,
 }
 
+/// What comes of a motion of some releases.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Tried {
+    /// Its least load lies below all before.
+    Lower,
+    /// It does not; other motions may.
+    InVain,
+    /// It does not, and these releases have no other motion.
+    Sole,
+}
+
 impl Hunt<'_> {
-    /// Tries one of the motions of these releases: whether it gives less than any before; None where nothing moves.
-    fn tries(&mut self, released: &[Released]) -> Option<bool> {
+    /// Tries one of the motions of these releases; None where nothing moves.
+    fn tries(&mut self, released: &[Released]) -> Option<Tried> {
         let search = self.search;
         let (moving, mut rates) = search.motion(released, &mut self.scatter)?;
+        // What moves in a corner of all motions is independent of each other: where everything does, there is no other.
+        let vain = if moving.len() == released.len() { Tried::Sole } else { Tried::InVain };
         if !self.seen.insert(key(&moving)) {
-            return Some(false);
+            return Some(vain);
         }
         let found = search.theorem.least_load(&moving, search.start, search.sign, search.budget);
-        let Ok(Some(equilibrium)) = found else { return Some(false) };
+        let Ok(Some(equilibrium)) = found else { return Some(vain) };
         let best = self.best.as_ref().map(|best| best.equilibrium.load_factor);
         if best.is_some_and(|best| !search.is_beyond(best, equilibrium.load_factor, tolerances::SAME_LOAD)) {
-            return Some(false);
+            return Some(vain);
         }
         if search.has_loops() {
-            let Some(closed) = search.closed(&moving, &rates) else { return Some(false) };
+            let Some(closed) = search.closed(&moving, &rates) else { return Some(vain) };
             rates = closed;
         }
         self.best = Some(Candidate { equilibrium, moving, rates });
-        Some(true)
+        Some(Tried::Lower)
     }
 
     /// From one state on, whose programmes end in a corner of all equilibria.
@@ -152,12 +168,12 @@ impl Hunt<'_> {
         while quiet < QUIET {
             quiet += 1;
             match self.tries(&released) {
-                None => return,
-                Some(true) => {
+                None | Some(Tried::Sole) => return,
+                Some(Tried::InVain) => {}
+                Some(Tried::Lower) => {
                     quiet = 0;
                     released = self.best.as_ref().map_or(Vec::new(), |best| self.search.at_limits(&best.equilibrium));
                 }
-                Some(false) => {}
             }
         }
     }
@@ -177,12 +193,17 @@ impl Hunt<'_> {
             let mut released = search.at_limits(&corner);
             let missing: Vec<Released> = moving.into_iter().filter(|release| !released.contains(release)).collect();
             released.extend(missing);
-            quiet = if self.tries(&released) == Some(true) { 0 } else { quiet + 1 };
+            quiet = if self.tries(&released) == Some(Tried::Lower) { 0 } else { quiet + 1 };
             if quiet == QUIET_CORNERS || search.budget.ask().is_err() {
                 return;
             }
         }
     }
+}
+
+/// The releases that move, and their rates.
+fn moving(released: &[Released], rates: Vec<f64>) -> (Vec<Released>, Vec<f64>) {
+    released.iter().zip(rates).filter(|(_, rate)| *rate > 0.0).unzip()
 }
 
 /// A mechanism by the joints that it moves.

@@ -112,6 +112,11 @@ impl StaticTheorem {
         Ok(Some(window))
     }
 
+    /// Whether any joint of these strengths, Pa, crushes under loads in reach.
+    pub fn crushes(&self, strengths: &[f64]) -> bool {
+        !self.sections(strengths).is_empty()
+    }
+
     /// Joints so strong that no load in reach crushes them are none.
     fn sections(&self, strengths: &[f64]) -> Vec<Section> {
         let dry = |(joint, strength): (usize, &f64)| {
@@ -142,17 +147,21 @@ fn cut_until_inside(
     sections: &[Section],
     budget: &Budget,
 ) -> ProgrammeOutcome {
+    let (mut rows, first) = programme.dense_rows();
     for _ in 0..MOST_ROUNDS {
-        let outcome = programme.maximise_densely(objective, budget);
+        let outcome = programme.solve(objective, &rows, first, budget);
         let (ProgrammeOutcome::At(equilibrium, _) | ProgrammeOutcome::Unbounded(equilibrium)) = &outcome else {
             return outcome;
         };
         let tangents = sections.iter().flat_map(|section| section.tangents_at(equilibrium, programme.theorem));
-        let cuts: Vec<Limit> =
-            tangents.filter(|tangent| slack(tangent, equilibrium, programme.theorem) < -VIOLATED).collect();
+        let violated = |tangent: &Limit| {
+            tangent.slack(&equilibrium.forces) < 0.0 && slack(tangent, equilibrium, programme.theorem) < -VIOLATED
+        };
+        let cuts: Vec<Limit> = tangents.filter(violated).collect();
         if cuts.is_empty() {
             return outcome;
         }
+        cuts.iter().for_each(|cut| rows.push(programme.theorem, cut, true));
         programme.limits.extend(cuts);
     }
     ProgrammeOutcome::Lost

@@ -26,9 +26,10 @@ const BARELY_PROVEN: f64 = 1e-7;
 const VANISHED: f64 = 1e-13;
 /// Share of the way to the boundary that a step goes.
 const STEP: f64 = 0.99;
-/// Iterations without a better point after which rounding has won; the second where the best is as close as this to the optimum.
+/// Iterations without a better point after which rounding has won; the second where the best has less than so many times the error
+/// that is enough.
 const MOST_IDLE: [usize; 2] = [20, 2];
-const CLOSE_OPTIMUM: f64 = 1e-10;
+const CLOSE: f64 = 100.0;
 /// So much worse than a best point that is as near as this to the optimum: rounding has won.
 const BLOWN_UP: f64 = 1e4;
 const NEAR_OPTIMUM: f64 = 1e-6;
@@ -110,9 +111,9 @@ impl Sparse {
     /// A x.
     fn rows_times(&self, x: &[f64]) -> Vec<f64> {
         let n = self.blocks.len();
-        let value = |row: &Row| match row.block {
-            block if block == n => row.a[0] * x[3 * n],
-            block => (0..3).map(|i| row.a[i] * x[3 * block + i]).sum(),
+        let value = |row: &Row| match x.get(3 * row.block..3 * row.block + 3) {
+            Some(x) => dot3(&row.a, x),
+            None => row.a[0] * x[3 * n],
         };
         self.rows.iter().map(value).collect()
     }
@@ -120,8 +121,9 @@ impl Sparse {
     /// A' z, added to `sum` times `sign`.
     fn add_transposed(&self, z: &[f64], sign: f64, sum: &mut [f64]) {
         for (row, z) in self.rows.iter().zip(z) {
-            let dimensions = if row.block == self.blocks.len() { 1 } else { 3 };
-            (0..dimensions).for_each(|i| sum[3 * row.block + i] += sign * z * row.a[i]);
+            // The load factor has one entry, a block three.
+            let sum = sum[3 * row.block..].iter_mut();
+            sum.zip(&row.a).for_each(|(sum, a)| *sum += sign * z * a);
         }
     }
 
@@ -129,9 +131,10 @@ impl Sparse {
     fn balance(&self, x: &[f64]) -> Vec<f64> {
         let last = x[3 * self.blocks.len()];
         let mut sums: Vec<f64> = self.growth.iter().map(|g| g * last).collect();
-        for (k, block) in self.blocks.iter().enumerate() {
+        for (block, x) in self.blocks.iter().zip(x.chunks_exact(3)) {
             for (body, e) in block {
-                (0..3).for_each(|i| sums[3 * body + i] += (0..3).map(|j| e[i][j] * x[3 * k + j]).sum::<f64>());
+                let sums = sums[3 * body..3 * body + 3].iter_mut();
+                sums.zip(e).for_each(|(sum, e)| *sum += dot3(e, x));
             }
         }
         sums
@@ -140,9 +143,12 @@ impl Sparse {
     /// E' y.
     fn motion(&self, y: &[f64]) -> Vec<f64> {
         let mut sums = vec![0.0; self.unknowns()];
-        for (k, block) in self.blocks.iter().enumerate() {
+        for (block, sums) in self.blocks.iter().zip(sums.chunks_exact_mut(3)) {
             for (body, e) in block {
-                (0..3).for_each(|j| sums[3 * k + j] += (0..3).map(|i| e[i][j] * y[3 * body + i]).sum::<f64>());
+                let y = &y[3 * body..3 * body + 3];
+                for (j, sum) in sums.iter_mut().enumerate() {
+                    *sum += e[0][j] * y[0] + e[1][j] * y[1] + e[2][j] * y[2];
+                }
             }
         }
         sums[3 * self.blocks.len()] = dot(&self.growth, y);
@@ -208,7 +214,7 @@ pub fn minimise(programme: &Sparse, pattern: &NewtonPattern, enough: f64, budget
             best = Some((error, by_tau(&point.x), by_tau(&point.z)));
             since = 0;
         }
-        let close = best.as_ref().is_some_and(|best| best.0 < CLOSE_OPTIMUM);
+        let close = best.as_ref().is_some_and(|best| best.0 < CLOSE * enough);
         if error < enough || since > MOST_IDLE[usize::from(close)] {
             break;
         }
@@ -341,6 +347,11 @@ fn longest(point: &Point, direction: &Point, linear: usize) -> f64 {
     let straight = pairs.chain(scalars).filter(|(_, d)| **d < 0.0).map(|(v, d)| -v / d).fold(1e30, f64::min);
     let cones = both().flat_map(|(v, d)| v[linear..].chunks_exact(3).zip(d[linear..].chunks_exact(3)));
     cones.map(|(v, d)| reach(v, d)).fold(straight, f64::min)
+}
+
+/// The scalar product of three entries.
+fn dot3(a: &[f64; 3], b: &[f64]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 fn sum(a: &[f64], b: &[f64], by: f64) -> Vec<f64> {

@@ -101,34 +101,42 @@ impl<'t> Programme<'t> {
 
     /// The exact method in loop space.
     pub(super) fn maximise_densely(&self, objective: &Objective, budget: &Budget) -> ProgrammeOutcome {
+        match &self.theorem.rows {
+            Some(rows) if self.is_plain() => self.solve(objective, rows, rows.half_spaces.len(), budget),
+            _ => {
+                let (rows, first) = self.dense_rows();
+                self.solve(objective, &rows, first, budget)
+            }
+        }
+    }
+
+    /// All limits over the unknowns, and where those of the programme's own begin.
+    pub(super) fn dense_rows(&self) -> (Rows, usize) {
         let theorem = self.theorem;
-        let (mut rows, first) = match (&theorem.rows, self.complete) {
-            (Some(rows), true) if self.is_plain() => {
-                return self.solve(objective, rows, rows.half_spaces.len(), budget);
-            }
-            (_, false) => (Rows::new(theorem.unknowns()), 0),
-            (Some(rows), true) => (rows.clone(), rows.half_spaces.len()),
-            (None, true) => {
-                let rows = Rows::of_laws(theorem);
-                let first = rows.half_spaces.len();
-                (rows, first)
-            }
+        let mut rows = match &theorem.rows {
+            _ if !self.complete => Rows::new(theorem.unknowns()),
+            Some(rows) => rows.clone(),
+            None => Rows::of_laws(theorem),
         };
+        let first = rows.half_spaces.len();
         self.limits.iter().for_each(|limit| rows.push(theorem, limit, self.complete));
         rows.bound(self.bounds.map(|bound| bound / theorem.factor));
         if self.slack != 0.0 {
             rows.half_spaces.relax(self.slack);
         }
-        self.solve(objective, &rows, first, budget)
+        (rows, first)
     }
 
     /// Whether nothing is asked besides the laws of the joints.
     fn is_plain(&self) -> bool {
-        self.limits.is_empty() && self.bounds.iter().all(|bound| bound.is_infinite()) && self.slack == 0.0
+        self.complete
+            && self.limits.is_empty()
+            && self.bounds.iter().all(|bound| bound.is_infinite())
+            && self.slack == 0.0
     }
 
     /// Rows from `first` on are those of the programme's own limits.
-    fn solve(&self, objective: &Objective, rows: &Rows, first: usize, budget: &Budget) -> ProgrammeOutcome {
+    pub(super) fn solve(&self, objective: &Objective, rows: &Rows, first: usize, budget: &Budget) -> ProgrammeOutcome {
         let (theorem, n) = (self.theorem, self.theorem.unknowns());
         if rows.contradicted(self.slack) {
             return ProgrammeOutcome::Infeasible;
@@ -180,7 +188,7 @@ impl Rows {
     }
 
     /// Adds a limit, under the fixed loads too if it is `complete`.
-    fn push(&mut self, theorem: &StaticTheorem, limit: &Limit, complete: bool) {
+    pub(super) fn push(&mut self, theorem: &StaticTheorem, limit: &Limit, complete: bool) {
         let n = theorem.unknowns();
         let mut row = vec![0.0; n + 1];
         theorem.add_row(limit.joint, limit.weights, &mut row);

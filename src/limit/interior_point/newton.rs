@@ -2,7 +2,7 @@
 
 use super::super::linear_program::dot;
 use super::cone::Scaling;
-use super::{Point, Sparse, Square, largest, sum};
+use super::{Point, Sparse, Square, dot3, largest, sum};
 use faer::linalg::solvers::Solve;
 use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
 use faer::sparse::{SparseColMat, SymbolicSparseColMat};
@@ -10,6 +10,8 @@ use faer::{Mat, Side};
 
 /// Root of the curvature of a block without rows.
 const EMPTY_BLOCK: f64 = 1e-4;
+/// Rows of most blocks, at most.
+const USUAL_ROWS: usize = 8;
 /// Residuals of a solution of the Newton system that no correction betters much, relative to the right-hand sides.
 const EXACT_NEWTON: f64 = 1e-12;
 /// Corrections of a solution of the Newton system.
@@ -76,7 +78,7 @@ impl<'p> Newton<'p> {
     pub(super) fn new(programme: &'p Sparse, pattern: &NewtonPattern, point: &Point) -> Option<Self> {
         let scaling = Scaling::new(programme, point);
         let n = programme.blocks.len();
-        let mut scaled: Vec<Vec<[f64; 3]>> = vec![Vec::new(); n];
+        let mut scaled: Vec<Vec<[f64; 3]>> = (0..n).map(|_| Vec::with_capacity(USUAL_ROWS)).collect();
         let mut last = 0.0;
         for (block, row) in scaling.rows(programme) {
             match scaled.get_mut(block) {
@@ -105,8 +107,8 @@ impl<'p> Newton<'p> {
     fn invert_blocks(&self, right: &[f64]) -> Vec<f64> {
         let mut x = right.to_vec();
         for (root, x) in self.roots.iter().zip(x.chunks_exact_mut(3)) {
-            let half: [f64; 3] = std::array::from_fn(|j| (0..3).map(|i| root[i][j] * x[i]).sum());
-            (0..3).for_each(|i| x[i] = (0..3).map(|j| root[i][j] * half[j]).sum());
+            let half = [0, 1, 2].map(|j| root[0][j] * x[0] + root[1][j] * x[1] + root[2][j] * x[2]);
+            x.iter_mut().zip(root).for_each(|(x, root)| *x = dot3(root, &half));
         }
         x
     }
@@ -184,15 +186,15 @@ fn inverse_root(rows: &mut [[f64; 3]]) -> Square {
             break;
         }
         let alpha = if m[k][k] > 0.0 { -alpha } else { alpha };
-        let mut v: Vec<f64> = m[k..].iter().map(|row| row[k]).collect();
-        v[0] -= alpha;
-        let square = dot(&v, &v);
-        for c in k..3 {
-            let by = 2.0 * v.iter().zip(&m[k..]).map(|(v, row)| v * row[c]).sum::<f64>() / square;
-            v.iter().zip(&mut m[k..]).for_each(|(v, row)| row[c] -= by * v);
+        // The vector of the reflection takes the place of column k, which becomes (alpha, 0, ...).
+        m[k][k] -= alpha;
+        r[k][k] = alpha;
+        let square = m[k..].iter().map(|row| row[k] * row[k]).sum::<f64>();
+        for c in k + 1..3 {
+            let by = 2.0 * m[k..].iter().map(|row| row[k] * row[c]).sum::<f64>() / square;
+            m[k..].iter_mut().for_each(|row| row[c] -= by * row[k]);
             r[k][c] = m[k][c];
         }
-        r[k][k] = alpha;
     }
     // C = P R^-1, column by column.
     let mut root = [[0.0; 3]; 3];
@@ -216,12 +218,12 @@ fn factor(programme: &Sparse, pattern: &NewtonPattern, roots: &[Square]) -> Opti
     let mut values = vec![0.0; pattern.rows.len()];
     for ((block, root), places) in programme.blocks.iter().zip(roots).zip(&pattern.places) {
         let product = |e: &Square| -> Square {
-            std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| e[i][k] * root[k][j]).sum()))
+            e.map(|e| [0, 1, 2].map(|j| e[0] * root[0][j] + e[1] * root[1][j] + e[2] * root[2][j]))
         };
         let halves: Vec<Square> = block.iter().map(|(_, e)| product(e)).collect();
         for &([i, j], starts) in places {
             for (left, start) in halves[i].iter().zip(starts) {
-                (0..3).for_each(|row| values[start + row] += dot(&halves[j][row], left));
+                (0..3).for_each(|row| values[start + row] += dot3(&halves[j][row], left));
             }
         }
     }
