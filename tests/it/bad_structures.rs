@@ -260,7 +260,7 @@ fn movements_overrides_and_meshes_that_do_not_fit_are_pointed_at() {
         );
         let place = s("/supports/0/");
         let table = [
-            ("support", json!("pier"), "give one of ground"),
+            ("support", json!("pier"), "give its name, as ground"),
             ("downwards_m", json!(100), "the size"),
             ("rotation_deg", json!(91), "from -90 to 90"),
         ];

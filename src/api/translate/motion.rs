@@ -1,7 +1,7 @@
 //! Motion after collapse.
 
 use super::MAX_LENGTH_M;
-use crate::api::fault::Faults;
+use crate::api::fault::{Faults, Shown};
 use crate::api::request::{AimRequest, AnalysisRequest, MAX_MOTION_FRAMES};
 use crate::collapse::MotionAsked;
 use crate::structure::Structure;
@@ -26,8 +26,11 @@ pub fn motion(request: &AnalysisRequest, structure: Option<&Structure>, faults: 
     if let Some(level) = asked.ground_level_m {
         let corners = structure.iter().flat_map(|structure| &structure.bodies).flat_map(|body| &body.corners);
         let lowest = corners.map(|corner| corner.y).fold(MAX_LENGTH_M, f64::min);
-        let most = lowest + LEVEL_ROUND_OFF * lowest.abs().max(1.0);
-        faults.within("/motion/ground_level_m", level, -MAX_LENGTH_M, most);
+        let above = level > lowest + LEVEL_ROUND_OFF * lowest.abs().max(1.0);
+        let detail = format!("the lowest corner is at {} m: keep the ground below it", Shown(lowest));
+        if faults.within("/motion/ground_level_m", level, -MAX_LENGTH_M, MAX_LENGTH_M) {
+            faults.require(!above, "/motion/ground_level_m", detail);
+        }
     }
     Some(MotionAsked { most_frames: frames, share_of_span: asked.share_of_span, ground_level: asked.ground_level_m })
 }
