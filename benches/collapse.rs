@@ -11,7 +11,6 @@ use divan::{Bencher, black_box};
 use serde_json::{Value, json};
 use voussoir::api::read::read_analysis;
 use voussoir::budget::Budget;
-
 use voussoir::collapse::{Analysis, CollapseTask, FieldAt, StatesAsked, Task, run};
 use voussoir::limit::StaticTheorem;
 

@@ -29,7 +29,6 @@ use std::process::Command;
 use std::time::Instant;
 use voussoir::api::read::read_analysis;
 use voussoir::budget::Budget;
-
 use voussoir::collapse::{
     Analysis, Answer, CollapseTask, Cost, CurvedBeam, FieldAt, PlaneModel, Question, Seams, StatesAsked, Task, answer,
 };

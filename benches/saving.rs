@@ -18,7 +18,6 @@ use serde_json::{Value, json};
 use std::time::Instant;
 use voussoir::api::read::read_question;
 use voussoir::budget::Budget;
-
 use voussoir::collapse::{
     Accuracy, Analysis, Answer, BeamReport, CollapseReport, CollapseTask, CurvedBeam, FieldAt, Method, Path, Question,
     SafetyTask, StatesAsked, StressField, Task, answer, run,

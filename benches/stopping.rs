@@ -24,7 +24,6 @@ use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 use voussoir::api::read::read_question;
 use voussoir::budget::{Budget, LoadStep};
-
 use voussoir::collapse::{AnalysisError, Answer, Question, answer};
 
 /// Measures the time between calls, and stops the analysis when it has had its time.

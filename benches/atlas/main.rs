@@ -25,7 +25,6 @@ use std::path::PathBuf;
 use std::time::Instant;
 use theirs::{Theirs, theirs};
 use voussoir::budget::Budget;
-
 use voussoir::collapse::run;
 
 /// A scene and what every method made of it.

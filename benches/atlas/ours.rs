@@ -8,7 +8,6 @@ use crate::common::verify::said;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 use voussoir::budget::Budget;
-
 use voussoir::collapse::{Analysis, CollapseReport, Outcome, Task, run};
 use voussoir::structure::{Joint, JointLaw};
 

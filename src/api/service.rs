@@ -9,7 +9,6 @@ use super::request::Request;
 use super::response::{JobResult, weight};
 use super::translate;
 use crate::budget::Budget;
-
 use crate::collapse::{AnalysisError, Answer, Question};
 use crate::jobs::{self, Failure, JobStore, Product};
 use axum::http::HeaderValue;

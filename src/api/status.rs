@@ -4,7 +4,6 @@ use super::problem::Problem;
 use super::request::Request;
 use super::timestamp::rfc3339;
 use crate::budget::LoadStep;
-
 use crate::jobs::{Job, JobId, JobState, Status};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;

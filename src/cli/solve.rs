@@ -12,7 +12,6 @@ use voussoir::api::prose;
 use voussoir::api::read::read_question;
 use voussoir::api::response::JobResult;
 use voussoir::budget::Budget;
-
 use voussoir::collapse;
 
 /// Exit code for a request that cannot be analysed.

@@ -3,9 +3,8 @@
 use super::discretise::{bond, elasticity};
 use super::grid::{Grid, Lines};
 use super::report::tresca;
-use crate::budget::Budget;
-
 use super::{AnalysisError, BeamReport, CurvedBeam, DEFAULT_PENALTY_RATIO, PlaneModel, StressField, SubblockStress};
+use crate::budget::Budget;
 use crate::dda::{Macroblock, free_response};
 use crate::geometry::{Region, Vec2};
 

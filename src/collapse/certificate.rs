@@ -2,11 +2,10 @@
 
 use super::path::total;
 use super::tolerances;
-use crate::budget::Budget;
-
 use super::{
     Analysis, AnalysisError, Crushing, Doubt, LimitWindow, LoadRange, Note, PathEnd, PlasticCrushing, Unreached,
 };
+use crate::budget::Budget;
 use crate::limit::{Resultant, StaticTheorem};
 use crate::structure::Structure;
 

@@ -4,9 +4,8 @@ use super::grid::{Grid, ON_LINE, OnSide};
 use super::path::Attempt;
 use super::scatter::Scatter;
 use super::strips::{Points, Strips, nearest};
-use crate::budget::Budget;
-
 use super::{Analysis, AnalysisError, Geometry, PlaneModel, Seams};
+use crate::budget::Budget;
 use crate::dda::{Assembly, AssemblyBuilder, Beside, Bond, Elasticity, Law, Loads, MeanMotion, Push, Touch};
 use crate::geometry::{Region, Vec2};
 use crate::structure::{Joint, JointLaw, PointForce, Side, Stone};

@@ -5,7 +5,6 @@ use super::{
     OpenHinge, Outcome, Slid,
 };
 use crate::budget::Budget;
-
 use crate::dda::falling::{Advance, Carried, Configuration, Falling, Interface, Member, Opening, RigidBody};
 use crate::geometry::{Vec2, perpendicular};
 use crate::structure::{Face, Joint, JointLaw, Side, Structure};

@@ -18,7 +18,6 @@ use super::{
     Accuracy, Analysis, AnalysisError, CollapseReport, Direction, Estimate, Outcome, PathEnd, Plan, PlanReason,
 };
 use crate::budget::Budget;
-
 use crate::structure::is_symmetric;
 
 /// Velocities of a mechanism, as a share of the largest, that differ by less are the same.

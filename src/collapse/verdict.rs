@@ -6,8 +6,6 @@ mod leg;
 use super::certificate::{Certificate, any_fixed, loaded, mesh_notes};
 use super::discretise::{Discretisation, Model};
 use super::path::{ATTEMPTS, Attempt, disturbed, nothing_grows, stand, total};
-use crate::budget::Budget;
-
 use super::record::snapshot;
 use super::state::States;
 use super::strips::Strips;
@@ -17,6 +15,7 @@ use super::{
     SafetyFactors, SettlementEnd, SupportMovement, Task, TaskReport, ThrustRange, UpdatedGeometry, falling, plan,
     rounding, safety, settlement,
 };
+use crate::budget::Budget;
 use crate::dda::{End, Tracer};
 use crate::structure::{Joint, JointLaw};
 use std::ops::ControlFlow;

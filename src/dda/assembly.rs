@@ -11,11 +11,10 @@ use super::block::V6;
 use super::condense::{Condensed, Node};
 use super::contact::Contact;
 use super::elements::{Elements, Pattern};
-use crate::budget::{Budget, Stopped};
-
 use super::macroblock::Macroblock;
 use super::panels::add_applied_columns;
 use super::tree::Tree;
+use crate::budget::{Budget, Stopped};
 use crate::geometry::{Vec2, cross, perpendicular};
 use mirror::Mirror;
 use nalgebra::{DMatrix, DVector, SMatrix};

@@ -25,9 +25,8 @@ use super::assembly::Assembly;
 use super::contact::{Contact, State};
 use super::elements::Elements;
 use super::factor::Factor;
-use crate::budget::{Budget, Stopped};
-
 use super::trace::{Drive, End, Tracer};
+use crate::budget::{Budget, Stopped};
 use std::ops::ControlFlow;
 
 /// Residuals, as a share of the sum of all loads on the nodes, below which corrections are mere rounding, and up to which a

@@ -7,9 +7,8 @@
 //! macroblock answers to forces at its nodes exactly as the whole one does.
 
 use super::block::{M6, V6};
-use crate::budget::{Budget, Stopped};
-
 use super::macroblock::Macroblock;
+use crate::budget::{Budget, Stopped};
 use crate::geometry::Vec2;
 use faer::linalg::solvers::{Llt, Solve};
 use faer::sparse::linalg::solvers::{Llt as SparseLlt, SymbolicLlt};

@@ -6,7 +6,6 @@
 
 use super::panels::Panels;
 use crate::budget::Budget;
-
 use std::ops::Range;
 
 /// The unknowns, face by face and then core by core, and what every element ties. A core counts as a face.

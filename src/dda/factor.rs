@@ -8,11 +8,10 @@
 //! Where blocks are large, the tracer goes on with these factors over several changes, see [`super::trace`].
 
 use super::elements::Elements;
-use crate::budget::{Budget, Stopped};
-
 use super::panels::{Panels, subtract_applied};
 use super::pivot::Pivot;
 use super::tree::{Front, Origin, Run, Tree};
+use crate::budget::{Budget, Stopped};
 
 /// The fronts of a tree, eliminated as far as they were asked for, with the solution for one right-hand side.
 #[derive(Debug, Clone)]

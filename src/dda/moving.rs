@@ -13,9 +13,8 @@ mod twofold;
 use super::assembly::{Assembly, MeanMotion};
 use super::contact::force_change;
 use super::elements::Elements;
-use crate::budget::{Budget, Stopped};
-
 use super::trace::Drive;
+use crate::budget::{Budget, Stopped};
 use crate::geometry::Vec2;
 use body::{Corotated, NodeLoads, Pose};
 use interface::Frame;

@@ -27,9 +27,8 @@ use super::assembly::Assembly;
 use super::contact::State;
 use super::elements::Elements;
 use super::factor::Factor;
-use crate::budget::Budget;
-
 use super::moving::{Placed, Velocity};
+use crate::budget::Budget;
 use drift::Drift;
 use event::Event;
 use std::ops::ControlFlow;

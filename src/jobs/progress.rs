@@ -2,7 +2,6 @@
 
 use super::job::{JobState, Stand};
 use crate::budget::LoadStep;
-
 use std::cell::Cell;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};

@@ -4,7 +4,6 @@ use super::job::{Failure, Job, JobId, Product, Status};
 use super::table::{Occupancy, Refusal, Submission, Table};
 use super::{Limits, lock, worker};
 use crate::budget::Budget;
-
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;

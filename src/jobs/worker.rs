@@ -5,7 +5,6 @@ use super::lock;
 use super::progress::Observer;
 use super::store::Shared;
 use crate::budget::{Budget, LoadStep, Stopped};
-
 use crate::collapse::AnalysisError;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, PoisonError};

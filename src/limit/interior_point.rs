@@ -11,7 +11,6 @@ mod newton;
 
 use super::linear_program::dot;
 use crate::budget::Budget;
-
 use cone::reach;
 use newton::Newton;
 pub use newton::NewtonPattern;

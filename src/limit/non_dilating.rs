@@ -8,7 +8,6 @@
 use super::programme::{Objective, Programme, ProgrammeOutcome};
 use super::static_theorem::{Equilibrium, Limit, Resultant, StaticTheorem, Unsolved};
 use crate::budget::Budget;
-
 use crate::structure::{Face, Joint, JointLaw};
 
 /// Rates below this share of the fastest are none.

@@ -1,11 +1,10 @@
 //! A programme over the forces of all joints in equilibrium form, for the sparse solver.
 
-use super::interior_point::{Found, NewtonPattern, Row, Sparse, Square, minimise};
-use crate::budget::Budget;
-
 use super::crushing::Section;
+use super::interior_point::{Found, NewtonPattern, Row, Sparse, Square, minimise};
 use super::programme::{Objective, Programme, ProgrammeOutcome};
 use super::static_theorem::{Equilibrium, Limit, Resultant, StaticTheorem};
+use crate::budget::Budget;
 use crate::geometry::{Vec2, cross};
 use crate::structure::Joint;
 

@@ -4,7 +4,6 @@ use super::interior_point::NewtonPattern;
 use super::linear_program::norm;
 use super::programme::{Objective, Programme, ProgrammeOutcome, Rows};
 use crate::budget::Budget;
-
 use crate::geometry::{Vec2, cross};
 use crate::structure::{Joint, JointLaw, Loops, PointForce, Side, Structure, Unconnected};
 use nalgebra::{DMatrix, DVector};

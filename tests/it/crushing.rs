@@ -4,7 +4,6 @@ use crate::common::dice::Dice;
 use crate::common::{door, random_arch};
 use serde_json::{Value, json};
 use voussoir::budget::Budget;
-
 use voussoir::collapse::Analysis;
 use voussoir::limit::StaticTheorem;
 use voussoir::structure::{Joint, PointForce};

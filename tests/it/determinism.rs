@@ -7,7 +7,6 @@ use std::path::Path;
 use voussoir::api::read::read_analysis;
 use voussoir::api::response::AnalysisResult;
 use voussoir::budget::Budget;
-
 use voussoir::collapse::{Analysis, Cost, run};
 use voussoir::structure::JointLaw;
 

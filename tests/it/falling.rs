@@ -8,7 +8,6 @@ use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
 use voussoir::budget::{Budget, LoadStep, Stopped};
-
 use voussoir::collapse::{
     Analysis, AnalysisError, CollapseReport, CollapseTask, FallingMotion, MotionAsked, MotionEnd, MotionFrame, Task,
     run,

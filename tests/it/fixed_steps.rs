@@ -4,7 +4,6 @@ use serde_json::{Value, json};
 use std::path::Path;
 use voussoir::api::read::read_analysis;
 use voussoir::budget::Budget;
-
 use voussoir::collapse::{AnalysisError, CollapseReport, Note, run};
 
 fn case(name: &str, change: impl Fn(&mut Value)) -> Result<CollapseReport, AnalysisError> {

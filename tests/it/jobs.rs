@@ -6,7 +6,6 @@ use std::sync::{Arc, Mutex};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 use voussoir::budget::{Budget, LoadStep};
-
 use voussoir::collapse::{AnalysisError, Answer, SafetyPoint};
 use voussoir::jobs::{
     Dismissal, Failure, Job, JobId, JobState, JobStore, Limits, Product, Refusal, Status, Submission,

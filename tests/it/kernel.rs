@@ -5,7 +5,6 @@
 use crate::common::row::in_a_row;
 use std::ops::ControlFlow;
 use voussoir::budget::Budget;
-
 use voussoir::dda::{
     Assembly, AssemblyBuilder, Block, Drive, Elasticity, End, Law, Loads, Push, Touch, Tracer, balanced, covering,
     missing,

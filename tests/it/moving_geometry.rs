@@ -7,7 +7,6 @@ use crate::common::wire::{ask, circular, paper_case_1};
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
 use voussoir::budget::Budget;
-
 use voussoir::collapse::{CollapseReport, Outcome, UpdatedEnd, UpdatedGeometry, run};
 use voussoir::dda::{Assembly, AssemblyBuilder, Block, Drive, Elasticity, End, Law, Patience, Push, Touch, Tracer};
 use voussoir::geometry::{Region, Vec2, perpendicular};

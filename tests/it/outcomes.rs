@@ -6,7 +6,6 @@ use crate::common::dice::Dice;
 use crate::common::door;
 use serde_json::{Value, json};
 use voussoir::budget::Budget;
-
 use voussoir::collapse::{CollapseReport, Note, Outcome, PathEnd};
 use voussoir::geometry::Vec2;
 use voussoir::structure::{Joint, Structure};

@@ -9,7 +9,6 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::thread;
 use voussoir::budget::Budget;
-
 use voussoir::collapse::{Analysis, CollapseReport, Direction, Face, Outcome, PathEnd, run};
 
 /// A collapse load without sliding is the same on any mesh to this share; a sliding one passes the limit window by this.

@@ -3,7 +3,6 @@
 use serde_json::{Value, json};
 use voussoir::api::read::read_question;
 use voussoir::budget::Budget;
-
 use voussoir::collapse::{Answer, CollapseReport, Governs, Note, Outcome, Question, Reach, answer, run};
 
 /// The oval under 2 m of embankment of `cases/paper/figure-11`, changed.

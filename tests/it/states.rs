@@ -8,7 +8,6 @@ use crate::common::{door, random_arch};
 use crate::half::symmetric;
 use serde_json::{Value, json};
 use voussoir::budget::Budget;
-
 use voussoir::collapse::{Analysis, CollapseReport, Note, OtherStates, run};
 
 /// A state may break the law by this share of the loads (issue 13: 1e-6).

@@ -7,7 +7,6 @@ use std::cell::RefCell;
 use std::ops::{ControlFlow, Range};
 use voussoir::api::read::read_question;
 use voussoir::budget::{Budget, LoadStep, Stopped};
-
 use voussoir::collapse::{AnalysisError, Answer, Question, answer};
 
 /// What a request is answered, and what it tells its budget, which is spent at the `stops`-th call and at any after that.

@@ -7,7 +7,6 @@ use voussoir::api::read::read_question;
 use voussoir::api::request::Request;
 use voussoir::api::response::JobResult;
 use voussoir::budget::Budget;
-
 use voussoir::collapse::{self, Analysis, Question, Task};
 use voussoir::structure::{JointLaw, PointForce, Structure};
 

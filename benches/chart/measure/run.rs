@@ -8,7 +8,6 @@ use super::table::{Kind, Row};
 use serde_json::Value;
 use voussoir::api::read::read_question;
 use voussoir::budget::Budget;
-
 use voussoir::collapse::{self, Analysis, Answer, CollapseReport, Outcome, Question, UpdatedEnd};
 use voussoir::limit::StaticTheorem;
 

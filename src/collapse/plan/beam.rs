@@ -4,7 +4,6 @@ use super::super::{AnalysisError, BeamPlan, BeamReport, CurvedBeam, Estimate, Me
 use super::estimate::{FieldErrors, Orders, differences};
 use super::mesh::rungs;
 use crate::budget::Budget;
-
 use std::f64::consts::FRAC_PI_4;
 
 /// Subblocks across in the first mesh of either series. Between them they pass 2, 3, 4, 6, 8, 12 and so on; each mesh is compared

@@ -2,11 +2,9 @@
 
 use super::{Assembly, Beside, Instance, Kind, Site, stresses};
 use crate::budget::Budget;
-
 use crate::dda::condense::{Condensed, Loose, Node, Unbuilt};
 use crate::dda::contact::{Contact, Law};
 use crate::dda::elements::{Elements, Pattern};
-
 use crate::dda::macroblock::Macroblock;
 use crate::dda::tree::Tree;
 use crate::geometry::{Vec2, cross, perpendicular};

@@ -2,10 +2,8 @@
 
 use super::Assembly;
 use crate::budget::{Budget, Stopped};
-
 use crate::dda::contact::{Contact, ContactForce};
 use crate::dda::elements::Elements;
-
 use crate::dda::panels::subtract_applied;
 
 impl Assembly {

@@ -1,6 +1,5 @@
 use super::*;
 use crate::budget::Budget;
-
 use crate::dda::contact::Law;
 use crate::dda::factor::Factor;
 use crate::dda::{AssemblyBuilder, Block, Elasticity, Touch};

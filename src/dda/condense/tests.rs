@@ -1,6 +1,5 @@
 use super::*;
 use crate::budget::Budget;
-
 use faer::sparse::Triplet;
 
 /// A block of numbers, symmetric where asked.

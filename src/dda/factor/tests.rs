@@ -1,6 +1,5 @@
 use super::*;
 use crate::budget::Budget;
-
 use crate::dda::elements::Pattern;
 use faer::linalg::solvers::Solve;
 

@@ -7,7 +7,6 @@ use super::near::PlacedEntrance;
 use super::solver::{Solution, StepProblem};
 use super::step::Falling;
 use crate::budget::Budget;
-
 use crate::geometry::{cross, perpendicular};
 use nalgebra::Vector3;
 

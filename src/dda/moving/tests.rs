@@ -2,10 +2,8 @@ use super::body::{Corotated, NodeLoads};
 use super::interface::{Bearing, Frame, Stiffness};
 use super::turn::Turn;
 use crate::budget::Budget;
-
 use crate::dda::block::{Block, Elasticity};
 use crate::dda::condense::{Condensed, Node};
-
 use crate::geometry::{Region, Vec2, perpendicular};
 use nalgebra::DMatrix;
 

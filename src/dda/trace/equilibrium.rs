@@ -2,9 +2,7 @@
 
 use super::Tracer;
 use crate::budget::Stopped;
-
 use crate::dda::contact::State;
-
 use crate::dda::moving::{Bearing, Placed};
 
 /// Equilibrium residual, as a share of the load scale, above which the displacements are corrected; and above which

@@ -2,9 +2,7 @@ use super::super::scenes::ring;
 use super::super::static_theorem::tests::{arch, loads};
 use super::*;
 use crate::budget::Budget;
-
 use crate::geometry::Vec2;
-
 use crate::structure::{JointLaw, PointForce};
 
 /// Strength at which nothing crushes, Pa.

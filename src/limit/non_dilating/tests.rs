@@ -1,7 +1,6 @@
 use super::super::scenes::ring;
 use super::*;
 use crate::budget::Budget;
-
 use crate::geometry::Vec2;
 use crate::structure::{PointForce, Side};
 

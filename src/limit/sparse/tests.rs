@@ -2,7 +2,6 @@ use super::super::scenes::{bridge, per_area, seismic, wall};
 use super::super::static_theorem::tests::{arch, ferris_tin_loi, loads};
 use super::*;
 use crate::budget::Budget;
-
 use crate::limit::Release;
 use crate::structure::{Face, JointLaw, PointForce, Structure};
 

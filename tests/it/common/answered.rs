@@ -6,7 +6,6 @@ use voussoir::api::prose::prose;
 use voussoir::api::read::read_question;
 use voussoir::api::response::JobResult;
 use voussoir::budget::Budget;
-
 use voussoir::collapse::answer;
 
 /// Runs a request that has to be a good one.

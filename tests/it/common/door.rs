@@ -3,7 +3,6 @@
 use super::oracle::{Bond, Problem, Push, Seam};
 use serde_json::Value;
 use voussoir::budget::Budget;
-
 use voussoir::collapse::{Analysis, CollapseReport, run};
 use voussoir::structure::{JointLaw, PointForce};
 

@@ -7,7 +7,6 @@ use super::oracle::{Aim, Bond, Limit, Problem, Seam};
 use super::{door, sliding_arch};
 use serde_json::Value;
 use voussoir::budget::Budget;
-
 use voussoir::collapse::{Analysis, CollapseReport, Direction, Note, PathEnd, run};
 use voussoir::structure::Face;
 

@@ -5,7 +5,6 @@ use super::rigid_blocks::scene::Scene;
 use super::rigid_blocks::{Push, bridge, portal, wall};
 use voussoir::blocks::{Blocks, Joints, Polygon, Rest, Support};
 use voussoir::budget::Budget;
-
 use voussoir::collapse::{Analysis, CollapseReport, Outcome, PathEnd, run};
 use voussoir::geometry::Vec2;
 use voussoir::structure::{PointForce, Stone};

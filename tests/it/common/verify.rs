@@ -4,7 +4,6 @@ use super::{door, motion, oracle::Problem, random_arch};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 use voussoir::budget::Budget;
-
 use voussoir::collapse::{Analysis, CollapseReport, Direction, LimitWindow, Outcome, PathEnd, run};
 
 /// The intensity may pass the limit window by this share.

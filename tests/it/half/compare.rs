@@ -4,7 +4,6 @@ use serde_json::Value;
 use voussoir::api::read::read_question;
 use voussoir::api::response::JobResult;
 use voussoir::budget::Budget;
-
 use voussoir::collapse;
 
 /// The answer on the wire.

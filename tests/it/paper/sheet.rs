@@ -5,7 +5,6 @@ use std::path::Path;
 use voussoir::api::read::read_question;
 use voussoir::api::response::JobResult;
 use voussoir::budget::Budget;
-
 use voussoir::collapse;
 
 /// A file of a case of the paper.

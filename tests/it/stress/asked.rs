@@ -3,7 +3,6 @@
 use super::exact::{Ring, tresca};
 use crate::common::dice::Dice;
 use voussoir::budget::Budget;
-
 use voussoir::collapse::{Answer, CurvedBeam, PlaneModel, Question, Seams, answer};
 use voussoir::structure::Stone;
 

@@ -2,7 +2,6 @@
 
 use super::exact::{PAPER, Ring, tresca};
 use voussoir::budget::Budget;
-
 use voussoir::collapse::{Answer, BeamReport, CurvedBeam, PlaneModel, Question, Seams, answer};
 use voussoir::structure::Stone;
 

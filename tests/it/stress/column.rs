@@ -5,7 +5,6 @@ use crate::common::row::in_a_row;
 use nalgebra::{DMatrix, DVector};
 use std::ops::ControlFlow;
 use voussoir::budget::Budget;
-
 use voussoir::dda::{Assembly, AssemblyBuilder, Bond, Drive, End, Law, Loads, Push, Touch, Tracer};
 use voussoir::geometry::Vec2;
 

@@ -3,7 +3,6 @@
 use std::f64::consts::FRAC_PI_2;
 use voussoir::api::read::read_analysis;
 use voussoir::budget::Budget;
-
 use voussoir::collapse::{Analysis, CollapseReport, CollapseTask, FieldAt, StatesAsked, Task, run};
 use voussoir::geometry::Vec2;
 

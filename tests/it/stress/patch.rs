@@ -4,7 +4,6 @@ use super::column::bonded;
 use super::mesh::Mesh;
 use nalgebra::{DMatrix, DVector};
 use voussoir::budget::Budget;
-
 use voussoir::dda::{Bond, Condensed, Node, Push, free_response};
 use voussoir::geometry::Vec2;
 

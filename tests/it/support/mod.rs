@@ -12,7 +12,6 @@ use tokio::net::TcpListener;
 use tokio::runtime::Runtime;
 use voussoir::api::{self, Service, Settings, Tokens};
 use voussoir::budget::{Budget, LoadStep};
-
 use voussoir::collapse::{self, AnalysisError, Question};
 use voussoir::jobs::Limits;
 

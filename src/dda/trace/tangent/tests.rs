@@ -1,6 +1,5 @@
 use super::*;
 use crate::budget::Budget;
-
 use crate::dda::{AssemblyBuilder, Beside, Block, Drive, Elasticity, End, Law, Push, Touch, covering};
 use crate::geometry::{Region, Vec2};
 use std::ops::ControlFlow;
