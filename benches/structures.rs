@@ -27,7 +27,7 @@ use voussoir::collapse::run;
 const SCENES: [u64; 3] = [300, 100, 100];
 
 /// Courses of the walls of which the growth is measured, and blocks in every other one of them.
-const WALLS: [[usize; 2]; 6] = [[10, 5], [14, 7], [20, 10], [28, 14], [44, 22], [62, 32]];
+const WALLS: [[usize; 2]; 6] = [[10, 5], [14, 7], [20, 10], [28, 14], [44, 22], [61, 32]];
 /// A path has ended when nothing has changed for so many seconds, and so many of those it has taken.
 const STILL_S: f64 = 0.2;
 const STILL: f64 = 0.5;

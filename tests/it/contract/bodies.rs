@@ -58,7 +58,7 @@ fn arch() -> Value {
         "geometry": "first_order",
         "crushing_in_path": false,
         "report": {"share_of_collapse": 0.99, "stress_fields": [{"load_factor": 2}, "unit_load", "near_collapse"]},
-        "motion": {"most_frames": 10, "share_of_span": 0.1, "ground_level_m": -1}
+        "motion": {"most_frames": 10, "share_of_span": 0.1, "ground_level_m": -50}
     })
 }
 
