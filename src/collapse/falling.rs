@@ -7,7 +7,7 @@ use super::{
 use crate::budget::Budget;
 use crate::dda::falling::{Advance, Carried, Configuration, Falling, Interface, Member, Opening, RigidBody};
 use crate::geometry::{Vec2, perpendicular};
-use crate::structure::{Face, Joint, JointLaw, Side, Structure};
+use crate::structure::{Face, Joint, JointLaw, Side, Structure, joined};
 
 /// The scaled loads are so much larger in the motion than at collapse, lest a perfectly balanced arch stay where it is.
 const OVERLOAD: f64 = 0.01;
@@ -271,20 +271,9 @@ fn thickness(structure: &Structure) -> f64 {
 
 /// For every body the lowest of those that it is bonded to, directly or through others.
 fn groups(structure: &Structure) -> Vec<usize> {
-    let mut group: Vec<usize> = (0..structure.bodies.len()).collect();
     let bonded = structure.joints.iter().filter(|joint| joint.law == JointLaw::Bonded);
-    let pairs: Vec<[usize; 2]> =
-        bonded.filter_map(|joint| Some([joint.between[0].body()?, joint.between[1].body()?])).collect();
-    loop {
-        let before = group.clone();
-        for &[a, b] in &pairs {
-            let low = group[a].min(group[b]);
-            (group[a], group[b]) = (low, low);
-        }
-        if group == before {
-            return group;
-        }
-    }
+    let pairs = bonded.filter_map(|joint| Some([joint.between[0].body()?, joint.between[1].body()?]));
+    joined(structure.bodies.len(), pairs)
 }
 
 /// Ground below a straight line.

@@ -5,9 +5,9 @@ use super::rigid_parts::RigidParts;
 use super::smallest_motion::{Column, smallest_motion};
 use super::{Face, Hinge, LiftOff, Mechanism, Mode, Slide};
 use crate::budget::Budget;
-use crate::geometry::{Vec2, cross};
+use crate::geometry::Vec2;
 use crate::limit::{Release, Resultant, releases};
-use crate::structure::{Joint, JointLaw, Loops, PointForce, Side, Structure};
+use crate::structure::{Joint, JointLaw, Loops, PointForce, Side, Structure, resultants};
 use std::ops::Range;
 
 /// Releases slower than this share of the fastest do not move.
@@ -88,7 +88,7 @@ pub(super) fn columns(
     releases: &[Released],
     driving: &[PointForce],
 ) -> Vec<Column> {
-    let carried = loops.carried(&on_bodies(structure, driving));
+    let carried = loops.carried(&resultants(structure.bodies.len(), driving, Vec2::zeros()));
     let total = driving.iter().map(|f| f.force.norm()).sum::<f64>();
     let size = structure.joints.iter().map(|j| j.middle().norm()).fold(0.0, f64::max);
     let column = |&(k, release): &Released| {
@@ -111,16 +111,6 @@ fn relative_motion(structure: &Structure, k: usize, release: Release) -> Motion 
         Release::Rotation(Face::Extrados) => Motion::about(joint.extrados, 1.0),
         Release::Sliding(sign) => Motion { velocity: joint.tangent() * sign, spin: 0.0 },
     }
-}
-
-/// Resultant (F_x, F_y, M about the origin) of the loads on every body.
-fn on_bodies(structure: &Structure, loads: &[PointForce]) -> Vec<[f64; 3]> {
-    let mut sums = vec![[0.0; 3]; structure.bodies.len()];
-    for f in loads {
-        let part = [f.force.x, f.force.y, cross(f.at, f.force)];
-        sums[f.body] = std::array::from_fn(|i| sums[f.body][i] + part[i]);
-    }
-    sums
 }
 
 /// The mechanism of these releases at their rates.
@@ -311,90 +301,4 @@ fn angles(structure: &Structure, joint: usize) -> Option<(f64, f64)> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::super::motion::motion_at;
-    use super::*;
-    use crate::arch::{assemble, straight_voussoirs};
-    use crate::structure::Stone;
-
-    fn semicircle(n: usize) -> Structure {
-        let law = JointLaw::Dry { friction: 0.7, cohesion: 0.0 };
-        let ends: Vec<[Vec2; 2]> = (0..=n)
-            .map(|k| {
-                let (sin, cos) = (std::f64::consts::PI * (1.0 - k as f64 / n as f64)).sin_cos();
-                [0.9, 1.1].map(|radius| radius * Vec2::new(cos, sin))
-            })
-            .collect();
-        assemble(&ends, straight_voussoirs(&ends).unwrap(), Stone::default(), law, Vec2::zeros())
-    }
-
-    /// Joint forces with hinges at the given joints and faces, pressed in the middle elsewhere.
-    fn resultants(n: usize, hinges: &[(usize, Face)]) -> Vec<Resultant> {
-        let mut all = vec![Resultant { intrados: 1.0, extrados: 1.0, shear: 0.0 }; n + 1];
-        for &(k, face) in hinges {
-            let freed = if face == Face::Intrados { &mut all[k].extrados } else { &mut all[k].intrados };
-            *freed = 0.0;
-        }
-        all
-    }
-
-    fn crown_load(structure: &Structure) -> Vec<PointForce> {
-        let n = structure.voussoirs().len();
-        let down = |voussoir| PointForce {
-            body: voussoir,
-            at: Vec2::new(0.0, 1.1),
-            force: Vec2::new(0.0, -1.0),
-            spread: false,
-        };
-        vec![down((n - 1) / 2), down(n / 2)]
-    }
-
-    #[test]
-    fn a_symmetric_set_of_five_hinges_falls_symmetrically_and_closes() {
-        use Face::{Extrados, Intrados};
-        let structure = semicircle(12);
-        let set = [(0, Extrados), (3, Intrados), (6, Extrados), (9, Intrados), (12, Extrados)];
-        let none = vec![None; 13];
-        let mechanism =
-            from_statics(&structure, &resultants(12, &set), &none, &crown_load(&structure), 1e-8, &Budget::unlimited())
-                .unwrap();
-        let found: Vec<_> = mechanism.hinges.iter().map(|h| (h.joint, h.face)).collect();
-        assert_eq!(found, set);
-        assert_eq!(mechanism.mode, Mode::CrownDescends);
-        for (h, mirror) in mechanism.hinges.iter().zip(mechanism.hinges.iter().rev()) {
-            assert!((h.rotation - mirror.rotation).abs() < 1e-9);
-            assert!((h.angle_from_crown.unwrap() + mirror.angle_from_crown.unwrap()).abs() < 1e-12);
-        }
-        // The last stone turns about its hinge on the right springing: the chain closes.
-        let ([u, v, spin], centroid) = (mechanism.velocities[11], structure.bodies[11].region.centroid);
-        let at_hinge = motion_at(centroid, Vec2::new(u, v), spin).at(structure.joints[12].extrados);
-        assert!(at_hinge.norm() < 1e-9);
-    }
-
-    #[test]
-    fn three_hinges_are_no_mechanism() {
-        let structure = semicircle(12);
-        let set = [(0, Face::Extrados), (6, Face::Extrados), (12, Face::Extrados)];
-        assert_eq!(
-            from_statics(
-                &structure,
-                &resultants(12, &set),
-                &[None; 13],
-                &crown_load(&structure),
-                1e-8,
-                &Budget::unlimited()
-            ),
-            None
-        );
-    }
-
-    #[test]
-    fn joints_of_no_span_have_no_angle() {
-        let mut structure = semicircle(12);
-        let (from_springing, from_crown) = angles(&structure, 2).unwrap();
-        assert!((from_springing - std::f64::consts::PI / 6.0).abs() < 1e-12);
-        assert!((from_crown + std::f64::consts::PI / 3.0).abs() < 1e-12);
-        structure.spans.clear();
-        assert_eq!(angles(&structure, 2), None);
-    }
-}
+mod tests;

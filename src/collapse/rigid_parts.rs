@@ -3,7 +3,7 @@
 //! Motions of the parts are all motions that the released joints allow, in far fewer unknowns.
 
 use super::mechanism::Released;
-use crate::structure::{Joint, PointForce, Side, Structure};
+use crate::structure::{Joint, PointForce, Side, Structure, joined};
 
 /// The parts, each as one body, and the released joints between them.
 pub(super) struct RigidParts {
@@ -20,14 +20,10 @@ impl RigidParts {
     /// None where nothing can move.
     pub(super) fn new(structure: &Structure, released: &[Released]) -> Option<Self> {
         let ground = structure.bodies.len();
-        let mut root: Vec<usize> = (0..=ground).collect();
         let mut is_released = vec![false; structure.joints.len()];
         released.iter().for_each(|&(joint, _)| is_released[joint] = true);
-        for (joint, _) in structure.joints.iter().zip(&is_released).filter(|(_, released)| !**released) {
-            let [a, b] = joint.between.map(|side| find(&mut root, side.body().unwrap_or(ground)));
-            root[a] = b;
-        }
-        let roots: Vec<usize> = (0..=ground).map(|body| find(&mut root, body)).collect();
+        let held = structure.joints.iter().zip(&is_released).filter(|(_, released)| !**released);
+        let roots = joined(ground + 1, held.map(|(joint, _)| joint.between.map(|side| side.body().unwrap_or(ground))));
         let (mut bodies, mut number) = (Vec::new(), vec![None; ground + 1]);
         for body in (0..ground).filter(|&body| roots[body] != roots[ground]) {
             number[roots[body]].get_or_insert_with(|| {
@@ -69,14 +65,4 @@ impl RigidParts {
         self.places.iter().zip(rates).for_each(|(&place, rate)| all[place] = *rate);
         all
     }
-}
-
-/// The number that stands for all that hangs together with `body`.
-fn find(root: &mut [usize], body: usize) -> usize {
-    let mut at = body;
-    while root[at] != at {
-        root[at] = root[root[at]];
-        at = root[at];
-    }
-    at
 }

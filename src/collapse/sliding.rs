@@ -26,7 +26,8 @@ const AT_LIMIT: f64 = 1e-9;
 const NEAR_LIMIT: f64 = 1e-6;
 /// Random weights on the joint forces that lead to corners of the least equilibria, and, the larger ones, to others near.
 const TILTS: [f64; 4] = [1e-3, 1e-2, 1e-1, 1.0];
-/// So many corners in turn that give nothing lower, and so many in all, end the search where there are many loops.
+/// So many corners in turn that give nothing lower, and so many in all, end the search where there are many loops (measured: on
+/// walls with six seeds each a lower one came after up to 7).
 const QUIET_CORNERS: usize = 16;
 const MOST_CORNERS: usize = 48;
 

@@ -20,14 +20,14 @@ const NARROW: f64 = 0.01;
 const SAME: f64 = 0.005;
 /// Shortest block, as a share of the joint: shorter ones have hardly a lever, and contacts much softer than others cost the path
 /// its digits. A joint with a block shorter than the second of these shares does not crush.
-const SHORTEST: [f64; 2] = [1e-3, 1e-5];
+const SHORTEST_BLOCK: [f64; 2] = [1e-3, 1e-5];
 /// Most blocks in a joint that are expected: both faces, at either end of the limit window.
 const MOST_BLOCKS: usize = 4;
 /// Joints crush that need this share of their pressed length where limit analysis expects it, and where a path ends.
 const ALMOST: f64 = 0.99;
 const CRUSHED: f64 = 1.0 + 1e-6;
 /// A joint crushes only under a normal force above this share of the largest.
-const LOADED: f64 = 1e-6;
+const PRESSED_ENOUGH: f64 = 1e-6;
 
 /// Places of a joint's contact points, from 0 at its first end to 1 at its second; and how much of the joint each stands for, towards
 /// either end.
@@ -47,12 +47,12 @@ pub(super) fn nearest(places: Vec<f64>) -> Points {
 /// Strips of every joint that crushes.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Strips {
-    joints: Vec<Section>,
+    joints: Vec<CrushableJoint>,
 }
 
 /// A joint that may crush.
 #[derive(Debug, Clone, PartialEq)]
-struct Section {
+struct CrushableJoint {
     /// Length, m, and force that it bears where it is crushed all over, N/m; infinite where it does not crush.
     length: f64,
     capacity: f64,
@@ -66,7 +66,7 @@ impl Strips {
         let section = |joint: &Joint| {
             let (dry, length) = (joint.law.coulomb().is_some(), joint.length());
             let capacity = if dry { structure.strength_at(joint) * length } else { f64::INFINITY };
-            Section { length, capacity, blocks: (any && dry).then(Vec::new) }
+            CrushableJoint { length, capacity, blocks: (any && dry).then(Vec::new) }
         };
         Strips { joints: structure.joints.iter().map(section).collect() }
     }
@@ -86,16 +86,16 @@ impl Strips {
             let clear = |at: f64| (place(at) - block).abs() > 2.0 * NARROW * block;
             ends.retain(|&at| at == 0.0 || at == 1.0 || clear(at));
             let narrow = [1.0 - NARROW, 1.0 + NARROW].map(|share| share * block);
-            ends.extend(narrow.into_iter().filter(|&at| at < 1.0 - SHORTEST[0]).map(place));
+            ends.extend(narrow.into_iter().filter(|&at| at < 1.0 - SHORTEST_BLOCK[0]).map(place));
         }
         ends.sort_by(f64::total_cmp);
-        ends.dedup_by(|a, b| *a - *b < NARROW * SHORTEST[0]);
+        ends.dedup_by(|a, b| *a - *b < NARROW * SHORTEST_BLOCK[0]);
         Some(ends)
     }
 
     /// Takes in the joints that these forces, at an end of the window of plastic sections, crush or almost do.
     pub(super) fn expect(&mut self, forces: &[Resultant]) {
-        let least = LOADED * forces.iter().map(Resultant::normal).fold(0.0, f64::max);
+        let least = PRESSED_ENOUGH * forces.iter().map(Resultant::normal).fold(0.0, f64::max);
         for (section, force) in self.joints.iter_mut().zip(forces).filter(|(_, force)| force.normal() > least) {
             let off = 0.5 * (force.extrados - force.intrados) / force.normal();
             section.take_in(force.normal(), off, ALMOST);
@@ -104,7 +104,7 @@ impl Strips {
 
     /// Takes in the joints that crush, though they are not among those that may, where a path ends; true where there are any.
     pub(super) fn expect_more(&mut self, thrust: &[Thrust]) -> bool {
-        let least = LOADED * thrust.iter().map(|thrust| thrust.normal).fold(0.0, f64::max);
+        let least = PRESSED_ENOUGH * thrust.iter().map(|thrust| thrust.normal).fold(0.0, f64::max);
         let mut more = false;
         for &Thrust { joint, normal, eccentricity, .. } in thrust.iter().filter(|thrust| thrust.normal > least) {
             let section = &mut self.joints[joint];
@@ -114,16 +114,16 @@ impl Strips {
     }
 }
 
-impl Section {
+impl CrushableJoint {
     /// Takes in the block of a force so far off the middle, as a share of the joint, that needs this share of the pressed length that
     /// plastic sections have for it; true where it does.
     fn take_in(&mut self, normal: f64, off: f64, share: f64) -> bool {
         let (block, pressed) = (normal / self.capacity, 1.0 - 2.0 * off.abs());
-        if block < share * pressed || block < SHORTEST[1] {
+        if block < share * pressed || block < SHORTEST_BLOCK[1] {
             return false;
         }
         let face = if off > 0.0 { Face::Extrados } else { Face::Intrados };
-        let rounded = ((block.max(SHORTEST[0]).ln() / SAME).round() * SAME).exp();
+        let rounded = ((block.max(SHORTEST_BLOCK[0]).ln() / SAME).round() * SAME).exp();
         let blocks = self.blocks.get_or_insert_default();
         if !blocks.contains(&(face, rounded)) && blocks.len() < MOST_BLOCKS {
             blocks.push((face, rounded));
@@ -152,7 +152,7 @@ mod tests {
         for block in [0.003, 0.05, 0.3, 0.7, 0.99] {
             let [near, far] = [0.5 * block, 1.0 - 0.5 * block].map(|at| 2e6 * block * at);
             for (intrados, extrados) in [(far, near), (near, far)] {
-                let mut strips = Strips { joints: vec![Section { length: 2.0, capacity: 2e6, blocks: None }] };
+                let mut strips = Strips { joints: vec![CrushableJoint { length: 2.0, capacity: 2e6, blocks: None }] };
                 assert!(strips.of(0).is_none());
                 strips.expect(&[Resultant { intrados, extrados, shear: 0.0 }]);
                 let mut ends = strips.of(0).unwrap();

@@ -174,8 +174,11 @@ impl<'a> Setup<'a> {
             if !self.analysis.task.crushes_on_path() {
                 return Ok(attempted);
             }
-            let ends = report.end.iter().chain(&report.other_end);
-            if ends.filter(|end| strips.expect_more(&end.thrust_line)).count() == 0 {
+            let mut more = false;
+            for end in report.end.iter().chain(&report.other_end) {
+                more |= strips.expect_more(&end.thrust_line);
+            }
+            if !more {
                 return Ok(attempted);
             }
         }

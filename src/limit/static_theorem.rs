@@ -4,8 +4,8 @@ use super::interior_point::NewtonPattern;
 use super::linear_program::norm;
 use super::programme::{Objective, Programme, ProgrammeOutcome, Rows};
 use crate::budget::Budget;
-use crate::geometry::{Vec2, cross};
-use crate::structure::{Joint, JointLaw, Loops, PointForce, Side, Structure, Unconnected};
+use crate::geometry::Vec2;
+use crate::structure::{Joint, JointLaw, Loops, PointForce, Side, Structure, Unconnected, resultants};
 use nalgebra::{DMatrix, DVector};
 
 /// Iterations after which a singular value decomposition has failed (it needs about ten an unknown at most).
@@ -136,7 +136,7 @@ impl StaticTheorem {
         let (total_fixed, total_scaled) = (total(fixed), total(scaled));
         let force = [total_fixed, total_scaled, 1.0].into_iter().find(|&f| f > 0.0).unwrap_or(1.0);
         let factor = if total_scaled > 0.0 { force / total_scaled } else { 1.0 };
-        let loads = [fixed, scaled].map(|loads| on_bodies(structure.bodies.len(), loads, frame.origin));
+        let loads = [fixed, scaled].map(|loads| resultants(structure.bodies.len(), loads, frame.origin));
         let functionals: Vec<_> = joints.iter().map(|joint| joint_functionals(joint, frame.origin)).collect();
         let carried = [0, 1].map(|which: usize| {
             let carried = loops.carried(&loads[which]);
@@ -344,17 +344,6 @@ impl StaticTheorem {
     pub fn slack(&self, equilibrium: &Equilibrium) -> f64 {
         self.limits.iter().map(|limit| limit.slack(&equilibrium.forces)).fold(f64::INFINITY, f64::min)
     }
-}
-
-/// What loads add to (F_x, F_y, M about `origin`) of every body.
-fn on_bodies(bodies: usize, loads: &[PointForce], origin: Vec2) -> Vec<[f64; 3]> {
-    let mut sums = vec![[0.0; 3]; bodies];
-    for load in loads {
-        let part = [load.force.x, load.force.y, cross(load.at - origin, load.force)];
-        let sum = &mut sums[load.body];
-        *sum = std::array::from_fn(|i| sum[i] + part[i]);
-    }
-    sums
 }
 
 /// Intrados force, extrados force and shear as functionals of the resultant (F_x, F_y, M about `origin`) that what lies

@@ -282,6 +282,34 @@ impl Structure {
     }
 }
 
+/// For every one of `count` things the lowest of those that these pairs join it to, directly or through others.
+pub fn joined(count: usize, pairs: impl Iterator<Item = [usize; 2]>) -> Vec<usize> {
+    let mut lowest: Vec<usize> = (0..count).collect();
+    let find = |lowest: &mut [usize], mut at: usize| {
+        while lowest[at] != at {
+            lowest[at] = lowest[lowest[at]];
+            at = lowest[at];
+        }
+        at
+    };
+    for pair in pairs {
+        let [a, b] = pair.map(|at| find(&mut lowest, at));
+        lowest[a.max(b)] = a.min(b);
+    }
+    (0..count).map(|at| find(&mut lowest, at)).collect()
+}
+
+/// Resultant (F_x, F_y, M about `origin`) of the loads on every body, N/m and N.
+pub fn resultants(bodies: usize, loads: &[PointForce], origin: Vec2) -> Vec<[f64; 3]> {
+    let mut sums = vec![[0.0; 3]; bodies];
+    for load in loads {
+        let part = [load.force.x, load.force.y, cross(load.at - origin, load.force)];
+        let sum = &mut sums[load.body];
+        *sum = std::array::from_fn(|i| sum[i] + part[i]);
+    }
+    sums
+}
+
 /// A force on one body: at one point, or spread evenly over it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PointForce {

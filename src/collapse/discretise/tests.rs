@@ -4,6 +4,7 @@ use crate::arch::ring::{JointLines, Line, Ring, Thickness, stations};
 use crate::arch::{assemble, straight_voussoirs};
 use crate::collapse::{CurvePoint, Mesh, Path, SafetyTask, Task, safety};
 use crate::geometry::perpendicular;
+use crate::structure::JointLaw;
 
 /// A semicircle of `n` equal stones, cut into `subblocks` each, without loads.
 fn semicircle(n: usize, subblocks: [usize; 2], curved: bool) -> Analysis {

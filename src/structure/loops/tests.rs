@@ -86,3 +86,9 @@ fn bodies_in_the_air_are_named() {
     let structure = graph(4, &[[GROUND, body(0)], [body(1), body(2)], [body(0), body(3)]]);
     assert_eq!(Loops::new(&structure), Err(vec![Unconnected(1), Unconnected(2)]));
 }
+
+#[test]
+fn what_is_joined_has_the_lowest_number_of_it() {
+    let pairs = [[4, 2], [5, 4], [1, 1], [6, 0]];
+    assert_eq!(crate::structure::joined(7, pairs.into_iter()), [0, 1, 2, 3, 2, 2, 0]);
+}
