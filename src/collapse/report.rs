@@ -19,6 +19,7 @@ pub use updated::*;
 
 use super::FieldAt;
 use crate::geometry::Vec2;
+use crate::limit::Window;
 
 /// What happened.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -279,6 +280,8 @@ pub struct CollapseReport {
     pub outcome: Outcome,
     /// The exact limit window (static theorem, associated friction): the certificate. None where nothing stands.
     pub limit_window: Option<LimitWindow>,
+    /// What proves it, where it was solved.
+    pub proof: Option<Window>,
     /// Thrust range under the fixed loads, where they stand.
     pub thrust_range: Option<ThrustRange>,
     /// The end of the path in the asked direction: collapse, or the mechanism of an arch that falls or slides as built.
