@@ -8,6 +8,7 @@ mod strength;
 mod unfollowed;
 mod updated;
 
+pub use crate::limit::{Resultant, Window, WindowEnd};
 pub use crate::structure::Face;
 pub use falling::*;
 pub use note::*;
@@ -19,7 +20,6 @@ pub use updated::*;
 
 use super::FieldAt;
 use crate::geometry::Vec2;
-use crate::limit::Window;
 
 /// What happened.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

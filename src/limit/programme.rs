@@ -159,8 +159,10 @@ impl<'t> Programme<'t> {
         row.iter_mut().for_each(|x| *x /= theorem.force);
         row[n - 1] += objective.load_factor;
         match linear_program::maximise(&row[..n], &rows.half_spaces, budget) {
-            Optimum::At(_, point, held) => ProgrammeOutcome::At(theorem.equilibrium(&point), rows.dual(&held)),
-            Optimum::Unbounded(point) => ProgrammeOutcome::Unbounded(theorem.equilibrium(&point)),
+            Optimum::At(_, point, held) => {
+                ProgrammeOutcome::At(theorem.equilibrium(&point, self.complete), rows.dual(&held))
+            }
+            Optimum::Unbounded(point) => ProgrammeOutcome::Unbounded(theorem.equilibrium(&point, self.complete)),
             Optimum::Infeasible(held) => ProgrammeOutcome::Infeasible(rows.dual(&held)),
             Optimum::Lost => ProgrammeOutcome::Lost,
         }

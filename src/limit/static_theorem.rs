@@ -310,16 +310,16 @@ impl StaticTheorem {
             return None;
         }
         let x = svd.solve(&b, 0.0).ok()?;
-        Some(self.equilibrium(x.as_slice()))
+        Some(self.equilibrium(x.as_slice(), true))
     }
 
-    /// The equilibrium of these unknowns.
-    pub(super) fn equilibrium(&self, unknowns: &[f64]) -> Equilibrium {
+    /// The equilibrium of these unknowns, `complete` under the fixed loads too.
+    pub(super) fn equilibrium(&self, unknowns: &[f64], complete: bool) -> Equilibrium {
         let n = unknowns.len() - 1;
         let force = |k: usize| {
             let [fixed, scaled] = [&self.carried[0][k], &self.carried[1][k]];
             let factor = unknowns[n] * self.factor;
-            let mut forces: [f64; 3] = std::array::from_fn(|c| fixed[c] + factor * scaled[c]);
+            let mut forces: [f64; 3] = std::array::from_fn(|c| f64::from(complete) * fixed[c] + factor * scaled[c]);
             for &(number, sign) in self.loops.through(k) {
                 let Units { origin, length } = self.frames[number];
                 let x = &unknowns[3 * number..3 * number + 3];
