@@ -23,8 +23,9 @@ class Structure:
 
     def borne(self, factors, forces, why="instability"):
         """Whether forces balance these factors of the two loads and break no law; bodies with unknown ones are left out."""
-        sums = [[factors[0] * f + factors[1] * s for f, s in zip(*loads)] for loads in self.loads]
-        size, broken, unknown = max(abs(x) for of in (*sums, *filter(None, forces)) for x in of), [], set()
+        parts = [[[factor * x for x in load] for factor, load in zip(factors, loads)] for loads in self.loads]
+        size, broken = max(abs(x) for of in (*sum(parts, []), *filter(None, forces)) for x in of), []
+        sums, unknown = [[f + s for f, s in zip(*both)] for both in parts], set()
         for (law, friction, cohesion, strength, length, effects), force in zip(self.joints, forces):
             for x, effect in zip(force or (0, 0, 0), effects):
                 for k, unit in effect:
