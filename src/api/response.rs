@@ -46,37 +46,38 @@ use utoipa::ToSchema;
 /// The answer to a request for one analysis of a structure.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct AnalysisResult {
-    /// What happened.
+    /// What happens to the structure, in one word.
     pub outcome: Outcome,
-    /// How the load path was read.
+    /// How the load path was followed, as the request asks.
     pub method: MethodWord,
     /// Unit of every intensity.
     pub unit: String,
-    /// The collapse; null where nothing collapses.
+    /// The end of the load path at which the structure collapses; null where nothing collapses.
     pub collapse: Option<Collapse>,
     /// Lowest and highest intensity at which the static theorem finds equilibrium, each null where unbounded; null where
     /// nothing stands.
     pub limit_window: Option<[Option<f64>; 2]>,
-    /// The same as load factors.
+    /// `limit_window` as load factors.
     pub limit_window_load_factor: Option<[Option<f64>; 2]>,
-    /// What proves it, to be checked with `structure` alone; null where the linear programme gave no answer.
+    /// What proves the limit window, to be checked with `structure` alone (`cases/check.py`); null where the linear programme
+    /// gave no answer.
     pub proof: Option<ProofBody>,
-    /// Least and greatest horizontal thrust at the first springing under the fixed loads; null of blocks, which have none.
+    /// Least and greatest horizontal thrust of an arch or a bridge; null of blocks.
     pub thrust_range: Option<ThrustRangeBody>,
-    /// Bodies and joints with their loads and laws.
+    /// All bodies and joints, with their loads and laws.
     pub structure: StructureBody,
-    /// Hinges in the order of their joints.
+    /// Hinges of the collapse, in the order of their joints.
     pub hinges: Vec<HingeBody>,
-    /// Sliding joints in their order.
+    /// Sliding joints of the collapse, in their order.
     pub slides: Vec<SlideBody>,
-    /// Joints that part altogether, in their order.
+    /// Joints that part altogether in the collapse, in their order.
     pub lift_offs: Vec<LiftOffBody>,
     /// Joints that crush at collapse, where `crushing_in_path` is set.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub crushed_joints: Vec<CrushedJointBody>,
     /// Resultant per joint at collapse; null where nothing collapses.
     pub thrust_line: Option<ThrustColumns>,
-    /// Velocity of every voussoir in the mechanism; null where nothing collapses.
+    /// Velocity of every body in the mechanism; null where nothing collapses.
     pub velocities: Option<VelocityColumns>,
     /// The end of the path in the other direction, for an arch that stands in a window only.
     pub other_end: Option<EndBody>,
@@ -86,16 +87,16 @@ pub struct AnalysisResult {
     pub cap: f64,
     /// Share of the way to the end of the load path at which `near_collapse` was taken.
     pub share: f64,
-    /// The arch just before the end of the load path; where joints slide, that may lie beyond the collapse intensity.
+    /// State just before the end of the load path; where joints slide, that may lie beyond the collapse intensity.
     pub near_collapse: Option<SnapshotBody>,
-    /// The arch at load factor 1, where the path passes it.
+    /// State at load factor 1, where the path passes it.
     pub at_unit_load: Option<SnapshotBody>,
-    /// The arch at the start of the path.
+    /// State at the start of the path.
     pub at_start: Option<SnapshotBody>,
     /// Stress in every subblock, where `report` asks for it, in that order; a place that the path does not reach is
     /// left out.
     pub stress_fields: Vec<StressFieldBody>,
-    /// When the stone crushes.
+    /// When the stone crushes: both answers.
     pub crushing: Option<CrushingBody>,
     /// The answer on moving geometry, where `geometry` asks for it and the arch stands at first order.
     pub updated_geometry: Option<UpdatedBody>,
@@ -107,7 +108,7 @@ pub struct AnalysisResult {
     pub motion: Option<MotionBody>,
     /// How it moves on from `other_end`, where `motion` asks for it.
     pub other_motion: Option<MotionBody>,
-    /// The path, event by event.
+    /// The load path, event by event.
     pub history: HistoryColumns,
     /// What was modelled, and how accurate it is, where `accuracy` is asked for.
     pub plan: Option<PlanBody>,
@@ -119,7 +120,8 @@ pub struct AnalysisResult {
     pub request: AnalysisRequest,
 }
 
-/// Horizontal thrust under the fixed loads.
+/// Horizontal thrust under the fixed loads, by the static theorem, with which the left springing pushes to the right; negative:
+/// to the left.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct ThrustRangeBody {
     /// Least; null: as far the other way as one likes.

@@ -1,5 +1,6 @@
 //! The program as it is called.
 
+use crate::docs::examples;
 use crate::support::{Server, beam, curve, request};
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Child, Command, Output, Stdio};
@@ -105,15 +106,17 @@ fn case(name: &str) -> String {
 }
 
 #[test]
-fn the_figure_of_the_readme_is_what_solve_draws() {
+fn the_figures_of_the_documents_are_what_solve_draws() {
     let file = std::env::temp_dir().join(format!("voussoir-figure-{}.svg", std::process::id()));
-    let output = fed(&["solve", &case("first-arch/request.json"), "--figure", file.to_str().unwrap()], "");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let drawn = std::fs::read_to_string(&file).unwrap();
-    std::fs::remove_file(&file).unwrap();
-    let kept = std::fs::read_to_string(case("first-arch/figure.svg")).unwrap();
-    let command = "solve cases/first-arch/request.json --figure cases/first-arch/figure.svg";
-    assert!(drawn == kept, "stale: run `cargo run -- {command}`");
+    for name in ["first-arch", "two-span-bridge", "wall"] {
+        let output = fed(&["solve", &case(&format!("{name}/request.json")), "--figure", file.to_str().unwrap()], "");
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let drawn = std::fs::read_to_string(&file).unwrap();
+        std::fs::remove_file(&file).unwrap();
+        let kept = std::fs::read_to_string(case(&format!("{name}/figure.svg"))).unwrap();
+        let command = format!("solve cases/{name}/request.json --figure cases/{name}/figure.svg");
+        assert!(drawn == kept, "stale: run `cargo run -- {command}`");
+    }
 }
 
 #[test]
@@ -167,14 +170,32 @@ fn every_outcome_is_told_in_words_that_fit_it() {
     assert!(!falls.contains("intensity 0") && falls.contains("Hinges"), "{falls}");
 }
 
+/// Time and round-off are the machine's own.
+fn own(line: &str) -> bool {
+    [" time", " residual", " intensity error"].iter().any(|start| line.starts_with(start))
+}
+
 #[test]
-fn the_answer_in_the_readme_is_the_one_given() {
+fn the_first_answer_of_the_guide_is_all_of_the_one_given() {
     let output = fed(&["solve", &case("first-arch/request.json")], "");
     let text = String::from_utf8(output.stdout).unwrap();
-    let readme = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md")).unwrap();
-    // Time and round-off are the machine's own.
-    let own = |line: &str| line.starts_with(" time") || line.starts_with(" residual");
+    let guide = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/guide.md")).unwrap();
     for line in text.lines().map(str::trim_end).filter(|line| !own(line)) {
-        assert!(readme.lines().any(|other| other == line), "not in README.md: {line}");
+        assert!(guide.lines().any(|other| other == line), "not in docs/guide.md: {line}");
     }
+}
+
+#[test]
+fn the_answers_of_the_documents_are_those_given() {
+    let examples = ["README.md", "docs/guide.md"].map(examples).into_iter().flatten();
+    let mut lines = 0;
+    for example in examples.filter(|example| !example.printed.is_empty()) {
+        let output = fed(&["solve", "-"], &example.request.to_string());
+        let text = String::from_utf8(output.stdout).unwrap();
+        for shown in example.printed.iter().filter(|line| !line.is_empty() && !own(line)) {
+            assert!(text.lines().any(|line| line.trim_end() == shown), "not printed: {shown}\n{text}");
+            lines += 1;
+        }
+    }
+    assert!(lines > 100, "{lines}");
 }

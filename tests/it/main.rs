@@ -34,6 +34,8 @@ mod crushing_path;
 #[cfg(feature = "server")]
 mod determinism;
 #[cfg(feature = "server")]
+mod docs;
+#[cfg(feature = "server")]
 mod downstream;
 #[cfg(feature = "server")]
 mod falling;

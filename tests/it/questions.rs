@@ -1,6 +1,7 @@
 //! Meshes, stress fields, safety factors and the curved beam: what requests mean, and which of them cannot be.
 
 use crate::common::places::places;
+use crate::docs::examples;
 use proptest::prelude::*;
 use serde_json::{Value, json};
 use voussoir::api::fault::Fault;
@@ -391,18 +392,13 @@ fn beams_that_cannot_be() {
     }
 }
 
-/// The bodies that README.md shows for a curve and for the beam can be read.
+/// The bodies that the guide shows can be read.
 #[test]
-fn the_bodies_in_the_readme_are_good() {
-    let readme = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md")).unwrap();
-    let blocks: Vec<&str> = readme.split("```json\n").skip(1).map(|rest| rest.split("```").next().unwrap()).collect();
-    assert_eq!(blocks.len(), 2);
-    for block in blocks {
-        let mut body: Value = serde_json::from_str(block).unwrap();
-        if body.get("curved_beam").is_none() {
-            body["arch"] = curve()["arch"].take();
-        }
-        question(&body);
+fn the_bodies_in_the_guide_are_good() {
+    let examples = examples("docs/guide.md");
+    assert!(examples.len() > 15, "{}", examples.len());
+    for example in examples {
+        question(&example.request);
     }
 }
 

@@ -1,4 +1,4 @@
-//! The README's own lines, run as they stand.
+//! Programs of the documents, run as they stand.
 #![allow(clippy::disallowed_methods, reason = "a thread that reads the log to its end")]
 
 use std::io::{BufRead, BufReader};
@@ -31,11 +31,11 @@ impl Drop for Served {
     }
 }
 
-/// The block of code in this language that contains `words`.
-fn block(language: &str, words: &str) -> String {
-    let readme = std::fs::read_to_string(format!("{ROOT}/README.md")).unwrap();
+/// The block of code of this document in this language that contains `words`.
+fn block(document: &str, language: &str, words: &str) -> String {
+    let text = std::fs::read_to_string(format!("{ROOT}/{document}")).unwrap();
     let fence = format!("```{language}\n");
-    let mut blocks = readme.split(&fence).skip(1).map(|rest| rest.split("```").next().unwrap());
+    let mut blocks = text.split(&fence).skip(1).map(|rest| rest.split("```").next().unwrap());
     blocks.find(|block| block.contains(words)).unwrap().to_owned()
 }
 
@@ -46,7 +46,7 @@ fn run(program: &str, arguments: &[&str], directory: &PathBuf) -> Option<Output>
 
 #[test]
 fn the_python_client_works() {
-    let (served, client) = (Served::start(), block("python", "urllib"));
+    let (served, client) = (Served::start(), block("docs/service.md", "python", "urllib"));
     assert!(client.lines().filter(|line| !line.is_empty()).count() <= 20, "twenty lines");
     let Some(output) = run("python3", &["-c", &client, &served.1], &ROOT.into()) else { return };
     let printed = String::from_utf8(output.stdout).unwrap();
@@ -56,7 +56,7 @@ fn the_python_client_works() {
 #[test]
 fn the_curl_lines_work() {
     let served = Served::start();
-    let lines = block("sh", "results/history").replace("http://127.0.0.1:8080", &served.1);
+    let lines = block("docs/service.md", "sh", "results/history").replace("http://127.0.0.1:8080", &served.1);
     let place = std::env::temp_dir().join(format!("voussoir-readme-{}", std::process::id()));
     std::fs::create_dir_all(&place).unwrap();
     std::os::unix::fs::symlink(format!("{ROOT}/cases"), place.join("cases")).unwrap();
@@ -73,16 +73,42 @@ fn the_curl_lines_work() {
 }
 
 #[test]
-fn the_readme_lists_every_setting() {
+fn the_documents_list_every_setting() {
     let help = Command::new(env!("CARGO_BIN_EXE_voussoir")).args(["serve", "--help"]).output().unwrap();
     let help = String::from_utf8(help.stdout).unwrap();
-    let readme = std::fs::read_to_string(format!("{ROOT}/README.md")).unwrap();
+    let words = std::fs::read_to_string(format!("{ROOT}/docs/service.md")).unwrap();
     let is_flag = |word: &&str| word.starts_with("--") && word.bytes().all(|b| b == b'-' || b.is_ascii_lowercase());
     let flags: Vec<_> = help.split_whitespace().filter(is_flag).filter(|word| *word != "--help").collect();
     let variables: Vec<_> = help.split(['[', '=', ']']).filter_map(|part| part.strip_prefix("env: ")).collect();
     assert!(flags.len() >= 17 && variables.len() >= 17, "{flags:?} {variables:?}");
     for name in flags.iter().chain(&variables) {
-        let named = readme.contains(&format!("`{name}`"));
+        let named = words.contains(&format!("`{name}`"));
         assert!(named, "{name}");
+    }
+}
+
+#[test]
+fn an_answer_is_proved_as_the_readme_shows() {
+    let place = std::env::temp_dir().join(format!("voussoir-proof-{}", std::process::id()));
+    std::fs::create_dir_all(&place).unwrap();
+    std::os::unix::fs::symlink(format!("{ROOT}/cases"), place.join("cases")).unwrap();
+    let program = env!("CARGO_BIN_EXE_voussoir");
+    let lines = block("README.md", "sh", "check.py").replace("cargo run --release --", program);
+    let output = run("bash", &["-euo", "pipefail", "-c", &lines], &place);
+    std::fs::remove_dir_all(&place).unwrap();
+    let Some(output) = output.filter(|_| Command::new("python3").arg("--version").output().is_ok()) else { return };
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let printed = String::from_utf8(output.stdout).unwrap();
+    let shown = block("README.md", "text", "answer.json");
+    let of = |line: &str| -> Vec<String> { line.split([' ', ';', '\n']).map(str::to_owned).collect() };
+    let (printed, shown) = (of(&printed), of(&shown));
+    assert_eq!(printed.len(), shown.len(), "{printed:?}");
+    for (one, other) in printed.iter().zip(&shown) {
+        // The last digits are the machine's own.
+        let same = match (one.parse::<f64>(), other.parse::<f64>()) {
+            (Ok(one), Ok(other)) => (one - other).abs() <= 1e-9 * other.abs(),
+            _ => one == other,
+        };
+        assert!(same, "{one} {other}");
     }
 }

@@ -83,7 +83,7 @@ pub const STREAMS_FULL: ProblemKind =
 pub const SHUTTING_DOWN: ProblemKind =
     kind("urn:voussoir:problem:shutting-down", StatusCode::SERVICE_UNAVAILABLE, "The service is shutting down");
 
-/// All of them, as the README lists them.
+/// All of them, as docs/service.md lists them.
 pub const KINDS: [ProblemKind; 18] = [
     INVALID_REQUEST,
     NOT_JSON,

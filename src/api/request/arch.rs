@@ -3,44 +3,46 @@
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-/// An arch: a profile, its thickness, and how it is cut into voussoirs.
+/// An arch: a profile, its thickness, and how it is cut into voussoirs. The springing level is y = 0, mid-span x = 0.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct ArchRequest {
-    /// The curve the arch follows, or its surveyed corners.
+    /// The curve that the arch follows, symmetric about x = 0 and springing from y = 0; or its surveyed corners.
     pub profile: ProfileRequest,
-    /// Which curve the profile is: the axis (default; half the thickness on each side) or the intrados. Not with
-    /// `surveyed`.
+    /// Which curve the profile is. `axis`, also where it is left out: half the thickness lies on each side. `intrados`: the inner
+    /// face. Not with `surveyed`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub line: Option<LineRequest>,
-    /// Thickness. Required, but not with `surveyed`.
+    /// Thickness, normal to the profile. Required, but not with `surveyed`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub thickness: Option<ThicknessRequest>,
     /// Number of voussoirs, 2 to 2001. Required, but not with `surveyed`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(minimum = 2, maximum = 2001)]
     pub voussoirs: Option<usize>,
-    /// Which way the joints run: normal to the profile (default) or on rays from a centre. Not with `surveyed`.
+    /// Which way the joints run. Left out: normal to the profile. Not with `surveyed`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub joints: Option<JointsRequest>,
-    /// Lengths of the voussoirs along the profile in any common unit, left to right; equal by default. Not with
-    /// `surveyed`.
+    /// Lengths of the voussoirs along the profile in any common unit, left to right. Left out: equal. Not with `surveyed`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(min_items = 2, max_items = 2001)]
     pub relative_lengths: Option<Vec<f64>>,
-    /// Areas and centroids of the true circular sectors instead of straight-sided blocks; for circular arcs of
+    /// True: areas and centroids are those of true circular sectors, instead of blocks with straight sides. For circular arcs of
     /// constant thickness with normal joints. Pressures still act on the straight sides.
     #[serde(default)]
+    #[schema(default = false)]
     pub curved_sides: bool,
-    /// Rectangular blocks between the springing joints and the foundation.
+    /// Rectangular blocks below the springing joints, bonded to the ground. Left out: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub abutments: Option<AbutmentsRequest>,
-    /// Whether the springing joints are dry like the others, or glued.
+    /// How the springing joints hold. `dry`: like all others. `bonded`: they neither open nor slide.
     #[serde(default)]
+    #[schema(default = "dry")]
     pub springing_joints: SpringingJoints,
-    /// Only the left half, for symmetric arches: a crown joint rests on a frictionless wall, a keystone is cut on the
-    /// axis and neither turns nor moves sideways there. The cut counts as the last joint, which never opens. The fixed
-    /// loads together, and the scaled loads together, have to be symmetric.
+    /// True: only the left half of a symmetric arch is modelled. A crown joint rests on a frictionless wall; a keystone is cut on
+    /// the axis and neither turns nor moves sideways there. The cut counts as the last joint, which never opens. The fixed loads
+    /// together, and the scaled loads together, have to be symmetric.
     #[serde(default)]
+    #[schema(default = false)]
     pub half: bool,
 }
 
@@ -56,7 +58,7 @@ pub enum ProfileRequest {
     Elliptical(Elliptical),
     /// Tangent arcs, such as an oval or a basket handle.
     MultiCentre(MultiCentre),
-    /// Corners as surveyed.
+    /// Ends of every joint, as surveyed.
     Surveyed(Surveyed),
 }
 
@@ -67,7 +69,7 @@ pub struct Circular {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub radius_m: Option<f64>,
-    /// Full opening angle, degrees: 180 for a semicircle.
+    /// Full opening angle, degrees: 180 for a semicircle; with `radius_m`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(exclusive_minimum = 0.0, exclusive_maximum = 360.0)]
     pub opening_angle_deg: Option<f64>,
@@ -75,20 +77,20 @@ pub struct Circular {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub span_m: Option<f64>,
-    /// Rise, m.
+    /// Rise, m; with `span_m`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub rise_m: Option<f64>,
 }
 
-/// Two arcs with centres on the springing level: radius and offset of the centres, or span and rise.
+/// Two arcs that meet at an apex, with centres on the springing level: radius and offset of the centres, or span and rise.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Pointed {
     /// Radius of both arcs, m; with `centre_offset_m`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub radius_m: Option<f64>,
-    /// Distance of the centre of the left arc from mid-span, to the right, m; less than the radius.
+    /// Distance of the centre of the left arc from mid-span, to the right, m; less than the radius; with `radius_m`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(minimum = 0.0, exclusive_maximum = 1e5)]
     pub centre_offset_m: Option<f64>,
@@ -96,7 +98,7 @@ pub struct Pointed {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub span_m: Option<f64>,
-    /// Rise, m; at least half the span.
+    /// Rise, m; at least half the span; with `span_m`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub rise_m: Option<f64>,
@@ -113,8 +115,8 @@ pub struct Elliptical {
     pub rise_m: f64,
 }
 
-/// Tangent arcs from the left springing to the crown, mirrored to the right. The tangent at the crown is
-/// horizontal, so the arch leans outwards at the springing by the sum of the angles less 90 degrees.
+/// Tangent arcs, such as an oval or a basket handle, from the left springing to the crown, mirrored to the right. The tangent at
+/// the crown is horizontal, so the arch leans outwards at the springing by the sum of the angles less 90 degrees.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct MultiCentre {
     /// The arcs of the left half, from the springing upwards.
@@ -122,7 +124,7 @@ pub struct MultiCentre {
     pub arcs: Vec<ArcRequest>,
 }
 
-/// One of several tangent arcs.
+/// An arc, tangent to its neighbours.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct ArcRequest {
     /// Radius, m.
@@ -133,7 +135,7 @@ pub struct ArcRequest {
     pub angle_deg: f64,
 }
 
-/// Ends of every joint, from left to right.
+/// Ends of every joint, as surveyed, from left to right. With no `thickness`, `line`, `joints` or `voussoirs`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Surveyed {
     /// Intrados end [x, y] of every joint, m.
@@ -163,11 +165,11 @@ pub enum ThicknessRequest {
     ConstantM(f64),
     /// Linear in the length along the profile, from crown to springing.
     Linear(LinearThickness),
-    /// As the extrados makes it, a circle of its own; `line` must be `intrados`.
+    /// As the extrados makes it, a circle of its own.
     ExtradosCircle(ExtradosCircle),
 }
 
-/// Thickness at crown and springings.
+/// Linear in the length along the profile, from crown to springing.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct LinearThickness {
     /// At the crown, m.
@@ -178,7 +180,7 @@ pub struct LinearThickness {
     pub springing_m: f64,
 }
 
-/// The circle of the extrados, its centre on x = 0.
+/// As the extrados makes it, a circle of its own with its centre on x = 0; `line` must be `intrados`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct ExtradosCircle {
     /// Radius, m.
@@ -196,18 +198,18 @@ pub enum JointsRequest {
     /// Normal to the profile.
     #[default]
     Normal,
-    /// Along rays from one centre.
+    /// Along rays from a centre.
     Rays(Rays),
 }
 
-/// Centre of the rays.
+/// Along rays from a centre.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Rays {
     /// Centre [x, y], m.
     pub centre_m: [f64; 2],
 }
 
-/// Rectangular blocks below the springing joints.
+/// Rectangular blocks below the springing joints, bonded to the ground.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct AbutmentsRequest {
     /// Height, normal to the springing joint, m.

@@ -13,13 +13,13 @@ pub struct BeamRequest {
     pub name: Option<String>,
     /// The beam.
     pub curved_beam: CurvedBeamRequest,
-    /// Its stone: Young's modulus, Poisson's ratio and `plane` count.
+    /// Its stone, of which Young's modulus, Poisson's ratio and `plane` count.
     #[serde(default)]
     pub stone: StoneRequest,
-    /// Its subblocks, `uniform` only; 7 x 7 by default.
+    /// Its subblocks, `uniform` only. Left out: 7 x 7.
     #[serde(default = "BeamRequest::default_mesh")]
     pub mesh: MeshRequest,
-    /// How accurate the stress has to be, instead of a mesh: e_N of eq. (5).
+    /// How accurate the stress has to be, instead of a mesh.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub accuracy: Option<BeamAccuracy>,
 }
@@ -32,7 +32,7 @@ impl BeamRequest {
     }
 }
 
-/// Shape and load of the curved beam.
+/// The beam: its shape and its load.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct CurvedBeamRequest {
     /// Inner radius, m.
@@ -44,8 +44,9 @@ pub struct CurvedBeamRequest {
     /// Resultant of the tractions at its ends, N per metre of depth; not 0.
     #[schema(minimum = -1e15, maximum = 1e15)]
     pub end_shear_n_per_m: f64,
-    /// Subblocks are true sectors; false: they have straight sides.
+    /// True: subblocks are true sectors. False: they have straight sides.
     #[serde(default = "CurvedBeamRequest::default_sides")]
+    #[schema(default = true)]
     pub curved_sides: bool,
 }
 
@@ -55,8 +56,8 @@ impl CurvedBeamRequest {
     }
 }
 
-/// Asks for an accuracy instead of a mesh: the least mesh that is estimated to reach it is found, and `plan` in the answer says
-/// which. The exact stress has no part in that.
+/// How accurate the stress has to be, instead of a mesh: the least mesh that is estimated to reach it is found, and `plan` in the
+/// answer says which. The exact stress has no part in that.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct BeamAccuracy {
     /// Largest error e_N of eq. (5) of the paper, as a share.

@@ -6,13 +6,14 @@ use utoipa::ToSchema;
 /// Most joints given one by one: about four for each block.
 pub const MAX_GIVEN_JOINTS: usize = 8000;
 
-/// Blocks, the joints between them, and the ground they stand on. x runs to the right, y upwards, in m.
+/// Blocks given by their corners, such as a wall; the joints between them and the ground that they stand on. x runs to the right,
+/// y upwards, in m.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct BlocksRequest {
-    /// The blocks: at most 20,000 corners together.
+    /// The blocks, of at most 20,000 corners together.
     #[schema(min_items = 1, max_items = 2001)]
     pub polygons: Vec<PolygonRequest>,
-    /// Where the joints between blocks are.
+    /// Where the joints between blocks are. Left out: `found`.
     #[serde(default)]
     pub joints: BlockJointsRequest,
     /// The ground.
@@ -25,7 +26,7 @@ pub struct BlocksRequest {
     pub tolerance_m: Option<f64>,
 }
 
-/// One block.
+/// A block.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct PolygonRequest {
     /// Its name, up to 200 characters; no other block and no support has it.
@@ -47,7 +48,7 @@ pub enum BlockJointsRequest {
     /// Wherever straight sides of two blocks meet; friction and cohesion are those of the weaker stone.
     #[default]
     Found,
-    /// These, at most 8000, and those on supports: blocks that meet elsewhere do not know of each other.
+    /// These, and those on supports: blocks that meet elsewhere have no joint between them.
     Given(Vec<GivenJointRequest>),
 }
 
@@ -66,8 +67,9 @@ pub struct GivenJointRequest {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(minimum = 0.0, exclusive_maximum = 1e15)]
     pub cohesion_pa: Option<f64>,
-    /// True: glued, it neither opens nor slides.
+    /// True: it neither opens nor slides.
     #[serde(default)]
+    #[schema(default = false)]
     pub bonded: bool,
 }
 
@@ -82,7 +84,7 @@ pub struct SupportRequest {
     #[serde(default)]
     #[schema(max_items = 2001)]
     pub sides: Vec<SideRequest>,
-    /// Straight lines of ground, from [x, y] to [x, y], m: all sides of blocks on them rest on it.
+    /// Straight lines of ground, from [x, y] to [x, y], m: all sides of blocks that lie on them rest on it.
     #[serde(default)]
     #[schema(max_items = 2001)]
     pub segments_m: Vec<[[f64; 2]; 2]>,

@@ -7,21 +7,21 @@ use utoipa::ToSchema;
 /// Most spans of a bridge.
 pub const MAX_SPANS: usize = 200;
 
-/// Spans of one or more rings between abutments and piers. The springing level of all spans is y = 0; x = 0 lies in the middle
-/// between the first springing and the last. At most 2001 stones and blocks in all.
+/// A bridge of arch spans, each of one ring or more, on piers and abutments. The springing level of all spans is y = 0; x = 0
+/// lies in the middle between the first springing and the last. At most 2001 stones and blocks in all.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct BridgeRequest {
-    /// From left to right.
+    /// Spans, from left to right.
     #[schema(min_items = 1, max_items = 200)]
     pub spans: Vec<SpanRequest>,
-    /// From left to right, one between every two spans.
+    /// Piers, from left to right, one between every two spans.
     #[serde(default)]
     #[schema(max_items = 199)]
     pub piers: Vec<PierRequest>,
-    /// Blocks under the first and the last springing; left out: these stand on the ground.
+    /// Blocks under the first and the last springing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub abutments: Option<BridgeAbutments>,
-    /// Masonry over the haunches.
+    /// Masonry over the haunches. Left out: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub backing: Option<BackingRequest>,
     /// Friction angle between two rings of a span, degrees; there is no cohesion between them. Left out: that of `stone`.
@@ -30,12 +30,12 @@ pub struct BridgeRequest {
     pub ring_friction_angle_deg: Option<f64>,
 }
 
-/// One span.
+/// A span.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct SpanRequest {
-    /// The intrados of the lowest ring.
+    /// The intrados of the lowest ring, symmetric about its middle, from the springing level y = 0.
     pub profile: SpanProfile,
-    /// From the lowest outwards. Each stands on the extrados of the one below.
+    /// Rings, from the lowest outwards. Each stands on the extrados of the one below.
     #[schema(min_items = 1, max_items = 20)]
     pub rings: Vec<RingRequest>,
 }
@@ -65,7 +65,7 @@ impl From<SpanProfile> for ProfileRequest {
     }
 }
 
-/// One ring of a span. Its joints are normal to the profile.
+/// A ring, whose joints are normal to the profile.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct RingRequest {
     /// Thickness at the crown, m.
@@ -95,11 +95,11 @@ pub struct PierRequest {
     pub height_m: f64,
     /// Courses of one height each; the uppermost carries the springings.
     #[serde(default = "one")]
-    #[schema(minimum = 1, maximum = 2001)]
+    #[schema(default = 1, minimum = 1, maximum = 2001)]
     pub courses: usize,
-    /// By how much each side leans inwards, horizontal run per height.
+    /// Batter of each side: by how much it leans inwards, as horizontal run over height.
     #[serde(default)]
-    #[schema(minimum = 0.0, maximum = 1.0)]
+    #[schema(default = 0.0, minimum = 0.0, maximum = 1.0)]
     pub batter: f64,
     /// The name of one of `stones`; left out: `stone`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -111,7 +111,7 @@ fn one() -> usize {
     1
 }
 
-/// What the ends of a bridge stand on; an end that is left out stands on the ground.
+/// Blocks under the first and the last springing. An end that is left out stands on the ground.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(default)]
 pub struct BridgeAbutments {

@@ -3,20 +3,22 @@
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-/// A load, and whether the load factor multiplies it.
+/// A load, and whether the load factor multiplies it. Forces are per metre of depth.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct LoadEntry {
-    /// The load.
+    /// What acts.
     pub load: LoadRequest,
-    /// False: it stays as it is. True: the load factor multiplies it.
+    /// False: it is fixed. True: the load factor multiplies it.
     #[serde(default)]
+    #[schema(default = false)]
     pub scaled: bool,
     /// A factor of its own; not 0.
     #[serde(default = "one")]
-    #[schema(minimum = -1e12, maximum = 1e12)]
+    #[schema(default = 1.0, minimum = -1e12, maximum = 1e12)]
     pub coefficient: f64,
     /// True: the coefficient is multiplied by the abscissa of the safety curve that `analysis` asks for.
     #[serde(default)]
+    #[schema(default = false)]
     pub per_abscissa: bool,
 }
 
@@ -40,17 +42,18 @@ pub enum LoadRequest {
     PointForce(PointForceLoad),
     /// A vertical force spread over a plan width.
     PatchLoad(PatchLoad),
-    /// The mass of stones and fill times an acceleration.
+    /// An inertia force on stones and fill: their mass times an acceleration.
     BodyAcceleration(BodyAcceleration),
 }
 
-/// Weight of the stones from their density, with g = 9.81 m/s2.
+/// Weight of the stones from their density, with g = 9.81 m/s2. Without this load they weigh nothing. It has no fields.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct SelfWeight {}
 
-/// Fill and embankment. They press, eq. (7) of the paper: `q_v = (H - y) g rho_f + h_e g rho_e` on the plan projection of
-/// the extrados and `q_h = K q_v` on its vertical projection. In a `body_acceleration` they push with their mass as well:
-/// the column over every part of the extrados that looks up, at half its height, carried by the stone below.
+/// Fill and embankment on the extrados. They press, eq. (7) of the paper: `q_v = (H - y) g rho_f + h_e g rho_e` on the plan
+/// projection of the extrados and `q_h = K q_v` on its vertical projection. In a `body_acceleration` they push with their mass as
+/// well: the column over every part of the extrados that looks up, fill and embankment each at half its own height, carried by
+/// the stone below; what lies beside the arch does not push. Scaled fill in a scaled acceleration is refused.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(default)]
 pub struct FillPressure {
@@ -104,7 +107,7 @@ impl FillPressure {
     }
 }
 
-/// Horizontal pressures towards the arch, on the vertical projection of the extrados.
+/// Horizontal pressure in bands of height, towards the arch, on the vertical projection of the extrados.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct LateralPressure {
     /// Bands of height; where bands overlap they add up.
@@ -126,13 +129,13 @@ pub struct PressureBand {
     pub pressure_pa: f64,
 }
 
-/// A vertical force on the extrados, at an abscissa or in the middle of a voussoir.
+/// A vertical force at one point of the extrados: at an abscissa, or in the middle of a voussoir.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct PointLoad {
     /// Force per metre of depth, N/m, downwards positive; not 0.
     #[schema(minimum = -1e15, maximum = 1e15)]
     pub force_n_per_m: f64,
-    /// Abscissa, m; over a joint, its two voussoirs take half each. Either this or `voussoir`.
+    /// Abscissa, m; over a joint, its two voussoirs take half each. Either this or `voussoir` is given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(minimum = -1e5, maximum = 1e5)]
     pub x_m: Option<f64>,
@@ -142,7 +145,7 @@ pub struct PointLoad {
     pub voussoir: Option<usize>,
 }
 
-/// A force at a point of a block, in any direction.
+/// A force in any direction at a point of a block; of a bridge or blocks, which take no load that stands on an extrados.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct PointForceLoad {
     /// The block's name: that of `blocks.polygons`, or of a body of the bridge as `structure.bodies` of an answer lists them.
@@ -169,15 +172,16 @@ pub struct PatchLoad {
     pub force_n_per_m: f64,
 }
 
-/// Mass times acceleration on every stone, and on what fill there is.
+/// An inertia force on stones and fill: their mass times an acceleration, in its direction. Ground that accelerates to the right
+/// makes it act to the left.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct BodyAcceleration {
-    /// To the right, multiples of g.
+    /// The force to the right, as a multiple of the weight: acceleration over g.
     #[serde(default)]
-    #[schema(minimum = -1e12, maximum = 1e12)]
+    #[schema(default = 0.0, minimum = -1e12, maximum = 1e12)]
     pub x_g: f64,
-    /// Upwards, multiples of g.
+    /// The force upwards, as a multiple of the weight: acceleration over g.
     #[serde(default)]
-    #[schema(minimum = -1e12, maximum = 1e12)]
+    #[schema(default = 0.0, minimum = -1e12, maximum = 1e12)]
     pub y_g: f64,
 }

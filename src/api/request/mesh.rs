@@ -9,13 +9,15 @@ pub const MAX_SUBBLOCKS_EACH_WAY: usize = 48;
 /// Most subblocks of an analysis.
 pub const MAX_SUBBLOCKS: usize = 100_000;
 
-/// Bonded subblocks inside every voussoir, and every body of a bridge or of blocks: at most 100,000 in all.
+/// How the bodies are cut into subblocks, which are bonded to each other: at most 100,000 in all.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(default)]
 pub struct MeshRequest {
-    /// How many.
+    /// How many there are, the same in every body or each its own.
     pub subblocks: SubblocksRequest,
-    /// What holds them together.
+    /// What holds the subblocks of one body together. `split`: stiff springs on the mean jump across every seam and weak ones on
+    /// what is linear in it. `corners`: stiff springs at both ends of every seam, for comparison with the paper; locks in
+    /// bending.
     pub seams: Seams,
 }
 
@@ -26,8 +28,8 @@ pub enum SubblocksRequest {
     /// The same in every voussoir; 1 x 1 by default: every voussoir is one block. Of a bridge and of blocks the same in every
     /// convex body with four corners; others are one block each, which the notes say.
     Uniform(Subblocks),
-    /// One entry per voussoir of the whole arch, left to right, or per body in the order of `structure.bodies`. Half an arch uses those of its own voussoirs, half a
-    /// keystone half of its number along, rounded up. Not with `curved_beam`.
+    /// One entry per voussoir of the whole arch, left to right, or per body in the order of `structure.bodies`. Half an
+    /// arch uses those of its own voussoirs, half a keystone half of its number along, rounded up. Not with `curved_beam`.
     PerVoussoir(Vec<Subblocks>),
 }
 
@@ -37,7 +39,7 @@ impl Default for SubblocksRequest {
     }
 }
 
-/// Subblocks of one voussoir.
+/// Subblocks of one body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 pub struct Subblocks {
     /// From intrados to extrados, 1 to 48; of a body that is no voussoir, along its side from corner 0 to its last.

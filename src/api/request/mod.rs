@@ -57,7 +57,7 @@ pub struct AnalysisRequest {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(max_length = 200, pattern = "^[^\\x00-\\x1f\\x7f]*$")]
     pub name: Option<String>,
-    /// An arch. Springing level y = 0, mid-span x = 0.
+    /// An arch.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub arch: Option<ArchRequest>,
     /// A bridge of arch spans, each of one ring or more, on piers and abutments.
@@ -66,7 +66,7 @@ pub struct AnalysisRequest {
     /// Blocks given by their corners, such as a wall.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub blocks: Option<BlocksRequest>,
-    /// The stone; what is left out is Table 1 of the paper.
+    /// The stone.
     #[serde(default)]
     pub stone: StoneRequest,
     /// Other stones, which parts of a bridge and blocks name. Not with `arch`.
@@ -89,25 +89,27 @@ pub struct AnalysisRequest {
     /// What is asked.
     #[serde(default)]
     pub analysis: AimRequest,
-    /// How the load factor grows and how the intensity is called.
+    /// How the load factor grows, and what it means to an engineer.
     #[serde(default)]
     pub load_factor: LoadFactorRequest,
     /// How the load path is followed.
     #[serde(default)]
     pub method: MethodRequest,
-    /// Whether it is followed on the moving arch too; that answer stands in `updated_geometry`, and needs method `event_path`.
+    /// On which geometry equilibrium is written. `first_order`, also where it is left out: on the structure as built. `updated`:
+    /// on the structure as its loads move it, too; that answer stands in `updated_geometry` and needs method `event_path`.
     #[serde(default)]
     pub geometry: Geometry,
-    /// Whether joints crush on the load path: where joints of plastic sections crush, no contact is pressed harder than the
-    /// compressive strength of the weaker stone, so that collapse, hinges and thrust line are those of an arch whose joints crush. For
-    /// a collapse at first order, found event by event, of whole stones. Without it crushing is told beside the path of stone that
-    /// does not.
+    /// True: joints crush on the load path. No contact is pressed harder than the compressive strength of the weaker stone, so
+    /// that collapse, hinges and thrust line are those of a structure whose joints crush. For a collapse at first order by method
+    /// `event_path` with one subblock a stone, without `accuracy` and `motion`. False: crushing is told beside the path of stone
+    /// that does not crush.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    #[schema(default = false)]
     pub crushing_in_path: bool,
     /// What the answer shows.
     #[serde(default)]
     pub report: ReportRequest,
-    /// Asks how the arch moves on when it has begun to fall.
+    /// Motion after collapse.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub motion: Option<MotionRequest>,
 }
@@ -119,7 +121,7 @@ impl AnalysisRequest {
     }
 }
 
-/// Stone and joint material. Defaults: Table 1 of the paper.
+/// The stone and its joints; what is left out is Table 1 of the paper.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(default)]
 pub struct StoneRequest {
@@ -141,14 +143,14 @@ pub struct StoneRequest {
     /// Compressive strength, Pa (10 MPa is 1e7), from 1e3 to 1e30.
     #[schema(minimum = 1e3, maximum = 1e30)]
     pub compressive_strength_pa: f64,
-    /// Plane stress or plane strain inside the stones.
+    /// `stress`: plane stress, none across the arch. `strain`: plane strain, none across the arch.
     pub plane: PlaneModel,
-    /// Contact penalty as a multiple of Young's modulus, a pure number. Left out: 10, and 1 for a bridge and for blocks, whose
-    /// joints slide: where they are stiffer than the stones, a load path may end higher.
+    /// Contact penalty: stiffness of contacts as a multiple of Young's modulus. Left out: 10, and 1 for a bridge and for blocks,
+    /// whose joints slide: where they are stiffer than the stones, a load path may end higher.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(minimum = 0.01, maximum = 100.0)]
     pub penalty_ratio: Option<f64>,
-    /// Tangential contact penalty as a multiple of the normal one, a pure number.
+    /// Tangential contact penalty as a multiple of the normal one.
     #[schema(minimum = 0.01, maximum = 100.0)]
     pub shear_penalty_ratio: f64,
 }
@@ -207,13 +209,13 @@ pub struct JointOverride {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(default)]
 pub struct LoadFactorRequest {
-    /// From 0 upwards or downwards.
+    /// Which way the load factor goes from 0, upwards or downwards.
     pub direction: Direction,
-    /// Largest absolute load factor to try.
+    /// Largest absolute load factor to try. Left out: that at which the scaled loads come to 1e6 times the fixed ones.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(exclusive_minimum = 0.0, maximum = 1e12)]
     pub cap: Option<f64>,
-    /// Unit of the intensity, such as `kN/m` or `m`: a label only.
+    /// Unit of the intensity, such as `kN/m` or `m`: a label, nothing is converted.
     #[schema(max_length = 200, pattern = "^[^\\x00-\\x1f\\x7f]*$")]
     pub unit: String,
     /// Intensity at load factor 1.
@@ -234,11 +236,11 @@ pub enum MethodRequest {
     /// Exactly, from one change of contact to the next.
     #[default]
     EventPath,
-    /// In equal steps with the paper's own hinge criterion, for comparison.
+    /// In equal steps with the hinge criterion of section 4.2 of the paper, for comparison.
     FixedSteps(FixedSteps),
 }
 
-/// Steps and hinge criterion of section 4.2 of the paper.
+/// In equal steps with the hinge criterion of section 4.2 of the paper, for comparison.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct FixedSteps {
     /// Step of the load factor, a pure number.
@@ -246,11 +248,11 @@ pub struct FixedSteps {
     pub step: f64,
     /// Opening beyond which a joint counts as a hinge, m.
     #[serde(default = "FixedSteps::default_opening")]
-    #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
+    #[schema(default = 0.01, exclusive_minimum = 0.0, maximum = 1e5)]
     pub opening_m: f64,
     /// How many hinges make a collapse; at most the number of joints.
     #[serde(default = "FixedSteps::default_hinges")]
-    #[schema(minimum = 1, maximum = 2002)]
+    #[schema(default = 3, minimum = 1, maximum = 2002)]
     pub hinges: usize,
 }
 

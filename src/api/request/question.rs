@@ -13,7 +13,7 @@ pub const MAX_FIELDS: usize = 16;
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum AimRequest {
-    /// The load factor at which the arch falls.
+    /// The load factor at which the structure falls.
     #[default]
     Collapse,
     /// How far the scaled loads, in full at load factor 1, can grow until the arch falls or its stone crushes.
@@ -25,7 +25,9 @@ pub enum AimRequest {
 /// Most supports that move.
 pub const MAX_MOVEMENTS: usize = 2001;
 
-/// Where the supports end up. They move there in proportion; no load may be scaled.
+/// What becomes of the structure as its supports move, its loads staying as they are. The supports move in proportion to where
+/// these fields say. No load may be scaled; `load_factor.direction`, `load_factor.cap` and `report.share_of_collapse` keep their
+/// defaults.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(default)]
 pub struct SettlementRequest {
@@ -39,7 +41,7 @@ pub struct SettlementRequest {
     pub supports: Vec<SupportMovementRequest>,
 }
 
-/// Movement of one support. Components are at most as large as the structure.
+/// A support and its movement, whose components are at most as large as the structure.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct SupportMovementRequest {
     /// The support's name.
@@ -47,15 +49,15 @@ pub struct SupportMovementRequest {
     pub support: String,
     /// To the right, m; negative to the left.
     #[serde(default)]
-    #[schema(minimum = -1e5, maximum = 1e5)]
+    #[schema(default = 0.0, minimum = -1e5, maximum = 1e5)]
     pub rightwards_m: f64,
     /// Downwards, m; negative upwards.
     #[serde(default)]
-    #[schema(minimum = -1e5, maximum = 1e5)]
+    #[schema(default = 0.0, minimum = -1e5, maximum = 1e5)]
     pub downwards_m: f64,
-    /// Counter-clockwise, degrees.
+    /// Rotation, counter-clockwise, degrees.
     #[serde(default)]
-    #[schema(minimum = -90.0, maximum = 90.0)]
+    #[schema(default = 0.0, minimum = -90.0, maximum = 90.0)]
     pub rotation_deg: f64,
     /// The point [x, y] that it turns about and whose movement is given, m. Left out: the middle of its joints, each with the
     /// weight of its length.
@@ -63,7 +65,7 @@ pub struct SupportMovementRequest {
     pub about_m: Option<[f64; 2]>,
 }
 
-/// Movement of one springing. Components are at most as large as the arch.
+/// How far it moves; components are at most as large as the arch.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(default)]
 pub struct MovementRequest {
@@ -73,31 +75,35 @@ pub struct MovementRequest {
     /// Downwards, m; negative upwards.
     #[schema(minimum = -1e5, maximum = 1e5)]
     pub downwards_m: f64,
-    /// About the middle of the springing joint, degrees; positive opens the joint's intrados.
+    /// Rotation about the middle of the springing joint, degrees; positive opens the joint's intrados.
     #[schema(minimum = -90.0, maximum = 90.0)]
     pub rotation_deg: f64,
 }
 
-/// Safety against falling and crushing; needs scaled loads, direction `increase` and method `event_path`.
+/// How far the scaled loads, in full at load factor 1, can grow until the arch falls or its stone crushes. Needs a scaled load,
+/// direction `increase` and method `event_path`.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(default)]
 pub struct SafetyRequest {
-    /// Which of the two answers about crushing counts; both are given.
+    /// Which of the two answers about crushing counts; both are given. `plastic_section`: no equilibrium keeps every joint within
+    /// its strength. `elastic`: the equivalent stress reaches the strength in some subblock; depends on the mesh.
     pub crushing: CrushingKind,
     /// Asks for a curve: the safety factor at every abscissa of a list.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub curve: Option<CurveRequest>,
 }
 
-/// What the safety factor is drawn over. Loads with `per_abscissa` are multiplied by the abscissa, at least one is.
+/// Asks for a curve: the safety factor at every abscissa of a list. Loads with `per_abscissa` are multiplied by the abscissa; at
+/// least one load has it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct CurveRequest {
-    /// 1 to 500 positive numbers, rising strictly; abscissae times subblocks come to at most 1,000,000.
+    /// Positive numbers, rising strictly. Abscissae times subblocks come to at most 1,000,000, abscissae times loads times
+    /// subblocks along the arch to 500,000.
     #[schema(min_items = 1, max_items = 500)]
     pub abscissae: Vec<f64>,
     /// Their unit: a label only.
     #[serde(default = "CurveRequest::no_unit")]
-    #[schema(max_length = 200, pattern = "^[^\\x00-\\x1f\\x7f]*$")]
+    #[schema(default = "-", max_length = 200, pattern = "^[^\\x00-\\x1f\\x7f]*$")]
     pub unit: String,
 }
 
@@ -111,11 +117,10 @@ impl CurveRequest {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(default)]
 pub struct ReportRequest {
-    /// At which share of the way to collapse displacements and contact forces are shown, between 0 and 1.
+    /// At which share of the way to collapse `near_collapse` is taken: displacements and contact forces.
     #[schema(exclusive_minimum = 0.0, exclusive_maximum = 1.0)]
     pub share_of_collapse: f64,
-    /// Where on the path the stress in every subblock is shown: up to 16 places, and fields times subblocks at most
-    /// 400,000. Not with a curve.
+    /// Where on the path the stress in every subblock is shown; fields times subblocks come to at most 400,000. Not with a curve.
     #[schema(max_items = 16)]
     pub stress_fields: Vec<StressFieldRequest>,
 }

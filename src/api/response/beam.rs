@@ -14,7 +14,7 @@ pub struct BeamResult {
     pub error_percent: f64,
     /// Strain energy per metre of depth.
     pub energy_j_per_m: f64,
-    /// The same in the theory of elasticity.
+    /// Strain energy per metre of depth in the theory of elasticity.
     pub exact_energy_j_per_m: f64,
     /// Displacement unknowns.
     pub unknowns: usize,

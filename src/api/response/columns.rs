@@ -17,9 +17,9 @@ pub struct ThrustColumns {
     pub shear_n_per_m: Vec<f64>,
     /// Distance of the resultant from the joint's middle, towards the extrados positive.
     pub eccentricity_m: Vec<f64>,
-    /// Where the resultant crosses the joint's line.
+    /// Where the resultant crosses the joint's line, to the right.
     pub x_m: Vec<f64>,
-    /// Where the resultant crosses the joint's line.
+    /// Where the resultant crosses the joint's line, upwards.
     pub y_m: Vec<f64>,
 }
 
@@ -36,7 +36,7 @@ impl ThrustColumns {
     }
 }
 
-/// Velocity of every voussoir in the mechanism, left to right, in the scale of the hinges' rotations.
+/// Velocity of every body in the mechanism, in the order of `structure.bodies`, in the scale of the hinges' rotations.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct VelocityColumns {
     /// Of the centroid, to the right, m per rad of the largest hinge rotation.
@@ -57,16 +57,16 @@ impl VelocityColumns {
     }
 }
 
-/// The arch at one load factor.
+/// State at one load factor.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct SnapshotBody {
     /// Load factor.
     pub load_factor: f64,
     /// Intensity.
     pub intensity: f64,
-    /// Every voussoir, left to right.
+    /// Every body, in the order of `structure.bodies`.
     pub blocks: BlockColumns,
-    /// Every contact point, joint by joint, intrados first.
+    /// Every contact point, joint by joint, from the intrados.
     pub contacts: ContactColumns,
 }
 
@@ -81,7 +81,7 @@ impl SnapshotBody {
     }
 }
 
-/// Displacement of and stress in every voussoir, left to right; compression negative.
+/// Displacements and mean stresses; compression negative.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct BlockColumns {
     /// Of the centroid, to the right.
@@ -111,7 +111,7 @@ impl BlockColumns {
     }
 }
 
-/// Force at every contact point.
+/// Forces and gaps.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct ContactColumns {
     /// Joint number.
@@ -141,7 +141,7 @@ impl ContactColumns {
     }
 }
 
-/// The load path, point by point.
+/// The load path, event by event; one array per quantity.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct HistoryColumns {
     /// Load factor.
@@ -151,7 +151,7 @@ pub struct HistoryColumns {
     /// Displacement of the stone at the crown, to the right: of several rings and spans that of the first which carries the most
     /// of the scaled loads, of blocks the highest.
     pub crown_x_m: Vec<f64>,
-    /// The same, upwards.
+    /// Displacement of that stone, upwards.
     pub crown_y_m: Vec<f64>,
     /// Largest displacement of any centroid.
     pub largest_m: Vec<f64>,

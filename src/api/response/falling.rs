@@ -20,19 +20,20 @@ pub enum MotionEndWord {
     Lost,
 }
 
-/// Motion after collapse: rigid stones (sides along intrados and extrados straight) under constant loads, without inertia,
-/// as in a thick fluid. Stones that are bonded move as one. Frames are numbered from 0, the structure as built.
+/// Motion after collapse: rigid stones (sides along intrados and extrados straight) under constant loads, without inertia: a
+/// resistance in proportion to mass balances what loads and contact forces leave. Stones that are bonded move as one. Frames are
+/// numbered from 0, the structure as built.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct MotionBody {
-    /// How it ended.
+    /// How the motion ended.
     pub end: MotionEndWord,
-    /// The same as a sentence.
+    /// How the motion ended, as a sentence.
     pub why: String,
     /// Stones that touch nothing in the last frame.
     pub free_stones: Vec<usize>,
-    /// Load factor of the loads during the motion.
+    /// Load factor during the motion, which is constant.
     pub load_factor: f64,
-    /// The same as an intensity.
+    /// `load_factor` as an intensity.
     pub intensity: f64,
     /// By how much the load factor is beyond that of collapse.
     pub overload: f64,
@@ -55,7 +56,7 @@ pub struct MotionBody {
 /// One row a frame.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct FrameColumns {
-    /// Time-like parameter: a stone that nothing holds falls by g times it.
+    /// Parameter of the motion, which is no time: a stone that nothing holds falls by g times it.
     pub parameter_s2: Vec<f64>,
     /// Largest displacement of a corner since the start.
     pub largest_displacement_m: Vec<f64>,
@@ -72,9 +73,9 @@ pub struct FrameColumns {
 /// One array of stones, in the order of the structure, a frame.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct PlaceColumns {
-    /// Centroid of the stone between straight sides.
+    /// Centroid of the stone between straight sides, to the right.
     pub x_m: Vec<Vec<f64>>,
-    /// Centroid of the stone between straight sides.
+    /// Centroid of the stone between straight sides, upwards.
     pub y_m: Vec<Vec<f64>>,
     /// Rotation since the start, counter-clockwise.
     pub rotation_rad: Vec<Vec<f64>>,
@@ -83,21 +84,21 @@ pub struct PlaceColumns {
 /// One row a point at which stones touch.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct MotionContactColumns {
-    /// Frame.
+    /// Number of the frame.
     pub frame: Vec<usize>,
-    /// The first stone; none is the ground.
+    /// The first stone; null is the ground.
     pub first: Vec<Option<usize>>,
-    /// The second stone; none is the ground.
+    /// The second stone; null is the ground.
     pub second: Vec<Option<usize>>,
-    /// Joint number; none where there was no joint between them.
+    /// Joint number; null where there was no joint between them.
     pub joint: Vec<Option<usize>>,
-    /// Where.
+    /// Where, to the right.
     pub x_m: Vec<f64>,
-    /// Where.
+    /// Where, upwards.
     pub y_m: Vec<f64>,
-    /// Unit normal, into the second.
+    /// Unit normal into the second stone, to the right.
     pub normal_x: Vec<f64>,
-    /// Unit normal, into the second.
+    /// Unit normal into the second stone, upwards.
     pub normal_y: Vec<f64>,
     /// Normal force in the step to this frame, compression positive; 0 in the first frame.
     pub normal_n_per_m: Vec<f64>,
@@ -111,7 +112,7 @@ pub struct MotionContactColumns {
 /// One row a hinge.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct OpenHingeColumns {
-    /// Frame.
+    /// Number of the frame.
     pub frame: Vec<usize>,
     /// Joint number.
     pub joint: Vec<usize>,
@@ -124,7 +125,7 @@ pub struct OpenHingeColumns {
 /// One row a joint that has slid.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct SlidColumns {
-    /// Frame.
+    /// Number of the frame.
     pub frame: Vec<usize>,
     /// Joint number.
     pub joint: Vec<usize>,

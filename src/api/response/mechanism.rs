@@ -7,7 +7,7 @@ use crate::collapse::{CrushedJoint, Face, Hinge, LiftOff, LimitWindow, LoadRange
 use serde::Serialize;
 use utoipa::ToSchema;
 
-/// The collapse in one object.
+/// Where the load path ends, and in which way.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct Collapse {
     /// Collapse intensity: `load_factor` times the request's intensity per unit of it; where joints slide, the least of `range`.
@@ -16,21 +16,20 @@ pub struct Collapse {
     pub unit: String,
     /// Load factor at collapse.
     pub load_factor: f64,
-    /// From where to where the collapse intensity may lie, because joints slide; null where none does.
+    /// Range in which the collapse intensity may lie, as joints slide; null where none does.
     pub range: Option<RangeBody>,
     /// Largest equilibrium residual of any stone at any event, as a share of the arch's weight, or of the
     /// largest load at a point where that is more.
     pub residual: f64,
     /// Lowest and highest intensity of the static theorem, null where unbounded; null where nothing stands.
     pub limit_window: Option<[Option<f64>; 2]>,
-    /// How the arch moves.
+    /// How the structure moves.
     pub mode: Mode,
     /// What ends the load path.
     pub governed_by: GovernedBy,
 }
 
-/// From where to where the collapse intensity of an arch whose joints slide may lie, seen from the start of the load path.
-/// Joints that slide without dilating have many loads at which a mechanism is in equilibrium; stiffness of the joints and
+/// It is seen from the start of the load path. Joints that slide without dilating have many loads at which a mechanism is in equilibrium; stiffness of the joints and
 /// order of loading pick one.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct RangeBody {
@@ -50,7 +49,7 @@ pub struct RangeBody {
     pub mechanisms_tried: usize,
 }
 
-/// A joint pressed at one face and opening at the other.
+/// A joint that stays pressed at one face and opens at the other.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct HingeBody {
     /// Joint number: of an arch from 0 at the left springing, else the place in `structure.joints`.
@@ -81,7 +80,7 @@ pub struct SlideBody {
     pub rate: f64,
 }
 
-/// A joint that parts altogether in the mechanism: it carries no force, and no point of it stays pressed.
+/// A joint that parts at both faces in the mechanism: it carries no force, and no point of it stays pressed.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct LiftOffBody {
     /// Joint number: of an arch from 0 at the left springing, else the place in `structure.joints`.
@@ -92,16 +91,16 @@ pub struct LiftOffBody {
     /// largest hinge rotation; where no hinge turns, the largest slide is 1, and where nothing slides either, the largest
     /// opening.
     pub intrados: f64,
-    /// The same of its end on the extrados.
+    /// Rate at which its end on the extrados opens (negative: closes), in the same scale.
     pub extrados: f64,
 }
 
-/// A joint that crushes at collapse: it carries its strength over a block of its length at one face.
+/// A joint that carries its strength over a block of its length at one face.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct CrushedJointBody {
     /// Joint number: of an arch from 0 at the left springing, else the place in `structure.joints`.
     pub joint: usize,
-    /// The face.
+    /// The face that is crushed.
     pub face: Face,
     /// The joint's end there, [x, y].
     pub at_m: [f64; 2],
@@ -116,10 +115,10 @@ impl From<&CrushedJoint> for CrushedJointBody {
     }
 }
 
-/// One end of the load path.
+/// A collapse with its mechanism.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct EndBody {
-    /// Where it is.
+    /// Where it is, and how.
     #[serde(flatten)]
     pub collapse: Collapse,
     /// Hinges from left to right.
@@ -131,9 +130,9 @@ pub struct EndBody {
     /// Joints that crush, from left to right, where `crushing_in_path` is set.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub crushed_joints: Vec<CrushedJointBody>,
-    /// Resultant per joint.
+    /// Resultant of every joint.
     pub thrust_line: ThrustColumns,
-    /// Velocity of every voussoir.
+    /// Velocity of every body.
     pub velocities: VelocityColumns,
 }
 

@@ -6,7 +6,7 @@ use crate::collapse::{BeamPlan, Estimate, MeshTried, Plan, PlanReason};
 use serde::Serialize;
 use utoipa::ToSchema;
 
-/// The model that was picked, and how accurate it is.
+/// The model that was picked.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct PlanBody {
     /// Whether only the left half of the symmetric arch was modelled for the stress; the answer is that of the whole.
@@ -64,7 +64,7 @@ pub struct MeshBody {
     pub stress_estimate: Option<f64>,
 }
 
-/// The mesh that was picked for the curved beam, and how accurate it is.
+/// The mesh of the curved beam and its accuracy.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct BeamPlanBody {
     /// Subblocks from the inner to the outer radius.

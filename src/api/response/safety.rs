@@ -8,13 +8,13 @@ use crate::collapse::{CrushingKind, Governs, Mode, Note, Reach, SafetyFactors, S
 use serde::Serialize;
 use utoipa::ToSchema;
 
-/// How far the scaled loads can grow from their full size before one thing happens.
+/// How far the scaled loads can grow from their full size.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, ToSchema)]
 #[serde(tag = "state", rename_all = "snake_case")]
 pub enum ReachBody {
-    /// It happens.
+    /// It happens at `load_factor`.
     At {
-        /// Load factor at which it does: the safety factor. Below 1 the full loads are too much.
+        /// Load factor at which it happens, where `state` is `at`: the safety factor. Below 1 the full loads are too much.
         load_factor: f64,
     },
     /// It does not happen before the arch falls or the cap is reached.
@@ -36,12 +36,12 @@ impl From<Reach> for ReachBody {
     }
 }
 
-/// Safety factors under the scaled loads in full.
+/// How far the scaled loads can grow from their full size, by every criterion.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct SafetyBody {
     /// Until the arch becomes a mechanism.
     pub instability: ReachBody,
-    /// The same on moving geometry; null where `geometry` does not ask for it.
+    /// Until the arch becomes a mechanism on moving geometry; null where `geometry` does not ask for it.
     pub updated_geometry: Option<ReachBody>,
     /// Until the equivalent stress reaches the strength in some subblock; depends on the mesh.
     pub elastic: ReachBody,
@@ -49,7 +49,7 @@ pub struct SafetyBody {
     pub plastic_section: ReachBody,
     /// The first of instability, on moving geometry too where asked, and the kind of crushing that counts.
     pub governing: ReachBody,
-    /// Which of the two that is.
+    /// Which of them that is.
     pub governed_by: Governs,
     /// How the arch moves when it becomes a mechanism; null where it does not.
     pub mode: Option<Mode>,
@@ -88,10 +88,10 @@ pub struct SafetyCurveResult {
     pub request: AnalysisRequest,
 }
 
-/// One point of a safety curve.
+/// An abscissa and the safety factors there.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct CurvePointBody {
-    /// Where.
+    /// The abscissa.
     pub abscissa: f64,
     /// The safety factors there.
     #[serde(flatten)]

@@ -6,7 +6,7 @@ use crate::collapse::{Mode, SettlementEnd, SettlementPath, SettlementPoint, Sett
 use serde::Serialize;
 use utoipa::ToSchema;
 
-/// What the movement of supports does, at first order and on moving geometry.
+/// The path at first order and that on moving geometry.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct SettlementBody {
     /// On the geometry as built: where the thrust ends up, the least or the greatest that limit analysis allows if the
@@ -16,10 +16,10 @@ pub struct SettlementBody {
     pub updated_geometry: Option<SettlementPathBody>,
 }
 
-/// One path.
+/// A path of the movement.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct SettlementPathBody {
-    /// How it ended.
+    /// How the movement ended.
     pub end: SettlementEnd,
     /// Why there is no answer, in words; null where there is one.
     pub why: Option<String>,
@@ -43,7 +43,7 @@ pub struct SettlementPathBody {
     pub lift_offs: Vec<LiftOffBody>,
     /// Resultant per joint at the end, as places on the joints as built.
     pub thrust_line: ThrustColumns,
-    /// Displacement of every body at the end.
+    /// Displacements at the end.
     pub displacements: DisplacementColumns,
     /// Share of the movement at which the arch first snaps into another shape; null where it does not.
     pub snap_share_of_movement: Option<f64>,
@@ -56,11 +56,11 @@ pub struct SettlementPathBody {
 pub struct SettlementColumns {
     /// Share of the movement.
     pub share_of_movement: Vec<f64>,
-    /// Horizontal force of the left springing on the arch, to the right; null of a bridge and of blocks, as are the next two.
+    /// Horizontal force of the left springing on the arch, to the right; null of a bridge and of blocks.
     pub thrust_n_per_m: Option<Vec<f64>>,
-    /// Vertical force of the left springing on the arch, upwards.
+    /// Vertical force of the left springing on the arch, upwards; null of a bridge and of blocks.
     pub left_reaction_n_per_m: Option<Vec<f64>>,
-    /// Vertical force of the right springing on the arch, upwards; null for half an arch.
+    /// Vertical force of the right springing on the arch, upwards; null for half an arch, a bridge and blocks.
     pub right_reaction_n_per_m: Option<Vec<Option<f64>>>,
     /// Every support of a bridge or of blocks; of an arch none.
     pub supports: Vec<SupportForces>,
@@ -77,7 +77,7 @@ pub struct SupportForces {
     pub upwards_n_per_m: Vec<f64>,
 }
 
-/// Displacement of every body, of an arch from left to right.
+/// Displacement of every body, in the order of `structure.bodies`.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct DisplacementColumns {
     /// Of the centroid, to the right.

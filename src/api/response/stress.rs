@@ -7,7 +7,7 @@ use crate::collapse::{Crushing, ElasticCrushing, PlasticCrushing, StressField, S
 use serde::Serialize;
 use utoipa::ToSchema;
 
-/// Stress in every subblock at one load factor.
+/// Stress at one load factor.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct StressFieldBody {
     /// Load factor.
@@ -28,7 +28,7 @@ impl StressFieldBody {
     }
 }
 
-/// Subblocks and the state of stress in them, which is constant in each; compression negative.
+/// The stress is constant in each; compression is negative.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct SubblockColumns {
     /// Which voussoir, from 0 on the left; of a bridge and of blocks which of `structure.bodies`.
@@ -37,13 +37,14 @@ pub struct SubblockColumns {
     pub radial: Vec<usize>,
     /// Place from the joint before the voussoir, from 0; of a body that is no voussoir, from its side between corners 3 and 0.
     pub along: Vec<usize>,
-    /// Centroid.
+    /// Centroid, to the right.
     pub centre_x_m: Vec<f64>,
-    /// Centroid.
+    /// Centroid, upwards.
     pub centre_y_m: Vec<f64>,
-    /// Corners, counter-clockwise from the intrados end at the joint before: four, but all of a whole body that has more or less.
+    /// Corners, to the right; counter-clockwise from the intrados end at the joint before: four, but all of a whole body that has more
+    /// or less.
     pub corners_x_m: Vec<Vec<f64>>,
-    /// The same corners.
+    /// The same corners, upwards.
     pub corners_y_m: Vec<Vec<f64>>,
     /// Horizontal normal stress.
     pub sigma_x_pa: Vec<f64>,
@@ -79,7 +80,7 @@ impl SubblockColumns {
     }
 }
 
-/// Both answers about crushing.
+/// When the stone crushes: both answers, neither of which changes the load path.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct CrushingBody {
     /// Compressive strength of the stone.
@@ -106,7 +107,7 @@ impl CrushingBody {
 pub struct ElasticCrushingBody {
     /// Load factor at which it does; null where it does not on the path.
     pub load_factor: Option<f64>,
-    /// The same as an intensity.
+    /// `load_factor` as an intensity.
     pub intensity: Option<f64>,
     /// True where it has at the start of the path already.
     pub at_start: bool,
@@ -165,9 +166,9 @@ pub struct CrushedSubblock {
     pub radial: usize,
     /// Place from the joint before the voussoir, from 0.
     pub along: usize,
-    /// Centroid.
+    /// Centroid, to the right.
     pub centre_x_m: f64,
-    /// Centroid.
+    /// Centroid, upwards.
     pub centre_y_m: f64,
     /// Its equivalent stress.
     pub tresca_pa: f64,
@@ -186,7 +187,7 @@ impl From<&SubblockStress> for CrushedSubblock {
 pub struct PlasticCrushingBody {
     /// Lowest and highest intensity in equilibrium, each null where unbounded; null where nothing stands.
     pub window: Option<[Option<f64>; 2]>,
-    /// The same as load factors.
+    /// `window` as load factors.
     pub window_load_factor: Option<[Option<f64>; 2]>,
     /// Joints that are crushed at the lowest.
     pub joints_at_lowest: Vec<usize>,

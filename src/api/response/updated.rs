@@ -6,18 +6,18 @@ use crate::collapse::{CollapseReport, Mode, Outcome, UpdatedEnd, UpdatedGeometry
 use serde::Serialize;
 use utoipa::ToSchema;
 
-/// The answer on moving geometry. It depends on Young's modulus and the penalty: as they grow it tends to the first-order one, unless
-/// joints slide and the path takes another turn.
+/// It depends on Young's modulus and the penalty: as they grow it tends to the first-order one,
+/// unless joints slide and the path takes another turn.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct UpdatedBody {
-    /// How the path ended.
+    /// How the path on moving geometry ended.
     pub end: UpdatedEnd,
     /// Why there is no answer, in words; null where there is one.
     pub why: Option<String>,
     /// Intensity there: at collapse, or the highest at which the arch is known to stand; null where it falls as loaded, or where
     /// nothing grows.
     pub intensity: Option<f64>,
-    /// The same as a load factor.
+    /// `intensity` as a load factor.
     pub load_factor: Option<f64>,
     /// Load factor over that of the first-order collapse; null where either is missing, and for an arch that stands in a
     /// window only.

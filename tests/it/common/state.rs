@@ -6,7 +6,7 @@ use voussoir::collapse::{Analysis, CollapseReport, ContactPoint, Method, PathEnd
 use voussoir::geometry::Vec2;
 use voussoir::structure::{Joint, JointLaw, PointForce, Structure};
 
-/// Gap at which cohesion is lost, as a multiple of cohesion over the contact's own stiffness (the README's figure).
+/// Gap at which cohesion is lost, as a multiple of cohesion over the contact's own stiffness (docs/method.md has the figure).
 const REACH: f64 = 10.0;
 /// A contact between two stones is in series with a link on either side, each of four times the joint's stiffness.
 const LINK: f64 = 4.0;
