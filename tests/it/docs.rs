@@ -108,8 +108,9 @@ fn every_link_of_the_documents_leads_somewhere() {
     let mut links = 0;
     for file in documents() {
         let words = text(&file);
-        for target in prose(&words).flat_map(|line| line.split("](").skip(1)) {
-            let target = target.split(')').next().unwrap();
+        let pictures = prose(&words).flat_map(|line| line.split("src=\"").skip(1));
+        for target in prose(&words).flat_map(|line| line.split("](").skip(1)).chain(pictures) {
+            let target = target.split([')', '"']).next().unwrap();
             if target.contains("://") {
                 continue;
             }
