@@ -27,11 +27,10 @@ class Structure:
         size, broken = max(abs(x) for of in (*sum(parts, []), *filter(None, forces)) for x in of), []
         sums, unknown = [[f + s for f, s in zip(*both)] for both in parts], set()
         for (law, friction, cohesion, strength, length, effects), force in zip(self.joints, forces):
-            for x, effect in zip(force or (0, 0, 0), effects):
-                for k, unit in effect:
-                    sums[k] = [of + x * u for of, u in zip(sums[k], unit)]
-            unknown |= set() if force else {k for k, _ in effects[0]}
             i, e, t = force or (0, 0, 0)
+            for k, x, unit in ((k, x, unit) for x, effect in zip((i, e, t), effects) for k, unit in effect):
+                sums[k] = [of + x * u for of, u in zip(sums[k], unit)]
+            unknown |= set() if force else {k for k, _ in effects[0]}
             crushed = (i + e) ** 2 / (2 * strength * length) if law == "dry" and why == "crushing" else 0
             broken += [crushed - i, crushed - e] if law in ("dry", "wall") else []
             broken += [abs(t) - friction * (i + e) - abs(factors[0]) * cohesion] if law != "bonded" else []
@@ -46,9 +45,11 @@ class Structure:
             taken, dilates = taken + cohesion * abs(slip), friction * abs(slip)
             hindered += [dilates - a, dilates - b] if law in ("dry", "wall") else [abs(a), abs(b)]
             hindered += [abs(slip)] if law == "bonded" else []
-        work, near = sum(fixed) - taken, NEAR["instability"] * sum(abs(f) + abs(at * s) for f, s in zip(fixed, scaled))
+        fastest = max(math.hypot(*v[:2]) for v in motion)
+        size = fastest * sum(abs(by) * math.hypot(*load[:2]) for loads in self.loads for by, load in zip((1, at), loads))
+        work, near = sum(fixed) - taken, NEAR["instability"] * size
         drives = abs(work + at * sum(scaled)) <= near and sign * sum(scaled) > 0 if sign else work > 1e6 * abs(sum(scaled))
-        return drives and max(hindered) <= NEAR["instability"] * max(math.hypot(*v[:2]) for v in motion)
+        return drives and max(hindered) <= NEAR["instability"] * fastest
 
 def check(answer):
     structure, proof, window = Structure(answer["structure"]), answer["proof"], answer["limit_window_load_factor"]
@@ -57,7 +58,7 @@ def check(answer):
     same, good, said = lambda a, b: math.isclose(a, b, rel_tol=1e-6, abs_tol=1e-9), [], f"borne from {window[0]} to {window[1]}"
     for end, value, sign in zip((proof["lowest"], proof["highest"]), window, (-1, 1)):
         good += [structure.borne((1, end["load_factor"]), rows(end["forces"]))]
-        good += [structure.borne((0, sign), rows(end["ray"])) if value is None else
+        good += [end["ray"] and structure.borne((0, sign), rows(end["ray"])) if value is None else
                  same(value, end["load_factor"]) and structure.falls(rows(end["motion"]), value, sign)]
     if answer["outcome"] == "collapse":
         at, why, forces = answer["collapse"]["load_factor"], answer["collapse"]["governed_by"], [None] * len(structure.joints)
