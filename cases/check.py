@@ -18,8 +18,8 @@ class Structure:
             along, sides = (b - a) / abs(b - a), [(*place[s], sign) for s, sign in zip(joint["between"], (-1, 1)) if s in place]
             units = [(a, -1j * along), (b, -1j * along), (a, along)]
             effects = [[(k, [sign * x for x in (f.real, f.imag, cross(at - c, f))]) for k, c, sign in sides] for at, f in units]
-            law = [joint[of] or 0 for of in ("friction_coefficient", "cohesion_n_per_m", "compressive_strength_pa")]
-            self.joints.append((joint["law"], *law, abs(b - a), effects))
+            law = (joint[of] or 0 for of in ("law", "friction_coefficient", "cohesion_n_per_m", "compressive_strength_pa"))
+            self.joints.append((*law, abs(b - a), effects))
 
     def borne(self, factors, forces, why="instability"):
         """Whether forces balance these factors of the two loads and break no law; bodies with unknown ones are left out."""
@@ -39,16 +39,14 @@ class Structure:
     def falls(self, motion, at, sign):
         """Whether no joint hinders the motion, and loads beyond `at` (sign 0: all) do more work in it than cohesion takes."""
         fixed, scaled = zip(*([sum(f * v for f, v in zip(load, of)) for load in loads] for loads, of in zip(self.loads, motion)))
-        taken, hindered = 0, [0]
+        taken, gained, hindered = -sum(fixed), sum(scaled), [0]
         for law, friction, cohesion, _, _, effects in self.joints:
             a, b, slip = (sum(f * v for k, unit in effect for f, v in zip(unit, motion[k])) for effect in effects)
             taken, dilates = taken + cohesion * abs(slip), friction * abs(slip)
-            hindered += [dilates - a, dilates - b] if law in ("dry", "wall") else [abs(a), abs(b)]
-            hindered += [abs(slip)] if law == "bonded" else []
+            hindered += [dilates - a, dilates - b] if law in ("dry", "wall") else [abs(a), abs(b), abs(slip) * (law == "bonded")]
         fastest = max(math.hypot(*v[:2]) for v in motion)
         size = fastest * sum(abs(by) * math.hypot(*load[:2]) for loads in self.loads for by, load in zip((1, at), loads))
-        work, near = sum(fixed) - taken, NEAR["instability"] * size
-        drives = abs(work + at * sum(scaled)) <= near and sign * sum(scaled) > 0 if sign else work > 1e6 * abs(sum(scaled))
+        drives = abs(at * gained - taken) <= NEAR["instability"] * size and sign * gained > 0 if sign else -taken > 1e6 * abs(gained)
         return drives and max(hindered) <= NEAR["instability"] * fastest
 
 def check(answer):
