@@ -18,8 +18,8 @@ class Structure:
             along, sides = (b - a) / abs(b - a), [(*place[s], sign) for s, sign in zip(joint["between"], (-1, 1)) if s in place]
             units = [(a, -1j * along), (b, -1j * along), (a, along)]
             effects = [[(k, [sign * x for x in (f.real, f.imag, cross(at - c, f))]) for k, c, sign in sides] for at, f in units]
-            law = [joint[of] or 0 for of in ("friction_coefficient", "cohesion_n_per_m", "compressive_strength_pa")]
-            self.joints.append((joint["law"], *law, abs(b - a), effects))
+            law = (joint[of] or 0 for of in ("law", "friction_coefficient", "cohesion_n_per_m", "compressive_strength_pa"))
+            self.joints.append((*law, abs(b - a), effects))
 
     def borne(self, factors, forces, why="instability"):
         """Whether forces balance these factors of the two loads and break no law; bodies with unknown ones are left out."""
@@ -27,11 +27,10 @@ class Structure:
         size, broken = max(abs(x) for of in (*sum(parts, []), *filter(None, forces)) for x in of), []
         sums, unknown = [[f + s for f, s in zip(*both)] for both in parts], set()
         for (law, friction, cohesion, strength, length, effects), force in zip(self.joints, forces):
-            for x, effect in zip(force or (0, 0, 0), effects):
-                for k, unit in effect:
-                    sums[k] = [of + x * u for of, u in zip(sums[k], unit)]
-            unknown |= set() if force else {k for k, _ in effects[0]}
             i, e, t = force or (0, 0, 0)
+            for k, x, unit in ((k, x, unit) for x, effect in zip((i, e, t), effects) for k, unit in effect):
+                sums[k] = [of + x * u for of, u in zip(sums[k], unit)]
+            unknown |= set() if force else {k for k, _ in effects[0]}
             crushed = (i + e) ** 2 / (2 * strength * length) if law == "dry" and why == "crushing" else 0
             broken += [crushed - i, crushed - e] if law in ("dry", "wall") else []
             broken += [abs(t) - friction * (i + e) - abs(factors[0]) * cohesion] if law != "bonded" else []
@@ -40,15 +39,15 @@ class Structure:
     def falls(self, motion, at, sign):
         """Whether no joint hinders the motion, and loads beyond `at` (sign 0: all) do more work in it than cohesion takes."""
         fixed, scaled = zip(*([sum(f * v for f, v in zip(load, of)) for load in loads] for loads, of in zip(self.loads, motion)))
-        taken, hindered = 0, [0]
+        taken, gained, hindered = -sum(fixed), sum(scaled), [0]
         for law, friction, cohesion, _, _, effects in self.joints:
             a, b, slip = (sum(f * v for k, unit in effect for f, v in zip(unit, motion[k])) for effect in effects)
             taken, dilates = taken + cohesion * abs(slip), friction * abs(slip)
-            hindered += [dilates - a, dilates - b] if law in ("dry", "wall") else [abs(a), abs(b)]
-            hindered += [abs(slip)] if law == "bonded" else []
-        work, near = sum(fixed) - taken, NEAR["instability"] * sum(abs(f) + abs(at * s) for f, s in zip(fixed, scaled))
-        drives = abs(work + at * sum(scaled)) <= near and sign * sum(scaled) > 0 if sign else work > 1e6 * abs(sum(scaled))
-        return drives and max(hindered) <= NEAR["instability"] * max(math.hypot(*v[:2]) for v in motion)
+            hindered += [dilates - a, dilates - b] if law in ("dry", "wall") else [abs(a), abs(b), abs(slip) * (law == "bonded")]
+        fastest = max(math.hypot(*v[:2]) for v in motion)
+        size = fastest * sum(abs(by) * math.hypot(*load[:2]) for loads in self.loads for by, load in zip((1, at), loads))
+        drives = abs(at * gained - taken) <= NEAR["instability"] * size and sign * gained > 0 if sign else -taken > 1e6 * abs(gained)
+        return drives and max(hindered) <= NEAR["instability"] * fastest
 
 def check(answer):
     structure, proof, window = Structure(answer["structure"]), answer["proof"], answer["limit_window_load_factor"]
@@ -57,7 +56,7 @@ def check(answer):
     same, good, said = lambda a, b: math.isclose(a, b, rel_tol=1e-6, abs_tol=1e-9), [], f"borne from {window[0]} to {window[1]}"
     for end, value, sign in zip((proof["lowest"], proof["highest"]), window, (-1, 1)):
         good += [structure.borne((1, end["load_factor"]), rows(end["forces"]))]
-        good += [structure.borne((0, sign), rows(end["ray"])) if value is None else
+        good += [end["ray"] and structure.borne((0, sign), rows(end["ray"])) if value is None else
                  same(value, end["load_factor"]) and structure.falls(rows(end["motion"]), value, sign)]
     if answer["outcome"] == "collapse":
         at, why, forces = answer["collapse"]["load_factor"], answer["collapse"]["governed_by"], [None] * len(structure.joints)

@@ -81,7 +81,7 @@ impl Window {
                         [vec![*load_factor], forces(at), motion.as_flattened().to_vec()].concat()
                     }
                     WindowEnd::Unbounded { load_factor, forces: at, ray } => {
-                        [vec![*load_factor], forces(at), forces(ray)].concat()
+                        [vec![*load_factor], forces(at), forces(ray.as_deref().unwrap_or_default())].concat()
                     }
                 })
                 .collect(),

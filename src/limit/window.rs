@@ -37,8 +37,8 @@ pub enum WindowEnd {
         load_factor: f64,
         /// Forces there.
         forces: Vec<Resultant>,
-        /// What a unit adds.
-        ray: Vec<Resultant>,
+        /// What a unit adds; None where rounding kept the linear programme from an answer.
+        ray: Option<Vec<Resultant>>,
     },
 }
 
@@ -76,32 +76,35 @@ impl StaticTheorem {
         let (high, low) = (found.pop().flatten(), found.pop().flatten());
         Ok(Window::Stands(match (low, high) {
             (Some(low), Some(high)) => [low, high].map(bounded),
-            (Some(low), None) => [bounded(low.clone()), self.unbounded(1.0, low.0, budget)?],
-            (None, Some(high)) => [self.unbounded(-1.0, high.0.clone(), budget)?, bounded(high)],
+            (Some(low), None) => [bounded(low.clone()), self.unbounded(1.0, low.0, budget)],
+            (None, Some(high)) => [self.unbounded(-1.0, high.0.clone(), budget), bounded(high)],
             (None, None) => {
                 let mut programme = Programme::new(self);
                 programme.bounds = [0.0; 2];
-                let at_zero = programme.maximise(&Objective::load_factor(1.0), budget);
+                let at_zero = programme.maximise(&Objective::load_factor(0.0), budget);
                 let ProgrammeOutcome::At(at, _) = at_zero else { return Err(Unsolved) };
-                [self.unbounded(-1.0, at.clone(), budget)?, self.unbounded(1.0, at, budget)?]
+                [self.unbounded(-1.0, at.clone(), budget), self.unbounded(1.0, at, budget)]
             }
         }))
     }
 
     /// Any load factor from that of `at` in the direction of `sign` is in equilibrium.
-    fn unbounded(&self, sign: f64, at: Equilibrium, budget: &Budget) -> Result<WindowEnd, Unsolved> {
+    fn unbounded(&self, sign: f64, at: Equilibrium, budget: &Budget) -> WindowEnd {
         let mut programme = Programme::unlimited(self);
         programme.limits = self.limits.iter().map(|limit| Limit { constant: 0.0, ..*limit }).collect();
         programme.bounds[if sign > 0.0 { 1 } else { 0 }] = sign * self.factor;
-        let found = programme.maximise(&Objective::load_factor(sign), budget);
-        let (ProgrammeOutcome::At(ray, _) | ProgrammeOutcome::Unbounded(ray)) = found else { return Err(Unsolved) };
-        let per_unit = |of: &Resultant| of.times(1.0 / ray.load_factor.abs());
-        let ray = if ray.load_factor == 0.0 {
-            vec![Resultant::default(); self.joints()]
-        } else {
-            ray.forces.iter().map(per_unit).collect()
+        let ray = match programme.maximise(&Objective::load_factor(sign), budget) {
+            ProgrammeOutcome::At(ray, _) if ray.load_factor != 0.0 => {
+                let per_unit = 1.0 / ray.load_factor.abs();
+                Some(ray.forces.iter().map(|of| of.times(per_unit)).collect())
+            }
+            // Without loads that grow nothing is added.
+            ProgrammeOutcome::At(..) | ProgrammeOutcome::Unbounded(_) => {
+                Some(vec![Resultant::default(); self.joints()])
+            }
+            ProgrammeOutcome::Infeasible(_) | ProgrammeOutcome::Lost => None,
         };
-        Ok(WindowEnd::Unbounded { load_factor: at.load_factor, forces: at.forces, ray })
+        WindowEnd::Unbounded { load_factor: at.load_factor, forces: at.forces, ray }
     }
 
     /// The motion of every body that no limit hinders: joints yield as their limits' multipliers say.

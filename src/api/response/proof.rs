@@ -30,7 +30,7 @@ pub struct ProofEndBody {
     /// the window has no end.
     pub motion: Option<MotionColumns>,
     /// Where the window has no end: forces in equilibrium with the scaled loads alone, times -1 at the lowest. Any multiple may be
-    /// added to `forces`. Else null.
+    /// added to `forces`. Else null, and where rounding kept the linear programme from them.
     pub ray: Option<JointForceColumns>,
 }
 
@@ -77,7 +77,7 @@ impl ProofEndBody {
         };
         let (motion, ray) = match end {
             WindowEnd::Bounded { motion, .. } => (Some(MotionColumns::new(motion)), None),
-            WindowEnd::Unbounded { ray, .. } => (None, Some(JointForceColumns::new(ray))),
+            WindowEnd::Unbounded { ray, .. } => (None, ray.as_deref().map(JointForceColumns::new)),
         };
         ProofEndBody { load_factor, forces, motion, ray }
     }

@@ -77,6 +77,7 @@ fn check(structure: &Structure, fixed: &[PointForce], scaled: &[PointForce]) -> 
                         assert!(sign * per_unit > 0.0 && (load_factor * per_unit + work).abs() < 1e-8 * work.abs());
                     }
                     WindowEnd::Unbounded { ray, .. } => {
+                        let ray = ray.as_ref().unwrap();
                         assert!(unbalanced(structure, ray, &sums, [0.0, sign]) < NEAR);
                     }
                 }
@@ -116,5 +117,6 @@ fn what_has_no_end_or_no_equilibrium_is_proved_too() {
         assert!(matches!(check(&structure, &down, &up), Window::Stands([WindowEnd::Unbounded { .. }, _])));
         let sideways = per_area(&structure, Vec2::new(1.0, 0.0));
         assert!(matches!(check(&structure, &up, &sideways), Window::Falls(_)));
+        assert_eq!(check(&structure, &down, &[]).ends(), Some([f64::NEG_INFINITY, f64::INFINITY]));
     }
 }
