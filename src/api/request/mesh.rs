@@ -39,7 +39,7 @@ impl Default for SubblocksRequest {
     }
 }
 
-/// Subblocks of one body.
+/// Numbers of subblocks of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 pub struct Subblocks {
     /// From intrados to extrados, 1 to 48; of a body that is no voussoir, along its side from corner 0 to its last.

@@ -83,7 +83,7 @@ pub struct AnalysisRequest {
     /// How accurate the answer has to be.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub accuracy: Option<AccuracyRequest>,
-    /// Loads, fixed and scaled by the load factor. Without a scaled one, only whether the arch stands is asked.
+    /// Loads, fixed and scaled by the load factor. Without a scaled one, only whether the structure stands is asked.
     #[schema(min_items = 1, max_items = 1000)]
     pub loads: Vec<LoadEntry>,
     /// What is asked.
@@ -143,7 +143,7 @@ pub struct StoneRequest {
     /// Compressive strength, Pa (10 MPa is 1e7), from 1e3 to 1e30.
     #[schema(minimum = 1e3, maximum = 1e30)]
     pub compressive_strength_pa: f64,
-    /// `stress`: plane stress, none across the arch. `strain`: plane strain, none across the arch.
+    /// `stress`: plane stress, that is no stress across the arch. `strain`: plane strain, that is no strain across the arch.
     pub plane: PlaneModel,
     /// Contact penalty: stiffness of contacts as a multiple of Young's modulus. Left out: 10, and 1 for a bridge and for blocks,
     /// whose joints slide: where they are stiffer than the stones, a load path may end higher.

@@ -39,11 +39,11 @@ impl ThrustColumns {
 /// Velocity of every body in the mechanism, in the order of `structure.bodies`, in the scale of the hinges' rotations.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct VelocityColumns {
-    /// Of the centroid, to the right, m per rad of the largest hinge rotation.
+    /// Velocity of the centroid to the right, m per rad of the largest hinge rotation.
     pub x: Vec<f64>,
-    /// Of the centroid, upwards, m per rad of the largest hinge rotation.
+    /// Velocity of the centroid upwards, m per rad of the largest hinge rotation.
     pub y: Vec<f64>,
-    /// Counter-clockwise, rad per rad of the largest hinge rotation.
+    /// Spin, counter-clockwise, rad per rad of the largest hinge rotation.
     pub rotation: Vec<f64>,
 }
 
@@ -57,7 +57,7 @@ impl VelocityColumns {
     }
 }
 
-/// State at one load factor.
+/// Displacements, stresses and contact forces at one load factor.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct SnapshotBody {
     /// Load factor.
@@ -84,11 +84,11 @@ impl SnapshotBody {
 /// Displacements and mean stresses; compression negative.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct BlockColumns {
-    /// Of the centroid, to the right.
+    /// Displacement of the centroid to the right.
     pub displacement_x_m: Vec<f64>,
-    /// Of the centroid, upwards.
+    /// Displacement of the centroid upwards.
     pub displacement_y_m: Vec<f64>,
-    /// Counter-clockwise.
+    /// Rotation, counter-clockwise.
     pub rotation_rad: Vec<f64>,
     /// Horizontal normal stress.
     pub sigma_x_pa: Vec<f64>,

@@ -71,20 +71,20 @@ pub struct SettlementColumns {
 pub struct SupportForces {
     /// The support's name.
     pub support: String,
-    /// To the right.
+    /// Force to the right.
     pub rightwards_n_per_m: Vec<f64>,
-    /// Upwards.
+    /// Force upwards.
     pub upwards_n_per_m: Vec<f64>,
 }
 
 /// Displacement of every body, in the order of `structure.bodies`.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct DisplacementColumns {
-    /// Of the centroid, to the right.
+    /// Displacement of the centroid to the right.
     pub x_m: Vec<f64>,
-    /// Of the centroid, upwards.
+    /// Displacement of the centroid upwards.
     pub y_m: Vec<f64>,
-    /// Counter-clockwise.
+    /// Rotation, counter-clockwise.
     pub rotation_rad: Vec<f64>,
 }
 

@@ -45,9 +45,9 @@ pub struct BodyBody {
 /// Resultant of loads on one body.
 #[derive(Debug, Clone, Copy, Serialize, ToSchema)]
 pub struct LoadOnBody {
-    /// To the right.
+    /// Force to the right.
     pub x_n_per_m: f64,
-    /// Upwards.
+    /// Force upwards.
     pub y_n_per_m: f64,
     /// Moment about the centroid, counter-clockwise, N m per metre.
     pub moment_n: f64,
