@@ -1,6 +1,7 @@
 //! The documents: their tables of fields, the words they explain, and where their links lead.
 
 mod examples;
+mod library;
 mod tables;
 
 pub use examples::examples;

@@ -125,7 +125,7 @@ impl<'a> Tables<'a> {
             _ => field.words,
         }));
         if first.is_none() && !elsewhere {
-            held.name.map(|name| self.told.insert(name, inside.clone()));
+            self.told.extend(held.name.map(|name| (name, inside.clone())));
             self.inside(&inside, held.schema, rows);
         }
     }
@@ -280,10 +280,12 @@ fn own_words(property: &Value) -> String {
 fn both(first: &str, second: &str) -> String {
     let (first, second) = (clean(first), clean(second));
     let stem = |words: &str| words.trim_end_matches('.').to_lowercase();
-    match () {
-        () if first.is_empty() || stem(&second).starts_with(&stem(&first)) => second,
-        () if stem(&first).contains(&stem(&second)) => first,
-        () => format!("{first} {second}"),
+    if first.is_empty() || stem(&second).starts_with(&stem(&first)) {
+        second
+    } else if stem(&first).contains(&stem(&second)) {
+        first
+    } else {
+        format!("{first} {second}")
     }
 }
 
