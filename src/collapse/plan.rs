@@ -118,7 +118,7 @@ fn intensity(report: &CollapseReport, direction: Direction, asked: f64) -> Estim
 }
 
 fn why_load(report: &CollapseReport) -> PlanReason {
-    let slides = report.end.iter().chain(&report.other_end).any(|end| !end.mechanism.slides.is_empty());
+    let slides = report.end.iter().chain(&report.other_end).any(|end| end.mechanism.slips());
     match report.outcome {
         Outcome::FallsAsBuilt => PlanReason::NoEquilibrium,
         Outcome::SlidesAsBuilt => PlanReason::SlidesAsLoaded,
@@ -150,7 +150,7 @@ fn falls_evenly(end: &PathEnd) -> bool {
     let mirror_image = |([u, v, r], [x, y, q]): (&[f64; 3], &[f64; 3])| {
         [u + x, v - y, r + q].iter().all(|apart| apart.abs() <= SAME_VELOCITY * largest)
     };
-    end.mechanism.slides.is_empty() && velocities.iter().zip(velocities.iter().rev()).all(mirror_image)
+    !end.mechanism.slips() && velocities.iter().zip(velocities.iter().rev()).all(mirror_image)
 }
 
 fn why_half(analysis: &Analysis, half: bool) -> PlanReason {
