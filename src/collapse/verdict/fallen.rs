@@ -39,8 +39,8 @@ impl Setup<'_> {
     /// equilibrium there: by small displacements it may stand far away, but rounding blurs what follows.
     pub(super) fn slid_out(&self, before: &CollapseReport, model: &Model, tracer: &Tracer) -> Option<Attempted> {
         let (analysis, displacements) = (self.analysis, tracer.displacements());
-        let stands = any_fixed(analysis) && self.certificate.stands_at(self.start);
-        if !stands || !ending::slid_out(model, &analysis.structure, displacements) {
+        let stands = self.certificate.stands_at(self.start) && !self.certificate.ends_at_zero(self.sign);
+        if !any_fixed(analysis) || !stands || !ending::slid_out(model, &analysis.structure, displacements) {
             return None;
         }
         let mut fall = ending::at_criterion(analysis, model, displacements, self.start, tracer.worst_residual());
