@@ -25,7 +25,7 @@ const AT_LIMIT: f64 = 1e-9;
 /// mechanism has its own programme, in which it is at its limits exactly.
 const NEAR_LIMIT: f64 = 1e-6;
 /// Random weights on the joint forces that lead to corners of the least equilibria, and, the larger ones, to others near.
-const TILTS: [f64; 3] = [1e-3, 1e-2, 1e-1];
+const TILTS: [f64; 3] = [1e-1, 1e-2, 1e-3];
 /// Random motions of every corner. Their joints cost between 1 and 10 to the power of minus twice the second: what costs much
 /// hardly moves, so that the motions differ.
 const MOTIONS: usize = 2;
