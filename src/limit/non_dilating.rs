@@ -90,7 +90,7 @@ impl StaticTheorem {
                 let lies_before = !tilts.is_empty() || sign * (equilibrium.load_factor - end) < 0.0;
                 Ok(lies_before.then_some(equilibrium))
             }
-            ProgrammeOutcome::Infeasible => Ok(None),
+            ProgrammeOutcome::Infeasible(_) => Ok(None),
             ProgrammeOutcome::Unbounded(_) | ProgrammeOutcome::Lost => Err(Unsolved),
         }
     }
@@ -134,8 +134,8 @@ impl StaticTheorem {
             true => programme.maximise_sparsely(&objective, budget),
             false => programme.maximise_densely(&objective, budget),
         };
-        let ProgrammeOutcome::At(_, rates) = found else { return None };
-        let (rates, closing) = rates.split_at(releases.len());
+        let ProgrammeOutcome::At(_, dual) = found else { return None };
+        let (rates, closing) = dual.multipliers.split_at(releases.len());
         let fastest = rates.iter().copied().fold(0.0, f64::max);
         if closing.iter().any(|rate| *rate > MOVES_ROUGHLY * fastest) {
             return None;
