@@ -18,7 +18,7 @@ const ROUGH: [f64; 2] = [1e-6, 1e-2];
 /// The same of a corner of many loops, of which only what is at its limits counts.
 const CORNER: [f64; 2] = [1e-9, 1e-7];
 /// A motion may close gaps at so many times the largest cost, and so not at all where there is any other.
-const CLOSING: f64 = 1e2;
+const CLOSING: f64 = 1e4;
 /// Rates of such a motion below this share of the fastest are none.
 const MOVES_ROUGHLY: f64 = 1e-7;
 
