@@ -1,6 +1,7 @@
 //! The bodies and joints that the numbers of an answer stand for.
 
 use crate::api::translate::Layout;
+use crate::collapse::subblocks_of;
 use crate::structure::{Joint, Side};
 use serde::Serialize;
 use utoipa::ToSchema;
@@ -52,7 +53,7 @@ impl From<Layout> for StructureBody {
         let corners = structure.bodies.iter().map(|body| body.corners.iter().map(|&corner| corner.into()).collect());
         let bodies =
             bodies.iter().cloned().zip(corners).map(|(name, corners_m)| BodyBody { name, corners_m }).collect();
-        let whole = structure.bodies.iter().enumerate().filter(|(_, body)| !body.is_quadrilateral());
+        let whole = structure.bodies.iter().enumerate().filter(|(_, body)| subblocks_of(body, [2, 2]).is_none());
         StructureBody { bodies, joints, supports, whole: whole.map(|(k, _)| k).collect() }
     }
 }
