@@ -174,6 +174,8 @@ impl Grid {
 
     /// The stone as a macroblock.
     pub(super) fn macroblock(&self, elasticity: Elasticity, bond: Bond) -> Macroblock {
+        let four_sided = self.patches.len() < 2 && self.patches.iter().all(Patch::has_straight_sides);
+        let bond = if four_sided || bond != Bond::Split { bond } else { Bond::Consistent };
         let blocks = self.cells().map(|(i, j)| Block::new(self.region(i, j), elasticity)).collect();
         Macroblock::new(blocks, self.seams(), bond)
     }

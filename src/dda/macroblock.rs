@@ -29,6 +29,10 @@ const COGS: f64 = 0.1;
 pub enum Bond {
     /// A stiff pair of springs (normal and tangential) on the mean jump, a weak one on what is linear in it.
     Split,
+    /// The same, and besides the springs a seam carries the mean traction of both subblocks (Nitsche 1971). Springs alone give as
+    /// they carry, by a ten-thousandth of a subblock, which fits together where seams are normal to each other only: a uniform
+    /// stress is then exact however they lie.
+    Consistent,
     /// A pair of springs of this stiffness, N/m2, at both ends, as the paper's text reads. Locks in bending.
     Corners(f64),
 }
@@ -79,7 +83,8 @@ impl From<Block> for Macroblock {
 impl Macroblock {
     /// A macroblock of these subblocks, bonded at these seams.
     pub fn new(blocks: Vec<Block>, seams: Vec<Seam>, bond: Bond) -> Self {
-        let corners = if bond == Bond::Split { inner_corners(blocks.len(), &seams) } else { Vec::new() };
+        let pairs = matches!(bond, Bond::Corners(_));
+        let corners = if pairs { Vec::new() } else { inner_corners(blocks.len(), &seams) };
         Macroblock { blocks, seams, corners, bond }
     }
 
@@ -138,8 +143,26 @@ impl Macroblock {
                     }
                 }
             }
+            if self.bond == Bond::Consistent {
+                self.tractions(seam, &mut add);
+            }
         }
         self.cogs(add);
+    }
+
+    /// Adds the work of the mean traction of both subblocks in the mean jump of a straight seam, and of its like.
+    fn tractions(&self, seam: &Seam, add: &mut impl FnMut(usize, usize, &M6)) {
+        let normal = seam.normals[1];
+        for direction in [normal, perpendicular(normal)] {
+            let row = |i: usize| self.blocks[i].displacement_row(seam.points[1], direction);
+            let [first, second] = seam.blocks.map(row);
+            let jump = [-first, second];
+            let traction = seam.blocks.map(|i| self.blocks[i].traction_row(normal, direction) * (0.5 * seam.length()));
+            for (a, b) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                let work = traction[a] * jump[b].transpose() + jump[a] * traction[b].transpose();
+                add(seam.blocks[a], seam.blocks[b], &work);
+            }
+        }
     }
 
     /// Adds what keeps the subblocks around inner corners from turning like cogs: on the alternating sum of their rotations.
@@ -176,7 +199,7 @@ impl Macroblock {
             Bond::Corners(stiffness) => {
                 [(0, 0), (0, 1), (2, 0), (2, 1)].map(|(end, along)| (stiffness, jump(end, along)))
             }
-            Bond::Split => {
+            Bond::Split | Bond::Consistent => {
                 let [first, second] = seam.blocks.map(|i| &self.blocks[i]);
                 let distance = (second.centroid() - first.centroid()).dot(&seam.normals[1]);
                 let layer = first.youngs_modulus() * seam.length() / distance;
@@ -246,7 +269,7 @@ mod tests {
     #[test]
     fn only_the_three_rigid_motions_cost_no_energy() {
         for cells in [[1, 1], [2, 2], [3, 4], [1, 5], [4, 1]] {
-            for bond in [Bond::Split, Bond::Corners(1e10)] {
+            for bond in [Bond::Split, Bond::Consistent, Bond::Corners(1e10)] {
                 let body = voussoir(cells, bond);
                 let n = 6 * body.blocks().len();
                 let mut stiffness = DMatrix::<f64>::zeros(n, n);
