@@ -374,3 +374,6 @@ fn shares(share: f64, count: usize) -> Shares {
     // Casting saturates: what lies outside belongs to the cell at the rim.
     [((place.floor() as usize).min(count - 1), 1.0), (0, 0.0)]
 }
+
+#[cfg(test)]
+mod tests;
