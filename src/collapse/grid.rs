@@ -177,7 +177,11 @@ impl Grid {
         let four_sided = self.patches.len() < 2 && self.patches.iter().all(Patch::has_straight_sides);
         let bond = if four_sided || bond != Bond::Split { bond } else { Bond::Consistent };
         let blocks = self.cells().map(|(i, j)| Block::new(self.region(i, j), elasticity)).collect();
-        Macroblock::new(blocks, self.seams(), bond)
+        let (parts, last) = (self.patches.len(), self.radial - 1);
+        let stone = Macroblock::new(blocks, self.seams(), bond);
+        // Around the centroid.
+        let ring = || (1..=parts).map(|part| self.number(last, part * self.radial - 1)).collect();
+        if bond == Bond::Consistent && parts > 4 && parts.is_multiple_of(2) { stone.with_corner(ring()) } else { stone }
     }
 
     fn seams(&self) -> Vec<Seam> {

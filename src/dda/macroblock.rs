@@ -68,8 +68,9 @@ impl Seam {
 pub struct Macroblock {
     blocks: Vec<Block>,
     seams: Vec<Seam>,
-    /// The four subblocks around every inner corner, in a ring; none where pairs of springs at the corners hold them.
-    corners: Vec<[usize; 4]>,
+    /// The subblocks around every inner corner, in a ring, where they are an even number; none where pairs of springs at the corners
+    /// hold them.
+    corners: Vec<Vec<usize>>,
     bond: Bond,
 }
 
@@ -86,6 +87,12 @@ impl Macroblock {
         let pairs = matches!(bond, Bond::Corners(_));
         let corners = if pairs { Vec::new() } else { inner_corners(blocks.len(), &seams) };
         Macroblock { blocks, seams, corners, bond }
+    }
+
+    /// The same with this ring of an even number of subblocks around an inner corner, other than four, which are found.
+    pub fn with_corner(mut self, ring: Vec<usize>) -> Self {
+        self.corners.push(ring);
+        self
     }
 
     /// The subblocks.
@@ -168,11 +175,11 @@ impl Macroblock {
     /// Adds what keeps the subblocks around inner corners from turning like cogs: on the alternating sum of their rotations.
     fn cogs(&self, mut add: impl FnMut(usize, usize, &M6)) {
         for corner in &self.corners {
-            let area = corner.iter().map(|&i| self.blocks[i].area()).sum::<f64>() / 4.0;
+            let count = corner.len();
+            let area = corner.iter().map(|&i| self.blocks[i].area()).sum::<f64>() / count as f64;
             let stiffness = COGS * self.blocks[corner[0]].youngs_modulus() * area;
-            let per_unknown = [1.0, -1.0, 1.0, -1.0];
-            let share = |k: usize| per_unknown[k] / self.blocks[corner[k]].size();
-            for (k, l) in (0..4).flat_map(|k| (0..4).map(move |l| (k, l))) {
+            let share = |k: usize| if k % 2 == 0 { 1.0 } else { -1.0 } / self.blocks[corner[k]].size();
+            for (k, l) in (0..count).flat_map(|k| (0..count).map(move |l| (k, l))) {
                 let mut block = M6::zeros();
                 block[(2, 2)] = stiffness * share(k) * share(l);
                 add(corner[k], corner[l], &block);
@@ -213,7 +220,7 @@ impl Macroblock {
 }
 
 /// Rings of four subblocks, each sharing a seam with the next.
-fn inner_corners(blocks: usize, seams: &[Seam]) -> Vec<[usize; 4]> {
+fn inner_corners(blocks: usize, seams: &[Seam]) -> Vec<Vec<usize>> {
     let mut beside = vec![Vec::new(); blocks];
     for [a, b] in seams.iter().map(|seam| seam.blocks) {
         beside[a].push(b);
@@ -225,7 +232,7 @@ fn inner_corners(blocks: usize, seams: &[Seam]) -> Vec<[usize; 4]> {
         for (n, &b) in after.iter().enumerate() {
             for &c in &after[n + 1..] {
                 let across = beside[b].iter().find(|d| **d != a && beside[c].contains(d));
-                corners.extend(across.map(|&d| [a, b, d, c]));
+                corners.extend(across.map(|&d| vec![a, b, d, c]));
             }
         }
     }
