@@ -12,6 +12,8 @@ use voussoir::structure::{PointForce, Side};
 
 /// What rounding leaves of a uniform stress.
 const EXACT: f64 = 1e-9;
+/// Contact stiffnesses are scattered by 1e-4, which moves what statics leaves open.
+const SCATTERED: f64 = 1e-4;
 const MESHES: [[usize; 2]; 3] = [[2, 2], [3, 4], [5, 4]];
 
 fn block(name: &str, corners: &[[f64; 2]]) -> Value {
@@ -115,7 +117,7 @@ fn a_uniform_pressure_passes_through_staggered_courses() {
     for subblocks in MESHES {
         let (report, pressure) = under_a_cap(&on(&blocks(&polygons, &json!({})), subblocks));
         let (field, off) = (&report.stress_fields[0], miss(&report.stress_fields[0], pressure));
-        assert!(field.subblocks.len() == 11 * subblocks[0] * subblocks[1] && off < EXACT, "{off:e}, {subblocks:?}");
+        assert!(field.subblocks.len() == 11 * subblocks[0] * subblocks[1] && off < SCATTERED, "{off:e}, {subblocks:?}");
     }
 }
 

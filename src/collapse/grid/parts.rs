@@ -16,7 +16,7 @@ const SHARP: f64 = 35.0 * std::f64::consts::PI / 180.0;
 /// The same of a round body, which has no sharp corners.
 const TURNS: f64 = std::f64::consts::PI / 180.0;
 /// Subblocks each way with which a division is tried.
-const TRIED: usize = 8;
+const TRIED: usize = 4;
 
 /// The parts of a body; none where it cannot be cut.
 pub(super) fn parts(body: &Body) -> Vec<Patch> {
