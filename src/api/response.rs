@@ -7,6 +7,7 @@ mod columns;
 mod falling;
 mod mechanism;
 mod plan;
+mod proof;
 mod result;
 mod safety;
 mod settlement;
@@ -22,6 +23,7 @@ pub use falling::{
 };
 pub use mechanism::{Collapse, CrushedJointBody, EndBody, HingeBody, LiftOffBody, RangeBody, SlideBody};
 pub use plan::{BeamPlanBody, EstimateBody, MeshBody, PlanBody, SubblockCounts};
+pub use proof::{JointForceColumns, MotionColumns, ProofBody, ProofEndBody};
 pub use result::JobResult;
 pub use safety::{CurvePointBody, ReachBody, SafetyBody, SafetyCurveResult};
 pub use settlement::{DisplacementColumns, SettlementBody, SettlementColumns, SettlementPathBody, SupportForces};
@@ -29,13 +31,12 @@ pub use stress::{
     CrushedSubblock, CrushingBody, ElasticCrushingBody, PlasticCrushingBody, StressFieldBody, SubblockColumns,
     mesh_in_words,
 };
-pub use structure::{BodyBody, JointBody, StructureBody};
+pub use structure::{BodyBody, JointBody, LawWord, LoadOnBody, StructureBody};
 pub use updated::UpdatedBody;
 pub use words::{GovernedBy, MethodWord};
 
 use super::prose::in_its_words;
 use super::request::AnalysisRequest;
-use super::translate;
 use crate::collapse::{CollapseReport, Cost, LimitWindow, Note, Outcome, ThrustRange};
 use serde::Serialize;
 use settlement::Grounds;
@@ -58,10 +59,12 @@ pub struct AnalysisResult {
     pub limit_window: Option<[Option<f64>; 2]>,
     /// The same as load factors.
     pub limit_window_load_factor: Option<[Option<f64>; 2]>,
+    /// What proves it, to be checked with `structure` alone; null where the linear programme gave no answer.
+    pub proof: Option<ProofBody>,
     /// Least and greatest horizontal thrust at the first springing under the fixed loads; null of blocks, which have none.
     pub thrust_range: Option<ThrustRangeBody>,
-    /// Bodies and joints of a bridge or of blocks; null of an arch, whose voussoirs and joints are counted from the left.
-    pub structure: Option<StructureBody>,
+    /// Bodies and joints with their loads and laws.
+    pub structure: StructureBody,
     /// Hinges in the order of their joints.
     pub hinges: Vec<HingeBody>,
     /// Sliding joints in their order.
@@ -162,8 +165,8 @@ impl Scale<'_> {
 }
 
 impl AnalysisResult {
-    /// Puts the report in the request's words.
-    pub fn new(request: &AnalysisRequest, report: &CollapseReport) -> Self {
+    /// Puts the report in the request's words; none where it is no answer to this request.
+    pub fn new(request: &AnalysisRequest, report: &CollapseReport) -> Option<Self> {
         let scale = Scale { per_unit: request.load_factor.intensity_per_unit, unit: &request.load_factor.unit };
         let window = report.limit_window;
         let snapshot = |snapshot| SnapshotBody::new(snapshot, &scale);
@@ -178,17 +181,21 @@ impl AnalysisResult {
         let plan = report.plan.as_ref().map(PlanBody::from);
         let refined = plan.as_ref().filter(|plan| plan.stress.is_some());
         let mesh = refined.map_or_else(|| mesh_in_words(&request.mesh), PlanBody::mesh_in_words);
-        let structure = translate::named(request).map(StructureBody::from);
-        let grounds = structure.as_ref().map(|structure| structure.supports.clone());
-        let grounds = grounds.as_deref().map_or(Grounds::Arch { half: request.half() }, Grounds::Named);
-        let assumptions = assumptions::assumptions(request, structure.as_ref());
-        AnalysisResult {
+        let structure = StructureBody::new(request)?;
+        let grounds = match request.arch {
+            Some(_) => Grounds::Arch { half: request.half() },
+            None => Grounds::Named(&structure.supports),
+        };
+        let settlement = report.settlement().map(|settlement| SettlementBody::new(settlement, &grounds));
+        let assumptions = assumptions::assumptions(request, &structure);
+        Some(AnalysisResult {
             outcome: report.outcome,
             method: (&request.method).into(),
             unit: scale.unit.to_owned(),
             collapse,
             limit_window: window.map(|window| scale.window(window)),
             limit_window_load_factor: window.map(|window| Scale::LOAD_FACTOR.window(window)),
+            proof: report.proof.as_ref().map(ProofBody::new),
             thrust_range: report.thrust_range.filter(|_| request.blocks.is_none()).map(Into::into),
             structure,
             hinges,
@@ -207,7 +214,7 @@ impl AnalysisResult {
             stress_fields: report.stress_fields.iter().map(|field| StressFieldBody::new(field, &scale)).collect(),
             crushing: Some(CrushingBody::new(&report.crushing, &mesh, &scale)),
             updated_geometry: report.updated.as_ref().map(|updated| UpdatedBody::new(updated, report, &scale)),
-            settlement: report.settlement().map(|settlement| SettlementBody::new(settlement, &grounds)),
+            settlement,
             safety: report.safety().map(|factors| SafetyBody::new(factors, &[])),
             motion: report.motion.as_ref().map(|motion| MotionBody::new(motion, &scale)),
             other_motion: report.other_motion.as_ref().map(|motion| MotionBody::new(motion, &scale)),
@@ -219,7 +226,12 @@ impl AnalysisResult {
                 .map(|note| in_its_words(request, &note))
                 .collect(),
             request: request.clone(),
-        }
+        })
+    }
+
+    /// The structure, where its joints and bodies are told by their names: those of an arch are told by their place.
+    pub(in crate::api) fn named(&self) -> Option<&StructureBody> {
+        Some(&self.structure).filter(|_| self.request.arch.is_none())
     }
 
     /// The body of `/results` and the output of `solve --json`: compact JSON and a newline.

@@ -6,7 +6,7 @@ use super::{
     Analysis, AnalysisError, Crushing, Doubt, LimitWindow, LoadRange, Note, PathEnd, PlasticCrushing, Unreached,
 };
 use crate::budget::Budget;
-use crate::limit::{Resultant, StaticTheorem};
+use crate::limit::{Resultant, StaticTheorem, Window};
 use crate::structure::Structure;
 
 /// Share of the load factor at which scaled and fixed loads are equal at which an arch that falls beyond 0 is seen to fall.
@@ -16,6 +16,8 @@ const SOON: f64 = 1e-3;
 #[derive(Debug)]
 pub(super) struct Certificate {
     pub theorem: StaticTheorem,
+    /// Why the window of rigid stones ends where it does, where it was solved.
+    pub proof: Option<Window>,
     /// Lowest and highest load factor in equilibrium; None where there is none.
     pub window: Option<[f64; 2]>,
     /// False where the linear programme gave no answer, and so no certificate.
@@ -31,17 +33,18 @@ impl Certificate {
         budget.ask()?;
         let theorem = StaticTheorem::new(&analysis.structure, &analysis.fixed, &analysis.scaled);
         let theorem = theorem.map_err(|bodies| AnalysisError::Unconnected(bodies[0]))?;
-        let window = theorem.window(budget);
+        let proof = theorem.window(budget).ok();
         budget.check()?;
-        let solved = window.is_ok();
+        let (solved, ends) = (proof.is_some(), proof.as_ref().map(Window::ends));
         let mut certificate = Certificate {
             theorem,
+            proof,
             window: None,
             solved,
             any_fixed: any_fixed(analysis),
             agrees: [tolerances::AGREEMENT, tolerances::ABOVE_WINDOW],
         };
-        certificate.window = window.ok().and_then(|window| certificate.tidy(window));
+        certificate.window = ends.and_then(|ends| certificate.tidy(ends));
         Ok(certificate)
     }
 

@@ -4,8 +4,9 @@
 
 use super::{
     AnalysisError, Answer, BlockState, CollapseReport, ContactPoint, CrushedJoint, FallingMotion, Hinge, HistoryPoint,
-    LiftOff, LoadRange, Mechanism, MotionContact, MotionFrame, OpenHinge, PathEnd, Reach, SafetyFactors, SafetyPoint,
-    SettlementPath, SettlementPoint, Slid, Slide, Snapshot, StressField, Thrust, UpdatedGeometry,
+    LiftOff, LoadRange, Mechanism, MotionContact, MotionFrame, OpenHinge, PathEnd, Reach, Resultant, SafetyFactors,
+    SafetyPoint, SettlementPath, SettlementPoint, Slid, Slide, Snapshot, StressField, Thrust, UpdatedGeometry, Window,
+    WindowEnd,
 };
 use crate::geometry::Vec2;
 
@@ -46,6 +47,7 @@ impl CollapseReport {
         let thrust = self.thrust_range.iter().flat_map(|range| [range.lowest, range.highest]);
         let window = self.limit_window.iter().flat_map(|window| [window.lowest, window.highest]);
         finite("limit analysis", thrust.chain(window).filter(|end| !end.is_infinite()))?;
+        self.proof.as_ref().map_or(Ok(()), Window::check_finite)?;
         let states = self.near_collapse.iter().chain(&self.at_unit_load).chain(&self.at_start);
         { states }.try_for_each(Snapshot::check_finite)?;
         self.stress_fields.iter().try_for_each(StressField::check_finite)?;
@@ -65,6 +67,26 @@ impl CollapseReport {
         let of =
             |HistoryPoint { load_factor, crown, largest }: &HistoryPoint| [*load_factor, crown.x, crown.y, *largest];
         finite("history", self.history.iter().flat_map(of))
+    }
+}
+
+impl Window {
+    fn check_finite(&self) -> Checked {
+        let forces = |of: &[Resultant]| of.iter().flat_map(|r| [r.intrados, r.extrados, r.shear]).collect::<Vec<_>>();
+        let numbers = match self {
+            Window::Falls(motion) => motion.as_flattened().to_vec(),
+            Window::Stands(ends) => { ends.iter() }
+                .flat_map(|end| match end {
+                    WindowEnd::Bounded { load_factor, forces: at, motion } => {
+                        [vec![*load_factor], forces(at), motion.as_flattened().to_vec()].concat()
+                    }
+                    WindowEnd::Unbounded { load_factor, forces: at, ray } => {
+                        [vec![*load_factor], forces(at), forces(ray.as_deref().unwrap_or_default())].concat()
+                    }
+                })
+                .collect(),
+        };
+        finite("proof of the limit window", numbers)
     }
 }
 

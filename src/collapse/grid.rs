@@ -11,7 +11,7 @@ use crate::structure::Body;
 use parts::{is_simple, parts};
 pub(super) use patch::Lines;
 use patch::Patch;
-pub(super) use places::{OnSide, Shares};
+pub(super) use places::OnSide;
 
 /// A point this close to a line of the grid, as a share of a subblock, lies on it.
 pub(super) const ON_LINE: f64 = 1e-9;

@@ -8,6 +8,7 @@ mod strength;
 mod unfollowed;
 mod updated;
 
+pub use crate::limit::{Resultant, Window, WindowEnd};
 pub use crate::structure::Face;
 pub use falling::*;
 pub use note::*;
@@ -279,6 +280,8 @@ pub struct CollapseReport {
     pub outcome: Outcome,
     /// The exact limit window (static theorem, associated friction): the certificate. None where nothing stands.
     pub limit_window: Option<LimitWindow>,
+    /// What proves it, where it was solved.
+    pub proof: Option<Window>,
     /// Thrust range under the fixed loads, where they stand.
     pub thrust_range: Option<ThrustRange>,
     /// The end of the path in the asked direction: collapse, or the mechanism of an arch that falls or slides as built.

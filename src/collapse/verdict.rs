@@ -286,6 +286,7 @@ impl<'a> Setup<'a> {
         CollapseReport {
             outcome: Outcome::CannotTell,
             limit_window: window.map(|[lowest, highest]| LimitWindow { lowest, highest }),
+            proof: self.certificate.proof.clone(),
             thrust_range: self.thrust_range,
             end: None,
             other_end: None,

@@ -105,7 +105,7 @@ impl StaticTheorem {
                     window.forces[end] = equilibrium.forces;
                 }
                 ProgrammeOutcome::Unbounded(_) => window.ends[end] = sign * f64::INFINITY,
-                ProgrammeOutcome::Infeasible => return Ok(None),
+                ProgrammeOutcome::Infeasible(_) => return Ok(None),
                 ProgrammeOutcome::Lost => return Err(Unsolved),
             }
         }
@@ -147,9 +147,9 @@ fn cut_until_inside(
     sections: &[Section],
     budget: &Budget,
 ) -> ProgrammeOutcome {
-    let (mut rows, first) = programme.dense_rows();
+    let mut rows = programme.dense_rows();
     for _ in 0..MOST_ROUNDS {
-        let outcome = programme.solve(objective, &rows, first, budget);
+        let outcome = programme.solve(objective, &rows, budget);
         let (ProgrammeOutcome::At(equilibrium, _) | ProgrammeOutcome::Unbounded(equilibrium)) = &outcome else {
             return outcome;
         };

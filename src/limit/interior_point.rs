@@ -63,15 +63,18 @@ pub struct Sparse {
 /// What comes of it.
 #[derive(Debug, Clone)]
 pub enum Found {
-    /// Unknowns and the multipliers z >= 0 of the rows, and how far they are from a proof of the optimum.
+    /// Unknowns, the multipliers y of the equations and z >= 0 of the rows, with E' y = A' z - c, and how far they are from a
+    /// proof of the optimum.
     Optimum {
         x: Vec<f64>,
+        y: Vec<f64>,
         z: Vec<f64>,
         error: f64,
     },
     /// A direction of unlimited descent.
     Unbounded,
-    Infeasible,
+    /// Multipliers y of the equations with which these and the rows contradict each other.
+    Infeasible(Vec<f64>),
     Lost,
 }
 
@@ -184,7 +187,7 @@ impl Residuals {
 pub fn minimise(programme: &Sparse, pattern: &NewtonPattern, enough: f64, budget: &Budget) -> Found {
     let constants = programme.constants();
     let mut point = Point::start(programme);
-    let (mut best, mut since) = (None::<(f64, Vec<f64>, Vec<f64>)>, 0);
+    let (mut best, mut since) = (None::<(f64, [Vec<f64>; 3])>, 0);
     let mut barely = None;
     for _ in 0..MOST_ITERATIONS {
         if budget.ask().is_err() {
@@ -209,8 +212,8 @@ pub fn minimise(programme: &Sparse, pattern: &NewtonPattern, enough: f64, budget
         }
         since += 1;
         if best.as_ref().is_none_or(|best| error < best.0) {
-            let by_tau = |v: &[f64]| v.iter().map(|x| x / point.tau).collect();
-            best = Some((error, by_tau(&point.x), by_tau(&point.z)));
+            let by_tau = |v: &Vec<f64>| v.iter().map(|x| x / point.tau).collect();
+            best = Some((error, [&point.x, &point.y, &point.z].map(by_tau)));
             since = 0;
         }
         let close = best.as_ref().is_some_and(|best| best.0 < CLOSE * enough);
@@ -222,8 +225,8 @@ pub fn minimise(programme: &Sparse, pattern: &NewtonPattern, enough: f64, budget
         advance(&mut point, &direction, programme.linear());
     }
     match (best, barely) {
-        (Some((error, x, z)), None) => Found::Optimum { x, z, error },
-        (Some((error, x, z)), _) if error < NEAR_OPTIMUM => Found::Optimum { x, z, error },
+        (Some((error, [x, y, z])), None) => Found::Optimum { x, y, z, error },
+        (Some((error, [x, y, z])), _) if error < NEAR_OPTIMUM => Found::Optimum { x, y, z, error },
         (_, barely) => barely.unwrap_or(Found::Lost),
     }
 }
@@ -255,7 +258,7 @@ fn without_optimum(
     let dual = largest(&sum(&residuals.x, &programme.cost, -point.tau));
     let primal =
         largest(&sum(&residuals.y, &programme.right, point.tau)).max(largest(&sum(&residuals.s, constants, point.tau)));
-    let infeasible = (bound > 0.0).then(|| (Found::Infeasible, dual / bound));
+    let infeasible = (bound > 0.0).then(|| (Found::Infeasible(point.y.clone()), dual / bound));
     let unbounded = (descent > 0.0).then(|| (Found::Unbounded, primal / descent));
     infeasible.into_iter().chain(unbounded).min_by(|a, b| a.1.total_cmp(&b.1))
 }

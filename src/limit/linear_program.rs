@@ -33,8 +33,8 @@ pub enum Optimum {
     At(f64, Vec<f64>, Vec<(usize, f64)>),
     /// Larger than any bound; the best point of the box.
     Unbounded(Vec<f64>),
-    /// No point satisfies all inequalities.
-    Infeasible,
+    /// No point satisfies all inequalities: these rows with their multipliers y > 0 add up to a negative constant.
+    Infeasible(Vec<(usize, f64)>),
     /// Rounding kept the method from an answer, or who asked for it no longer wants one.
     Lost,
 }
@@ -72,7 +72,7 @@ pub fn maximise(objective: &[f64], half_spaces: &HalfSpaces, budget: &Budget) ->
         }
         match basis.leaving() {
             Some(leaving) => basis.exchange(leaving, entering),
-            None if basis.fresh => return Optimum::Infeasible,
+            None if basis.fresh => return Optimum::Infeasible(basis.contradiction(entering)),
             None => {
                 if !basis.refresh() {
                     return Optimum::Lost;
@@ -278,6 +278,17 @@ impl<'p> Basis<'p> {
         }
         self.fresh = true;
         true
+    }
+
+    /// The entering row, which the rows in the basis cannot satisfy, and those: it is a combination of them in which no weight is
+    /// positive.
+    fn contradiction(&self, entering: Facet) -> Vec<(usize, f64)> {
+        let weighed = self.constraints.iter().zip(&self.weights).map(|(constraint, weight)| (*constraint, -weight));
+        let rows = weighed.chain([(entering, 1.0)]).filter_map(|(constraint, y)| match constraint {
+            Facet::Row(row) if y > 0.0 => Some((row, y)),
+            _ => None,
+        });
+        rows.collect()
     }
 
     fn optimum(self) -> Optimum {

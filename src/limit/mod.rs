@@ -11,10 +11,12 @@ mod non_dilating;
 mod programme;
 mod sparse;
 mod static_theorem;
+mod window;
 
 pub use crushing::CrushingWindow;
 pub use non_dilating::{Release, releases};
 pub use static_theorem::{Condition, Equilibrium, Resultant, StaticTheorem, Unsolved};
+pub use window::{Window, WindowEnd};
 
 #[cfg(test)]
 mod scenes;

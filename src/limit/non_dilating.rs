@@ -97,7 +97,7 @@ impl StaticTheorem {
         let forces = tilts.iter().copied().enumerate().collect();
         match programme.maximise(&Objective { load_factor: -sign, forces }, budget) {
             ProgrammeOutcome::At(equilibrium, _) => Ok(Some(equilibrium)),
-            ProgrammeOutcome::Infeasible => Ok(None),
+            ProgrammeOutcome::Infeasible(_) => Ok(None),
             ProgrammeOutcome::Unbounded(_) | ProgrammeOutcome::Lost => Err(Unsolved),
         }
     }
@@ -137,10 +137,10 @@ impl StaticTheorem {
         budget: &Budget,
     ) -> Option<Vec<f64>> {
         let programme = self.motion_programme(releases, costs);
-        let ProgrammeOutcome::At(_, rates) = programme.maximise(&Objective::load_factor(sign), budget) else {
+        let ProgrammeOutcome::At(_, dual) = programme.maximise(&Objective::load_factor(sign), budget) else {
             return None;
         };
-        let (rates, closing) = rates.split_at(releases.len());
+        let (rates, closing) = dual.multipliers.split_at(releases.len());
         let fastest = rates.iter().copied().fold(0.0, f64::max);
         if closing.iter().any(|rate| *rate > MOVES_ROUGHLY * fastest) {
             return None;

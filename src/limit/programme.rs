@@ -39,14 +39,31 @@ impl Objective {
 /// What comes of a programme.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum ProgrammeOutcome {
-    /// The best equilibrium, and the multipliers y >= 0 of the programme's own limits (in proportion to each other).
-    At(Equilibrium, Vec<f64>),
+    /// The best equilibrium, and why there is no better one.
+    At(Equilibrium, Dual),
     /// Better than any bound; a very good equilibrium.
     Unbounded(Equilibrium),
-    /// Nothing is in equilibrium.
-    Infeasible,
+    /// Nothing is in equilibrium, and why.
+    Infeasible(Dual),
     /// Rounding kept the method from an answer, or who asked for it no longer wants one.
     Lost,
+}
+
+/// A solution of the dual programme: a motion that no limit hinders.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Dual {
+    /// Multipliers y >= 0 of all limits, in proportion to each other: those of the joints' laws, where they hold, then the
+    /// programme's own.
+    pub multipliers: Vec<f64>,
+    /// The motion of every body that goes with them, where the method has found it besides.
+    pub motion: Option<Vec<[f64; 3]>>,
+}
+
+impl Dual {
+    /// Of one of so many limits alone.
+    pub(super) fn of_one(limit: usize, limits: usize) -> Self {
+        Dual { multipliers: (0..limits).map(|k| f64::from(k == limit)).collect(), motion: None }
+    }
 }
 
 /// All equilibria that violate neither the laws of the joints nor some more limits.
@@ -102,29 +119,25 @@ impl<'t> Programme<'t> {
     /// The exact method in loop space.
     pub(super) fn maximise_densely(&self, objective: &Objective, budget: &Budget) -> ProgrammeOutcome {
         match &self.theorem.rows {
-            Some(rows) if self.is_plain() => self.solve(objective, rows, rows.half_spaces.len(), budget),
-            _ => {
-                let (rows, first) = self.dense_rows();
-                self.solve(objective, &rows, first, budget)
-            }
+            Some(rows) if self.is_plain() => self.solve(objective, rows, budget),
+            _ => self.solve(objective, &self.dense_rows(), budget),
         }
     }
 
-    /// All limits over the unknowns, and where those of the programme's own begin.
-    pub(super) fn dense_rows(&self) -> (Rows, usize) {
+    /// All limits over the unknowns.
+    pub(super) fn dense_rows(&self) -> Rows {
         let theorem = self.theorem;
         let mut rows = match &theorem.rows {
             _ if !self.complete => Rows::new(theorem.unknowns()),
             Some(rows) => rows.clone(),
             None => Rows::of_laws(theorem),
         };
-        let first = rows.half_spaces.len();
         self.limits.iter().for_each(|limit| rows.push(theorem, limit, self.complete));
         rows.bound(self.bounds.map(|bound| bound / theorem.factor));
         if self.slack != 0.0 {
             rows.half_spaces.relax(self.slack);
         }
-        (rows, first)
+        rows
     }
 
     /// Whether nothing is asked besides the laws of the joints.
@@ -135,11 +148,11 @@ impl<'t> Programme<'t> {
             && self.slack == 0.0
     }
 
-    /// Rows from `first` on are those of the programme's own limits.
-    pub(super) fn solve(&self, objective: &Objective, rows: &Rows, first: usize, budget: &Budget) -> ProgrammeOutcome {
+    /// Over these rows, which are those of all limits.
+    pub(super) fn solve(&self, objective: &Objective, rows: &Rows, budget: &Budget) -> ProgrammeOutcome {
         let (theorem, n) = (self.theorem, self.theorem.unknowns());
-        if rows.contradicted(self.slack) {
-            return ProgrammeOutcome::Infeasible;
+        if let Some(limit) = rows.contradicted(self.slack) {
+            return ProgrammeOutcome::Infeasible(Dual::of_one(limit, rows.given));
         }
         let mut row = vec![0.0; n + 1];
         objective.forces.iter().for_each(|&(joint, weights)| theorem.add_row(joint, weights, &mut row));
@@ -147,16 +160,10 @@ impl<'t> Programme<'t> {
         row[n - 1] += objective.load_factor;
         match linear_program::maximise(&row[..n], &rows.half_spaces, budget) {
             Optimum::At(_, point, held) => {
-                let mut multipliers = vec![0.0; self.limits.len()];
-                for (row, multiplier) in held {
-                    if let Some((limit, scale)) = rows.limits.get(row.wrapping_sub(first)) {
-                        multipliers[*limit] = multiplier * scale;
-                    }
-                }
-                ProgrammeOutcome::At(theorem.equilibrium(&point), multipliers)
+                ProgrammeOutcome::At(theorem.equilibrium(&point, self.complete), rows.dual(&held))
             }
-            Optimum::Unbounded(point) => ProgrammeOutcome::Unbounded(theorem.equilibrium(&point)),
-            Optimum::Infeasible => ProgrammeOutcome::Infeasible,
+            Optimum::Unbounded(point) => ProgrammeOutcome::Unbounded(theorem.equilibrium(&point, self.complete)),
+            Optimum::Infeasible(held) => ProgrammeOutcome::Infeasible(rows.dual(&held)),
             Optimum::Lost => ProgrammeOutcome::Lost,
         }
     }
@@ -166,24 +173,23 @@ impl<'t> Programme<'t> {
 #[derive(Debug, Clone)]
 pub(super) struct Rows {
     half_spaces: HalfSpaces,
-    /// Of every row of a programme's own limits: which of them it is, and by what it was scaled to unit length.
+    /// Of every row of a limit: which of them it is, and by what it was scaled to unit length.
     limits: Vec<(usize, f64)>,
-    /// How many such limits there were.
+    /// How many limits there were.
     given: usize,
-    /// Smallest constant of a limit that the unknowns do not reach, in units of the loads.
-    unreached: f64,
+    /// Smallest constant of a limit that the unknowns do not reach, in units of the loads, and which limit that is.
+    unreached: (f64, usize),
 }
 
 impl Rows {
     fn new(unknowns: usize) -> Self {
-        Rows { half_spaces: HalfSpaces::new(unknowns), limits: Vec::new(), given: 0, unreached: f64::INFINITY }
+        Rows { half_spaces: HalfSpaces::new(unknowns), limits: Vec::new(), given: 0, unreached: (f64::INFINITY, 0) }
     }
 
     /// Those that the laws of the joints set.
     pub(super) fn of_laws(theorem: &StaticTheorem) -> Self {
         let mut rows = Rows::new(theorem.unknowns());
         theorem.limits.iter().for_each(|limit| rows.push(theorem, limit, true));
-        (rows.limits, rows.given) = (Vec::new(), 0);
         rows
     }
 
@@ -197,8 +203,8 @@ impl Rows {
         if norm > NO_ROW {
             self.half_spaces.push(&row[..n], constant);
             self.limits.push((self.given, 1.0 / norm));
-        } else {
-            self.unreached = self.unreached.min(constant);
+        } else if constant < self.unreached.0 {
+            self.unreached = (constant, self.given);
         }
         self.given += 1;
     }
@@ -215,8 +221,21 @@ impl Rows {
         }
     }
 
-    /// True where a limit that the unknowns do not reach is violated.
-    fn contradicted(&self, slack: f64) -> bool {
-        self.unreached + slack < -UNREACHED_LIMIT
+    /// A limit that the unknowns do not reach and that is violated.
+    fn contradicted(&self, slack: f64) -> Option<usize> {
+        let (constant, limit) = self.unreached;
+        (constant + slack < -UNREACHED_LIMIT).then_some(limit)
+    }
+
+    /// Multipliers of the limits from those of the rows.
+    fn dual(&self, held: &[(usize, f64)]) -> Dual {
+        let mut multipliers = vec![0.0; self.given];
+        for &(row, multiplier) in held {
+            // Rows behind those of the limits bound the load factor.
+            if let Some((limit, scale)) = self.limits.get(row) {
+                multipliers[*limit] = multiplier * scale;
+            }
+        }
+        Dual { multipliers, motion: None }
     }
 }

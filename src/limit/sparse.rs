@@ -2,7 +2,7 @@
 
 use super::crushing::Section;
 use super::interior_point::{Found, NewtonPattern, Row, Sparse, Square, minimise};
-use super::programme::{Objective, Programme, ProgrammeOutcome};
+use super::programme::{Dual, Objective, Programme, ProgrammeOutcome};
 use super::static_theorem::{Equilibrium, Limit, Resultant, StaticTheorem};
 use crate::budget::Budget;
 use crate::geometry::{Vec2, cross};
@@ -29,51 +29,50 @@ impl Programme<'_> {
         // Without loads that grow the load factor is any.
         let grows = theorem.loads[1].iter().flatten().any(|load| *load != 0.0);
         let pinned = if !grows { Some(0.0) } else { Some(self.bounds[0]).filter(|at| *at == self.bounds[1]) };
-        let mut limits: Vec<Vec<(Limit, Option<usize>)>> = vec![Vec::new(); theorem.joints.len()];
-        let own = self.limits.iter().enumerate().map(|(k, limit)| (*limit, Some(k)));
-        let laws = theorem.limits.iter().map(|limit| (*limit, None)).filter(|_| self.complete);
-        for (limit, place) in laws.chain(own) {
-            let limit =
-                Limit { weights: limit.weights.map(|w| w * unit), constant: limit.constant + self.slack, ..limit };
-            limits[limit.joint].push((limit, place));
+        let mut limits: Vec<Vec<(Limit, usize)>> = vec![Vec::new(); theorem.joints.len()];
+        let laws: &[Limit] = if self.complete { &theorem.limits } else { &[] };
+        for (place, limit) in laws.iter().chain(&self.limits).enumerate() {
+            let weights = limit.weights.map(|w| w * unit);
+            limits[limit.joint].push((Limit { weights, constant: limit.constant + self.slack, ..*limit }, place));
         }
+        let given = laws.len() + self.limits.len();
         let forces: Vec<Forces> = limits.iter().map(|limits| held(limits)).collect();
-        let Some((mut rows, places)) = self.rows(&limits, &forces, pinned) else { return ProgrammeOutcome::Infeasible };
+        let (mut rows, places) = match self.rows(&limits, &forces, pinned) {
+            Ok(rows) => rows,
+            Err(limit) => return ProgrammeOutcome::Infeasible(Dual::of_one(limit, given)),
+        };
         rows.extend(self.sections.iter().flat_map(|section| cones(section, &forces[section.joint], unit)));
         let programme = self.assemble(objective, &forces, rows, pinned, unit);
         let own = if theorem.pattern.is_none() { theorem.find_pattern() } else { None };
         let Some(pattern) = theorem.pattern.as_ref().or(own.as_ref()) else { return ProgrammeOutcome::Lost };
         match minimise(&programme, pattern, self.errors[0], budget) {
-            Found::Optimum { x, z, error } if error < self.errors[1] => {
-                let mut multipliers = vec![0.0; self.limits.len()];
-                for ((place, scale), z) in places.iter().zip(&z) {
-                    place.iter().for_each(|&limit| multipliers[limit] = z * scale);
-                }
+            Found::Optimum { x, y, z, error } if error < self.errors[1] => {
+                let mut multipliers = vec![0.0; given];
+                places.iter().zip(z).for_each(|((place, scale), z)| multipliers[*place] = z * scale);
+                let dual = Dual { multipliers, motion: Some(theorem.motion_of(&y)) };
                 let equilibrium = self.equilibrium(&x, &forces, pinned, unit);
                 let bounded = grows || objective.load_factor == 0.0;
-                if bounded {
-                    ProgrammeOutcome::At(equilibrium, multipliers)
-                } else {
-                    ProgrammeOutcome::Unbounded(equilibrium)
-                }
+                if bounded { ProgrammeOutcome::At(equilibrium, dual) } else { ProgrammeOutcome::Unbounded(equilibrium) }
             }
             Found::Unbounded => {
                 ProgrammeOutcome::Unbounded(self.equilibrium(&vec![0.0; programme.cost.len()], &forces, pinned, unit))
             }
-            Found::Infeasible => ProgrammeOutcome::Infeasible,
+            Found::Infeasible(y) => {
+                ProgrammeOutcome::Infeasible(Dual { multipliers: Vec::new(), motion: Some(theorem.motion_of(&y)) })
+            }
             Found::Optimum { .. } | Found::Lost => ProgrammeOutcome::Lost,
         }
     }
 
-    /// Rows of unit length over every joint's basis and for the bounds, with the limit of this programme that each comes from and
-    /// its scale. None where a limit that no force reaches is violated.
+    /// Rows of unit length over every joint's basis and for the bounds, and of the first the limits that they come from with their
+    /// scales. A limit that no force reaches and that is violated instead.
     #[allow(clippy::type_complexity)]
     fn rows(
         &self,
-        limits: &[Vec<(Limit, Option<usize>)>],
+        limits: &[Vec<(Limit, usize)>],
         forces: &[Forces],
         pinned: Option<f64>,
-    ) -> Option<(Vec<Row>, Vec<(Option<usize>, f64)>)> {
+    ) -> Result<(Vec<Row>, Vec<(usize, f64)>), usize> {
         let (mut rows, mut places) = (Vec::new(), Vec::new());
         for (block, (limits, forces)) in limits.iter().zip(forces).enumerate() {
             for (limit, place) in limits {
@@ -85,7 +84,7 @@ impl Programme<'_> {
                     rows.push(Row { block, a: a.map(|x| x / norm), constant: constant / norm });
                     places.push((*place, 1.0 / norm));
                 } else if constant < -NO_SPARSE_ROW * size.max(1.0) {
-                    return None;
+                    return Err(*place);
                 }
             }
         }
@@ -93,10 +92,9 @@ impl Programme<'_> {
             if bound.is_finite() && pinned.is_none() {
                 let constant = -sign * bound / self.theorem.factor;
                 rows.push(Row { block: forces.len(), a: [sign, 0.0, 0.0], constant });
-                places.push((None, 1.0));
             }
         }
-        Some((rows, places))
+        Ok((rows, places))
     }
 
     fn assemble(
@@ -109,7 +107,7 @@ impl Programme<'_> {
     ) -> Sparse {
         let theorem = self.theorem;
         let bodies = theorem.loads[0].len();
-        let frames = frames(theorem, bodies);
+        let frames = theorem.body_frames();
         let mut right = vec![0.0; 3 * bodies];
         let mut growth = right.clone();
         for (body, &(reference, length)) in frames.iter().enumerate() {
@@ -180,6 +178,29 @@ impl StaticTheorem {
         let bodies = |joint: &Joint| joint.between.iter().filter_map(|side| side.body()).collect();
         NewtonPattern::new(self.loads[0].len(), &self.joints.iter().map(bodies).collect::<Vec<_>>())
     }
+
+    /// Reference point and length of every body: the middle of its joints and their reach.
+    fn body_frames(&self) -> Vec<(Vec2, f64)> {
+        let mut ends: Vec<Vec<Vec2>> = vec![Vec::new(); self.loads[0].len()];
+        for joint in &self.joints {
+            let both = joint.between.iter().filter_map(|side| side.body());
+            both.for_each(|body| ends[body].extend([joint.intrados, joint.extrados]));
+        }
+        let frame = |ends: &Vec<Vec2>| {
+            let middle = ends.iter().sum::<Vec2>() / ends.len() as f64;
+            (middle, ends.iter().map(|end| (end - middle).norm()).fold(0.0, f64::max))
+        };
+        ends.iter().map(frame).collect()
+    }
+
+    /// Motion of every body, as [`StaticTheorem::motion`] has it, from the multipliers of its equations.
+    fn motion_of(&self, y: &[f64]) -> Vec<[f64; 3]> {
+        let motion = |((reference, length), y): ((Vec2, f64), &[f64])| {
+            let (spin, arm) = (y[2] / length, self.frame.origin - reference);
+            [y[0] - spin * arm.y, y[1] + spin * arm.x, spin]
+        };
+        self.body_frames().into_iter().zip(y.chunks_exact(3)).map(motion).collect()
+    }
 }
 
 /// Rows of the two cones of a section: F w >= N^2 w / (2 f t) for the force F at either corner, with w of the order of what is
@@ -210,26 +231,12 @@ fn unit(theorem: &StaticTheorem) -> f64 {
     if largest > 0.0 { theorem.force.min(LOADED * largest) } else { theorem.force }
 }
 
-/// Reference point and length of every body: the middle of its joints and their reach.
-fn frames(theorem: &StaticTheorem, bodies: usize) -> Vec<(Vec2, f64)> {
-    let mut ends: Vec<Vec<Vec2>> = vec![Vec::new(); bodies];
-    for joint in &theorem.joints {
-        let both = joint.between.iter().filter_map(|side| side.body());
-        both.for_each(|body| ends[body].extend([joint.intrados, joint.extrados]));
-    }
-    let frame = |ends: &Vec<Vec2>| {
-        let middle = ends.iter().sum::<Vec2>() / ends.len() as f64;
-        (middle, ends.iter().map(|end| (end - middle).norm()).fold(0.0, f64::max))
-    };
-    ends.iter().map(frame).collect()
-}
-
 /// Forces that pairs of opposite limits leave: each pair is an equation.
-fn held(limits: &[(Limit, Option<usize>)]) -> Forces {
+fn held(limits: &[(Limit, usize)]) -> Forces {
     let mut equations: Vec<([f64; 3], f64)> = Vec::new();
     for (i, (a, _)) in limits.iter().enumerate() {
         let size = dot(a.weights, a.weights).sqrt();
-        let opposite = |(b, _): &&(Limit, Option<usize>)| {
+        let opposite = |(b, _): &&(Limit, usize)| {
             let scale = size / dot(b.weights, b.weights).sqrt();
             let sum: f64 = (0..3).map(|c| (a.weights[c] + scale * b.weights[c]).abs()).sum();
             sum < OPPOSITE * size && (a.constant + scale * b.constant).abs() < OPPOSITE * size

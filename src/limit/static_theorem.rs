@@ -14,7 +14,7 @@ const MOST_SWEEPS: usize = 10_000;
 pub(super) const FEW_UNKNOWNS: usize = 60;
 
 /// Forces that one joint carries.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Resultant {
     /// Normal force at the intrados end, compression positive, N/m.
     pub intrados: f64,
@@ -33,6 +33,11 @@ impl Resultant {
     /// The larger of normal force and shear, N/m.
     pub fn size(&self) -> f64 {
         self.normal().abs().max(self.shear.abs())
+    }
+
+    /// So many times these forces.
+    pub(super) fn times(&self, by: f64) -> Self {
+        Resultant { intrados: by * self.intrados, extrados: by * self.extrados, shear: by * self.shear }
     }
 
     /// The weighted sum of the three.
@@ -69,6 +74,8 @@ pub struct StaticTheorem {
     pub(super) carried: [Vec<[f64; 3]>; 2],
     /// The same loads on every body: F_x, F_y and M about the middle of all joints.
     pub(super) loads: [Vec<[f64; 3]>; 2],
+    /// Centroids of the bodies, m.
+    pub(super) centroids: Vec<Vec2>,
     pub(super) limits: Vec<Limit>,
     /// The limits over the unknowns, where these are few.
     pub(super) rows: Option<Rows>,
@@ -137,14 +144,27 @@ impl StaticTheorem {
         let force = [total_fixed, total_scaled, 1.0].into_iter().find(|&f| f > 0.0).unwrap_or(1.0);
         let factor = if total_scaled > 0.0 { force / total_scaled } else { 1.0 };
         let loads = [fixed, scaled].map(|loads| resultants(structure.bodies.len(), loads, frame.origin));
+        let centroids = structure.bodies.iter().map(|body| body.region.centroid).collect();
         let functionals: Vec<_> = joints.iter().map(|joint| joint_functionals(joint, frame.origin)).collect();
         let carried = [0, 1].map(|which: usize| {
             let carried = loops.carried(&loads[which]);
             functionals.iter().zip(carried).map(|(of, wrench)| of.map(|row| dot(row, wrench))).collect()
         });
         let (limits, rows, pattern) = (Vec::new(), None, None);
-        let mut theorem =
-            StaticTheorem { joints, loops, frames, frame, carried, loads, limits, rows, pattern, force, factor };
+        let mut theorem = StaticTheorem {
+            joints,
+            loops,
+            frames,
+            frame,
+            carried,
+            loads,
+            centroids,
+            limits,
+            rows,
+            pattern,
+            force,
+            factor,
+        };
         theorem.limits = (0..theorem.joints.len()).flat_map(|k| theorem.limits_of(k)).collect();
         if theorem.has_few_unknowns() {
             theorem.rows = Some(Rows::of_laws(&theorem));
@@ -220,20 +240,6 @@ impl StaticTheorem {
         row[last + 1] += dot(weights, self.carried[0][joint]);
     }
 
-    /// Lowest and highest load factor in equilibrium, infinite where unbounded; None when there is none at all.
-    ///
-    /// # Errors
-    /// When rounding, or `budget`, kept the linear programme from an answer.
-    pub fn window(&self, budget: &Budget) -> Result<Option<[f64; 2]>, Unsolved> {
-        let end = |sign: f64| match Programme::new(self).maximise(&Objective::load_factor(sign), budget) {
-            ProgrammeOutcome::At(equilibrium, _) => Ok(Some(equilibrium.load_factor)),
-            ProgrammeOutcome::Unbounded(_) => Ok(Some(sign * f64::INFINITY)),
-            ProgrammeOutcome::Infeasible => Ok(None),
-            ProgrammeOutcome::Lost => Err(Unsolved),
-        };
-        Ok(end(-1.0)?.zip(end(1.0)?).map(|(low, high)| [low, high]))
-    }
-
     /// True where an equilibrium at load factor `at` violates no condition by more than `slack`, a share of the loads.
     pub fn nearly_stands(&self, at: f64, slack: f64, budget: &Budget) -> bool {
         let mut programme = Programme::new(self);
@@ -276,7 +282,7 @@ impl StaticTheorem {
         let end = |sign: f64| match programme.maximise(&thrust(sign), budget) {
             ProgrammeOutcome::At(equilibrium, _) => Some(sign * thrust(sign).value(&equilibrium)),
             ProgrammeOutcome::Unbounded(_) => Some(sign * f64::INFINITY),
-            ProgrammeOutcome::Infeasible | ProgrammeOutcome::Lost => None,
+            ProgrammeOutcome::Infeasible(_) | ProgrammeOutcome::Lost => None,
         };
         Some([end(-1.0)?, end(1.0)?])
     }
@@ -304,16 +310,16 @@ impl StaticTheorem {
             return None;
         }
         let x = svd.solve(&b, 0.0).ok()?;
-        Some(self.equilibrium(x.as_slice()))
+        Some(self.equilibrium(x.as_slice(), true))
     }
 
-    /// The equilibrium of these unknowns.
-    pub(super) fn equilibrium(&self, unknowns: &[f64]) -> Equilibrium {
+    /// The equilibrium of these unknowns, `complete` under the fixed loads too.
+    pub(super) fn equilibrium(&self, unknowns: &[f64], complete: bool) -> Equilibrium {
         let n = unknowns.len() - 1;
         let force = |k: usize| {
             let [fixed, scaled] = [&self.carried[0][k], &self.carried[1][k]];
             let factor = unknowns[n] * self.factor;
-            let mut forces: [f64; 3] = std::array::from_fn(|c| fixed[c] + factor * scaled[c]);
+            let mut forces: [f64; 3] = std::array::from_fn(|c| f64::from(complete) * fixed[c] + factor * scaled[c]);
             for &(number, sign) in self.loops.through(k) {
                 let Units { origin, length } = self.frames[number];
                 let x = &unknowns[3 * number..3 * number + 3];

@@ -55,6 +55,7 @@ fn report() -> CollapseReport {
     let plastic = PlasticCrushing { window: Some(window), joints: [vec![], vec![2, 5]] };
     CollapseReport {
         outcome: Outcome::Crushes,
+        proof: None,
         limit_window: Some(window),
         thrust_range: None,
         end: None,

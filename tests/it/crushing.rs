@@ -48,7 +48,7 @@ fn compare(seed: u64) -> Result<Found, String> {
     let analysis = door::analysis(&random_arch::request(seed))?;
     let theorem = theorem(&analysis);
     let strength = mean_stress(&analysis) * Dice::new(seed).decades(1.0, 300.0);
-    let plain = theorem.window(&Budget::unlimited()).map_err(|_| "plain window unsolved")?;
+    let plain = theorem.window(&Budget::unlimited()).map_err(|_| "plain window unsolved")?.ends();
     let hard = theorem
         .crushing_window(&vec![HARD; theorem.joints()], &Budget::unlimited())
         .map_err(|_| "hard window unsolved")?;
@@ -199,7 +199,7 @@ fn hold(title: &str, rows: &[[f64; 3]], request: impl Fn(f64) -> Value) {
     for &[abscissa, rigid, plastic] in rows {
         let analysis = door::analysis(&request(abscissa)).unwrap();
         let theorem = theorem(&analysis);
-        let plain = theorem.window(&Budget::unlimited()).unwrap();
+        let plain = theorem.window(&Budget::unlimited()).unwrap().ends();
         let crushing = theorem
             .crushing_window(&vec![STRENGTH; theorem.joints()], &Budget::unlimited())
             .unwrap()

@@ -47,7 +47,7 @@ fn solve(name: &str) -> (Vec<u8>, Cost) {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(name).join("request.json");
     let (request, analysis) = read_analysis(&std::fs::read(file).unwrap()).unwrap();
     let report = run(&analysis, &Budget::unlimited()).unwrap();
-    (AnalysisResult::new(&request, &report).to_bytes().unwrap(), report.cost)
+    (AnalysisResult::new(&request, &report).unwrap().to_bytes().unwrap(), report.cost)
 }
 
 #[test]

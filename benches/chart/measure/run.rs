@@ -140,7 +140,7 @@ fn on_collapse(scene: &CollapseScene, model: &Model) -> Result<(Found, Timed), S
             let Analysis { structure, fixed, scaled, .. } = analysis(&scene.request, &Value::Null)?;
             let (window, time) =
                 timed(|| Some(StaticTheorem::new(&structure, &fixed, &scaled).ok()?.window(&Budget::unlimited())));
-            let highest = window.and_then(Result::ok).flatten().map(|[_, highest]| highest);
+            let highest = window.and_then(Result::ok).and_then(|window| window.ends()).map(|[_, highest]| highest);
             (highest.map(|highest| (highest, false)).ok_or_else(|| "no window".to_owned()), time)
         }
         Way::Analysis(fields) => {

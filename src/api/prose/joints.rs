@@ -86,7 +86,7 @@ pub fn lift_offs(lift_offs: &[LiftOffBody], structure: Option<&StructureBody>) -
 /// What the joints on the ground carry where the path ends; of an arch its first and its last joint. With their name.
 pub fn outer(result: &AnalysisResult) -> (&'static str, Option<Table>) {
     let other = || result.other_end.as_ref().map(|end| &end.thrust_line);
-    let name = if result.structure.is_some() { "Joints on the ground" } else { "Outer joints" };
+    let name = if result.named().is_some() { "Joints on the ground" } else { "Outer joints" };
     let Some(thrust) = result.thrust_line.as_ref().or_else(other) else { return (name, None) };
     let most = thrust.normal_n_per_m.iter().fold(0.0, |most: f64, normal| most.max(normal.abs()));
     // Round-off of a balance of large forces is no force.
@@ -97,7 +97,7 @@ pub fn outer(result: &AnalysisResult) -> (&'static str, Option<Table>) {
     };
     let Some(last) = thrust.joint.len().checked_sub(1) else { return (name, None) };
     let header = ["joint", "normal, kN", "shear, kN", "off the joint's middle, m"];
-    let Some(structure) = &result.structure else {
+    let Some(structure) = result.named() else {
         let crown = |k: usize| if result.request.half() && k == last { " (crown)" } else { "" };
         let rows = [0, last].map(|k| row(k, format!("{}{}", thrust.joint[k], crown(k))));
         return (name, table(header, rows.into()));

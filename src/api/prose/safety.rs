@@ -129,7 +129,7 @@ fn first_yield(result: &AnalysisResult, elastic: &ElasticCrushingBody) -> String
 }
 
 fn place(result: &AnalysisResult, subblock: &CrushedSubblock) -> String {
-    if let Some(body) = result.structure.as_ref().and_then(|structure| structure.bodies.get(subblock.voussoir)) {
+    if let Some(body) = result.named().and_then(|structure| structure.bodies.get(subblock.voussoir)) {
         return body.name.clone();
     }
     format!("voussoir {}, subblock {}, {} (radial, along)", subblock.voussoir, subblock.radial, subblock.along)

@@ -15,7 +15,7 @@ pub fn summary(result: &AnalysisResult, wall_time: Duration) -> String {
     let name = result.request.name.as_ref().map(|name| format!("{name}\n\n")).unwrap_or_default();
     let headline = wording::wrapped(&wording::headline(result));
     let mut text = format!("{name}{headline}\n\n{}\n", facts(result, wall_time).trim_fmt());
-    let structure = result.structure.as_ref();
+    let structure = result.named();
     if result.outcome == Outcome::StandsInWindow {
         for (name, limit) in ["Lower", "Upper"].into_iter().zip(wording::limits(result)) {
             window_end(&mut text, name, limit, result);
@@ -132,7 +132,7 @@ fn window_end(text: &mut String, name: &str, limit: Option<LimitEnd<'_>>, result
     let Some(limit) = limit else {
         return paragraph(text, &format!("{name} end: none was found."));
     };
-    let (collapse, structure) = (limit.collapse, result.structure.as_ref());
+    let (collapse, structure) = (limit.collapse, result.named());
     let at = wording::intensity(result, collapse);
     let range = sliding::fact(collapse, wording::unit(result)).map(|range| format!(" ({range})")).unwrap_or_default();
     append(

@@ -12,12 +12,12 @@ const FILL_IS_SHAKEN: &str = "Fill has mass: in the acceleration the column of f
 const BODIES_NAMED: usize = 6;
 
 /// Notes on what is assumed of the loads, and of the bodies of a bridge or of blocks.
-pub(super) fn assumptions(request: &AnalysisRequest, structure: Option<&StructureBody>) -> Vec<String> {
+pub(super) fn assumptions(request: &AnalysisRequest, structure: &StructureBody) -> Vec<String> {
     let any = |fits: fn(&LoadRequest) -> bool| request.loads.iter().any(|LoadEntry { load, .. }| fits(load));
     let fill = any(|load| matches!(load, LoadRequest::FillPressure(_)));
     let shaken = fill && any(|load| matches!(load, LoadRequest::BodyAcceleration(_)));
     let shaken = shaken.then(|| FILL_IS_SHAKEN.to_owned());
-    shaken.into_iter().chain(structure.and_then(|structure| uncut(request, structure))).collect()
+    shaken.into_iter().chain(uncut(request, structure)).collect()
 }
 
 /// Which bodies a mesh leaves whole.

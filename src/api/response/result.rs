@@ -25,7 +25,7 @@ impl JobResult {
         answer.check_finite().ok()?;
         match (request, answer) {
             (Request::Structure(request), Answer::One(report)) => {
-                Some(JobResult::Analysis(Box::new(AnalysisResult::new(request, report))))
+                AnalysisResult::new(request, report).map(|result| JobResult::Analysis(Box::new(result)))
             }
             (Request::Structure(request), Answer::Curve(points)) => {
                 SafetyCurveResult::new(request, points).map(|result| JobResult::SafetyCurve(Box::new(result)))

@@ -4,7 +4,6 @@ use super::StructureBody;
 use super::assumptions::assumptions;
 use crate::api::prose::in_its_words;
 use crate::api::request::{AimRequest, AnalysisRequest, SafetyRequest};
-use crate::api::translate;
 use crate::collapse::{CrushingKind, Governs, Mode, Note, Reach, SafetyFactors, SafetyPoint, SafetyZone};
 use serde::Serialize;
 use utoipa::ToSchema;
@@ -103,7 +102,7 @@ impl SafetyCurveResult {
     /// Puts the points in the request's words; none for a request that asks for no curve.
     pub fn new(request: &AnalysisRequest, points: &[SafetyPoint]) -> Option<Self> {
         let AimRequest::Safety(SafetyRequest { crushing, curve: Some(curve) }) = &request.analysis else { return None };
-        let assumptions = assumptions(request, translate::named(request).map(StructureBody::from).as_ref());
+        let assumptions = assumptions(request, &StructureBody::new(request)?);
         let body = |(point, &abscissa): (&SafetyPoint, &f64)| {
             let mut safety = SafetyBody::new(&point.factors, &point.notes);
             safety.notes.extend(assumptions.iter().cloned());

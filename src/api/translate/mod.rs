@@ -20,11 +20,11 @@ mod structure;
 
 use super::fault::{Fault, Faults};
 use super::request::{AimRequest, AnalysisRequest, MAX_TEXT, Request};
-use crate::collapse::Question;
+use crate::collapse::{Analysis, Question};
 use site::Unloaded;
 use stone::friction_angle;
 
-pub use structure::{Layout, NO_STRUCTURE, named};
+pub use structure::{Layout, NO_STRUCTURE};
 
 /// Largest length and coordinate, m.
 pub const MAX_LENGTH_M: f64 = 1e5;
@@ -51,6 +51,14 @@ pub fn translate(request: &Request) -> Result<Question, Vec<Fault>> {
         Some(question) if faults.is_empty() => Ok(question),
         _ => Err(faults.into_vec()),
     }
+}
+
+/// What is analysed, of a curve under the loads as they are at abscissa 1, and the whole structure with its names.
+pub fn analysed(request: &AnalysisRequest) -> Option<(Analysis, Layout)> {
+    let faults = &mut Faults::default();
+    let site = Unloaded::new(request, faults);
+    let analysis = site.analysis(&request.loads, faults)?;
+    Some((analysis, site.layout()?.clone()))
 }
 
 fn structure_question(request: &AnalysisRequest, faults: &mut Faults) -> Option<Question> {

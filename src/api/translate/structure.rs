@@ -3,7 +3,7 @@
 use super::stone::Stones;
 use super::{arch, blocks, bridge};
 use crate::api::fault::Faults;
-use crate::api::request::{AnalysisRequest, BlocksRequest, BridgeRequest};
+use crate::api::request::AnalysisRequest;
 use crate::structure::Structure;
 
 /// The fault of a request without a structure.
@@ -57,14 +57,6 @@ pub fn layout(request: &AnalysisRequest, stones: &Stones<'_>, faults: &mut Fault
         }
         _ => None,
     }
-}
-
-/// The structure of a bridge or of blocks, with its names; none of an arch.
-pub fn named(request: &AnalysisRequest) -> Option<Layout> {
-    let faults = &mut Faults::default();
-    let stones = Stones::new(request, faults);
-    let (bridge, blocks): (&Option<BridgeRequest>, &Option<BlocksRequest>) = (&request.bridge, &request.blocks);
-    (bridge.is_some() || blocks.is_some()).then(|| layout(request, &stones, faults)).flatten()
 }
 
 /// What an arch does not take.

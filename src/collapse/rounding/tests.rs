@@ -6,6 +6,7 @@ use crate::geometry::Vec2;
 fn blank() -> CollapseReport {
     CollapseReport {
         outcome: Outcome::CannotTell,
+        proof: None,
         limit_window: Some(LimitWindow { lowest: -1.0, highest: f64::INFINITY }),
         thrust_range: None,
         end: None,

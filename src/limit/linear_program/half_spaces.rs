@@ -25,11 +25,6 @@ impl HalfSpaces {
         self.unknowns
     }
 
-    /// Number of half spaces.
-    pub fn len(&self) -> usize {
-        self.rows
-    }
-
     /// Adds `row . x + constant >= 0`, scaled to unit length.
     pub fn push(&mut self, row: &[f64], constant: f64) {
         let norm = norm(row);

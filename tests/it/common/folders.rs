@@ -10,8 +10,11 @@ pub fn folders(below: &Path) -> Vec<PathBuf> {
     if inside.iter().any(|path| path.ends_with("request.json")) {
         return vec![below.to_path_buf()];
     }
-    // Beside cases there may be a text about them, a picture, and the chart.
-    inside.retain(|path| path.extension().is_none_or(|kind| kind != "md" && kind != "svg") && !path.ends_with("chart"));
+    // Beside cases there may be a text about them, a picture, the check of answers, and the chart.
+    inside.retain(|path| {
+        path.extension().is_none_or(|kind| !["md", "svg", "py"].iter().any(|other| kind == *other))
+            && !path.ends_with("chart")
+    });
     inside.iter().for_each(|path| assert!(path.is_dir(), "{} belongs to no case", path.display()));
     inside.iter().flat_map(|folder| folders(folder)).collect()
 }
