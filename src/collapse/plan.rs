@@ -12,7 +12,7 @@ mod refine;
 mod unfold;
 
 pub(super) use beam::solve as beam;
-pub use mesh::LOAD_PIECES;
+pub use mesh::{LOAD_PIECES, can_be_refined};
 
 use super::{
     Accuracy, Analysis, AnalysisError, CollapseReport, Direction, Estimate, Outcome, PathEnd, Plan, PlanReason,
@@ -134,7 +134,9 @@ fn half_of(analysis: &Analysis, rigid: &CollapseReport) -> Option<Analysis> {
     let (structure, axis) = (&analysis.structure, analysis.structure.axis());
     let symmetric = |forces: &[_]| is_symmetric(forces, structure.voussoirs().len(), axis);
     let ends = rigid.end.iter().chain(&rigid.other_end);
-    let whole = !structure.is_half() && structure.asymmetry().is_none();
+    // Of other structures joints and bodies are not numbered from left to right.
+    let arch = structure.spans.len() == 1 && structure.spans[0].joints.len() == structure.ring().len();
+    let whole = arch && !structure.is_half() && structure.asymmetry().is_none();
     if !(whole && symmetric(&analysis.fixed) && symmetric(&analysis.scaled) && { ends }.all(falls_evenly)) {
         return None;
     }
