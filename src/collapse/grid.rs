@@ -207,14 +207,12 @@ impl Grid {
 
     /// The field of these stresses, one per subblock, in voussoir number `voussoir`.
     pub(super) fn field(&self, voussoir: usize, stresses: &[[f64; 3]]) -> Vec<SubblockStress> {
-        let subblock = |(((i, j), corners), &stress): (((usize, usize), &Vec<Vec2>), &[f64; 3])| SubblockStress {
-            voussoir,
-            place: [i, j],
-            centre: self.region(i, j).centroid,
-            corners: corners.clone(),
-            stress,
-        };
-        self.cells().zip(&self.outlines).zip(stresses).map(subblock).collect()
+        let mut field = Vec::with_capacity(stresses.len());
+        for (((i, j), corners), &stress) in self.cells().zip(&self.outlines).zip(stresses) {
+            let (centre, corners) = (self.region(i, j).centroid, corners.clone());
+            field.push(SubblockStress { voussoir, place: [i, j], centre, corners, stress });
+        }
+        field
     }
 
     /// Ends and middle of a side along the arch, with its normals there, away from the intrados.

@@ -202,7 +202,7 @@ impl<'a> Setup<'a> {
             stand(model, &fixed, self.start, self.weight, &mut |t| progress(t, self.start * t.parameter()));
         report.cost.add(&tracer, Cost::default());
         let slid = self.slid_out(&report, model, &tracer);
-        let attempted = self.from_start(report, model, (tracer, end), &fixed, &mut progress)?;
+        let attempted = self.go_on(report, model, (tracer, end), &fixed, &mut progress)?;
         Ok(match slid {
             Some(slid) if attempted.contradicts() => attempted.or_better(slid),
             _ => attempted,
@@ -210,7 +210,7 @@ impl<'a> Setup<'a> {
     }
 
     /// From where the loads at the start have come on, or where they no longer could.
-    fn from_start(
+    fn go_on(
         &self,
         mut report: CollapseReport,
         model: &Model,
