@@ -195,7 +195,7 @@ impl Truth {
 
 /// True where some joint slides.
 pub fn slides(end: &PathEnd) -> bool {
-    !end.mechanism.slides.is_empty()
+    end.mechanism.slips()
 }
 
 /// Largest break of equilibrium, of no tension or of Coulomb's law in the thrust line of an end, as a share of the loads.

@@ -25,7 +25,7 @@ pub fn judge_settlement(analysis: &Analysis, report: &CollapseReport, truth: &Tr
     let stands = !truth.falls();
     let Some(settled) = report.settlement() else {
         // Where joints slide, standing depends on how the arch was built.
-        let slides = report.end.as_ref().is_some_and(|end| !end.mechanism.slides.is_empty());
+        let slides = report.end.as_ref().is_some_and(|end| end.mechanism.slips());
         let fits = match report.outcome {
             Outcome::FallsAsBuilt => !stands,
             Outcome::SlidesAsBuilt => slides,

@@ -21,7 +21,7 @@ pub(super) fn history(history: &HistoryColumns) -> csv::Result<Vec<u8>> {
 pub(super) fn field(field: &StressFieldBody) -> csv::Result<Vec<u8>> {
     let all = &field.subblocks;
     let mut names = ["voussoir", "radial", "along", "centre_x_m", "centre_y_m"].map(str::to_owned).to_vec();
-    // Of bodies that are not cut there may be more than four; what a subblock has not is left empty.
+    // There may be more than four; what a subblock has not is left empty.
     let most = all.corners_x_m.iter().map(Vec::len).fold(4, usize::max);
     names.extend((0..most).flat_map(|corner| ["x", "y"].map(|axis| format!("corner_{corner}_{axis}_m"))));
     names.extend(["sigma_x_pa", "sigma_y_pa", "tau_xy_pa", "sigma_1_pa", "sigma_2_pa", "tresca_pa"].map(str::to_owned));

@@ -155,7 +155,7 @@ impl Certificate {
             Err(Doubt::Above { path, limit })
         } else if short <= self.agrees[0] {
             Ok(false)
-        } else if end.mechanism.slides.is_empty() {
+        } else if !end.mechanism.slips() {
             Err(Doubt::Short { path, limit })
         } else if short > tolerances::STRAY && !self.slides_at_its_limits(end) {
             Err(Doubt::Stray { path, limit })

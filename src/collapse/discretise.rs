@@ -195,7 +195,7 @@ fn pushes(force: &PointForce, grids: &[Grid]) -> Vec<Push> {
         return regions.iter().enumerate().map(push).collect();
     }
     let push = |(subblock, share)| Push { body, subblock, at: force.at, force: force.force * share };
-    grid.at(force.at).map(push).collect()
+    grid.at(force.at).into_iter().map(push).collect()
 }
 
 fn extent(points: impl Iterator<Item = Vec2>) -> f64 {

@@ -97,7 +97,7 @@ pub(super) fn at_fall(analysis: &Analysis, model: &Model, tracer: &Tracer, start
     let none = vec![None; structure.ring().len()];
     let (carried, budget) = (resultants(model, |p| forces[p]), model.budget);
     let smallest = mechanism::from_statics(structure, &carried, &none, &driving, tolerances::CORNER_ON_PATH, budget);
-    let mechanism = smallest.filter(|m| along_path.slides.is_empty() && m.slides.is_empty()).unwrap_or(along_path);
+    let mechanism = smallest.filter(|m| !along_path.slips() && !m.slips()).unwrap_or(along_path);
     let (residual, crushed) = (tracer.worst_residual(), crushed::crushed(model, structure, |p| forces[p][0]));
     PathEnd { load_factor, range: None, residual, mechanism, thrust_line: Vec::new(), crushed }
 }
@@ -113,6 +113,19 @@ pub(super) fn at_criterion(
     let mechanism = from_direction(model, &analysis.structure, displacements);
     let thrust_line = thrust_line(&analysis.structure, &carried(model, displacements));
     PathEnd { load_factor, range: None, residual, mechanism, thrust_line, crushed: Vec::new() }
+}
+
+/// Whether a stone has slid, under pressure, by more than the joint is long: it lies beside its neighbour no more, although small
+/// displacements never take it away from there.
+pub(super) fn slid_out(model: &Model, structure: &Structure, displacements: &[f64]) -> bool {
+    let slides = |(joint, p): (usize, usize)| {
+        let (contact, [gap, slip]) = (&model.assembly.contacts()[p], model.assembly.gap(p, displacements));
+        let force = contact.force(gap, slip);
+        let elastic = force.tangential.abs() / contact.stiffness[1];
+        force.normal > 0.0 && slip.abs() - elastic > structure.joints[joint].length()
+    };
+    let dry = (0..model.joints).filter(|&joint| structure.joints[joint].law.coulomb().is_some());
+    dry.flat_map(|joint| model.contacts(joint).map(move |p| (joint, p))).any(slides)
 }
 
 /// How an arch goes on in the direction of its path: joints that are open at one end turn about the other, be it further

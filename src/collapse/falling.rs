@@ -1,13 +1,17 @@
 //! Motion after collapse: from a structure, its loads and its report to rigid bodies on the move, and back to frames.
 
+mod grounds;
+
 use super::{
     Analysis, AnalysisError, CollapseReport, FallingMotion, MotionAsked, MotionContact, MotionEnd, MotionFrame, Note,
     OpenHinge, Outcome, Slid,
 };
 use crate::budget::Budget;
 use crate::dda::falling::{Advance, Carried, Configuration, Falling, Interface, Member, Opening, RigidBody};
-use crate::geometry::{Vec2, perpendicular};
+use crate::geometry::Vec2;
 use crate::structure::{Face, Joint, JointLaw, Side, Structure, joined};
+use grounds::{around, grounds};
+use std::collections::BTreeSet;
 
 /// The scaled loads are so much larger in the motion than at collapse, lest a perfectly balanced arch stay where it is.
 const OVERLOAD: f64 = 0.01;
@@ -17,10 +21,10 @@ const SMALLEST_FACTOR: f64 = 0.01;
 const TOUCHING: f64 = 1e-3;
 /// A structure that has moved by less than this share of its thickness has not begun to fall.
 const BEGUN: f64 = 0.02;
-/// Joints on one line to this share of the extent share the ground between them.
-const COLLINEAR: f64 = 1e-6;
-/// The ground at a level and the wall at the crown of half an arch go on for so many extents.
-const GROUND_EXTENTS: f64 = 10.0;
+/// Cosine of the angle by which a force between two bodies is off the normal of their joint, from which on it is none of the joint's.
+const ACROSS: f64 = 0.999;
+/// Forces below this share of the largest are none.
+const PRESSES: f64 = 1e-6;
 
 /// Friction beyond its bound by more than this share of the loads is told.
 const BEYOND: f64 = 1e-6;
@@ -46,6 +50,10 @@ pub(super) fn follow(analysis: &Analysis, report: &mut CollapseReport, budget: &
     }
     if let Some(loadings) = of_end(false, report) {
         report.other_motion = Some(first_to_begin(analysis, asked, &loadings, report, budget)?);
+    }
+    for (motion, sign) in [(&report.motion, sign), (&report.other_motion, -sign)] {
+        let beyond = motion.as_ref().and_then(|motion| rests_beyond(&analysis.structure, report, motion, sign));
+        report.notes.extend(beyond);
     }
     let lost = |motion: &Option<FallingMotion>| motion.as_ref().is_some_and(|motion| motion.end == MotionEnd::Lost);
     if lost(&report.motion) || lost(&report.other_motion) {
@@ -75,6 +83,21 @@ fn loadings(analysis: &Analysis, report: &CollapseReport, at: f64, sign: f64) ->
     let limit = report.limit_window.map(|window| if sign > 0.0 { window.highest } else { window.lowest });
     let further = limit.filter(|limit| limit.is_finite() && sign * (beyond(*limit) - beyond(at)) > 0.0);
     std::iter::once(at).chain(further).map(|from| (beyond(from), beyond(from) - at)).collect()
+}
+
+/// Where a motion does not begin although limit analysis, which knows the joints only, finds no equilibrium at its loads.
+fn rests_beyond(structure: &Structure, report: &CollapseReport, motion: &FallingMotion, sign: f64) -> Option<Note> {
+    let (window, last) = (report.limit_window?, motion.frames.last()?);
+    let (limit, load_factor) = (if sign > 0.0 { window.highest } else { window.lowest }, motion.load_factor);
+    let rests = motion.end == MotionEnd::AtRest && last.displacement < BEGUN * motion.thickness;
+    let largest = last.contacts.iter().map(|contact| contact.normal).fold(0.0, f64::max);
+    let of_joint = |contact: &MotionContact| {
+        contact.joint.is_some_and(|k| structure.joints[k].normal().dot(&contact.direction).abs() > ACROSS)
+    };
+    let beside = last.contacts.iter().filter(|contact| contact.normal > PRESSES * largest && !of_joint(contact));
+    let bodies: BTreeSet<usize> = beside.flat_map(|contact| contact.bodies).flatten().collect();
+    let bodies = bodies.into_iter().collect();
+    (rests && sign * (load_factor - limit) > 0.0).then_some(Note::MotionRestsBeyond { load_factor, limit, bodies })
 }
 
 /// The first motion that begins; the last one if none does.
@@ -121,7 +144,10 @@ fn run(
         budget.check()?;
         match advance {
             Ok(Advance::Moved(next)) => configuration = *next,
-            Ok(Advance::Rest) => break MotionEnd::AtRest,
+            Ok(Advance::Rest(rest)) => {
+                frames.push(moving.read(&rest));
+                break MotionEnd::AtRest;
+            }
             Err(_) => break MotionEnd::Lost,
         }
         frames.push(moving.read(&configuration));
@@ -243,14 +269,6 @@ fn interface(structure: &Structure, joint: &Joint) -> Interface {
     Interface { between: joint.between.map(number), ends, friction, cohesion: cohesion * joint.length() }
 }
 
-/// Lowest and highest coordinates of all stones, and the longer side of the box between them.
-fn around(structure: &Structure) -> ([Vec2; 2], f64) {
-    let corners = || structure.bodies.iter().flat_map(|body| &body.corners);
-    let low = corners().fold(Vec2::repeat(f64::INFINITY), |low, corner| low.inf(corner));
-    let high = corners().fold(low, |high, corner| high.sup(corner));
-    ([low, high], (high - low).amax())
-}
-
 /// The longest between the middles of springing joints; of half an arch, twice the half; of blocks their extent.
 fn span(structure: &Structure) -> f64 {
     let ends = |range: &std::ops::Range<usize>| {
@@ -274,55 +292,4 @@ fn groups(structure: &Structure) -> Vec<usize> {
     let bonded = structure.joints.iter().filter(|joint| joint.law == JointLaw::Bonded);
     let pairs = bonded.filter_map(|joint| Some([joint.between[0].body()?, joint.between[1].body()?]));
     joined(structure.bodies.len(), pairs)
-}
-
-/// Ground below a straight line.
-struct Ground {
-    number: usize,
-    /// Unit normal out of it, and how far out the line is, m.
-    normal: Vec2,
-    level: f64,
-    /// From where to where it goes along the line, to the right as one looks along the normal, m.
-    reach: [f64; 2],
-    friction: f64,
-}
-
-impl Ground {
-    /// As deep as it is wide.
-    fn body(&self) -> RigidBody {
-        let [from, to] = self.reach;
-        let at = |along: f64, depth: f64| self.normal * (self.level - depth) - perpendicular(self.normal) * along;
-        let corners = vec![at(from, to - from), at(to, to - from), at(to, 0.0), at(from, 0.0)];
-        RigidBody::fixed(corners, self.number, self.friction)
-    }
-}
-
-/// The ground of every support: below its joints, from the first to the last of those on one line. The wall at the crown of half
-/// an arch goes on above and below. And the ground at a level, if one is stated.
-fn grounds(structure: &Structure, level: Option<f64>) -> Vec<RigidBody> {
-    let ([low, high], extent) = around(structure);
-    let (far, first) = (GROUND_EXTENTS * extent, structure.bodies.len());
-    let mut grounds: Vec<Ground> = Vec::new();
-    for joint in &structure.joints {
-        let (support, normal) = match joint.between {
-            [Side::Support(support), _] => (support, joint.normal()),
-            [_, Side::Support(support)] => (support, -joint.normal()),
-            _ => continue,
-        };
-        let (number, level) = (first + support, normal.dot(&joint.intrados));
-        let ends = [joint.intrados, joint.extrados].map(|end| -perpendicular(normal).dot(&end));
-        let (beyond, friction) = if joint.is_symmetry() { (far, 0.0) } else { (0.0, f64::INFINITY) };
-        let reach = [ends[0].min(ends[1]) - beyond, ends[0].max(ends[1]) + beyond];
-        let on_line = |other: &&mut Ground| {
-            let off = (other.level - level).abs() + (other.normal - normal).norm() * extent;
-            other.number == number && off < COLLINEAR * extent
-        };
-        match grounds.iter_mut().find(on_line) {
-            Some(other) => other.reach = [other.reach[0].min(reach[0]), other.reach[1].max(reach[1])],
-            None => grounds.push(Ground { number, normal, level, reach, friction }),
-        }
-    }
-    let (number, reach) = (first + structure.supports, [low.x - far, high.x + far]);
-    let flat = |level| Ground { number, normal: Vec2::y(), level, reach, friction: f64::INFINITY };
-    grounds.iter().chain(level.map(flat).iter()).map(Ground::body).collect()
 }

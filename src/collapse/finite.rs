@@ -116,7 +116,8 @@ impl Mechanism {
         };
         finite("hinges", hinges.iter().flat_map(turning))?;
         finite("sliding joints", slides.iter().flat_map(|Slide { joint: _, at, rate }| [at.x, at.y, *rate]))?;
-        let parting = |LiftOff { joint: _, at, intrados, extrados }: &LiftOff| [at.x, at.y, *intrados, *extrados];
+        let parting =
+            |LiftOff { joint: _, at, intrados, extrados, along }: &LiftOff| [at.x, at.y, *intrados, *extrados, *along];
         finite("joints that part", lift_offs.iter().flat_map(parting))?;
         finite("mechanism", velocities.iter().flatten().copied())
     }

@@ -76,7 +76,10 @@ pub(super) fn released(mechanism: &Mechanism) -> Vec<Released> {
     let hinges = mechanism.hinges.iter().map(|hinge| (hinge.joint, Release::Rotation(hinge.face)));
     let slides = mechanism.slides.iter().map(|slide| (slide.joint, Release::Sliding(slide.rate.signum())));
     let both = |joint| [Face::Intrados, Face::Extrados].map(|face| (joint, Release::Rotation(face)));
-    let lift_offs = mechanism.lift_offs.iter().flat_map(|lift_off| both(lift_off.joint));
+    let lift_offs = mechanism.lift_offs.iter().flat_map(|lift_off| {
+        let along = (lift_off.along != 0.0).then(|| (lift_off.joint, Release::Sliding(lift_off.along.signum())));
+        both(lift_off.joint).into_iter().chain(along)
+    });
     hinges.chain(slides).chain(lift_offs).collect()
 }
 
@@ -192,7 +195,7 @@ fn read_off(
 }
 
 /// A mechanism from the motions of stones and joints: `openings` about the extrados and about the intrados, rad; `slid`, m.
-/// Joints that open about both, or are `apart`, lift off; along the joint they may slide as they do.
+/// Joints that open about both, or are `apart`, lift off, whatever they do along the joint.
 fn assemble(
     structure: &Structure,
     motions: &[Motion],
@@ -201,10 +204,12 @@ fn assemble(
     apart: &[bool],
 ) -> Mechanism {
     let lifts = |k: usize| apart[k] || (openings[k][0] > 0.0 && openings[k][1] > 0.0);
-    let lifted = lift_offs(structure, openings, lifts);
+    let lifted = lift_offs(structure, openings, slid, lifts);
+    let sliding =
+        || slid.iter().enumerate().filter(|&(k, &s)| s != 0.0 && !structure.joints[k].is_symmetry() && !lifts(k));
     let turning = || openings.iter().enumerate().filter(|&(k, o)| !lifts(k) && o[0] != o[1]);
     let hinge_rate = turning().flat_map(|(_, o)| *o).fold(0.0, f64::max);
-    let slide_rate = slid.iter().map(|s| s.abs()).fold(0.0, f64::max);
+    let slide_rate = sliding().map(|(_, s)| s.abs()).fold(0.0, f64::max);
     let lift_rate = lifted.iter().map(|l| l.intrados.abs().max(l.extrados.abs())).fold(0.0, f64::max);
     // A direction in which no joint moves keeps its own scale.
     let scale = 1.0 / [hinge_rate, slide_rate, lift_rate].into_iter().find(|&rate| rate > 0.0).unwrap_or(1.0);
@@ -215,9 +220,8 @@ fn assemble(
         let at = structure.joints[joint].end(face);
         Hinge { joint, face, at, angle_from_springing, angle_from_crown, rotation: (o[0] - o[1]).abs() * scale }
     });
-    let sliding = slid.iter().enumerate().filter(|&(k, &s)| s != 0.0 && !structure.joints[k].is_symmetry());
     let slide = |(joint, &s)| Slide { joint, at: structure.joints[joint].middle(), rate: s * scale };
-    let slides: Vec<Slide> = sliding.map(slide).collect();
+    let slides: Vec<Slide> = sliding().map(slide).collect();
     let motions: Vec<Motion> = motions.iter().map(|&m| Motion::STILL.plus(m, scale)).collect();
     let velocities = structure.voussoirs().iter().zip(&motions).map(|(v, m)| {
         let velocity = m.at(v.region.centroid);
@@ -230,17 +234,25 @@ fn assemble(
         false if structure.spans.is_empty() => Mode::Overturning,
         false => crown_mode(structure, &motions),
     };
-    let by = |l: LiftOff| LiftOff { intrados: l.intrados * scale, extrados: l.extrados * scale, ..l };
+    let by = |l: LiftOff| {
+        let [intrados, extrados, along] = [l.intrados, l.extrados, l.along].map(|rate| rate * scale);
+        LiftOff { intrados, extrados, along, ..l }
+    };
     let lift_offs = lifted.into_iter().map(by).collect();
     Mechanism { mode, hinges: hinges.collect(), slides, lift_offs, velocities: velocities.collect() }
 }
 
-/// The joints that lift off and move, with the rates at which their ends open, m.
-fn lift_offs(structure: &Structure, openings: &[[f64; 2]], lifts: impl Fn(usize) -> bool) -> Vec<LiftOff> {
-    let moving = openings.iter().enumerate().filter(|&(k, o)| lifts(k) && *o != [0.0; 2]);
-    let rates = |(joint, o): (usize, &[f64; 2])| {
+/// The joints that lift off and move, with the rates at which their ends open and move along them, m.
+fn lift_offs(
+    structure: &Structure,
+    openings: &[[f64; 2]],
+    slid: &[f64],
+    lifts: impl Fn(usize) -> bool,
+) -> Vec<LiftOff> {
+    let moving = openings.iter().zip(slid).enumerate().filter(|&(k, (o, s))| lifts(k) && (*o != [0.0; 2] || *s != 0.0));
+    let rates = |(joint, (o, &along)): (usize, (&[f64; 2], &f64))| {
         let [intrados, extrados] = o.map(|rate| rate * structure.joints[joint].length());
-        LiftOff { joint, at: structure.joints[joint].middle(), intrados, extrados }
+        LiftOff { joint, at: structure.joints[joint].middle(), intrados, extrados, along }
     };
     moving.map(rates).collect()
 }

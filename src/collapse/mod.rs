@@ -31,7 +31,8 @@ mod updated;
 mod verdict;
 mod yielding;
 
-pub use plan::LOAD_PIECES;
+pub use grid::{can_be_cut, subblocks_of};
+pub use plan::{LOAD_PIECES, can_be_refined};
 pub use report::*;
 pub use task::*;
 

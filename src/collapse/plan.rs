@@ -12,7 +12,7 @@ mod refine;
 mod unfold;
 
 pub(super) use beam::solve as beam;
-pub use mesh::LOAD_PIECES;
+pub use mesh::{LOAD_PIECES, can_be_refined};
 
 use super::{
     Accuracy, Analysis, AnalysisError, CollapseReport, Direction, Estimate, Outcome, PathEnd, Plan, PlanReason,
@@ -118,7 +118,7 @@ fn intensity(report: &CollapseReport, direction: Direction, asked: f64) -> Estim
 }
 
 fn why_load(report: &CollapseReport) -> PlanReason {
-    let slides = report.end.iter().chain(&report.other_end).any(|end| !end.mechanism.slides.is_empty());
+    let slides = report.end.iter().chain(&report.other_end).any(|end| end.mechanism.slips());
     match report.outcome {
         Outcome::FallsAsBuilt => PlanReason::NoEquilibrium,
         Outcome::SlidesAsBuilt => PlanReason::SlidesAsLoaded,
@@ -134,7 +134,9 @@ fn half_of(analysis: &Analysis, rigid: &CollapseReport) -> Option<Analysis> {
     let (structure, axis) = (&analysis.structure, analysis.structure.axis());
     let symmetric = |forces: &[_]| is_symmetric(forces, structure.voussoirs().len(), axis);
     let ends = rigid.end.iter().chain(&rigid.other_end);
-    let whole = !structure.is_half() && structure.asymmetry().is_none();
+    // Of other structures joints and bodies are not numbered from left to right.
+    let arch = structure.spans.len() == 1 && structure.spans[0].joints.len() == structure.ring().len();
+    let whole = arch && !structure.is_half() && structure.asymmetry().is_none();
     if !(whole && symmetric(&analysis.fixed) && symmetric(&analysis.scaled) && { ends }.all(falls_evenly)) {
         return None;
     }
@@ -150,7 +152,7 @@ fn falls_evenly(end: &PathEnd) -> bool {
     let mirror_image = |([u, v, r], [x, y, q]): (&[f64; 3], &[f64; 3])| {
         [u + x, v - y, r + q].iter().all(|apart| apart.abs() <= SAME_VELOCITY * largest)
     };
-    end.mechanism.slides.is_empty() && velocities.iter().zip(velocities.iter().rev()).all(mirror_image)
+    !end.mechanism.slips() && velocities.iter().zip(velocities.iter().rev()).all(mirror_image)
 }
 
 fn why_half(analysis: &Analysis, half: bool) -> PlanReason {

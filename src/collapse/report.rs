@@ -109,6 +109,8 @@ pub struct LiftOff {
     pub intrados: f64,
     /// The same of its end on the extrados.
     pub extrados: f64,
+    /// Rate at which what lies after it moves along it, towards the extrados positive, in the same scale: no friction opposes it.
+    pub along: f64,
 }
 
 /// Resultant carried by one joint.
@@ -243,12 +245,19 @@ pub struct Mechanism {
     pub mode: Mode,
     /// Hinges from left to right.
     pub hinges: Vec<Hinge>,
-    /// Sliding joints from left to right.
+    /// Joints that slide under pressure, from left to right.
     pub slides: Vec<Slide>,
     /// Joints that part altogether, from left to right.
     pub lift_offs: Vec<LiftOff>,
     /// Velocity (u, v) and rotation rate of every voussoir in the mechanism, in the hinges' scale.
     pub velocities: Vec<[f64; 3]>,
+}
+
+impl Mechanism {
+    /// Whether faces move along each other, pressed or parted: the load need not be that of limit analysis then.
+    pub fn slips(&self) -> bool {
+        !self.slides.is_empty() || self.lift_offs.iter().any(|lift_off| lift_off.along != 0.0)
+    }
 }
 
 /// Counts of the work done; the same for the same request on any machine.

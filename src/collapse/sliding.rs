@@ -25,11 +25,18 @@ const AT_LIMIT: f64 = 1e-9;
 /// mechanism has its own programme, in which it is at its limits exactly.
 const NEAR_LIMIT: f64 = 1e-6;
 /// Random weights on the joint forces that lead to corners of the least equilibria, and, the larger ones, to others near.
-const TILTS: [f64; 4] = [1e-3, 1e-2, 1e-1, 1.0];
+const TILTS: [f64; 3] = [1e-1, 1e-2, 1e-3];
+/// Random motions of every corner. Their joints cost between 1 and 10 to the power of minus twice the second: what costs much
+/// hardly moves, so that the motions differ.
+const MOTIONS: usize = 2;
+const COSTS: f64 = 2.0;
 /// So many corners in turn that give nothing lower, and so many in all, end the search where there are many loops (measured: on
-/// walls with six seeds each a lower one came after up to 7).
-const QUIET_CORNERS: usize = 16;
+/// walls with 14 seeds each, 8 in turn find nothing more than 6).
+const QUIET_CORNERS: usize = 6;
 const MOST_CORNERS: usize = 48;
+
+/// Where there are many loops, a load that is lower by less than this share is not worth having.
+const WORTH: f64 = 1e-6;
 
 /// What the search starts from, and which way.
 pub(super) struct Search<'a> {
@@ -53,7 +60,7 @@ impl Search<'_> {
     /// mechanisms were tried. None where no motion of theirs has admissible forces.
     pub(super) fn least(&self, at_limits: &[Vec<Released>]) -> (Option<FullSolution>, usize) {
         let mut hunt = Hunt { search: self, seen: BTreeSet::new(), best: None, scatter: Scatter::new(0x51DE) };
-        if self.has_loops() {
+        if self.theorem.has_loops() {
             at_limits.iter().for_each(|released| _ = hunt.tries(released));
             hunt.round_corners();
         } else {
@@ -69,15 +76,16 @@ impl Search<'_> {
 
     /// What is at its limits in an equilibrium at the end of the limit window.
     pub(super) fn at_window_end(&self, greatest: f64) -> Option<Vec<Released>> {
-        let found = self.theorem.least_load(&[], greatest, self.sign, self.budget);
+        let found = self.theorem.least_load(&[], [greatest, self.far()], self.sign, &[], self.budget);
         found.ok().flatten().filter(|_| greatest.is_finite()).map(|equilibrium| self.at_limits(&equilibrium))
     }
 
     /// One of the motions that these releases allow, and in which the scaled loads do work: those that move, at their rates.
     fn motion(&self, released: &[Released], costs: &mut Scatter) -> Option<(Vec<Released>, Vec<f64>)> {
-        let cost = |random: f64| if self.has_loops() { 10f64.powf(random) } else { 1.0 + 0.99 * random };
+        let loops = self.theorem.has_loops();
+        let cost = |random: f64| if loops { 10f64.powf(COSTS * (random - 1.0)) } else { 1.0 + 0.99 * random };
         let costs: Vec<f64> = released.iter().map(|_| cost(costs.next())).collect();
-        if !self.has_loops() {
+        if !loops {
             let rates = self.theorem.cheapest_motion(released, &costs, self.sign, self.budget)?;
             return Some(moving(released, rates));
         }
@@ -89,7 +97,7 @@ impl Search<'_> {
 
     fn at_limits(&self, equilibrium: &Equilibrium) -> Vec<Released> {
         let forces = self.theorem.resultants(equilibrium);
-        let share = if self.has_loops() { NEAR_LIMIT } else { AT_LIMIT };
+        let share = if self.theorem.has_loops() { NEAR_LIMIT } else { AT_LIMIT };
         all_releases(&self.analysis.structure, &forces, &vec![None; forces.len()], share)
     }
 
@@ -101,9 +109,15 @@ impl Search<'_> {
         nearest_motion(&columns(structure, loops, moving, &driving), 3 * loops.len() + 1, rates)
     }
 
-    /// Whether there is more than the one loop of a single ring.
-    fn has_loops(&self) -> bool {
-        self.theorem.loops().len() > 1
+    /// Beyond all load factors.
+    fn far(&self) -> f64 {
+        self.sign * f64::INFINITY
+    }
+
+    /// The load factor before which one is worth having that has `best` already.
+    fn worth(&self, best: f64) -> f64 {
+        let share = if self.theorem.has_loops() { WORTH } else { tolerances::SAME_LOAD };
+        best - self.sign * share * best.abs().max(self.theorem.load_factor_scale())
     }
 
     /// True where a load factor lies beyond another, seen from the start, by more than this share of it (or of that at which the
@@ -149,13 +163,10 @@ impl Hunt<'_> {
         if !self.seen.insert(key(&moving)) {
             return Some(vain);
         }
-        let found = search.theorem.least_load(&moving, search.start, search.sign, search.budget);
+        let end = self.best.as_ref().map_or(search.far(), |best| search.worth(best.equilibrium.load_factor));
+        let found = search.theorem.least_load(&moving, [search.start, end], search.sign, &[], search.budget);
         let Ok(Some(equilibrium)) = found else { return Some(vain) };
-        let best = self.best.as_ref().map(|best| best.equilibrium.load_factor);
-        if best.is_some_and(|best| !search.is_beyond(best, equilibrium.load_factor, tolerances::SAME_LOAD)) {
-            return Some(vain);
-        }
-        if search.has_loops() {
+        if search.theorem.has_loops() {
             let Some(closed) = search.closed(&moving, &rates) else { return Some(vain) };
             rates = closed;
         }
@@ -188,13 +199,14 @@ impl Hunt<'_> {
             let tilt = TILTS[round % TILTS.len()];
             let tilts: Vec<[f64; 3]> =
                 (0..search.theorem.joints()).map(|_| [(); 3].map(|()| tilt * self.scatter.next())).collect();
-            let corner =
-                search.theorem.corner_near_least_load(&moving, search.start, search.sign, &tilts, search.budget);
+            let range = [search.start, search.far()];
+            let corner = search.theorem.least_load(&moving, range, search.sign, &tilts, search.budget);
             let Ok(Some(corner)) = corner else { continue };
             let mut released = search.at_limits(&corner);
             let missing: Vec<Released> = moving.into_iter().filter(|release| !released.contains(release)).collect();
             released.extend(missing);
-            quiet = if self.tries(&released) == Some(Tried::Lower) { 0 } else { quiet + 1 };
+            let lower = (0..MOTIONS).any(|_| self.tries(&released) == Some(Tried::Lower));
+            quiet = if lower { 0 } else { quiet + 1 };
             if quiet == QUIET_CORNERS || search.budget.ask().is_err() {
                 return;
             }

@@ -1,6 +1,8 @@
-//! The smallest of all motions that joints at their limits allow.
+//! The smallest of all motions that joints at their limits allow; the only file of this room that knows faer.
 
 use crate::budget::Budget;
+use faer::linalg::solvers::{Llt, Solve};
+use faer::{MatMut, MatRef, Side};
 use nalgebra::{DMatrix, DVector};
 
 /// Closure of the loops (two velocities and a spin each) and, last, power, per unit rate of a release: the entries that are not
@@ -51,9 +53,8 @@ pub(super) fn smallest_motion(columns: &[Column], unknowns: usize, budget: &Budg
         let ridge = 1e-14 * hessian.trace().max(1e-6);
         (0..unknowns).for_each(|i| hessian[(i, i)] += ridge);
         budget.work(unknowns.pow(3) / 3).ok()?;
-        let factors = if unknowns > MANY { hessian.clone().cholesky() } else { None };
-        let step = match factors {
-            Some(factors) => factors.solve(&-&gradient),
+        let step = match (unknowns > MANY).then(|| cholesky(&hessian)).flatten() {
+            Some(factors) => solved(&factors, -&gradient),
             None => hessian.lu().solve(&-&gradient)?,
         };
         let (before, slope) = (value(&y), gradient.dot(&step));
@@ -71,6 +72,17 @@ pub(super) fn smallest_motion(columns: &[Column], unknowns: usize, budget: &Budg
         }
     }
     None
+}
+
+/// The factors of a positive definite matrix.
+fn cholesky(matrix: &DMatrix<f64>) -> Option<Llt<f64>> {
+    Llt::new(MatRef::from_column_major_slice(matrix.as_slice(), matrix.nrows(), matrix.ncols()), Side::Lower).ok()
+}
+
+fn solved(factors: &Llt<f64>, mut right: DVector<f64>) -> DVector<f64> {
+    let rows = right.len();
+    factors.solve_in_place(MatMut::from_column_major_slice_mut(right.as_mut_slice(), rows, 1));
+    right
 }
 
 /// Corrections of a motion that is nearly closed.
@@ -96,7 +108,7 @@ pub(super) fn nearest_motion(columns: &[Column], unknowns: usize, rates: &[f64])
         }
         gram[(j, j)] += CORRECTION_RIDGE;
     }
-    let factors = gram.cholesky()?;
+    let factors = cholesky(&gram)?;
     let missing = |x: &[f64]| {
         let mut rest = vec![0.0; unknowns];
         rest[last] = 1.0;
@@ -118,7 +130,7 @@ pub(super) fn nearest_motion(columns: &[Column], unknowns: usize, rates: &[f64])
         }
         let along = |(column, norm): (&Column, &f64)| column.iter().map(|&(i, a)| a * rest[i]).sum::<f64>() / norm;
         let right = DVector::from_iterator(count, columns.iter().zip(&norms).map(along));
-        let step = factors.solve(&right);
+        let step = solved(&factors, right);
         (0..count).for_each(|i| x[i] += step[i] / norms[i]);
     }
     let fastest = x.iter().copied().fold(0.0, f64::max);

@@ -66,10 +66,13 @@ pub(super) fn solve(analysis: &Analysis, budget: &Budget) -> Result<CollapseRepo
 }
 
 impl Attempted {
+    fn contradicts(&self) -> bool {
+        self.doubt.as_ref().is_some_and(Doubt::is_contradiction)
+    }
+
     /// The less doubtful of two attempts, with the work of both.
     fn or_better(self, next: Attempted) -> Attempted {
-        let contradiction = |a: &Attempted| a.doubt.as_ref().is_some_and(Doubt::is_contradiction);
-        let better = next.doubt.is_none() || (contradiction(&self) && !contradiction(&next));
+        let better = next.doubt.is_none() || (self.contradicts() && !next.contradicts());
         let (mut kept, other) = if better { (next, self) } else { (self, next) };
         kept.report.cost.join(other.report.cost);
         kept
@@ -190,15 +193,32 @@ impl<'a> Setup<'a> {
         attempt: Attempt,
         built: &mut Discretisation<'a>,
     ) -> Result<Attempted, AnalysisError> {
-        let analysis = self.analysis;
-        let model = built.crushing(analysis, strips, attempt)?;
+        let model = built.crushing(self.analysis, strips, attempt)?;
         let fixed = disturbed(model, self.start, attempt);
         let mut progress = |tracer: &Tracer, load_factor: f64| self.budget.step(load_factor, tracer.events());
         let mut report = self.blank(model.assembly.unknowns());
         report.notes = self.mesh_notes(model);
-        let (mut tracer, end) =
+        let (tracer, end) =
             stand(model, &fixed, self.start, self.weight, &mut |t| progress(t, self.start * t.parameter()));
         report.cost.add(&tracer, Cost::default());
+        let slid = self.slid_out(&report, model, &tracer);
+        let attempted = self.go_on(report, model, (tracer, end), &fixed, &mut progress)?;
+        Ok(match slid {
+            Some(slid) if attempted.contradicts() => attempted.or_better(slid),
+            _ => attempted,
+        })
+    }
+
+    /// From where the loads at the start have come on, or where they no longer could.
+    fn go_on(
+        &self,
+        mut report: CollapseReport,
+        model: &Model,
+        (mut tracer, end): (Tracer, End),
+        fixed: &[f64],
+        progress: &mut OnEvent,
+    ) -> Result<Attempted, AnalysisError> {
+        let analysis = self.analysis;
         match end {
             End::Stopped => return Err(self.budget.stopped().into()),
             End::Reached if self.certificate.stands_at(self.start) => {}
@@ -220,11 +240,11 @@ impl<'a> Setup<'a> {
         }
         let both_ways = matches!(analysis.task, Task::Collapse(_)) && !self.certificate.stands_at(0.0);
         let back = both_ways.then(|| tracer.clone());
-        let mut doubt = self.leg(&mut report, &mut states, &mut tracer, &fixed, self.sign, &mut progress)?;
+        let mut doubt = self.leg(&mut report, &mut states, &mut tracer, fixed, self.sign, progress)?;
         if let Some(mut back) = back {
             report.outcome = Outcome::StandsInWindow;
             let mut other = self.blank(model.assembly.unknowns());
-            doubt = doubt.or(self.leg(&mut other, &mut states, &mut back, &fixed, -self.sign, &mut progress)?);
+            doubt = doubt.or(self.leg(&mut other, &mut states, &mut back, fixed, -self.sign, progress)?);
             report.join_other_end(other);
         }
         let doubt = doubt.or(states.tell(&mut report));

@@ -112,6 +112,12 @@ impl Block {
         SMatrix::from_fn(|i, j| self.stress(&V6::from_fn(|k, _| if k == j { 1.0 } else { 0.0 }))[i])
     }
 
+    /// Row r such that r . D is the traction on a face with this normal, along a unit vector, Pa.
+    pub(super) fn traction_row(&self, normal: Vec2, along: Vec2) -> V6 {
+        let of_stress = [normal.x * along.x, normal.y * along.y, normal.x * along.y + normal.y * along.x];
+        self.stress_matrix().tr_mul(&of_stress.into())
+    }
+
     /// Stiffness of the elastic energy 1/2 A eps:C:eps, N/m2 (per metre of depth).
     pub fn stiffness(&self) -> M6 {
         let mut k = M6::zeros();

@@ -73,7 +73,7 @@ pub enum Found {
     },
     /// A direction of unlimited descent.
     Unbounded,
-    /// Multipliers y of the equations with which these and the rows contradict each other.
+    /// Multipliers y of the equations with which these and the rows, or the cutoff, contradict each other.
     Infeasible(Vec<f64>),
     Lost,
 }
@@ -183,8 +183,8 @@ impl Residuals {
 }
 
 /// Solves a programme of this `pattern`; goes no further where no more than `enough` is left of residuals and
-/// gap, relative to the data and the point.
-pub fn minimise(programme: &Sparse, pattern: &NewtonPattern, enough: f64, budget: &Budget) -> Found {
+/// gap, relative to the data and the point, or where the dual bound shows that nothing lies below `cutoff`: that is infeasible.
+pub fn minimise(programme: &Sparse, pattern: &NewtonPattern, [enough, cutoff]: [f64; 2], budget: &Budget) -> Found {
     let constants = programme.constants();
     let mut point = Point::start(programme);
     let (mut best, mut since) = (None::<(f64, [Vec<f64>; 3])>, 0);
@@ -203,6 +203,11 @@ pub fn minimise(programme: &Sparse, pattern: &NewtonPattern, enough: f64, budget
                 break;
             }
         }
+        // The dual bound would hold for certain but for a residual, which counts for as much as the unknowns are large.
+        let size: f64 = point.x.iter().map(|x| x.abs()).sum();
+        if dual_value(programme, &constants, &point) - largest(&residuals.x) * size / point.tau > cutoff * point.tau {
+            return Found::Infeasible(point.y);
+        }
         let error = error(programme, &constants, &point, &residuals);
         if error.is_nan() {
             break;
@@ -220,7 +225,7 @@ pub fn minimise(programme: &Sparse, pattern: &NewtonPattern, enough: f64, budget
         if error < enough || since > MOST_IDLE[usize::from(close)] {
             break;
         }
-        let Some(newton) = Newton::new(programme, pattern, &point) else { break };
+        let Some(newton) = Newton::new(programme, pattern, &point, enough) else { break };
         let direction = Directions::new(programme, &constants, &newton, &residuals, &point).corrected();
         advance(&mut point, &direction, programme.linear());
     }
@@ -237,10 +242,15 @@ fn error(programme: &Sparse, constants: &[f64], point: &Point, residuals: &Resid
     let primal = largest(&residuals.y).max(largest(&residuals.s)) / tau;
     let dual = largest(&residuals.x) / tau;
     let value = dot(&programme.cost, &point.x) / tau;
-    let bound = -(dot(&programme.right, &point.y) + dot(constants, &point.z)) / tau;
+    let bound = dual_value(programme, constants, point) / tau;
     let gap = (value - bound).abs() / (1e-3 + value.abs());
     // `max` drops what is no number.
     [primal, dual, gap].into_iter().fold(0.0, |m, e| if e.is_nan() || e > m { e } else { m })
+}
+
+/// The value of the dual programme, times tau.
+fn dual_value(programme: &Sparse, constants: &[f64], point: &Point) -> f64 {
+    -dot(&programme.right, &point.y) - dot(constants, &point.z)
 }
 
 /// A proof that there is no optimum, and how far it is off.
@@ -253,7 +263,7 @@ fn without_optimum(
     if point.tau >= 1e-3 * point.kappa {
         return None;
     }
-    let bound = -(dot(&programme.right, &point.y) + dot(constants, &point.z));
+    let bound = dual_value(programme, constants, point);
     let descent = -dot(&programme.cost, &point.x);
     let dual = largest(&sum(&residuals.x, &programme.cost, -point.tau));
     let primal =

@@ -14,9 +14,9 @@ use crate::structure::{Face, Joint, JointLaw};
 const MOVES: f64 = 1e-9;
 /// Error of the programme of motions of many loops that is put up with: joints that do not move carry any force, which costs the
 /// interior point method its last digits, while the rates tell long before which joints move.
-const ROUGH: [f64; 2] = [1e-9, 1e-2];
+const ROUGH: [f64; 2] = [1e-6, 1e-2];
 /// The same of a corner of many loops, of which only what is at its limits counts.
-const CORNER: [f64; 2] = [1e-9, 1e-8];
+const CORNER: [f64; 2] = [1e-9, 1e-7];
 /// A motion may close gaps at so many times the largest cost, and so not at all where there is any other.
 const CLOSING: f64 = 1e4;
 /// Rates of such a motion below this share of the fastest are none.
@@ -50,36 +50,24 @@ pub fn releases(joint: &Joint, forces: &Resultant, none: f64) -> Vec<Release> {
 }
 
 impl StaticTheorem {
-    /// The equilibrium of the smallest load factor from `start` on, in the direction of `sign`, at which the joints that
-    /// `moving` names are at those limits and every other is admissible; None where there is none.
+    /// The equilibrium of the smallest load factor, in the direction of `sign`, at which the joints that `moving` names are at
+    /// those limits and every other is admissible; None where there is none between `start` and `end`.
     ///
     /// An end that opens carries nothing. How much of its cohesion a joint that opens has left depends on where along it the
     /// cohesion sits, so where it slides too, anything from none to all is admitted.
+    ///
+    /// `tilts` put some weight on the forces of joints, the intrados force, the extrados force and the shear of every one (none:
+    /// no weights), of which 1 counts for all loads as much as the load factor for its scale. Many equilibria may share the
+    /// smallest load factor; an interior point method ends in their middle, where as few joints as may be are at their limits.
+    /// Slight random weights lead to one of their corners, where as many as may be are. Such an equilibrium is rough, and may lie
+    /// beyond `end`.
     ///
     /// # Errors
     /// When rounding, or `budget`, kept the linear programme from an answer.
     pub fn least_load(
         &self,
         moving: &[(usize, Release)],
-        start: f64,
-        sign: f64,
-        budget: &Budget,
-    ) -> Result<Option<Equilibrium>, Unsolved> {
-        self.corner_near_least_load(moving, start, sign, &[], budget)
-    }
-
-    /// The same with some weight on the forces of joints: `tilts` are those of the intrados force, the extrados force and the shear
-    /// of every joint (none: no weights), of which 1 counts for all loads as much as the load factor for its scale.
-    ///
-    /// Many equilibria may share the smallest load factor; an interior point method ends in their middle, where as few joints as
-    /// may be are at their limits. Slight random weights lead to one of their corners, where as many as may be are.
-    ///
-    /// # Errors
-    /// When rounding, or `budget`, kept the linear programme from an answer.
-    pub fn corner_near_least_load(
-        &self,
-        moving: &[(usize, Release)],
-        start: f64,
+        [start, end]: [f64; 2],
         sign: f64,
         tilts: &[[f64; 3]],
         budget: &Budget,
@@ -91,12 +79,17 @@ impl StaticTheorem {
             programme.limits.extend(self.at_limit(joint, release, moving.iter().any(turns)));
         }
         programme.bounds[if sign > 0.0 { 0 } else { 1 }] = start;
-        if !tilts.is_empty() {
+        if tilts.is_empty() {
+            programme.cutoff = -sign * end / self.factor;
+        } else {
             programme.errors = CORNER;
         }
         let forces = tilts.iter().copied().enumerate().collect();
         match programme.maximise(&Objective { load_factor: -sign, forces }, budget) {
-            ProgrammeOutcome::At(equilibrium, _) => Ok(Some(equilibrium)),
+            ProgrammeOutcome::At(equilibrium, _) => {
+                let lies_before = !tilts.is_empty() || sign * (equilibrium.load_factor - end) < 0.0;
+                Ok(lies_before.then_some(equilibrium))
+            }
             ProgrammeOutcome::Infeasible(_) => Ok(None),
             ProgrammeOutcome::Unbounded(_) | ProgrammeOutcome::Lost => Err(Unsolved),
         }
@@ -136,16 +129,18 @@ impl StaticTheorem {
         sign: f64,
         budget: &Budget,
     ) -> Option<Vec<f64>> {
-        let programme = self.motion_programme(releases, costs);
-        let ProgrammeOutcome::At(_, dual) = programme.maximise(&Objective::load_factor(sign), budget) else {
-            return None;
+        let (programme, objective) = (self.motion_programme(releases, costs), Objective::load_factor(sign));
+        let found = match self.has_loops() {
+            true => programme.maximise_sparsely(&objective, budget),
+            false => programme.maximise_densely(&objective, budget),
         };
+        let ProgrammeOutcome::At(_, dual) = found else { return None };
         let (rates, closing) = dual.multipliers.split_at(releases.len());
         let fastest = rates.iter().copied().fold(0.0, f64::max);
         if closing.iter().any(|rate| *rate > MOVES_ROUGHLY * fastest) {
             return None;
         }
-        let moves = if self.has_few_unknowns() { MOVES } else { MOVES_ROUGHLY };
+        let moves = if self.has_loops() { MOVES_ROUGHLY } else { MOVES };
         Some(rates.iter().map(|&rate| if rate > moves * fastest { rate } else { 0.0 }).collect())
     }
 
@@ -173,7 +168,7 @@ impl StaticTheorem {
     /// Bounds of all other forces, which keep the programme well posed: motions in all other ways, at a cost that only those pay
     /// that cannot move otherwise.
     fn closings(&self, releases: &[(usize, Release)], costs: &[f64]) -> Vec<Limit> {
-        if self.has_few_unknowns() {
+        if !self.has_loops() {
             return Vec::new();
         }
         let cost = CLOSING * costs.iter().copied().fold(0.0, f64::max);

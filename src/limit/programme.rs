@@ -80,6 +80,8 @@ pub(super) struct Programme<'t> {
     pub bounds: [f64; 2],
     /// By how much every limit may be violated, in units of the loads.
     pub slack: f64,
+    /// Where the interior point method finds that nothing is better than this it may say that nothing is in equilibrium.
+    pub cutoff: f64,
     /// Errors of an optimum of many unknowns, relative to its value: what is asked for, and what is put up with.
     pub errors: [f64; 2],
 }
@@ -95,6 +97,7 @@ impl<'t> Programme<'t> {
             sections: Vec::new(),
             bounds,
             slack: 0.0,
+            cutoff: f64::NEG_INFINITY,
             errors: CERTAIN,
         }
     }

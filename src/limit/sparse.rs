@@ -45,7 +45,7 @@ impl Programme<'_> {
         let programme = self.assemble(objective, &forces, rows, pinned, unit);
         let own = if theorem.pattern.is_none() { theorem.find_pattern() } else { None };
         let Some(pattern) = theorem.pattern.as_ref().or(own.as_ref()) else { return ProgrammeOutcome::Lost };
-        match minimise(&programme, pattern, self.errors[0], budget) {
+        match minimise(&programme, pattern, [self.errors[0], -self.cutoff], budget) {
             Found::Optimum { x, y, z, error } if error < self.errors[1] => {
                 let mut multipliers = vec![0.0; given];
                 places.iter().zip(z).for_each(|((place, scale), z)| multipliers[*place] = z * scale);

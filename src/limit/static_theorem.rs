@@ -194,6 +194,11 @@ impl StaticTheorem {
         3 * self.loops.len() + 1
     }
 
+    /// Whether there is more than the one loop of a single ring.
+    pub fn has_loops(&self) -> bool {
+        self.loops.len() > 1
+    }
+
     pub(super) fn has_few_unknowns(&self) -> bool {
         self.unknowns() <= FEW_UNKNOWNS
     }

@@ -96,7 +96,7 @@ fn the_document_is_well_formed_and_finite() {
 #[test]
 fn a_joint_that_parts_is_drawn() {
     let (structure, mut end) = example(17, [1, 6, 11, 16], false);
-    end.mechanism.lift_offs.push(LiftOff { joint: 8, at: Vec2::zeros(), intrados: 0.1, extrados: 0.2 });
+    end.mechanism.lift_offs.push(LiftOff { joint: 8, at: Vec2::zeros(), intrados: 0.1, extrados: 0.2, along: 0.0 });
     let svg = svg(&structure, &end, "");
     // The joint and the legend; the stones part there.
     assert_eq!(svg.matches("class=\"parting\"").count(), 2);

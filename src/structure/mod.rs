@@ -224,13 +224,16 @@ pub struct Body {
 }
 
 impl Body {
-    /// Whether it has four corners, each of them convex where its sides are straight: then it can be cut into subblocks as a
-    /// voussoir is.
+    /// Whether it has four corners, each of them convex where its sides are straight, and no side of more than one arc.
     pub fn is_quadrilateral(&self) -> bool {
         let corner = |i: usize| self.corners[i % 4];
         let turns = |i: usize| cross(corner(i + 1) - corner(i), corner(i + 2) - corner(i + 1));
         let convex = || (0..4).all(|i| turns(i) > FLAT * self.region.area);
-        self.corners.len() == 4 && (self.sides != Sides::Straight || convex())
+        match self.sides {
+            Sides::Straight => self.corners.len() == 4 && convex(),
+            Sides::Arcs { .. } => self.corners.len() == 4,
+            Sides::Compound => false,
+        }
     }
 }
 

@@ -68,6 +68,25 @@ fn stones_that_slide_farther_than_the_arch_is_large_have_fallen() {
     assert!(found.slides > 0);
 }
 
+/// A lintel of length l, height h and weight W slides down between joints that lean by a until it is pressed together enough:
+/// by W l / (4 E h tan(friction + a) sin a) at either end, its joints left out. Where that is many times as long as a joint, and
+/// rounding of it more than is trusted of the path, it has slid out; where the path can be trusted, it is followed.
+#[test]
+fn stones_that_have_slid_out_of_their_joints_are_no_arch_in_doubt() {
+    let slides = |lean: f64, friction: f64| {
+        let ([lean, friction], weight) = ([lean, friction].map(f64::to_radians), 10.0 * 2300.0 * 9.81);
+        weight * 10.0 / (4.0 * 1e10 * (friction + lean).tan() * lean.sin())
+    };
+    for (lean, friction, variant) in [(1e-4, 5.0, "crown"), (1e-4, 18.0, "crown"), (1e-3, 8.0, "haunch")] {
+        let found = at("tilt", [lean, friction], variant);
+        assert_eq!((found.mark, found.outcome), (Mark::Right, Some(Outcome::SlidesAsBuilt)));
+        assert!(slides(lean, friction) > 10.0 && found.slides > 0);
+    }
+    let found = at("tilt", [1.0, 5.0], "haunch");
+    assert_eq!((found.mark, found.outcome), (Mark::Right, Some(Outcome::NeverCollapses)));
+    assert!(slides(1.0, 5.0) < 1.0);
+}
+
 /// The scaled loads do next to no work in the mechanism at a load factor of a hundred thousand: the fixed ones tell it.
 #[test]
 fn a_mechanism_far_out_is_found_by_the_work_of_the_fixed_loads() {

@@ -76,7 +76,7 @@ fn hold(analysis: &Analysis, report: &CollapseReport) -> Result<Option<Found>, S
     let path = end.load_factor;
     let beyond = |limit: f64| (if up { path - limit } else { limit - path }) / limit.abs().max(floor);
     let (short, off) = (-beyond(exact), beyond(linear));
-    let slides = !end.mechanism.slides.is_empty();
+    let slides = end.mechanism.slips();
     let words = format!("path {path}, points {linear} ({off:.1e}), sections {exact} ({short:.1e}), {points} points");
     if off > EQUAL || (!slides && (off < -EQUAL || !(-ABOVE..=SHORT).contains(&short))) || points > MOST_POINTS {
         return Err(words);
@@ -233,7 +233,7 @@ fn random_structures_crush_on_the_path_within_plastic_sections() {
         }
         let window = report.crushing.plastic_section.as_ref().and_then(|p| p.window);
         let (Outcome::Collapse, Some(end), Some(window)) = (report.outcome, &report.end, window) else { continue };
-        let slides = !end.mechanism.slides.is_empty();
+        let slides = end.mechanism.slips();
         let short = (window.highest - end.load_factor) / window.highest.abs().max(SMALL);
         crushed += u64::from(!end.crushed.is_empty());
         slid += u64::from(slides);

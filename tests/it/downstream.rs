@@ -273,8 +273,11 @@ fn bodies_of_any_shape_have_their_mean_stress() {
         assert!(subblock.stress[0].abs().max(shear.abs()) < 1e-1 * WEIGHT, "{subblock:?}");
     }
     let request = with(request, "/mesh", json!({"subblocks": {"uniform": {"radial": 2, "along": 2}}}));
+    assert_eq!(solve(&request).stress_fields[0].subblocks.len(), 4 + 5 + 3);
+    let ell = json!([[0, 0], [1, 0], [1, 1], [0.4, 1], [0.4, 0.5], [0, 0.5]]);
+    let request = with(request, "/blocks/polygons/0/corners_m", ell);
     let notes = solved(&request)["notes"].to_string();
-    assert!(notes.contains("One block each, with one state of stress: pentagon, triangle."), "{notes}");
+    assert!(notes.contains("One block each, with one state of stress: foot."), "{notes}");
 }
 
 /// The mean of the vertical stress over a course is the weight above its middle, and every block is its partner's mirror image.

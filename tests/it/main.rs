@@ -53,6 +53,8 @@ mod kernel;
 #[cfg(feature = "server")]
 mod malformed_few;
 #[cfg(feature = "server")]
+mod meshes;
+#[cfg(feature = "server")]
 mod moving_geometry;
 #[cfg(feature = "server")]
 mod openapi;

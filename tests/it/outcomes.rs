@@ -148,7 +148,9 @@ fn wrong_lists(arch: &Structure, end: &PathEnd) -> Option<String> {
         let near = |a: f64, b: f64| (a - b).abs() < 1e-6 * arch.joints[k].length();
         let hinge = mechanism.hinges.iter().find(|hinge| hinge.joint == k);
         let lift_off = mechanism.lift_offs.iter().find(|lift_off| lift_off.joint == k);
+        let slides = mechanism.slides.iter().any(|slide| slide.joint == k);
         let fits = match (hinge, lift_off) {
+            (_, Some(_)) if slides => false,
             (Some(_), Some(_)) => false,
             (None, None) => near(i, 0.0) && near(e, 0.0),
             (Some(hinge), None) => {
@@ -220,6 +222,8 @@ fn a_joint_that_parts_is_listed_with_the_rates_of_its_ends() {
     assert_eq!((&hinge["joint"], &hinge["face"]), (&json!(0), &json!("extrados")));
     let [parts] = &found["lift_offs"].as_array().unwrap()[..] else { panic!("{}", found["lift_offs"]) };
     assert_eq!(parts["joint"], 3);
+    // It moves along the ground too, which no friction opposes: no joint slides.
+    assert_eq!(found["slides"], json!([]));
     let rise = |at: Vec2| (at - arch.joints[0].extrados).dot(&-arch.joints[3].tangent());
     for (end, at) in [("intrados", arch.joints[3].intrados), ("extrados", arch.joints[3].extrados)] {
         // The stones turn anticlockwise at rate 1 about the hinge; the ground beyond joint 3 stays.

@@ -1,6 +1,7 @@
 //! Random arches through the front door: the short version of `benches/random_arches.rs`.
 
 use crate::common::verify::check;
+use voussoir::collapse::Outcome;
 
 /// How many, from seed 0.
 const ARCHES: u64 = 300;
@@ -18,4 +19,14 @@ fn random_arches_fall_where_limit_analysis_says() {
     assert!(complaints.is_empty(), "{} complaints:\n{}", complaints.len(), complaints.join("\n"));
     // The set must go on asking real questions.
     assert!(decided >= ARCHES / 2 && compared >= ARCHES / 2);
+}
+
+/// One of a contact point whose gap is nought and stays so but for rounding, next to loads without end; and one at whose collapse
+/// the next change of state is a hundred million spans away.
+#[test]
+fn rounding_is_no_change_of_state() {
+    for (seed, outcome) in [(6547, Outcome::NeverCollapses), (6670, Outcome::Collapse)] {
+        let checked = check(seed, true);
+        assert_eq!((checked.outcome, checked.complaints), (Some(outcome), Vec::new()), "seed {seed}");
+    }
 }

@@ -47,7 +47,7 @@ fn ends<'r>(analysis: &Analysis, report: &'r CollapseReport) -> Vec<(&'r PathEnd
 }
 
 fn slides(report: &CollapseReport) -> bool {
-    [&report.end, &report.other_end].into_iter().flatten().any(|end| !end.mechanism.slides.is_empty())
+    [&report.end, &report.other_end].into_iter().flatten().any(|end| end.mechanism.slips())
 }
 
 fn falls(report: &CollapseReport) -> bool {

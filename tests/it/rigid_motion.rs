@@ -1,7 +1,7 @@
 //! Rigid bodies on the move, against closed forms and against what holds of every motion.
 
 use voussoir::budget::Budget;
-use voussoir::dda::falling::{Advance, Configuration, Falling, Interface, Member, RigidBody};
+use voussoir::dda::falling::{Advance, Carried, Configuration, Falling, Interface, Member, RigidBody};
 use voussoir::geometry::{Region, Vec2, perpendicular};
 
 /// Most overlap, share of the thickness.
@@ -49,7 +49,7 @@ fn run(falling: &mut Falling, most: usize) -> (Vec<Configuration>, bool) {
     let mut all = vec![falling.configuration()];
     for _ in 0..most {
         match falling.advance(&Budget::unlimited()).unwrap() {
-            Advance::Rest => return (all, true),
+            Advance::Rest(_) => return (all, true),
             Advance::Moved(next) => {
                 assert!(next.overlap <= OVERLAP && next.residual < 1e-9 && next.excess < 1e-5, "{next:?}");
                 // Energy never rises.
@@ -65,7 +65,14 @@ fn run(falling: &mut Falling, most: usize) -> (Vec<Configuration>, bool) {
 fn a_block_rests_on_a_slope_up_to_the_angle_of_friction() {
     let block = vec![piece(0, [0.0, 0.0], [2.0, 1.0], 0.2)];
     let mut falling = on_ground(block, [-50.0, 50.0], 1.001 * 0.2f64.tan(), 0.2);
-    assert_eq!(falling.advance(&Budget::unlimited()), Ok(Advance::Rest));
+    // What it rests on carries its weight.
+    let Ok(Advance::Rest(rest)) = falling.advance(&Budget::unlimited()) else { panic!("it moves") };
+    let carried = |way: Vec2| -> f64 {
+        let along =
+            |c: &Carried| c.normal * c.direction.dot(&way) + c.tangential * perpendicular(c.direction).dot(&way);
+        rest.carried.iter().map(|c| if c.between[1] == 0 { along(c) } else { -along(c) }).sum()
+    };
+    assert!((carried(Vec2::y()) / 2.0 - 1.0).abs() < 1e-6 && carried(Vec2::x()).abs() < 1e-6);
 }
 
 #[test]
@@ -107,8 +114,8 @@ fn cohesion_holds_a_block_until_it_is_torn() {
         Falling::new(vec![block, floor], vec![interface], 1.0)
     };
     let missing = 2.0 * (0.4f64.sin() - 0.3 * 0.4f64.cos());
-    assert_eq!(glued(1.001 * missing).advance(&Budget::unlimited()), Ok(Advance::Rest));
-    assert_ne!(glued(0.999 * missing).advance(&Budget::unlimited()), Ok(Advance::Rest));
+    let rests = |cohesion: f64| matches!(glued(cohesion).advance(&Budget::unlimited()), Ok(Advance::Rest(_)));
+    assert!(rests(1.001 * missing) && !rests(0.999 * missing));
     // Once it slides the rest of its cohesion is gone: the second step takes friction alone.
     let (all, _) = run(&mut glued(0.5 * missing), 2);
     let shear = |k: usize| all[k].carried.iter().map(|carried| carried.tangential.abs()).sum::<f64>();
@@ -192,7 +199,7 @@ fn a_stack_stays_at_rest() {
     let blocks = (0..10).map(|k| piece(k, [0.07 * (k % 3) as f64, k as f64], [1.0, 1.0], 0.0)).collect();
     let mut falling = on_ground(blocks, [-50.0, 50.0], 0.5, 0.0);
     let before = falling.configuration();
-    assert!((0..1000).all(|_| falling.advance(&Budget::unlimited()) == Ok(Advance::Rest)));
+    assert!((0..1000).all(|_| matches!(falling.advance(&Budget::unlimited()), Ok(Advance::Rest(_)))));
     assert_eq!(falling.configuration(), before);
 }
 

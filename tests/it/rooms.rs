@@ -16,7 +16,7 @@ const TABLE: [(&str, &[&str], &[&str]); 12] = [
     ("bridge", &["geometry", "structure", "arch"], &["thiserror"]),
     ("dda", &["budget", "geometry"], &["nalgebra", "faer", "thiserror"]),
     ("limit", &["budget", "geometry", "structure"], &["nalgebra", "faer", "thiserror"]),
-    ("collapse", &["budget", "geometry", "structure", "dda", "limit"], &["nalgebra", "thiserror"]),
+    ("collapse", &["budget", "geometry", "structure", "dda", "limit"], &["nalgebra", "faer", "thiserror"]),
     ("jobs", &["budget", "collapse"], &["thiserror", "tokio", "tracing", "uuid"]),
     ("render", &["collapse", "structure", "geometry"], &["thiserror"]),
     (
@@ -171,7 +171,7 @@ fn below_the_line_everything_is_a_function_of_its_input() {
 fn only_one_file_of_a_room_knows_the_sparse_solver() {
     // Unit tests may check against it.
     let knows = |(file, code): &(PathBuf, String)| !of_tests(file) && names(code, "faer");
-    for name in ["dda", "limit"] {
+    for name in ["dda", "limit", "collapse"] {
         let files: Vec<_> = room(name).into_iter().filter(knows).collect();
         assert!(files.len() <= 1, "faer in {:?}", files.iter().map(|(file, _)| file).collect::<Vec<_>>());
     }

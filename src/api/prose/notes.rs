@@ -40,6 +40,7 @@ impl fmt::Display for Note {
             Note::YieldTooLate => YIELD_TOO_LATE.into(),
             Note::SectionsNeverFail => SECTIONS_NEVER_FAIL.into(),
             Note::MotionLost => MOTION_LOST.into(),
+            Note::MotionRestsBeyond { load_factor, limit, bodies } => rests_beyond([*load_factor, *limit], bodies),
         })
     }
 }
@@ -128,6 +129,17 @@ fn several(given: OtherStates, load_factors: &[f64], joints: &[usize]) -> String
             "{at} No symmetric one was found, as may be where joints slide: in the one given joints {joints} are open by more \
              or less on one side than on the other, and its mirror image is as good."
         ),
+    }
+}
+
+fn rests_beyond([load_factor, limit]: [f64; 2], bodies: &[usize]) -> String {
+    let (load_factor, limit) = (Digits(load_factor), Digits(limit));
+    let rests = format!("At load factor {load_factor} nothing moves, although limit analysis ends at {limit}.");
+    let numbers = listed(bodies.iter().map(usize::to_string));
+    match bodies {
+        [] => format!("{rests} Why cannot be told: the motion is in doubt."),
+        [body] => format!("{rests} It knows the joints only; body {body} presses on a face that it has no joint with."),
+        _ => format!("{rests} It knows the joints only; bodies {numbers} press on faces that they have no joint with."),
     }
 }
 

@@ -12,7 +12,7 @@ pub struct AccuracyRequest {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(exclusive_minimum = 0.0, maximum = 1.0)]
     pub collapse_intensity: Option<f64>,
-    /// Largest error of the stress, as a share, instead of a mesh; for an arch. It is the root mean square, by area, of the error
+    /// Largest error of the stress, as a share, instead of a mesh. It is the root mean square, by area, of the error
     /// of the equivalent stress over that of the equivalent stress itself, as in eq. (5) of the paper, in the worst of
     /// `report.stress_fields`. Without those there is one field, at load factor 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]

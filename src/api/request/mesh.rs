@@ -26,10 +26,13 @@ pub struct MeshRequest {
 #[serde(rename_all = "snake_case")]
 pub enum SubblocksRequest {
     /// The same in every voussoir; 1 x 1 by default: every voussoir is one block. Of a bridge and of blocks the same in every
-    /// convex body with four corners; others are one block each, which the notes say.
+    /// body with four corners; any other is divided from its centroid to the middles of its sides, and each part has half of
+    /// the larger number, rounded up, both ways. Corners that turn by less than 35 degrees do not count. Bodies that turn inwards
+    /// by more are one block each, which the notes say.
     Uniform(Subblocks),
     /// One entry per voussoir of the whole arch, left to right, or per body in the order of `structure.bodies`. Half an
-    /// arch uses those of its own voussoirs, half a keystone half of its number along, rounded up. Not with `curved_beam`.
+    /// arch uses those of its own voussoirs, half a keystone half of its number along, rounded up. A body divided into parts
+    /// has as many times its number along as parts. Not with `curved_beam`.
     PerVoussoir(Vec<Subblocks>),
 }
 
@@ -42,10 +45,10 @@ impl Default for SubblocksRequest {
 /// Numbers of subblocks of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 pub struct Subblocks {
-    /// From intrados to extrados, 1 to 48; of a body that is no voussoir, along its side from corner 0 to its last.
+    /// From intrados to extrados, 1 to 48; of a body that is no voussoir, along its side from corner 0 to its last, or of each part.
     #[schema(minimum = 1, maximum = 48)]
     pub radial: usize,
-    /// Along the arch, 1 to 48; of a body that is no voussoir, along its side from corner 0 to corner 1.
+    /// Along the arch, 1 to 48; of a body that is no voussoir, along its side from corner 0 to corner 1, or of all parts together.
     #[schema(minimum = 1, maximum = 48)]
     pub along: usize,
 }

@@ -30,7 +30,7 @@ fn uncut(request: &AnalysisRequest, structure: &StructureBody) -> Option<String>
         if whole.len() > BODIES_NAMED { format!(" and {} more", whole.len() - BODIES_NAMED) } else { String::new() };
     let names = whole.iter().take(BODIES_NAMED).copied().collect::<Vec<_>>().join(", ");
     let words = format!(
-        "Only convex bodies with four corners are cut into subblocks. One block each, with one state of stress: {names}{more}."
+        "Bodies that turn inwards are not cut into subblocks. One block each, with one state of stress: {names}{more}."
     );
     (!whole.is_empty()).then_some(words)
 }

@@ -191,7 +191,7 @@ impl From<&Hinge> for HingeBody {
 
 impl From<&LiftOff> for LiftOffBody {
     fn from(lift_off: &LiftOff) -> Self {
-        let &LiftOff { joint, at, intrados, extrados } = lift_off;
+        let &LiftOff { joint, at, intrados, extrados, along: _ } = lift_off;
         LiftOffBody { joint, at_m: at.into(), intrados, extrados }
     }
 }

@@ -33,16 +33,18 @@ impl StressFieldBody {
 pub struct SubblockColumns {
     /// Which voussoir, from 0 on the left; of a bridge and of blocks which of `structure.bodies`.
     pub voussoir: Vec<usize>,
-    /// Place from the intrados, from 0; of a body that is no voussoir, from its side between corners 0 and 1.
+    /// Place from the intrados, from 0; of a body that is no voussoir, from its side between corners 0 and 1; of a part of a body, from
+    /// the side that follows its corner.
     pub radial: Vec<usize>,
-    /// Place from the joint before the voussoir, from 0; of a body that is no voussoir, from its side between corners 3 and 0.
+    /// Place from the joint before the voussoir, from 0; of a body that is no voussoir, from its side between corners 3 and 0; of a part
+    /// of a body, from the side before its corner, part after part.
     pub along: Vec<usize>,
     /// Centroid, to the right.
     pub centre_x_m: Vec<f64>,
     /// Centroid, upwards.
     pub centre_y_m: Vec<f64>,
-    /// Corners, to the right; counter-clockwise from the intrados end at the joint before: four, but all of a whole body that has more
-    /// or less.
+    /// Corners, to the right; counter-clockwise from the intrados end at the joint before: four, and those of the body's own
+    /// between them; all of a whole body.
     pub corners_x_m: Vec<Vec<f64>>,
     /// The same corners, upwards.
     pub corners_y_m: Vec<Vec<f64>>,

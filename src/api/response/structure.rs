@@ -3,9 +3,9 @@
 use super::columns::column;
 use crate::api::request::AnalysisRequest;
 use crate::api::translate::analysed;
-use crate::collapse::Analysis;
+use crate::collapse::{Analysis, subblocks_of};
 use crate::geometry::cross;
-use crate::structure::{Body, Joint, JointLaw, PointForce, Side, Structure};
+use crate::structure::{Body, Joint, JointLaw, PointForce, Side, Sides, Structure};
 use serde::Serialize;
 use utoipa::ToSchema;
 
@@ -98,7 +98,8 @@ impl StructureBody {
             Side::Support(support) => supports.get(support).cloned().unwrap_or_default(),
         };
         let joints = structure.joints.iter().map(|joint| JointBody::new(joint, structure, name)).collect();
-        let whole = structure.bodies.iter().enumerate().filter(|(_, body)| !body.is_quadrilateral());
+        let uncut = |body: &Body| body.sides == Sides::Straight && subblocks_of(body, [2, 2]).is_none();
+        let whole = structure.bodies.iter().enumerate().filter(|(_, body)| uncut(body));
         let whole = whole.map(|(k, _)| k).collect();
         Some(StructureBody { joints, whole, bodies: bodies_of(&analysis, &bodies), supports })
     }

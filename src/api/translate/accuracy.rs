@@ -1,14 +1,15 @@
 //! An accuracy instead of a mesh.
 
+use super::mesh::why_whole;
+use super::structure::Layout;
 use crate::api::fault::Faults;
 use crate::api::request::{
     AccuracyRequest, AimRequest, AnalysisRequest, MAX_SUBBLOCKS, MethodRequest, SubblocksRequest,
 };
-use crate::collapse::{Accuracy, Geometry, Seams};
-use crate::structure::{Sides, Structure};
+use crate::collapse::{Accuracy, Geometry, Seams, can_be_refined, subblocks_of};
 
 /// The accuracy asked for, where one is.
-pub fn accuracy(request: &AnalysisRequest, structure: Option<&Structure>, faults: &mut Faults) -> Option<Accuracy> {
+pub fn accuracy(request: &AnalysisRequest, layout: Option<&Layout>, faults: &mut Faults) -> Option<Accuracy> {
     let asked = request.accuracy.as_ref()?;
     let accuracy = checked(asked, faults);
     let detail = "an accuracy is reached by steps no one chooses: set method to `event_path`";
@@ -26,14 +27,10 @@ pub fn accuracy(request: &AnalysisRequest, structure: Option<&Structure>, faults
         faults.require(own, "/mesh/subblocks", detail);
         let detail = "stress converges with split seams only: set seams to `split`, or leave accuracy.stress out";
         faults.require(request.mesh.seams == Seams::Split, "/mesh/seams", detail);
-        if let Some(k) = structure
-            .and_then(|structure| structure.voussoirs().iter().position(|stone| stone.sides == Sides::Compound))
-        {
-            let detail = format!(
-                "a curved side of voussoir {k} is of more than one arc, which cannot be cut into subblocks: place joints \
-                 where the arcs meet, set curved_sides to false, or leave accuracy.stress out"
-            );
-            faults.add("/accuracy/stress", detail);
+        let refined = |layout: &Layout| layout.structure.voussoirs().iter().position(|body| !can_be_refined(body));
+        if let Some((layout, body)) = layout.and_then(|layout| Some((layout, refined(layout)?))) {
+            let coarsest = subblocks_of(&layout.structure.bodies[body], [2, 2]).unwrap_or([1, 1]);
+            faults.add("/accuracy/stress", why_whole(layout, body, coarsest, "leave accuracy.stress out"));
         }
     }
     Some(accuracy)

@@ -1,14 +1,15 @@
 //! Subblocks and stress fields of a request.
 
 use super::MAX_FACTOR;
+use super::structure::Layout;
 use crate::api::fault::Faults;
 use crate::api::request::{
     MAX_FIELDS, MAX_SUBBLOCKS, MAX_SUBBLOCKS_EACH_WAY, MeshRequest, ReportRequest, StressFieldRequest, Subblocks,
     SubblocksRequest,
 };
 use crate::arch::MAX_VOUSSOIRS;
-use crate::collapse::FieldAt;
-use crate::structure::{Body, Sides, Structure};
+use crate::collapse::{FieldAt, can_be_cut, subblocks_of};
+use crate::structure::{Body, Sides};
 
 /// Most subblocks in all stress fields of one answer together.
 const MAX_FIELD_SUBBLOCKS: usize = 400_000;
@@ -22,17 +23,17 @@ const PER_VOUSSOIR: &str = "/mesh/subblocks/per_voussoir";
 /// Subblocks of every body of the whole structure (abutment blocks of an arch left out), of which the first `analysed` count; one each where there are faults.
 pub fn subblocks(
     request: &MeshRequest,
-    whole: Option<&Structure>,
+    whole: Option<&Layout>,
     analysed: Option<usize>,
     faults: &mut Faults,
 ) -> Vec<[usize; 2]> {
     let before = faults.len();
-    let voussoirs = whole.map(|whole| whole.voussoirs().len());
+    let voussoirs = whole.map(|whole| whole.structure.voussoirs().len());
     let given = match &request.subblocks {
         SubblocksRequest::Uniform(each) => {
             check(UNIFORM, *each, faults);
-            let cut = |body: &Body| if body.is_quadrilateral() { [each.radial, each.along] } else { [1, 1] };
-            whole.map_or_else(Vec::new, |whole| whole.voussoirs().iter().map(cut).collect())
+            let cut = |body: &Body| subblocks_of(body, [each.radial, each.along]).unwrap_or([1, 1]);
+            whole.map_or_else(Vec::new, |whole| whole.structure.voussoirs().iter().map(cut).collect())
         }
         SubblocksRequest::PerVoussoir(list) => {
             let detail = format!("{} entries for {} voussoirs: give one each", list.len(), voussoirs.unwrap_or(0));
@@ -48,10 +49,11 @@ pub fn subblocks(
         }
     };
     if let Some(whole) = whole.filter(|_| faults.len() == before) {
-        check_sides(request, whole, &given, faults);
         let total = total(given.iter().take(analysed.unwrap_or(usize::MAX)));
         let detail = format!("{total} subblocks in all: keep to {MAX_SUBBLOCKS} by a coarser mesh or fewer voussoirs");
-        faults.require(total <= MAX_SUBBLOCKS, "/mesh/subblocks", detail);
+        if faults.require(total <= MAX_SUBBLOCKS, "/mesh/subblocks", detail) {
+            check_bodies(request, whole, &given, faults);
+        }
     }
     if faults.len() == before { given } else { vec![[1, 1]; voussoirs.unwrap_or(0)] }
 }
@@ -68,23 +70,40 @@ pub fn check(here: &str, subblocks: Subblocks, faults: &mut Faults) {
     }
 }
 
-/// A voussoir with several arcs on a side has no sectors to be cut into, and a body that is no quadrilateral no grid.
-fn check_sides(request: &MeshRequest, structure: &Structure, subblocks: &[[usize; 2]], faults: &mut Faults) {
-    let compound = |k: &usize| structure.bodies[*k].sides == Sides::Compound && subblocks[*k] != [1, 1];
-    let uniform = matches!(request.subblocks, SubblocksRequest::Uniform(_));
-    let most = if uniform { 1 } else { MAX_VOUSSOIR_FAULTS };
-    for k in (0..structure.voussoirs().len()).filter(compound).take(most) {
-        let pointer = if uniform { UNIFORM.to_owned() } else { format!("{PER_VOUSSOIR}/{k}") };
-        let detail = format!(
-            "a curved side of voussoir {k} is of more than one arc, which cannot be cut into subblocks: place joints \
-             where the arcs meet, set curved_sides to false, or leave this voussoir at 1 x 1"
-        );
-        faults.add(pointer, detail);
+/// Whether every body can be cut like this.
+fn check_bodies(request: &MeshRequest, whole: &Layout, subblocks: &[[usize; 2]], faults: &mut Faults) {
+    let bodies = whole.structure.voussoirs();
+    let uniform = match &request.subblocks {
+        SubblocksRequest::Uniform(each) => Some([each.radial, each.along]),
+        SubblocksRequest::PerVoussoir(_) => None,
+    };
+    // Arcs would become chords.
+    let arcs = |k: usize| bodies[k].sides == Sides::Compound && uniform.is_some_and(|each| each != [1, 1]);
+    let uncut = (0..bodies.len()).filter(|&k| arcs(k) || !can_be_cut(&bodies[k], subblocks[k]));
+    for k in uncut.take(if uniform.is_some() { 1 } else { MAX_VOUSSOIR_FAULTS }) {
+        let pointer = if uniform.is_some() { UNIFORM.to_owned() } else { format!("{PER_VOUSSOIR}/{k}") };
+        faults.add(pointer, why_whole(whole, k, subblocks[k], "leave it at 1 x 1"));
     }
-    let whole = |k: &usize| !structure.bodies[*k].is_quadrilateral() && subblocks[*k] != [1, 1];
-    for k in (0..structure.voussoirs().len()).filter(whole).take(MAX_VOUSSOIR_FAULTS) {
-        let detail = format!("body {k} is not convex with four corners, so it is not cut: leave it at 1 x 1");
-        faults.add(format!("{PER_VOUSSOIR}/{k}"), detail);
+}
+
+/// Why a body cannot be cut like this, and what to do, or else.
+pub fn why_whole(whole: &Layout, k: usize, subblocks: [usize; 2], or_else: &str) -> String {
+    let (body, called) = (&whole.structure.bodies[k], whole.called(k));
+    if body.sides == Sides::Compound {
+        return format!(
+            "a curved side of {called} is of more than one arc, which cannot be cut into subblocks: place joints where the \
+             arcs meet, set curved_sides to false, or {or_else}"
+        );
+    }
+    match subblocks_of(body, [2, 2]) {
+        None => format!(
+            "{called} turns inwards, so that it cannot be cut into subblocks: divide it into convex bodies with bonded joints \
+             between them, or {or_else}"
+        ),
+        Some([1, parts]) if subblocks[1] != parts * subblocks[0] => {
+            format!("{called} is cut in {parts} parts: give it {parts} times as many along as radial, or {or_else}")
+        }
+        Some(_) => format!("lines of this mesh would cross in {called}: give it other numbers, or {or_else}"),
     }
 }
 

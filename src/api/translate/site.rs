@@ -50,7 +50,7 @@ impl<'a> Unloaded<'a> {
             None => whole.cloned(),
         };
         let analysed = structure.as_ref().map(|structure| structure.voussoirs().len());
-        let mut subblocks = mesh::subblocks(&request.mesh, whole, analysed, faults);
+        let mut subblocks = mesh::subblocks(&request.mesh, layout.as_ref(), analysed, faults);
         let cut = whole.filter(|_| request.half()).and_then(Structure::keystone);
         if let Some([_, along]) = cut.and_then(|keystone| subblocks.get_mut(keystone)) {
             *along = along.div_ceil(2);
@@ -61,7 +61,7 @@ impl<'a> Unloaded<'a> {
         check_method(request, faults);
         crushing::check(request, &subblocks, faults);
         faults.inside("/report/share_of_collapse", request.report.share_of_collapse, 0.0, 1.0);
-        let accuracy = accuracy::accuracy(request, whole, faults);
+        let accuracy = accuracy::accuracy(request, layout.as_ref(), faults);
         let pieces = mesh::total(subblocks.iter().take(analysed.unwrap_or(0)));
         let refined = accuracy.filter(|accuracy| accuracy.stress.is_some());
         let pieces = refined.map_or(pieces, |accuracy| accuracy.most_subblocks);

@@ -20,6 +20,13 @@ pub struct Layout {
     pub supports: Vec<String>,
 }
 
+impl Layout {
+    /// What a body is called in a fault.
+    pub fn called(&self, body: usize) -> String {
+        self.bodies.get(body).map_or_else(|| format!("voussoir {body}"), |name| format!("body {name}"))
+    }
+}
+
 /// The three words for a structure, and whether each is given.
 fn words(request: &AnalysisRequest) -> [(&'static str, bool); 3] {
     [("arch", request.arch.is_some()), ("bridge", request.bridge.is_some()), ("blocks", request.blocks.is_some())]
@@ -52,19 +59,10 @@ pub fn layout(request: &AnalysisRequest, stones: &Stones<'_>, faults: &mut Fault
     }
 }
 
-/// What can be asked of an arch only.
+/// What an arch does not take.
 pub fn check(request: &AnalysisRequest, faults: &mut Faults) {
     if request.arch.is_some() {
         let detail = "an arch is made of `stone` alone: leave this out, or give the arch as a bridge of one span";
         faults.require(request.stones.is_empty(), "/stones", detail);
-        return;
     }
-    let what = match (&request.bridge, &request.blocks) {
-        (Some(_), None) => "a bridge",
-        (None, Some(_)) => "blocks",
-        _ => return,
-    };
-    let refined = request.accuracy.is_some_and(|accuracy| accuracy.stress.is_some());
-    let detail = format!("not yet for {what}: meshes are not refined: leave this out and name a mesh");
-    faults.require(!refined, "/accuracy/stress", detail);
 }

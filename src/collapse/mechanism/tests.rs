@@ -79,3 +79,20 @@ fn joints_of_no_span_have_no_angle() {
     structure.spans.clear();
     assert_eq!(angles(&structure, 2), None);
 }
+
+#[test]
+fn a_joint_that_parts_and_slips_is_a_lift_off_and_no_slide() {
+    let structure = semicircle(12);
+    let both = [Face::Intrados, Face::Extrados].map(|face| (6, Release::Rotation(face)));
+    let releases: Vec<Released> =
+        both.into_iter().chain([(6, Release::Sliding(-1.0)), (9, Release::Sliding(1.0))]).collect();
+    let mechanism = describe(&structure, &Loops::new(&structure).unwrap(), &releases, &[0.2, 0.1, 0.5, 0.4]);
+    let [lift_off] = mechanism.lift_offs[..] else { panic!("{mechanism:?}") };
+    assert_eq!(mechanism.slides.iter().map(|slide| (slide.joint, slide.rate)).collect::<Vec<_>>(), [(9, 1.0)]);
+    assert!(mechanism.hinges.is_empty() && mechanism.slips());
+    // In the scale of the joint that slides; the joints are 0.2 m long.
+    let rates = [lift_off.intrados, lift_off.extrados, lift_off.along].map(|rate| 0.4 * rate);
+    assert!(rates.iter().zip([0.1 * 0.2, 0.2 * 0.2, -0.5]).all(|(rate, expected)| (rate - expected).abs() < 1e-12));
+    // The search for the least load goes on from all that it lets go.
+    assert!(releases.iter().all(|release| released(&mechanism).contains(release)));
+}

@@ -1,6 +1,7 @@
-//! Meshes of one voussoir that nest, from coarse to fine, of subblocks that are about square.
+//! Meshes of one body that nest, from coarse to fine, of subblocks that are about square.
 
-use crate::structure::{JointLaw, Structure};
+use super::super::grid::{can_be_cut, extents, subblocks_of};
+use crate::structure::{Body, Joint, JointLaw, Side, Structure};
 
 /// Into how many pieces the loads on the extrados side of every voussoir have to be cut for any of these meshes: their
 /// numbers along divide it.
@@ -17,14 +18,39 @@ const ASPECT: f64 = 1.5;
 /// How much shorter than that subblocks may become when they are halved along as well as across.
 const SHORTER: f64 = 0.7;
 
-/// Subblocks, radial and along, of ever finer meshes of voussoir `k`: each has whole subblocks of the next in every one of
+/// Subblocks, radial and along, of ever finer meshes of body `k`: each has whole subblocks of the next in every one of
 /// its own.
 pub(super) fn ladder(structure: &Structure, k: usize) -> Vec<[usize; 2]> {
-    let [before, after] = [&structure.joints[k], &structure.joints[k + 1]];
-    let along = 0.5 * ((after.intrados - before.intrados).norm() + (after.extrados - before.extrados).norm());
+    let mirrored = |joint: &Joint| joint.law == JointLaw::Mirror && joint.between.contains(&Side::Body(k));
     // A stone that is cut in two on the axis has half of the pieces.
-    let pieces = if after.law == JointLaw::Mirror { LOAD_PIECES / 2 } else { LOAD_PIECES };
-    rungs(FIRST_RADIAL, along / (0.5 * (before.length() + after.length())) / ASPECT, pieces)
+    let pieces = if structure.joints.iter().any(mirrored) { LOAD_PIECES / 2 } else { LOAD_PIECES };
+    let of_arch = structure.spans.iter().any(|span| span.bodies.contains(&k));
+    meshes(&structure.bodies[k], if of_arch { ASPECT } else { 1.0 }, pieces)
+}
+
+/// Whether the error of the stress in a body can be told: by two meshes.
+pub fn can_be_refined(body: &Body) -> bool {
+    meshes(body, 1.0, LOAD_PIECES).len() >= 2
+}
+
+/// Meshes of a body, of subblocks `aspect` times as long as high: of one with four sides from two subblocks across its shorter
+/// extent on, of another from one each way in each part.
+fn meshes(body: &Body, aspect: f64, pieces: usize) -> Vec<[usize; 2]> {
+    let meshes = match (extents(body), subblocks_of(body, [2, 2])) {
+        (Some([radial, along]), _) if aspect > 1.0 || along >= radial => {
+            rungs(FIRST_RADIAL, along / radial / aspect, pieces)
+        }
+        (Some([radial, along]), _) => {
+            rungs(FIRST_RADIAL, radial / along / aspect, pieces).into_iter().map(|[i, j]| [j, i]).collect()
+        }
+        (None, Some([_, parts])) => {
+            let finer = |each: &usize| Some(2 * each).filter(|each| parts * each <= MOST_EACH_WAY.max(2 * parts));
+            std::iter::successors(Some(1), finer).map(|each| [each, parts * each]).collect()
+        }
+        (None, None) => Vec::new(),
+    };
+    let meshes: Vec<_> = meshes.into_iter().take_while(|&mesh| can_be_cut(body, mesh)).collect();
+    if meshes.is_empty() { vec![[1, 1]] } else { meshes }
 }
 
 /// The same from `radial` subblocks across on, with `columns` times as many along, which divide `pieces`.

@@ -84,6 +84,15 @@ pub enum Note {
     },
     /// A motion could not be followed to its end.
     MotionLost,
+    /// A motion rests where it starts, at loads beyond the limit window.
+    MotionRestsBeyond {
+        /// Load factor of the motion.
+        load_factor: f64,
+        /// That of the window's end.
+        limit: f64,
+        /// Bodies that press there on what they have no joint with, or across the end of a joint.
+        bodies: Vec<usize>,
+    },
     /// In some steps of the motion friction is beyond its bound, by at most this share of the loads.
     MotionBeyondFriction(f64),
 }

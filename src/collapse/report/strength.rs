@@ -12,7 +12,8 @@ pub struct SubblockStress {
     pub place: [usize; 2],
     /// Centroid, m.
     pub centre: Vec2,
-    /// Corners, counter-clockwise from the intrados end at the joint before, m; four, unless it is a whole body of another shape.
+    /// Corners, counter-clockwise from the intrados end at the joint before, m; four, and
+    /// those of the body's own between them; all of a whole body.
     pub corners: Vec<Vec2>,
     /// sigma_x, sigma_y, tau_xy, Pa, compression negative.
     pub stress: [f64; 3],

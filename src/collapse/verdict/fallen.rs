@@ -35,6 +35,21 @@ impl Setup<'_> {
         Ok(Attempted { report, doubt })
     }
 
+    /// The answer, in doubt, where some stone has slid out of its joint as the loads at the start came on and limit analysis finds
+    /// equilibrium there: by small displacements it may stand far away, but rounding blurs what follows.
+    pub(super) fn slid_out(&self, before: &CollapseReport, model: &Model, tracer: &Tracer) -> Option<Attempted> {
+        let (analysis, displacements) = (self.analysis, tracer.displacements());
+        let stands = self.certificate.stands_at(self.start) && !self.certificate.ends_at_zero(self.sign);
+        if !any_fixed(analysis) || !stands || !ending::slid_out(model, &analysis.structure, displacements) {
+            return None;
+        }
+        let mut fall = ending::at_criterion(analysis, model, displacements, self.start, tracer.worst_residual());
+        (fall.range, fall.thrust_line) = (self.range_of(&fall), Vec::new());
+        let mut report = self.blank(before.cost.unknowns);
+        (report.notes, report.outcome, report.end) = (before.notes.clone(), Outcome::SlidesAsBuilt, Some(fall));
+        Some(Attempted { report, doubt: Some(Doubt::SlidesInside) })
+    }
+
     /// Where it slides although limit analysis finds equilibrium: the load at which it fell, and the window's end.
     fn range_of(&self, fall: &PathEnd) -> Option<LoadRange> {
         let greatest = self.certificate.end(self.sign).filter(|_| self.certificate.stands_at(fall.load_factor))?;

@@ -92,7 +92,7 @@ impl Setup<'_> {
         };
         report.notes.extend(ending.later.then_some(Note::LaterMechanism));
         report.notes.extend(ending.end.range.as_ref().map(range_note));
-        let slides = self.analysis.task.crushes_on_path() && !ending.end.mechanism.slides.is_empty();
+        let slides = self.analysis.task.crushes_on_path() && ending.end.mechanism.slips();
         report.notes.extend(slides.then_some(Note::CrushesAndSlides));
         report.outcome = Outcome::Collapse;
         report.end = Some(ending.end);
@@ -108,7 +108,7 @@ impl Setup<'_> {
         at_limits.extend(search.at_window_end(greatest));
         let (found, mechanisms_tried) = search.least(at_limits);
         self.budget.check()?;
-        let slides = found.filter(|found| !found.mechanism.slides.is_empty());
+        let slides = found.filter(|found| found.mechanism.slips());
         if let Some(found) = slides.filter(|found| !search.is_beyond(found.load_factor, path, tolerances::POLISH)) {
             // A path that nothing polished carries the disturbance of its attempt: what is as near is the same load.
             if !search.is_beyond(path, found.load_factor, tolerances::POLISH) {
@@ -122,7 +122,7 @@ impl Setup<'_> {
             }
             end.load_factor = found.load_factor;
         }
-        if !end.mechanism.slides.is_empty() {
+        if end.mechanism.slips() {
             end.range = Some(LoadRange { least: end.load_factor, greatest, path, mechanisms_tried });
         }
         Ok(())

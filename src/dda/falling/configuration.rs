@@ -51,8 +51,8 @@ pub struct Configuration {
 pub enum Advance {
     /// The bodies have moved.
     Moved(Box<Configuration>),
-    /// Nothing moves: the bodies are in equilibrium.
-    Rest,
+    /// Nothing moves: the bodies are in equilibrium where they are, under these forces.
+    Rest(Box<Configuration>),
 }
 
 /// No step was found.

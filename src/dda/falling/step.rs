@@ -147,7 +147,7 @@ impl Falling {
             match self.judge(&trial, &pairs, &contacts, &outlines) {
                 // So short a step that all that is left of it is round-off tells nothing.
                 Judgement::Rests if failures > FAILURES => return Err(Stuck),
-                Judgement::Rests => return Ok(Advance::Rest),
+                Judgement::Rests => return Ok(self.rest(trial, &pairs, &contacts)),
                 Judgement::Entered(entered) => contacts.extend(entered),
                 Judgement::TooLong(factor) => {
                     longest = self.step;
@@ -155,7 +155,9 @@ impl Falling {
                 }
                 Judgement::TooShort(factor) if factor * self.step < longest => self.step *= factor,
                 // It has undone an overlap, and longer ones go against the loads.
-                Judgement::TooShort(_) if self.work(&trial.places) < 0.0 => return Ok(Advance::Rest),
+                Judgement::TooShort(_) if self.work(&trial.places) < 0.0 => {
+                    return Ok(self.rest(trial, &pairs, &contacts));
+                }
                 Judgement::TooShort(_) | Judgement::Right => {
                     let overlap = self.overlaps(&pairs, &outlines).0;
                     return Ok(Advance::Moved(Box::new(self.accept(trial, overlap, &contacts, &outlines))));
@@ -201,6 +203,16 @@ impl Falling {
     fn work(&self, places: &[Position]) -> f64 {
         let work = |((body, from), to): ((&RigidBody, &Position), &Position)| body.work(from, to);
         self.bodies.iter().zip(&self.places).zip(places).map(work).sum()
+    }
+
+    /// The bodies where they are, with the forces that keep them there.
+    fn rest(&mut self, trial: Trial, pairs: &[[usize; 2]], contacts: &[PlacedEntrance]) -> Advance {
+        let (outlines, before) = (self.outlines(&self.places), (self.parameter, self.step));
+        let overlap = self.overlaps(pairs, &outlines).0;
+        let there = Trial { places: self.places.clone(), moved: 0.0, ..trial };
+        let rest = self.accept(there, overlap, contacts, &outlines);
+        (self.parameter, self.step) = before;
+        Advance::Rest(Box::new(rest))
     }
 
     /// The stride that is wanted over that of a trial.

@@ -24,20 +24,21 @@ impl Drift {
 impl Tracer<'_> {
     /// Whether a further step only moves the assembly on.
     pub(super) fn drifts(&self, drift: Drift, step: f64) -> bool {
-        let gained = self.parameter + step * self.rate - drift.from;
-        drift.moved + step > FAR * self.size && !self.worth_telling(gained)
+        let (gained, moved) = (self.parameter + step * self.rate - drift.from, drift.moved + step);
+        moved > FAR * self.size && !self.worth_telling(gained, moved)
     }
 
     /// The drift after a step that the assembly has made.
     pub(super) fn drifted(&self, drift: Drift, step: f64) -> Drift {
-        match self.worth_telling(self.parameter - drift.from) {
+        let moved = drift.moved + step;
+        match self.worth_telling(self.parameter - drift.from, moved) {
             true => Drift::at(self.parameter),
-            false => Drift { moved: drift.moved + step, ..drift },
+            false => Drift { moved, ..drift },
         }
     }
 
-    /// Whether a gain of the parameter is what an assembly that moves far has to gain.
-    fn worth_telling(&self, gained: f64) -> bool {
-        gained * self.load_rate_scale > SOFT * FAR * self.load_scale
+    /// Whether a gain of the parameter is what an assembly that moves so far, and at least far, has to gain.
+    fn worth_telling(&self, gained: f64, moved: f64) -> bool {
+        gained * self.load_rate_scale > SOFT * FAR.max(moved / self.size) * self.load_scale
     }
 }

@@ -5,6 +5,8 @@ use crate::dda::contact::{Moving, State, zone};
 
 /// In a mechanism, gap rates below this are rounding (the direction's largest entry is 1).
 const STILL_GAP: f64 = 1e-7;
+/// Anywhere else, gap rates below this: displacements of the two faces differ by no less than they are rounded.
+const ROUNDED_GAP: f64 = 8.0 * f64::EPSILON;
 /// Where no pivot ratio is below this, a soft direction is none of rounding (measured: singular pivots are blurred to 1e-10 at most).
 const BLUR: f64 = 1e-9;
 
@@ -25,8 +27,11 @@ impl Tracer<'_> {
 
     /// The next change of state along the current direction, but the one that is barred.
     pub(super) fn nearest_event(&self, barred: Option<(usize, State)>) -> Option<Event> {
-        let rounded = self.moving.is_none() && self.is_mechanism() && self.factor.pivot_ratio() < BLUR;
-        let still = if rounded { STILL_GAP } else { 0.0 };
+        let still = match self.moving {
+            Some(_) => 0.0,
+            None if self.is_mechanism() && self.factor.pivot_ratio() < BLUR => STILL_GAP,
+            None => ROUNDED_GAP,
+        };
         let mut nearest: Option<Event> = None;
         for (p, &state) in self.states.iter().enumerate() {
             let stiffness = self.assembly.contacts()[p].stiffness[0];

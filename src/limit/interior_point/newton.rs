@@ -5,14 +5,13 @@ use super::cone::Scaling;
 use super::{Point, Sparse, Square, dot3, largest, sum};
 use faer::linalg::solvers::Solve;
 use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
-use faer::sparse::{SparseColMat, SymbolicSparseColMat};
-use faer::{Mat, Side};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
+use faer::{MatMut, Side};
 
 /// Root of the curvature of a block without rows.
 const EMPTY_BLOCK: f64 = 1e-4;
-/// Rows of most blocks, at most.
-const USUAL_ROWS: usize = 8;
-/// Residuals of a solution of the Newton system that no correction betters much, relative to the right-hand sides.
+/// Residuals of a solution of the Newton system that no correction betters much, relative to the right-hand sides; where less is
+/// asked of the programme, so it is of these.
 const EXACT_NEWTON: f64 = 1e-12;
 /// Corrections of a solution of the Newton system.
 const REFINEMENTS: usize = 3;
@@ -22,8 +21,7 @@ const RIDGE: f64 = 1e-10;
 /// The pattern of S and its elimination order, found once.
 #[derive(Debug, Clone)]
 pub struct NewtonPattern {
-    columns: Vec<usize>,
-    rows: Vec<usize>,
+    matrix: SymbolicSparseColMat<usize>,
     /// Of every joint the pairs of its bodies (places in its list) with a block in the lower triangle: where its columns start.
     places: Vec<Vec<([usize; 2], [usize; 3])>>,
     order: SymbolicLlt<usize>,
@@ -56,9 +54,9 @@ impl NewtonPattern {
             all.filter_map(|pair| Some((pair, place(joint[pair[0]], joint[pair[1]])?))).collect()
         };
         let places = joints.iter().map(pairs).collect();
-        let symbolic = SymbolicSparseColMat::new_checked(3 * bodies, 3 * bodies, columns.clone(), None, rows.clone());
-        let order = SymbolicLlt::try_new(symbolic.as_ref(), Side::Lower).ok()?;
-        Some(NewtonPattern { columns, rows, places, order })
+        let matrix = SymbolicSparseColMat::new_checked(3 * bodies, 3 * bodies, columns, None, rows);
+        let order = SymbolicLlt::try_new(matrix.as_ref(), Side::Lower).ok()?;
+        Some(NewtonPattern { matrix, places, order })
     }
 }
 
@@ -72,23 +70,28 @@ pub(super) struct Newton<'p> {
     /// S^-1 growth, and the curvature of the load factor without the rest.
     growth: Vec<f64>,
     schur: f64,
+    /// Residuals of a solution that are small enough.
+    exact: f64,
 }
 
 impl<'p> Newton<'p> {
-    pub(super) fn new(programme: &'p Sparse, pattern: &NewtonPattern, point: &Point) -> Option<Self> {
+    pub(super) fn new(programme: &'p Sparse, pattern: &NewtonPattern, point: &Point, enough: f64) -> Option<Self> {
         let scaling = Scaling::new(programme, point);
-        let n = programme.blocks.len();
-        let mut scaled: Vec<Vec<[f64; 3]>> = (0..n).map(|_| Vec::with_capacity(USUAL_ROWS)).collect();
-        let mut last = 0.0;
-        for (block, row) in scaling.rows(programme) {
-            match scaled.get_mut(block) {
-                Some(rows) => rows.push(row),
-                None => last += row[0] * row[0],
-            }
-        }
-        let roots: Vec<Square> = scaled.iter_mut().map(|rows| inverse_root(rows)).collect();
+        let mut scaled = scaling.rows(programme);
+        scaled.sort_by_key(|(block, _)| *block);
+        let (mut rest, mut own) = (&scaled[..], Vec::new());
+        let root = |block: usize| {
+            let (rows, others) = rest.split_at(rest.iter().take_while(|(of, _)| *of == block).count());
+            rest = others;
+            own.clear();
+            own.extend(rows.iter().map(|(_, row)| *row));
+            inverse_root(&mut own)
+        };
+        let roots: Vec<Square> = (0..programme.blocks.len()).map(root).collect();
+        let last: f64 = rest.iter().map(|(_, row)| row[0] * row[0]).sum();
         let factors = factor(programme, pattern, &roots)?;
-        let mut newton = Newton { programme, scaling, roots, factors, growth: Vec::new(), schur: 0.0 };
+        let (growth, schur, exact) = (Vec::new(), 0.0, EXACT_NEWTON.max(enough));
+        let mut newton = Newton { programme, scaling, roots, factors, growth, schur, exact };
         newton.growth = newton.solve_bodies(&programme.growth);
         newton.schur = last + dot(&programme.growth, &newton.growth);
         if last == 0.0 && programme.growth.iter().all(|g| *g == 0.0) {
@@ -99,8 +102,9 @@ impl<'p> Newton<'p> {
     }
 
     fn solve_bodies(&self, right: &[f64]) -> Vec<f64> {
-        let x = self.factors.solve(&Mat::from_fn(right.len(), 1, |i, _| right[i]));
-        (0..right.len()).map(|i| x[(i, 0)]).collect()
+        let mut x = right.to_vec();
+        self.factors.solve_in_place(MatMut::from_column_major_slice_mut(&mut x, right.len(), 1));
+        x
     }
 
     /// H^-1 of the blocks times `right`; the entry of the load factor stays.
@@ -146,7 +150,7 @@ impl<'p> Newton<'p> {
                 break;
             }
             (x, y, rest, others) = (next_x, next_y, next_rest, next_others);
-            if next > 0.5 * left || next < EXACT_NEWTON {
+            if next > 0.5 * left || next < self.exact {
                 break;
             }
             left = next;
@@ -215,12 +219,14 @@ const SMALLEST: f64 = 1e-14;
 /// S = sum E C C' E', factored; a share of its diagonal is added where rounding makes it indefinite.
 fn factor(programme: &Sparse, pattern: &NewtonPattern, roots: &[Square]) -> Option<Llt<usize, f64>> {
     let n = 3 * programme.bodies;
-    let mut values = vec![0.0; pattern.rows.len()];
+    let mut values = vec![0.0; pattern.matrix.row_idx().len()];
     for ((block, root), places) in programme.blocks.iter().zip(roots).zip(&pattern.places) {
-        let product = |e: &Square| -> Square {
-            e.map(|e| [0, 1, 2].map(|j| e[0] * root[0][j] + e[1] * root[1][j] + e[2] * root[2][j]))
-        };
-        let halves: Vec<Square> = block.iter().map(|(_, e)| product(e)).collect();
+        let mut halves = [[[0.0; 3]; 3]; 2];
+        for (half, (_, e)) in halves.iter_mut().zip(block) {
+            for (half, e) in half.iter_mut().zip(e) {
+                (0..3).for_each(|j| half[j] = e[0] * root[0][j] + e[1] * root[1][j] + e[2] * root[2][j]);
+            }
+        }
         for &([i, j], starts) in places {
             for (left, start) in halves[i].iter().zip(starts) {
                 (0..3).for_each(|row| values[start + row] += dot3(&halves[j][row], left));
@@ -228,18 +234,16 @@ fn factor(programme: &Sparse, pattern: &NewtonPattern, roots: &[Square]) -> Opti
         }
     }
     for ridge in [0.0, 1e-14, 1e-12, 1e-10, 1e-8] {
-        let mut shifted = values.clone();
         // The diagonal is the first entry of a column at and below it.
         for column in 0..n {
-            let start = pattern.columns[column] + column % 3;
-            shifted[start] *= 1.0 + ridge;
-            if shifted[start] == 0.0 {
-                shifted[start] = 1.0;
+            let start = pattern.matrix.col_ptr()[column] + column % 3;
+            values[start] *= 1.0 + ridge;
+            if values[start] == 0.0 {
+                values[start] = 1.0;
             }
         }
-        let symbolic = SymbolicSparseColMat::new_checked(n, n, pattern.columns.clone(), None, pattern.rows.clone());
-        let matrix = SparseColMat::new(symbolic, shifted);
-        if let Ok(factors) = Llt::try_new_with_symbolic(pattern.order.clone(), matrix.as_ref(), Side::Lower) {
+        let matrix = SparseColMatRef::new(pattern.matrix.as_ref(), &values);
+        if let Ok(factors) = Llt::try_new_with_symbolic(pattern.order.clone(), matrix, Side::Lower) {
             return Some(factors);
         }
     }

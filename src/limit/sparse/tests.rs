@@ -108,7 +108,7 @@ fn both_solvers_find_the_same_cheapest_motion() {
     let slides = (0..bridge.joints.len()).flat_map(|k| [1.0, -1.0].map(|sign| (k, Release::Sliding(sign))));
     let releases: Vec<_> = turns.chain(slides).collect();
     let costs: Vec<f64> = (0..releases.len()).map(|i| 1.0 + 0.9 * (1.7 * i as f64).sin()).collect();
-    let programme = theorem.motion_programme(&releases, &costs);
+    let programme = Programme { errors: [1e-10, 1e-8], ..theorem.motion_programme(&releases, &costs) };
     let [dense, sparse] = [Programme::maximise_densely, Programme::maximise_sparsely].map(|maximise| {
         let ProgrammeOutcome::At(_, Dual { multipliers: rates, .. }) =
             maximise(&programme, &Objective::load_factor(1.0), &Budget::unlimited())

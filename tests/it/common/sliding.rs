@@ -72,7 +72,7 @@ impl Checked {
             path: end.on_path(),
             variants: lowest_variant(analysis, end, sign),
             exhaustive,
-            slides: !end.mechanism.slides.is_empty(),
+            slides: end.mechanism.slips(),
             gap: full_solution::measure(&problem, &centroids, end),
             full: false,
             complaints: Vec::new(),

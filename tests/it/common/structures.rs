@@ -102,7 +102,7 @@ fn judged(scene: &Scene, report: &CollapseReport) -> Judged {
         (Outcome::Collapse, Some(end), Some((_, high))) if stands => match fault(scene, end) {
             Some(fault) => wrong(fault),
             None if same(end.load_factor, high) => Judged::Equal,
-            None if end.load_factor < high && !end.mechanism.slides.is_empty() => {
+            None if end.load_factor < high && end.mechanism.slips() => {
                 Judged::Below((high - end.load_factor) / high.abs().max(f64::MIN_POSITIVE))
             }
             None => wrong(format!("falls at {}", end.load_factor)),

@@ -124,7 +124,7 @@ impl Checked {
         self.measure_motion(analysis, end, sign);
         let limit = if sign > 0.0 { window.highest } else { window.lowest };
         if limit.is_infinite() {
-            let explained = !end.mechanism.slides.is_empty();
+            let explained = end.mechanism.slips();
             self.complain(!explained, || format!("falls at {} without sliding, window {limit}", end.load_factor));
             return;
         }
@@ -132,7 +132,7 @@ impl Checked {
         let excess = sign * (end.load_factor - limit) / limit.abs().max(floor);
         self.excess = Some(self.excess.unwrap_or(f64::NEG_INFINITY).max(excess));
         self.complain(excess > ABOVE || excess.is_nan(), || format!("{:e} above the window {limit}", excess));
-        if end.mechanism.slides.is_empty() {
+        if !end.mechanism.slips() {
             self.deviation = Some(self.deviation.unwrap_or(0.0).max(excess.abs()));
             self.complain(excess.abs() > EQUAL, || format!("{excess:e} off the window {limit} without sliding"));
         } else if limit.abs() > floor {
@@ -148,7 +148,7 @@ impl Checked {
         let motion = motion::measure(&door::problem(analysis), &centroids, &end.mechanism, end.load_factor);
         self.entering = self.entering.max(motion.entering);
         // Where joints slide the peak of the path need not be a mechanism (no normality): measured, not judged.
-        if end.mechanism.slides.is_empty() {
+        if !end.mechanism.slips() {
             self.complain(motion.entering > MOTION || motion.entering.is_nan(), || {
                 format!("stones enter each other in the mechanism, {:e}", motion.entering)
             });
@@ -185,7 +185,7 @@ impl Checked {
 
     fn consistent(&mut self, analysis: &Analysis, report: &CollapseReport, oracle: Option<(f64, f64)>) {
         let floor = 1e-6 * balance(analysis);
-        let slides = report.end.as_ref().is_some_and(|end| !end.mechanism.slides.is_empty());
+        let slides = report.end.as_ref().is_some_and(|end| end.mechanism.slips());
         let expected = match oracle {
             None => Outcome::FallsAsBuilt,
             Some((low, high)) if low.abs() < floor || high.abs() < floor => return,

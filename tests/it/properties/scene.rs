@@ -39,7 +39,7 @@ impl Solved {
     }
 
     pub fn slides(&self) -> bool {
-        self.ends().iter().any(|(end, _)| !end.mechanism.slides.is_empty())
+        self.ends().iter().any(|(end, _)| end.mechanism.slips())
     }
 
     /// Load factor at the end of the path; NaN without one.
