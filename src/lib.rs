@@ -1,4 +1,4 @@
-//! Voussoir: tells when a masonry arch falls, how, and how sure we are.
+//! Voussoir: tells when a masonry structure collapses, how, and how sure that is.
 
 #[cfg(feature = "server")]
 pub mod api;
