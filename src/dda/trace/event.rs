@@ -5,8 +5,8 @@ use crate::dda::contact::{Moving, State, zone};
 
 /// In a mechanism, gap rates below this are rounding (the direction's largest entry is 1).
 const STILL_GAP: f64 = 1e-7;
-/// Anywhere else, gap rates below this: displacements of the two faces differ by no less than they are rounded.
-const ROUNDED_GAP: f64 = 8.0 * f64::EPSILON;
+/// A gap that is less than this, m, and whose rate is, is nought and stays so but for rounding.
+const NO_GAP: f64 = 8.0 * f64::EPSILON;
 /// Where no pivot ratio is below this, a soft direction is none of rounding (measured: singular pivots are blurred to 1e-10 at most).
 const BLUR: f64 = 1e-9;
 
@@ -27,11 +27,8 @@ impl Tracer<'_> {
 
     /// The next change of state along the current direction, but the one that is barred.
     pub(super) fn nearest_event(&self, barred: Option<(usize, State)>) -> Option<Event> {
-        let still = match self.moving {
-            Some(_) => 0.0,
-            None if self.is_mechanism() && self.factor.pivot_ratio() < BLUR => STILL_GAP,
-            None => ROUNDED_GAP,
-        };
+        let rounded = self.moving.is_none() && self.is_mechanism() && self.factor.pivot_ratio() < BLUR;
+        let still = if rounded { STILL_GAP } else { 0.0 };
         let mut nearest: Option<Event> = None;
         for (p, &state) in self.states.iter().enumerate() {
             let stiffness = self.assembly.contacts()[p].stiffness[0];
@@ -39,7 +36,8 @@ impl Tracer<'_> {
                 let back = barred.is_some_and(|(contact, old)| contact == p && (next == old || state == State::Open));
                 // Rates of gaps are measured against 1, rates of forces against the penalty.
                 let threshold = if is_gap(state, next) { still } else { still * stiffness };
-                if change < -threshold && !back {
+                let nought = is_gap(state, next) && value.abs() < NO_GAP && change > -NO_GAP && self.moving.is_none();
+                if change < -threshold && !back && !nought {
                     let step = (value / -change).max(0.0);
                     if nearest.is_none_or(|event| step < event.step) {
                         nearest = Some(Event { step, contact: p, next });
