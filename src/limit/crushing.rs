@@ -7,7 +7,8 @@
 //! tangents so close together that rounding confuses them defeat it, the parabolas are cones of the interior point method.
 
 use super::programme::{Objective, Programme, ProgrammeOutcome};
-use super::static_theorem::{Equilibrium, Limit, Resultant};
+use super::resultant::Resultant;
+use super::static_theorem::{Equilibrium, Limit};
 use super::{StaticTheorem, Unsolved};
 use crate::budget::Budget;
 

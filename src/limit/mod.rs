@@ -9,13 +9,15 @@ mod interior_point;
 mod linear_program;
 mod non_dilating;
 mod programme;
+mod resultant;
 mod sparse;
 mod static_theorem;
 mod window;
 
 pub use crushing::CrushingWindow;
 pub use non_dilating::{Release, releases};
-pub use static_theorem::{Condition, Equilibrium, Resultant, StaticTheorem, Unsolved};
+pub use resultant::{Condition, Resultant};
+pub use static_theorem::{Equilibrium, StaticTheorem, Unsolved};
 pub use window::{Window, WindowEnd};
 
 #[cfg(test)]

@@ -6,7 +6,8 @@
 //! theorem, and what they leave open is a whole range of load factors. Its least value is a linear programme.
 
 use super::programme::{Objective, Programme, ProgrammeOutcome};
-use super::static_theorem::{Equilibrium, Limit, Resultant, StaticTheorem, Unsolved};
+use super::resultant::Resultant;
+use super::static_theorem::{Equilibrium, Limit, StaticTheorem, Unsolved};
 use crate::budget::Budget;
 use crate::structure::{Face, Joint, JointLaw};
 

@@ -3,7 +3,8 @@
 use super::crushing::Section;
 use super::interior_point::{Found, NewtonPattern, Row, Sparse, Square, minimise};
 use super::programme::{Dual, Objective, Programme, ProgrammeOutcome};
-use super::static_theorem::{Equilibrium, Limit, Resultant, StaticTheorem};
+use super::resultant::{Resultant, dot};
+use super::static_theorem::{Equilibrium, Limit, StaticTheorem};
 use crate::budget::Budget;
 use crate::geometry::{Vec2, cross};
 use crate::structure::Joint;
@@ -273,10 +274,6 @@ fn without(v: [f64; 3], directions: &[[f64; 3]]) -> [f64; 3] {
         let along = dot(v, *direction);
         std::array::from_fn(|c| v[c] - along * direction[c])
     })
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 #[cfg(test)]

@@ -1,7 +1,8 @@
 //! The limit window and why it ends where it does: forces that prove it from below, motions that prove it from above.
 
 use super::programme::{Dual, Objective, Programme, ProgrammeOutcome};
-use super::static_theorem::{Limit, joint_functionals};
+use super::resultant::joint_functionals;
+use super::static_theorem::Limit;
 use super::{Equilibrium, Resultant, StaticTheorem, Unsolved};
 use crate::budget::Budget;
 use crate::geometry::Vec2;

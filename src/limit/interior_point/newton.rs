@@ -2,7 +2,8 @@
 
 use super::super::linear_program::dot;
 use super::cone::Scaling;
-use super::{Point, Sparse, Square, dot3, largest, sum};
+use super::sparse::dot3;
+use super::{Point, Sparse, Square, largest, sum};
 use faer::linalg::solvers::Solve;
 use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};

@@ -1,0 +1,81 @@
+//! What elimination does to the dense rows of a front.
+
+use crate::dda::tree::Run;
+
+/// Adds the entries of a square matrix, whose rows are `size` apart, into a front of rows that are `width` apart.
+pub fn add_up(entries: &[f64], size: usize, runs: &[Run], width: usize, front: &mut [f64]) {
+    for row in runs {
+        for column in runs {
+            let (from, into) = (&entries[row.from * size + column.from..], &mut front[row.to * width + column.to..]);
+            match (row.length, column.length) {
+                // Two contact points a joint: shapes known to the compiler run several times faster.
+                (4, 4) => {
+                    for i in 0..4 {
+                        let of = (from.get(i * size..), into.get_mut(i * width..));
+                        let (Some(from), Some(into)) = of else { return };
+                        let of = (from.first_chunk::<4>(), into.first_chunk_mut::<4>());
+                        let (Some(from), Some(into)) = of else { return };
+                        (0..4).for_each(|j| into[j] += from[j]);
+                    }
+                }
+                (rows, columns) => {
+                    for i in 0..rows {
+                        let (from, into) = (&from[i * size..][..columns], &mut into[i * width..][..columns]);
+                        into.iter_mut().zip(from).for_each(|(sum, entry)| *sum += entry);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Copies so many entries: two contact points a joint without a call.
+#[inline(always)]
+pub fn copy(from: &[f64], into: &mut [f64], length: usize) {
+    match length {
+        4 => into[..4].copy_from_slice(&from[..4]),
+        n => into[..n].copy_from_slice(&from[..n]),
+    }
+}
+
+/// From rows [C | D] to C and D - C X, for what is removed and what is kept.
+pub fn reduce(rows: &[f64], x: &[f64], sizes: [usize; 2], below: &mut [f64], left: &mut [f64]) {
+    match sizes {
+        [4, 4] => reduce_four(rows, x, below, left),
+        [_, 0] => {}
+        [0, _] => left.copy_from_slice(rows),
+        sizes => reduce_of(rows, x, sizes, below, left),
+    }
+}
+
+fn reduce_of(rows: &[f64], x: &[f64], [removed, kept]: [usize; 2], below: &mut [f64], left: &mut [f64]) {
+    let into = below.chunks_exact_mut(removed).zip(left.chunks_exact_mut(kept));
+    for (row, (below, left)) in rows.chunks_exact(removed + kept).zip(into) {
+        let (c, d) = row.split_at(removed);
+        below.copy_from_slice(c);
+        left.copy_from_slice(d);
+        // Four rows at a time, so that what is left is read and written a fourth as often. Faces have few ties, and mostly four
+        // unknowns.
+        let (by_four, rest) = (c.chunks_exact(4).zip(x.chunks_exact(4 * kept)), removed / 4 * 4);
+        for (l, x) in by_four.filter(|(l, _)| l.iter().any(|l| *l != 0.0)) {
+            let ((a, b), (c, d)) = (x[..2 * kept].split_at(kept), x[2 * kept..].split_at(kept));
+            for ((((entry, a), b), c), d) in left.iter_mut().zip(a).zip(b).zip(c).zip(d) {
+                *entry -= (l[0] * a + l[1] * b) + (l[2] * c + l[3] * d);
+            }
+        }
+        for (l, x) in c[rest..].iter().zip(x[rest * kept..].chunks_exact(kept)) {
+            left.iter_mut().zip(x).for_each(|(entry, x)| *entry -= l * x);
+        }
+    }
+}
+
+fn reduce_four(rows: &[f64], x: &[f64], below: &mut [f64], left: &mut [f64]) {
+    let Some(x) = x.as_chunks::<4>().0.first_chunk::<4>() else { return };
+    let into = below.as_chunks_mut::<4>().0.iter_mut().zip(left.as_chunks_mut::<4>().0);
+    for (row, (below, left)) in rows.as_chunks::<8>().0.iter().zip(into) {
+        below.copy_from_slice(&row[..4]);
+        for j in 0..4 {
+            left[j] = row[4 + j] - ((row[0] * x[0][j] + row[1] * x[1][j]) + (row[2] * x[2][j] + row[3] * x[3][j]));
+        }
+    }
+}
