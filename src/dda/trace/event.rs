@@ -32,16 +32,23 @@ impl Tracer<'_> {
         let mut nearest: Option<Event> = None;
         for (p, &state) in self.states.iter().enumerate() {
             let stiffness = self.assembly.contacts()[p].stiffness[0];
-            self.ways_out(p, state, |[value, change], next| {
+            let mut leave = |[value, change]: Moving, next| {
                 let back = barred.is_some_and(|(contact, old)| contact == p && (next == old || state == State::Open));
                 // Rates of gaps are measured against 1, rates of forces against the penalty.
-                let threshold = if is_gap(state, next) { still } else { still * stiffness };
-                let nought = is_gap(state, next) && value.abs() < NO_GAP && change > -NO_GAP && self.moving.is_none();
+                let gap = is_gap(state, next);
+                let threshold = if gap { still } else { still * stiffness };
+                let nought = gap && self.moving.is_none() && value.abs() < NO_GAP && change > -NO_GAP;
                 if change < -threshold && !back && !nought {
                     let step = (value / -change).max(0.0);
                     if nearest.is_none_or(|event| step < event.step) {
                         nearest = Some(Event { step, contact: p, next });
                     }
+                }
+            };
+            // Most contacts do not go that way at all.
+            self.ways_out(p, state, |way, next| {
+                if way[1] < 0.0 {
+                    leave(way, next)
                 }
             });
         }
