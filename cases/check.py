@@ -69,5 +69,5 @@ def check(answer):
     return all(good), said
 
 results = [(name, *check(json.load(open(name)))) for name in sys.argv[1:]]
-print(*(f"{name}: {'' if proved else 'NOT PROVED: '}load factors {said}" for name, proved, said in results), sep="\n")
+print(*(f"{name}: {'' if proved else 'NOT PROVED: '}load factors {said}".replace("None", "no end") for name, proved, said in results), sep="\n")
 sys.exit(not all(proved for _, proved, _ in results))

@@ -317,3 +317,20 @@ fn what_cannot_move_is_said() {
     let steps = json!({"fixed_steps": {"step": 1.0}});
     assert!(fault(&|r| r["method"] = steps.clone()).starts_with("/method: "));
 }
+
+/// The bridge's stones find another seat when the pier has sunk by 15.13 mm, however far it goes on.
+#[test]
+fn the_first_snap_does_not_depend_on_how_far_a_support_moves() {
+    let snap = |metres: f64| {
+        let mut request: Value = serde_json::from_str(include_str!("settlement/pier.json")).unwrap();
+        request["analysis"]["settlement"]["supports"][0]["downwards_m"] = metres.into();
+        let report = solve(&request);
+        let path = updated(&report);
+        assert_eq!(path.end, SettlementEnd::Follows, "{metres}");
+        let snap = path.snap.unwrap_or_else(|| panic!("none of {metres}"));
+        assert_eq!(path.safe, snap);
+        snap * metres
+    };
+    let snaps = [0.016, 0.02, 0.03].map(snap);
+    assert!(snaps.iter().all(|snap| (snap / snaps[0] - 1.0).abs() < 1e-6), "{snaps:?}");
+}

@@ -47,8 +47,8 @@ impl fmt::Display for Note {
 
 const FALLS_FROM_ZERO: &str = "The arch stands at load factor 0 and at none beyond it in the direction asked. Hinges, slides \
      and velocities are those in which it falls as soon as the load factor leaves 0.";
-const CRUSHES_AND_SLIDES: &str = "Joints crush and slide. The collapse load is that of this load path; where joints slide \
-     without dilating the arch may fall at others too, and where joints crush none lower is looked for.";
+const CRUSHES_AND_SLIDES: &str = "Joints slide, and may crush on the path. The collapse load is that of this load path; \
+     where joints slide without dilating the arch may fall at others too, and where joints may crush none lower is looked for.";
 const LATER_MECHANISM: &str = "Joints at their limits at the collapse load make no mechanism, as may be where they slide. \
      Hinges and slides are those in which the load path ends; the thrust line is that at the collapse load.";
 const COHESION_BY_POINT: &str = "Cohesion is shared out to a joint's contact points, and those that open lose theirs: where \
@@ -90,14 +90,17 @@ fn sole_load(LoadRange { least, mechanisms_tried, .. }: &LoadRange) -> String {
 fn many_loads(LoadRange { least, greatest, path, mechanisms_tried }: &LoadRange) -> String {
     let [least, shown, path] = [*least, *greatest, *path].map(Digits);
     let bound = if greatest.is_finite() {
-        format!("{shown} is the end of the limit window, which lets sliding joints dilate (associated friction)")
+        format!(
+            "load factor {shown} is the end of the limit window, which lets sliding joints dilate (associated friction)"
+        )
     } else {
         "limit analysis, which lets sliding joints dilate (associated friction), sets no bound".into()
     };
     format!(
         "Joints slide without dilating, so the load at which the arch falls is not one number: it depends on the stiffness of \
          the joints and the order of loading. Load factor {least} is the least found at which a mechanism without dilation is \
-         in equilibrium ({mechanisms_tried} tried); {bound}. This load path ended at {path}. Use {least}."
+         in equilibrium ({mechanisms_tried} tried); {bound}. This load path ended at load factor {path}. Of these \
+         the least governs, for stone that does not crush and the shape as built."
     )
 }
 

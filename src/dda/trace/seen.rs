@@ -78,7 +78,11 @@ impl Tracer<'_> {
 
     /// Where the path on moving geometry first dipped, only to rise higher later on, or as it is now, where it was lost.
     pub fn snap(&self) -> Option<f64> {
-        let higher = |dip: f64| self.peak.as_ref().is_none_or(|peak| peak.parameter - dip > SAME_PEAK * dip.abs());
+        let higher = |dip: f64| {
+            // A path that was followed to its end has risen beyond its last peak.
+            let furthest = self.peak.as_ref().map(|peak| peak.parameter.max(self.parameter));
+            furthest.is_none_or(|furthest| furthest - dip > SAME_PEAK * dip.abs())
+        };
         self.dip.filter(|&dip| self.lost.is_some() || higher(dip))
     }
 
