@@ -1,13 +1,13 @@
 //! JSON to a request, with everything that is wrong in its structure.
 
+mod defaults;
+
 use super::fault::{Fault, Faults, child, lies_under, listed};
 use super::plain_words::in_plain_words;
-use super::request::{
-    AimRequest, AnalysisRequest, BeamRequest, JointsRequest, LineRequest, LoadRequest, ProfileRequest, Request,
-    StressFieldRequest,
-};
+use super::request::{AnalysisRequest, BeamRequest, Request};
 use super::{shape, translate, tree};
 use crate::collapse::{Analysis, Question};
+use defaults::with_defaults;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
@@ -326,27 +326,4 @@ fn gets_past<R: DeserializeOwned>(tree: &Value, pointer: &str) -> bool {
         Ok(_) => true,
         Err(fault) => !lies_under(&fault.pointer, pointer),
     }
-}
-
-fn with_defaults(mut request: AnalysisRequest) -> AnalysisRequest {
-    if let Some(arch) = request.arch.as_mut().filter(|arch| !matches!(arch.profile, ProfileRequest::Surveyed(_))) {
-        arch.line.get_or_insert(LineRequest::default());
-        arch.joints.get_or_insert(JointsRequest::default());
-    }
-    request.stone = request.stone.filled_in(request.arch.is_some());
-    for entry in &mut request.loads {
-        if let LoadRequest::FillPressure(fill) = &mut entry.load {
-            fill.lateral_ratio = Some(fill.ratio());
-        }
-    }
-    let stress = request.accuracy.is_some_and(|accuracy| accuracy.stress.is_some());
-    let one_path = match &request.analysis {
-        AimRequest::Collapse => true,
-        AimRequest::Safety(safety) => safety.curve.is_none(),
-        AimRequest::Settlement(_) => false,
-    };
-    if stress && one_path && request.report.stress_fields.is_empty() {
-        request.report.stress_fields.push(StressFieldRequest::UnitLoad);
-    }
-    request
 }

@@ -35,7 +35,7 @@ fn theorem(structure: &Structure, fixed: &[PointForce], scaled: &[PointForce]) -
 }
 
 /// Force and moment about the origin that joint `k` exerts on the stone after it, rebuilt from its two corner forces.
-fn wrench(joint: &Joint, r: &Resultant) -> [f64; 3] {
+pub(in crate::limit) fn wrench(joint: &Joint, r: &Resultant) -> [f64; 3] {
     let (n, t) = (joint.normal(), joint.tangent());
     let corners = [(joint.intrados, n * r.intrados), (joint.extrados, n * r.extrados), (joint.intrados, t * r.shear)];
     corners.iter().fold([0.0; 3], |s, (at, f)| [s[0] + f.x, s[1] + f.y, s[2] + cross(*at, *f)])

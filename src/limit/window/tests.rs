@@ -1,17 +1,9 @@
 use super::super::scenes::{bridge, per_area, seismic};
-use super::super::static_theorem::tests::{arch, ferris_tin_loi, loads};
+use super::super::static_theorem::tests::{arch, ferris_tin_loi, loads, wrench};
 use super::*;
-use crate::geometry::cross;
 use crate::structure::{Joint, JointLaw, PointForce, Side, Structure, resultants};
 
 const NEAR: f64 = 1e-9;
-
-/// Force, and moment about the origin, of a joint on what lies after it.
-fn wrench(joint: &Joint, r: &Resultant) -> [f64; 3] {
-    let (n, t) = (joint.normal(), joint.tangent());
-    let corners = [(joint.intrados, n * r.intrados), (joint.extrados, n * r.extrados), (joint.intrados, t * r.shear)];
-    corners.iter().fold([0.0; 3], |s, (at, f)| [s[0] + f.x, s[1] + f.y, s[2] + cross(*at, *f)])
-}
 
 fn law(joint: &Joint) -> [f64; 2] {
     let JointLaw::Dry { friction, cohesion } = joint.law else { panic!() };

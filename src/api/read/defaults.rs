@@ -1,0 +1,28 @@
+//! What a request means by what it leaves out.
+
+use crate::api::request::{
+    AimRequest, AnalysisRequest, JointsRequest, LineRequest, LoadRequest, ProfileRequest, StressFieldRequest,
+};
+
+pub fn with_defaults(mut request: AnalysisRequest) -> AnalysisRequest {
+    if let Some(arch) = request.arch.as_mut().filter(|arch| !matches!(arch.profile, ProfileRequest::Surveyed(_))) {
+        arch.line.get_or_insert(LineRequest::default());
+        arch.joints.get_or_insert(JointsRequest::default());
+    }
+    request.stone = request.stone.filled_in(request.arch.is_some());
+    for entry in &mut request.loads {
+        if let LoadRequest::FillPressure(fill) = &mut entry.load {
+            fill.lateral_ratio = Some(fill.ratio());
+        }
+    }
+    let stress = request.accuracy.is_some_and(|accuracy| accuracy.stress.is_some());
+    let one_path = match &request.analysis {
+        AimRequest::Collapse => true,
+        AimRequest::Safety(safety) => safety.curve.is_none(),
+        AimRequest::Settlement(_) => false,
+    };
+    if stress && one_path && request.report.stress_fields.is_empty() {
+        request.report.stress_fields.push(StressFieldRequest::UnitLoad);
+    }
+    request
+}
