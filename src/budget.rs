@@ -6,10 +6,12 @@ use std::ops::ControlFlow;
 /// Work between two questions, in multiplications or so: a few milliseconds.
 const WORK: usize = 1 << 22;
 
-/// Where an analysis stands.
+/// How far an analysis has come.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "server", derive(serde::Serialize, utoipa::ToSchema))]
+#[cfg_attr(feature = "server", schema(as = ProgressBody))]
 pub struct LoadStep {
-    /// Load factor now.
+    /// Load factor reached.
     pub load_factor: f64,
     /// Contact events so far, on all paths of the analysis together.
     pub events: usize,

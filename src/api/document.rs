@@ -1,8 +1,7 @@
 //! The OpenAPI document: what the handlers say of themselves, and what holds for many of them.
 
-use super::format::Format;
+use super::format::{FIELD, FIGURE, Format, HISTORY, RESULTS};
 use super::problem::{MEDIA_TYPE, Problem};
-use super::results::{FIELD, FIGURE, HISTORY, RESULTS};
 use super::{contract, guarded, open};
 use utoipa::ToSchema;
 use utoipa::openapi::link::{Link, LinkBuilder};

@@ -4,10 +4,11 @@
 //! what has changed since.
 
 use super::jobs::{JobPath, find};
+use super::json::{NotFinite, compact};
 use super::problem::{Problem, kinds};
 use super::request::Request;
 use super::service::AppState;
-use super::status::{JobStatus, ProgressBody, word};
+use super::status::JobStatus;
 use crate::jobs::{Job, JobStore, Stand, Status};
 use axum::http::{HeaderMap, HeaderName, StatusCode};
 use axum::response::sse::{Event, KeepAlive, Sse};
@@ -57,20 +58,16 @@ pub(super) async fn events(state: AppState, path: JobPath, headers: HeaderMap) -
         return Err(Problem::shutting_down());
     }
     let full = |_| Problem::of(kinds::STREAMS_FULL, format!("{} event streams are open", state.limits.streams));
-    let permit = state.streams.clone().try_acquire_owned().map_err(full)?;
     let follower = Follower {
+        _permit: state.streams.clone().try_acquire_owned().map_err(full)?,
         jobs: state.jobs.clone(),
         changes: job.progress.stand(),
         job,
         // An end that has not come is that of another job.
         seen: seen.filter(|_| ended.is_none()),
         stopping: state.stopping.clone(),
-        _permit: permit,
     };
-    let events = stream::unfold(follower, |mut follower| async {
-        let event = follower.next().await?;
-        Some((event, follower))
-    });
+    let events = stream::unfold(follower, |mut follower| async { Some((follower.next().await?, follower)) });
     let sse = Sse::new(events).keep_alive(KeepAlive::new().interval(ALIVE));
     // Proxies are asked to pass events on as they come.
     Ok(([(HeaderName::from_static("x-accel-buffering"), "no")], sse).into_response())
@@ -96,20 +93,15 @@ struct Seen {
 }
 
 impl Seen {
-    fn of(job: &Job<Request>) -> Self {
-        Seen { status: job.status(), events: job.progress.step().map(|step| step.events) }
-    }
-
     /// As an event's id has it: `running-153`.
     fn write(self) -> String {
         let events = self.events.map(|events| format!("-{events}")).unwrap_or_default();
-        format!("{}{events}", word(self.status))
+        format!("{}{events}", self.status.word())
     }
 
     fn read(id: &str) -> Option<Self> {
         let (name, events) = id.split_once('-').map_or((id, None), |(name, events)| (name, events.parse().ok()));
-        let all = [Status::Accepted, Status::Running, Status::Successful, Status::Failed, Status::Dismissed];
-        let status = all.into_iter().find(|status| word(*status) == name)?;
+        let status = Status::ALL.into_iter().find(|status| status.word() == name)?;
         Some(Seen { status, events })
     }
 }
@@ -117,7 +109,7 @@ impl Seen {
 /// One client that follows one job.
 struct Follower {
     jobs: Arc<JobStore<Request>>,
-    job: Job<Request>,
+    job: Job,
     changes: Receiver<Stand>,
     seen: Option<Seen>,
     stopping: CancellationToken,
@@ -126,7 +118,7 @@ struct Follower {
 
 impl Follower {
     /// The next event; none after the end, or when the service stops.
-    async fn next(&mut self) -> Option<Result<Event, axum::Error>> {
+    async fn next(&mut self) -> Option<Result<Event, NotFinite>> {
         if self.seen.is_some_and(|seen| seen.status.is_final()) {
             return None;
         }
@@ -134,31 +126,21 @@ impl Follower {
             self.changes.borrow_and_update();
             // One that the store has forgotten has ended, and its own stand says how.
             let job = self.jobs.get(self.job.id).unwrap_or_else(|| self.job.now());
-            let now = Seen::of(&job);
-            if let Some(event) = self.told(&job, now) {
+            let (status, step) = (job.status(), job.progress.step());
+            let now = Seen { status, events: step.map(|step| step.events) };
+            let (name, data) = match self.seen {
+                Some(seen) if seen.status == status => ("step", step.filter(|_| seen != now).map(|step| compact(&step))),
+                _ => (if status.is_final() { "end" } else { "status" }, Some(compact(&JobStatus::from(&job)))),
+            };
+            if let Some(data) = data {
                 self.seen = Some(now);
-                return Some(event.map(|event| event.id(now.write())));
+                return Some(data.map(|data| Event::default().event(name).id(now.write()).data(data)));
             }
             tokio::select! {
                 () = self.stopping.cancelled() => return None,
                 _ = self.changes.changed() => {}
-                () = tokio::time::sleep(LOOK), if now.status == Status::Running => {}
+                () = tokio::time::sleep(LOOK), if status == Status::Running => {}
             }
-        }
-    }
-
-    /// What is new, if anything.
-    fn told(&self, job: &Job<Request>, now: Seen) -> Option<Result<Event, axum::Error>> {
-        let known = self.seen.is_some_and(|seen| seen.status == now.status);
-        match (known, job.progress.step()) {
-            (false, _) => {
-                let name = if now.status.is_final() { "end" } else { "status" };
-                Some(Event::default().event(name).json_data(JobStatus::from(job)))
-            }
-            (true, Some(step)) if self.seen != Some(now) => {
-                Some(Event::default().event("step").json_data(ProgressBody::from(step)))
-            }
-            _ => None,
         }
     }
 }

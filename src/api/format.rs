@@ -1,13 +1,13 @@
 //! In which format something is given, by the header `accept` or, before it, by the query parameter `f`.
 
 use super::problem::{Problem, kinds};
-use axum::http::{HeaderMap, header};
+use axum::http::{HeaderMap, StatusCode, header};
 use headers_accept::Accept;
 use mediatype::MediaType;
 
 /// A format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(super) enum Format {
+pub enum Format {
     /// JSON.
     Json,
     /// Text for people.
@@ -19,6 +19,12 @@ pub(super) enum Format {
     /// A drawing.
     Svg,
 }
+
+/// Formats of the whole answer and of its parts, the first for those who do not say.
+pub(super) const RESULTS: [Format; 2] = [Format::Json, Format::Text];
+pub(super) const HISTORY: [Format; 2] = [Format::Json, Format::Csv];
+pub(super) const FIELD: [Format; 3] = [Format::Json, Format::Csv, Format::Vtu];
+pub(super) const FIGURE: [Format; 1] = [Format::Svg];
 
 impl Format {
     /// Its name in the query.
@@ -67,7 +73,11 @@ impl Format {
         };
         let types: Vec<_> = offered.iter().filter_map(|format| MediaType::parse(format.media_type()).ok()).collect();
         let best = accept.negotiate(&types).and_then(|best| types.iter().position(|one| one == best));
-        best.and_then(|place| offered.get(place).copied()).ok_or_else(|| Problem::not_acceptable(&names()))
+        best.and_then(|place| offered.get(place).copied()).ok_or_else(|| {
+            let names = names();
+            let detail = format!("this comes as {names}: name one of them in the header accept, or in the query as f");
+            Problem::plain(StatusCode::NOT_ACCEPTABLE, detail)
+        })
     }
 }
 

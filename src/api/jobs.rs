@@ -1,19 +1,18 @@
 //! Handlers of `/v1/jobs` beside submission: list, status, request, dismissal.
 
 use super::etag::Version;
+use super::json;
 use super::problem::{Problem, RETRY_AFTER, kinds};
 use super::request::Request;
-use super::response::line;
 use super::service::{AppState, Service};
-use super::status::{JobList, JobStatus, ListLinks, StatusWord, word};
+use super::status::{JobList, JobStatus, ListLinks};
 use crate::jobs::{Dismissal, Job, JobId, Status};
-use axum::Json;
 use axum::extract::rejection::QueryRejection;
 use axum::extract::{FromRequestParts, Path, Query};
 use axum::http::request::Parts;
 use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use utoipa::IntoParams;
 
 /// Jobs listed when nothing is asked.
@@ -22,19 +21,27 @@ const JOBS_LISTED: usize = 50;
 /// Most jobs listed at once.
 const MOST_JOBS_LISTED: usize = 1000;
 
+/// The header of an answer that is JSON.
+const JSON: [(header::HeaderName, &str); 1] = [(header::CONTENT_TYPE, "application/json")];
+
 /// Which part of the list is asked for.
 #[derive(Debug, Deserialize, IntoParams)]
 #[serde(deny_unknown_fields)]
 #[into_params(parameter_in = Query)]
 pub(super) struct ListQuery {
     /// Jobs of this status only.
-    status: Option<StatusWord>,
+    status: Option<Status>,
     /// At most so many jobs.
     #[param(minimum = 1, maximum = 1000, default = 50)]
     limit: Option<usize>,
     /// Jobs submitted before this one only, as `links.next` has it.
     #[param(value_type = Option<String>, format = "uuid")]
     cursor: Option<JobId>,
+}
+
+/// An answer in JSON.
+pub(super) fn answer(value: &impl Serialize) -> Result<Response, Problem> {
+    Ok((JSON, json::line(value).map_err(Problem::unwritable)?).into_response())
 }
 
 /// List jobs, newest first.
@@ -47,23 +54,21 @@ pub(super) struct ListQuery {
 pub(super) async fn list(
     state: AppState,
     query: Result<Query<ListQuery>, QueryRejection>,
-) -> Result<Json<JobList>, Problem> {
-    let Query(query) = query.map_err(|rejection| query_fault(&rejection))?;
-    let limit = query.limit.unwrap_or(JOBS_LISTED);
+) -> Result<Response, Problem> {
+    let Query(ListQuery { status, limit, cursor }) = query.map_err(|rejection| query_fault(&rejection))?;
+    let limit = limit.unwrap_or(JOBS_LISTED);
     if !(1..=MOST_JOBS_LISTED).contains(&limit) {
         return Err(Problem::of(kinds::BAD_QUERY, format!("limit must lie between 1 and {MOST_JOBS_LISTED}")));
     }
     // One more than asked for tells whether there is a next page.
-    let mut jobs = state.jobs.list(query.status.map(Into::into), query.cursor, limit + 1);
+    let mut jobs = state.jobs.list(status, cursor, limit + 1);
     let more = jobs.len() > limit;
     jobs.truncate(limit);
-    let next = jobs.last().filter(|_| more).map(|last| next_page(query.status.map(Into::into), limit, last.id));
-    Ok(Json(JobList { jobs: jobs.iter().map(JobStatus::from).collect(), links: ListLinks { next } }))
-}
-
-fn next_page(status: Option<Status>, limit: usize, cursor: JobId) -> String {
-    let status = status.map(|status| format!("status={}&", word(status))).unwrap_or_default();
-    format!("/v1/jobs?{status}limit={limit}&cursor={cursor}")
+    let next = jobs.last().filter(|_| more).map(|last| {
+        let status = status.map(|status| format!("status={}&", status.word())).unwrap_or_default();
+        format!("/v1/jobs?{status}limit={limit}&cursor={}", last.id)
+    });
+    answer(&JobList { jobs: jobs.iter().map(JobStatus::from).collect(), links: ListLinks { next } })
 }
 
 /// A job's status.
@@ -83,10 +88,9 @@ fn next_page(status: Option<Status>, limit: usize, cursor: JobId) -> String {
 )]
 pub(super) async fn show(state: AppState, path: JobPath, headers: HeaderMap) -> Result<Response, Problem> {
     let job = find(&state, path.0)?;
-    let body = line(&JobStatus::from(&job)).map_err(|_| Problem::internal())?;
+    let body = json::line(&JobStatus::from(&job)).map_err(Problem::unwritable)?;
     let version = Version::of(&body);
-    let json = [(header::CONTENT_TYPE, "application/json")];
-    let mut response = version.known(&headers).unwrap_or_else(|| version.mark((json, body)));
+    let mut response = version.known(&headers).unwrap_or_else(|| version.mark((JSON, body)));
     if !job.status().is_final() {
         response.headers_mut().insert(header::RETRY_AFTER, HeaderValue::from(RETRY_AFTER));
     }
@@ -103,9 +107,7 @@ pub(super) async fn show(state: AppState, path: JobPath, headers: HeaderMap) -> 
     )
 )]
 pub(super) async fn request(state: AppState, path: JobPath) -> Result<Response, Problem> {
-    let request = find(&state, path.0)?.request;
-    let body = state.aside.run(move || line(&*request).map_err(|_| Problem::internal())).await?;
-    Ok(([(header::CONTENT_TYPE, "application/json")], body).into_response())
+    Ok((JSON, find(&state, path.0)?.request).into_response())
 }
 
 /// Cancel a job that has not ended, forget one that has.
@@ -119,7 +121,7 @@ pub(super) async fn request(state: AppState, path: JobPath) -> Result<Response, 
 )]
 pub(super) async fn dismiss(state: AppState, path: JobPath) -> Result<Response, Problem> {
     match state.jobs.dismiss(path.0).ok_or_else(|| Problem::no_such_job(&path.0.to_string()))? {
-        Dismissal::Cancelled(job) => Ok(Json(JobStatus::from(&job)).into_response()),
+        Dismissal::Cancelled(job) => answer(&JobStatus::from(&job)),
         Dismissal::Forgotten => Ok(StatusCode::NO_CONTENT.into_response()),
     }
 }
@@ -131,11 +133,9 @@ impl<S: Send + Sync> FromRequestParts<S> for JobPath {
     type Rejection = Problem;
 
     async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Problem> {
-        let not_found = |parts: &Parts| Problem::no_such_path(parts.uri.path());
-        let Ok(path) = Path::<Vec<(String, String)>>::from_request_parts(parts, state).await else {
-            return Err(not_found(parts));
-        };
-        let id = path.0.into_iter().find(|(name, _)| name == "id").ok_or_else(|| not_found(parts))?.1;
+        let path = Path::<Vec<(String, String)>>::from_request_parts(parts, state).await;
+        let id = path.ok().and_then(|Path(names)| names.into_iter().find(|(name, _)| name == "id"));
+        let (_, id) = id.ok_or_else(|| Problem::no_such_path(parts.uri.path()))?;
         JobId::try_parse(&id).map(JobPath).map_err(|_| Problem::no_such_job(&id))
     }
 }
@@ -147,6 +147,6 @@ pub(super) fn query_fault(rejection: &QueryRejection) -> Problem {
 }
 
 /// The job of this name.
-pub(super) fn find(state: &Service, id: JobId) -> Result<Job<Request>, Problem> {
+pub(super) fn find(state: &Service, id: JobId) -> Result<Job, Problem> {
     state.jobs.get(id).ok_or_else(|| Problem::no_such_job(&id.to_string()))
 }

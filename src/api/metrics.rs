@@ -1,13 +1,10 @@
 //! What the service counts, as Prometheus reads it.
 
-use super::Service;
 use super::problem::Problem;
-use super::request::Request;
-use super::status::word;
-use crate::jobs::{Job, Occupancy, Status};
+use super::service::AppState;
+use crate::jobs::{Job, Status};
 use axum::http::{Method, StatusCode, header};
 use axum::response::IntoResponse;
-use prometheus_client::encoding::EncodeLabelSet;
 use prometheus_client::encoding::text::encode;
 use prometheus_client::metrics::counter::Counter;
 use prometheus_client::metrics::family::Family;
@@ -22,65 +19,54 @@ const SECONDS: [f64; 13] = [1e-3, 3e-3, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30
 /// Upper ends of the histogram of events.
 const EVENTS: [f64; 11] = [1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1e3, 3e3, 1e4, 3e4, 1e5];
 
+/// What there is just now.
+const GAUGES: [(&str, &str, Option<Unit>); 5] = [
+    ("queue_length", "Jobs that wait", None),
+    ("jobs_running", "Jobs in the hands of workers", None),
+    ("jobs_kept", "Jobs that have ended and are kept", None),
+    ("held", "What requests and answers of all jobs take", Some(Unit::Bytes)),
+    ("event_streams", "Event streams open", None),
+];
+
 /// The media type of the exposition.
 const METRICS_MEDIA_TYPE: &str = "application/openmetrics-text; version=1.0.0; charset=utf-8";
 
-#[derive(Debug, Clone, PartialEq, Eq, Hash, EncodeLabelSet)]
-struct Answered {
-    method: String,
-    route: String,
-    status: u16,
-}
+/// Method, route and status of an answer.
+type Answered = [(&'static str, String); 3];
 
-#[derive(Debug, Clone, PartialEq, Eq, Hash, EncodeLabelSet)]
-struct OutcomeLabel {
-    outcome: &'static str,
-}
+/// How a job has ended.
+type Outcome = [(&'static str, &'static str); 1];
 
 /// Everything that is counted; copies count together.
 #[derive(Debug, Clone)]
 pub struct Metrics {
     registry: Arc<Registry>,
     requests: Family<Answered, Counter>,
-    jobs: Family<OutcomeLabel, Counter>,
+    jobs: Family<Outcome, Counter>,
     seconds: Histogram,
     events: Histogram,
-    queue: Gauge,
-    running: Gauge,
-    finished: Gauge,
-    bytes: Gauge,
-    streams: Gauge,
+    gauges: [Gauge; 5],
 }
 
 impl Default for Metrics {
     fn default() -> Self {
         let mut registry = Registry::with_prefix("voussoir");
-        let metrics = Metrics {
-            registry: Arc::default(),
-            requests: Family::default(),
-            jobs: Family::default(),
-            seconds: Histogram::new(SECONDS),
-            events: Histogram::new(EVENTS),
-            queue: Gauge::default(),
-            running: Gauge::default(),
-            finished: Gauge::default(),
-            bytes: Gauge::default(),
-            streams: Gauge::default(),
-        };
-        registry.register("http_requests", "Requests answered", metrics.requests.clone());
+        let (requests, jobs, gauges) = (Family::default(), Family::default(), <[Gauge; 5]>::default());
+        let (seconds, events) = (Histogram::new(SECONDS), Histogram::new(EVENTS));
+        registry.register("http_requests", "Requests answered", Family::clone(&requests));
         for status in [Status::Successful, Status::Failed, Status::Dismissed] {
-            drop(metrics.jobs.get_or_create(&OutcomeLabel { outcome: word(status) }));
+            drop(Family::<Outcome, Counter>::get_or_create(&jobs, &[("outcome", status.word())]));
         }
-        registry.register("jobs", "Jobs that have ended", metrics.jobs.clone());
-        let (seconds, events) = (metrics.seconds.clone(), metrics.events.clone());
-        registry.register_with_unit("analysis", "Time a worker spent on a job", Unit::Seconds, seconds);
-        registry.register("analysis_events", "Contact events of a job's load paths", events);
-        registry.register("queue_length", "Jobs that wait", metrics.queue.clone());
-        registry.register("jobs_running", "Jobs in the hands of workers", metrics.running.clone());
-        registry.register("jobs_kept", "Jobs that have ended and are kept", metrics.finished.clone());
-        registry.register_with_unit("held", "What all jobs cost", Unit::Bytes, metrics.bytes.clone());
-        registry.register("event_streams", "Event streams open", metrics.streams.clone());
-        Metrics { registry: Arc::new(registry), ..metrics }
+        registry.register("jobs", "Jobs that have ended", jobs.clone());
+        registry.register_with_unit("analysis", "Time a worker spent on a job", Unit::Seconds, seconds.clone());
+        registry.register("analysis_events", "Contact events of a job's load paths", events.clone());
+        for ((name, help, unit), gauge) in GAUGES.into_iter().zip(&gauges) {
+            match unit {
+                Some(unit) => registry.register_with_unit(name, help, unit, gauge.clone()),
+                None => registry.register(name, help, gauge.clone()),
+            }
+        }
+        Metrics { registry: Arc::new(registry), requests, jobs, seconds, events, gauges }
     }
 }
 
@@ -88,31 +74,19 @@ impl Metrics {
     /// A request was answered; `route` is none where no route knew it.
     pub(super) fn answered(&self, method: &Method, route: Option<String>, status: StatusCode) {
         let known = [Method::GET, Method::HEAD, Method::POST, Method::DELETE, Method::OPTIONS].contains(method);
-        let method = if known { method.to_string() } else { "other".to_owned() };
+        let method = if known { method.as_str() } else { "other" };
         let route = route.unwrap_or_else(|| "none".to_owned());
-        self.requests.get_or_create(&Answered { method, route, status: status.as_u16() }).inc();
+        let labels = [("method", method.to_owned()), ("route", route), ("status", status.as_u16().to_string())];
+        self.requests.get_or_create(&labels).inc();
     }
 
     /// A job has ended.
-    pub(super) fn ended(&self, job: &Job<Request>) {
-        self.jobs.get_or_create(&OutcomeLabel { outcome: word(job.status()) }).inc();
+    pub(super) fn ended(&self, job: &Job) {
+        self.jobs.get_or_create(&[("outcome", job.status().word())]).inc();
         if let Some(time) = job.wall_time().filter(|_| job.status() != Status::Dismissed) {
             self.seconds.observe(time.as_secs_f64());
             self.events.observe(job.progress.step().map_or(0.0, |step| step.events as f64));
         }
-    }
-
-    /// Everything, with the load as it is now.
-    fn text(&self, load: Occupancy, streams: usize) -> Result<String, std::fmt::Error> {
-        let gauge = |count: usize| i64::try_from(count).unwrap_or(i64::MAX);
-        self.queue.set(gauge(load.waiting));
-        self.running.set(gauge(load.running));
-        self.finished.set(gauge(load.finished));
-        self.bytes.set(gauge(load.bytes));
-        self.streams.set(gauge(streams));
-        let mut text = String::new();
-        encode(&mut text, &self.registry)?;
-        Ok(text)
     }
 }
 
@@ -122,8 +96,13 @@ impl Metrics {
     responses((status = 200, description = "Counters, gauges and histograms in the text format of OpenMetrics",
         body = String, content_type = "application/openmetrics-text"))
 )]
-pub(super) async fn metrics(state: axum::extract::State<Service>) -> Result<impl IntoResponse, Problem> {
-    let streams = state.limits.streams.saturating_sub(state.streams.available_permits());
-    let text = state.metrics.text(state.jobs.load(), streams).map_err(|_| Problem::internal())?;
+pub(super) async fn metrics(state: AppState) -> Result<impl IntoResponse, Problem> {
+    let (load, streams) = (state.jobs.load(), state.limits.streams.saturating_sub(state.streams.available_permits()));
+    let counts = [load.waiting, load.running, load.finished, load.bytes, streams];
+    for (gauge, count) in state.metrics.gauges.iter().zip(counts) {
+        gauge.set(i64::try_from(count).unwrap_or(i64::MAX));
+    }
+    let mut text = String::new();
+    encode(&mut text, &state.metrics.registry).map_err(|_| Problem::internal())?;
     Ok(([(header::CONTENT_TYPE, METRICS_MEDIA_TYPE)], text))
 }

@@ -17,7 +17,7 @@ pub(super) struct Outgoing {
 
 /// An answer, and its share of the room until the last byte has gone.
 struct Held {
-    answer: Vec<u8>,
+    answer: Bytes,
     _share: OwnedSemaphorePermit,
 }
 
@@ -35,7 +35,7 @@ impl Outgoing {
     }
 
     /// A body that holds its share of the room; one larger than all the room takes all of it.
-    pub(super) fn body(&self, answer: Vec<u8>) -> Result<Body, Problem> {
+    pub(super) fn body(&self, answer: Bytes) -> Result<Body, Problem> {
         let share = u32::try_from(answer.len().div_ceil(PIECE).min(self.pieces)).unwrap_or(u32::MAX);
         let full = |_| Problem::of(kinds::ANSWERS_FULL, "too many large answers are on their way to others");
         let _share = self.room.clone().try_acquire_many_owned(share).map_err(full)?;
@@ -50,12 +50,13 @@ mod tests {
     #[test]
     fn room_is_given_back_with_the_last_byte() {
         let outgoing = Outgoing::new(10 * PIECE);
-        let large = outgoing.body(vec![0; 100 * PIECE]).unwrap();
-        assert!(outgoing.body(vec![0; 1]).is_err());
+        let body = |bytes: usize| outgoing.body(vec![0; bytes].into());
+        let large = body(100 * PIECE).unwrap();
+        assert!(body(1).is_err());
         drop(large);
-        let small: Vec<_> = (0..10).map(|_| outgoing.body(vec![0; 1]).unwrap()).collect();
-        assert!(outgoing.body(vec![0; 1]).is_err());
+        let small: Vec<_> = (0..10).map(|_| body(1).unwrap()).collect();
+        assert!(body(1).is_err());
         drop(small);
-        assert!(outgoing.body(vec![0; 10 * PIECE]).is_ok());
+        assert!(body(10 * PIECE).is_ok());
     }
 }

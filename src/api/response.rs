@@ -35,12 +35,12 @@ pub use structure::{BodyBody, JointBody, LawWord, LoadOnBody, StructureBody};
 pub use updated::UpdatedBody;
 pub use words::{GovernedBy, MethodWord};
 
+use super::json::{NotFinite, line};
 use super::prose::in_its_words;
 use super::request::AnalysisRequest;
 use crate::collapse::{CollapseReport, Cost, LimitWindow, Note, Outcome, ThrustRange};
 use serde::Serialize;
 use settlement::Grounds;
-use std::io;
 use utoipa::ToSchema;
 
 /// The answer to a request for one analysis of a structure.
@@ -161,7 +161,7 @@ impl Scale<'_> {
     /// Both ends in rising order, null where unbounded.
     fn window(&self, window: LimitWindow) -> [Option<f64>; 2] {
         let ends =
-            [window.lowest, window.highest].map(|end| self.intensity(end)).map(|end| end.is_finite().then_some(end));
+            [window.lowest, window.highest].map(|end| (!end.is_infinite()).then(|| self.intensity(end)));
         if self.per_unit < 0.0 { [ends[1], ends[0]] } else { ends }
     }
 }
@@ -239,37 +239,9 @@ impl AnalysisResult {
     /// The body of `/results` and the output of `solve --json`: compact JSON and a newline.
     ///
     /// # Errors
-    /// Never for a report of the mechanics; the serialiser wants it said.
-    pub fn to_bytes(&self) -> serde_json::Result<Vec<u8>> {
+    /// Where a number is not finite.
+    pub fn to_bytes(&self) -> Result<Vec<u8>, NotFinite> {
         line(self)
-    }
-}
-
-/// Compact JSON and a newline.
-pub(super) fn line(value: &impl Serialize) -> serde_json::Result<Vec<u8>> {
-    let mut bytes = serde_json::to_vec(value)?;
-    bytes.push(b'\n');
-    Ok(bytes)
-}
-
-/// Bytes of `value` as compact JSON, written nowhere: what keeping a request or an answer is taken to cost.
-pub(super) fn weight(value: &impl Serialize) -> serde_json::Result<usize> {
-    let mut scales = Scales(0);
-    serde_json::to_writer(&mut scales, value)?;
-    Ok(scales.0)
-}
-
-/// Counts bytes.
-struct Scales(usize);
-
-impl io::Write for Scales {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.0 += bytes.len();
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        Ok(())
     }
 }
 
@@ -282,7 +254,7 @@ impl From<Cost> for CostBody {
 
 impl From<ThrustRange> for ThrustRangeBody {
     fn from(range: ThrustRange) -> Self {
-        let [lowest_n_per_m, highest_n_per_m] = [range.lowest, range.highest].map(|end| end.is_finite().then_some(end));
+        let [lowest_n_per_m, highest_n_per_m] = [range.lowest, range.highest].map(|end| (!end.is_infinite()).then_some(end));
         ThrustRangeBody { lowest_n_per_m, highest_n_per_m }
     }
 }

@@ -1,19 +1,21 @@
 //! What every handler can reach.
 
-use super::body::Aside;
 use super::layers::Tokens;
 use super::limits::ApiLimits;
 use super::metrics::Metrics;
 use super::outgoing::Outgoing;
+use super::rendering::renderings;
 use super::request::Request;
-use super::response::{JobResult, weight};
 use super::translate;
 use crate::budget::Budget;
 use crate::collapse::{AnalysisError, Answer, Question};
 use crate::jobs::{self, Failure, JobStore, Product};
 use axum::http::HeaderValue;
 use std::io;
+use std::num::NonZeroUsize;
 use std::sync::Arc;
+use std::thread::available_parallelism;
+use std::time::Instant;
 use tokio::sync::Semaphore;
 use tokio_util::sync::CancellationToken;
 
@@ -37,7 +39,7 @@ pub(super) type AppState = axum::extract::State<Service>;
 /// What every handler can reach; copies are the same service.
 #[derive(Clone)]
 pub struct Service {
-    /// All jobs, each with its request.
+    /// All jobs. Each keeps its request until a worker takes it, as bytes and as it was read.
     pub jobs: Arc<JobStore<Request>>,
     /// Cancelled when the service is to stop: ends event streams.
     pub stopping: CancellationToken,
@@ -46,7 +48,8 @@ pub struct Service {
     pub(super) origins: Vec<HeaderValue>,
     pub(super) metrics: Metrics,
     pub(super) streams: Arc<Semaphore>,
-    pub(super) aside: Aside,
+    /// As many requests are read at once as there are cores.
+    pub(super) readers: Arc<Semaphore>,
     pub(super) outgoing: Outgoing,
 }
 
@@ -58,22 +61,30 @@ impl Service {
     pub fn start(jobs: jobs::Limits, settings: Settings, analyse: Solver) -> io::Result<Self> {
         let metrics = Metrics::default();
         let counted = metrics.clone();
-        let work = move |request: &Request, budget: &Budget| perform(request, budget, analyse);
+        let work = move |request: Request, budget: &Budget| perform(&request, budget, analyse);
         let jobs = JobStore::start(jobs, work, move |job| counted.ended(job))?;
         let Settings { limits, tokens, origins } = settings;
-        let streams = Arc::new(Semaphore::new(limits.streams));
-        let (jobs, stopping) = (Arc::new(jobs), CancellationToken::new());
-        let (aside, outgoing) = (Aside::default(), Outgoing::new(limits.outgoing));
-        Ok(Service { jobs, stopping, limits, tokens, origins, metrics, streams, aside, outgoing })
+        let cores = available_parallelism().map_or(1, NonZeroUsize::get);
+        Ok(Service {
+            jobs: Arc::new(jobs),
+            stopping: CancellationToken::new(),
+            limits,
+            tokens,
+            origins,
+            metrics,
+            streams: Arc::new(Semaphore::new(limits.streams)),
+            readers: Arc::new(Semaphore::new(cores)),
+            outgoing: Outgoing::new(limits.outgoing),
+        })
     }
 }
 
-/// What a worker does with a request. An answer counts as done only if it can be written down, every number finite.
+/// What a worker does with a request.
 fn perform(request: &Request, budget: &Budget, analyse: Solver) -> Result<Product, Failure> {
-    // It was translated when it was accepted, so it can be again; meanwhile only the request had to be kept.
+    // It was translated when it was accepted, so it can be again. A question may be ten thousand times as large as its request:
+    // while the job waited, only the request had to be kept.
     let question = translate::translate(request).map_err(|_| Failure::Defect)?;
+    let clock = Instant::now();
     let answer = analyse(&question, budget)?;
-    let result = JobResult::new(request, &answer).ok_or(Failure::Defect)?;
-    let bytes = weight(&result).map_err(|_| Failure::Defect)?;
-    Ok(Product { answer, bytes })
+    renderings(request, &question, &answer, clock.elapsed())
 }

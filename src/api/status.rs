@@ -1,44 +1,11 @@
 //! The status body of a job, after the statusInfo of OGC API - Processes, in snake_case.
 
 use super::problem::Problem;
-use super::request::Request;
-use super::timestamp::rfc3339;
 use crate::budget::LoadStep;
-use crate::jobs::{Job, JobId, JobState, Status};
-use serde::{Deserialize, Serialize};
+use crate::jobs::{Job, JobId, JobState, Moment, Status};
+use humantime::format_rfc3339_millis;
+use serde::Serialize;
 use utoipa::ToSchema;
-
-/// Status words of OGC API - Processes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum StatusWord {
-    /// Waits in the queue.
-    Accepted,
-    /// Under way.
-    Running,
-    /// There are results.
-    Successful,
-    /// There are none; `problem` says why.
-    Failed,
-    /// Cancelled.
-    Dismissed,
-}
-
-/// How far the analysis has come.
-#[derive(Debug, Clone, Serialize, ToSchema)]
-pub struct ProgressBody {
-    /// Load factor reached.
-    load_factor: f64,
-    /// Contact events so far.
-    events: usize,
-}
-
-impl From<LoadStep> for ProgressBody {
-    fn from(step: LoadStep) -> Self {
-        let LoadStep { load_factor, events } = step;
-        ProgressBody { load_factor, events }
-    }
-}
 
 /// Where to go from here.
 #[derive(Debug, Clone, Serialize, ToSchema)]
@@ -67,7 +34,7 @@ pub struct JobStatus {
     #[schema(example = "process")]
     kind: &'static str,
     /// Where it stands, in one word.
-    status: StatusWord,
+    status: Status,
     /// When it was accepted, UTC.
     #[schema(format = "date-time")]
     created: String,
@@ -83,7 +50,7 @@ pub struct JobStatus {
     #[schema(minimum = 1)]
     queue_position: Option<usize>,
     /// How far the analysis has come; null before its first step.
-    progress: Option<ProgressBody>,
+    progress: Option<LoadStep>,
     /// Why there are no results; null unless failed.
     problem: Option<Problem>,
     /// Where to go from here.
@@ -107,72 +74,29 @@ pub struct ListLinks {
     pub next: Option<String>,
 }
 
-/// A status as the wire has it.
-pub fn word(status: Status) -> &'static str {
-    match status {
-        Status::Accepted => "accepted",
-        Status::Running => "running",
-        Status::Successful => "successful",
-        Status::Failed => "failed",
-        Status::Dismissed => "dismissed",
-    }
-}
-
 /// The path of a job's status.
 pub fn path(id: JobId) -> String {
     format!("/v1/jobs/{id}")
 }
 
-impl Links {
-    fn new(id: JobId) -> Self {
-        let status = path(id);
+impl From<&Job> for JobStatus {
+    fn from(job: &Job) -> Self {
+        let time = |moment: Moment| format_rfc3339_millis(moment.wall).to_string();
+        let status = path(job.id);
         let [request, events, results] = ["request", "events", "results"].map(|part| format!("{status}/{part}"));
-        Links { status, request, events, results }
-    }
-}
-
-impl From<&Job<Request>> for JobStatus {
-    fn from(job: &Job<Request>) -> Self {
         JobStatus {
             job_id: job.id.to_string(),
-            name: job.request.name().map(str::to_owned),
+            name: job.name.as_deref().map(str::to_owned),
             kind: "process",
-            status: job.status().into(),
-            created: rfc3339(job.created.wall),
-            started: job.started.map(|moment| rfc3339(moment.wall)),
-            finished: job.finished.map(|moment| rfc3339(moment.wall)),
+            status: job.status(),
+            created: time(job.created),
+            started: job.started.map(time),
+            finished: job.finished.map(time),
             wall_time_s: job.wall_time().map(|time| time.as_secs_f64()),
             queue_position: job.position,
-            progress: job.progress.step().map(Into::into),
-            problem: match &job.state {
-                JobState::Failed(failure) => Some(failure.into()),
-                _ => None,
-            },
-            links: Links::new(job.id),
-        }
-    }
-}
-
-impl From<Status> for StatusWord {
-    fn from(status: Status) -> Self {
-        match status {
-            Status::Accepted => StatusWord::Accepted,
-            Status::Running => StatusWord::Running,
-            Status::Successful => StatusWord::Successful,
-            Status::Failed => StatusWord::Failed,
-            Status::Dismissed => StatusWord::Dismissed,
-        }
-    }
-}
-
-impl From<StatusWord> for Status {
-    fn from(word: StatusWord) -> Self {
-        match word {
-            StatusWord::Accepted => Status::Accepted,
-            StatusWord::Running => Status::Running,
-            StatusWord::Successful => Status::Successful,
-            StatusWord::Failed => Status::Failed,
-            StatusWord::Dismissed => Status::Dismissed,
+            progress: job.progress.step(),
+            problem: if let JobState::Failed(failure) = &job.state { Some(failure.into()) } else { None },
+            links: Links { status, request, events, results },
         }
     }
 }

@@ -1,18 +1,19 @@
 //! Handlers that take a request: submit it, or only look it over.
 
 use super::body::{JsonBody, check_syntax};
+use super::jobs::answer;
+use super::json;
 use super::layers::Client;
 use super::problem::{Problem, kinds};
 use super::read;
 use super::request::Request;
-use super::response::weight;
 use super::service::{AppState, Service};
 use super::status::{self, JobStatus};
-use crate::jobs::{Job, Submission};
+use crate::jobs::Submission;
+use axum::Extension;
 use axum::body::Bytes;
 use axum::http::{HeaderMap, HeaderName, StatusCode, header};
 use axum::response::{IntoResponse, Response};
-use axum::{Extension, Json};
 use serde::Serialize;
 use std::time::Duration;
 use utoipa::ToSchema;
@@ -59,23 +60,23 @@ pub(super) async fn submit(
     JsonBody(body): JsonBody,
 ) -> Result<Response, Problem> {
     let key = idempotency_key(&headers)?.map(|key| client.scoped(key));
-    let (request, bytes) = read_within(&state, body).await?;
-    let job = state.jobs.submit(Submission { request, bytes, client: client.name, key })?;
+    let submission = read_within(&state, body, move |work| {
+        let (name, request) = (work.name().map(str::to_owned), json::line(&work).map_err(Problem::unwritable)?.into());
+        Ok(Submission { work, request, name, client: client.name, key })
+    });
+    let mut job = state.jobs.submit(submission.await?)?;
     tracing::Span::current().record("job.id", tracing::field::display(job.id));
+    let wait = preferred_wait(&headers);
+    if let Some(wait) = wait {
+        // Timed out or ended, what counts is how the job stands then; the store may have forgotten it already.
+        let _ = tokio::time::timeout(wait, job.progress.ended()).await;
+        job = state.jobs.get(job.id).unwrap_or_else(|| job.now());
+    }
     let location = [(header::LOCATION, status::path(job.id))];
-    let Some(wait) = preferred_wait(&headers) else {
-        return Ok((StatusCode::CREATED, location, Json(JobStatus::from(&job))).into_response());
-    };
-    let job = waited_for(&state, job, wait).await;
-    let applied = [(PREFERENCE_APPLIED, format!("wait={}", wait.as_secs()))];
-    Ok((StatusCode::CREATED, location, applied, Json(JobStatus::from(&job))).into_response())
-}
-
-/// The job when it has ended, or as it stands after `wait`.
-async fn waited_for(state: &Service, job: Job<Request>, wait: Duration) -> Job<Request> {
-    // Timed out or ended, what counts is how the job stands then; the store may have forgotten it already.
-    let _ = tokio::time::timeout(wait, job.progress.ended()).await;
-    state.jobs.get(job.id).unwrap_or_else(|| job.now())
+    let mut response = (StatusCode::CREATED, location, answer(&JobStatus::from(&job))?).into_response();
+    let granted = wait.and_then(|wait| format!("wait={}", wait.as_secs()).parse().ok());
+    response.headers_mut().extend(granted.map(|granted| (PREFERENCE_APPLIED, granted)));
+    Ok(response)
 }
 
 /// A request that would be accepted.
@@ -97,25 +98,29 @@ pub(super) struct Verdict {
             content_type = "application/problem+json"),
     )
 )]
-pub(super) async fn validate(state: AppState, JsonBody(body): JsonBody) -> Result<Json<Verdict>, Problem> {
-    let (request, _) = read_within(&state, body).await?;
-    Ok(Json(Verdict { valid: true, request }))
+pub(super) async fn validate(state: AppState, JsonBody(body): JsonBody) -> Result<Response, Problem> {
+    read_within(&state, body, |request| answer(&Verdict { valid: true, request })).await
 }
 
-/// Reads a body; the request, if this service takes it, and what keeping it costs in bytes.
-async fn read_within(state: &Service, body: Bytes) -> Result<(Request, usize), Problem> {
+/// Reads a body and, if this service takes the request, makes something of it. That may take a while: others go on meanwhile,
+/// and only so many are read at once.
+#[allow(clippy::disallowed_methods, reason = "reading is no analysis: short, and needs no cancelling")]
+async fn read_within<V: Send + 'static>(
+    state: &Service,
+    body: Bytes,
+    then: impl FnOnce(Request) -> Result<V, Problem> + Send + 'static,
+) -> Result<V, Problem> {
+    let turn = state.readers.clone().acquire_owned().await.map_err(|_| Problem::internal())?;
     let limits = state.limits;
-    let reading = state.aside.run(move || {
-        check_syntax(&body)?;
-        let (request, question) = read::read_question(&body).map_err(Problem::faults)?;
+    let reading = tokio::task::spawn_blocking(move || {
+        // Given back when it has been read, also where the client has gone.
+        let _turn = turn;
+        let read = read::read_question(&body);
+        let (request, question) = read.map_err(|faults| check_syntax(&body).err().unwrap_or(Problem::faults(faults)))?;
         let faults = limits.check(&request, &question);
-        if !faults.is_empty() {
-            return Err(Problem::faults(faults));
-        }
-        let bytes = weight(&request).map_err(|_| Problem::internal())?;
-        Ok((request, bytes))
+        if faults.is_empty() { then(request) } else { Err(Problem::faults(faults)) }
     });
-    reading.await
+    reading.await.unwrap_or_else(|_| Err(Problem::internal()))
 }
 
 fn idempotency_key(headers: &HeaderMap) -> Result<Option<&str>, Problem> {
@@ -134,11 +139,8 @@ fn preferred_wait(headers: &HeaderMap) -> Option<Duration> {
     let lines = headers.get_all(PREFER).iter().filter_map(|value| value.to_str().ok());
     let mut preferences = lines.flat_map(|line| line.split(',')).map(|one| one.split(';').next().unwrap_or_default());
     let seconds = preferences.find_map(|preference| {
-        let (name, value) = preference.split_once('=')?;
-        if !name.trim().eq_ignore_ascii_case("wait") {
-            return None;
-        }
-        value.trim().trim_matches('"').parse::<u64>().ok()
+        let (_, value) = preference.split_once('=').filter(|(name, _)| name.trim().eq_ignore_ascii_case("wait"))?;
+        value.trim().trim_matches('"').parse().ok()
     })?;
     Some(Duration::from_secs(seconds).min(LONGEST_WAIT))
 }

@@ -8,9 +8,9 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
 use voussoir::api::fault::Fault;
-use voussoir::api::prose;
+use voussoir::api::Format;
 use voussoir::api::read::read_question;
-use voussoir::api::response::JobResult;
+use voussoir::api::rendering::{FIGURE, WHOLE, find, renderings};
 use voussoir::budget::Budget;
 use voussoir::collapse;
 
@@ -33,27 +33,20 @@ pub fn solve(options: &Solve) -> ExitCode {
         Err(error) => return fail(error),
     };
     let wall_time = clock.elapsed();
-    let Some(result) = JobResult::new(&request, &answer) else {
-        return fail("the analysis produced a number that is not finite; check the units of the request");
+    let product = match renderings(&request, &question, &answer, wall_time) {
+        Ok(product) => product,
+        Err(failure) => return fail(failure),
     };
-    let bytes = match options.json {
-        true => result.to_bytes(),
-        false => Ok(prose::prose(&result, wall_time).into_bytes()),
+    let written = |name: &str, format: Format| {
+        find(&product, name, format).cloned().unwrap_or_else(|| Err(format!("there is no {name}")))
     };
-    let drawn = match &options.figure {
-        Some(file) => draw(file, prose::figure(&question, &answer, &result)),
-        None => Ok(()),
-    };
-    let printed = match bytes {
-        Ok(bytes) => print(&bytes),
-        Err(error) => fail(error),
-    };
+    let drawn = options.figure.as_ref().map_or(Ok(()), |file| {
+        let figure = written(FIGURE, Format::Svg)?;
+        fs::write(file, figure).map_err(|error| format!("cannot write {}: {error}", file.display()))
+    });
+    let printed = written(WHOLE, if options.json { Format::Json } else { Format::Text });
+    let printed = printed.map_or_else(fail, |bytes| print(&bytes));
     drawn.map_or_else(fail, |()| printed)
-}
-
-/// Writes the picture of an answer into a file.
-fn draw(file: &Path, picture: Result<String, String>) -> Result<(), String> {
-    fs::write(file, picture?).map_err(|error| format!("cannot write {}: {error}", file.display()))
 }
 
 fn load(file: &Path) -> io::Result<Vec<u8>> {

@@ -86,7 +86,8 @@ pub(super) fn solve(beam: &CurvedBeam, budget: &Budget) -> Result<BeamReport, An
     let load = end_loads(beam, &exact, &grid, &body);
     let unknowns = 6 * body.blocks().len();
     let response = free_response(&body, &load, budget)?;
-    let displacements = response.ok_or(AnalysisError::NotFinite { what: "displacements of the curved beam" })?;
+    let none = |what: &str| AnalysisError::NotFinite { what: what.to_owned() };
+    let displacements = response.ok_or_else(|| none("displacements of the curved beam"))?;
     budget.ask()?;
     let stresses: Vec<[f64; 3]> = body
         .blocks()
@@ -98,6 +99,9 @@ pub(super) fn solve(beam: &CurvedBeam, budget: &Budget) -> Result<BeamReport, An
     let exact_tresca: Vec<f64> = field.subblocks.iter().map(|s| tresca_at(&exact, s)).collect();
     let squares = |of: &dyn Fn(usize) -> f64| (0..exact_tresca.len()).map(|i| of(i).powi(2)).sum::<f64>().sqrt();
     let error = squares(&|i| exact_tresca[i] - field.subblocks[i].tresca()) / squares(&|i| exact_tresca[i]);
+    if !error.is_finite() {
+        return Err(none("error of the curved beam"));
+    }
     let energy = [0.5 * displacements.dot(&load), exact.energy(beam)];
     Ok(BeamReport { field, exact: exact_tresca, error, energy, unknowns, plan: None })
 }

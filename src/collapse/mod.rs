@@ -6,7 +6,6 @@ mod crushed;
 mod discretise;
 mod ending;
 mod falling;
-mod finite;
 mod grid;
 mod mechanism;
 mod mirror;
@@ -274,8 +273,8 @@ pub enum AnalysisError {
     /// A number in the report is not finite.
     #[error("the analysis produced a number that is not finite ({what}); check the units of the request")]
     NotFinite {
-        /// Which quantity.
-        what: &'static str,
+        /// Which quantity, or where in the answer it stands.
+        what: String,
     },
 }
 
@@ -288,10 +287,11 @@ impl From<Unbuilt> for AnalysisError {
     }
 }
 
-/// Answers a question.
+/// Answers a question. Where a number that decides on the answer is not finite, nothing but the limit window is told; any other
+/// is left to whoever writes the answer down.
 ///
 /// # Errors
-/// When stopped by `budget`, or when a result is not finite.
+/// When stopped by `budget`, or when the curved beam has no solution.
 pub fn answer(question: &Question, budget: &Budget) -> Result<Answer, AnalysisError> {
     let built = &mut Discretisation::new(budget);
     let answer = match question {
@@ -301,17 +301,16 @@ pub fn answer(question: &Question, budget: &Budget) -> Result<Answer, AnalysisEr
     }?;
     // Where it is spent there is no answer, whatever was computed.
     budget.check()?;
-    answer.check_finite()?;
     Ok(answer)
 }
 
-/// Runs the analysis: limit window, then the load path from where it says the arch stands, then the comparison.
+/// Runs the analysis: limit window, then the load path from where it says the arch stands, then the comparison. Numbers that
+/// are not finite are treated as by [`answer`].
 ///
 /// # Errors
-/// When stopped by `budget`, or when a result is not finite.
+/// When stopped by `budget`.
 pub fn run(analysis: &Analysis, budget: &Budget) -> Result<CollapseReport, AnalysisError> {
     let report = verdict::run(analysis, &mut Discretisation::new(budget))?;
     budget.check()?;
-    report.check_finite()?;
     Ok(report)
 }

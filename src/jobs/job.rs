@@ -1,7 +1,9 @@
 //! One job and where it stands.
 
 use super::progress::Progress;
-use crate::collapse::{AnalysisError, Answer};
+use crate::collapse::AnalysisError;
+use bytes::Bytes;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 use std::time::{Duration, Instant, SystemTime};
 
@@ -9,21 +11,38 @@ use std::time::{Duration, Instant, SystemTime};
 pub type JobId = uuid::Uuid;
 
 /// Status words of OGC API - Processes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, utoipa::ToSchema)]
+#[serde(rename_all = "snake_case")]
+#[schema(as = StatusWord)]
 pub enum Status {
     /// Waits in the queue.
     Accepted,
-    /// A worker is at it.
+    /// Under way.
     Running,
-    /// There is an answer.
+    /// There are results.
     Successful,
-    /// There is none, and a reason.
+    /// There are none; `problem` says why.
     Failed,
     /// Cancelled.
     Dismissed,
 }
 
 impl Status {
+    /// All of them.
+    pub const ALL: [Status; 5] =
+        [Status::Accepted, Status::Running, Status::Successful, Status::Failed, Status::Dismissed];
+
+    /// The word.
+    pub fn word(self) -> &'static str {
+        match self {
+            Status::Accepted => "accepted",
+            Status::Running => "running",
+            Status::Successful => "successful",
+            Status::Failed => "failed",
+            Status::Dismissed => "dismissed",
+        }
+    }
+
     /// True for a state that a job never leaves.
     pub fn is_final(self) -> bool {
         self > Status::Running
@@ -38,7 +57,7 @@ pub enum JobState {
     /// A worker is at it.
     Running,
     /// Done.
-    Successful(Arc<Answer>),
+    Successful(Product),
     /// Ended without an answer.
     Failed(Failure),
     /// Cancelled.
@@ -46,6 +65,12 @@ pub enum JobState {
 }
 
 impl JobState {
+    /// What an answer takes, bytes.
+    pub(super) fn bytes(&self) -> usize {
+        let JobState::Successful(product) = self else { return 0 };
+        product.iter().map(|rendering| rendering.body.as_ref().map_or(0, Bytes::len)).sum()
+    }
+
     /// In one word.
     pub fn status(&self) -> Status {
         match self {
@@ -58,14 +83,19 @@ impl JobState {
     }
 }
 
-/// What a worker makes of a request.
+/// One part of an answer in one format, as it is given out.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Product {
-    /// The answer.
-    pub answer: Answer,
-    /// What keeping it costs, bytes.
-    pub bytes: usize,
+pub struct Rendering {
+    /// What the part is called; it may go by several names.
+    pub names: Vec<String>,
+    /// The format's name.
+    pub format: &'static str,
+    /// The bytes, or why this answer has no such part.
+    pub body: Result<Bytes, String>,
 }
+
+/// What a worker makes of a request: the answer in every form in which it is given out. Copies share it.
+pub type Product = Arc<[Rendering]>;
 
 /// Why a job has no answer.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -123,12 +153,14 @@ pub struct Stand {
 }
 
 /// A job as it stood when the store was asked; cheap to copy.
-#[derive(Debug)]
-pub struct Job<R> {
+#[derive(Debug, Clone)]
+pub struct Job {
     /// Its name.
     pub id: JobId,
-    /// What is asked.
-    pub request: Arc<R>,
+    /// What the request calls itself.
+    pub name: Option<Arc<str>>,
+    /// What is asked, as it is given out.
+    pub request: Bytes,
     /// How far the analysis has come.
     pub progress: Arc<Progress>,
     /// When it was accepted.
@@ -143,19 +175,13 @@ pub struct Job<R> {
     pub position: Option<usize>,
 }
 
-impl<R> Clone for Job<R> {
-    fn clone(&self) -> Self {
-        let (request, progress, state) = (self.request.clone(), self.progress.clone(), self.state.clone());
-        Job { request, progress, state, ..*self }
-    }
-}
-
-impl<R> Job<R> {
+impl Job {
     /// A job just accepted.
-    pub(super) fn accepted(id: JobId, request: R) -> Self {
+    pub(super) fn accepted(id: JobId, name: Option<String>, request: Bytes) -> Self {
         Job {
             id,
-            request: Arc::new(request),
+            name: name.map(Into::into),
+            request,
             progress: Arc::default(),
             created: Moment::now(),
             started: None,

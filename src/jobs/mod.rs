@@ -1,7 +1,7 @@
 //! Who runs when: an in-memory store of jobs, a bounded queue, and the threads that work it off.
 //!
-//! A job is a request on its way to an [`Answer`](crate::collapse::Answer). Nothing here knows of HTTP or JSON, or what
-//! a request is made of. Clocks live here and not below, so the same request gives the same answer.
+//! A job is work on its way to the bytes of an answer. Nothing here knows of HTTP, what the work is made of, or what the
+//! bytes say. Clocks live here and not below, so the same request gives the same answer.
 
 mod job;
 mod progress;
@@ -9,7 +9,7 @@ mod store;
 mod table;
 mod worker;
 
-pub use job::{Failure, Job, JobId, JobState, Moment, Product, Stand, Status};
+pub use job::{Failure, Job, JobId, JobState, Moment, Product, Rendering, Stand, Status};
 pub use progress::Progress;
 pub use store::{Analyse, Dismissal, Ended, JobStore};
 pub use table::{Occupancy, Refusal, Submission};
@@ -30,8 +30,8 @@ pub struct Limits {
     pub kept: usize,
     /// How long a finished job is kept.
     pub kept_for: Duration,
-    /// What all jobs may cost, bytes: beyond it finished ones are forgotten, the one that ended first before others,
-    /// and where those that have not ended cost more, nothing is accepted.
+    /// What requests and answers of all jobs may take, bytes: beyond it finished ones are forgotten, the one that ended first before others,
+    /// and where those that have not ended take more, nothing is accepted.
     pub bytes: usize,
     /// How long a worker may be at one job.
     pub time: Duration,

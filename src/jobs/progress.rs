@@ -75,7 +75,10 @@ impl<'a> Observer<'a> {
 
     /// Notes a step; breaks where the job is cancelled, or its time is over.
     pub(super) fn see(&self, step: LoadStep) -> ControlFlow<()> {
-        self.progress.load_factor.store(step.load_factor.to_bits(), Ordering::Relaxed);
+        // Shown to whoever asks, who can do nothing with one that is no number.
+        if step.load_factor.is_finite() {
+            self.progress.load_factor.store(step.load_factor.to_bits(), Ordering::Relaxed);
+        }
         self.progress.events.store(step.events.saturating_add(1), Ordering::Release);
         self.overdue.set(self.due.is_some_and(|due| Instant::now() > due));
         match self.overdue.get() || self.progress.stop.load(Ordering::Relaxed) {

@@ -8,39 +8,39 @@ use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
-/// What the workers do with a request.
-pub type Analyse<R> = dyn Fn(&R, &Budget) -> Result<Product, Failure> + Send + Sync;
+/// What the workers do.
+pub type Analyse<W> = dyn Fn(W, &Budget) -> Result<Product, Failure> + Send + Sync;
 
 /// Sees every job that has ended, once.
-pub type Ended<R> = dyn Fn(&Job<R>) + Send + Sync;
+pub type Ended = dyn Fn(&Job) + Send + Sync;
 
 /// How long a cancelled analysis may take to notice before its thread is given up.
 const LAST_STEP: Duration = Duration::from_secs(2);
 
 /// What [`JobStore::dismiss`] did.
 #[derive(Debug, Clone)]
-pub enum Dismissal<R> {
+pub enum Dismissal {
     /// The job had not ended: it is cancelled now.
-    Cancelled(Job<R>),
+    Cancelled(Job),
     /// The job had ended: it is forgotten now.
     Forgotten,
 }
 
 /// What store and workers share.
-pub(super) struct Shared<R> {
-    pub(super) analyse: Box<Analyse<R>>,
-    pub(super) ended: Box<Ended<R>>,
+pub(super) struct Shared<W> {
+    pub(super) analyse: Box<Analyse<W>>,
+    pub(super) ended: Box<Ended>,
     pub(super) limits: Limits,
-    pub(super) table: Mutex<Table<R>>,
+    pub(super) table: Mutex<Table<W>>,
     /// There is work, or there will never be again.
     pub(super) work: Condvar,
     /// A worker has come back.
     pub(super) back: Condvar,
 }
 
-impl<R> Shared<R> {
+impl<W> Shared<W> {
     /// Works on the books; what that takes off them is dropped when others may have them again.
-    pub(super) fn books<V>(&self, work: impl FnOnce(&mut Table<R>) -> V) -> V {
+    pub(super) fn books<V>(&self, work: impl FnOnce(&mut Table<W>) -> V) -> V {
         let mut table = lock(&self.table);
         table.tidy();
         let value = work(&mut table);
@@ -51,23 +51,23 @@ impl<R> Shared<R> {
     }
 }
 
-/// All jobs and the threads that run them. `R` is what a job asks.
-pub struct JobStore<R> {
-    shared: Arc<Shared<R>>,
+/// All jobs and the threads that run them. `W` is what a worker is handed.
+pub struct JobStore<W> {
+    shared: Arc<Shared<W>>,
     workers: Mutex<Vec<JoinHandle<()>>>,
     /// How the shutdown ended, once it has.
     over: Mutex<Option<bool>>,
 }
 
-impl<R: PartialEq + Send + Sync + 'static> JobStore<R> {
-    /// Starts the workers, which `analyse` the requests; `ended` is told of every job that has ended.
+impl<W: Send + 'static> JobStore<W> {
+    /// Starts the workers, which `analyse`; `ended` is told of every job that has ended.
     ///
     /// # Errors
     /// When the system gives no thread.
     pub fn start(
         limits: Limits,
-        analyse: impl Fn(&R, &Budget) -> Result<Product, Failure> + Send + Sync + 'static,
-        ended: impl Fn(&Job<R>) + Send + Sync + 'static,
+        analyse: impl Fn(W, &Budget) -> Result<Product, Failure> + Send + Sync + 'static,
+        ended: impl Fn(&Job) + Send + Sync + 'static,
     ) -> std::io::Result<Self> {
         let shared = Arc::new(Shared {
             analyse: Box::new(analyse),
@@ -92,21 +92,21 @@ impl<R: PartialEq + Send + Sync + 'static> JobStore<R> {
     /// # Errors
     /// When the queue or the memory is full, the key names another request, or the store is shutting down; nothing is
     /// accepted then.
-    pub fn submit(&self, submission: Submission<R>) -> Result<Job<R>, Refusal> {
+    pub fn submit(&self, submission: Submission<W>) -> Result<Job, Refusal> {
         let job = self.shared.books(|table| table.accept(submission))?;
         self.shared.work.notify_one();
         Ok(job)
     }
 }
 
-impl<R> JobStore<R> {
+impl<W> JobStore<W> {
     /// The job as it stands.
-    pub fn get(&self, id: JobId) -> Option<Job<R>> {
+    pub fn get(&self, id: JobId) -> Option<Job> {
         self.shared.books(|table| table.get(id))
     }
 
     /// At most `limit` jobs, newest first; of one `status` only, and submitted before the job `before` only, if asked.
-    pub fn list(&self, status: Option<Status>, before: Option<JobId>, limit: usize) -> Vec<Job<R>> {
+    pub fn list(&self, status: Option<Status>, before: Option<JobId>, limit: usize) -> Vec<Job> {
         self.shared.books(|table| table.list(status, before, limit))
     }
 
@@ -121,7 +121,7 @@ impl<R> JobStore<R> {
     }
 
     /// Cancels a job that has not ended, forgets one that has. None when there is no such job.
-    pub fn dismiss(&self, id: JobId) -> Option<Dismissal<R>> {
+    pub fn dismiss(&self, id: JobId) -> Option<Dismissal> {
         let dismissal = self.shared.books(|table| {
             table.get(id)?;
             Some(match table.cancel(id) {
@@ -189,7 +189,7 @@ impl<R> JobStore<R> {
     }
 }
 
-impl<R> Drop for JobStore<R> {
+impl<W> Drop for JobStore<W> {
     fn drop(&mut self) {
         self.shutdown(Duration::ZERO);
     }

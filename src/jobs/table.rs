@@ -2,16 +2,19 @@
 
 use super::Limits;
 use super::job::{Job, JobId, JobState, Moment, Status};
+use bytes::Bytes;
 use std::collections::{BTreeMap, VecDeque};
 use std::mem;
 
 /// A request on its way into the store.
 #[derive(Debug, Clone)]
-pub struct Submission<R> {
-    /// What is asked.
-    pub request: R,
-    /// What keeping it costs, bytes.
-    pub bytes: usize,
+pub struct Submission<W> {
+    /// What a worker is handed.
+    pub work: W,
+    /// What is asked, as it is given out; two that are the same ask the same.
+    pub request: Bytes,
+    /// What the request calls itself.
+    pub name: Option<String>,
     /// Who asks.
     pub client: String,
     /// A name the client gave this submission, so that sending it twice does no harm.
@@ -47,14 +50,16 @@ pub struct Occupancy {
     pub running: usize,
     /// Jobs that have ended and are kept.
     pub finished: usize,
-    /// What all of them cost, bytes.
+    /// What their requests and answers take, bytes.
     pub bytes: usize,
 }
 
 /// One job and what only the books know of it.
 #[derive(Debug)]
-struct Entry<R> {
-    job: Job<R>,
+struct Entry<W> {
+    job: Job,
+    /// Until a worker takes it, or the job ends.
+    work: Option<W>,
     bytes: usize,
     client: String,
     key: Option<String>,
@@ -62,9 +67,9 @@ struct Entry<R> {
 
 /// The books. Ids sort by time of submission, and so do the map and the queue.
 #[derive(Debug)]
-pub(super) struct Table<R> {
+pub(super) struct Table<W> {
     limits: Limits,
-    jobs: BTreeMap<JobId, Entry<R>>,
+    jobs: BTreeMap<JobId, Entry<W>>,
     waiting: VecDeque<JobId>,
     /// How many jobs of each client wait.
     clients: BTreeMap<String, usize>,
@@ -74,15 +79,15 @@ pub(super) struct Table<R> {
     finished: VecDeque<JobId>,
     /// In the hands of workers, dismissed ones included.
     running: Vec<JobId>,
-    /// What all jobs cost, and those that have not ended.
+    /// What all jobs take, and those that have not ended.
     bytes: usize,
     active_bytes: usize,
     /// Taken off the books, to be dropped outside the lock.
-    forgotten: Vec<Job<R>>,
+    forgotten: Vec<Job>,
     open: bool,
 }
 
-impl<R> Table<R> {
+impl<W> Table<W> {
     pub(super) fn new(limits: Limits) -> Self {
         Table {
             limits,
@@ -100,35 +105,38 @@ impl<R> Table<R> {
     }
 
     /// Hands out the job that has waited longest.
-    pub(super) fn take(&mut self) -> Option<Job<R>> {
+    pub(super) fn take(&mut self) -> Option<(Job, W)> {
         let id = self.waiting.pop_front()?;
         let entry = self.jobs.get_mut(&id)?;
         left(&mut self.clients, &entry.client);
+        let work = entry.work.take()?;
         entry.job.turn(JobState::Running);
         self.running.push(id);
-        Some(entry.job.clone())
+        Some((entry.job.clone(), work))
     }
 
     /// A worker is done with `id`: the job as it has ended, unless it had before.
-    pub(super) fn give_back(&mut self, id: JobId, state: JobState, bytes: usize) -> Option<Job<R>> {
+    pub(super) fn give_back(&mut self, id: JobId, state: JobState) -> Option<Job> {
         self.running.retain(|&other| other != id);
-        self.end(id, state, bytes)
+        self.end(id, state)
     }
 
     /// Cancels a job that has not ended and returns it; its worker, if any, is told to stop.
-    pub(super) fn cancel(&mut self, id: JobId) -> Option<Job<R>> {
+    pub(super) fn cancel(&mut self, id: JobId) -> Option<Job> {
         if let Ok(place) = self.waiting.binary_search(&id) {
             self.waiting.remove(place);
             left(&mut self.clients, &self.jobs.get(&id)?.client);
         }
         self.jobs.get(&id)?.job.progress.cancel();
-        self.end(id, JobState::Dismissed, 0)
+        self.end(id, JobState::Dismissed)
     }
 
-    /// Ends a job that has not ended yet and returns it; an answer costs `bytes`.
-    fn end(&mut self, id: JobId, state: JobState, bytes: usize) -> Option<Job<R>> {
+    /// Ends a job that has not ended yet and returns it.
+    fn end(&mut self, id: JobId, state: JobState) -> Option<Job> {
+        let bytes = state.bytes();
         let entry = self.jobs.get_mut(&id).filter(|entry| !entry.job.status().is_final())?;
         entry.job.turn(state);
+        entry.work = None;
         self.active_bytes -= entry.bytes;
         entry.bytes += bytes;
         self.bytes += bytes;
@@ -170,24 +178,24 @@ impl<R> Table<R> {
     }
 
     /// What has been taken off the books since the last call.
-    pub(super) fn forgotten(&mut self) -> Vec<Job<R>> {
+    pub(super) fn forgotten(&mut self) -> Vec<Job> {
         mem::take(&mut self.forgotten)
     }
 
-    pub(super) fn get(&self, id: JobId) -> Option<Job<R>> {
+    pub(super) fn get(&self, id: JobId) -> Option<Job> {
         self.jobs.get(&id).map(|entry| self.seen(entry))
     }
 
     /// At most `limit` jobs, newest first, of one status if asked, submitted before `before` if asked.
-    pub(super) fn list(&self, status: Option<Status>, before: Option<JobId>, limit: usize) -> Vec<Job<R>> {
+    pub(super) fn list(&self, status: Option<Status>, before: Option<JobId>, limit: usize) -> Vec<Job> {
         let end = before.unwrap_or(JobId::max());
-        let wanted = |entry: &&Entry<R>| status.is_none_or(|status| entry.job.status() == status);
+        let wanted = |entry: &&Entry<W>| status.is_none_or(|status| entry.job.status() == status);
         let entries = self.jobs.range(..end).rev().map(|(_, entry)| entry);
         entries.filter(wanted).take(limit).map(|entry| self.seen(entry)).collect()
     }
 
     /// The job with its place in the queue.
-    fn seen(&self, entry: &Entry<R>) -> Job<R> {
+    fn seen(&self, entry: &Entry<W>) -> Job {
         let waits = entry.job.status() == Status::Accepted;
         let place = if waits { self.waiting.binary_search(&entry.job.id).ok() } else { None };
         Job { position: place.map(|place| place + 1), ..entry.job.clone() }
@@ -218,17 +226,16 @@ impl<R> Table<R> {
     pub(super) fn is_idle(&self) -> bool {
         self.waiting.is_empty() && self.running.is_empty()
     }
-}
 
-impl<R: PartialEq> Table<R> {
     /// Puts a request at the end of the queue; the job that already has its key and asks the same is left as it is.
-    pub(super) fn accept(&mut self, submission: Submission<R>) -> Result<Job<R>, Refusal> {
+    pub(super) fn accept(&mut self, submission: Submission<W>) -> Result<Job, Refusal> {
         if let Some(&id) = submission.key.as_ref().and_then(|key| self.keys.get(key)) {
-            let known = self.get(id).filter(|job| *job.request == submission.request);
+            let known = self.get(id).filter(|job| job.request == submission.request);
             return known.ok_or(Refusal::KeyTaken(id));
         }
         self.check(&submission)?;
-        let Submission { request, bytes, client, key } = submission;
+        let Submission { work, request, name, client, key } = submission;
+        let bytes = request.len();
         // Named under the lock, so that the order of ids is the order of the queue.
         let id = JobId::now_v7();
         *self.clients.entry(client.clone()).or_default() += 1;
@@ -236,21 +243,21 @@ impl<R: PartialEq> Table<R> {
         self.waiting.push_back(id);
         self.bytes += bytes;
         self.active_bytes += bytes;
-        let entry = Entry { job: Job::accepted(id, request), bytes, client, key };
+        let entry = Entry { job: Job::accepted(id, name, request), work: Some(work), bytes, client, key };
         let job = entry.job.clone();
         self.jobs.insert(id, entry);
         self.tidy();
         Ok(Job { position: Some(self.waiting.len()), ..job })
     }
 
-    fn check(&self, submission: &Submission<R>) -> Result<(), Refusal> {
+    fn check(&self, submission: &Submission<W>) -> Result<(), Refusal> {
         let of_client = self.clients.get(&submission.client).copied().unwrap_or(0);
         let (waiting, limits) = (self.waiting.len(), &self.limits);
         if !self.open {
             Err(Refusal::Closed)
         } else if waiting >= limits.queue {
             Err(Refusal::QueueFull(waiting))
-        } else if self.active_bytes.saturating_add(submission.bytes) > limits.bytes {
+        } else if self.active_bytes.saturating_add(submission.request.len()) > limits.bytes {
             Err(Refusal::MemoryFull(self.active_bytes))
         } else if of_client >= limits.queue_per_client {
             Err(Refusal::ClientQueueFull(of_client))

@@ -7,21 +7,21 @@ use super::store::Shared;
 use crate::budget::{Budget, LoadStep, Stopped};
 use crate::collapse::AnalysisError;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::{Arc, PoisonError};
+use std::sync::PoisonError;
 
 /// The life of a worker thread.
-pub(super) fn work<R>(shared: &Shared<R>) {
-    while let Some(job) = next(shared) {
+pub(super) fn work<W>(shared: &Shared<W>) {
+    while let Some((job, work)) = next(shared) {
         let span = tracing::info_span!("job", job.id = %job.id);
         let _entered = span.enter();
         tracing::info!("started");
-        let (state, bytes) = attempt(shared, &job);
+        let state = attempt(shared, &job, work);
         match &state {
             JobState::Failed(Failure::Analysis(error @ AnalysisError::Stopped(_))) => tracing::info!("{error}"),
             JobState::Failed(failure) => tracing::warn!(%failure, "failed"),
             _ => tracing::info!("ended"),
         }
-        if let Some(job) = shared.books(|table| table.give_back(job.id, state, bytes)) {
+        if let Some(job) = shared.books(|table| table.give_back(job.id, state)) {
             (shared.ended)(&job);
         }
         shared.back.notify_all();
@@ -29,7 +29,7 @@ pub(super) fn work<R>(shared: &Shared<R>) {
 }
 
 /// Waits for a job; none once the store is closed and the queue empty.
-fn next<R>(shared: &Shared<R>) -> Option<Job<R>> {
+fn next<W>(shared: &Shared<W>) -> Option<(Job, W)> {
     let table = lock(&shared.table);
     let mut table = shared
         .work
@@ -38,20 +38,20 @@ fn next<R>(shared: &Shared<R>) -> Option<Job<R>> {
     table.take()
 }
 
-/// Answers one request; whatever happens in it, there is a final state, and what keeping it costs.
-fn attempt<R>(shared: &Shared<R>, job: &Job<R>) -> (JobState, usize) {
+/// Answers one request; whatever happens in it, there is a final state.
+fn attempt<W>(shared: &Shared<W>, job: &Job, work: W) -> JobState {
     let limit = shared.limits.time;
     let observer = Observer::new(&job.progress, limit);
     let see = |step| observer.see(step);
     // The answer is built from the request alone and is lost with a panic, so nothing half-built is seen.
-    match catch_unwind(AssertUnwindSafe(|| (shared.analyse)(&job.request, &Budget::new(&see)))) {
-        Ok(Ok(product)) => (JobState::Successful(Arc::new(product.answer)), product.bytes),
+    match catch_unwind(AssertUnwindSafe(|| (shared.analyse)(work, &Budget::new(&see)))) {
+        Ok(Ok(product)) => JobState::Successful(product),
         Ok(Err(Failure::Analysis(AnalysisError::Stopped(Stopped(LoadStep { load_factor, events })))))
             if observer.overdue() =>
         {
-            (JobState::Failed(Failure::Overdue { limit, load_factor, events }), 0)
+            JobState::Failed(Failure::Overdue { limit, load_factor, events })
         }
-        Ok(Err(failure)) => (JobState::Failed(failure), 0),
-        Err(_) => (JobState::Failed(Failure::Defect), 0),
+        Ok(Err(failure)) => JobState::Failed(failure),
+        Err(_) => JobState::Failed(Failure::Defect),
     }
 }

@@ -17,18 +17,19 @@ const TABLE: [(&str, &[&str], &[&str]); 12] = [
     ("dda", &["budget", "geometry"], &["nalgebra", "faer", "thiserror"]),
     ("limit", &["budget", "geometry", "structure"], &["nalgebra", "faer", "thiserror"]),
     ("collapse", &["budget", "geometry", "structure", "dda", "limit"], &["nalgebra", "faer", "thiserror"]),
-    ("jobs", &["budget", "collapse"], &["thiserror", "tokio", "tracing", "uuid"]),
+    ("jobs", &["budget", "collapse"], &["bytes", "serde", "thiserror", "tokio", "tracing", "utoipa", "uuid"]),
     ("render", &["collapse", "structure", "geometry"], &["thiserror"]),
     (
         "api",
         &["budget", "jobs", "render", "arch", "blocks", "bridge", "structure", "collapse", "geometry"],
         &[
             "axum",
+            "bytes",
             "comfy_table",
-            "csv",
             "futures_util",
             "headers",
             "headers_accept",
+            "humantime",
             "mediatype",
             "prometheus_client",
             "tokio",
@@ -52,9 +53,10 @@ const TABLE: [(&str, &[&str], &[&str]); 12] = [
 ];
 
 /// Crates that some room may not use; an outside crate is one of these.
-const CRATES: [&str; 32] = [
+const CRATES: [&str; 34] = [
     "axum",
     "axum_server",
+    "bytes",
     "clap",
     "comfy_table",
     "csv",
@@ -62,6 +64,7 @@ const CRATES: [&str; 32] = [
     "futures_util",
     "headers",
     "headers_accept",
+    "humantime",
     "hyper_util",
     "mediatype",
     "mimalloc",

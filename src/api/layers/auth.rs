@@ -2,6 +2,7 @@
 
 use crate::api::problem::Problem;
 use axum::extract::{ConnectInfo, Request, State};
+use axum::http::StatusCode;
 use axum::middleware::Next;
 use axum::response::Response;
 use headers::authorization::Bearer;
@@ -63,7 +64,10 @@ pub(super) async fn admit(State(tokens): State<Tokens>, mut request: Request, ne
         Client { name: address.map(|address| address.ip().to_string()).unwrap_or_default(), token: None }
     } else {
         let given = request.headers().typed_get::<Authorization<Bearer>>();
-        let token = given.and_then(|given| tokens.find(given.token())).ok_or_else(Problem::unauthorized)?;
+        let token = given.and_then(|given| tokens.find(given.token())).ok_or_else(|| {
+            let detail = "send a token of this service in the header authorization: Bearer <token>";
+            Problem::plain(StatusCode::UNAUTHORIZED, detail)
+        })?;
         Client { name: format!("token {token}"), token: Some(token) }
     };
     request.extensions_mut().insert(client);

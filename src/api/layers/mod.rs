@@ -11,7 +11,7 @@ use super::problem::Problem;
 use axum::Router;
 use axum::body::Body;
 use axum::extract::{DefaultBodyLimit, MatchedPath, State};
-use axum::http::{HeaderName, HeaderValue, Method, Request, Uri, header};
+use axum::http::{HeaderName, HeaderValue, Method, Request, StatusCode, Uri, header};
 use axum::middleware::{Next, from_fn_with_state};
 use axum::response::{IntoResponse, Response};
 use std::any::Any;
@@ -98,7 +98,7 @@ async fn no_such_path(uri: Uri) -> Problem {
 }
 
 async fn method_not_allowed() -> Problem {
-    Problem::method_not_allowed()
+    Problem::plain(StatusCode::METHOD_NOT_ALLOWED, "the header allow lists the methods of this path")
 }
 
 /// The panic itself goes to the log through the panic hook, not to the client.

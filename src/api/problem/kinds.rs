@@ -13,94 +13,53 @@ pub struct ProblemKind {
     pub title: &'static str,
 }
 
-const fn kind(uri: &'static str, status: StatusCode, title: &'static str) -> ProblemKind {
-    ProblemKind { uri, status, title }
+macro_rules! kinds {
+    ($($(#[$doc:meta])* $name:ident: $status:ident $uri:literal $title:literal)*) => {
+        $($(#[$doc])* pub const $name: ProblemKind =
+            ProblemKind { uri: $uri, status: StatusCode::$status, title: $title };)*
+
+        /// All of them, as docs/service.md lists them.
+        pub const KINDS: &[ProblemKind] = &[$($name),*];
+    };
 }
 
-/// The request is JSON, but describes no analysis.
-pub const INVALID_REQUEST: ProblemKind =
-    kind("urn:voussoir:problem:invalid-request", StatusCode::UNPROCESSABLE_ENTITY, "The request cannot be analysed");
-/// The body is not JSON.
-pub const NOT_JSON: ProblemKind =
-    kind("urn:voussoir:problem:not-json", StatusCode::BAD_REQUEST, "The body is not JSON");
-/// A query parameter that cannot be.
-pub const BAD_QUERY: ProblemKind =
-    kind("urn:voussoir:problem:bad-query", StatusCode::BAD_REQUEST, "The query cannot be read");
-/// A header that cannot be.
-pub const BAD_HEADER: ProblemKind =
-    kind("urn:voussoir:problem:bad-header", StatusCode::BAD_REQUEST, "A header cannot be read");
-/// The idempotency key names another request.
-pub const KEY_TAKEN: ProblemKind = kind(
-    "urn:voussoir:problem:key-taken",
-    StatusCode::UNPROCESSABLE_ENTITY,
-    "The idempotency key was used for another request",
-);
-/// There is no job of this name.
-pub const NO_SUCH_JOB: ProblemKind = kind(
-    "http://www.opengis.net/def/exceptions/ogcapi-processes-1/1.0/no-such-job",
-    StatusCode::NOT_FOUND,
-    "No such job",
-);
-/// The job has not ended yet.
-pub const RESULT_NOT_READY: ProblemKind = kind(
-    "http://www.opengis.net/def/exceptions/ogcapi-processes-1/1.0/result-not-ready",
-    StatusCode::NOT_FOUND,
-    "The result is not ready",
-);
-/// The answer has no such part.
-pub const NO_SUCH_PART: ProblemKind =
-    kind("urn:voussoir:problem:no-such-part", StatusCode::NOT_FOUND, "The answer has no such part");
-/// The job was cancelled.
-pub const DISMISSED: ProblemKind = kind("urn:voussoir:problem:dismissed", StatusCode::GONE, "The job was dismissed");
-/// The mechanics gave no answer.
-pub const ANALYSIS_FAILED: ProblemKind =
-    kind("urn:voussoir:problem:analysis-failed", StatusCode::UNPROCESSABLE_ENTITY, "The analysis failed");
-/// The analysis took longer than a job may.
-pub const ANALYSIS_OVERDUE: ProblemKind =
-    kind("urn:voussoir:problem:analysis-overdue", StatusCode::UNPROCESSABLE_ENTITY, "The analysis took too long");
-/// The analysis panicked.
-pub const ANALYSIS_DEFECT: ProblemKind =
-    kind("urn:voussoir:problem:analysis-defect", StatusCode::INTERNAL_SERVER_ERROR, "The analysis broke off");
-/// One client has as many jobs waiting as it may.
-pub const CLIENT_QUEUE_FULL: ProblemKind = kind(
-    "urn:voussoir:problem:client-queue-full",
-    StatusCode::TOO_MANY_REQUESTS,
-    "Too many jobs of one client are waiting",
-);
-/// As many jobs wait as may.
-pub const QUEUE_FULL: ProblemKind =
-    kind("urn:voussoir:problem:queue-full", StatusCode::SERVICE_UNAVAILABLE, "The queue is full");
-/// The jobs that have not ended fill the memory.
-pub const MEMORY_FULL: ProblemKind =
-    kind("urn:voussoir:problem:memory-full", StatusCode::SERVICE_UNAVAILABLE, "The memory for jobs is full");
-/// The answers on their way fill the memory.
-pub const ANSWERS_FULL: ProblemKind =
-    kind("urn:voussoir:problem:answers-full", StatusCode::SERVICE_UNAVAILABLE, "Too many answers are on their way");
-/// As many event streams are open as may.
-pub const STREAMS_FULL: ProblemKind =
-    kind("urn:voussoir:problem:streams-full", StatusCode::SERVICE_UNAVAILABLE, "Too many event streams are open");
-/// The service is ending.
-pub const SHUTTING_DOWN: ProblemKind =
-    kind("urn:voussoir:problem:shutting-down", StatusCode::SERVICE_UNAVAILABLE, "The service is shutting down");
-
-/// All of them, as docs/service.md lists them.
-pub const KINDS: [ProblemKind; 18] = [
-    INVALID_REQUEST,
-    NOT_JSON,
-    BAD_QUERY,
-    BAD_HEADER,
-    KEY_TAKEN,
-    NO_SUCH_JOB,
-    RESULT_NOT_READY,
-    NO_SUCH_PART,
-    DISMISSED,
-    ANALYSIS_FAILED,
-    ANALYSIS_OVERDUE,
-    ANALYSIS_DEFECT,
-    CLIENT_QUEUE_FULL,
-    QUEUE_FULL,
-    MEMORY_FULL,
-    ANSWERS_FULL,
-    STREAMS_FULL,
-    SHUTTING_DOWN,
-];
+kinds! {
+    /// The request is JSON, but describes no analysis.
+    INVALID_REQUEST: UNPROCESSABLE_ENTITY "urn:voussoir:problem:invalid-request" "The request cannot be analysed"
+    /// The body is not JSON.
+    NOT_JSON: BAD_REQUEST "urn:voussoir:problem:not-json" "The body is not JSON"
+    /// A query parameter that cannot be.
+    BAD_QUERY: BAD_REQUEST "urn:voussoir:problem:bad-query" "The query cannot be read"
+    /// A header that cannot be.
+    BAD_HEADER: BAD_REQUEST "urn:voussoir:problem:bad-header" "A header cannot be read"
+    /// The idempotency key names another request.
+    KEY_TAKEN: UNPROCESSABLE_ENTITY "urn:voussoir:problem:key-taken" "The idempotency key was used for another request"
+    /// There is no job of this name.
+    NO_SUCH_JOB: NOT_FOUND "http://www.opengis.net/def/exceptions/ogcapi-processes-1/1.0/no-such-job" "No such job"
+    /// The job has not ended yet.
+    RESULT_NOT_READY: NOT_FOUND "http://www.opengis.net/def/exceptions/ogcapi-processes-1/1.0/result-not-ready"
+        "The result is not ready"
+    /// The answer has no such part.
+    NO_SUCH_PART: NOT_FOUND "urn:voussoir:problem:no-such-part" "The answer has no such part"
+    /// The job was cancelled.
+    DISMISSED: GONE "urn:voussoir:problem:dismissed" "The job was dismissed"
+    /// The mechanics gave no answer.
+    ANALYSIS_FAILED: UNPROCESSABLE_ENTITY "urn:voussoir:problem:analysis-failed" "The analysis failed"
+    /// The analysis took longer than a job may.
+    ANALYSIS_OVERDUE: UNPROCESSABLE_ENTITY "urn:voussoir:problem:analysis-overdue" "The analysis took too long"
+    /// The analysis panicked.
+    ANALYSIS_DEFECT: INTERNAL_SERVER_ERROR "urn:voussoir:problem:analysis-defect" "The analysis broke off"
+    /// One client has as many jobs waiting as it may.
+    CLIENT_QUEUE_FULL: TOO_MANY_REQUESTS "urn:voussoir:problem:client-queue-full"
+        "Too many jobs of one client are waiting"
+    /// As many jobs wait as may.
+    QUEUE_FULL: SERVICE_UNAVAILABLE "urn:voussoir:problem:queue-full" "The queue is full"
+    /// The jobs that have not ended fill the memory.
+    MEMORY_FULL: SERVICE_UNAVAILABLE "urn:voussoir:problem:memory-full" "The memory for jobs is full"
+    /// The answers on their way fill the memory.
+    ANSWERS_FULL: SERVICE_UNAVAILABLE "urn:voussoir:problem:answers-full" "Too many answers are on their way"
+    /// As many event streams are open as may.
+    STREAMS_FULL: SERVICE_UNAVAILABLE "urn:voussoir:problem:streams-full" "Too many event streams are open"
+    /// The service is ending.
+    SHUTTING_DOWN: SERVICE_UNAVAILABLE "urn:voussoir:problem:shutting-down" "The service is shutting down"
+}

@@ -3,12 +3,12 @@
 pub mod kinds;
 
 use super::fault::Fault;
-use crate::jobs::{Failure, JobId, Refusal};
+use super::json::NotFinite;
+use crate::jobs::{Failure, Refusal};
 use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use kinds::ProblemKind;
 use serde::Serialize;
-use std::time::Duration;
 use utoipa::ToSchema;
 
 /// The media type of a problem.
@@ -56,49 +56,9 @@ impl Problem {
         Problem { errors, ..Problem::of(kinds::INVALID_REQUEST, detail) }
     }
 
-    /// The body is not said to be JSON.
-    pub fn unsupported_media_type() -> Self {
-        let detail = "send the request with the header content-type: application/json";
-        Problem::plain(StatusCode::UNSUPPORTED_MEDIA_TYPE, detail)
-    }
-
-    /// The body is compressed.
-    pub fn encoded() -> Self {
-        let detail = "send the body as it is, without content-encoding";
-        Problem::plain(StatusCode::UNSUPPORTED_MEDIA_TYPE, detail)
-    }
-
-    /// The body is too long.
-    pub fn too_long(limit: usize) -> Self {
-        Problem::plain(StatusCode::PAYLOAD_TOO_LARGE, format!("the body may have at most {limit} bytes"))
-    }
-
-    /// The body did not arrive in time.
-    pub fn too_slow(limit: Duration) -> Self {
-        let detail = format!("the body did not arrive within {} s", limit.as_secs_f64());
-        Problem::plain(StatusCode::REQUEST_TIMEOUT, detail)
-    }
-
     /// Nothing lives at this path.
     pub fn no_such_path(path: &str) -> Self {
         Problem::plain(StatusCode::NOT_FOUND, format!("nothing is at {path}; /openapi.json lists what is where"))
-    }
-
-    /// The path knows other methods only.
-    pub fn method_not_allowed() -> Self {
-        Problem::plain(StatusCode::METHOD_NOT_ALLOWED, "the header allow lists the methods of this path")
-    }
-
-    /// None of the formats the client takes is on offer.
-    pub fn not_acceptable(offered: &str) -> Self {
-        let detail = format!("this comes as {offered}: name one of them in the header accept, or in the query as f");
-        Problem::plain(StatusCode::NOT_ACCEPTABLE, detail)
-    }
-
-    /// There is no token, or another one.
-    pub fn unauthorized() -> Self {
-        let detail = "send a token of this service in the header authorization: Bearer <token>";
-        Problem::plain(StatusCode::UNAUTHORIZED, detail)
     }
 
     /// There is no job of this name.
@@ -107,32 +67,21 @@ impl Problem {
         Problem::of(kinds::NO_SUCH_JOB, detail)
     }
 
-    /// The job has not ended yet.
-    pub fn result_not_ready(id: JobId) -> Self {
-        let detail = format!("job {id} has not ended yet; its status is at /v1/jobs/{id}");
-        Problem::of(kinds::RESULT_NOT_READY, detail)
-    }
-
-    /// The job was cancelled, there will be no result.
-    pub fn dismissed(id: JobId) -> Self {
-        let detail = format!("job {id} was dismissed and has no result; submit it again");
-        Problem::of(kinds::DISMISSED, detail)
-    }
-
     /// The service takes no more jobs.
     pub fn shutting_down() -> Self {
         Refusal::Closed.into()
+    }
+
+    /// An answer with a number that is not finite: a defect of the program.
+    pub(super) fn unwritable(reason: NotFinite) -> Self {
+        tracing::error!(%reason, "an answer cannot be written");
+        Problem::internal()
     }
 
     /// A defect of the program.
     pub fn internal() -> Self {
         let detail = "a defect of the program, not of the request; the header x-request-id finds it in the log";
         Problem::plain(StatusCode::INTERNAL_SERVER_ERROR, detail)
-    }
-
-    /// True where trying again later may help.
-    fn invites_retry(&self) -> bool {
-        matches!(self.status, 429 | 503) || self.kind == kinds::RESULT_NOT_READY.uri
     }
 }
 
@@ -164,10 +113,11 @@ impl IntoResponse for Problem {
     fn into_response(self) -> Response {
         let status = StatusCode::from_u16(self.status).unwrap_or(StatusCode::INTERNAL_SERVER_ERROR);
         let body = serde_json::to_vec(&self).unwrap_or_default();
-        let mut response = (status, [(header::CONTENT_TYPE, MEDIA_TYPE)], body).into_response();
+        let fixed = [(header::CONTENT_TYPE, MEDIA_TYPE), (header::CACHE_CONTROL, "no-store")];
+        let mut response = (status, fixed, body).into_response();
         let headers = response.headers_mut();
-        headers.insert(header::CACHE_CONTROL, HeaderValue::from_static("no-store"));
-        if self.invites_retry() {
+        // Where trying again later may help.
+        if matches!(self.status, 429 | 503) || self.kind == kinds::RESULT_NOT_READY.uri {
             headers.insert(header::RETRY_AFTER, HeaderValue::from(RETRY_AFTER));
         }
         if status == StatusCode::UNAUTHORIZED {

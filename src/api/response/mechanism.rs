@@ -161,7 +161,7 @@ impl EndBody {
 
 impl RangeBody {
     fn new(range: &LoadRange, scale: &Scale<'_>) -> Self {
-        let greatest = Some(range.greatest).filter(|greatest| greatest.is_finite());
+        let greatest = Some(range.greatest).filter(|greatest| !greatest.is_infinite());
         RangeBody {
             least: scale.intensity(range.least),
             greatest: greatest.map(|greatest| scale.intensity(greatest)),

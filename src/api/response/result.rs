@@ -1,6 +1,7 @@
 //! The answer to whatever was asked.
 
-use super::{AnalysisResult, BeamResult, SafetyCurveResult, line};
+use super::{AnalysisResult, BeamResult, SafetyCurveResult};
+use crate::api::json::{NotFinite, line};
 use crate::api::request::Request;
 use crate::collapse::Answer;
 use serde::Serialize;
@@ -19,10 +20,8 @@ pub enum JobResult {
 }
 
 impl JobResult {
-    /// Puts the answer in the request's words; none where it is no answer to this request, or has a number that JSON
-    /// cannot say.
+    /// Puts the answer in the request's words; none where it is no answer to this request.
     pub fn new(request: &Request, answer: &Answer) -> Option<Self> {
-        answer.check_finite().ok()?;
         match (request, answer) {
             (Request::Structure(request), Answer::One(report)) => {
                 AnalysisResult::new(request, report).map(|result| JobResult::Analysis(Box::new(result)))
@@ -40,8 +39,8 @@ impl JobResult {
     /// The body of `/results` and the output of `solve --json`: compact JSON and a newline.
     ///
     /// # Errors
-    /// Never for an answer of the mechanics; the serialiser wants it said.
-    pub fn to_bytes(&self) -> serde_json::Result<Vec<u8>> {
+    /// Where a number is not finite.
+    pub fn to_bytes(&self) -> Result<Vec<u8>, NotFinite> {
         line(self)
     }
 }

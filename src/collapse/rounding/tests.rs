@@ -46,6 +46,6 @@ fn a_number_that_is_none_leaves_the_window_and_a_reason() {
         assert_eq!(report.limit_window, blank().limit_window);
         assert_eq!(report.safety(), Some(&SafetyFactors::UNKNOWN));
         assert_eq!(report.notes, [Note::NotFinite("history")]);
-        assert_eq!(report.check_finite(), Ok(()));
+        assert_eq!(report.not_finite(), None);
     }
 }
