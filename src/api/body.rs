@@ -23,7 +23,7 @@ impl FromRequest<Service> for JsonBody {
         if request.headers().contains_key(header::CONTENT_ENCODING) {
             return unsupported("send the body as it is, without content-encoding");
         }
-        let (most, time) = (service.limits.body, service.limits.request_time);
+        let (most, time) = (service.settings.limits.body, service.settings.limits.request_time);
         let too_long =
             || Problem::plain(StatusCode::PAYLOAD_TOO_LARGE, format!("the body may have at most {most} bytes"));
         // Told before the body is sent, to clients that ask whether they may.

@@ -3,12 +3,13 @@
 use super::format::{FIELD, FIGURE, Format, HISTORY, RESULTS};
 use super::problem::{MEDIA_TYPE, Problem};
 use super::{contract, guarded, open};
-use utoipa::ToSchema;
+use utoipa::openapi::header::HeaderBuilder;
 use utoipa::openapi::link::{Link, LinkBuilder};
-use utoipa::openapi::path::{Operation, Parameter, ParameterBuilder, ParameterIn};
+use utoipa::openapi::path::{Parameter, ParameterBuilder, ParameterIn};
 use utoipa::openapi::schema::{ObjectBuilder, Type};
 use utoipa::openapi::security::{Http, HttpAuthScheme, SecurityRequirement, SecurityScheme};
-use utoipa::openapi::{Content, OpenApi, Ref, RefOr, Required, ResponseBuilder};
+use utoipa::openapi::{Content, OpenApi, Ref, RefOr, Required, Response, ResponseBuilder};
+use utoipa::{PartialSchema, ToSchema};
 
 /// Name of the security scheme.
 const TOKEN: &str = "token";
@@ -16,28 +17,34 @@ const TOKEN: &str = "token";
 /// A bearer token has no scopes.
 const NO_SCOPES: [&str; 0] = [];
 
-/// Status code, meaning, and the paths it holds for.
-type Common = (&'static str, &'static str, fn(&str) -> bool);
+/// Status code, meaning, and the operations it holds for, each told by its path and its id.
+type Refused = (&'static str, &'static str, fn(&str, &str) -> bool);
 
-/// Problems that many operations share; an operation's own words for a code go before these.
-const COMMON: [Common; 8] = [
-    ("400", "The query cannot be read", |path| path.contains("/results") || path == "/v1/jobs"),
-    ("401", "No token, or another one; only where the service has tokens", is_guarded),
-    ("404", "No such job, result not ready, or no such part", |path| path.contains("{id}")),
-    ("406", "Not to be had in this format", |path| path.contains("/results")),
-    ("410", "The job was dismissed", |path| path.contains("/results")),
-    ("422", "The analysis failed", |path| path.contains("/results")),
-    ("500", "A defect of the program", |_| true),
-    ("503", "Too many answers are on their way", |path| path.contains("/results")),
+/// Problems; of two for the same status code the first one holds.
+const PROBLEMS: [Refused; 19] = [
+    ("400", "The query cannot be read", |path, id| path.contains("/results") || id == "list_jobs"),
+    ("400", "Not JSON, or a header that cannot be read", |_, id| has_body(id)),
+    ("401", "No token, or another one; only where the service has tokens", |path, _| is_guarded(path)),
+    ("404", "No such job, result not ready, or no such part", |path, _| path.contains("{id}")),
+    ("406", "Not to be had in this format", |path, _| path.contains("/results")),
+    ("408", "The body did not arrive in time", |_, id| has_body(id)),
+    ("410", "The job was dismissed", |path, _| path.contains("/results")),
+    ("413", "The body is too long", |_, id| has_body(id)),
+    ("415", "The body is not said to be JSON", |_, id| has_body(id)),
+    ("422", "The analysis failed", |path, _| path.contains("/results")),
+    ("422", FAULTY_OR_TAKEN, |_, id| id == "submit_job"),
+    ("422", "Describes no analysis: every fault is listed", |_, id| id == "validate"),
+    ("429", "As many jobs of this client wait as may", |_, id| id == "submit_job"),
+    ("500", "A defect of the program", |_, _| true),
+    ("503", "Too many answers are on their way", |path, _| path.contains("/results")),
+    ("503", "Queue or memory full, or shutting down", |_, id| id == "submit_job"),
+    ("503", "Too many streams are open, or shutting down", |_, id| id == "get_events"),
+    ("503", "Shutting down", |_, id| id == "ready"),
+    ("304", "As the client knows it already", |path, _| path.contains("/results")),
 ];
 
-/// Problems of operations with a body.
-const OF_BODIES: [(&str, &str); 4] = [
-    ("400", "Not JSON, or a header that cannot be read"),
-    ("408", "The body did not arrive in time"),
-    ("413", "The body is too long"),
-    ("415", "The body is not said to be JSON"),
-];
+const FAULTY_OR_TAKEN: &str =
+    "Describes no analysis: every fault is listed; or the idempotency key was used for another request";
 
 /// What a job's id is good for.
 const LINKED: [&str; 8] =
@@ -61,19 +68,17 @@ fn is_guarded(path: &str) -> bool {
     path.starts_with("/v1") || path == "/metrics"
 }
 
+fn has_body(operation: &str) -> bool {
+    ["submit_job", "validate"].contains(&operation)
+}
+
 fn complete(document: &mut OpenApi) {
     for (path, item) in &mut document.paths.paths {
-        let operations = [&mut item.get, &mut item.post, &mut item.delete].into_iter().flatten();
-        for operation in operations {
-            for (status, meaning, _) in COMMON.iter().filter(|(_, _, holds)| holds(path)) {
-                add(operation, status, meaning);
-            }
-            if operation.request_body.is_some() {
-                OF_BODIES.iter().for_each(|(status, meaning)| add(operation, status, meaning));
-            }
-            if path.contains("/results") {
-                let known = ResponseBuilder::new().description("As the client knows it already").build();
-                operation.responses.responses.entry("304".to_owned()).or_insert(RefOr::T(known));
+        for operation in [&mut item.get, &mut item.post, &mut item.delete].into_iter().flatten() {
+            let id = operation.operation_id.as_deref().unwrap_or_default();
+            for (status, meaning, _) in PROBLEMS.iter().filter(|(.., holds)| holds(path, id)) {
+                let responses = &mut operation.responses.responses;
+                responses.entry((*status).to_owned()).or_insert_with(|| RefOr::T(refused(status, meaning)));
             }
             if let Some((_, formats)) = FORMATS.iter().find(|(end, _)| path.ends_with(end)) {
                 operation.parameters.get_or_insert_default().push(RefOr::T(format_of(formats)));
@@ -115,9 +120,15 @@ fn link(operation: &str) -> Link {
     }
 }
 
-/// Adds a problem to an operation that does not speak of this status itself.
-fn add(operation: &mut Operation, status: &str, meaning: &str) {
+/// An answer that is a problem, unless it only says that nothing is new; one that may pass says when to try again.
+fn refused(status: &str, meaning: &str) -> Response {
+    let response = ResponseBuilder::new().description(meaning);
     let content = Content::new(Some(Ref::from_schema_name(Problem::name())));
-    let response = ResponseBuilder::new().description(meaning).content(MEDIA_TYPE, content).build();
-    operation.responses.responses.entry(status.to_owned()).or_insert(RefOr::T(response));
+    let seconds =
+        || HeaderBuilder::new().schema(Some(u64::schema())).description(Some("Seconds after which to try again"));
+    match status {
+        "304" => response.build(),
+        "429" | "503" => response.content(MEDIA_TYPE, content).header("retry-after", seconds().build()).build(),
+        _ => response.content(MEDIA_TYPE, content).build(),
+    }
 }

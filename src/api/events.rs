@@ -3,22 +3,19 @@
 //! Nothing is kept for this: an event's id says how the job stood, so whoever comes back with the last id seen is told
 //! what has changed since.
 
-use super::jobs::{JobPath, find};
+use super::jobs::Known;
 use super::json::{NotFinite, compact};
 use super::problem::{Problem, kinds};
-use super::request::Request;
-use super::service::AppState;
+use super::service::{AppState, Service};
 use super::status::JobStatus;
-use crate::jobs::{Job, JobStore, Stand, Status};
+use crate::jobs::{Job, Stand, Status};
 use axum::http::{HeaderMap, HeaderName, StatusCode};
 use axum::response::sse::{Event, KeepAlive, Sse};
 use axum::response::{IntoResponse, Response};
 use futures_util::stream;
-use std::sync::Arc;
 use std::time::Duration;
 use tokio::sync::OwnedSemaphorePermit;
 use tokio::sync::watch::Receiver;
-use tokio_util::sync::CancellationToken;
 use utoipa::ToSchema;
 
 /// How often a running analysis is looked at.
@@ -42,30 +39,27 @@ const LAST_EVENT_ID: HeaderName = HeaderName::from_static("last-event-id");
             contact events so far), `end` (data: the final status), after which the stream ends",
             body = StreamEvent, content_type = "text/event-stream"),
         (status = 204, description = "The client has seen the end"),
-        (status = 503, description = "Too many streams are open, or shutting down", body = Problem,
-            content_type = "application/problem+json",
-            headers(("retry-after" = u64, description = "Seconds after which to try again"))),
     )
 )]
-pub(super) async fn events(state: AppState, path: JobPath, headers: HeaderMap) -> Result<Response, Problem> {
-    let job = find(&state, path.0)?;
+pub(super) async fn events(state: AppState, Known(job): Known, headers: HeaderMap) -> Result<Response, Problem> {
+    let service = state.0;
     let seen = headers.get(LAST_EVENT_ID).and_then(|id| Seen::read(id.to_str().ok()?));
     let ended = seen.filter(|seen| seen.status.is_final());
     if ended.is_some_and(|seen| seen.status == job.status()) {
         return Ok(StatusCode::NO_CONTENT.into_response());
     }
-    if state.stopping.is_cancelled() {
+    if service.stopping.is_cancelled() {
         return Err(Problem::shutting_down());
     }
-    let full = |_| Problem::of(kinds::STREAMS_FULL, format!("{} event streams are open", state.limits.streams));
+    let full =
+        |_| Problem::of(kinds::STREAMS_FULL, format!("{} event streams are open", service.settings.limits.streams));
     let follower = Follower {
-        _permit: state.streams.clone().try_acquire_owned().map_err(full)?,
-        jobs: state.jobs.clone(),
+        _permit: service.streams.clone().try_acquire_owned().map_err(full)?,
         changes: job.progress.stand(),
         job,
         // An end that has not come is that of another job.
         seen: seen.filter(|_| ended.is_none()),
-        stopping: state.stopping.clone(),
+        service,
     };
     let events = stream::unfold(follower, |mut follower| async { Some((follower.next().await?, follower)) });
     let sse = Sse::new(events).keep_alive(KeepAlive::new().interval(ALIVE));
@@ -108,11 +102,10 @@ impl Seen {
 
 /// One client that follows one job.
 struct Follower {
-    jobs: Arc<JobStore<Request>>,
+    service: Service,
     job: Job,
     changes: Receiver<Stand>,
     seen: Option<Seen>,
-    stopping: CancellationToken,
     _permit: OwnedSemaphorePermit,
 }
 
@@ -125,11 +118,13 @@ impl Follower {
         loop {
             self.changes.borrow_and_update();
             // One that the store has forgotten has ended, and its own stand says how.
-            let job = self.jobs.get(self.job.id).unwrap_or_else(|| self.job.now());
+            let job = self.service.jobs.get(self.job.id).unwrap_or_else(|| self.job.now());
             let (status, step) = (job.status(), job.progress.step());
             let now = Seen { status, events: step.map(|step| step.events) };
             let (name, data) = match self.seen {
-                Some(seen) if seen.status == status => ("step", step.filter(|_| seen != now).map(|step| compact(&step))),
+                Some(seen) if seen.status == status => {
+                    ("step", step.filter(|_| seen != now).map(|step| compact(&step)))
+                }
                 _ => (if status.is_final() { "end" } else { "status" }, Some(compact(&JobStatus::from(&job)))),
             };
             if let Some(data) = data {
@@ -137,7 +132,7 @@ impl Follower {
                 return Some(data.map(|data| Event::default().event(name).id(now.write()).data(data)));
             }
             tokio::select! {
-                () = self.stopping.cancelled() => return None,
+                () = self.service.stopping.cancelled() => return None,
                 _ = self.changes.changed() => {}
                 () = tokio::time::sleep(LOOK), if status == Status::Running => {}
             }

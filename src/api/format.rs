@@ -27,33 +27,27 @@ pub(super) const FIELD: [Format; 3] = [Format::Json, Format::Csv, Format::Vtu];
 pub(super) const FIGURE: [Format; 1] = [Format::Svg];
 
 impl Format {
-    /// Its name in the query.
-    pub(super) fn name(self) -> &'static str {
+    /// Its name in the query, and its media type.
+    fn words(self) -> (&'static str, &'static str) {
         match self {
-            Format::Json => "json",
-            Format::Text => "text",
-            Format::Csv => "csv",
-            Format::Vtu => "vtu",
-            Format::Svg => "svg",
+            Format::Json => ("json", "application/json"),
+            Format::Text => ("text", "text/plain"),
+            Format::Csv => ("csv", "text/csv"),
+            Format::Vtu => ("vtu", "application/vnd.vtk.vtu+xml"),
+            Format::Svg => ("svg", "image/svg+xml"),
         }
     }
 
-    /// Its media type.
-    pub(super) fn media_type(self) -> &'static str {
-        match self {
-            Format::Json => "application/json",
-            Format::Text => "text/plain",
-            Format::Csv => "text/csv",
-            Format::Vtu => "application/vnd.vtk.vtu+xml",
-            Format::Svg => "image/svg+xml",
-        }
+    /// Its name in the query.
+    pub(super) fn name(self) -> &'static str {
+        self.words().0
     }
 
     /// The same as the header `content-type` has it.
     pub(super) fn content_type(self) -> &'static str {
         match self {
             Format::Text => "text/plain; charset=utf-8",
-            other => other.media_type(),
+            other => other.words().1,
         }
     }
 
@@ -71,7 +65,7 @@ impl Format {
         else {
             return Ok(first);
         };
-        let types: Vec<_> = offered.iter().filter_map(|format| MediaType::parse(format.media_type()).ok()).collect();
+        let types: Vec<_> = offered.iter().filter_map(|format| MediaType::parse(format.words().1).ok()).collect();
         let best = accept.negotiate(&types).and_then(|best| types.iter().position(|one| one == best));
         best.and_then(|place| offered.get(place).copied()).ok_or_else(|| {
             let names = names();

@@ -47,9 +47,7 @@ pub(super) fn answer(value: &impl Serialize) -> Result<Response, Problem> {
 /// List jobs, newest first.
 #[utoipa::path(
     get, path = "/v1/jobs", tag = "jobs", operation_id = "list_jobs", params(ListQuery),
-    responses(
-        (status = 200, description = "Jobs, newest first", body = JobList),
-    )
+    responses((status = 200, description = "Jobs, newest first", body = JobList))
 )]
 pub(super) async fn list(
     state: AppState,
@@ -86,8 +84,7 @@ pub(super) async fn list(
         (status = 304, description = "Still as the client knows it"),
     )
 )]
-pub(super) async fn show(state: AppState, path: JobPath, headers: HeaderMap) -> Result<Response, Problem> {
-    let job = find(&state, path.0)?;
+pub(super) async fn show(Known(job): Known, headers: HeaderMap) -> Result<Response, Problem> {
     let body = json::line(&JobStatus::from(&job)).map_err(Problem::unwritable)?;
     let version = Version::of(&body);
     let mut response = version.known(&headers).unwrap_or_else(|| version.mark((JSON, body)));
@@ -106,8 +103,8 @@ pub(super) async fn show(state: AppState, path: JobPath, headers: HeaderMap) -> 
             byte", body = Request),
     )
 )]
-pub(super) async fn request(state: AppState, path: JobPath) -> Result<Response, Problem> {
-    Ok((JSON, find(&state, path.0)?.request).into_response())
+pub(super) async fn request(Known(job): Known) -> impl IntoResponse {
+    (JSON, job.request)
 }
 
 /// Cancel a job that has not ended, forget one that has.
@@ -119,24 +116,25 @@ pub(super) async fn request(state: AppState, path: JobPath) -> Result<Response, 
         (status = 204, description = "Had ended: it is forgotten"),
     )
 )]
-pub(super) async fn dismiss(state: AppState, path: JobPath) -> Result<Response, Problem> {
-    match state.jobs.dismiss(path.0).ok_or_else(|| Problem::no_such_job(&path.0.to_string()))? {
+pub(super) async fn dismiss(state: AppState, Known(job): Known) -> Result<Response, Problem> {
+    match state.jobs.dismiss(job.id).ok_or_else(|| Problem::no_such_job(&job.id.to_string()))? {
         Dismissal::Cancelled(job) => answer(&JobStatus::from(&job)),
         Dismissal::Forgotten => Ok(StatusCode::NO_CONTENT.into_response()),
     }
 }
 
-/// The job id of a path.
-pub(super) struct JobPath(pub(super) JobId);
+/// The job of a path.
+pub(super) struct Known(pub(super) Job);
 
-impl<S: Send + Sync> FromRequestParts<S> for JobPath {
+impl FromRequestParts<Service> for Known {
     type Rejection = Problem;
 
-    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Problem> {
-        let path = Path::<Vec<(String, String)>>::from_request_parts(parts, state).await;
+    async fn from_request_parts(parts: &mut Parts, service: &Service) -> Result<Self, Problem> {
+        let path = Path::<Vec<(String, String)>>::from_request_parts(parts, service).await;
         let id = path.ok().and_then(|Path(names)| names.into_iter().find(|(name, _)| name == "id"));
         let (_, id) = id.ok_or_else(|| Problem::no_such_path(parts.uri.path()))?;
-        JobId::try_parse(&id).map(JobPath).map_err(|_| Problem::no_such_job(&id))
+        let job = JobId::try_parse(&id).ok().and_then(|id| service.jobs.get(id));
+        job.map(Known).ok_or_else(|| Problem::no_such_job(&id))
     }
 }
 
@@ -144,9 +142,4 @@ impl<S: Send + Sync> FromRequestParts<S> for JobPath {
 pub(super) fn query_fault(rejection: &QueryRejection) -> Problem {
     let text = rejection.body_text();
     Problem::of(kinds::BAD_QUERY, text.strip_prefix("Failed to deserialize query string: ").unwrap_or(&text))
-}
-
-/// The job of this name.
-pub(super) fn find(state: &Service, id: JobId) -> Result<Job, Problem> {
-    state.jobs.get(id).ok_or_else(|| Problem::no_such_job(&id.to_string()))
 }

@@ -3,7 +3,8 @@
 
 use crate::collapse::AnalysisError;
 use crate::jobs::Failure;
-use serde::ser::{self, Serialize, Serializer};
+use serde::Serialize;
+use serde::ser::{self, Serializer};
 use std::fmt::Display;
 
 /// Why a value is not written.
@@ -226,9 +227,8 @@ mod tests {
 
     fn tree() -> impl Strategy<Value = Tree> {
         let number = || -1e300..1e300f64;
-        let flat = (number(), number()).prop_map(|(x, factor)| {
-            Tree::Flat(Flat { own: true, rest: Point { x, tagged: Tagged::At { factor } } })
-        });
+        let flat = (number(), number())
+            .prop_map(|(x, factor)| Tree::Flat(Flat { own: true, rest: Point { x, tagged: Tagged::At { factor } } }));
         let leaf = prop_oneof![
             number().prop_map(Tree::Number),
             Just(Tree::Single(0.5)),

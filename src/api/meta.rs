@@ -39,11 +39,7 @@ pub(super) async fn live() -> Json<Health> {
 /// Are jobs accepted?
 #[utoipa::path(
     get, path = "/health/ready", tag = "service", operation_id = "ready",
-    responses(
-        (status = 200, description = "Ready", body = Health),
-        (status = 503, description = "Shutting down", body = Problem, content_type = "application/problem+json",
-            headers(("retry-after" = u64, description = "Seconds after which to try again"))),
-    )
+    responses((status = 200, description = "Ready", body = Health))
 )]
 pub(super) async fn ready(state: axum::extract::State<Service>) -> Result<Json<Health>, Problem> {
     if state.jobs.is_open() { Ok(Health::of("ready")) } else { Err(Problem::shutting_down()) }

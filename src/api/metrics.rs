@@ -20,12 +20,12 @@ const SECONDS: [f64; 13] = [1e-3, 3e-3, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30
 const EVENTS: [f64; 11] = [1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1e3, 3e3, 1e4, 3e4, 1e5];
 
 /// What there is just now.
-const GAUGES: [(&str, &str, Option<Unit>); 5] = [
-    ("queue_length", "Jobs that wait", None),
-    ("jobs_running", "Jobs in the hands of workers", None),
-    ("jobs_kept", "Jobs that have ended and are kept", None),
-    ("held", "What requests and answers of all jobs take", Some(Unit::Bytes)),
-    ("event_streams", "Event streams open", None),
+const GAUGES: [(&str, &str); 5] = [
+    ("queue_length", "Jobs that wait"),
+    ("jobs_running", "Jobs in the hands of workers"),
+    ("jobs_kept", "Jobs that have ended and are kept"),
+    ("held_bytes", "What requests and answers of all jobs take"),
+    ("event_streams", "Event streams open"),
 ];
 
 /// The media type of the exposition.
@@ -60,11 +60,8 @@ impl Default for Metrics {
         registry.register("jobs", "Jobs that have ended", jobs.clone());
         registry.register_with_unit("analysis", "Time a worker spent on a job", Unit::Seconds, seconds.clone());
         registry.register("analysis_events", "Contact events of a job's load paths", events.clone());
-        for ((name, help, unit), gauge) in GAUGES.into_iter().zip(&gauges) {
-            match unit {
-                Some(unit) => registry.register_with_unit(name, help, unit, gauge.clone()),
-                None => registry.register(name, help, gauge.clone()),
-            }
+        for ((name, help), gauge) in GAUGES.into_iter().zip(&gauges) {
+            registry.register(name, help, gauge.clone());
         }
         Metrics { registry: Arc::new(registry), requests, jobs, seconds, events, gauges }
     }
@@ -97,7 +94,8 @@ impl Metrics {
         body = String, content_type = "application/openmetrics-text"))
 )]
 pub(super) async fn metrics(state: AppState) -> Result<impl IntoResponse, Problem> {
-    let (load, streams) = (state.jobs.load(), state.limits.streams.saturating_sub(state.streams.available_permits()));
+    let (load, streams) =
+        (state.jobs.load(), state.settings.limits.streams.saturating_sub(state.streams.available_permits()));
     let counts = [load.waiting, load.running, load.finished, load.bytes, streams];
     for (gauge, count) in state.metrics.gauges.iter().zip(counts) {
         gauge.set(i64::try_from(count).unwrap_or(i64::MAX));

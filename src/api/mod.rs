@@ -77,6 +77,6 @@ fn open() -> OpenApiRouter<Service> {
 pub fn router(service: Service) -> Router {
     let (guarded, _) = guarded().split_for_parts();
     let (open, _) = open().split_for_parts();
-    let router = layers::guard(guarded, service.tokens.clone()).merge(open).merge(docs::router());
+    let router = layers::guard(guarded, service.settings.tokens.clone()).merge(open).merge(docs::router());
     layers::wrap(router.with_state(service.clone()), &service)
 }

@@ -37,7 +37,8 @@ pub fn renderings(
         rendering(named(WHOLE), Format::Json, line(&result)?),
         rendering(named(WHOLE), Format::Text, prose::prose(&result, wall_time)),
     ];
-    if let (Request::Structure(request), Answer::One(report), JobResult::Analysis(result)) = (request, answer, &result) {
+    if let (Request::Structure(request), Answer::One(report), JobResult::Analysis(result)) = (request, answer, &result)
+    {
         all.push(rendering(named(HISTORY), Format::Json, line(&result.history)?));
         all.push(rendering(named(HISTORY), Format::Csv, table::history(&result.history)));
         for (field, body) in report.stress_fields.iter().zip(&result.stress_fields) {

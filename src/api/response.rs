@@ -160,8 +160,7 @@ impl Scale<'_> {
 
     /// Both ends in rising order, null where unbounded.
     fn window(&self, window: LimitWindow) -> [Option<f64>; 2] {
-        let ends =
-            [window.lowest, window.highest].map(|end| (!end.is_infinite()).then(|| self.intensity(end)));
+        let ends = [window.lowest, window.highest].map(|end| (!end.is_infinite()).then(|| self.intensity(end)));
         if self.per_unit < 0.0 { [ends[1], ends[0]] } else { ends }
     }
 }
@@ -254,7 +253,8 @@ impl From<Cost> for CostBody {
 
 impl From<ThrustRange> for ThrustRangeBody {
     fn from(range: ThrustRange) -> Self {
-        let [lowest_n_per_m, highest_n_per_m] = [range.lowest, range.highest].map(|end| (!end.is_infinite()).then_some(end));
+        let [lowest_n_per_m, highest_n_per_m] =
+            [range.lowest, range.highest].map(|end| (!end.is_infinite()).then_some(end));
         ThrustRangeBody { lowest_n_per_m, highest_n_per_m }
     }
 }

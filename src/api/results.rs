@@ -3,7 +3,7 @@
 use super::Service;
 use super::etag::Version;
 use super::format::{self, Format};
-use super::jobs::{JobPath, find, query_fault};
+use super::jobs::{Known, query_fault};
 use super::outgoing::Outgoing;
 use super::problem::{Problem, kinds};
 use super::rendering;
@@ -36,10 +36,11 @@ impl FromRequestParts<Service> for Asked {
     type Rejection = Problem;
 
     async fn from_request_parts(parts: &mut Parts, service: &Service) -> Result<Self, Problem> {
-        let JobPath(id) = JobPath::from_request_parts(parts, service).await?;
+        let Known(job) = Known::from_request_parts(parts, service).await?;
+        let id = job.id;
         let query: Result<Query<FormatQuery>, QueryRejection> = Query::from_request_parts(parts, service).await;
         let Query(FormatQuery { f }) = query.map_err(|bad| query_fault(&bad))?;
-        let (kind, detail) = match find(service, id)?.state {
+        let (kind, detail) = match job.state {
             JobState::Successful(product) => {
                 let (outgoing, headers) = (service.outgoing.clone(), parts.headers.clone());
                 return Ok(Asked { id, product, outgoing, f, headers });

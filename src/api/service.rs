@@ -43,9 +43,7 @@ pub struct Service {
     pub jobs: Arc<JobStore<Request>>,
     /// Cancelled when the service is to stop: ends event streams.
     pub stopping: CancellationToken,
-    pub(super) limits: ApiLimits,
-    pub(super) tokens: Tokens,
-    pub(super) origins: Vec<HeaderValue>,
+    pub(super) settings: Arc<Settings>,
     pub(super) metrics: Metrics,
     pub(super) streams: Arc<Semaphore>,
     /// As many requests are read at once as there are cores.
@@ -63,18 +61,15 @@ impl Service {
         let counted = metrics.clone();
         let work = move |request: Request, budget: &Budget| perform(&request, budget, analyse);
         let jobs = JobStore::start(jobs, work, move |job| counted.ended(job))?;
-        let Settings { limits, tokens, origins } = settings;
         let cores = available_parallelism().map_or(1, NonZeroUsize::get);
         Ok(Service {
             jobs: Arc::new(jobs),
             stopping: CancellationToken::new(),
-            limits,
-            tokens,
-            origins,
             metrics,
-            streams: Arc::new(Semaphore::new(limits.streams)),
+            streams: Arc::new(Semaphore::new(settings.limits.streams)),
             readers: Arc::new(Semaphore::new(cores)),
-            outgoing: Outgoing::new(limits.outgoing),
+            outgoing: Outgoing::new(settings.limits.outgoing),
+            settings: Arc::new(settings),
         })
     }
 }

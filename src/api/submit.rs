@@ -43,14 +43,6 @@ const IDEMPOTENCY_KEY: HeaderName = HeaderName::from_static("idempotency-key");
             ("location" = String, description = "Path of the job's status"),
             ("preference-applied" = Option<String>, description = "The wait that was granted, where one was asked for"),
         )),
-        (status = 422, description = "Describes no analysis: every fault is listed; or the idempotency key was used for \
-            another request", body = Problem, content_type = "application/problem+json"),
-        (status = 429, description = "As many jobs of this client wait as may", body = Problem,
-            content_type = "application/problem+json",
-            headers(("retry-after" = u64, description = "Seconds after which to try again"))),
-        (status = 503, description = "Queue or memory full, or shutting down", body = Problem,
-            content_type = "application/problem+json",
-            headers(("retry-after" = u64, description = "Seconds after which to try again"))),
     )
 )]
 pub(super) async fn submit(
@@ -92,11 +84,7 @@ pub(super) struct Verdict {
 #[utoipa::path(
     post, path = "/v1/validate", tag = "jobs", operation_id = "validate",
     request_body(content = Request, content_type = "application/json"),
-    responses(
-        (status = 200, description = "It would be accepted", body = Verdict),
-        (status = 422, description = "Describes no analysis: every fault is listed", body = Problem,
-            content_type = "application/problem+json"),
-    )
+    responses((status = 200, description = "It would be accepted", body = Verdict))
 )]
 pub(super) async fn validate(state: AppState, JsonBody(body): JsonBody) -> Result<Response, Problem> {
     read_within(&state, body, |request| answer(&Verdict { valid: true, request })).await
@@ -111,12 +99,13 @@ async fn read_within<V: Send + 'static>(
     then: impl FnOnce(Request) -> Result<V, Problem> + Send + 'static,
 ) -> Result<V, Problem> {
     let turn = state.readers.clone().acquire_owned().await.map_err(|_| Problem::internal())?;
-    let limits = state.limits;
+    let limits = state.settings.limits;
     let reading = tokio::task::spawn_blocking(move || {
         // Given back when it has been read, also where the client has gone.
         let _turn = turn;
         let read = read::read_question(&body);
-        let (request, question) = read.map_err(|faults| check_syntax(&body).err().unwrap_or(Problem::faults(faults)))?;
+        let (request, question) =
+            read.map_err(|faults| check_syntax(&body).err().unwrap_or(Problem::faults(faults)))?;
         let faults = limits.check(&request, &question);
         if faults.is_empty() { then(request) } else { Err(Problem::faults(faults)) }
     });

@@ -29,7 +29,8 @@ impl CollapseReport {
         let loads = ends().flat_map(|end| [end.load_factor, end.residual]).chain([self.start, self.cap]);
         let velocities = ends().flat_map(|end| &end.mechanism.velocities).flatten();
         let thrust = ends().flat_map(|end| &end.thrust_line).flat_map(|at| [at.normal, at.shear, at.eccentricity]);
-        let moved = self.history.iter().flat_map(|point| [point.load_factor, point.crown.x, point.crown.y, point.largest]);
+        let moved =
+            self.history.iter().flat_map(|point| [point.load_factor, point.crown.x, point.crown.y, point.largest]);
         let stresses = states().flat_map(|state| &state.blocks).flat_map(|block| block.stress);
         let forces = states().flat_map(|state| &state.contacts).flat_map(|at| [at.normal, at.tangential, at.gap]);
         let quantities = [

@@ -1,12 +1,17 @@
 //! Stress, crushing, safety and the curved beam on the wire, from reports made up here.
 
 use serde_json::{Value, json};
+use std::time::Duration;
+use voussoir::api::json::NotFinite;
 use voussoir::api::read::read_question;
+use voussoir::api::rendering::renderings;
 use voussoir::api::request::Request;
 use voussoir::api::response::JobResult;
 use voussoir::collapse::{
-    Answer, BeamReport, CollapseReport, Cost, Crushing, ElasticCrushing, Governs, LimitWindow, Mode, Note, Outcome,
-    PlasticCrushing, Reach, SafetyFactors, SafetyPoint, SafetyZone, StressField, SubblockStress, TaskReport,
+    Answer, BeamReport, CollapseReport, Cost, CrushedJoint, Crushing, ElasticCrushing, Face, FallingMotion, Governs,
+    Hinge, HistoryPoint, LiftOff, LimitWindow, LoadRange, Mechanism, Mode, MotionContact, MotionEnd, MotionFrame, Note,
+    OpenHinge, Outcome, PathEnd, PlasticCrushing, Reach, SafetyFactors, SafetyPoint, SafetyZone, SettlementEnd,
+    SettlementPath, SettlementPoint, SettlementReport, Slid, Slide, StressField, SubblockStress, TaskReport, Thrust,
 };
 use voussoir::geometry::Vec2;
 
@@ -177,17 +182,153 @@ fn a_beam_is_served() {
     assert_eq!(answer["request"]["mesh"]["subblocks"]["uniform"], json!({"radial": 7, "along": 7}));
 }
 
+/// A collapse with a motion and a movement of supports, so that there is a number of every kind.
+fn full() -> CollapseReport {
+    let at = Vec2::new(1.0, 2.0);
+    let hinge = Hinge {
+        joint: 2,
+        face: Face::Intrados,
+        at,
+        angle_from_springing: Some(0.5),
+        angle_from_crown: None,
+        rotation: 1.0,
+    };
+    let mechanism = Mechanism {
+        mode: Mode::Sway,
+        hinges: vec![hinge],
+        slides: vec![Slide { joint: 1, at, rate: 0.5 }],
+        lift_offs: vec![LiftOff { joint: 3, at, intrados: 1.0, extrados: 2.0, along: 3.0 }],
+        velocities: vec![[1.0; 3]; 9],
+    };
+    let thrust_line = vec![Thrust { joint: 0, normal: 1.0, shear: 2.0, eccentricity: 3.0, at }];
+    let range = LoadRange { least: 1.0, greatest: f64::INFINITY, path: 2.0, mechanisms_tried: 3 };
+    let end = PathEnd {
+        load_factor: 2.0,
+        range: Some(range),
+        residual: 1e-12,
+        mechanism: mechanism.clone(),
+        thrust_line: thrust_line.clone(),
+        crushed: vec![CrushedJoint { joint: 4, face: Face::Extrados, at, length: 0.1 }],
+    };
+    let contact = MotionContact {
+        bodies: [Some(0), None],
+        joint: None,
+        at,
+        direction: Vec2::x(),
+        normal: 1.0,
+        tangential: 2.0,
+        gap: 3.0,
+    };
+    let frame = MotionFrame {
+        parameter: 0.5,
+        centroids: vec![at; 9],
+        rotations: vec![0.25; 9],
+        contacts: vec![contact],
+        hinges: vec![OpenHinge { joint: 0, face: Face::Intrados, opening: 0.125 }],
+        slides: vec![Slid { joint: 0, by: 0.0625 }],
+        displacement: 1.0,
+        penetration: 2.0,
+        residual: 3.0,
+        excess: 4.0,
+        work: 5.0,
+    };
+    let motion = FallingMotion {
+        end: MotionEnd::Moved,
+        load_factor: 2.0,
+        overload: 0.1,
+        span: 4.0,
+        thickness: 0.4,
+        frames: vec![frame],
+    };
+    let settlement = SettlementPath {
+        end: SettlementEnd::Follows,
+        why: None,
+        share: 1.0,
+        safe: 1.0,
+        points: vec![SettlementPoint { share: 0.5, forces: vec![at; 2] }],
+        mechanism,
+        thrust_line,
+        displacements: vec![[1.0; 3]; 9],
+        snap: Some(0.5),
+        residual: 1e-12,
+    };
+    let settlement = SettlementReport { first_order: settlement.clone(), updated: Some(settlement) };
+    CollapseReport {
+        outcome: Outcome::Collapse,
+        end: Some(end),
+        motion: Some(motion),
+        task: TaskReport::Settlement(Some(Box::new(settlement))),
+        history: vec![HistoryPoint { load_factor: 0.5, crown: at, largest: 1.0 }],
+        ..report()
+    }
+}
+
+type Forgery = fn(&mut CollapseReport, f64);
+
+/// Where a number of a forged report is refused.
+const FORGED: [(&str, Forgery); 12] = [
+    ("/motion/frames/residual", |report, none| report.motion.as_mut().unwrap().frames[0].residual = none),
+    ("/motion/frames/contacts", |report, none| report.motion.as_mut().unwrap().frames[0].contacts[0].gap = none),
+    ("/motion/frames/hinges", |report, none| report.motion.as_mut().unwrap().frames[0].hinges[0].opening = none),
+    ("/settlement/first_order/residual", |report, none| settled(report).first_order.residual = none),
+    ("/settlement/updated_geometry/residual", |report, none| settled(report).updated.as_mut().unwrap().residual = none),
+    ("/hinges/0/rotation", |report, none| report.end.as_mut().unwrap().mechanism.hinges[0].rotation = none),
+    ("/collapse/", |report, none| report.end.as_mut().unwrap().residual = none),
+    ("/thrust_line/", |report, none| report.end.as_mut().unwrap().thrust_line[0].at.y = none),
+    ("/history/", |report, none| report.history[0].largest = none),
+    ("/stress_fields/0/subblocks/", |report, none| report.stress_fields[0].subblocks[1].stress[2] = none),
+    ("/crushing/elastic/", |report, none| report.crushing.elastic.as_mut().unwrap().load_factor = Some(none)),
+    ("/cap", |report, none| report.cap = none),
+];
+
+fn settled(report: &mut CollapseReport) -> &mut SettlementReport {
+    let TaskReport::Settlement(Some(settlement)) = &mut report.task else { unreachable!("as made above") };
+    settlement
+}
+
 #[test]
-fn a_number_that_is_none_is_never_served() {
-    let one = |report| JobResult::new(&request(json!({"safety": {}})), &Answer::One(Box::new(report)));
-    assert!(one(report()).is_some());
-    let mut stressed = report();
-    stressed.stress_fields[0].subblocks[1].stress[2] = f64::NAN;
-    assert!(one(stressed).is_none());
-    let mut reaching = report();
-    reaching.task = TaskReport::Safety(SafetyFactors { elastic: Reach::At(f64::INFINITY), ..factors() });
-    assert!(one(reaching).is_none());
+fn a_number_that_is_none_is_refused_by_its_name() {
+    let request = request(json!("collapse"));
+    let one = |report| JobResult::new(&request, &Answer::One(Box::new(report))).unwrap().to_bytes();
+    assert!(one(full()).is_ok());
+    for (place, forge) in FORGED {
+        for none in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            let mut report = full();
+            forge(&mut report, none);
+            let NotFinite(refused) = one(report).unwrap_err();
+            assert!(refused.starts_with(place), "{refused} instead of {place}");
+        }
+    }
+    // Unbounded is null; unknown is neither a number nor unbounded.
+    let mut spoilt = full();
+    spoilt.limit_window.as_mut().unwrap().highest = f64::NAN;
+    assert_eq!(one(spoilt), Err(NotFinite("/limit_window/1".to_owned())));
     let spoilt = BeamReport { error: f64::NAN, ..beam() };
-    assert!(JobResult::new(&beam_request(), &Answer::CurvedBeam(spoilt)).is_none());
-    assert!(JobResult::new(&beam_request(), &Answer::One(Box::new(report()))).is_none(), "not the beam's answer");
+    let spoilt = JobResult::new(&beam_request(), &Answer::CurvedBeam(spoilt)).unwrap();
+    assert_eq!(spoilt.to_bytes(), Err(NotFinite("/error_percent".to_owned())));
+    let wrong = JobResult::new(&beam_request(), &Answer::One(Box::new(report())));
+    assert!(wrong.is_none(), "not the beam's answer");
+}
+
+#[test]
+fn no_form_of_a_refused_answer_is_written() {
+    let body = serde_json::to_vec(&request(json!("collapse"))).unwrap();
+    let (request, question) = read_question(&body).unwrap();
+    let write = |report| renderings(&request, &question, &Answer::One(Box::new(report)), Duration::ZERO);
+    let fine = write(full()).unwrap();
+    for rendering in fine.iter() {
+        let bytes = rendering.body.as_ref().unwrap();
+        let text = String::from_utf8(bytes.to_vec()).unwrap();
+        assert!(!text.contains("NaN") && !text.contains("inf,") && !text.contains("inf "), "{:?}", rendering.names);
+    }
+    let formats: Vec<_> = fine.iter().map(|rendering| (rendering.names[0].as_str(), rendering.format)).collect();
+    let fields = ["json", "csv", "vtu"].map(|format| ("fields/unit_load", format));
+    let whole = [("results", "json"), ("results", "text"), ("history", "json"), ("history", "csv")];
+    assert_eq!(formats, [&whole[..], &fields, &[("figure", "svg")]].concat());
+    for (place, forge) in FORGED {
+        let mut report = full();
+        forge(&mut report, f64::NAN);
+        let failure = write(report).unwrap_err();
+        assert!(failure.to_string().contains(place), "{failure}");
+    }
 }

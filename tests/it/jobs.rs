@@ -6,9 +6,9 @@ use std::sync::{Arc, Mutex};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 use voussoir::budget::{Budget, LoadStep};
-use voussoir::collapse::{AnalysisError, Answer, SafetyPoint};
+use voussoir::collapse::AnalysisError;
 use voussoir::jobs::{
-    Dismissal, Failure, Job, JobId, JobState, JobStore, Limits, Product, Refusal, Status, Submission,
+    Dismissal, Failure, Job, JobId, JobState, JobStore, Limits, Product, Refusal, Rendering, Status, Submission,
 };
 
 const QUICK: f64 = 0.0;
@@ -20,15 +20,15 @@ const ERROR: f64 = 3.0;
 const ANSWER: usize = 1000;
 
 /// Does what the request says.
-fn stand_in(order: &f64, budget: &Budget) -> Result<Product, Failure> {
-    if *order == ENDLESS {
+fn stand_in(order: f64, budget: &Budget) -> Result<Product, Failure> {
+    if order == ENDLESS {
         return endless(budget);
     }
-    assert!(*order != PANIC, "asked to panic");
-    if *order == ERROR {
-        return Err(AnalysisError::NotFinite { what: "asked to fail" }.into());
+    assert!(order != PANIC, "asked to panic");
+    if order == ERROR {
+        return Err(failed().into());
     }
-    Ok(Product { answer: answer(), bytes: ANSWER })
+    Ok(answer())
 }
 
 /// Steps on until told to stop.
@@ -41,8 +41,15 @@ fn endless(budget: &Budget) -> Result<Product, Failure> {
     Err(AnalysisError::from(budget.stopped()).into())
 }
 
-fn answer() -> Answer {
-    Answer::Curve(Vec::<SafetyPoint>::new())
+fn failed() -> AnalysisError {
+    AnalysisError::NotFinite { what: "asked to fail".to_owned() }
+}
+
+/// In two parts, and without a third.
+fn answer() -> Product {
+    let part = |name: &str, body| Rendering { names: vec![name.to_owned()], format: "json", body };
+    let of = |bytes: usize| Ok(vec![b' '; bytes].into());
+    [part("most", of(ANSWER - 1)), part("rest", of(1)), part("third", Err("not here".to_owned()))].into()
 }
 
 fn limits(workers: usize, queue: usize, kept: usize) -> Limits {
@@ -60,7 +67,12 @@ fn with(limits: Limits) -> JobStore<f64> {
 
 /// What is submitted, of 100 bytes.
 fn order(request: f64) -> Submission<f64> {
-    Submission { request, bytes: 100, client: "me".to_owned(), key: None }
+    Submission { work: request, request: bytes(100, request), name: None, client: "me".to_owned(), key: None }
+}
+
+/// A request as it is given out, of so many bytes.
+fn bytes(size: usize, request: f64) -> bytes::Bytes {
+    format!("{request:>size$}").into()
 }
 
 fn keyed(request: f64, key: &str) -> Submission<f64> {
@@ -68,7 +80,7 @@ fn keyed(request: f64, key: &str) -> Submission<f64> {
 }
 
 /// Waits until `done` says so of the job.
-fn until<R>(store: &JobStore<R>, id: JobId, done: impl Fn(&Job<R>) -> bool) -> Job<R> {
+fn until<W>(store: &JobStore<W>, id: JobId, done: impl Fn(&Job) -> bool) -> Job {
     let clock = Instant::now();
     loop {
         let job = store.get(id).expect("the job is kept");
@@ -80,11 +92,11 @@ fn until<R>(store: &JobStore<R>, id: JobId, done: impl Fn(&Job<R>) -> bool) -> J
     }
 }
 
-fn ended<T>(job: &Job<T>) -> bool {
+fn ended(job: &Job) -> bool {
     job.finished.is_some()
 }
 
-fn running<T>(job: &Job<T>) -> bool {
+fn running(job: &Job) -> bool {
     job.status() == Status::Running
 }
 
@@ -92,9 +104,9 @@ fn running<T>(job: &Job<T>) -> bool {
 fn a_job_runs_to_its_report() {
     let store = store(1, 10, 10);
     let accepted = store.submit(order(QUICK)).unwrap();
-    assert_eq!((accepted.status(), *accepted.request), (Status::Accepted, QUICK));
+    assert_eq!((accepted.status(), accepted.request), (Status::Accepted, bytes(100, QUICK)));
     let job = until(&store, accepted.id, ended);
-    assert_eq!(job.state, JobState::Successful(Arc::new(answer())));
+    assert_eq!(job.state, JobState::Successful(answer()));
     assert!(job.wall_time().is_some());
     assert_eq!(job.id.get_version_num(), 7);
 }
@@ -112,8 +124,7 @@ fn a_panic_fails_the_job_and_nothing_else() {
 fn an_error_is_kept_with_the_job() {
     let store = store(1, 10, 10);
     let job = store.submit(order(ERROR)).unwrap();
-    let error = AnalysisError::NotFinite { what: "asked to fail" };
-    assert_eq!(until(&store, job.id, ended).state, JobState::Failed(Failure::Analysis(error)));
+    assert_eq!(until(&store, job.id, ended).state, JobState::Failed(Failure::Analysis(failed())));
 }
 
 #[test]
@@ -142,6 +153,26 @@ fn a_waiting_job_is_dismissed_and_a_finished_one_forgotten() {
     assert!(matches!(store.dismiss(waiting.id), Some(Dismissal::Forgotten)));
     assert!(store.get(waiting.id).is_none() && store.dismiss(waiting.id).is_none());
     store.dismiss(endless.id);
+}
+
+#[test]
+fn work_is_kept_until_a_worker_takes_it_or_its_job_ends() {
+    let handed = |work: (Arc<()>, bool), budget: &Budget| if work.1 { endless(budget) } else { Ok(answer()) };
+    let store = JobStore::start(limits(1, 10, 10), handed, |_| {}).unwrap();
+    let (taken, dismissed, waits) = (Arc::new(()), Arc::new(()), Arc::new(()));
+    let submit = |work: &Arc<()>, endless: bool| {
+        let work = (work.clone(), endless);
+        store.submit(Submission { work, request: bytes(100, QUICK), name: None, client: String::new(), key: None })
+    };
+    let first = submit(&taken, true).unwrap();
+    until(&store, first.id, running);
+    let (second, third) = (submit(&dismissed, false).unwrap(), submit(&waits, false).unwrap());
+    store.dismiss(second.id);
+    assert_eq!([&dismissed, &waits].map(Arc::strong_count), [1, 2]);
+    store.dismiss(first.id);
+    until(&store, third.id, ended);
+    assert!(store.shutdown(Duration::from_secs(20)) && store.get(third.id).is_some());
+    assert_eq!([&taken, &dismissed, &waits].map(Arc::strong_count), [1; 3]);
 }
 
 #[test]
@@ -184,9 +215,9 @@ fn jobs_that_have_not_ended_are_never_forgotten() {
 fn the_queue_is_first_in_first_out() {
     let seen = Arc::new(Mutex::new(Vec::new()));
     let log = seen.clone();
-    let note = move |order: &f64, _: &Budget| {
-        log.lock().unwrap().push(*order);
-        Ok(Product { answer: answer(), bytes: ANSWER })
+    let note = move |order: f64, _: &Budget| {
+        log.lock().unwrap().push(order);
+        Ok(answer())
     };
     let store = JobStore::start(limits(1, 100, 100), note, |_| {}).unwrap();
     for number in 0..20 {
@@ -221,9 +252,9 @@ fn shutdown_cancels_what_takes_too_long() {
 
 #[test]
 fn a_second_shutdown_waits_for_nothing() {
-    let deaf = |_: &f64, _: &Budget| {
+    let deaf = |_: f64, _: &Budget| {
         sleep(Duration::from_secs(4));
-        Ok(Product { answer: answer(), bytes: ANSWER })
+        Ok(answer())
     };
     let store = JobStore::start(limits(1, 1, 1), deaf, |_| {}).unwrap();
     let job = store.submit(order(QUICK)).unwrap();
@@ -238,7 +269,7 @@ fn a_second_shutdown_waits_for_nothing() {
 fn jobs_dismissed_at_any_moment_leave_the_workers_whole() {
     let (begun, over) = (Arc::new(AtomicUsize::new(0)), Arc::new(AtomicUsize::new(0)));
     let counters = (begun.clone(), over.clone());
-    let counted = move |order: &f64, budget: &Budget| {
+    let counted = move |order: f64, budget: &Budget| {
         counters.0.fetch_add(1, Ordering::SeqCst);
         let result = stand_in(order, budget);
         counters.1.fetch_add(1, Ordering::SeqCst);
@@ -298,12 +329,15 @@ fn what_is_kept_is_bounded_in_bytes() {
     let kept: Vec<_> = store.list(None, None, 10).iter().map(|job| job.id).collect();
     assert_eq!(kept, [ids[4], ids[3], ids[2]], "three of 1100 bytes fit");
     assert_eq!(store.load().bytes, 3300);
-    let large = Submission { bytes: 3000, ..order(ENDLESS) };
+    let large = Submission { request: bytes(3000, ENDLESS), ..order(ENDLESS) };
     let active = store.submit(large).unwrap();
     assert_eq!(store.list(None, None, 10).len(), 2, "the one that ended last stays beside it");
-    assert_eq!(store.submit(Submission { bytes: 600, ..order(QUICK) }).unwrap_err(), Refusal::MemoryFull(3000));
+    assert_eq!(
+        store.submit(Submission { request: bytes(600, QUICK), ..order(QUICK) }).unwrap_err(),
+        Refusal::MemoryFull(3000)
+    );
     store.dismiss(active.id);
-    assert!(store.submit(Submission { bytes: 600, ..order(QUICK) }).is_ok());
+    assert!(store.submit(Submission { request: bytes(600, QUICK), ..order(QUICK) }).is_ok());
 }
 
 #[test]
@@ -359,7 +393,7 @@ fn pages_of_the_list_hold_every_job_once() {
 fn every_end_is_told_once() {
     let told = Arc::new(Mutex::new(Vec::new()));
     let log = told.clone();
-    let note = move |job: &Job<f64>| log.lock().unwrap().push((job.id, job.status()));
+    let note = move |job: &Job| log.lock().unwrap().push((job.id, job.status()));
     let store = JobStore::start(limits(2, 1000, 3), stand_in, note).unwrap();
     let endless = store.submit(order(ENDLESS)).unwrap().id;
     let waiting: Vec<_> = (0..200).map(|i| store.submit(order(f64::from(i % 5) / 4.0 * 3.0)).unwrap().id).collect();
@@ -384,6 +418,6 @@ fn those_who_wait_are_told_of_the_end() {
     assert!(runtime.block_on(async { ended_within(&job, Duration::from_secs(20)).await }));
 }
 
-async fn ended_within(job: &Job<f64>, patience: Duration) -> bool {
+async fn ended_within(job: &Job, patience: Duration) -> bool {
     tokio::time::timeout(patience, job.progress.ended()).await.is_ok()
 }

@@ -132,8 +132,9 @@ pub fn solve(request: &Request, question: &Question, steps: usize, schema: &Answ
     };
     match collapse::answer(question, &Budget::new(&see)) {
         Ok(answer) => {
-            let result = JobResult::new(request, &answer).expect("an answer without numbers that JSON cannot say");
-            let bytes = result.to_bytes().expect("an answer can be written");
+            let result = JobResult::new(request, &answer).expect("the answer to this request");
+            // One with a number that is not finite is refused.
+            let Ok(bytes) = result.to_bytes() else { return Solved::Failed };
             let value = serde_json::from_slice(&bytes).expect("what is written is JSON");
             let wrong: Vec<_> = schema.errors(&result, &value).into_iter().take(3).collect();
             assert!(wrong.is_empty(), "no answer by the schema: {wrong:?}");

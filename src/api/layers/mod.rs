@@ -19,7 +19,7 @@ use std::time::Duration;
 use tower::util::option_layer;
 use tower_http::catch_panic::CatchPanicLayer;
 use tower_http::compression::CompressionLayer;
-use tower_http::cors::CorsLayer;
+use tower_http::cors::{AllowHeaders, CorsLayer};
 use tower_http::request_id::{MakeRequestUuid, PropagateRequestIdLayer, RequestId, SetRequestIdLayer};
 use tower_http::set_header::SetResponseHeaderLayer;
 use tower_http::trace::TraceLayer;
@@ -43,14 +43,15 @@ pub(super) fn guard(router: Router<Service>, tokens: Tokens) -> Router<Service> 
 /// Wraps `router`; of the layers the last one sees a request first.
 pub(super) fn wrap(router: Router, service: &Service) -> Router {
     let trace = TraceLayer::new_for_http().make_span_with(span).on_request(()).on_response(log).on_failure(());
+    let origins = &service.settings.origins;
     let no_sniffing = HeaderValue::from_static("nosniff");
     router
         .fallback(no_such_path)
         .method_not_allowed_fallback(method_not_allowed)
-        .layer(DefaultBodyLimit::max(service.limits.body))
+        .layer(DefaultBodyLimit::max(service.settings.limits.body))
         .layer(CatchPanicLayer::custom(panicked))
         .layer(CompressionLayer::new())
-        .layer(option_layer((!service.origins.is_empty()).then(|| cors(&service.origins))))
+        .layer(option_layer((!origins.is_empty()).then(|| cors(origins))))
         .layer(from_fn_with_state(service.clone(), count))
         .layer(SetResponseHeaderLayer::if_not_present(header::CONTENT_SECURITY_POLICY, POLICY))
         .layer(SetResponseHeaderLayer::if_not_present(header::CACHE_CONTROL, ASK_AGAIN))
@@ -66,15 +67,7 @@ fn cors(origins: &[HeaderValue]) -> CorsLayer {
     CorsLayer::new()
         .allow_origin(origins.to_vec())
         .allow_methods([Method::GET, Method::POST, Method::DELETE])
-        .allow_headers([
-            header::AUTHORIZATION,
-            header::CONTENT_TYPE,
-            header::IF_NONE_MATCH,
-            name("idempotency-key"),
-            name("last-event-id"),
-            name("prefer"),
-            name("x-request-id"),
-        ])
+        .allow_headers(AllowHeaders::mirror_request())
         .expose_headers([
             header::ETAG,
             header::LOCATION,

@@ -21,8 +21,7 @@ pub fn field(field: &StressFieldBody) -> String {
     let most = all.corners_x_m.iter().map(Vec::len).fold(4, usize::max);
     names.extend((0..most).flat_map(|corner| ["x", "y"].map(|axis| format!("corner_{corner}_{axis}_m"))));
     names.extend(["sigma_x_pa", "sigma_y_pa", "tau_xy_pa", "sigma_1_pa", "sigma_2_pa", "tresca_pa"].map(str::to_owned));
-    let stresses =
-        [&all.sigma_x_pa, &all.sigma_y_pa, &all.tau_xy_pa, &all.sigma_1_pa, &all.sigma_2_pa, &all.tresca_pa];
+    let stresses = [&all.sigma_x_pa, &all.sigma_y_pa, &all.tau_xy_pa, &all.sigma_1_pa, &all.sigma_2_pa, &all.tresca_pa];
     table(&names, all.voussoir.len(), |i, line| {
         [&all.voussoir, &all.radial, &all.along].iter().for_each(|column| add(line, column[i]));
         [&all.centre_x_m, &all.centre_y_m].iter().for_each(|column| add(line, column[i]));

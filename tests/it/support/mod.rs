@@ -32,7 +32,7 @@ fn analyse(question: &Question, budget: &Budget) -> Result<collapse::Answer, Ana
     }
     assert!(analysis.task.share() != PANIC, "asked to panic");
     if analysis.task.share() == ERROR {
-        return Err(AnalysisError::NotFinite { what: "asked to fail" });
+        return Err(AnalysisError::NotFinite { what: "asked to fail".to_owned() });
     }
     collapse::answer(question, budget)
 }
