@@ -53,7 +53,9 @@ pub fn renderings(
     Ok(all.into())
 }
 
-fn rendering(names: Vec<String>, format: Format, body: impl Into<Bytes>) -> Rendering {
+fn rendering(names: Vec<String>, format: Format, body: impl Into<Vec<u8>>) -> Rendering {
+    // As it is kept, without the room it grew in.
+    let body = body.into().into_boxed_slice();
     Rendering { names, format: format.name(), body: Ok(body.into()) }
 }
 
