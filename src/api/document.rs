@@ -3,13 +3,11 @@
 use super::format::{FIELD, FIGURE, Format, HISTORY, RESULTS};
 use super::problem::{MEDIA_TYPE, Problem};
 use super::{contract, guarded, open};
-use utoipa::openapi::header::HeaderBuilder;
+use serde_json::{Value, from_value, json};
+use utoipa::ToSchema;
+use utoipa::openapi::OpenApi;
 use utoipa::openapi::link::{Link, LinkBuilder};
-use utoipa::openapi::path::{Parameter, ParameterBuilder, ParameterIn};
-use utoipa::openapi::schema::{ObjectBuilder, Type};
 use utoipa::openapi::security::{Http, HttpAuthScheme, SecurityRequirement, SecurityScheme};
-use utoipa::openapi::{Content, OpenApi, Ref, RefOr, Required, Response, ResponseBuilder};
-use utoipa::{PartialSchema, ToSchema};
 
 /// Name of the security scheme.
 const TOKEN: &str = "token";
@@ -76,12 +74,21 @@ fn complete(document: &mut OpenApi) {
     for (path, item) in &mut document.paths.paths {
         for operation in [&mut item.get, &mut item.post, &mut item.delete].into_iter().flatten() {
             let id = operation.operation_id.as_deref().unwrap_or_default();
+            let responses = &mut operation.responses.responses;
             for (status, meaning, _) in PROBLEMS.iter().filter(|(.., holds)| holds(path, id)) {
-                let responses = &mut operation.responses.responses;
-                responses.entry((*status).to_owned()).or_insert_with(|| RefOr::T(refused(status, meaning)));
+                if !responses.contains_key(*status) {
+                    // What is left out here for want of a word of OpenAPI would fail the document's test.
+                    responses
+                        .extend(from_value(refused(status, meaning)).map(|refused| ((*status).to_owned(), refused)));
+                }
             }
             if let Some((_, formats)) = FORMATS.iter().find(|(end, _)| path.ends_with(end)) {
-                operation.parameters.get_or_insert_default().push(RefOr::T(format_of(formats)));
+                let names: Vec<_> = formats.iter().map(|format| format.name()).collect();
+                let format = json!({
+                    "name": "f", "in": "query", "description": "Format; goes before the header `accept`",
+                    "required": false, "schema": {"type": "string", "enum": names},
+                });
+                operation.parameters.get_or_insert_default().extend(from_value(format));
             }
             if is_guarded(path) {
                 // A token, or none where the service is open to all.
@@ -91,24 +98,13 @@ fn complete(document: &mut OpenApi) {
         }
     }
     let submission = document.paths.paths.get_mut("/v1/jobs").and_then(|item| item.post.as_mut());
-    if let Some(RefOr::T(accepted)) = submission.and_then(|submit| submit.responses.responses.get_mut("201")) {
-        accepted.links.extend(LINKED.map(|operation| (operation.to_owned(), RefOr::T(link(operation)))));
+    if let Some(utoipa::openapi::RefOr::T(accepted)) =
+        submission.and_then(|submit| submit.responses.responses.get_mut("201"))
+    {
+        accepted.links.extend(LINKED.map(|operation| (operation.to_owned(), link(operation).into())));
     }
     let scheme = SecurityScheme::Http(Http::new(HttpAuthScheme::Bearer));
     document.components.get_or_insert_default().add_security_scheme(TOKEN, scheme);
-}
-
-/// The query parameter that chooses one of these formats.
-fn format_of(formats: &[Format]) -> Parameter {
-    let names = ObjectBuilder::new().schema_type(Type::String);
-    let names = names.enum_values(Some(formats.iter().map(|format| format.name())));
-    ParameterBuilder::new()
-        .name("f")
-        .parameter_in(ParameterIn::Query)
-        .required(Required::False)
-        .description(Some("Format; goes before the header `accept`"))
-        .schema(Some(names))
-        .build()
 }
 
 /// Leads from a submission to what can be asked of its job.
@@ -121,14 +117,16 @@ fn link(operation: &str) -> Link {
 }
 
 /// An answer that is a problem, unless it only says that nothing is new; one that may pass says when to try again.
-fn refused(status: &str, meaning: &str) -> Response {
-    let response = ResponseBuilder::new().description(meaning);
-    let content = Content::new(Some(Ref::from_schema_name(Problem::name())));
-    let seconds =
-        || HeaderBuilder::new().schema(Some(u64::schema())).description(Some("Seconds after which to try again"));
-    match status {
-        "304" => response.build(),
-        "429" | "503" => response.content(MEDIA_TYPE, content).header("retry-after", seconds().build()).build(),
-        _ => response.content(MEDIA_TYPE, content).build(),
+fn refused(status: &str, meaning: &str) -> Value {
+    let mut response = json!({"description": meaning});
+    if status != "304" {
+        let schema = format!("#/components/schemas/{}", Problem::name());
+        response["content"] = json!({MEDIA_TYPE: {"schema": {"$ref": schema}}});
     }
+    if ["429", "503"].contains(&status) {
+        let seconds = json!({"type": "integer", "format": "int64", "minimum": 0});
+        response["headers"] =
+            json!({"retry-after": {"schema": seconds, "description": "Seconds after which to try again"}});
+    }
+    response
 }

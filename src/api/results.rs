@@ -4,11 +4,10 @@ use super::Service;
 use super::etag::Version;
 use super::format::{self, Format};
 use super::jobs::{Known, query_fault};
-use super::outgoing::Outgoing;
 use super::problem::{Problem, kinds};
 use super::rendering;
 use super::response::{HistoryColumns, JobResult, StressFieldBody};
-use crate::jobs::{JobId, JobState, Product};
+use crate::jobs::{Job, JobState};
 use axum::extract::rejection::{PathRejection, QueryRejection};
 use axum::extract::{FromRequestParts, Path, Query};
 use axum::http::request::Parts;
@@ -25,9 +24,8 @@ struct FormatQuery {
 
 /// What is asked of an answer: whose, in which format, and what the client has already.
 pub(super) struct Asked {
-    id: JobId,
-    product: Product,
-    outgoing: Outgoing,
+    service: Service,
+    job: Job,
     f: Option<String>,
     headers: HeaderMap,
 }
@@ -37,40 +35,40 @@ impl FromRequestParts<Service> for Asked {
 
     async fn from_request_parts(parts: &mut Parts, service: &Service) -> Result<Self, Problem> {
         let Known(job) = Known::from_request_parts(parts, service).await?;
-        let id = job.id;
         let query: Result<Query<FormatQuery>, QueryRejection> = Query::from_request_parts(parts, service).await;
         let Query(FormatQuery { f }) = query.map_err(|bad| query_fault(&bad))?;
-        let (kind, detail) = match job.state {
-            JobState::Successful(product) => {
-                let (outgoing, headers) = (service.outgoing.clone(), parts.headers.clone());
-                return Ok(Asked { id, product, outgoing, f, headers });
-            }
-            JobState::Failed(failure) => return Err((&failure).into()),
-            JobState::Accepted | JobState::Running => {
-                (kinds::RESULT_NOT_READY, format!("job {id} has not ended yet; its status is at /v1/jobs/{id}"))
-            }
-            JobState::Dismissed => {
-                (kinds::DISMISSED, format!("job {id} was dismissed and has no result; submit it again"))
-            }
-        };
-        Err(Problem::of(kind, detail))
+        Ok(Asked { service: service.clone(), job, f, headers: parts.headers.clone() })
     }
 }
 
 impl Asked {
     /// A part of the answer in the format the client wants, unless it has it already; `missing` says why an answer has none.
     fn give(self, part: &str, offered: &[Format], missing: &str) -> Result<Response, Problem> {
-        let Asked { id, product, outgoing, f, headers } = self;
+        let Asked { service, job: Job { id, state, .. }, f, headers } = self;
+        let none = |kind, detail: String| Err(Problem::of(kind, detail));
+        let product = match state {
+            JobState::Successful(product) => product,
+            JobState::Failed(failure) => return Err((&failure).into()),
+            JobState::Dismissed => {
+                return none(kinds::DISMISSED, format!("job {id} was dismissed and has no result; submit it again"));
+            }
+            JobState::Accepted | JobState::Running => {
+                let detail = format!("job {id} has not ended yet; its status is at /v1/jobs/{id}");
+                return none(kinds::RESULT_NOT_READY, detail);
+            }
+        };
         let format = Format::choose(f.as_deref(), &headers, offered)?;
         let version = Version::of((id, part, format));
         let mut response = match version.known(&headers) {
             Some(response) => response,
-            None => {
-                let found = rendering::find(&product, part, format);
-                let body = found.ok_or(missing).and_then(|body| body.as_ref().map_err(String::as_str));
-                let body = body.map_err(|reason| Problem::of(kinds::NO_SUCH_PART, reason))?;
-                version.mark(([(header::CONTENT_TYPE, format.content_type())], outgoing.body(body.clone())?))
-            }
+            None => match rendering::find(&product, part, format) {
+                Some(Ok(body)) => {
+                    let body = service.outgoing.body(body.clone())?;
+                    version.mark(([(header::CONTENT_TYPE, format.content_type())], body))
+                }
+                Some(Err(reason)) => return none(kinds::NO_SUCH_PART, reason.clone()),
+                None => return none(kinds::NO_SUCH_PART, missing.to_owned()),
+            },
         };
         response.headers_mut().append(header::VARY, HeaderValue::from_static("accept"));
         Ok(response)

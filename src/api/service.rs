@@ -23,7 +23,7 @@ use tokio_util::sync::CancellationToken;
 pub type Solver = fn(&Question, &Budget) -> Result<Answer, AnalysisError>;
 
 /// How the interface behaves.
-#[derive(Debug, Clone)]
+#[derive(Clone)]
 pub struct Settings {
     /// How much one request may ask for.
     pub limits: ApiLimits,

@@ -26,7 +26,9 @@ impl CollapseReport {
     fn not_finite(&self) -> Option<&'static str> {
         let ends = || self.end.iter().chain(&self.other_end);
         let states = || self.near_collapse.iter().chain(&self.at_unit_load).chain(&self.at_start);
-        let loads = ends().flat_map(|end| [end.load_factor, end.residual]).chain([self.start, self.cap]);
+        let motions =
+            self.motion.iter().chain(&self.other_motion).flat_map(|motion| [motion.load_factor, motion.overload]);
+        let loads = ends().flat_map(|end| [end.load_factor, end.residual]).chain([self.start, self.cap]).chain(motions);
         let velocities = ends().flat_map(|end| &end.mechanism.velocities).flatten();
         let thrust = ends().flat_map(|end| &end.thrust_line).flat_map(|at| [at.normal, at.shear, at.eccentricity]);
         let moved =

@@ -268,8 +268,8 @@ type Forgery = fn(&mut CollapseReport, f64);
 /// Where a number of a forged report is refused.
 const FORGED: [(&str, Forgery); 12] = [
     ("/motion/frames/residual", |report, none| report.motion.as_mut().unwrap().frames[0].residual = none),
-    ("/motion/frames/contacts", |report, none| report.motion.as_mut().unwrap().frames[0].contacts[0].gap = none),
-    ("/motion/frames/hinges", |report, none| report.motion.as_mut().unwrap().frames[0].hinges[0].opening = none),
+    ("/motion/contacts/gap_m", |report, none| report.motion.as_mut().unwrap().frames[0].contacts[0].gap = none),
+    ("/motion/hinges/", |report, none| report.motion.as_mut().unwrap().frames[0].hinges[0].opening = none),
     ("/settlement/first_order/residual", |report, none| settled(report).first_order.residual = none),
     ("/settlement/updated_geometry/residual", |report, none| settled(report).updated.as_mut().unwrap().residual = none),
     ("/hinges/0/rotation", |report, none| report.end.as_mut().unwrap().mechanism.hinges[0].rotation = none),
