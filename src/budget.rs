@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 /// Work between two questions, in multiplications or so: a few milliseconds.
 const WORK: usize = 1 << 22;
 
-/// How far an analysis has come.
+/// How far the analysis has come.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "server", derive(serde::Serialize, utoipa::ToSchema))]
 #[cfg_attr(feature = "server", schema(as = ProgressBody))]

@@ -39,7 +39,7 @@ pub(super) type AppState = axum::extract::State<Service>;
 /// What every handler can reach; copies are the same service.
 #[derive(Clone)]
 pub struct Service {
-    /// All jobs. Each keeps its request until a worker takes it, as bytes and as it was read.
+    /// All jobs. Their requests are kept as bytes, and as they were read until a worker takes them.
     pub jobs: Arc<JobStore<Request>>,
     /// Cancelled when the service is to stop: ends event streams.
     pub stopping: CancellationToken,

@@ -302,7 +302,7 @@ fn a_number_that_is_none_is_refused_by_its_name() {
     // Unbounded is null; unknown is neither a number nor unbounded.
     let mut spoilt = full();
     spoilt.limit_window.as_mut().unwrap().highest = f64::NAN;
-    assert_eq!(one(spoilt), Err(NotFinite("/limit_window/1".to_owned())));
+    assert_eq!(one(spoilt), Err(NotFinite("/collapse/limit_window/1".to_owned())));
     let spoilt = BeamReport { error: f64::NAN, ..beam() };
     let spoilt = JobResult::new(&beam_request(), &Answer::CurvedBeam(spoilt)).unwrap();
     assert_eq!(spoilt.to_bytes(), Err(NotFinite("/error_percent".to_owned())));
