@@ -84,8 +84,8 @@ fn load(load: &LoadRequest) -> String {
             format!("{force} N per metre of depth, spread over a width of {width} m about x = {centre} m")
         }
         LoadRequest::PointForce(force) => {
-            let [fx, fy] = force.force_n_per_m.map(Digits);
-            let [x, y] = force.at_m.map(Digits);
+            let [fx, fy] = force.force_n_per_m.0.map(Digits);
+            let [x, y] = force.at_m.0.map(Digits);
             format!("({fx}, {fy}) N per metre of depth on {} at ({x}, {y}) m", force.block)
         }
         LoadRequest::BodyAcceleration(body) => {

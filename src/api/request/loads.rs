@@ -1,5 +1,6 @@
 //! The loads in a request. Forces per metre of depth.
 
+use super::{ForceVector, Point, Text};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -9,21 +10,14 @@ pub struct LoadEntry {
     /// What acts.
     pub load: LoadRequest,
     /// False: it is fixed. True: the load factor multiplies it.
-    #[serde(default)]
-    #[schema(default = false)]
+    #[schema(required = false, default = false)]
     pub scaled: bool,
     /// A factor of its own; not 0.
-    #[serde(default = "one")]
-    #[schema(default = 1.0, minimum = -1e12, maximum = 1e12)]
+    #[schema(required = false, default = 1.0, minimum = -1e12, maximum = 1e12)]
     pub coefficient: f64,
     /// True: the coefficient is multiplied by the abscissa of the safety curve that `analysis` asks for.
-    #[serde(default)]
-    #[schema(default = false)]
+    #[schema(required = false, default = false)]
     pub per_abscissa: bool,
-}
-
-fn one() -> f64 {
-    1.0
 }
 
 /// A load.
@@ -58,7 +52,6 @@ pub struct SelfWeight {}
 #[serde(default)]
 pub struct FillPressure {
     /// Height H of the top of the fill above y = 0, m. Left out: an embankment only.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(minimum = -1e5, maximum = 1e5)]
     pub fill_height_m: Option<f64>,
     /// Density of the fill, kg/m3.
@@ -72,11 +65,9 @@ pub struct FillPressure {
     pub embankment_density_kg_m3: f64,
     /// Ratio K of horizontal to vertical pressure, a pure number. Left out: that of `fill_friction_angle_deg` or, without one
     /// either, 0, no horizontal pressure. Given both, they have to agree to 0.001.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(minimum = 0.0, exclusive_maximum = 1e12)]
     pub lateral_ratio: Option<f64>,
     /// Friction angle phi of fill that presses at rest, degrees: K = 1 - sin phi.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(minimum = 0.0, exclusive_maximum = 90.0)]
     pub fill_friction_angle_deg: Option<f64>,
 }
@@ -136,11 +127,9 @@ pub struct PointLoad {
     #[schema(minimum = -1e15, maximum = 1e15)]
     pub force_n_per_m: f64,
     /// Abscissa, m; over a joint, its two voussoirs take half each. Either this or `voussoir` is given.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(minimum = -1e5, maximum = 1e5)]
     pub x_m: Option<f64>,
     /// Number of a voussoir, from 0 on the left: the middle of its extrados side.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(maximum = 2000)]
     pub voussoir: Option<usize>,
 }
@@ -149,12 +138,11 @@ pub struct PointLoad {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct PointForceLoad {
     /// The block's name: that of `blocks.polygons`, or of a body of the bridge as `structure.bodies` of an answer lists them.
-    #[schema(max_length = 200, pattern = "^[^\\x00-\\x1f\\x7f]*$")]
-    pub block: String,
+    pub block: Text,
     /// Where it acts, [x, y], m; inside the block or on its sides.
-    pub at_m: [f64; 2],
+    pub at_m: Point,
     /// Force per metre of depth to the right and upwards, N/m; not both 0.
-    pub force_n_per_m: [f64; 2],
+    pub force_n_per_m: ForceVector,
 }
 
 /// A vertical force spread evenly over a plan width: every voussoir takes the share that lies over it, in the
@@ -177,11 +165,9 @@ pub struct PatchLoad {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct BodyAcceleration {
     /// The force to the right, as a multiple of the weight: acceleration over g.
-    #[serde(default)]
-    #[schema(default = 0.0, minimum = -1e12, maximum = 1e12)]
+    #[schema(required = false, default = 0.0, minimum = -1e12, maximum = 1e12)]
     pub x_g: f64,
     /// The force upwards, as a multiple of the weight: acceleration over g.
-    #[serde(default)]
-    #[schema(default = 0.0, minimum = -1e12, maximum = 1e12)]
+    #[schema(required = false, default = 0.0, minimum = -1e12, maximum = 1e12)]
     pub y_g: f64,
 }
