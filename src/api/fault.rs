@@ -57,7 +57,12 @@ impl Faults {
         holds
     }
 
-    /// Adds the fault of a field that does not belong: the others can be read without it.
+    /// Requires a number that is not 0, of a load or a factor of it.
+    pub fn not_zero(&mut self, pointer: &str, value: f64) {
+        self.require(value != 0.0, pointer, "0 makes this load vanish: give another number or leave the load out");
+    }
+
+    /// Adds the fault of a field that does not belong or is missing beside another: the others can be read without it.
     pub fn stray(&mut self, pointer: impl Into<String>, detail: impl Into<String>) {
         self.add(pointer, detail);
         self.strays += 1;

@@ -12,12 +12,6 @@ use serde_json::Value;
 use std::sync::LazyLock;
 use table::Table;
 
-/// The words for a structure, of which a request has one.
-const STRUCTURES: [&str; 3] = ["arch", "bridge", "blocks"];
-
-/// What an engineer calls load factor 1.
-const INTENSITY: &str = "/load_factor/intensity_per_unit";
-
 static STRUCTURE: LazyLock<Table> = LazyLock::new(|| Table::of::<AnalysisRequest>(|_| None));
 static CURVED_BEAM: LazyLock<Table> = LazyLock::new(|| Table::of::<BeamRequest>(of_a_structure));
 
@@ -26,7 +20,7 @@ static CURVED_BEAM: LazyLock<Table> = LazyLock::new(|| Table::of::<BeamRequest>(
 /// # Errors
 /// All faults that the table of fields can tell: syntax, kinds, ranges, missing, unknown and repeated fields.
 pub fn read(body: &[u8]) -> Result<Request, Vec<Fault>> {
-    let (request, faults) = read_fields(body);
+    let (request, faults) = read_fields(body, |_, _| {});
     request.filter(|_| faults.is_empty()).ok_or_else(|| listed(faults.into_vec()))
 }
 
@@ -35,7 +29,7 @@ pub fn read(body: &[u8]) -> Result<Request, Vec<Fault>> {
 /// # Errors
 /// All faults of its fields. Where fields are at most unknown or repeated, all faults of what does not fit together, too.
 pub fn read_question(body: &[u8]) -> Result<(Request, Question), Vec<Fault>> {
-    let (request, faults) = read_fields(body);
+    let (request, faults) = read_fields(body, check_members);
     let mut faults = faults.into_vec();
     if let Some(request) = request {
         match translate::translate(&request) {
@@ -70,8 +64,8 @@ pub fn read_analysis(body: &[u8]) -> Result<(AnalysisRequest, Analysis), Vec<Fau
     }
 }
 
-/// The request, unless a value of it cannot be used, and what is wrong.
-fn read_fields(body: &[u8]) -> (Option<Request>, Faults) {
+/// The request, unless a value of it cannot be used, and what is wrong. `rules` are those of a structure beside the table.
+fn read_fields(body: &[u8], rules: fn(&Value, &mut Faults)) -> (Option<Request>, Faults) {
     let mut faults = Faults::default();
     let (tree, repeated) = match tree::parse(body) {
         Ok(parsed) => parsed,
@@ -88,8 +82,7 @@ fn read_fields(body: &[u8]) -> (Option<Request>, Faults) {
         Some(_) => checked(&CURVED_BEAM, tree, &mut faults).map(|beam: Box<BeamRequest>| Request::CurvedBeam(beam)),
         None => {
             if tree.is_object() {
-                check_structures(&tree, &mut faults);
-                check_unit(&tree, &mut faults);
+                rules(&tree, &mut faults);
             }
             checked(&STRUCTURE, tree, &mut faults).map(Request::Structure)
         }
@@ -108,29 +101,26 @@ fn checked<Body: DeserializeOwned>(table: &Table, mut tree: Value, faults: &mut 
     read.map_err(|error| faults.add("", format!("the body cannot be read: {error}"))).ok()
 }
 
-/// A request is about one structure.
-fn check_structures(tree: &Value, faults: &mut Faults) {
-    let mut given = STRUCTURES.iter().filter(|name| tree.get(**name).is_some_and(|value| !value.is_null()));
-    match given.next() {
-        None => faults.add("/arch", "arch, bridge and blocks are all missing: add one of them"),
-        Some(first) => {
-            for name in given {
-                faults.add(format!("/{name}"), format!("there is {first} too: leave one of them out"));
-            }
-        }
+/// Members of a request that need each other, or exclude each other.
+fn check_members(body: &Value, faults: &mut Faults) {
+    let given = |pointer: &str| body.pointer(pointer).is_some_and(|value| !value.is_null());
+    let mut structures = ["arch", "bridge", "blocks"].into_iter().filter(|name| given(&format!("/{name}")));
+    match structures.next() {
+        None => faults.stray("/arch", "arch, bridge and blocks are all missing: add one of them"),
+        Some(first) => structures.for_each(|other| {
+            faults.stray(format!("/{other}"), format!("there is {first} too: leave one of them out"));
+        }),
     }
-}
-
-/// The unit of the intensity says nothing without the intensity that load factor 1 is.
-fn check_unit(tree: &Value, faults: &mut Faults) {
-    let given = |name: &str| tree.pointer(name).is_some_and(|value| !value.is_null() && value != "-");
-    let detail = "the intensity at load factor 1 is missing: give it in this unit, or leave `unit` out";
-    let alone = given("/load_factor/unit") && !given(INTENSITY);
-    faults.require(!alone, INTENSITY, detail);
+    let [unit, factor] = ["/load_factor/unit", "/load_factor/intensity_per_unit"];
+    if given(unit) && body.pointer(unit) != Some(&Value::from("-")) && !given(factor) {
+        faults.stray(factor, "the intensity at load factor 1 is missing: give it in this `unit`, or leave `unit` out");
+    }
 }
 
 /// What to do about a field of a structure beside `curved_beam`.
 fn of_a_structure(pointer: &str) -> Option<&'static str> {
     let known = STRUCTURE.has(pointer.strip_prefix('/')?);
-    known.then_some("this goes with an arch, a bridge or blocks, not with curved_beam: leave out this or curved_beam")
+    known.then_some(
+        "this goes with an arch, a bridge or blocks, not with curved_beam: leave this out, or leave out curved_beam",
+    )
 }

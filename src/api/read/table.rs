@@ -16,6 +16,9 @@ const LIKE: f64 = 0.85;
 /// Longest part of a request that a fault quotes, characters.
 const LONGEST_QUOTE: usize = 60;
 
+/// Longest words of a field that a fault repeats, bytes.
+const LONGEST_WORDS: usize = 120;
+
 /// All schemas of a body, by name.
 pub struct Table {
     body: RefOr<Schema>,
@@ -134,9 +137,7 @@ impl Table {
     }
 
     fn choice(&self, choice: &OneOf, value: &mut Value, here: &str, faults: &mut Faults) {
-        let null = |schema: &RefOr<Schema>| {
-            matches!(schema, RefOr::T(Schema::Object(object)) if kind_of(&object.schema_type) == Type::Null)
-        };
+        let null = |schema: &RefOr<Schema>| matches!(schema, RefOr::T(Schema::Object(object)) if kind_of(&object.schema_type) == Type::Null);
         let mut others = choice.items.iter().filter(|schema| !null(schema));
         if let (Some(only), None) = (others.next(), others.next()) {
             if !value.is_null() {
@@ -230,11 +231,24 @@ fn in_range(object: &Object, value: f64) -> bool {
 }
 
 fn out_of_range(object: &Object, value: f64, what: &str) -> String {
-    let [least, most] = bounds(object);
-    let least = least.map(|(bound, inside)| format!("{} {}", if inside { "at least" } else { "greater than" }, Shown(bound)));
-    let most = most.map(|(bound, inside)| format!("{} {}", if inside { "at most" } else { "less than" }, Shown(bound)));
-    let rule = [least, most].into_iter().flatten().collect::<Vec<_>>().join(" and ");
-    format!("{} is out of range: it must be {what}, {rule}", Shown(value))
+    let rule = match bounds(object) {
+        [Some((least, true)), Some((most, true))] => format!("from {} to {}", Shown(least), Shown(most)),
+        [Some((least, true)), Some((most, false))] => {
+            format!("at least {} and less than {}", Shown(least), Shown(most))
+        }
+        [Some((least, false)), Some((most, true))] => {
+            format!("greater than {} and at most {}", Shown(least), Shown(most))
+        }
+        [Some((least, false)), Some((most, false))] => {
+            format!("between {} and {}, both excluded", Shown(least), Shown(most))
+        }
+        // Every number of a request has both bounds: tests/it/contract.rs sees to it.
+        _ => "another".to_owned(),
+    };
+    let words = object.description.as_deref().unwrap_or_default().split(". ").next().unwrap_or_default();
+    let words = if words.len() <= LONGEST_WORDS { words.trim_end_matches('.') } else { "" };
+    let words = if words.is_empty() { String::new() } else { format!(" ({words})") };
+    format!("{} is out of range: it must be {what} {rule}{words}", Shown(value))
 }
 
 fn kind_of(kinds: &SchemaType) -> Type {

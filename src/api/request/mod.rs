@@ -211,7 +211,12 @@ pub struct LoadFactorRequest {
 
 impl Default for LoadFactorRequest {
     fn default() -> Self {
-        LoadFactorRequest { direction: Direction::Increase, cap: None, unit: Text("-".to_owned()), intensity_per_unit: 1.0 }
+        LoadFactorRequest {
+            direction: Direction::Increase,
+            cap: None,
+            unit: Text("-".to_owned()),
+            intensity_per_unit: 1.0,
+        }
     }
 }
 

@@ -3,9 +3,7 @@
 use super::stone::Stones;
 use super::structure::Layout;
 use crate::api::fault::Faults;
-use crate::api::request::{
-    BlockJointsRequest, BlocksRequest, GivenJointRequest, PolygonRequest, SupportRequest, Text,
-};
+use crate::api::request::{BlockJointsRequest, BlocksRequest, GivenJointRequest, PolygonRequest, SupportRequest, Text};
 use crate::blocks::{Blocks, BlocksFault, GivenJoint, GivenLaw, Joints, Polygon, Rest, Support};
 use crate::geometry::Vec2;
 
@@ -34,7 +32,7 @@ pub fn blocks(request: &BlocksRequest, stones: &Stones<'_>, faults: &mut Faults)
         }),
         Err(found) => {
             for fault in &found {
-                faults.add(place(fault, request), mended(fault));
+                faults.add(place(fault, request), words(fault));
             }
             None
         }
@@ -162,26 +160,8 @@ fn at(place: &str, request: &BlocksRequest) -> String {
     }
 }
 
-/// A fault in words, with its remedy; without the builder's own place.
-fn mended(fault: &BlocksFault) -> String {
-    use BlocksFault as F;
+/// A fault in words, without the builder's own place.
+fn words(fault: &BlocksFault) -> String {
     let words = fault.to_string();
-    let words = words.strip_prefix(builders_place(fault)).map_or(words.as_str(), |rest| rest.trim_start_matches(": "));
-    let remedy = match fault {
-        F::NameTwice { .. } => "give one of them another name",
-        F::NoArea { .. } => "give at least three corners that do not lie on one line",
-        F::Overlap { .. } => "move a corner of one of them, or raise tolerance_m",
-        F::TouchesNothing { .. } => "move it to its neighbours, or leave it out",
-        F::Tolerance { .. } => "give one between them, or leave tolerance_m out",
-        F::UnknownPolygon { .. } | F::UnknownName { .. } => "correct the name",
-        F::UnknownSide { .. } => "give a side of the block",
-        F::NothingOnLine { .. } => "move the segment under the blocks, or leave it out",
-        F::BadLine { .. } => "give two ends",
-        F::BadPair { .. } => "correct the names",
-        F::OffSide { .. } => "move the ends onto the side, or raise tolerance_m",
-        F::NotFacing { .. } => "name the two blocks that meet there",
-        F::TooManyCornersInAll { .. } => "leave corners out",
-        _ => return words.to_owned(),
-    };
-    format!("{words}; {remedy}")
+    words.strip_prefix(builders_place(fault)).map_or(words.as_str(), |rest| rest.trim_start_matches(": ")).to_owned()
 }

@@ -4,9 +4,7 @@ use super::site::Unloaded;
 use super::structure::Layout;
 use crate::api::fault::{Faults, Shown};
 use crate::api::prose::Digits;
-use crate::api::request::{
-    AnalysisRequest, MovementRequest, ReportRequest, SettlementRequest, SupportMovementRequest,
-};
+use crate::api::request::{AnalysisRequest, MovementRequest, ReportRequest, SettlementRequest, SupportMovementRequest};
 use crate::collapse::{Direction, SupportMovement};
 use crate::geometry::Vec2;
 use crate::structure::{Side, Structure};

@@ -26,13 +26,14 @@ impl Layout {
 
 /// The structure of a request, or faults.
 pub fn layout(request: &AnalysisRequest, stones: &Stones<'_>, faults: &mut Faults) -> Option<Layout> {
-    match request {
-        AnalysisRequest { bridge: Some(request), .. } => bridge::bridge(request, stones, faults),
-        AnalysisRequest { blocks: Some(request), .. } => blocks::blocks(request, stones, faults),
-        AnalysisRequest { arch: Some(request), .. } => {
+    // Of several, which is a fault, none counts.
+    match (&request.arch, &request.bridge, &request.blocks) {
+        (Some(request), None, None) => {
             let structure = arch::arch(request, stones.all[0], faults)?;
             Some(Layout { structure, bodies: Vec::new(), supports: Vec::new() })
         }
+        (None, Some(request), None) => bridge::bridge(request, stones, faults),
+        (None, None, Some(request)) => blocks::blocks(request, stones, faults),
         _ => None,
     }
 }
