@@ -93,12 +93,12 @@ fn blocks_that_do_not_fit_are_pointed_at() {
         ("polygons/1/corners_m/1", json!([0, 1]), p("polygons/1/corners_m/0"), "leave one of its corners out"),
         ("polygons/1/corners_m/0", json!([0, 0.5]), p("polygons/1/corners_m"), "move a corner"),
         ("tolerance_m", json!(0), p("tolerance_m"), "greater than 0"),
-        ("tolerance_m", json!(10), p("tolerance_m"), "leave tolerance_m out"),
+        ("tolerance_m", json!(10), p("tolerance_m"), "leave it out"),
         ("supports", json!([]), p("supports"), "list 1 to"),
         ("supports/0/sides/0/block", json!("b7"), p("supports/0/sides/0"), "correct the name"),
         ("supports/0/sides/0/side", json!(4), p("supports/0/sides/0"), "give a side of the block"),
-        ("supports/0/sides/0/side", json!(200), p("supports/0/sides/0/side"), "run from 0 to 199"),
-        ("supports/0/segments_m", json!([[[0, 9], [1, 9]]]), p("supports/0/segments_m/0"), "move the segment"),
+        ("supports/0/sides/0/side", json!(200), p("supports/0/sides/0/side"), "from 0 to 199"),
+        ("supports/0/segments_m", json!([[[0, 9], [1, 9]]]), p("supports/0/segments_m/0"), "move it under the blocks"),
         ("supports/0/segments_m", json!([[[0, 0], [0, 0]]]), p("supports/0/segments_m/0"), "give two ends"),
     ];
     for (place, value, pointer, remedy) in table {
@@ -211,8 +211,8 @@ fn loads_stand_on_what_can_carry_them() {
     let l = |rest: &str| format!("/loads/1/load/{rest}");
     let force = |rest: &str| l(&format!("point_force/{rest}"));
     refused(&with(wall(), &force("block"), json!("b7")), &force("block"), "correct the name");
-    refused(&with(wall(), &force("at_m"), json!([-0.1, 2.5])), &force("at_m"), "onto the block");
-    refused(&with(wall(), &force("at_m"), json!([0, 1.5])), &force("at_m"), "onto the block");
+    refused(&with(wall(), &force("at_m"), json!([-0.1, 2.5])), &force("at_m"), "outside the block");
+    refused(&with(wall(), &force("at_m"), json!([0, 1.5])), &force("at_m"), "outside the block");
     refused(&with(wall(), &force("force_n_per_m"), json!([0, 0])), &force("force_n_per_m"), "leave the load out");
     for load in [
         json!({"point_load": {"force_n_per_m": 1000, "x_m": 0}}),

@@ -1,7 +1,7 @@
 //! What a request means by what it leaves out.
 
 use crate::api::request::{
-    AimRequest, AnalysisRequest, JointsRequest, LineRequest, LoadRequest, ProfileRequest, Request, StressFieldRequest,
+    AimRequest, AnalysisRequest, JointsRequest, LoadRequest, ProfileRequest, Request, StressFieldRequest,
 };
 
 impl Request {
@@ -19,7 +19,7 @@ impl Request {
 
 fn with_defaults(mut request: AnalysisRequest) -> AnalysisRequest {
     if let Some(arch) = request.arch.as_mut().filter(|arch| !matches!(arch.profile, ProfileRequest::Surveyed(_))) {
-        arch.line.get_or_insert(LineRequest::default());
+        arch.line.get_or_insert(Default::default());
         arch.joints.get_or_insert(JointsRequest::default());
     }
     request.stone = request.stone.filled_in(request.arch.is_some());

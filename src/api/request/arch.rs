@@ -1,6 +1,7 @@
 //! The arch in a request.
 
 use super::{Length, Point};
+use crate::arch::ring::Line;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -11,7 +12,7 @@ pub struct ArchRequest {
     pub profile: ProfileRequest,
     /// Which curve the profile is. `axis`, also where it is left out: half the thickness lies on each side. `intrados`: the inner
     /// face. Not with `surveyed`.
-    pub line: Option<LineRequest>,
+    pub line: Option<Line>,
     /// Thickness, normal to the profile. Required, but not with `surveyed`.
     pub thickness: Option<ThicknessRequest>,
     /// Number of voussoirs, 2 to 2001. Required, but not with `surveyed`.
@@ -128,17 +129,6 @@ pub struct Surveyed {
     /// Extrados end [x, y] of every joint, m.
     #[schema(min_items = 3, max_items = 2002)]
     pub extrados_m: Vec<Point>,
-}
-
-/// Which curve of the arch the profile is.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum LineRequest {
-    /// The middle.
-    #[default]
-    Axis,
-    /// The inner face.
-    Intrados,
 }
 
 /// Thickness, normal to the profile.

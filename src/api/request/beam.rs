@@ -38,7 +38,7 @@ pub struct CurvedBeamRequest {
     /// Outer radius, m; 1.001 to 1000 times the inner one.
     #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub outer_radius_m: f64,
-    /// Resultant of the tractions at its ends, N per metre of depth; not 0.
+    /// Resultant of the tractions at its ends, N per metre of width; not 0.
     #[schema(minimum = -1e15, maximum = 1e15)]
     pub end_shear_n_per_m: f64,
     /// True: subblocks are true sectors. False: they have straight sides.

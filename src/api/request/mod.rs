@@ -24,7 +24,9 @@ pub use loads::*;
 pub use mesh::*;
 pub use motion::*;
 pub use question::*;
-use serde::{Deserialize, Serialize};
+use serde::ser::Error;
+use serde::{Deserialize, Serialize, Serializer};
+use serde_json::Value;
 pub use stones::*;
 use utoipa::ToSchema;
 pub use values::*;
@@ -34,9 +36,29 @@ pub use values::*;
 #[serde(untagged)]
 pub enum Request {
     /// A structure.
-    Structure(Box<AnalysisRequest>),
+    Structure(#[serde(serialize_with = "without_nulls")] Box<AnalysisRequest>),
     /// The curved beam of section 3.3 of the paper.
-    CurvedBeam(Box<BeamRequest>),
+    CurvedBeam(#[serde(serialize_with = "without_nulls")] Box<BeamRequest>),
+}
+
+/// Writes a request without what it leaves out.
+///
+/// # Errors
+/// Those of the serialiser.
+pub fn without_nulls<Body: Serialize, S: Serializer>(body: &Body, serializer: S) -> Result<S::Ok, S::Error> {
+    fn strip(value: &mut Value) {
+        match value {
+            Value::Object(members) => {
+                members.retain(|_, member| !member.is_null());
+                members.values_mut().for_each(strip);
+            }
+            Value::Array(items) => items.iter_mut().for_each(strip),
+            _ => {}
+        }
+    }
+    let mut tree = serde_json::to_value(body).map_err(S::Error::custom)?;
+    strip(&mut tree);
+    tree.serialize(serializer)
 }
 
 impl Request {
@@ -60,6 +82,10 @@ pub struct AnalysisRequest {
     pub bridge: Option<BridgeRequest>,
     /// Blocks given by their corners, such as a wall.
     pub blocks: Option<BlocksRequest>,
+    /// Width of the structure, across the plane of the drawing, m. With it the answer gives results over the whole width beside
+    /// those per metre of width. Left out: per metre of width only.
+    #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
+    pub width_m: Option<f64>,
     /// The stone.
     #[serde(default)]
     pub stone: StoneRequest,

@@ -85,6 +85,7 @@ pub struct SafetyCurveResult {
     /// One point per abscissa, in their order.
     pub points: Vec<CurvePointBody>,
     /// The request, defaults filled in.
+    #[serde(serialize_with = "crate::api::request::without_nulls")]
     pub request: AnalysisRequest,
 }
 

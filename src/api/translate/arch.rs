@@ -5,7 +5,7 @@ use super::stone::joint_law;
 use crate::api::fault::{Faults, Shown};
 use crate::api::prose::Digits;
 use crate::api::request::{
-    ArchRequest, ExtradosCircle, JointsRequest, Length, LineRequest, Point, ProfileRequest, SpringingJoints, Surveyed,
+    ArchRequest, ExtradosCircle, JointsRequest, Length, Point, ProfileRequest, SpringingJoints, Surveyed,
     ThicknessRequest,
 };
 use crate::arch::profile::Profile;
@@ -138,10 +138,6 @@ pub fn ring(request: &ArchRequest, faults: &mut Faults) -> Option<Ring> {
         faults.require(exact, "/arch/curved_sides", detail);
     }
     let (profile, thickness, lengths) = (profile?, thickness?, lengths?);
-    let line = match line {
-        LineRequest::Axis => Line::Axis,
-        LineRequest::Intrados => Line::Intrados,
-    };
     let stations = stations(profile.length(), &lengths);
     (faults.len() == before).then_some(Ring { profile, line, thickness, joints, stations })
 }
@@ -157,12 +153,7 @@ fn lengths(request: &ArchRequest, faults: &mut Faults) -> Option<Vec<f64>> {
     fits.then(|| lengths.iter().map(|length| length.0).collect())
 }
 
-fn thickness(
-    request: &ArchRequest,
-    line: LineRequest,
-    profile: Option<&Profile>,
-    faults: &mut Faults,
-) -> Option<Thickness> {
+fn thickness(request: &ArchRequest, line: Line, profile: Option<&Profile>, faults: &mut Faults) -> Option<Thickness> {
     let here = "/arch/thickness";
     let Some(thickness) = &request.thickness else {
         faults.add(here, "the thickness is missing: add it");
@@ -175,7 +166,7 @@ fn thickness(
     };
     // Where only the thicker end is too thick, the stones themselves will tell.
     let (thinnest, least) = (crown.min(springing), profile.map_or(f64::INFINITY, Profile::least_radius));
-    let fits = line != LineRequest::Axis || 0.5 * thinnest < least;
+    let fits = line != Line::Axis || 0.5 * thinnest < least;
     let detail = format!(
         "half of {} m is not less than the least radius of the axis, {} m: make the arch thinner",
         Shown(thinnest),
@@ -184,8 +175,8 @@ fn thickness(
     faults.require(fits, format!("{here}/{which}"), detail).then_some(Thickness::Linear { crown, springing })
 }
 
-fn extrados_circle(circle: &ExtradosCircle, line: LineRequest, faults: &mut Faults) -> Option<Thickness> {
-    let on_intrados = line == LineRequest::Intrados;
+fn extrados_circle(circle: &ExtradosCircle, line: Line, faults: &mut Faults) -> Option<Thickness> {
+    let on_intrados = line == Line::Intrados;
     let detail = "with an extrados circle the profile has to be the intrados: set line to `intrados`";
     faults
         .require(on_intrados, "/arch/line", detail)

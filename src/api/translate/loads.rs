@@ -61,7 +61,7 @@ pub fn loads(
         check_fits(&fields, &entry.load, request, faults);
         let Some(layout) = whole.filter(|_| faults.len() == before) else { continue };
         let Some(load) = entry.load.in_si(&layout.bodies) else {
-            faults.add(format!("{fields}/block"), "there is no block of this name: correct it");
+            faults.add(format!("{fields}/block"), "there is no block of this name: correct the name");
             continue;
         };
         match load.on_pieces(&layout.structure, pieces, entry.coefficient) {
