@@ -54,6 +54,18 @@ struct Finite;
 struct Inside {
     items: usize,
     key: String,
+    /// What leads to it, where it is an alternative's.
+    within: String,
+}
+
+impl Inside {
+    fn of(alternative: &str) -> Result<Self, NotFinite> {
+        Ok(Inside { within: format!("/{alternative}"), ..Inside::default() })
+    }
+
+    fn member(&self, name: impl Display, value: &(impl Serialize + ?Sized)) -> Checked {
+        member(name, value).map_err(|NotFinite(place)| NotFinite(self.within.clone() + &place))
+    }
 }
 
 /// Looks at `value`; its name leads to what is wrong in it.
@@ -87,10 +99,19 @@ impl Serializer for Finite {
         SerializeSeq serialize_seq(Option<usize>)
         SerializeTuple serialize_tuple(usize)
         SerializeTupleStruct serialize_tuple_struct(&'static str, usize)
-        SerializeTupleVariant serialize_tuple_variant(&'static str, u32, &'static str, usize)
         SerializeMap serialize_map(Option<usize>)
         SerializeStruct serialize_struct(&'static str, usize)
-        SerializeStructVariant serialize_struct_variant(&'static str, u32, &'static str, usize)
+    }
+
+    type SerializeTupleVariant = Inside;
+    type SerializeStructVariant = Inside;
+
+    fn serialize_tuple_variant(self, _: &str, _: u32, name: &'static str, _: usize) -> Result<Inside, NotFinite> {
+        Inside::of(name)
+    }
+
+    fn serialize_struct_variant(self, _: &str, _: u32, name: &'static str, _: usize) -> Result<Inside, NotFinite> {
+        Inside::of(name)
     }
 
     fn serialize_f32(self, number: f32) -> Checked {
@@ -129,7 +150,7 @@ macro_rules! compound {
             fn $method<T: Serialize + ?Sized>(&mut self, $($name: &'static str,)? value: &T) -> Checked {
                 self.items += 1;
                 // By its name, where it has one, or else by its place.
-                member([$(&$name as &dyn Display,)? &(self.items - 1)][0], value)
+                self.member([$(&$name as &dyn Display,)? &(self.items - 1)][0], value)
             }
 
             fn end(self) -> Checked { Ok(()) }
