@@ -118,7 +118,7 @@ pub(super) async fn request(Known(job): Known) -> impl IntoResponse {
 )]
 pub(super) async fn dismiss(state: AppState, Known(job): Known) -> Result<Response, Problem> {
     match state.jobs.dismiss(job.id).ok_or_else(|| Problem::no_such_job(&job.id.to_string()))? {
-        Dismissal::Cancelled(job) => answer(&JobStatus::from(&job)),
+        Dismissal::Cancelled(job) => answer(&JobStatus::from(&*job)),
         Dismissal::Forgotten => Ok(StatusCode::NO_CONTENT.into_response()),
     }
 }

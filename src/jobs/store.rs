@@ -21,7 +21,7 @@ const LAST_STEP: Duration = Duration::from_secs(2);
 #[derive(Debug, Clone)]
 pub enum Dismissal {
     /// The job had not ended: it is cancelled now.
-    Cancelled(Job),
+    Cancelled(Box<Job>),
     /// The job had ended: it is forgotten now.
     Forgotten,
 }
@@ -125,7 +125,7 @@ impl<W> JobStore<W> {
         let dismissal = self.shared.books(|table| {
             table.get(id)?;
             Some(match table.cancel(id) {
-                Some(job) => Dismissal::Cancelled(job),
+                Some(job) => Dismissal::Cancelled(Box::new(job)),
                 None => {
                     table.forget(id);
                     Dismissal::Forgotten
