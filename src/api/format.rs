@@ -18,6 +18,10 @@ pub(super) enum Format {
     Vtu,
     /// A drawing.
     Svg,
+    /// The same drawing, for those who know it as XML only.
+    Xml,
+    /// Measurements for Prometheus.
+    OpenMetrics,
 }
 
 impl Format {
@@ -29,6 +33,8 @@ impl Format {
             Format::Csv => "csv",
             Format::Vtu => "vtu",
             Format::Svg => "svg",
+            Format::Xml => "xml",
+            Format::OpenMetrics => "openmetrics",
         }
     }
 
@@ -40,6 +46,8 @@ impl Format {
             Format::Csv => "text/csv",
             Format::Vtu => "application/vnd.vtk.vtu+xml",
             Format::Svg => "image/svg+xml",
+            Format::Xml => "text/xml",
+            Format::OpenMetrics => "application/openmetrics-text",
         }
     }
 
@@ -47,6 +55,8 @@ impl Format {
     pub(super) fn content_type(self) -> &'static str {
         match self {
             Format::Text => "text/plain; charset=utf-8",
+            Format::Xml => "text/xml; charset=utf-8",
+            Format::OpenMetrics => "application/openmetrics-text; version=1.0.0; charset=utf-8",
             other => other.media_type(),
         }
     }

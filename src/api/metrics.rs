@@ -1,11 +1,13 @@
 //! What the service counts, as Prometheus reads it.
 
 use super::Service;
+use super::format::Format;
 use super::problem::Problem;
 use super::request::Request;
 use super::status::word;
 use crate::jobs::{Job, Occupancy, Status};
-use axum::http::{Method, StatusCode, header};
+use axum::extract::State;
+use axum::http::{HeaderMap, Method, StatusCode, header};
 use axum::response::IntoResponse;
 use prometheus_client::encoding::EncodeLabelSet;
 use prometheus_client::encoding::text::encode;
@@ -21,9 +23,6 @@ const SECONDS: [f64; 13] = [1e-3, 3e-3, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30
 
 /// Upper ends of the histogram of events.
 const EVENTS: [f64; 11] = [1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1e3, 3e3, 1e4, 3e4, 1e5];
-
-/// The media type of the exposition.
-const METRICS_MEDIA_TYPE: &str = "application/openmetrics-text; version=1.0.0; charset=utf-8";
 
 #[derive(Debug, Clone, PartialEq, Eq, Hash, EncodeLabelSet)]
 struct Answered {
@@ -120,10 +119,12 @@ impl Metrics {
 #[utoipa::path(
     get, path = "/metrics", tag = "service", operation_id = "metrics",
     responses((status = 200, description = "Counters, gauges and histograms in the text format of OpenMetrics",
-        body = String, content_type = "application/openmetrics-text"))
+        content((String = "application/openmetrics-text"), (String = "text/plain"))))
 )]
-pub(super) async fn metrics(state: axum::extract::State<Service>) -> Result<impl IntoResponse, Problem> {
+pub(super) async fn metrics(state: State<Service>, headers: HeaderMap) -> Result<impl IntoResponse, Problem> {
+    // Prometheus reads the same lines under its older media type, too.
+    let format = Format::choose(None, &headers, &[Format::OpenMetrics, Format::Text]).unwrap_or(Format::OpenMetrics);
     let streams = state.limits.streams.saturating_sub(state.streams.available_permits());
     let text = state.metrics.text(state.jobs.load(), streams).map_err(|_| Problem::internal())?;
-    Ok(([(header::CONTENT_TYPE, METRICS_MEDIA_TYPE)], text))
+    Ok(([(header::CONTENT_TYPE, format.content_type())], text))
 }

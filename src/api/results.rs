@@ -25,7 +25,7 @@ use std::time::Duration;
 pub(super) const RESULTS: [Format; 2] = [Format::Json, Format::Text];
 pub(super) const HISTORY: [Format; 2] = [Format::Json, Format::Csv];
 pub(super) const FIELD: [Format; 3] = [Format::Json, Format::Csv, Format::Vtu];
-pub(super) const FIGURE: [Format; 1] = [Format::Svg];
+pub(super) const FIGURE: [Format; 2] = [Format::Svg, Format::Xml];
 
 /// In which format.
 #[derive(Debug, Deserialize)]
@@ -208,7 +208,7 @@ pub(super) async fn field(
     get, path = "/v1/jobs/{id}/results/figure", tag = "results", operation_id = "get_figure",
     params(("id" = String, Path, format = "uuid", description = "Job id")),
     responses(
-        (status = 200, description = "The arch as it falls", content((String = "image/svg+xml")),
+        (status = 200, description = "The arch as it falls", content((String = "image/svg+xml"), (String = "text/xml")),
             headers(("etag" = String, description = "Names this answer"))),
     )
 )]
