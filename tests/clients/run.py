@@ -32,7 +32,8 @@ def generate(folder, *command, **environment):
 def python(folder, program):
     run(sys.executable, "-m", "venv", "venv", folder=folder)
     programs = folder / "venv" / "bin"
-    run(programs / "pip", "install", "--quiet", "--disable-pip-version-check", "-r", HERE / "requirements.txt", folder=folder)
+    run(programs / "pip", "install", "--quiet", "--no-compile", "--disable-pip-version-check", "-r",
+        HERE / "requirements.txt", folder=folder)
     path = f"{programs}:{os.environ['PATH']}"
     package = folder / "voussoir_client"
     generate(folder, programs / "openapi-python-client", "generate", "--path", DOCUMENT, "--meta", "none",
