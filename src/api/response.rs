@@ -117,6 +117,7 @@ pub struct AnalysisResult {
     /// What to know before using the numbers.
     pub notes: Vec<String>,
     /// The request, defaults filled in.
+    #[serde(serialize_with = "crate::api::request::without_nulls")]
     pub request: AnalysisRequest,
 }
 
