@@ -11,6 +11,9 @@ pub mod dda;
 pub mod geometry;
 #[cfg(feature = "server")]
 pub mod jobs;
+#[cfg(test)]
+#[path = "../tests/it/common/largest.rs"]
+mod largest;
 pub mod limit;
 pub mod render;
 pub mod structure;

@@ -5,6 +5,7 @@
 //! the non-associated problem (stones move without entering each other, a sliding joint does not open, friction is at its
 //! bound and opposes the sliding) is reported beside it.
 
+use crate::common::largest::{larger, largest};
 use crate::common::motion;
 use crate::common::oracle::{Bond, Problem, distance};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -132,7 +133,7 @@ impl Truth {
         let falls = matches!(report.outcome, Outcome::Collapse | Outcome::StandsInWindow);
         let end = report.end.as_ref().filter(|end| falls && slides(end));
         match end.map(|end| self.motion_fault(analysis, end)) {
-            Some(fault) if fault.is_nan() || fault > HOLDS => Mark::Unproven(fault),
+            Some(fault) if fault > HOLDS => Mark::Unproven(fault),
             _ => Mark::Right,
         }
     }
@@ -159,12 +160,13 @@ impl Truth {
 
     fn end_fault(&self, analysis: &Analysis, end: &PathEnd, sign: f64) -> Option<String> {
         let (load, limit) = (end.load_factor, self.limit(sign)?);
-        let above = sign * (load - limit) > EQUAL * limit.abs().max(self.floor);
-        if above || (!slides(end) && self.apart(load, limit) > EQUAL) {
+        let below = sign * (load - limit) <= EQUAL * limit.abs().max(self.floor);
+        let close = below && (slides(end) || self.apart(load, limit) <= EQUAL);
+        if !close {
             return Some(format!("{load}, oracle {limit}, {} slides", end.mechanism.slides.len()));
         }
         let statics = statics_fault(&self.problem, end);
-        if statics.is_nan() || statics > HOLDS {
+        if statics > HOLDS {
             return Some(format!("statics fail by {statics:.1e} of the loads"));
         }
         if slides(end) {
@@ -188,7 +190,7 @@ impl Truth {
             let bound = friction * thrust.normal + cohesion * distance(seam.intrados, seam.extrados);
             // The shear on the stone after the joint opposes its sliding.
             let short = (bound + slide.rate.signum() * thrust.shear).abs() / bound.abs().max(f64::MIN_POSITIVE);
-            worst.max(if bound <= 0.0 { 0.0 } else { short })
+            larger(worst, if bound <= 0.0 { 0.0 } else { short })
         })
     }
 }
@@ -213,7 +215,7 @@ pub fn statics_fault(problem: &Problem, end: &PathEnd) -> f64 {
         if let Bond::Dry { friction, cohesion } = seam.bond {
             let tension = (thrust.eccentricity.abs() / length - 0.5) * thrust.normal;
             let beyond = thrust.shear.abs() - friction * thrust.normal - cohesion * length;
-            worst = worst.max(tension / loads).max(-thrust.normal / loads).max(beyond / loads);
+            worst = largest([worst, tension / loads, -thrust.normal / loads, beyond / loads]);
         }
     }
     for block in 0..at.seams.len() - 1 {
@@ -228,7 +230,7 @@ pub fn statics_fault(problem: &Problem, end: &PathEnd) -> f64 {
         add(forces[block].0, forces[block].1, 1.0);
         add(forces[block + 1].0, forces[block + 1].1, -1.0);
         at.fixed.iter().filter(|push| push.block == block).for_each(|push| add(push.at, push.force, 1.0));
-        worst = sum.iter().fold(worst, |worst, part| worst.max(part.abs() / loads));
+        worst = sum.iter().fold(worst, |worst, part| larger(worst, part.abs() / loads));
     }
     worst
 }

@@ -18,13 +18,17 @@ pub enum Format {
     Vtu,
     /// A drawing.
     Svg,
+    /// The same drawing, for those who know it as XML only.
+    Xml,
+    /// Measurements for Prometheus.
+    OpenMetrics,
 }
 
 /// Formats of the whole answer and of its parts, the first for those who do not say.
 pub(super) const RESULTS: [Format; 2] = [Format::Json, Format::Text];
 pub(super) const HISTORY: [Format; 2] = [Format::Json, Format::Csv];
 pub(super) const FIELD: [Format; 3] = [Format::Json, Format::Csv, Format::Vtu];
-pub(super) const FIGURE: [Format; 1] = [Format::Svg];
+pub(super) const FIGURE: [Format; 2] = [Format::Svg, Format::Xml];
 
 impl Format {
     /// Its name in the query, and its media type.
@@ -35,6 +39,8 @@ impl Format {
             Format::Csv => ("csv", "text/csv"),
             Format::Vtu => ("vtu", "application/vnd.vtk.vtu+xml"),
             Format::Svg => ("svg", "image/svg+xml"),
+            Format::Xml => ("xml", "text/xml"),
+            Format::OpenMetrics => ("openmetrics", "application/openmetrics-text"),
         }
     }
 
@@ -47,6 +53,8 @@ impl Format {
     pub(super) fn content_type(self) -> &'static str {
         match self {
             Format::Text => "text/plain; charset=utf-8",
+            Format::Xml => "text/xml; charset=utf-8",
+            Format::OpenMetrics => "application/openmetrics-text; version=1.0.0; charset=utf-8",
             other => other.words().1,
         }
     }

@@ -1,9 +1,10 @@
 //! What the service counts, as Prometheus reads it.
 
+use super::format::Format;
 use super::problem::Problem;
 use super::service::AppState;
 use crate::jobs::{Job, Status};
-use axum::http::{Method, StatusCode, header};
+use axum::http::{HeaderMap, Method, StatusCode, header};
 use axum::response::IntoResponse;
 use prometheus_client::encoding::text::encode;
 use prometheus_client::metrics::counter::Counter;
@@ -27,9 +28,6 @@ const GAUGES: [(&str, &str); 5] = [
     ("held_bytes", "What requests and answers of all jobs take"),
     ("event_streams", "Event streams open"),
 ];
-
-/// The media type of the exposition.
-const METRICS_MEDIA_TYPE: &str = "application/openmetrics-text; version=1.0.0; charset=utf-8";
 
 /// Method, route and status of an answer.
 type Answered = [(&'static str, String); 3];
@@ -91,9 +89,11 @@ impl Metrics {
 #[utoipa::path(
     get, path = "/metrics", tag = "service", operation_id = "metrics",
     responses((status = 200, description = "Counters, gauges and histograms in the text format of OpenMetrics",
-        body = String, content_type = "application/openmetrics-text"))
+        content((String = "application/openmetrics-text"), (String = "text/plain"))))
 )]
-pub(super) async fn metrics(state: AppState) -> Result<impl IntoResponse, Problem> {
+pub(super) async fn metrics(state: AppState, headers: HeaderMap) -> Result<impl IntoResponse, Problem> {
+    // Prometheus reads the same lines under its older media type, too.
+    let format = Format::choose(None, &headers, &[Format::OpenMetrics, Format::Text]).unwrap_or(Format::OpenMetrics);
     let (load, streams) =
         (state.jobs.load(), state.settings.limits.streams.saturating_sub(state.streams.available_permits()));
     let counts = [load.waiting, load.running, load.finished, load.bytes, streams];
@@ -102,5 +102,5 @@ pub(super) async fn metrics(state: AppState) -> Result<impl IntoResponse, Proble
     }
     let mut text = String::new();
     encode(&mut text, &state.metrics.registry).map_err(|_| Problem::internal())?;
-    Ok(([(header::CONTENT_TYPE, METRICS_MEDIA_TYPE)], text))
+    Ok(([(header::CONTENT_TYPE, format.content_type())], text))
 }

@@ -135,7 +135,7 @@ pub(super) async fn field(
     get, path = "/v1/jobs/{id}/results/figure", tag = "results", operation_id = "get_figure",
     params(("id" = String, Path, format = "uuid", description = "Job id")),
     responses(
-        (status = 200, description = "The arch as it falls", content((String = "image/svg+xml")),
+        (status = 200, description = "The arch as it falls", content((String = "image/svg+xml"), (String = "text/xml")),
             headers(("etag" = String, description = "Names this answer"))),
     )
 )]

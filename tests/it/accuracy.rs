@@ -2,6 +2,7 @@
 
 use crate::common::dice::Dice;
 use crate::common::field::error;
+use crate::common::largest::larger;
 use crate::common::semicircle::{mesh, semicircle};
 use crate::common::{door, random_arch};
 use serde_json::{Value, json};
@@ -43,7 +44,8 @@ fn collapse_loads_are_as_accurate_as_asked() {
         let error = (end.load_factor / limit - 1.0).abs();
         compared += 1;
         unmet += usize::from(!estimate.met);
-        if estimate.met && error > asked {
+        let kept = error <= asked;
+        if estimate.met && !kept {
             missed.push(format!("seed {seed}: asked {asked:.1e}, said {:?}, had {error:.1e}", estimate.estimate));
         }
         // Sliding alone may keep a load from being known.
@@ -63,7 +65,7 @@ fn apart(a: &StressField, b: &StressField) -> f64 {
     for (one, other) in a.subblocks.iter().zip(&b.subblocks) {
         assert_eq!((one.voussoir, one.place), (other.voussoir, other.place));
         let places = one.corners.iter().zip(&other.corners).map(|(p, q)| (p - q).norm());
-        assert!(places.fold((one.centre - other.centre).norm(), f64::max) < 1e-9, "{one:?} {other:?}");
+        assert!(places.fold((one.centre - other.centre).norm(), larger) < 1e-9, "{one:?} {other:?}");
         for c in 0..3 {
             apart += (one.stress[c] - other.stress[c]).powi(2);
             whole += other.stress[c].powi(2);
@@ -79,13 +81,13 @@ fn states_apart(a: &Snapshot, b: &Snapshot) -> [f64; 2] {
     let forces = |s: &Snapshot| s.contacts.iter().map(|c| c.normal.abs()).fold(0.0, f64::max);
     let mut worst = [0.0f64; 2];
     for (one, other) in a.blocks.iter().zip(&b.blocks) {
-        worst[0] = worst[0].max((one.displacement - other.displacement).norm() / moves(b));
+        worst[0] = larger(worst[0], (one.displacement - other.displacement).norm() / moves(b));
     }
     for (one, other) in a.contacts.iter().zip(&b.contacts) {
         assert_eq!(one.joint, other.joint);
         assert!((one.position - other.position).abs() < 1e-12);
-        let off = (one.normal - other.normal).abs().max((one.tangential - other.tangential).abs());
-        worst[1] = worst[1].max(off / forces(b));
+        let off = larger((one.normal - other.normal).abs(), (one.tangential - other.tangential).abs());
+        worst[1] = larger(worst[1], off / forces(b));
     }
     worst
 }

@@ -1,6 +1,7 @@
 //! Limit windows with crushing joints, held against second-order cones and against a published-geometry table.
 
 use crate::common::dice::Dice;
+use crate::common::largest::larger;
 use crate::common::{door, random_arch};
 use serde_json::{Value, json};
 use voussoir::budget::Budget;
@@ -70,8 +71,8 @@ fn compare(seed: u64) -> Result<Found, String> {
         return if same { Ok(Found::Empty) } else { Err(format!("{ours:?}, oracle {oracle:?}, give {give:e}")) };
     };
     let floor = SMALL * theorem.load_factor_scale();
-    let error = relative(low, oracle.0, floor).max(relative(high, oracle.1, floor));
-    if error > EQUAL || error.is_nan() {
+    let error = larger(relative(low, oracle.0, floor), relative(high, oracle.1, floor));
+    if error > EQUAL {
         return Err(format!("[{low}, {high}], oracle {oracle:?}, {error:e}, give {give:e}"));
     }
     let [least, most] = plain.ok_or("a window where the plain one is empty")?;

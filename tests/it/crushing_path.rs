@@ -78,13 +78,16 @@ fn hold(analysis: &Analysis, report: &CollapseReport) -> Result<Option<Found>, S
     let (short, off) = (-beyond(exact), beyond(linear));
     let slides = end.mechanism.slips();
     let words = format!("path {path}, points {linear} ({off:.1e}), sections {exact} ({short:.1e}), {points} points");
-    if off > EQUAL || (!slides && (off < -EQUAL || !(-ABOVE..=SHORT).contains(&short))) || points > MOST_POINTS {
+    let close = off <= EQUAL && (slides || (off >= -EQUAL && (-ABOVE..=SHORT).contains(&short)));
+    if !close || points > MOST_POINTS {
         return Err(words);
     }
     for thrust in &end.thrust_line {
         let length = analysis.structure.joints[thrust.joint].length();
         let dry = analysis.structure.joints[thrust.joint].law.coulomb().is_some();
-        if dry && thrust.normal / strength > (length - 2.0 * thrust.eccentricity.abs()) * (1.0 + 1e-5) + 1e-6 * length {
+        let bears = (length - 2.0 * thrust.eccentricity.abs()) * (1.0 + 1e-5) + 1e-6 * length;
+        let held = thrust.normal / strength <= bears;
+        if dry && !held {
             return Err(format!("joint {} crushes: {thrust:?}", thrust.joint));
         }
     }
@@ -238,7 +241,8 @@ fn random_structures_crush_on_the_path_within_plastic_sections() {
         crushed += u64::from(!end.crushed.is_empty());
         slid += u64::from(slides);
         worst = if slides { worst } else { worst.max(short) };
-        if short < -ABOVE || (!slides && short > SHORT) {
+        let close = short >= -ABOVE && (slides || short <= SHORT);
+        if !close {
             complaints.push(format!("{name}, {strength} Pa: {} of {}", end.load_factor, window.highest));
         }
     }

@@ -1,6 +1,7 @@
 //! Motion after collapse: every run ends by one of its ends, stones keep their shape and stay out of each other.
 
 use crate::common::falling::{Measured, measure};
+use crate::common::largest::{larger, largest};
 use crate::common::structures::{self, FAMILIES};
 use crate::common::{door, random_arch};
 use serde_json::{Value, json};
@@ -220,8 +221,8 @@ fn a_symmetric_arch_falls_symmetrically() {
         let lean = |frame: &MotionFrame| {
             let both = frame.centroids.iter().zip(frame.centroids.iter().rev());
             let turned = frame.rotations.iter().zip(frame.rotations.iter().rev());
-            let apart = both.map(|(a, b)| (a.x + b.x).abs().max((a.y - b.y).abs()));
-            apart.chain(turned.map(|(a, b)| (a + b).abs())).fold(0.0, f64::max)
+            let apart = both.map(|(a, b)| larger((a.x + b.x).abs(), (a.y - b.y).abs()));
+            largest(apart.chain(turned.map(|(a, b)| (a + b).abs())))
         };
         let all: Vec<f64> = motion.frames.iter().map(lean).collect();
         println!("{name}: lean {:.1e} after 10 steps, {:.1e} at the end", all[10], all[all.len() - 1]);
@@ -238,7 +239,7 @@ fn a_mirrored_arch_falls_as_the_mirror_image() {
     let mut worst: f64 = 0.0;
     for (a, b) in a.frames.iter().zip(&b.frames) {
         for (a, b) in a.centroids.iter().zip(b.centroids.iter().rev()) {
-            worst = worst.max((a.x + b.x).abs().max((a.y - b.y).abs()));
+            worst = largest([worst, (a.x + b.x).abs(), (a.y - b.y).abs()]);
         }
     }
     println!("mirror images differ by {worst:.1e} m");
@@ -253,7 +254,7 @@ fn half_an_arch_falls_as_the_whole_does() {
     assert_eq!(whole.end, half.end);
     let at = same_frame(&whole, &half, 10);
     let (whole, half) = (&whole.frames[at], &half.frames[at]);
-    let apart = half.centroids.iter().zip(&whole.centroids).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+    let apart = largest(half.centroids.iter().zip(&whole.centroids).map(|(a, b)| (a - b).norm()));
     println!("half and whole differ by {apart:.1e} m after {at} steps, which moved them by {:.1e}", whole.displacement);
     assert!(apart < 0.01 * whole.displacement);
 }

@@ -2,6 +2,7 @@
 
 use crate::common::door;
 use crate::common::field::error;
+use crate::common::largest::largest;
 use crate::common::semicircle::mesh;
 use crate::contract::bodies::with;
 use serde_json::{Value, json};
@@ -78,8 +79,8 @@ fn under_a_cap(request: &Value) -> (CollapseReport, f64) {
 fn miss(field: &StressField, pressure: f64) -> f64 {
     let last = field.subblocks.last().unwrap().voussoir;
     let below = field.subblocks.iter().filter(|subblock| subblock.voussoir < last);
-    let off = |s: [f64; 3]| s[0].abs().max((s[1] + pressure).abs()).max(s[2].abs()) / pressure;
-    below.map(|subblock| off(subblock.stress)).fold(0.0, f64::max)
+    let off = |s: [f64; 3]| largest([s[0].abs(), (s[1] + pressure).abs(), s[2].abs()]) / pressure;
+    largest(below.map(|subblock| off(subblock.stress)))
 }
 
 #[test]
@@ -204,13 +205,13 @@ fn mirrored_loads_have_mirrored_stresses() {
     for (one, other, axis) in [(vault(60.0, -2.0), vault(60.0, 2.0), 0.0), (gable(1.0), gable(-1.0), 1.5)] {
         let [here, there] =
             [one, other].map(|request| door::solve(&on(&request, [3, 4])).stress_fields.remove(0).subblocks);
-        let largest = here.iter().map(|subblock| subblock.tresca()).fold(0.0, f64::max);
+        let size = here.iter().map(|subblock| subblock.tresca()).fold(0.0, f64::max);
         for subblock in &here {
             let image = Vec2::new(2.0 * axis - subblock.centre.x, subblock.centre.y);
             let [x, y, shear] = there.iter().find(|s| (s.centre - image).norm() < 1e-9).unwrap().stress;
-            let apart = [x, y, -shear].iter().zip(subblock.stress).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            let apart = largest([x, y, -shear].iter().zip(subblock.stress).map(|(a, b)| (a - b).abs()));
             // Contact stiffnesses are scattered by 1e-4.
-            assert!(apart < 1e-3 * largest, "{apart:e} of {largest:e} at {}", subblock.centre);
+            assert!(apart < 1e-3 * size, "{apart:e} of {size:e} at {}", subblock.centre);
         }
     }
 }
@@ -254,7 +255,7 @@ fn mean_stresses_balance_the_forces_of_loads_and_joints() {
                 (0..3).for_each(|c| sum[c] += area * subblock.stress[c]);
             }
             let size = moment.iter().map(|m| m.abs()).fold(0.0, f64::max);
-            let apart = (0..3).map(|c| (sum[c] - moment[c]).abs()).fold(0.0, f64::max);
+            let apart = largest((0..3).map(|c| (sum[c] - moment[c]).abs()));
             println!("{body}: {sum:?} {moment:?} {:e}", apart / size);
             assert!(apart < 1e-3 * size, "body {body}: {sum:?}, not {moment:?}");
         }

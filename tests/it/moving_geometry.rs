@@ -2,6 +2,7 @@
 //! the first-order one, to which it tends.
 
 use crate::common::door::solve;
+use crate::common::largest::larger;
 use crate::common::row::in_a_row;
 use crate::common::wire::{ask, circular, paper_case_1};
 use serde_json::{Value, json};
@@ -188,7 +189,7 @@ fn random_arches_on_moving_geometry() {
         if !end.mechanism.slips() && updated.mechanism.unwrap().slides.is_empty() {
             let change = load / end.load_factor - 1.0;
             near += usize::from(change.abs() < 0.02);
-            worst = worst.max(change);
+            worst = larger(worst, change);
             least = least.min(change);
         }
     }

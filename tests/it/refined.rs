@@ -1,6 +1,7 @@
 //! Refined voussoirs against voussoirs of one subblock: where nothing slides the mesh is nothing to a collapse load;
 //! where joints slide it may move the answer, but never above the limit window.
 
+use crate::common::largest::larger;
 use crate::common::{dice::Dice, door, random_arch};
 use serde_json::{Value, json};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -75,7 +76,7 @@ fn differences(analysis: &Analysis, plain: &CollapseReport, refined: &CollapseRe
     let floor = 1e-3 * balance(analysis);
     for ((a, ..), (b, ..)) in ends(analysis, plain).into_iter().zip(ends(analysis, refined)) {
         let apart = (a.load_factor - b.load_factor).abs() / a.load_factor.abs().max(floor);
-        if apart > EQUAL || apart.is_nan() {
+        if larger(apart, 0.0) > EQUAL {
             faults.push(format!("falls at {}, not {} ({apart:e})", b.load_factor, a.load_factor));
         }
         if hinges(a) != hinges(b) || !b.mechanism.slides.is_empty() {
@@ -169,9 +170,10 @@ impl Seen {
         let floor = 1e-3 * balance(analysis);
         for (end, limit, sign) in ends(analysis, &report) {
             let above = if limit.is_finite() { sign * (end.load_factor - limit) / limit.abs().max(floor) } else { 0.0 };
-            self.above = self.above.max(above);
-            self.residual = self.residual.max(end.residual);
-            if above > EQUAL || end.residual > 1e-8 {
+            self.above = larger(self.above, above);
+            self.residual = larger(self.residual, end.residual);
+            let close = above <= EQUAL && end.residual <= 1e-8;
+            if !close {
                 self.faults.push(format!("seed {seed}: {above:e} above {limit}, residual {:e}", end.residual));
             }
         }

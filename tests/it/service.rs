@@ -274,6 +274,8 @@ fn results_come_in_parts_and_formats() {
     let figure = part("/figure", "image/*");
     assert_eq!(figure.header("content-type"), Some("image/svg+xml"));
     assert!(figure.text().starts_with("<svg") && figure.text().trim_end().ends_with("</svg>"));
+    let as_xml = part("/figure", "text/xml");
+    assert_eq!((as_xml.header("content-type"), as_xml.text()), (Some("text/xml; charset=utf-8"), figure.text()));
     for (rest, accept, status) in [
         ("", "image/png", 406),
         ("/figure", "text/csv", 406),
@@ -460,6 +462,8 @@ fn everything_is_counted() {
     server.get("/nowhere");
     let answer = server.get("/metrics");
     assert!(answer.header("content-type").unwrap().starts_with("application/openmetrics-text"));
+    let plain = server.call("GET", "/metrics", "accept: text/plain\r\n", b"");
+    assert_eq!(plain.header("content-type"), Some("text/plain; charset=utf-8"));
     let text = answer.text();
     for line in [
         "voussoir_http_requests_total{method=\"POST\",route=\"/v1/jobs\",status=\"201\"} 2",

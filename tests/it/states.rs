@@ -2,8 +2,9 @@
 //! force where a joint is open and no overlap without one; and the states of a symmetric arch, which are symmetric.
 
 use crate::common::folders::{cases, folders, name};
+use crate::common::largest::larger;
 use crate::common::semicircle::semicircle;
-use crate::common::state::{Broken, broken, broken_line, ends, larger, leaning, mirrored_apart, states};
+use crate::common::state::{Broken, broken, broken_line, ends, leaning, mirrored_apart, states};
 use crate::common::{door, random_arch};
 use crate::half::symmetric;
 use serde_json::{Value, json};

@@ -4,6 +4,7 @@ use crate::arch::ring::{JointLines, Line, Ring, Thickness, stations};
 use crate::arch::{assemble, straight_voussoirs};
 use crate::collapse::{CurvePoint, Mesh, Path, SafetyTask, Task, safety};
 use crate::geometry::perpendicular;
+use crate::largest::largest;
 use crate::structure::JointLaw;
 
 /// A semicircle of `n` equal stones, cut into `subblocks` each, without loads.
@@ -122,7 +123,7 @@ fn the_mirror_image_of_a_motion_is_that_of_an_assembly_and_its_nodes() {
     for (field, sign) in motions {
         let d = moved(assembly, field);
         let image = assembly.mirrored(&d);
-        let apart = image.iter().zip(&d).map(|(there, here)| (there - sign * here).abs()).fold(0.0, f64::max);
+        let apart = largest(image.iter().zip(&d).map(|(there, here)| (there - sign * here).abs()));
         assert!(apart < 1e-11, "{apart:e}");
     }
 }

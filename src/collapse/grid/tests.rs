@@ -4,6 +4,7 @@ use crate::bridge::{Backing, Bridge, BridgeEnd, BridgeSpan, RingCourse};
 use crate::budget::Budget;
 use crate::dda::free_response;
 use crate::geometry::distance_from_segment;
+use crate::largest::largest;
 use crate::structure::{Sides, Stone};
 use nalgebra::DVector;
 
@@ -98,7 +99,7 @@ fn every_body_is_tiled_and_takes_a_uniform_stress_exactly() {
                 let d = free_response(&stone, &load, &Budget::unlimited()).unwrap().unwrap();
                 for (k, block) in stone.blocks().iter().enumerate() {
                     let stress = block.stress(&d.fixed_rows::<6>(6 * k).into_owned());
-                    let off = (0..3).map(|c| (stress[c] - state[c]).abs()).fold(0.0, f64::max);
+                    let off = largest((0..3).map(|c| (stress[c] - state[c]).abs()));
                     assert!(
                         off < EXACT * 3e5 || body.is_quadrilateral() && off < 1e-5 * 3e5,
                         "{off:e} {:?}",

@@ -1,6 +1,7 @@
 use super::*;
 use crate::budget::Budget;
 use crate::dda::elements::Pattern;
+use crate::largest::largest;
 use faer::linalg::solvers::Solve;
 
 /// A fixed, well-spread sequence of numbers in (-1, 1).
@@ -75,7 +76,7 @@ fn error(pattern: &Pattern, k: &Elements, b: &[f64], x: &[f64]) -> f64 {
     }
     let rhs = faer::Mat::from_fn(b.len(), 1, |i, _| b[i]);
     let expected = dense.partial_piv_lu().solve(&rhs);
-    (0..b.len()).map(|i| (x[i] - expected[(i, 0)]).abs()).fold(0.0, f64::max)
+    largest((0..b.len()).map(|i| (x[i] - expected[(i, 0)]).abs()))
 }
 
 #[test]

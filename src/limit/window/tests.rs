@@ -1,6 +1,7 @@
 use super::super::scenes::{bridge, per_area, seismic};
 use super::super::static_theorem::tests::{arch, ferris_tin_loi, loads, wrench};
 use super::*;
+use crate::largest::{larger, largest};
 use crate::structure::{Joint, JointLaw, PointForce, Side, Structure, resultants};
 
 const NEAR: f64 = 1e-9;
@@ -24,10 +25,10 @@ fn unbalanced(structure: &Structure, forces: &[Resultant], loads: &[Vec<[f64; 3]
         }
         let [friction, adhesion] = law(joint);
         let adhesion = factors[0] * adhesion;
-        worst = worst.max(-r.intrados).max(-r.extrados).max(r.shear.abs() - friction * r.normal() - adhesion);
+        worst = largest([worst, -r.intrados, -r.extrados, r.shear.abs() - friction * r.normal() - adhesion]);
     }
     let scale = loads.iter().flatten().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
-    sums.as_flattened().iter().fold(worst, |m, x| m.max(x.abs())) / scale
+    sums.as_flattened().iter().fold(worst, |m, x| larger(m, x.abs())) / scale
 }
 
 /// What the two loads do in a motion, less what cohesion takes; no joint may hinder it.

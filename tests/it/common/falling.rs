@@ -1,6 +1,7 @@
 //! A motion after collapse, measured from its frames alone.
 
-use super::state::{larger, weight};
+use super::largest::{larger, largest};
+use super::state::weight;
 use voussoir::collapse::{Analysis, FallingMotion, MotionContact, MotionFrame};
 use voussoir::geometry::{Region, Vec2, cross, distance_from_segment, lies_inside, perpendicular};
 use voussoir::structure::{Body, Structure};
@@ -55,7 +56,7 @@ pub fn depth(a: &[Vec2], b: &[Vec2]) -> f64 {
     };
     let corners_in = |a: &[Vec2], b: &[Vec2]| {
         let depth = |c: &Vec2| sides(a).map(|(p, q)| distance_from_segment(*c, p, q)).fold(f64::INFINITY, f64::min);
-        b.iter().filter(|c| lies_inside(**c, a)).map(depth).fold(0.0, f64::max)
+        largest(b.iter().filter(|c| lies_inside(**c, a)).map(depth))
     };
     if convex(a) && convex(b) { way_out(a, b).min(way_out(b, a)) } else { corners_in(a, b).max(corners_in(b, a)) }
 }

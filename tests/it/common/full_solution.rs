@@ -1,5 +1,6 @@
 //! Whether forces and velocities of an answer are a full solution without dilation, from plain numbers alone.
 
+use super::largest::{larger, largest};
 use super::oracle::{Bond, Point, Problem, Push};
 use voussoir::collapse::PathEnd;
 
@@ -24,8 +25,7 @@ impl Gap {
     /// The largest of all but the power.
     pub fn worst(&self) -> f64 {
         let all = [self.unbalanced, self.inadmissible, self.entering, self.opens_under_force, self.slides_freely];
-        // A number that is none must not pass.
-        all.into_iter().fold(0.0, |worst: f64, x| if x.is_nan() { f64::INFINITY } else { worst.max(x) })
+        largest(all)
     }
 }
 
@@ -56,7 +56,7 @@ pub fn measure(problem: &Problem, centroids: &[Point], end: &PathEnd) -> Gap {
             add(seam.intrados, along.map(|t| t * shear), by);
         }
         let arm = length(problem, block);
-        gap.unbalanced = [sum[0], sum[1], sum[2] / arm].iter().fold(gap.unbalanced, |w, x| w.max(x.abs() / loads));
+        gap.unbalanced = [sum[0], sum[1], sum[2] / arm].iter().fold(gap.unbalanced, |w, x| larger(w, x.abs() / loads));
     }
     let moved = |block: Option<usize>, at: Point| match block {
         Some(k) if k < centroids.len() => {
@@ -73,21 +73,21 @@ pub fn measure(problem: &Problem, centroids: &[Point], end: &PathEnd) -> Gap {
         let Bond::Dry { friction, cohesion } = seam.bond else { continue };
         let capacity = friction * (inner + outer) + cohesion * length(problem, k);
         gap.inadmissible =
-            [-inner, -outer, shear.abs() - capacity].iter().fold(gap.inadmissible, |w, x| w.max(x / loads));
+            [-inner, -outer, shear.abs() - capacity].iter().fold(gap.inadmissible, |w, x| larger(w, x / loads));
         for (corner, force) in [(seam.intrados, inner), (seam.extrados, outer)] {
             let (after, before) = (moved(Some(k), corner), moved(k.checked_sub(1), corner));
             let rate = [after[0] - before[0], after[1] - before[1]].map(|v| v / fastest);
             let opening = rate[0] * normal[0] + rate[1] * normal[1];
             let slip = rate[0] * along[0] + rate[1] * along[1];
-            gap.entering = gap.entering.max(-opening);
-            gap.opens_under_force = gap.opens_under_force.max(opening * force.max(0.0) / loads);
+            gap.entering = larger(gap.entering, -opening);
+            gap.opens_under_force = larger(gap.opens_under_force, opening * force.max(0.0) / loads);
             // What touches and slides is held back by all its friction, and by its cohesion unless the other corner opens.
             if force > 1e-9 * loads {
                 let opens = inner.min(outer) <= 1e-9 * loads;
                 let held = friction * (inner + outer) + slip.signum() * shear;
                 let held = if opens { held } else { held + cohesion * length(problem, k) };
                 let held = if opens && cohesion > 0.0 { held.max(0.0) } else { held.abs() };
-                gap.slides_freely = gap.slides_freely.max(slip.abs() * held / loads);
+                gap.slides_freely = larger(gap.slides_freely, slip.abs() * held / loads);
             }
         }
     }

@@ -12,6 +12,7 @@ pub mod falling;
 pub mod field;
 pub mod folders;
 pub mod full_solution;
+pub mod largest;
 pub mod masonry;
 pub mod motion;
 pub mod oracle;

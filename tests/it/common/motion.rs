@@ -1,6 +1,7 @@
 //! The kinematic side, checked with nothing but the velocities in a report: no stone enters another or the ground,
 //! and where no joint slides the loads do no work in the mechanism (the kinematic theorem).
 
+use super::largest::larger;
 use super::oracle::{Point, Problem};
 use voussoir::collapse::Mechanism;
 
@@ -33,7 +34,7 @@ pub fn measure(problem: &Problem, centroids: &[Point], mechanism: &Mechanism, lo
         for corner in [seam.intrados, seam.extrados] {
             let (after, before) = (moved(Some(k), corner), moved(k.checked_sub(1), corner));
             let opening = ((after[0] - before[0]) * along[1] - (after[1] - before[1]) * along[0]) / length;
-            closing = closing.max(-opening);
+            closing = larger(closing, -opening);
             fastest = [after, before].iter().map(|v| v[0].hypot(v[1])).fold(fastest, f64::max);
         }
     }

@@ -1,6 +1,7 @@
 //! The end of a settlement judged by statics and the contact law, from what is reported alone: displacements, thrust line,
 //! thrust. Nothing of `src/` judges here.
 
+use super::largest::{larger, largest};
 use voussoir::collapse::{Analysis, SettlementPath};
 use voussoir::geometry::Vec2;
 
@@ -24,16 +25,16 @@ pub struct Faults {
 impl Faults {
     pub fn largest(&self) -> f64 {
         let Faults { unbalanced, outside, tension, sheared, overlap, off_hinge } = *self;
-        [unbalanced, outside, tension, sheared, overlap, off_hinge].into_iter().fold(0.0, f64::max)
+        largest([unbalanced, outside, tension, sheared, overlap, off_hinge])
     }
 
     fn worse(&mut self, other: Faults) {
-        self.unbalanced = self.unbalanced.max(other.unbalanced);
-        self.outside = self.outside.max(other.outside);
-        self.tension = self.tension.max(other.tension);
-        self.sheared = self.sheared.max(other.sheared);
-        self.overlap = self.overlap.max(other.overlap);
-        self.off_hinge = self.off_hinge.max(other.off_hinge);
+        self.unbalanced = larger(self.unbalanced, other.unbalanced);
+        self.outside = larger(self.outside, other.outside);
+        self.tension = larger(self.tension, other.tension);
+        self.sheared = larger(self.sheared, other.sheared);
+        self.overlap = larger(self.overlap, other.overlap);
+        self.off_hinge = larger(self.off_hinge, other.off_hinge);
     }
 }
 

@@ -3,6 +3,7 @@
 
 use super::exhaustive;
 use super::full_solution::{self, Gap};
+use super::largest::larger;
 use super::oracle::{Aim, Bond, Limit, Problem, Seam};
 use super::{door, sliding_arch};
 use serde_json::Value;
@@ -142,7 +143,7 @@ fn lowest_variant(analysis: &Analysis, end: &PathEnd, sign: f64) -> f64 {
         let report = answer(&variant.analysis);
         for (end, way) in ends(&variant.analysis, &report) {
             if way == sign {
-                lowest = lowest.min(sign * (end.on_path() + variant.before));
+                lowest = -larger(-lowest, -sign * (end.on_path() + variant.before));
             }
         }
     }

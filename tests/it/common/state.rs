@@ -2,6 +2,7 @@
 //!
 //! All figures are shares of the loads: the sum of the sizes of all forces at the state's load factor.
 
+use super::largest::larger;
 use voussoir::collapse::{Analysis, CollapseReport, ContactPoint, Method, PathEnd, Snapshot};
 use voussoir::geometry::Vec2;
 use voussoir::structure::{Joint, JointLaw, PointForce, Structure};
@@ -59,11 +60,6 @@ impl Broken {
             stress: larger(self.stress, other.stress),
         }
     }
-}
-
-/// The larger number; what is none is larger than any.
-pub fn larger(a: f64, b: f64) -> f64 {
-    if a.is_nan() || b.is_nan() { f64::INFINITY } else { a.max(b) }
 }
 
 /// Every state of a report, with a name.

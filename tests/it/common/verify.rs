@@ -1,5 +1,6 @@
 //! One random arch through the front door, held against the criteria and the oracle.
 
+use super::largest::larger;
 use super::{door, motion, oracle::Problem, random_arch};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
@@ -92,8 +93,8 @@ fn relative(a: f64, b: f64, floor: f64) -> f64 {
 }
 
 impl Checked {
-    fn complain(&mut self, fails: bool, words: impl FnOnce() -> String) {
-        if fails {
+    fn expect(&mut self, holds: bool, words: impl FnOnce() -> String) {
+        if !holds {
             self.complaints.push(words());
         }
     }
@@ -102,7 +103,7 @@ impl Checked {
         self.outcome = Some(report.outcome);
         self.events = report.cost.events;
         let cannot = report.outcome == Outcome::CannotTell;
-        self.complain(cannot, || {
+        self.expect(!cannot, || {
             let window = report.limit_window.map(|w| (w.lowest, w.highest));
             format!("cannot tell: {:?} (limit window {window:?}, start {})", report.notes, report.start)
         });
@@ -116,8 +117,8 @@ impl Checked {
     }
 
     fn measure_end(&mut self, analysis: &Analysis, window: LimitWindow, end: &PathEnd, sign: f64, cannot: bool) {
-        self.residual = self.residual.max(end.residual);
-        self.complain(end.residual > RESIDUAL || end.residual.is_nan(), || format!("residual {:e}", end.residual));
+        self.residual = larger(self.residual, end.residual);
+        self.expect(end.residual <= RESIDUAL, || format!("residual {:e}", end.residual));
         if cannot {
             return;
         }
@@ -125,16 +126,16 @@ impl Checked {
         let limit = if sign > 0.0 { window.highest } else { window.lowest };
         if limit.is_infinite() {
             let explained = end.mechanism.slips();
-            self.complain(!explained, || format!("falls at {} without sliding, window {limit}", end.load_factor));
+            self.expect(explained, || format!("falls at {} without sliding, window {limit}", end.load_factor));
             return;
         }
         let floor = SMALL * balance(analysis);
         let excess = sign * (end.load_factor - limit) / limit.abs().max(floor);
         self.excess = Some(self.excess.unwrap_or(f64::NEG_INFINITY).max(excess));
-        self.complain(excess > ABOVE || excess.is_nan(), || format!("{:e} above the window {limit}", excess));
+        self.expect(excess <= ABOVE, || format!("{:e} above the window {limit}", excess));
         if !end.mechanism.slips() {
             self.deviation = Some(self.deviation.unwrap_or(0.0).max(excess.abs()));
-            self.complain(excess.abs() > EQUAL, || format!("{excess:e} off the window {limit} without sliding"));
+            self.expect(excess.abs() <= EQUAL, || format!("{excess:e} off the window {limit} without sliding"));
         } else if limit.abs() > floor {
             self.ratio = Some(self.ratio.unwrap_or(1.0).min(end.load_factor / limit));
         }
@@ -146,17 +147,15 @@ impl Checked {
             return self.complaints.push("the mechanism has no velocities".into());
         }
         let motion = motion::measure(&door::problem(analysis), &centroids, &end.mechanism, end.load_factor);
-        self.entering = self.entering.max(motion.entering);
+        self.entering = larger(self.entering, motion.entering);
         // Where joints slide the peak of the path need not be a mechanism (no normality): measured, not judged.
         if !end.mechanism.slips() {
-            self.complain(motion.entering > MOTION || motion.entering.is_nan(), || {
+            self.expect(motion.entering <= MOTION, || {
                 format!("stones enter each other in the mechanism, {:e}", motion.entering)
             });
-            self.power = self.power.max(motion.power.abs());
-            self.complain(motion.power.abs() > MOTION, || {
-                format!("loads do work in the mechanism, {:e}", motion.power)
-            });
-            self.complain(sign * motion.driving <= 0.0, || format!("scaled loads do work {:e}", motion.driving));
+            self.power = larger(self.power, motion.power.abs());
+            self.expect(motion.power.abs() <= MOTION, || format!("loads do work in the mechanism, {:e}", motion.power));
+            self.expect(sign * motion.driving > 0.0, || format!("scaled loads do work {:e}", motion.driving));
         }
     }
 
@@ -171,10 +170,9 @@ impl Checked {
         match (oracle, report.limit_window) {
             (None, None) => {}
             (Some((low, high)), Some(window)) => {
-                let error = relative(low, window.lowest, floor).max(relative(high, window.highest, floor));
+                let error = larger(relative(low, window.lowest, floor), relative(high, window.highest, floor));
                 self.window_error = Some(error);
-                let fails = error > WINDOW || error.is_nan();
-                self.complain(fails, || {
+                self.expect(error <= WINDOW, || {
                     format!("window [{}, {}], oracle [{low}, {high}]", window.lowest, window.highest)
                 });
             }
@@ -199,7 +197,7 @@ impl Checked {
             || report.outcome == Outcome::Crushes
             || (slides && report.outcome == Outcome::SlidesAsBuilt)
             || (slides && expected == Outcome::NeverCollapses && report.outcome == Outcome::Collapse);
-        self.complain(report.outcome != expected && !explained, || {
+        self.expect(report.outcome == expected || explained, || {
             format!("outcome {:?}, the oracle expects {expected:?}", report.outcome)
         });
     }

@@ -1,6 +1,7 @@
 //! Statics of an answer, worked out anew from its own numbers: every stone in equilibrium, every joint within its law.
 
 use super::scene::Solved;
+use crate::common::largest::{larger, largest};
 use voussoir::collapse::{Face, PathEnd, Snapshot};
 use voussoir::geometry::Vec2;
 use voussoir::structure::Joint;
@@ -31,7 +32,7 @@ fn imbalance(solved: &Solved, factor: f64, joint: impl Fn(usize, Vec2, f64) -> W
                 add(&mut sum, wrench(load.force * times, load.at, about, length), 1.0);
             }
         }
-        worst = sum.iter().map(|part| if part.is_nan() { f64::INFINITY } else { part.abs() }).fold(worst, f64::max);
+        worst = sum.iter().map(|part| part.abs()).fold(worst, larger);
     }
     worst / solved.weight(factor)
 }
@@ -109,11 +110,11 @@ pub fn inconsistency(solved: &Solved, end: &PathEnd) -> f64 {
             let along = if wall { 0.0 } else { jump.dot(&joint.tangent()) - slide };
             let opens = lift_off.map_or(0.0, |l| if face == Face::Intrados { l.intrados } else { l.extrados });
             let opening = jump.dot(&joint.normal()) - opens;
-            worst = worst.max(opening.abs() / joint.length()).max(along.abs() / joint.length());
+            worst = largest([worst, opening.abs() / joint.length(), along.abs() / joint.length()]);
             // Turning about the intrados opens the extrados: the stone after the joint turns clockwise.
             let turning = hinge.map_or(0.0, |h| if h.face == Face::Intrados { -h.rotation } else { h.rotation });
             let spin = if lift_off.is_some() { turning } else { spin };
-            worst = worst.max((spin - turning).abs());
+            worst = larger(worst, (spin - turning).abs());
         }
     }
     worst

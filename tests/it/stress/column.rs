@@ -1,6 +1,7 @@
 //! Chains of refined stones glued at their joints, and the same whole, uncondensed and dense.
 
 use super::mesh::{Mesh, STONE};
+use crate::common::largest::largest;
 use crate::common::row::in_a_row;
 use nalgebra::{DMatrix, DVector};
 use std::ops::ControlFlow;
@@ -245,10 +246,10 @@ fn condensation_loses_nothing() {
         let (solved, whole) = (glued.solve(&pushes), glued.whole(&pushes));
         let condensed: Vec<[f64; 3]> = (0..3).flat_map(|body| solved.stresses(body)).collect();
         assert_eq!(condensed.len(), whole.len());
-        let largest = whole.iter().flatten().fold(0.0f64, |largest, s| largest.max(s.abs()));
-        let apart = condensed.iter().flatten().zip(whole.iter().flatten()).map(|(a, b)| (a - b).abs() / largest);
-        let apart = apart.fold(0.0, f64::max);
-        println!("condensed against whole, {cells:?}: {apart:.1e} of {largest:.3e} Pa");
+        let size = whole.iter().flatten().fold(0.0f64, |size, s| size.max(s.abs()));
+        let apart = condensed.iter().flatten().zip(whole.iter().flatten()).map(|(a, b)| (a - b).abs() / size);
+        let apart = largest(apart);
+        println!("condensed against whole, {cells:?}: {apart:.1e} of {size:.3e} Pa");
         assert!(apart <= 1e-9, "{cells:?}: {apart:e}");
     }
 }

@@ -1,5 +1,6 @@
 //! Stress fields of whole arches: symmetry, and the forces that a cut through them carries.
 
+use crate::common::largest::larger;
 use std::f64::consts::FRAC_PI_2;
 use voussoir::api::read::read_analysis;
 use voussoir::budget::Budget;
@@ -95,7 +96,7 @@ fn worst_cut(analysis: &Analysis, report: &CollapseReport, loaded: usize, [radia
                     Vec2::new(x * forward.x + tau * forward.y, tau * forward.x + y * forward.y) * -length
                 })
                 .sum();
-            worst = worst.max((carried - expected).norm() / expected.norm());
+            worst = larger(worst, (carried - expected).norm() / expected.norm());
         }
     }
     worst

@@ -2,6 +2,7 @@
 
 use super::column::bonded;
 use super::mesh::Mesh;
+use crate::common::largest::largest;
 use nalgebra::{DMatrix, DVector};
 use voussoir::budget::Budget;
 use voussoir::dda::{Bond, Condensed, Node, Push, free_response};
@@ -18,8 +19,8 @@ const ARCS: f64 = 0.05;
 /// Largest miss of any subblock's stress as a share of the largest entry of the uniform one.
 fn miss(stresses: impl IntoIterator<Item = [f64; 3]>, expected: [f64; 3]) -> f64 {
     let size = expected.iter().fold(0.0f64, |largest, s| largest.max(s.abs()));
-    let apart = |s: [f64; 3]| (0..3).map(|c| (s[c] - expected[c]).abs() / size).fold(0.0, f64::max);
-    stresses.into_iter().map(apart).fold(0.0, f64::max)
+    let apart = |s: [f64; 3]| largest((0..3).map(|c| (s[c] - expected[c]).abs() / size));
+    largest(stresses.into_iter().map(apart))
 }
 
 /// The miss of the free stone under the tractions of a uniform stress.
@@ -50,7 +51,7 @@ fn slender_subblocks_lose_digits_only() {
     println!("patch test, a rectangle of 5x2 subblocks: length over height of a subblock, largest miss");
     for aspect in [1.0, 5.0, 25.0, 100.0] {
         let mesh = Mesh::rectangle([5, 2], 0.08 * aspect, 0.2);
-        let worst = STATES.map(|state| free_miss(&mesh, Bond::Split, state)).into_iter().fold(0.0, f64::max);
+        let worst = largest(STATES.map(|state| free_miss(&mesh, Bond::Split, state)));
         println!("{aspect:>5} {worst:.1e}");
         assert!(worst <= if aspect <= 5.0 { EXACT } else { 1e-6 }, "{aspect}: {worst:e}");
     }
@@ -59,7 +60,7 @@ fn slender_subblocks_lose_digits_only() {
 #[test]
 fn a_rectangle_of_unequal_subblocks_takes_a_uniform_stress() {
     let mesh = Mesh::new([3, 4], false, |xi, eta| Vec2::new(xi * (0.4 + xi), 0.7 * eta * (1.5 - 0.5 * eta)));
-    let worst = STATES.map(|state| free_miss(&mesh, Bond::Split, state)).into_iter().fold(0.0, f64::max);
+    let worst = largest(STATES.map(|state| free_miss(&mesh, Bond::Split, state)));
     println!("patch test, graded rectangle 3x4: {worst:.2e}");
     assert!(worst <= EXACT, "{worst:e}");
 }
@@ -74,12 +75,12 @@ fn subblocks_with_slanted_sides_and_sectors_nearly_take_a_uniform_stress() {
     for n in [2, 4, 8, 16] {
         let trapezoid = Mesh::new([n, n], false, |xi, eta| Vec2::new((xi - 0.5) * (1.0 + 0.5 * eta), 0.8 * eta));
         let voussoir = |arcs| Mesh::voussoir([n, n], [0.5, 0.7], [1.8, 1.3], arcs);
-        let worst = |mesh: Mesh| STATES.map(|s| free_miss(&mesh, Bond::Split, s)).into_iter().fold(0.0, f64::max);
+        let worst = |mesh: Mesh| largest(STATES.map(|s| free_miss(&mesh, Bond::Split, s)));
         let row = [worst(trapezoid), worst(voussoir(false)), worst(voussoir(true))];
         println!("{:>8} {:>12.3e} {:>12.3e} {:>12.3e}", format!("{n}x{n}"), row[0], row[1], row[2]);
         rows.push(row);
     }
-    let worst = |k: usize| rows.iter().map(|row| row[k]).fold(0.0, f64::max);
+    let worst = |k: usize| largest(rows.iter().map(|row| row[k]));
     assert!(worst(0) <= SLANTED && worst(1) <= SLANTED, "{rows:?}");
     // Sectors: first order, halved from mesh to mesh.
     assert!(worst(2) <= ARCS && rows.windows(2).all(|pair| pair[1][2] <= 0.65 * pair[0][2]), "{rows:?}");
@@ -127,7 +128,7 @@ fn rigid_motions_cost_no_force() {
             for (m, moved) in moved.iter().enumerate() {
                 let (at, h) = (motion(m, block.centroid()), block.size());
                 let expected = [at.x, at.y, if m == 2 { h } else { 0.0 }, 0.0, 0.0, 0.0];
-                let apart = (0..6).map(|i| (moved[6 * k + i] - expected[i]).abs()).fold(0.0, f64::max);
+                let apart = largest((0..6).map(|i| (moved[6 * k + i] - expected[i]).abs()));
                 assert!(apart <= 1e-9, "{cells:?}: subblock {k} moves {apart:e} off motion {m}");
             }
         }
@@ -160,7 +161,7 @@ fn a_column_of_refined_stones_is_uniform_under_pressure() {
             })
             .collect();
         let solved = column.solve(&loads);
-        let miss = (0..2).map(|i| miss(solved.stresses(i), [0.0, -pressure, 0.0])).fold(0.0, f64::max);
+        let miss = largest((0..2).map(|i| miss(solved.stresses(i), [0.0, -pressure, 0.0])));
         println!("{lower:?} under {upper:?}: {miss:.2e}");
         assert!(miss <= EXACT, "{lower:?} under {upper:?}: {miss:e}");
     }

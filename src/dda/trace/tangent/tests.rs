@@ -2,6 +2,7 @@ use super::*;
 use crate::budget::Budget;
 use crate::dda::{AssemblyBuilder, Beside, Block, Drive, Elasticity, End, Law, Push, Touch, covering};
 use crate::geometry::{Region, Vec2};
+use crate::largest::{larger, largest};
 use std::ops::ControlFlow;
 
 /// Unit squares on the ground, one on the other, with nine contact points a joint; where a joint bears no more than `cap`, they are
@@ -34,8 +35,8 @@ fn error(tracer: &Tracer) -> f64 {
     exact.solve_tangent();
     let sign = (exact.rate * tracer.rate).signum();
     let apart = |(a, b): (&f64, &f64)| (a - sign * b).abs();
-    let largest = exact.direction.iter().zip(&tracer.direction).map(apart).fold(0.0, f64::max);
-    largest.max((1.0 - sign * tracer.rate / exact.rate).abs())
+    let apart = exact.direction.iter().zip(&tracer.direction).map(apart);
+    largest(apart.chain([(1.0 - sign * tracer.rate / exact.rate).abs()]))
 }
 
 #[test]
@@ -49,7 +50,7 @@ fn an_updated_tangent_is_that_of_a_factorisation() {
     let mut tracer = Tracer::new(&assembly, covering(&assembly, &weight, 1e-4), 6.0, 6e4, &budget);
     let mut worst = 0f64;
     let mut see = |tracer: &Tracer| {
-        worst = worst.max(error(tracer));
+        worst = larger(worst, error(tracer));
         ControlFlow::Continue(())
     };
     assert_eq!(tracer.trace(1.0, &mut see), End::Reached);

@@ -2,6 +2,7 @@
 
 use super::recheck::Reported;
 use super::{Problem, area_and_centroid, total};
+use crate::common::largest::larger;
 
 /// How far from a full solution they are; velocities count as shares of the fastest corner, forces as shares of the loads.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -39,14 +40,14 @@ pub fn measure(problem: &Problem, factor: f64, forces: &[Reported], velocities: 
         };
         for (end, force) in contact.ends.into_iter().zip(ends) {
             let opening = rate(end, normal);
-            gap.entering = gap.entering.max(-opening);
-            gap.opens_under_force = gap.opens_under_force.max(opening.max(0.0) * force.abs() / loads);
+            gap.entering = larger(gap.entering, -opening);
+            gap.opens_under_force = larger(gap.opens_under_force, opening.max(0.0) * force.abs() / loads);
         }
         let slip = rate(contact.ends[0], along);
         let bound = contact.friction * force.normal + contact.cohesion * contact.length();
         // Friction acts on what lies after the joint, against its sliding.
         let short = bound + slip.signum() * force.shear;
-        gap.slides_freely = gap.slides_freely.max(slip.abs() * short / loads);
+        gap.slides_freely = larger(gap.slides_freely, slip.abs() * short / loads);
     }
     let power = |push: &super::Push| {
         let [u, v] = at(Some(push.block), push.at);

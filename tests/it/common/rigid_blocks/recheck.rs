@@ -1,6 +1,7 @@
 //! Forces that an answer reports, judged by equilibrium and by the law of the joints alone.
 
 use super::{Contact, Problem, area_and_centroid, total};
+use crate::common::largest::{larger, largest};
 
 /// The force of a joint as an answer reports it: all that goes through the joint, acting on what lies after it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -76,11 +77,11 @@ pub fn recheck(problem: &Problem, factor: f64, forces: &[Reported]) -> Worst {
     }
     let residual = |(block, sum): (usize, &[f64; 3])| {
         let size = size(&problem.blocks[block], centres[block]);
-        (block, [sum[0], sum[1], sum[2] / size].into_iter().fold(0.0, |worst: f64, r| worst.max(r.abs())) / unit)
+        (block, largest([sum[0], sum[1], sum[2] / size].map(f64::abs)) / unit)
     };
-    let (block, residual) = largest(sums.iter().enumerate().map(residual));
+    let (block, residual) = worst(sums.iter().enumerate().map(residual));
     let all = problem.contacts.iter().zip(forces).map(|(contact, force)| violation(contact, force) / unit);
-    let (joint, violation) = largest(all.enumerate());
+    let (joint, violation) = worst(all.enumerate());
     Worst { residual, block, violation, joint }
 }
 
@@ -89,13 +90,16 @@ fn violation(contact: &Contact, force: &Reported) -> f64 {
     let lean = force.normal * force.eccentricity / contact.length();
     let ends = [0.5 * force.normal - lean, 0.5 * force.normal + lean];
     let bound = contact.friction * force.normal.max(0.0) + contact.cohesion * contact.length();
-    [-ends[0], -ends[1], force.shear.abs() - bound].into_iter().fold(0.0, f64::max)
+    largest([-ends[0], -ends[1], force.shear.abs() - bound])
 }
 
 fn size(corners: &[[f64; 2]], centre: [f64; 2]) -> f64 {
     corners.iter().map(|c| (c[0] - centre[0]).hypot(c[1] - centre[1])).fold(0.0, f64::max)
 }
 
-fn largest(all: impl Iterator<Item = (usize, f64)>) -> (usize, f64) {
-    all.fold((0, 0.0), |worst, one| if one.1 > worst.1 { one } else { worst })
+fn worst(all: impl Iterator<Item = (usize, f64)>) -> (usize, f64) {
+    all.fold(
+        (0, 0.0),
+        |worst, one| if larger(one.1, worst.1) == worst.1 { worst } else { (one.0, larger(one.1, worst.1)) },
+    )
 }

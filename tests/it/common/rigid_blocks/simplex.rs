@@ -7,6 +7,7 @@
 
 use super::assembly::Equilibrium;
 use super::{Aim, Answer, Forces, Problem};
+use crate::common::largest::largest;
 
 /// Numbers smaller than this are rounding: the programme is scaled to order one.
 const ZERO: f64 = 1e-10;
@@ -132,11 +133,11 @@ impl Simplex {
         self.phase(&cost)?;
         self.refresh()?;
         let prices = self.prices(&cost);
-        let least = (0..n).map(|k| self.reduced(&cost, &prices, k)).fold(0.0, f64::min);
-        let lowest = self.x.iter().copied().fold(0.0, f64::min);
-        let left = (0..m).filter(|&i| self.basis[i] >= n).map(|i| self.x[i].abs()).fold(0.0, f64::max);
-        if !(least >= -CERTAIN && lowest >= -CERTAIN && left <= CERTAIN) {
-            return Err(Answer::Undecided(format!("no certificate: {least:e} {lowest:e} {left:e}")));
+        let least = largest((0..n).map(|k| -self.reduced(&cost, &prices, k)));
+        let lowest = largest(self.x.iter().map(|x| -x));
+        let left = largest((0..m).filter(|&i| self.basis[i] >= n).map(|i| self.x[i].abs()));
+        if largest([least, lowest, left]) > CERTAIN {
+            return Err(Answer::Undecided(format!("no certificate: {:e} {:e} {left:e}", -least, -lowest)));
         }
         let mut x = vec![0.0; n + m];
         (0..m).for_each(|i| x[self.basis[i]] = self.x[i]);
