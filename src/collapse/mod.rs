@@ -13,6 +13,7 @@ mod mirror;
 mod motion;
 mod path;
 mod plan;
+mod plastic_end;
 mod record;
 pub mod report;
 mod rigid_parts;

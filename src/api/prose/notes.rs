@@ -4,6 +4,18 @@ use super::Digits;
 use crate::collapse::{Doubt, FieldAt, LimitWindow, LoadRange, Note, OtherStates, PlanReason, Unfollowed, Unreached};
 use std::fmt;
 
+impl Note {
+    /// What to change in the request, where a note on a doubt knows it.
+    pub(in crate::api) fn remedy(&self) -> Option<&'static str> {
+        match self {
+            Note::Doubt(Doubt::LooseStones) => Some("Give the arch its self weight."),
+            Note::Doubt(Doubt::Slender { .. }) => Some("Check the unit of the thickness."),
+            Note::NotFinite(_) => Some("Check the units of the request."),
+            _ => None,
+        }
+    }
+}
+
 impl fmt::Display for Note {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         out.write_str(&match self {
@@ -34,6 +46,7 @@ impl fmt::Display for Note {
             Note::NothingGrows => "Nothing grows with the load factor: the answer says only that the arch stands.".into(),
             Note::LaterMechanism => LATER_MECHANISM.into(),
             Note::CrushesAndSlides => CRUSHES_AND_SLIDES.into(),
+            Note::CrushesAndDilates => CRUSHES_AND_DILATES.into(),
             Note::CohesionByPoint => COHESION_BY_POINT.into(),
             Note::UnbentStones => UNBENT_STONES.into(),
             Note::NoPlasticSections => NO_PLASTIC_SECTIONS.into(),
@@ -49,6 +62,8 @@ const FALLS_FROM_ZERO: &str = "The arch stands at load factor 0 and at none beyo
      and velocities are those in which it falls as soon as the load factor leaves 0.";
 const CRUSHES_AND_SLIDES: &str = "Joints slide, and may crush on the path. The collapse load is that of this load path; \
      where joints slide without dilating the arch may fall at others too, and where joints may crush none lower is looked for.";
+const CRUSHES_AND_DILATES: &str = "Joints slide where the stone crushes. That load is limit analysis's, which lets sliding \
+     joints dilate (associated friction); joints that do not dilate may bear less.";
 const LATER_MECHANISM: &str = "Joints at their limits at the collapse load make no mechanism, as may be where they slide. \
      Hinges and slides are those in which the load path ends; the thrust line is that at the collapse load.";
 const COHESION_BY_POINT: &str = "Cohesion is shared out to a joint's contact points, and those that open lose theirs: where \
@@ -110,8 +125,9 @@ fn crushes([strength, start]: [Digits; 2], window: Option<LimitWindow>) -> Strin
         |window| format!("only from {} to {}", Digits(window.lowest), Digits(window.highest)),
     );
     format!(
-        "With joints of plastic sections and a strength of {strength} Pa the arch does not stand at load factor {start}, from \
-         which the load path starts, but {left}. Collapse, hinges and stresses are those of stone that does not crush."
+        "With joints of plastic sections and a strength of {strength} Pa the arch does not stand at load factor {start}, but {left}. \
+         No stress within the strength is in equilibrium either, however fine the mesh. Collapse, hinges and stresses are those of \
+         stone that does not crush."
     )
 }
 
@@ -177,7 +193,7 @@ fn no_field(at: FieldAt, falls: bool) -> String {
         FieldAt::NearCollapse if falls => {
             "No stress field near collapse: the arch falls before it could be loaded.".into()
         }
-        FieldAt::NearCollapse => "No stress field near collapse: the arch does not collapse.".into(),
+        FieldAt::NearCollapse => "No stress field near collapse: the load path does not come to one.".into(),
     }
 }
 

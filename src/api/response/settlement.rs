@@ -1,8 +1,8 @@
 //! What the movement of supports does.
 
 use super::columns::{ThrustColumns, column};
-use super::mechanism::{HingeBody, LiftOffBody, SlideBody};
-use crate::collapse::{Mode, SettlementEnd, SettlementPath, SettlementPoint, SettlementReport};
+use super::mechanism::MechanismBody;
+use crate::collapse::{SettlementEnd, SettlementPath, SettlementPoint, SettlementReport};
 use serde::Serialize;
 use utoipa::ToSchema;
 
@@ -33,14 +33,9 @@ pub struct SettlementPathBody {
     /// The path, event by event, from the arch as it stands before the movement to the largest share it reaches. Where the
     /// share falls in between, the arch snaps into another shape.
     pub history: SettlementColumns,
-    /// How the crown goes on at the end.
-    pub mode: Mode,
-    /// Hinges on which the arch follows its supports, or falls, at the end.
-    pub hinges: Vec<HingeBody>,
-    /// Joints that slide at the end.
-    pub slides: Vec<SlideBody>,
-    /// Joints that part altogether at the end.
-    pub lift_offs: Vec<LiftOffBody>,
+    /// How it follows its supports, or falls, at the end.
+    #[serde(flatten)]
+    pub mechanism: MechanismBody,
     /// Resultant per joint at the end, as places on the joints as built.
     pub thrust_line: ThrustColumns,
     /// Displacements at the end.
@@ -113,10 +108,7 @@ impl SettlementPathBody {
             safe_share_of_movement: path.safe,
             thrust_n_per_m: history.thrust_n_per_m.as_ref().map(|thrust| thrust.last().copied().unwrap_or(0.0)),
             history,
-            mode: path.mechanism.mode,
-            hinges: path.mechanism.hinges.iter().map(Into::into).collect(),
-            slides: path.mechanism.slides.iter().map(Into::into).collect(),
-            lift_offs: path.mechanism.lift_offs.iter().map(Into::into).collect(),
+            mechanism: (&path.mechanism).into(),
             thrust_line: ThrustColumns::new(&path.thrust_line),
             displacements: DisplacementColumns {
                 x_m: column(&path.displacements, |row| row[0]),
