@@ -5,7 +5,7 @@ use super::rigid_parts::RigidParts;
 use super::smallest_motion::{Column, smallest_motion};
 use super::{Face, Hinge, LiftOff, Mechanism, Mode, Slide};
 use crate::budget::Budget;
-use crate::geometry::Vec2;
+use crate::geometry::{Vec2, mirrored};
 use crate::limit::{Release, Resultant, releases};
 use crate::structure::{Joint, JointLaw, Loops, PointForce, Side, Structure, resultants};
 use std::ops::Range;
@@ -315,12 +315,16 @@ fn crowns(structure: &Structure) -> impl Iterator<Item = (Range<usize>, [usize; 
     })
 }
 
-/// Angles of a joint's middle about the angle centre of its span: from the nearer springing, and from the crown (left
-/// negative), rad; None of a joint of no span.
+/// Angles of a joint's middle about the middle between those of the springing joints of its span: from the nearer springing, and
+/// from the crown (left negative), rad; None of a joint of no span.
 fn angles(structure: &Structure, joint: usize) -> Option<(f64, f64)> {
     let span = structure.span_of(joint)?;
+    let [first, last] = [span.joints.start, span.joints.end - 1].map(|k| &structure.joints[k]);
+    // Half an arch ends on its axis.
+    let other = if last.is_symmetry() { mirrored(first.middle(), last.middle().x) } else { last.middle() };
+    let centre = 0.5 * (first.middle() + other);
     let from_vertical = |k: usize| {
-        let r = structure.joints[k].middle() - span.angle_centre;
+        let r = structure.joints[k].middle() - centre;
         r.x.atan2(r.y)
     };
     let here = from_vertical(joint);

@@ -5,8 +5,8 @@ use voussoir::api::read::read_question;
 use voussoir::api::request::Request;
 use voussoir::api::response::JobResult;
 use voussoir::collapse::{
-    Answer, BeamReport, CollapseReport, Cost, Crushing, ElasticCrushing, Governs, LimitWindow, Mode, Note, Outcome,
-    PlasticCrushing, Reach, SafetyFactors, SafetyPoint, SafetyZone, StressField, SubblockStress, TaskReport,
+    Answer, BeamReport, CollapseReport, Cost, Crushing, Direction, ElasticCrushing, Governs, LimitWindow, Mode, Note,
+    Outcome, PlasticCrushing, Reach, SafetyFactors, SafetyPoint, SafetyZone, StressField, SubblockStress, TaskReport,
 };
 use voussoir::geometry::Vec2;
 
@@ -52,9 +52,10 @@ fn factors() -> SafetyFactors {
 fn report() -> CollapseReport {
     let window = LimitWindow { lowest: f64::NEG_INFINITY, highest: 3.0 };
     let elastic = ElasticCrushing { load_factor: Some(1.5), at_start: false, where_largest: Some(subblock()) };
-    let plastic = PlasticCrushing { window: Some(window), joints: [vec![], vec![2, 5]] };
+    let plastic = PlasticCrushing { window: Some(window), joints: [vec![], vec![2, 5]], ends: [None, None] };
     CollapseReport {
         outcome: Outcome::Crushes,
+        direction: Direction::Increase,
         proof: None,
         limit_window: Some(window),
         thrust_range: None,

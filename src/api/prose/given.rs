@@ -77,16 +77,16 @@ fn load(load: &LoadRequest) -> String {
         LoadRequest::FillPressure(pressure) => fill(pressure),
         LoadRequest::LateralPressure(lateral) => format!("lateral pressure, bands of height: {}", lateral.bands.len()),
         LoadRequest::PointLoad(point) => {
-            format!("{} N per metre of depth {}", Digits(point.force_n_per_m), place(point))
+            format!("{} kN/m {}", Digits(point.force_n_per_m / 1e3), place(point))
         }
         LoadRequest::PatchLoad(patch) => {
-            let [force, width, centre] = [patch.force_n_per_m, patch.width_m, patch.centre_x_m].map(Digits);
-            format!("{force} N per metre of depth, spread over a width of {width} m about x = {centre} m")
+            let [force, width, centre] = [patch.force_n_per_m / 1e3, patch.width_m, patch.centre_x_m].map(Digits);
+            format!("{force} kN/m, spread over {width} m about x = {centre} m")
         }
         LoadRequest::PointForce(force) => {
-            let [fx, fy] = force.force_n_per_m.map(Digits);
+            let [fx, fy] = force.force_n_per_m.map(|force| Digits(force / 1e3));
             let [x, y] = force.at_m.map(Digits);
-            format!("({fx}, {fy}) N per metre of depth on {} at ({x}, {y}) m", force.block)
+            format!("({fx}, {fy}) kN/m on {} at ({x}, {y}) m", force.block)
         }
         LoadRequest::BodyAcceleration(body) => {
             format!("acceleration of {} g to the right, {} g upwards", Digits(body.x_g), Digits(body.y_g))

@@ -11,7 +11,7 @@ use crate::api::response::{
 use crate::collapse::Outcome;
 use comfy_table::Table;
 
-/// Forces below this share of the largest are round-off.
+/// Forces below this share of the largest are round-off, and lengths.
 const ROUND_OFF: f64 = 1e-12;
 /// Most joints on the ground that are listed.
 const JOINTS_LISTED: usize = 12;
@@ -23,7 +23,9 @@ fn between(structure: &StructureBody, joint: usize) -> String {
 }
 
 fn place(at: [f64; 2]) -> String {
-    let [x, y] = at.map(Digits);
+    let size = at[0].hypot(at[1]);
+    // The rounding of a sine is no height.
+    let [x, y] = at.map(|along| Digits(if along.abs() > ROUND_OFF * size { along } else { 0.0 }));
     format!("({x}, {y}) m")
 }
 

@@ -29,21 +29,9 @@ pub fn summary(result: &AnalysisResult, wall_time: Duration) -> String {
         joints::ground(&mut text, end, result);
     }
     moving::supports(&mut text, result);
-    let modes =
-        result.ends.iter().map(|end| end.fall.mechanism.mode).chain(result.safety.iter().filter_map(|s| s.mode));
-    for mode in modes.fold(Vec::new(), |mut all, mode| {
-        if all.contains(&mode) {
-            all
-        } else {
-            all.push(mode);
-            all
-        }
-    }) {
-        paragraph(&mut text, &in_its_words(&result.request, &format!("Mode {}: {}", word(&mode), wording::mode(mode))));
-    }
-    if let Some(zone) = result.safety.as_ref().and_then(|safety| safety.zone) {
-        paragraph(&mut text, wording::zone(zone));
-    }
+    let modes = result.ends.iter().map(|end| end.fall.mechanism.mode);
+    let modes = modes.chain(result.safety.iter().filter_map(|safety| safety.mode));
+    wording::explain(&mut text, &result.request, modes, result.safety.iter().filter_map(|safety| safety.zone));
     let of_safety = result.safety.iter().flat_map(|safety| &safety.notes);
     for (i, end) in result.ends.iter().enumerate() {
         if let Some(motion) = &end.motion {

@@ -1,11 +1,14 @@
 //! An answer in sentences.
 
 use super::noun::in_its_words;
+use super::summary::paragraph;
 use super::{moving, safety};
 use crate::api::prose::{Digits, Rounded};
+use crate::api::request::AnalysisRequest;
 use crate::api::response::{AnalysisResult, EndBody, MethodWord, MotionBody, RangeBody};
 use crate::collapse::{Direction, GovernedBy, Mode, Outcome, SafetyZone, WhichEnd};
 use serde::Serialize;
+use std::collections::BTreeSet;
 use std::fmt::Display;
 
 /// Longest line of prose, characters.
@@ -189,25 +192,34 @@ fn reversed(result: &AnalysisResult) -> bool {
     result.request.load_factor.direction == Direction::Decrease
 }
 
-/// What a mode means.
-pub fn mode(mode: Mode) -> &'static str {
-    match mode {
-        Mode::CrownRises => "the crown goes up.",
-        Mode::CrownDescends => "the crown goes down.",
-        Mode::Sway => "the crown moves sideways more than up or down.",
-        Mode::Sliding => "joints slide more than they open.",
-        Mode::Overturning => "blocks turn over.",
-        Mode::Crushing => "joints crush over their whole length, and none opens or slides.",
-    }
-}
-
-/// What a zone of the paper means.
-pub fn zone(zone: SafetyZone) -> &'static str {
-    match zone {
-        SafetyZone::CrownRises => "Zone I: it falls, and the crown rises.",
-        SafetyZone::Crushing => "Zone II: the stone crushes.",
-        SafetyZone::CrownDescends => "Zone III: it falls, and the crown descends.",
-    }
+/// What the modes, and the zones of the paper, that appear in an answer mean.
+pub fn explain(
+    text: &mut String,
+    request: &AnalysisRequest,
+    modes: impl Iterator<Item = Mode>,
+    zones: impl Iterator<Item = SafetyZone>,
+) {
+    let of_mode = |mode: Mode| {
+        let means = match mode {
+            Mode::CrownRises => "the crown goes up",
+            Mode::CrownDescends => "the crown goes down",
+            Mode::Sway => "the crown moves sideways more than up or down",
+            Mode::Sliding => "joints slide more than they open",
+            Mode::Overturning => "blocks turn over",
+            Mode::Crushing => "joints crush over their whole length, and none opens or slides",
+        };
+        format!("Mode {}: {means}.", word(&mode))
+    };
+    let of_zone = |zone: SafetyZone| {
+        let means = match zone {
+            SafetyZone::CrownRises => "the arch falls, and its crown rises",
+            SafetyZone::Crushing => "the stone crushes",
+            SafetyZone::CrownDescends => "the arch falls, and its crown descends",
+        };
+        format!("Zone {}: {means}.", safety::zone(Some(zone)))
+    };
+    let lines: BTreeSet<String> = modes.map(of_mode).chain(zones.map(of_zone)).collect();
+    lines.iter().for_each(|line| paragraph(text, &in_its_words(request, line)));
 }
 
 /// What limit analysis allows.

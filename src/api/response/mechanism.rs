@@ -112,7 +112,8 @@ pub struct HingeBody {
     pub opens: Face,
     /// The point that it turns about, [x, y]: the joint's end on `face`, or that of the block that is crushed there.
     pub at_m: [f64; 2],
-    /// Position: angle from the nearer springing, about the angle centre of its span; null of a joint of no span.
+    /// Position: angle of its middle from that of the nearer springing joint of its span, about the middle between both; null of a
+    /// joint of no span.
     pub angle_from_springing_deg: Option<f64>,
     /// Position: angle from the crown of its span, negative on the left; null of a joint of no span.
     pub angle_from_crown_deg: Option<f64>,

@@ -27,15 +27,11 @@ pub fn arch(request: &ArchRequest, stone: Stone, faults: &mut Faults) -> Option<
     if let Some(abutments) = &request.abutments {
         faults.within("/arch/abutments/height_m", abutments.height_m, 0.0, MAX_LENGTH_M);
     }
-    let (ends, ring, centre) = if let ProfileRequest::Surveyed(surveyed) = &request.profile {
-        let ends = surveyed_ends(request, surveyed, faults)?;
-        let centre = 0.25 * (ends[0][0] + ends[0][1] + ends[ends.len() - 1][0] + ends[ends.len() - 1][1]);
-        (ends, None, centre)
+    let (ends, ring) = if let ProfileRequest::Surveyed(surveyed) = &request.profile {
+        (surveyed_ends(request, surveyed, faults)?, None)
     } else {
         let ring = ring(request, faults)?;
-        let ends = ring.set_out().map_err(|found| list(&found, request, faults)).ok()?;
-        let centre = ring.profile.angle_centre();
-        (ends, Some(ring), centre)
+        (ring.set_out().map_err(|found| list(&found, request, faults)).ok()?, Some(ring))
     };
     let mut voussoirs = straight_voussoirs(&ends).map_err(|found| list(&found, request, faults)).ok()?;
     if let Some(ring) = ring.filter(|_| request.curved_sides) {
@@ -44,7 +40,7 @@ pub fn arch(request: &ArchRequest, stone: Stone, faults: &mut Faults) -> Option<
     if faults.len() > before {
         return None;
     }
-    let mut arch = assemble(&ends, voussoirs, stone, joint_law(&stone), centre);
+    let mut arch = assemble(&ends, voussoirs, stone, joint_law(&stone));
     if request.springing_joints == SpringingJoints::Bonded {
         let last = arch.joints.len() - 1;
         arch.joints[0].law = JointLaw::Bonded;

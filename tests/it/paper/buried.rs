@@ -11,7 +11,7 @@ const TABLE_2: [(usize, &str, &str); 5] =
 fn stepped(request: &Value) -> f64 {
     let mut request = request.clone();
     request["method"] = json!({"fixed_steps": {"step": 5.0, "opening_m": 0.01, "hinges": 3}});
-    number(&solve(&request), "/collapse/intensity")
+    number(&solve(&request), "/ends/0/instability/intensity")
 }
 
 /// Abscissae of the extrados ends of the joints, from left to right, m.
@@ -38,7 +38,7 @@ fn lumped(request: &Value, ends: &[f64]) -> f64 {
             loads.push(json!({"load": {"point_load": {"force_n_per_m": force, "voussoir": k}}, "scaled": true}));
         }
     }
-    number(&solve(&request), "/collapse/intensity")
+    number(&solve(&request), "/ends/0/instability/intensity")
 }
 
 #[test]
@@ -53,7 +53,7 @@ fn table_2_critical_intensity_against_joints() {
         let request = request(&case);
         let answer = solve(&request);
         let limit = number(&expected(&case), "/intensity");
-        let (ours, steps) = (number(&answer, "/collapse/intensity"), stepped(&request));
+        let (ours, steps) = (number(&answer, "/ends/0/instability/intensity"), stepped(&request));
         let lumped = lumped(&request, &abscissae(&answer, joints));
         println!("{joints:>7} {experiment:>11} {dda:>10} {limit:>15.2} {ours:>10.4} {steps:>12.0} {lumped:>13.2}");
         close(&case, ours, limit, 0.006);
@@ -78,7 +78,7 @@ fn table_2_hinges_alternate() {
 #[test]
 fn figure_8_the_half_model() {
     let (half, whole) = (solve(&request("figure-8")), solve(&request("table-2/61-joints")));
-    let [a, b] = [&half, &whole].map(|answer| number(answer, "/collapse/intensity"));
+    let [a, b] = [&half, &whole].map(|answer| number(answer, "/ends/0/instability/intensity"));
     println!("Fig. 8, 61 joints: {a:.6} kN/m of the half against a smooth wall, {b:.6} kN/m of the whole, printed 205");
     close("half and whole", a, b, 1e-6 * b);
     close("limit analysis", a, number(&expected("figure-8"), "/intensity"), 0.006);
