@@ -22,7 +22,7 @@ pub use falling::{FrameColumns, MotionBody, MotionContactColumns, OpenHingeColum
 pub use mechanism::{
     CrushedJointBody, EndBody, FallBody, FigureBody, HingeBody, LiftOffBody, MechanismBody, RangeBody, SlideBody,
 };
-pub use plan::{BeamPlanBody, EstimateBody, MeshBody, PlanBody, SubblockCounts};
+pub use plan::{BeamPlanBody, PlanBody, SubblockCounts};
 pub use proof::{JointForceColumns, MotionColumns, ProofBody, ProofEndBody};
 pub use result::JobResult;
 pub use safety::{CurvePointBody, ReachBody, SafetyBody, SafetyCurveResult};
@@ -97,7 +97,7 @@ pub struct AnalysisResult {
     /// What was modelled, and how accurate it is, where `accuracy` is asked for.
     pub plan: Option<PlanBody>,
     /// Counts of the work done; the same on any machine.
-    pub cost: CostBody,
+    pub cost: Cost,
     /// What to know before using the numbers.
     pub notes: Vec<String>,
     /// The request, defaults filled in.
@@ -115,19 +115,6 @@ pub struct ThrustRangeBody {
     pub lowest_n_per_m: Option<f64>,
     /// Greatest; null: as much as one likes, as in an arch so flat that its stones are wedged.
     pub highest_n_per_m: Option<f64>,
-}
-
-/// Counts of the work done.
-#[derive(Debug, Clone, Serialize, ToSchema)]
-pub struct CostBody {
-    /// Contact events passed.
-    pub events: usize,
-    /// Factorisations, partial ones included.
-    pub factorisations: usize,
-    /// Block rows eliminated in all factorisations together.
-    pub block_rows: usize,
-    /// Displacement unknowns.
-    pub unknowns: usize,
 }
 
 /// Turns load factors into intensities.
@@ -192,7 +179,7 @@ impl AnalysisResult {
             safety: report.safety().map(|factors| SafetyBody::new(factors, &[])),
             history: HistoryColumns::new(&report.history, &scale),
             plan,
-            cost: report.cost.into(),
+            cost: report.cost,
             notes: { report.notes.iter().map(Note::to_string) }
                 .chain(assumptions)
                 .map(|note| in_its_words(request, &note))
@@ -241,13 +228,6 @@ impl io::Write for Scales {
 
     fn flush(&mut self) -> io::Result<()> {
         Ok(())
-    }
-}
-
-impl From<Cost> for CostBody {
-    fn from(cost: Cost) -> Self {
-        let Cost { events, factorisations, block_rows, unknowns } = cost;
-        CostBody { events, factorisations, block_rows, unknowns }
     }
 }
 

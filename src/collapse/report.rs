@@ -179,6 +179,7 @@ pub struct CrushedJoint {
 
 /// Counts of the work done; the same for the same request on any machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "server", derive(serde::Serialize, utoipa::ToSchema))]
 pub struct Cost {
     /// Contact events passed.
     pub events: usize,

@@ -1,7 +1,8 @@
 //! In words what was modelled, and how accurate it is.
 
 use crate::api::prose::Digits;
-use crate::api::response::{EstimateBody, PlanBody};
+use crate::api::response::PlanBody;
+use crate::collapse::Estimate;
 
 /// The mesh that was picked, and the errors.
 pub fn facts(plan: &PlanBody) -> Vec<(&'static str, String)> {
@@ -16,7 +17,7 @@ pub fn facts(plan: &PlanBody) -> Vec<(&'static str, String)> {
 }
 
 /// An error beside what was asked.
-pub fn error(estimate: EstimateBody) -> String {
+pub fn error(estimate: Estimate) -> String {
     let asked = percent(estimate.asked);
     match (estimate.estimate, estimate.met) {
         (Some(error), true) => format!("estimated at {}; asked: {asked}", percent(error)),

@@ -136,6 +136,10 @@ fn place(result: &AnalysisResult, subblock: &CrushedSubblock) -> String {
 }
 
 fn plastic_section(result: &AnalysisResult, plastic: &PlasticCrushingBody) -> String {
+    if !wording::has(result, true) {
+        let carry = if plastic.window.is_some() { "carry" } else { "do not carry" };
+        return format!("joints of this strength {carry} the loads");
+    }
     let range = wording::range(plastic.window, wording::unit(result));
     let ends = [("lowest", &plastic.joints_at_lowest), ("highest", &plastic.joints_at_highest)];
     let crushed: Vec<String> = ends

@@ -152,7 +152,7 @@ fn falls(result: &AnalysisResult) -> &'static str {
 }
 
 /// Whether there are scaled loads, or fixed ones.
-fn has(result: &AnalysisResult, scaled: bool) -> bool {
+pub fn has(result: &AnalysisResult, scaled: bool) -> bool {
     result.request.loads.iter().any(|entry| entry.scaled == scaled)
 }
 

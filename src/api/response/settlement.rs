@@ -126,31 +126,21 @@ impl SettlementColumns {
         let forces = |support: usize| {
             [0, 1].map(|axis| column(rows, |row| row.forces.get(support).map_or(0.0, |force| force[axis])))
         };
-        let share_of_movement = column(rows, |row| row.share);
-        match grounds {
-            Grounds::Arch { half } => {
-                let ([thrust, left], [_, right]) = (forces(0), forces(1));
-                SettlementColumns {
-                    share_of_movement,
-                    thrust_n_per_m: Some(thrust),
-                    left_reaction_n_per_m: Some(left),
-                    right_reaction_n_per_m: Some(right.into_iter().map(|up| (!half).then_some(up)).collect()),
-                    supports: Vec::new(),
-                }
-            }
-            Grounds::Named(names) => {
-                let support = |(k, name): (usize, &String)| {
-                    let [rightwards_n_per_m, upwards_n_per_m] = forces(k);
-                    SupportForces { support: name.clone(), rightwards_n_per_m, upwards_n_per_m }
-                };
-                SettlementColumns {
-                    share_of_movement,
-                    thrust_n_per_m: None,
-                    left_reaction_n_per_m: None,
-                    right_reaction_n_per_m: None,
-                    supports: names.iter().enumerate().map(support).collect(),
-                }
-            }
+        let support = |(k, name): (usize, &String)| {
+            let [rightwards_n_per_m, upwards_n_per_m] = forces(k);
+            SupportForces { support: name.clone(), rightwards_n_per_m, upwards_n_per_m }
+        };
+        let (half, names): (_, &[String]) = match grounds {
+            Grounds::Arch { half } => (Some(*half), &[]),
+            Grounds::Named(names) => (None, names),
+        };
+        let ([thrust, left], [_, right]) = (forces(0), forces(1));
+        SettlementColumns {
+            share_of_movement: column(rows, |row| row.share),
+            thrust_n_per_m: half.map(|_| thrust),
+            left_reaction_n_per_m: half.map(|_| left),
+            right_reaction_n_per_m: half.map(|half| right.into_iter().map(|up| (!half).then_some(up)).collect()),
+            supports: names.iter().enumerate().map(support).collect(),
         }
     }
 }
