@@ -42,6 +42,7 @@ impl Answer {
 impl CollapseReport {
     pub(super) fn check_finite(&self) -> Checked {
         self.end.iter().chain(&self.other_end).try_for_each(PathEnd::check_finite)?;
+        self.ends().iter().try_for_each(|end| end.state.check_finite())?;
         finite("start of the path", [self.start, self.cap, self.share])?;
         // Both may have no bound.
         let thrust = self.thrust_range.iter().flat_map(|range| [range.lowest, range.highest]);

@@ -12,6 +12,7 @@ use super::static_theorem::{Equilibrium, Limit};
 use super::{StaticTheorem, Unsolved};
 use crate::budget::Budget;
 use crate::geometry::{Vec2, cross};
+use crate::structure::Joint;
 
 /// A parabola may be violated by this, relative to the loads and to the size of the point: ten times what the linear
 /// programme grants its own rows, so that every cut moves the point.
@@ -151,7 +152,8 @@ impl StaticTheorem {
                 parts.iter().for_each(|part| (0..3).for_each(|i| left[body][i] += sign * part[i]));
             }
         }
-        let share = |of: [f64; 3]| [of[0], of[1], of[2] / self.frame.length].map(|part| part.abs() / self.force);
+        let size = self.joints.iter().map(Joint::length).fold(self.frame.length, f64::max);
+        let share = |of: [f64; 3]| [of[0], of[1], of[2] / size].map(|part| part.abs() / self.force);
         left.into_iter().flat_map(share).fold(0.0, |most, next| if next.is_nan() || next > most { next } else { most })
     }
 

@@ -220,6 +220,8 @@ impl Case {
             profile["radius_m"] = json!(radius + (before - thickness) / 2.0);
         }
         arch["thickness"]["constant_m"] = json!(thickness);
+        // The reference knows stone that does not crush.
+        request["stone"]["compressive_strength_pa"] = json!(1e30);
         request
     }
 
