@@ -60,7 +60,7 @@ def check(answer):
                  same(value, end["load_factor"]) and structure.falls(rows(end["motion"]), value, sign)]
     for end in answer["ends"] if answer["outcome"] in ("collapse", "stands_in_window") else []:
         at, which = end["load_factor"], ("lowest", "highest").index(end["which"])
-        why = end["governed_by"] + " on the path" * (end["governed_by"] == "crushing" and "crushing_in_path" in answer["request"])
+        why = end["governed_by"] + " on the path" * (end["governed_by"] == "crushing" and answer["request"].get("crushing_in_path", False))
         exact = window[which] is not None and same(at, window[which]) or why == "crushing"
         line = {k: (n * (0.5 - off / structure.joints[k][4]), n * (0.5 + off / structure.joints[k][4]), t)
                 for k, n, t, off, *_ in rows(end["thrust_line"])}

@@ -2,7 +2,6 @@
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
-use std::ops::RangeInclusive;
 use utoipa::ToSchema;
 
 /// One thing that is wrong with a request, and how to mend it.
@@ -39,12 +38,15 @@ pub fn listed(mut faults: Vec<Fault>) -> Vec<Fault> {
 
 /// Collects faults.
 #[derive(Debug, Default)]
-pub struct Faults(Vec<Fault>);
+pub struct Faults {
+    all: Vec<Fault>,
+    strays: usize,
+}
 
 impl Faults {
     /// Adds a fault.
     pub fn add(&mut self, pointer: impl Into<String>, detail: impl Into<String>) {
-        self.0.push(Fault { pointer: pointer.into(), detail: detail.into() });
+        self.all.push(Fault { pointer: pointer.into(), detail: detail.into() });
     }
 
     /// Adds a fault unless `holds`; says whether it holds.
@@ -55,75 +57,35 @@ impl Faults {
         holds
     }
 
-    /// Requires `least < value <= most`.
-    pub fn within(&mut self, pointer: impl Into<String>, value: f64, least: f64, most: f64) -> bool {
-        let rule = format!("it must be greater than {} and at most {}", Shown(least), Shown(most));
-        self.in_range(value > least && value <= most, pointer, value, &rule)
+    /// Requires a number that is not 0, of a load or a factor of it.
+    pub fn not_zero(&mut self, pointer: &str, value: f64) {
+        self.require(value != 0.0, pointer, "0 makes this load vanish: give another number or leave the load out");
     }
 
-    /// Requires `least <= value < below`.
-    pub fn from_to(&mut self, pointer: impl Into<String>, value: f64, least: f64, below: f64) -> bool {
-        let rule = format!("it must be at least {} and less than {}", Shown(least), Shown(below));
-        self.in_range(value >= least && value < below, pointer, value, &rule)
+    /// Adds the fault of a field that does not belong or is missing beside another: the others can be read without it.
+    pub fn stray(&mut self, pointer: impl Into<String>, detail: impl Into<String>) {
+        self.add(pointer, detail);
+        self.strays += 1;
     }
 
-    /// Requires `above < value < below`.
-    pub fn inside(&mut self, pointer: impl Into<String>, value: f64, above: f64, below: f64) -> bool {
-        let rule = format!("it must lie between {} and {}, both excluded", Shown(above), Shown(below));
-        self.in_range(value > above && value < below, pointer, value, &rule)
-    }
-
-    /// Requires `-most <= value <= most`.
-    pub fn either_way(&mut self, pointer: impl Into<String>, value: f64, most: f64) -> bool {
-        let rule = format!("it must be from -{most} to {most}", most = Shown(most));
-        self.in_range(value.abs() <= most, pointer, value, &rule)
-    }
-
-    /// A fault of a number alone, whatever the rest of the request: the schema has the same bounds.
-    pub fn in_range(&mut self, holds: bool, pointer: impl Into<String>, value: f64, rule: &str) -> bool {
-        holds || self.require(false, pointer, format!("{} is out of range: {rule}", Shown(value)))
-    }
-
-    /// Requires a count, or an index, to lie in a range; `what` it counts.
-    pub fn counted(
-        &mut self,
-        pointer: impl Into<String>,
-        count: usize,
-        range: RangeInclusive<usize>,
-        what: &str,
-    ) -> bool {
-        let (least, most) = (range.start(), range.end());
-        let detail = format!("{count} is out of range: {what} run from {least} to {most}");
-        self.require(range.contains(&count), pointer, detail)
-    }
-
-    /// Requires a list to have so many items.
-    pub fn listing(
-        &mut self,
-        pointer: impl Into<String>,
-        count: usize,
-        range: RangeInclusive<usize>,
-        what: &str,
-    ) -> bool {
-        let (least, most) = (range.start(), range.end());
-        let words = if *least == 0 { format!("at most {most}") } else { format!("{least} to {most}") };
-        let detail = format!("{count} {what}, which is out of range: list {words}");
-        self.require(range.contains(&count), pointer, detail)
+    /// True when nothing is wrong but fields that do not belong.
+    pub fn only_strays(&self) -> bool {
+        self.all.len() == self.strays
     }
 
     /// True when nothing is wrong so far.
     pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
+        self.all.is_empty()
     }
 
     /// How many so far.
     pub fn len(&self) -> usize {
-        self.0.len()
+        self.all.len()
     }
 
     /// All of them.
     pub fn into_vec(self) -> Vec<Fault> {
-        self.0
+        self.all
     }
 }
 

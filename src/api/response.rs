@@ -101,6 +101,7 @@ pub struct AnalysisResult {
     /// What to know before using the numbers.
     pub notes: Vec<String>,
     /// The request, defaults filled in.
+    #[serde(serialize_with = "crate::api::request::without_nulls")]
     pub request: AnalysisRequest,
     /// What to change where there is no answer, if that is known.
     #[serde(skip)]

@@ -6,9 +6,12 @@ use crate::geometry::{Region, Vec2, cross, exit_from_circle, mirrored};
 use crate::structure::{Body, Face, Sides};
 
 /// Which curve of the arch the profile line is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "server", derive(serde::Serialize, serde::Deserialize, utoipa::ToSchema))]
+#[cfg_attr(feature = "server", serde(rename_all = "snake_case"))]
 pub enum Line {
     /// The middle: half the thickness lies on each side.
+    #[default]
     Axis,
     /// The intrados: the whole thickness lies outside.
     Intrados,

@@ -39,13 +39,15 @@ pub enum BlocksFault {
         corners: usize,
     },
     /// More corners together than are allowed.
-    #[error("the polygons have {corners} corners together: at most {MAX_CORNERS_IN_ALL}")]
+    #[error("the polygons have {corners} corners together: at most {MAX_CORNERS_IN_ALL}; leave corners out")]
     TooManyCornersInAll {
         /// How many there are.
         corners: usize,
     },
     /// Two polygons, two supports, or one of each, of one name.
-    #[error("the name {name:?} is given twice: polygons and supports need names of their own")]
+    #[error(
+        "the name {name:?} is given twice: polygons and supports need names of their own; give one of them another name"
+    )]
     NameTwice {
         /// The name.
         name: String,
@@ -89,7 +91,9 @@ pub enum BlocksFault {
         sides: [usize; 2],
     },
     /// Thinner than the tolerance.
-    #[error("polygon {polygon:?} has no area (it is nowhere thicker than about the tolerance of {tolerance:.3e} m)")]
+    #[error(
+        "polygon {polygon:?} has no area (it is nowhere thicker than about the tolerance of {tolerance:.3e} m); give at least three corners that do not lie on one line"
+    )]
     NoArea {
         /// Which polygon.
         polygon: String,
@@ -107,7 +111,9 @@ pub enum BlocksFault {
         stones: usize,
     },
     /// A tolerance that lies below round-off or above what a gap can be.
-    #[error("a tolerance of {tolerance:.3e} m does not serve here: between {least:.3e} m and {most:.3e} m")]
+    #[error(
+        "a tolerance of {tolerance:.3e} m does not serve here: between {least:.3e} m and {most:.3e} m; give one between them, or leave it out"
+    )]
     Tolerance {
         /// The tolerance, m.
         tolerance: f64,
@@ -118,7 +124,7 @@ pub enum BlocksFault {
     },
     /// Two stones in one place.
     #[error(
-        "polygons {:?} and {:?} overlap: at ({:.6}, {:.6}) m by {depth:.3e} m, more than the tolerance of {tolerance:.3e} m",
+        "polygons {:?} and {:?} overlap: at ({:.6}, {:.6}) m by {depth:.3e} m, more than the tolerance of {tolerance:.3e} m; move a corner of one of them, or raise the tolerance",
         .polygons[0], .polygons[1], .at.x, .at.y
     )]
     Overlap {
@@ -147,7 +153,9 @@ pub enum BlocksFault {
         tolerance: f64,
     },
     /// A polygon without any joint.
-    #[error("polygon {polygon:?} touches nothing along a side (a corner that touches is no joint)")]
+    #[error(
+        "polygon {polygon:?} touches nothing along a side (a corner that touches is no joint); move it to its neighbours, or leave it out"
+    )]
     TouchesNothing {
         /// Which polygon.
         polygon: String,
@@ -162,7 +170,7 @@ pub enum BlocksFault {
     #[error("there are no supports: name the sides, or the line, on which the structure stands")]
     NoSupports,
     /// A name nobody has.
-    #[error("{place}: there is no polygon {name:?}")]
+    #[error("{place}: there is no polygon {name:?}; correct the name")]
     UnknownPolygon {
         /// Where it is named.
         place: String,
@@ -170,7 +178,7 @@ pub enum BlocksFault {
         name: String,
     },
     /// A name neither a polygon nor a support has.
-    #[error("{place}: there is no polygon or support {name:?}")]
+    #[error("{place}: there is no polygon or support {name:?}; correct the name")]
     UnknownName {
         /// Where it is named.
         place: String,
@@ -178,7 +186,9 @@ pub enum BlocksFault {
         name: String,
     },
     /// A side beyond the last.
-    #[error("{place}: polygon {polygon:?} has {sides} sides, counted from 0; there is no side {side}")]
+    #[error(
+        "{place}: polygon {polygon:?} has {sides} sides, counted from 0; there is no side {side}; give a side of the block"
+    )]
     UnknownSide {
         /// Where it is named.
         place: String,
@@ -191,7 +201,7 @@ pub enum BlocksFault {
     },
     /// The line of a support without length, or not finite.
     #[error(
-        "{place}: the two ends of the line need to be finite and further apart than the tolerance of {tolerance:.3e} m"
+        "{place}: the two ends of the line need to be finite and further apart than the tolerance of {tolerance:.3e} m; give two ends"
     )]
     BadLine {
         /// Where it is given.
@@ -200,20 +210,20 @@ pub enum BlocksFault {
         tolerance: f64,
     },
     /// No side lies on the line of a support.
-    #[error("{place}: no side of a polygon lies on the line")]
+    #[error("{place}: no side of a polygon lies on the line; move it under the blocks, or leave it out")]
     NothingOnLine {
         /// Where it is given.
         place: String,
     },
     /// A joint between a body and itself, or two supports.
-    #[error("{place}: a joint lies between two polygons, or a polygon and a support")]
+    #[error("{place}: a joint lies between two polygons, or a polygon and a support; correct the names")]
     BadPair {
         /// Which joint.
         place: String,
     },
     /// The ends of a joint lie on no side of one of its bodies.
     #[error(
-        "{place}: both ends need to lie on one side of polygon {polygon:?}, within the tolerance of {tolerance:.3e} m"
+        "{place}: both ends need to lie on one side of polygon {polygon:?}, within the tolerance of {tolerance:.3e} m; move the ends onto the side, or raise the tolerance"
     )]
     OffSide {
         /// Which joint.
@@ -224,7 +234,7 @@ pub enum BlocksFault {
         tolerance: f64,
     },
     /// The sides do not face each other.
-    #[error("{place}: the sides of {:?} and {:?} on which it lies do not face each other", .between[0], .between[1])]
+    #[error("{place}: the sides of {:?} and {:?} on which it lies do not face each other; name the two blocks that meet there", .between[0], .between[1])]
     NotFacing {
         /// Which joint.
         place: String,

@@ -7,7 +7,7 @@
 mod columns;
 
 use super::{Body, GRAVITY, PointForce, Structure, Surface};
-use crate::geometry::Vec2;
+use crate::geometry::{Vec2, distance_from_segment, lies_inside};
 
 /// Fill and embankment, eq. (7) of the paper: `q_v = (H - y) g rho_f + h_e g rho_e`, `q_h = K q_v`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -66,6 +66,15 @@ pub enum Load {
     },
     /// Density times this acceleration, m/s2, on every body.
     BodyAcceleration(Vec2),
+    /// A force in any direction.
+    Force {
+        /// The body that it acts on.
+        body: usize,
+        /// Where, m: inside the body or on its sides.
+        at: Vec2,
+        /// The force, N/m.
+        force: Vec2,
+    },
 }
 
 /// Why a load cannot be put on a structure.
@@ -91,7 +100,13 @@ pub enum LoadFault {
         /// Number of the last one.
         last: usize,
     },
+    /// A force in the air.
+    #[error("this point lies outside the block that carries the force")]
+    OffTheBody,
 }
+
+/// How far outside its body a force may act, as a share of the body's longest side.
+const ON_THE_BODY: f64 = 1e-6;
 
 /// Places and halves of the two-point Gauss rule: exact for a linear pressure and for its moment.
 const GAUSS_2: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
@@ -124,6 +139,7 @@ impl Load {
             Load::Lateral(bands) => lateral(&sides, bands),
             Load::Point(force, Place::Abscissa(x)) => point_load(structure, *force, *x)?,
             Load::Point(force, Place::Body(k)) => vec![middle_load(structure, *force, *k)?],
+            Load::Force { body, at, force } => vec![force_on(structure, *body, *at, *force)?],
             Load::Patch { force, centre, width } => patch_load(structure, &sides, *force, *centre, *width)?,
         };
         for force in &mut forces {
@@ -247,6 +263,18 @@ fn middle_load(structure: &Structure, force: f64, body: usize) -> Result<PointFo
     };
     let [a, b] = surface.ends;
     Ok(PointForce { body, at: 0.5 * (a + b), force: down(force), spread: false })
+}
+
+fn force_on(structure: &Structure, body: usize, at: Vec2, force: Vec2) -> Result<PointForce, LoadFault> {
+    let corners = &structure.bodies[body].corners;
+    let sides = || corners.iter().zip(corners.iter().cycle().skip(1));
+    let longest = sides().map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+    let near = || sides().any(|(&a, &b)| distance_from_segment(at, a, b) <= ON_THE_BODY * longest);
+    if lies_inside(at, corners) || near() {
+        Ok(PointForce { body, at, force, spread: false })
+    } else {
+        Err(LoadFault::OffTheBody)
+    }
 }
 
 /// The ends of all surfaces, m.

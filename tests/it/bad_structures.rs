@@ -93,12 +93,12 @@ fn blocks_that_do_not_fit_are_pointed_at() {
         ("polygons/1/corners_m/1", json!([0, 1]), p("polygons/1/corners_m/0"), "leave one of its corners out"),
         ("polygons/1/corners_m/0", json!([0, 0.5]), p("polygons/1/corners_m"), "move a corner"),
         ("tolerance_m", json!(0), p("tolerance_m"), "greater than 0"),
-        ("tolerance_m", json!(10), p("tolerance_m"), "leave tolerance_m out"),
+        ("tolerance_m", json!(10), p("tolerance_m"), "leave it out"),
         ("supports", json!([]), p("supports"), "list 1 to"),
         ("supports/0/sides/0/block", json!("b7"), p("supports/0/sides/0"), "correct the name"),
         ("supports/0/sides/0/side", json!(4), p("supports/0/sides/0"), "give a side of the block"),
-        ("supports/0/sides/0/side", json!(200), p("supports/0/sides/0/side"), "run from 0 to 199"),
-        ("supports/0/segments_m", json!([[[0, 9], [1, 9]]]), p("supports/0/segments_m/0"), "move the segment"),
+        ("supports/0/sides/0/side", json!(200), p("supports/0/sides/0/side"), "from 0 to 199"),
+        ("supports/0/segments_m", json!([[[0, 9], [1, 9]]]), p("supports/0/segments_m/0"), "move it under the blocks"),
         ("supports/0/segments_m", json!([[[0, 0], [0, 0]]]), p("supports/0/segments_m/0"), "give two ends"),
     ];
     for (place, value, pointer, remedy) in table {
@@ -155,14 +155,14 @@ fn bridges_that_do_not_fit_are_pointed_at() {
             p("spans/1/rings/0/springing_thickness_m"),
             "greater than 0",
         ),
-        ("spans/1/rings/0/voussoirs", json!(0), p("spans/1/rings/0/voussoirs"), "run from 1"),
+        ("spans/1/rings/0/voussoirs", json!(0), p("spans/1/rings/0/voussoirs"), "from 1"),
         ("spans/1/rings/0/voussoirs", json!(2001), p("spans"), "fewer voussoirs"),
         ("spans/1/rings/0/stone", json!("brick"), p("spans/1/rings/0/stone"), "correct the name"),
         ("spans/1/profile/circular/rise_m", json!(0), p("spans/1/profile/circular/rise_m"), "greater than 0"),
         ("spans/1/profile/circular/radius_m", json!(4), p("spans/1/profile/circular"), "give either"),
         ("piers/0/top_width_m", json!(0.1), p("piers/0/top_width_m"), "make it wider"),
         ("piers/0/height_m", json!(0), p("piers/0/height_m"), "greater than 0"),
-        ("piers/0/courses", json!(0), p("piers/0/courses"), "run from 1"),
+        ("piers/0/courses", json!(0), p("piers/0/courses"), "from 1"),
         ("piers/0/batter", json!(1.5), p("piers/0/batter"), "from 0 to 1"),
         ("abutments", json!({"left": {"height_m": 0}}), p("abutments/left/height_m"), "greater than 0"),
         ("abutments", json!({"right": {"height_m": 3, "width_m": 0.1}}), p("abutments/right/width_m"), "make it wider"),
@@ -196,7 +196,7 @@ fn stones_that_do_not_fit_are_pointed_at() {
         ("/stones/1/poissons_ratio", json!(0.5), "between -1 and 0.5"),
         ("/stones/1/friction_angle_deg", json!(-1), "at least 0"),
         ("/stones/1/cohesion_pa", json!(-1), "at least 0"),
-        ("/stones/1/compressive_strength_pa", json!(10), "in Pa"),
+        ("/stones/1/compressive_strength_pa", json!(10), "10 MPa is 1e7"),
     ] {
         let found = faults(&with(request.clone(), place, value));
         let told = found.iter().any(|fault| fault.pointer == place && fault.detail.contains(remedy));
@@ -211,8 +211,8 @@ fn loads_stand_on_what_can_carry_them() {
     let l = |rest: &str| format!("/loads/1/load/{rest}");
     let force = |rest: &str| l(&format!("point_force/{rest}"));
     refused(&with(wall(), &force("block"), json!("b7")), &force("block"), "correct the name");
-    refused(&with(wall(), &force("at_m"), json!([-0.1, 2.5])), &force("at_m"), "onto the block");
-    refused(&with(wall(), &force("at_m"), json!([0, 1.5])), &force("at_m"), "onto the block");
+    refused(&with(wall(), &force("at_m"), json!([-0.1, 2.5])), &force("at_m"), "outside the block");
+    refused(&with(wall(), &force("at_m"), json!([0, 1.5])), &force("at_m"), "outside the block");
     refused(&with(wall(), &force("force_n_per_m"), json!([0, 0])), &force("force_n_per_m"), "leave the load out");
     for load in [
         json!({"point_load": {"force_n_per_m": 1000, "x_m": 0}}),

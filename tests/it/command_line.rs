@@ -41,7 +41,7 @@ fn solve_prints_a_curve_and_draws_none() {
     let output = fed(&["solve", "-"], &curve().to_string());
     let text = String::from_utf8(output.stdout).unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    for part in ["scaled loads", "abscissa times: 1000 N", "strength", "10 MPa", "plastic section", "time"] {
+    for part in ["scaled loads", "abscissa times: 1 kN/m", "strength", "10 MPa", "plastic section", "time"] {
         assert!(text.contains(part), "{part} in\n{text}");
     }
     let output = fed(&["solve", "-", "--figure", "no/such/figure.svg"], &curve().to_string());

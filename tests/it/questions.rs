@@ -377,7 +377,12 @@ fn beams_that_cannot_be() {
             ("/stone/compressive_strength_pa", json!(10), "/stone/compressive_strength_pa", "10 MPa is 1e7"),
             (uniform, json!(0), uniform, "1 to 48"),
             (uniform, json!(49), uniform, "1 to 48"),
-            ("/mesh/subblocks", json!({"per_voussoir": []}), each, "uniform"),
+            (
+                "/mesh/subblocks",
+                json!({"per_voussoir": [{"radial": 1, "along": 1}, {"radial": 1, "along": 1}]}),
+                each,
+                "uniform",
+            ),
             ("/name", json!("x".repeat(201)), "/name", "200"),
             ("/arch", json!({}), "/arch", "goes with an arch"),
             ("/loads", json!([]), "/loads", "goes with an arch"),

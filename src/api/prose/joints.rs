@@ -137,7 +137,11 @@ pub fn ground(text: &mut String, end: &EndBody, result: &AnalysisResult) {
     if more > 0 {
         rows.push([format!("and {more} more"), String::new(), String::new(), String::new()]);
     }
-    let at = if result.outcome == Outcome::StandsInWindow { format!("the {}", wording::name(end)) } else { "collapse".into() };
+    let at = if result.outcome == Outcome::StandsInWindow {
+        format!("the {}", wording::name(end))
+    } else {
+        "collapse".into()
+    };
     let title = format!("{title} on the arch at {at} (x to the right, y upwards)");
     append(text, &in_its_words(&result.request, &title), table(["joint", "x, kN/m", "y, kN/m", "through"], rows));
 }

@@ -38,14 +38,23 @@ pub fn in_its_words(request: &AnalysisRequest, text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::api::request::Request;
+
+    fn read(body: &str) -> AnalysisRequest {
+        match crate::api::read::read(body.as_bytes()).unwrap() {
+            Request::Structure(request) => *request,
+            Request::CurvedBeam(_) => panic!("{body}"),
+        }
+    }
 
     #[test]
     fn whole_words_alone_are_changed() {
-        let request: AnalysisRequest = serde_json::from_str(r#"{"bridge": {"spans": []}, "loads": []}"#).unwrap();
+        let span =
+            r#"{"profile": {"circular": {"span_m": 4, "rise_m": 2}}, "rings": [{"thickness_m": 1, "voussoirs": 5}]}"#;
+        let loads = r#""loads": [{"load": {"self_weight": {}}}]"#;
         let text = "The arch stands; an arch. An arch searches arches, the arch's weight";
         let expected = "The bridge stands; a bridge. A bridge searches arches, the bridge's weight";
-        assert_eq!(in_its_words(&request, text), expected);
-        let request: AnalysisRequest = serde_json::from_str(r#"{"loads": []}"#).unwrap();
-        assert_eq!(in_its_words(&request, "an arch"), "a structure");
+        assert_eq!(in_its_words(&read(&format!(r#"{{"bridge": {{"spans": [{span}]}}, {loads}}}"#)), text), expected);
+        assert_eq!(in_its_words(&read(&format!("{{{loads}}}")), "an arch"), "a structure");
     }
 }

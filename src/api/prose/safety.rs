@@ -14,7 +14,7 @@ pub fn mesh(mesh: &MeshRequest) -> Option<String> {
     let one = Subblocks { radial: 1, along: 1 };
     let whole = match &mesh.subblocks {
         SubblocksRequest::Uniform(each) => *each == one,
-        SubblocksRequest::PerVoussoir(list) => list.iter().all(|each| *each == one),
+        SubblocksRequest::PerVoussoir(list) => list.0.iter().all(|each| *each == one),
     };
     let seams = match mesh.seams {
         Seams::Split => "",

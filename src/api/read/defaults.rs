@@ -1,12 +1,25 @@
 //! What a request means by what it leaves out.
 
 use crate::api::request::{
-    AimRequest, AnalysisRequest, JointsRequest, LineRequest, LoadRequest, ProfileRequest, StressFieldRequest,
+    AimRequest, AnalysisRequest, JointsRequest, LoadRequest, ProfileRequest, Request, StressFieldRequest,
 };
 
-pub fn with_defaults(mut request: AnalysisRequest) -> AnalysisRequest {
+impl Request {
+    /// The same with what it means by leaving it out.
+    pub(super) fn with_defaults(self) -> Self {
+        match self {
+            Request::Structure(request) => Request::Structure(Box::new(with_defaults(*request))),
+            Request::CurvedBeam(mut beam) => {
+                beam.stone = beam.stone.filled_in(true);
+                Request::CurvedBeam(beam)
+            }
+        }
+    }
+}
+
+fn with_defaults(mut request: AnalysisRequest) -> AnalysisRequest {
     if let Some(arch) = request.arch.as_mut().filter(|arch| !matches!(arch.profile, ProfileRequest::Surveyed(_))) {
-        arch.line.get_or_insert(LineRequest::default());
+        arch.line.get_or_insert(Default::default());
         arch.joints.get_or_insert(JointsRequest::default());
     }
     request.stone = request.stone.filled_in(request.arch.is_some());

@@ -9,23 +9,14 @@ use utoipa::ToSchema;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct AccuracyRequest {
     /// Largest error of the collapse intensity, as a share of it, such as 1e-6.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(exclusive_minimum = 0.0, maximum = 1.0)]
     pub collapse_intensity: Option<f64>,
     /// Largest error of the stress, as a share, instead of a mesh. It is the root mean square, by area, of the error
     /// of the equivalent stress over that of the equivalent stress itself, as in eq. (5) of the paper, in the worst of
     /// `report.stress_fields`. Without those there is one field, at load factor 1.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(exclusive_minimum = 0.0, maximum = 1.0)]
     pub stress: Option<f64>,
     /// Most subblocks that the model may have, for the sake of `stress`.
-    #[serde(default = "AccuracyRequest::default_subblocks")]
-    #[schema(default = 5000, minimum = 1, maximum = 100000)]
+    #[schema(required = false, default = 5000, minimum = 1, maximum = 100000)]
     pub subblocks: usize,
-}
-
-impl AccuracyRequest {
-    fn default_subblocks() -> usize {
-        5000
-    }
 }

@@ -1,5 +1,7 @@
 //! The arch in a request.
 
+use super::{Length, Point};
+use crate::arch::ring::Line;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -10,39 +12,30 @@ pub struct ArchRequest {
     pub profile: ProfileRequest,
     /// Which curve the profile is. `axis`, also where it is left out: half the thickness lies on each side. `intrados`: the inner
     /// face. Not with `surveyed`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub line: Option<LineRequest>,
+    pub line: Option<Line>,
     /// Thickness, normal to the profile. Required, but not with `surveyed`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub thickness: Option<ThicknessRequest>,
     /// Number of voussoirs, 2 to 2001. Required, but not with `surveyed`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(minimum = 2, maximum = 2001)]
     pub voussoirs: Option<usize>,
     /// Which way the joints run. Left out: normal to the profile. Not with `surveyed`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub joints: Option<JointsRequest>,
     /// Lengths of the voussoirs along the profile in any common unit, left to right. Left out: equal. Not with `surveyed`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(min_items = 2, max_items = 2001)]
-    pub relative_lengths: Option<Vec<f64>>,
+    pub relative_lengths: Option<Vec<Length>>,
     /// True: areas and centroids are those of true circular sectors, instead of blocks with straight sides. For circular arcs of
     /// constant thickness with normal joints. Pressures still act on the straight sides.
-    #[serde(default)]
-    #[schema(default = false)]
+    #[schema(required = false, default = false)]
     pub curved_sides: bool,
     /// Rectangular blocks below the springing joints, bonded to the ground. Left out: none.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub abutments: Option<AbutmentsRequest>,
     /// How the springing joints hold. `dry`: like all others. `bonded`: they neither open nor slide.
-    #[serde(default)]
-    #[schema(default = "dry")]
+    #[schema(required = false, default = "dry")]
     pub springing_joints: SpringingJoints,
     /// True: only the left half of a symmetric arch is modelled. A crown joint rests on a frictionless wall; a keystone is cut on
     /// the axis and neither turns nor moves sideways there. The cut counts as the last joint, which never opens. The fixed loads
     /// together, and the scaled loads together, have to be symmetric.
-    #[serde(default)]
-    #[schema(default = false)]
+    #[schema(required = false, default = false)]
     pub half: bool,
 }
 
@@ -66,19 +59,15 @@ pub enum ProfileRequest {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Circular {
     /// Radius, m; with `opening_angle_deg`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub radius_m: Option<f64>,
     /// Full opening angle, degrees: 180 for a semicircle; with `radius_m`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(exclusive_minimum = 0.0, exclusive_maximum = 360.0)]
     pub opening_angle_deg: Option<f64>,
     /// Span, m; with `rise_m`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub span_m: Option<f64>,
     /// Rise, m; with `span_m`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub rise_m: Option<f64>,
 }
@@ -87,19 +76,15 @@ pub struct Circular {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Pointed {
     /// Radius of both arcs, m; with `centre_offset_m`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub radius_m: Option<f64>,
     /// Distance of the centre of the left arc from mid-span, to the right, m; less than the radius; with `radius_m`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(minimum = 0.0, exclusive_maximum = 1e5)]
     pub centre_offset_m: Option<f64>,
     /// Span, m; with `rise_m`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub span_m: Option<f64>,
     /// Rise, m; at least half the span; with `span_m`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub rise_m: Option<f64>,
 }
@@ -140,21 +125,10 @@ pub struct ArcRequest {
 pub struct Surveyed {
     /// Intrados end [x, y] of every joint, m.
     #[schema(min_items = 3, max_items = 2002)]
-    pub intrados_m: Vec<[f64; 2]>,
+    pub intrados_m: Vec<Point>,
     /// Extrados end [x, y] of every joint, m.
     #[schema(min_items = 3, max_items = 2002)]
-    pub extrados_m: Vec<[f64; 2]>,
-}
-
-/// Which curve of the arch the profile is.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum LineRequest {
-    /// The middle.
-    #[default]
-    Axis,
-    /// The inner face.
-    Intrados,
+    pub extrados_m: Vec<Point>,
 }
 
 /// Thickness, normal to the profile.
@@ -162,7 +136,7 @@ pub enum LineRequest {
 #[serde(rename_all = "snake_case")]
 pub enum ThicknessRequest {
     /// The same everywhere, m.
-    ConstantM(f64),
+    ConstantM(Length),
     /// Linear in the length along the profile, from crown to springing.
     Linear(LinearThickness),
     /// As the extrados makes it, a circle of its own.
@@ -206,7 +180,7 @@ pub enum JointsRequest {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Rays {
     /// Centre [x, y], m.
-    pub centre_m: [f64; 2],
+    pub centre_m: Point,
 }
 
 /// Rectangular blocks below the springing joints, bonded to the ground.

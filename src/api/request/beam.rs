@@ -1,6 +1,6 @@
 //! The curved beam in a request: a test of the stress inside stones against the theory of elasticity.
 
-use super::{MeshRequest, StoneRequest, Subblocks, SubblocksRequest};
+use super::{MeshRequest, StoneRequest, Subblocks, SubblocksRequest, Text};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -8,9 +8,7 @@ use utoipa::ToSchema;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct BeamRequest {
     /// A name to find it again, up to 200 characters.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schema(max_length = 200, pattern = "^[^\\x00-\\x1f\\x7f]*$")]
-    pub name: Option<String>,
+    pub name: Option<Text>,
     /// The beam.
     pub curved_beam: CurvedBeamRequest,
     /// Its stone, of which Young's modulus, Poisson's ratio and `plane` count.
@@ -20,7 +18,6 @@ pub struct BeamRequest {
     #[serde(default = "BeamRequest::default_mesh")]
     pub mesh: MeshRequest,
     /// How accurate the stress has to be, instead of a mesh.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub accuracy: Option<BeamAccuracy>,
 }
 
@@ -41,19 +38,12 @@ pub struct CurvedBeamRequest {
     /// Outer radius, m; 1.001 to 1000 times the inner one.
     #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub outer_radius_m: f64,
-    /// Resultant of the tractions at its ends, N per metre of depth; not 0.
+    /// Resultant of the tractions at its ends, N per metre of width; not 0.
     #[schema(minimum = -1e15, maximum = 1e15)]
     pub end_shear_n_per_m: f64,
     /// True: subblocks are true sectors. False: they have straight sides.
-    #[serde(default = "CurvedBeamRequest::default_sides")]
-    #[schema(default = true)]
+    #[schema(required = false, default = true)]
     pub curved_sides: bool,
-}
-
-impl CurvedBeamRequest {
-    fn default_sides() -> bool {
-        true
-    }
 }
 
 /// How accurate the stress has to be, instead of a mesh: the least mesh that is estimated to reach it is found, and `plan` in the

@@ -1,10 +1,8 @@
 //! Blocks given by their corners: walls, buttresses, portals, arches drawn elsewhere.
 
+use super::{Point, Segment, Text};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
-
-/// Most joints given one by one: about four for each block.
-pub const MAX_GIVEN_JOINTS: usize = 8000;
 
 /// Blocks given by their corners, such as a wall; the joints between them and the ground that they stand on. x runs to the right,
 /// y upwards, in m.
@@ -21,7 +19,6 @@ pub struct BlocksRequest {
     pub supports: Vec<SupportRequest>,
     /// How far points may be from where they are meant to be, m. Left out: a millionth of the longer side of the box round all
     /// corners.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub tolerance_m: Option<f64>,
 }
@@ -30,15 +27,12 @@ pub struct BlocksRequest {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct PolygonRequest {
     /// Its name, up to 200 characters; no other block and no support has it.
-    #[schema(max_length = 200, pattern = "^[^\\x00-\\x1f\\x7f]*$")]
-    pub name: String,
+    pub name: Text,
     /// Corners [x, y] in order, in either sense, m. It need not be convex.
     #[schema(min_items = 3, max_items = 200)]
-    pub corners_m: Vec<[f64; 2]>,
+    pub corners_m: Vec<Point>,
     /// The name of one of `stones`; left out: `stone`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schema(max_length = 200, pattern = "^[^\\x00-\\x1f\\x7f]*$")]
-    pub stone: Option<String>,
+    pub stone: Option<Text>,
 }
 
 /// Where the joints between blocks are.
@@ -49,27 +43,31 @@ pub enum BlockJointsRequest {
     #[default]
     Found,
     /// These, and those on supports: blocks that meet elsewhere have no joint between them.
-    Given(Vec<GivenJointRequest>),
+    Given(GivenJoints),
 }
+
+/// Joints between blocks, and between blocks and supports.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[schema(max_items = 8000)]
+pub struct GivenJoints(pub Vec<GivenJointRequest>);
 
 /// A joint between two blocks, or a block and a support.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct GivenJointRequest {
     /// Names of what it lies between.
-    pub between: [String; 2],
+    #[schema(min_items = 2, max_items = 2)]
+    pub between: [Text; 2],
     /// Its ends [x, y], m; both on one side of each block.
-    pub ends_m: [[f64; 2]; 2],
+    #[schema(min_items = 2, max_items = 2)]
+    pub ends_m: [Point; 2],
     /// Friction angle, degrees. Left out: that of the weaker stone.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(minimum = 0.0, exclusive_maximum = 90.0)]
     pub friction_angle_deg: Option<f64>,
     /// Cohesion, Pa. Left out: that of the weaker stone.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(minimum = 0.0, exclusive_maximum = 1e15)]
     pub cohesion_pa: Option<f64>,
     /// True: it neither opens nor slides.
-    #[serde(default)]
-    #[schema(default = false)]
+    #[schema(required = false, default = false)]
     pub bonded: bool,
 }
 
@@ -78,8 +76,7 @@ pub struct GivenJointRequest {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct SupportRequest {
     /// Its name, up to 200 characters; no block and no other support has it.
-    #[schema(max_length = 200, pattern = "^[^\\x00-\\x1f\\x7f]*$")]
-    pub name: String,
+    pub name: Text,
     /// Sides of blocks that rest on it.
     #[serde(default)]
     #[schema(max_items = 2001)]
@@ -87,15 +84,14 @@ pub struct SupportRequest {
     /// Straight lines of ground, from [x, y] to [x, y], m: all sides of blocks that lie on them rest on it.
     #[serde(default)]
     #[schema(max_items = 2001)]
-    pub segments_m: Vec<[[f64; 2]; 2]>,
+    pub segments_m: Vec<Segment>,
 }
 
 /// A whole side of a block.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct SideRequest {
     /// The block's name.
-    #[schema(max_length = 200, pattern = "^[^\\x00-\\x1f\\x7f]*$")]
-    pub block: String,
+    pub block: Text,
     /// From this corner to the next, counted from 0 as in `corners_m`.
     #[schema(maximum = 199)]
     pub side: usize,

@@ -1,11 +1,8 @@
 //! A bridge of arch spans.
 
-use super::{Circular, Elliptical, MultiCentre, Pointed, ProfileRequest};
+use super::{Circular, Elliptical, MultiCentre, Pointed, ProfileRequest, Text};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
-
-/// Most spans of a bridge.
-pub const MAX_SPANS: usize = 200;
 
 /// A bridge of arch spans, each of one ring or more, on piers and abutments. The springing level of all spans is y = 0; x = 0
 /// lies in the middle between the first springing and the last. At most 2001 stones and blocks in all.
@@ -19,13 +16,10 @@ pub struct BridgeRequest {
     #[schema(max_items = 199)]
     pub piers: Vec<PierRequest>,
     /// Blocks under the first and the last springing.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub abutments: Option<BridgeAbutments>,
     /// Masonry over the haunches. Left out: none.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub backing: Option<BackingRequest>,
     /// Friction angle between two rings of a span, degrees; there is no cohesion between them. Left out: that of `stone`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(minimum = 0.0, exclusive_maximum = 90.0)]
     pub ring_friction_angle_deg: Option<f64>,
 }
@@ -72,16 +66,13 @@ pub struct RingRequest {
     #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub thickness_m: f64,
     /// Thickness at the springings, m; linear in the length along the profile between them. Left out: as at the crown.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub springing_thickness_m: Option<f64>,
     /// Number of voussoirs, of one length along the profile each.
     #[schema(minimum = 1, maximum = 2001)]
     pub voussoirs: usize,
     /// The name of one of `stones`; left out: `stone`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schema(max_length = 200, pattern = "^[^\\x00-\\x1f\\x7f]*$")]
-    pub stone: Option<String>,
+    pub stone: Option<Text>,
 }
 
 /// A pier between two spans, on ground of its own.
@@ -94,21 +85,13 @@ pub struct PierRequest {
     #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub height_m: f64,
     /// Courses of one height each; the uppermost carries the springings.
-    #[serde(default = "one")]
-    #[schema(default = 1, minimum = 1, maximum = 2001)]
+    #[schema(required = false, default = 1, minimum = 1, maximum = 2001)]
     pub courses: usize,
     /// Batter of each side: by how much it leans inwards, as horizontal run over height.
-    #[serde(default)]
-    #[schema(default = 0.0, minimum = 0.0, maximum = 1.0)]
+    #[schema(required = false, default = 0.0, minimum = 0.0, maximum = 1.0)]
     pub batter: f64,
     /// The name of one of `stones`; left out: `stone`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schema(max_length = 200, pattern = "^[^\\x00-\\x1f\\x7f]*$")]
-    pub stone: Option<String>,
-}
-
-fn one() -> usize {
-    1
+    pub stone: Option<Text>,
 }
 
 /// Blocks under the first and the last springing. An end that is left out stands on the ground.
@@ -116,10 +99,8 @@ fn one() -> usize {
 #[serde(default)]
 pub struct BridgeAbutments {
     /// Under the first springing.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub left: Option<BridgeAbutment>,
     /// Under the last springing.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub right: Option<BridgeAbutment>,
 }
 
@@ -130,13 +111,10 @@ pub struct BridgeAbutment {
     #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub height_m: f64,
     /// Width of its bed, m. Left out: as wide as the springings.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub width_m: Option<f64>,
     /// The name of one of `stones`; left out: `stone`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schema(max_length = 200, pattern = "^[^\\x00-\\x1f\\x7f]*$")]
-    pub stone: Option<String>,
+    pub stone: Option<Text>,
 }
 
 /// Masonry over the haunches up to a level: a block above every pier and at each end.
@@ -146,7 +124,5 @@ pub struct BackingRequest {
     #[schema(minimum = -1e5, maximum = 1e5)]
     pub level_m: f64,
     /// The name of one of `stones`; left out: `stone`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schema(max_length = 200, pattern = "^[^\\x00-\\x1f\\x7f]*$")]
-    pub stone: Option<String>,
+    pub stone: Option<Text>,
 }

@@ -1,29 +1,33 @@
-//! The loads in a request. Forces per metre of depth.
+//! The loads in a request: their fields, what they are to the mechanics, and their words. Forces per metre of width.
+//!
+//! A new load has its fields and an arm of every function here, and its forces in `structure::load`.
 
+mod fill;
+
+use super::{ForceVector, Point, Text};
+use crate::api::fault::{Faults, Shown};
+use crate::api::prose::Digits;
+use crate::geometry::Vec2;
+use crate::structure::GRAVITY;
+use crate::structure::load::{Band, Load, LoadFault, Place};
+pub use fill::FillPressure;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-/// A load, and whether the load factor multiplies it. Forces are per metre of depth.
+/// A load, and whether the load factor multiplies it. Forces are per metre of width.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct LoadEntry {
     /// What acts.
     pub load: LoadRequest,
     /// False: it is fixed. True: the load factor multiplies it.
-    #[serde(default)]
-    #[schema(default = false)]
+    #[schema(required = false, default = false)]
     pub scaled: bool,
     /// A factor of its own; not 0.
-    #[serde(default = "one")]
-    #[schema(default = 1.0, minimum = -1e12, maximum = 1e12)]
+    #[schema(required = false, default = 1.0, minimum = -1e12, maximum = 1e12)]
     pub coefficient: f64,
     /// True: the coefficient is multiplied by the abscissa of the safety curve that `analysis` asks for.
-    #[serde(default)]
-    #[schema(default = false)]
+    #[schema(required = false, default = false)]
     pub per_abscissa: bool,
-}
-
-fn one() -> f64 {
-    1.0
 }
 
 /// A load.
@@ -50,63 +54,6 @@ pub enum LoadRequest {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct SelfWeight {}
 
-/// Fill and embankment on the extrados. They press, eq. (7) of the paper: `q_v = (H - y) g rho_f + h_e g rho_e` on the plan
-/// projection of the extrados and `q_h = K q_v` on its vertical projection. In a `body_acceleration` they push with their mass as
-/// well: the column over every part of the extrados that looks up, fill and embankment each at half its own height, carried by
-/// the stone below; what lies beside the arch does not push. Scaled fill in a scaled acceleration is refused.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
-#[serde(default)]
-pub struct FillPressure {
-    /// Height H of the top of the fill above y = 0, m. Left out: an embankment only.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schema(minimum = -1e5, maximum = 1e5)]
-    pub fill_height_m: Option<f64>,
-    /// Density of the fill, kg/m3.
-    #[schema(minimum = 0.0, exclusive_maximum = 1e5)]
-    pub fill_density_kg_m3: f64,
-    /// Thickness of the embankment on top of the fill, m.
-    #[schema(minimum = 0.0, exclusive_maximum = 1e5)]
-    pub embankment_thickness_m: f64,
-    /// Density of the embankment, kg/m3.
-    #[schema(minimum = 0.0, exclusive_maximum = 1e5)]
-    pub embankment_density_kg_m3: f64,
-    /// Ratio K of horizontal to vertical pressure, a pure number. Left out: that of `fill_friction_angle_deg` or, without one
-    /// either, 0, no horizontal pressure. Given both, they have to agree to 0.001.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schema(minimum = 0.0, exclusive_maximum = 1e12)]
-    pub lateral_ratio: Option<f64>,
-    /// Friction angle phi of fill that presses at rest, degrees: K = 1 - sin phi.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schema(minimum = 0.0, exclusive_maximum = 90.0)]
-    pub fill_friction_angle_deg: Option<f64>,
-}
-
-impl Default for FillPressure {
-    /// Gravel as in Table 1 of the paper, without horizontal pressure.
-    fn default() -> Self {
-        FillPressure {
-            fill_height_m: None,
-            fill_density_kg_m3: 1600.0,
-            embankment_thickness_m: 0.0,
-            embankment_density_kg_m3: 1600.0,
-            lateral_ratio: None,
-            fill_friction_angle_deg: None,
-        }
-    }
-}
-
-impl FillPressure {
-    /// Ratio of horizontal to vertical pressure at rest, of fill whose friction angle is given.
-    pub fn at_rest(&self) -> Option<f64> {
-        self.fill_friction_angle_deg.map(|angle| 1.0 - angle.to_radians().sin())
-    }
-
-    /// Ratio of horizontal to vertical pressure.
-    pub fn ratio(&self) -> f64 {
-        self.lateral_ratio.or(self.at_rest()).unwrap_or(0.0)
-    }
-}
-
 /// Horizontal pressure in bands of height, towards the arch, on the vertical projection of the extrados.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct LateralPressure {
@@ -132,15 +79,13 @@ pub struct PressureBand {
 /// A vertical force at one point of the extrados: at an abscissa, or in the middle of a voussoir.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct PointLoad {
-    /// Force per metre of depth, N/m, downwards positive; not 0.
+    /// Force per metre of width, N/m, downwards positive; not 0.
     #[schema(minimum = -1e15, maximum = 1e15)]
     pub force_n_per_m: f64,
     /// Abscissa, m; over a joint, its two voussoirs take half each. Either this or `voussoir` is given.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(minimum = -1e5, maximum = 1e5)]
     pub x_m: Option<f64>,
     /// Number of a voussoir, from 0 on the left: the middle of its extrados side.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(maximum = 2000)]
     pub voussoir: Option<usize>,
 }
@@ -149,12 +94,11 @@ pub struct PointLoad {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct PointForceLoad {
     /// The block's name: that of `blocks.polygons`, or of a body of the bridge as `structure.bodies` of an answer lists them.
-    #[schema(max_length = 200, pattern = "^[^\\x00-\\x1f\\x7f]*$")]
-    pub block: String,
+    pub block: Text,
     /// Where it acts, [x, y], m; inside the block or on its sides.
-    pub at_m: [f64; 2],
-    /// Force per metre of depth to the right and upwards, N/m; not both 0.
-    pub force_n_per_m: [f64; 2],
+    pub at_m: Point,
+    /// Force per metre of width to the right and upwards, N/m; not both 0.
+    pub force_n_per_m: ForceVector,
 }
 
 /// A vertical force spread evenly over a plan width: every voussoir takes the share that lies over it, in the
@@ -167,21 +111,160 @@ pub struct PatchLoad {
     /// Plan width, m.
     #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub width_m: f64,
-    /// Total force per metre of depth, N/m, downwards positive; not 0.
+    /// Total force per metre of width, N/m, downwards positive; not 0.
     #[schema(minimum = -1e15, maximum = 1e15)]
     pub force_n_per_m: f64,
 }
 
-/// An inertia force on stones and fill: their mass times an acceleration, in its direction. Ground that accelerates to the right
-/// makes it act to the left.
+/// An inertia force on stones and fill, as in an earthquake: their mass times an acceleration. The fields are the direction of
+/// the force, not of the ground: ground that accelerates to the right makes the force act to the left.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct BodyAcceleration {
-    /// The force to the right, as a multiple of the weight: acceleration over g.
-    #[serde(default)]
-    #[schema(default = 0.0, minimum = -1e12, maximum = 1e12)]
+    /// The inertia force to the right, as a multiple of the weight: the ground's acceleration to the left over g.
+    #[schema(required = false, default = 0.0, minimum = -1e12, maximum = 1e12)]
     pub x_g: f64,
-    /// The force upwards, as a multiple of the weight: acceleration over g.
-    #[serde(default)]
-    #[schema(default = 0.0, minimum = -1e12, maximum = 1e12)]
+    /// The inertia force upwards, as a multiple of the weight: the ground's acceleration downwards over g.
+    #[schema(required = false, default = 0.0, minimum = -1e12, maximum = 1e12)]
     pub y_g: f64,
+}
+
+/// What a load can stand on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Bearer {
+    /// Every body of any structure.
+    AllBodies,
+    /// The extrados of an arch or a bridge.
+    Extrados,
+    /// A body that has a name, which those of an arch have not.
+    NamedBody,
+}
+
+impl LoadRequest {
+    /// What it is called in a request, and what it can stand on.
+    pub fn kind(&self) -> (&'static str, Bearer) {
+        match self {
+            LoadRequest::SelfWeight(_) => ("self_weight", Bearer::AllBodies),
+            LoadRequest::FillPressure(_) => ("fill_pressure", Bearer::Extrados),
+            LoadRequest::LateralPressure(_) => ("lateral_pressure", Bearer::Extrados),
+            LoadRequest::PointLoad(_) => ("point_load", Bearer::Extrados),
+            LoadRequest::PatchLoad(_) => ("patch_load", Bearer::Extrados),
+            LoadRequest::PointForce(_) => ("point_force", Bearer::NamedBody),
+            LoadRequest::BodyAcceleration(_) => ("body_acceleration", Bearer::AllBodies),
+        }
+    }
+
+    /// In SI, on bodies of these names; of a point load with two places, the abscissa counts. None of a body that nobody knows.
+    pub fn in_si(&self, names: &[String]) -> Option<Load> {
+        Some(match self {
+            LoadRequest::SelfWeight(_) => Load::SelfWeight,
+            LoadRequest::FillPressure(fill) => Load::Fill(fill.in_si()),
+            LoadRequest::LateralPressure(lateral) => {
+                let band = |band: &PressureBand| Band { from: band.from_m, to: band.to_m, pressure: band.pressure_pa };
+                Load::Lateral(lateral.bands.iter().map(band).collect())
+            }
+            LoadRequest::PointLoad(PointLoad { force_n_per_m, x_m: None, voussoir: Some(voussoir) }) => {
+                Load::Point(*force_n_per_m, Place::Body(*voussoir))
+            }
+            LoadRequest::PointLoad(point) => {
+                Load::Point(point.force_n_per_m, Place::Abscissa(point.x_m.unwrap_or(0.0)))
+            }
+            LoadRequest::PatchLoad(patch) => {
+                Load::Patch { force: patch.force_n_per_m, centre: patch.centre_x_m, width: patch.width_m }
+            }
+            LoadRequest::PointForce(force) => Load::Force {
+                body: names.iter().position(|name| **name == *force.block)?,
+                at: force.at_m.into(),
+                force: force.force_n_per_m.0.into(),
+            },
+            LoadRequest::BodyAcceleration(body) => Load::BodyAcceleration(body.in_si()),
+        })
+    }
+
+    /// Most forces that it puts on one side of a body.
+    pub fn forces_per_side(&self) -> usize {
+        match self {
+            LoadRequest::LateralPressure(lateral) => lateral.bands.len(),
+            _ => 1,
+        }
+    }
+
+    /// What it says against itself. `here` points to its fields.
+    pub fn check(&self, here: &str, faults: &mut Faults) {
+        match self {
+            LoadRequest::SelfWeight(_) | LoadRequest::BodyAcceleration(_) => {}
+            LoadRequest::FillPressure(fill) => fill.check(here, faults),
+            LoadRequest::LateralPressure(lateral) => {
+                for (i, band) in lateral.bands.iter().enumerate() {
+                    let from = Shown(band.from_m);
+                    let detail = format!("a band goes upwards: to_m must be greater than from_m, {from}");
+                    faults.require(band.to_m > band.from_m, format!("{here}/bands/{i}/to_m"), detail);
+                }
+            }
+            LoadRequest::PointLoad(point) => {
+                faults.not_zero(&format!("{here}/force_n_per_m"), point.force_n_per_m);
+                let one = point.x_m.is_some() != point.voussoir.is_some();
+                faults.require(one, here, "give either x_m or voussoir, not both and not neither");
+            }
+            LoadRequest::PatchLoad(patch) => faults.not_zero(&format!("{here}/force_n_per_m"), patch.force_n_per_m),
+            LoadRequest::PointForce(force) => {
+                let detail = "0 both ways makes this load vanish: give another force or leave the load out";
+                faults.require(force.force_n_per_m.0 != [0.0; 2], format!("{here}/force_n_per_m"), detail);
+            }
+        }
+    }
+
+    /// The field in which it is best mended where it does not fit the structure; none: the load as a whole.
+    pub fn field_of(&self, fault: LoadFault) -> Option<&'static str> {
+        match (self, fault) {
+            (LoadRequest::FillPressure(_), _) => Some("fill_height_m"),
+            (LoadRequest::PointLoad(_), LoadFault::NoSuchVoussoir { .. }) => Some("voussoir"),
+            (LoadRequest::PointLoad(_), _) => Some("x_m"),
+            (LoadRequest::PatchLoad(_), _) => Some("centre_x_m"),
+            (LoadRequest::PointForce(_), _) => Some("at_m"),
+            _ => None,
+        }
+    }
+
+    /// As a person says it.
+    pub fn words(&self) -> String {
+        match self {
+            LoadRequest::SelfWeight(_) => "self weight".to_owned(),
+            LoadRequest::FillPressure(fill) => fill.words(),
+            LoadRequest::LateralPressure(lateral) => {
+                format!("lateral pressure, bands of height: {}", lateral.bands.len())
+            }
+            LoadRequest::PointLoad(point) => {
+                let place = match (point.x_m, point.voussoir) {
+                    (None, Some(voussoir)) => format!("on voussoir {voussoir}"),
+                    (x, _) => format!("at x = {} m", Digits(x.unwrap_or(0.0))),
+                };
+                format!("{} {place}", kn_per_m(point.force_n_per_m))
+            }
+            LoadRequest::PatchLoad(patch) => {
+                let [width, centre] = [patch.width_m, patch.centre_x_m].map(Digits);
+                let force = kn_per_m(patch.force_n_per_m);
+                format!("{force}, spread over {width} m about x = {centre} m")
+            }
+            LoadRequest::PointForce(force) => {
+                let [fx, fy] = force.force_n_per_m.0.map(|force| Digits(force / 1e3));
+                let [x, y] = force.at_m.0.map(Digits);
+                format!("({fx}, {fy}) kN/m on {} at ({x}, {y}) m", force.block)
+            }
+            LoadRequest::BodyAcceleration(body) => {
+                let [x, y] = [body.x_g, body.y_g].map(Digits);
+                format!("inertia force of {x} times the weight to the right, {y} upwards")
+            }
+        }
+    }
+}
+
+fn kn_per_m(force: f64) -> String {
+    format!("{} kN/m", Digits(force / 1e3))
+}
+
+impl BodyAcceleration {
+    /// The acceleration that masses feel, m/s2.
+    pub fn in_si(&self) -> Vec2 {
+        GRAVITY * Vec2::new(self.x_g, self.y_g)
+    }
 }

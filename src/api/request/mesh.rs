@@ -4,7 +4,7 @@ use crate::collapse::Seams;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-/// Most subblocks of a voussoir in either direction.
+/// Most subblocks of a voussoir in either direction, as [`Subblocks`] has it.
 pub const MAX_SUBBLOCKS_EACH_WAY: usize = 48;
 /// Most subblocks of an analysis.
 pub const MAX_SUBBLOCKS: usize = 100_000;
@@ -33,7 +33,7 @@ pub enum SubblocksRequest {
     /// One entry per voussoir of the whole arch, left to right, or per body in the order of `structure.bodies`. Half an
     /// arch uses those of its own voussoirs, half a keystone half of its number along, rounded up. A body divided into parts
     /// has as many times its number along as parts. Not with `curved_beam`.
-    PerVoussoir(Vec<Subblocks>),
+    PerVoussoir(PerVoussoir),
 }
 
 impl Default for SubblocksRequest {
@@ -41,6 +41,11 @@ impl Default for SubblocksRequest {
         SubblocksRequest::Uniform(Subblocks { radial: 1, along: 1 })
     }
 }
+
+/// Subblocks of every voussoir.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[schema(min_items = 2, max_items = 2001)]
+pub struct PerVoussoir(pub Vec<Subblocks>);
 
 /// Numbers of subblocks of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]

@@ -11,6 +11,7 @@ mod mesh;
 mod motion;
 mod question;
 mod stones;
+mod values;
 
 use crate::collapse::{DEFAULT_PENALTY_RATIO, Direction, Geometry, PlaneModel};
 use crate::structure::Stone;
@@ -23,21 +24,41 @@ pub use loads::*;
 pub use mesh::*;
 pub use motion::*;
 pub use question::*;
-use serde::{Deserialize, Serialize};
+use serde::ser::Error;
+use serde::{Deserialize, Serialize, Serializer};
+use serde_json::Value;
 pub use stones::*;
 use utoipa::ToSchema;
-
-/// Longest `name` and `unit`, characters.
-pub const MAX_TEXT: usize = 200;
+pub use values::*;
 
 /// A body: a structure (an arch, a bridge or blocks), or a curved beam where it has `curved_beam`.
 #[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
 #[serde(untagged)]
 pub enum Request {
     /// A structure.
-    Structure(Box<AnalysisRequest>),
+    Structure(#[serde(serialize_with = "without_nulls")] Box<AnalysisRequest>),
     /// The curved beam of section 3.3 of the paper.
-    CurvedBeam(Box<BeamRequest>),
+    CurvedBeam(#[serde(serialize_with = "without_nulls")] Box<BeamRequest>),
+}
+
+/// Writes a request without what it leaves out.
+///
+/// # Errors
+/// Those of the serialiser.
+pub fn without_nulls<Body: Serialize, S: Serializer>(body: &Body, serializer: S) -> Result<S::Ok, S::Error> {
+    fn strip(value: &mut Value) {
+        match value {
+            Value::Object(members) => {
+                members.retain(|_, member| !member.is_null());
+                members.values_mut().for_each(strip);
+            }
+            Value::Array(items) => items.iter_mut().for_each(strip),
+            _ => {}
+        }
+    }
+    let mut tree = serde_json::to_value(body).map_err(S::Error::custom)?;
+    strip(&mut tree);
+    tree.serialize(serializer)
 }
 
 impl Request {
@@ -54,23 +75,22 @@ impl Request {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct AnalysisRequest {
     /// A name to find it again, up to 200 characters.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schema(max_length = 200, pattern = "^[^\\x00-\\x1f\\x7f]*$")]
-    pub name: Option<String>,
+    pub name: Option<Text>,
     /// An arch.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub arch: Option<ArchRequest>,
     /// A bridge of arch spans, each of one ring or more, on piers and abutments.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bridge: Option<BridgeRequest>,
     /// Blocks given by their corners, such as a wall.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub blocks: Option<BlocksRequest>,
+    /// Width of the structure, across the plane of the drawing, m. With it the answer gives results over the whole width beside
+    /// those per metre of width. Left out: per metre of width only.
+    #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
+    pub width_m: Option<f64>,
     /// The stone.
     #[serde(default)]
     pub stone: StoneRequest,
     /// Other stones, which parts of a bridge and blocks name. Not with `arch`.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(default)]
     #[schema(max_items = 100)]
     pub stones: Vec<NamedStone>,
     /// Joints that differ from the rest.
@@ -81,7 +101,6 @@ pub struct AnalysisRequest {
     #[serde(default)]
     pub mesh: MeshRequest,
     /// How accurate the answer has to be.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub accuracy: Option<AccuracyRequest>,
     /// Loads, fixed and scaled by the load factor. Without a scaled one, only whether the structure stands is asked.
     #[schema(min_items = 1, max_items = 1000)]
@@ -103,14 +122,12 @@ pub struct AnalysisRequest {
     /// that collapse, hinges and thrust line are those of a structure whose joints crush. For a collapse at first order by method
     /// `event_path` with one subblock a stone, without `accuracy` and `motion`. False: crushing is told beside the path of stone
     /// that does not crush.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    #[schema(default = false)]
+    #[schema(required = false, default = false)]
     pub crushing_in_path: bool,
     /// What the answer shows.
     #[serde(default)]
     pub report: ReportRequest,
     /// Motion after collapse.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub motion: Option<MotionRequest>,
 }
 
@@ -147,7 +164,6 @@ pub struct StoneRequest {
     pub plane: PlaneModel,
     /// Contact penalty: stiffness of contacts as a multiple of Young's modulus. Left out: 10, and 1 for a bridge and for blocks,
     /// whose joints slide: where they are stiffer than the stones, a load path may end higher.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(minimum = 0.01, maximum = 100.0)]
     pub penalty_ratio: Option<f64>,
     /// Tangential contact penalty as a multiple of the normal one.
@@ -196,11 +212,9 @@ pub struct JointOverride {
     #[schema(maximum = 8000)]
     pub joint: usize,
     /// Friction angle, degrees.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(minimum = 0.0, exclusive_maximum = 90.0)]
     pub friction_angle_deg: Option<f64>,
     /// Cohesion, Pa.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(minimum = 0.0, exclusive_maximum = 1e15)]
     pub cohesion_pa: Option<f64>,
 }
@@ -212,12 +226,10 @@ pub struct LoadFactorRequest {
     /// Which way the load factor goes from 0, upwards or downwards.
     pub direction: Direction,
     /// Largest absolute load factor to try. Left out: that at which the scaled loads come to 1e6 times the fixed ones.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(exclusive_minimum = 0.0, maximum = 1e12)]
     pub cap: Option<f64>,
     /// Unit of the intensity, such as `kN/m` or `m`: a label, nothing is converted.
-    #[schema(max_length = 200, pattern = "^[^\\x00-\\x1f\\x7f]*$")]
-    pub unit: String,
+    pub unit: Text,
     /// Intensity at load factor 1.
     #[schema(exclusive_minimum = 0.0, maximum = 1e12)]
     pub intensity_per_unit: f64,
@@ -225,7 +237,12 @@ pub struct LoadFactorRequest {
 
 impl Default for LoadFactorRequest {
     fn default() -> Self {
-        LoadFactorRequest { direction: Direction::Increase, cap: None, unit: "-".to_owned(), intensity_per_unit: 1.0 }
+        LoadFactorRequest {
+            direction: Direction::Increase,
+            cap: None,
+            unit: Text("-".to_owned()),
+            intensity_per_unit: 1.0,
+        }
     }
 }
 
@@ -247,21 +264,9 @@ pub struct FixedSteps {
     #[schema(exclusive_minimum = 0.0, maximum = 1e12)]
     pub step: f64,
     /// Opening beyond which a joint counts as a hinge, m.
-    #[serde(default = "FixedSteps::default_opening")]
-    #[schema(default = 0.01, exclusive_minimum = 0.0, maximum = 1e5)]
+    #[schema(required = false, default = 0.01, exclusive_minimum = 0.0, maximum = 1e5)]
     pub opening_m: f64,
     /// How many hinges make a collapse; at most the number of joints.
-    #[serde(default = "FixedSteps::default_hinges")]
-    #[schema(default = 3, minimum = 1, maximum = 2002)]
+    #[schema(required = false, default = 3, minimum = 1, maximum = 2002)]
     pub hinges: usize,
-}
-
-impl FixedSteps {
-    fn default_opening() -> f64 {
-        0.01
-    }
-
-    fn default_hinges() -> usize {
-        3
-    }
 }

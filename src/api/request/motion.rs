@@ -3,9 +3,6 @@
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-/// Most steps of a motion.
-pub const MAX_MOTION_FRAMES: usize = 3000;
-
 /// Motion after collapse: rigid stones at loads a little beyond those of collapse, step by step. Any two may touch. Only where
 /// `analysis` asks for collapse.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]

@@ -1,13 +1,9 @@
 //! What is asked of an arch, and what the answer shows.
 
+use super::{Abscissa, LoadFactor, Point, Text};
 use crate::collapse::CrushingKind;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
-
-/// Most abscissae of a curve.
-pub const MAX_ABSCISSAE: usize = 500;
-/// Most stress fields of an answer.
-pub const MAX_FIELDS: usize = 16;
 
 /// What is asked.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
@@ -22,9 +18,6 @@ pub enum AimRequest {
     Settlement(SettlementRequest),
 }
 
-/// Most supports that move.
-pub const MAX_MOVEMENTS: usize = 2001;
-
 /// What becomes of the structure as its supports move, its loads staying as they are. The supports move in proportion to where
 /// these fields say. No load may be scaled; `load_factor.direction`, `load_factor.cap` and `report.share_of_collapse` keep their
 /// defaults.
@@ -36,7 +29,6 @@ pub struct SettlementRequest {
     /// The right springing of an arch; not for half an arch, whose other half moves as its mirror image.
     pub right: MovementRequest,
     /// Supports of a bridge (`ground.left`, `ground.pier0` and so on, `ground.right`) or of blocks; the others stay.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
     #[schema(max_items = 2001)]
     pub supports: Vec<SupportMovementRequest>,
 }
@@ -45,24 +37,19 @@ pub struct SettlementRequest {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct SupportMovementRequest {
     /// The support's name.
-    #[schema(max_length = 200, pattern = "^[^\\x00-\\x1f\\x7f]*$")]
-    pub support: String,
+    pub support: Text,
     /// To the right, m; negative to the left.
-    #[serde(default)]
-    #[schema(default = 0.0, minimum = -1e5, maximum = 1e5)]
+    #[schema(required = false, default = 0.0, minimum = -1e5, maximum = 1e5)]
     pub rightwards_m: f64,
     /// Downwards, m; negative upwards.
-    #[serde(default)]
-    #[schema(default = 0.0, minimum = -1e5, maximum = 1e5)]
+    #[schema(required = false, default = 0.0, minimum = -1e5, maximum = 1e5)]
     pub downwards_m: f64,
     /// Rotation, counter-clockwise, degrees.
-    #[serde(default)]
-    #[schema(default = 0.0, minimum = -90.0, maximum = 90.0)]
+    #[schema(required = false, default = 0.0, minimum = -90.0, maximum = 90.0)]
     pub rotation_deg: f64,
     /// The point [x, y] that it turns about and whose movement is given, m. Left out: the middle of its joints, each with the
     /// weight of its length.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub about_m: Option<[f64; 2]>,
+    pub about_m: Option<Point>,
 }
 
 /// How far it moves; components are at most as large as the arch.
@@ -89,7 +76,6 @@ pub struct SafetyRequest {
     /// its strength. `elastic`: the equivalent stress reaches the strength in some subblock; depends on the mesh.
     pub crushing: CrushingKind,
     /// Asks for a curve: the safety factor at every abscissa of a list.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub curve: Option<CurveRequest>,
 }
 
@@ -100,17 +86,10 @@ pub struct CurveRequest {
     /// Positive numbers, rising strictly. Abscissae times subblocks come to at most 1,000,000, abscissae times loads times
     /// subblocks along the arch to 500,000.
     #[schema(min_items = 1, max_items = 500)]
-    pub abscissae: Vec<f64>,
+    pub abscissae: Vec<Abscissa>,
     /// Their unit: a label only.
-    #[serde(default = "CurveRequest::no_unit")]
-    #[schema(default = "-", max_length = 200, pattern = "^[^\\x00-\\x1f\\x7f]*$")]
-    pub unit: String,
-}
-
-impl CurveRequest {
-    fn no_unit() -> String {
-        "-".to_owned()
-    }
+    #[schema(required = false, default = "-")]
+    pub unit: Text,
 }
 
 /// What the answer shows.
@@ -140,5 +119,5 @@ pub enum StressFieldRequest {
     /// At `share_of_collapse` of the way to collapse.
     NearCollapse,
     /// At this load factor, where the path passes it.
-    LoadFactor(f64),
+    LoadFactor(LoadFactor),
 }

@@ -1,39 +1,30 @@
 //! Stones beside the one that most are made of.
 
+use super::Text;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
-
-/// Most stones beside `stone`.
-pub const MAX_STONES: usize = 100;
 
 /// A stone with a name, for blocks, rings, piers, abutments and backing to be made of. What is left out is as in `stone`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct NamedStone {
     /// Its name, up to 200 characters.
-    #[schema(max_length = 200, pattern = "^[^\\x00-\\x1f\\x7f]*$")]
-    pub name: String,
+    pub name: Text,
     /// Density, kg/m3.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(exclusive_minimum = 0.0, maximum = 100_000.0)]
     pub density_kg_m3: Option<f64>,
     /// Young's modulus, Pa.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(minimum = 1e5, exclusive_maximum = 1e13)]
     pub youngs_modulus_pa: Option<f64>,
     /// Poisson's ratio, between -1 and 0.5.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(exclusive_minimum = -1.0, exclusive_maximum = 0.5)]
     pub poissons_ratio: Option<f64>,
     /// Friction angle of the joints, degrees; of two stones the lower counts.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(minimum = 0.0, exclusive_maximum = 90.0)]
     pub friction_angle_deg: Option<f64>,
     /// Cohesion of the joints, Pa; of two stones the lower counts.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(minimum = 0.0, exclusive_maximum = 1e15)]
     pub cohesion_pa: Option<f64>,
     /// Compressive strength, Pa (10 MPa is 1e7), from 1e3 to 1e30.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(minimum = 1e3, maximum = 1e30)]
     pub compressive_strength_pa: Option<f64>,
 }

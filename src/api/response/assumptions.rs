@@ -8,16 +8,27 @@ const FILL_IS_SHAKEN: &str = "Fill has mass: in the acceleration the column of f
      extrados that looks up pushes with its mass, each of the two at half its height, and the stone below carries it. \
      What lies beside the arch does not push.";
 
+/// Note on stones whose weight nobody has mentioned.
+const NO_WEIGHT: &str =
+    "The stones weigh nothing: no load is their self weight. If they do, add {\"load\": {\"self_weight\": {}}}.";
+
+/// Note on soil that presses without mass, and acceleration.
+const MASSLESS_IS_SHAKEN: &str = "A lateral pressure has no mass: in the acceleration it presses as before. Soil that shakes with \
+     the structure is a fill_pressure with its density.";
+
 /// Most bodies that are named in a note.
 const BODIES_NAMED: usize = 6;
 
 /// Notes on what is assumed of the loads, and of the bodies of a bridge or of blocks.
 pub(super) fn assumptions(request: &AnalysisRequest, structure: &StructureBody) -> Vec<String> {
     let any = |fits: fn(&LoadRequest) -> bool| request.loads.iter().any(|LoadEntry { load, .. }| fits(load));
+    let weight = any(|load| matches!(load, LoadRequest::SelfWeight(_)));
+    let shaken = any(|load| matches!(load, LoadRequest::BodyAcceleration(_)));
     let fill = any(|load| matches!(load, LoadRequest::FillPressure(_)));
-    let shaken = fill && any(|load| matches!(load, LoadRequest::BodyAcceleration(_)));
-    let shaken = shaken.then(|| FILL_IS_SHAKEN.to_owned());
-    shaken.into_iter().chain(uncut(request, structure)).collect()
+    let massless = any(|load| matches!(load, LoadRequest::LateralPressure(_)));
+    let notes = [(!weight, NO_WEIGHT), (shaken && fill, FILL_IS_SHAKEN), (shaken && massless, MASSLESS_IS_SHAKEN)];
+    let notes = notes.into_iter().filter(|(holds, _)| *holds).map(|(_, note)| note.to_owned());
+    notes.chain(uncut(request, structure)).collect()
 }
 
 /// Which bodies a mesh leaves whole.

@@ -3,7 +3,7 @@
 use super::StructureBody;
 use super::assumptions::assumptions;
 use crate::api::prose::in_its_words;
-use crate::api::request::{AimRequest, AnalysisRequest, SafetyRequest};
+use crate::api::request::{Abscissa, AimRequest, AnalysisRequest, SafetyRequest};
 use crate::collapse::{CrushingKind, Governs, Mode, Note, Reach, SafetyFactors, SafetyPoint, SafetyZone};
 use serde::Serialize;
 use utoipa::ToSchema;
@@ -85,6 +85,7 @@ pub struct SafetyCurveResult {
     /// One point per abscissa, in their order.
     pub points: Vec<CurvePointBody>,
     /// The request, defaults filled in.
+    #[serde(serialize_with = "crate::api::request::without_nulls")]
     pub request: AnalysisRequest,
 }
 
@@ -103,14 +104,14 @@ impl SafetyCurveResult {
     pub fn new(request: &AnalysisRequest, points: &[SafetyPoint]) -> Option<Self> {
         let AimRequest::Safety(SafetyRequest { crushing, curve: Some(curve) }) = &request.analysis else { return None };
         let assumptions = assumptions(request, &StructureBody::new(request)?);
-        let body = |(point, &abscissa): (&SafetyPoint, &f64)| {
+        let body = |(point, &Abscissa(abscissa)): (&SafetyPoint, &Abscissa)| {
             let mut safety = SafetyBody::new(&point.factors, &point.notes);
             safety.notes.extend(assumptions.iter().cloned());
             safety.notes.iter_mut().for_each(|note| *note = in_its_words(request, note));
             CurvePointBody { abscissa, safety }
         };
         Some(SafetyCurveResult {
-            unit: curve.unit.clone(),
+            unit: curve.unit.to_string(),
             crushing: *crushing,
             points: points.iter().zip(&curve.abscissae).map(body).collect(),
             request: request.clone(),

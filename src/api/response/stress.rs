@@ -140,7 +140,7 @@ pub fn mesh_in_words(mesh: &MeshRequest) -> String {
     match &mesh.subblocks {
         SubblocksRequest::Uniform(each) => format!("{} x {} subblocks (radial x along)", each.radial, each.along),
         SubblocksRequest::PerVoussoir(list) => {
-            counts_in_words(list.iter().map(|each| each.radial), list.iter().map(|each| each.along))
+            counts_in_words(list.0.iter().map(|each| each.radial), list.0.iter().map(|each| each.along))
         }
     }
 }

@@ -3,9 +3,7 @@
 use super::mesh::why_whole;
 use super::structure::Layout;
 use crate::api::fault::Faults;
-use crate::api::request::{
-    AccuracyRequest, AimRequest, AnalysisRequest, MAX_SUBBLOCKS, MethodRequest, SubblocksRequest,
-};
+use crate::api::request::{AccuracyRequest, AimRequest, AnalysisRequest, MethodRequest, SubblocksRequest};
 use crate::collapse::{Accuracy, Geometry, Seams, can_be_refined, subblocks_of};
 
 /// The accuracy asked for, where one is.
@@ -39,13 +37,7 @@ pub fn accuracy(request: &AnalysisRequest, layout: Option<&Layout>, faults: &mut
 /// What stands in the object itself.
 pub fn checked(asked: &AccuracyRequest, faults: &mut Faults) -> Accuracy {
     let AccuracyRequest { collapse_intensity, stress, subblocks } = *asked;
-    for (name, share) in [("collapse_intensity", collapse_intensity), ("stress", stress)] {
-        if let Some(share) = share {
-            faults.within(format!("/accuracy/{name}"), share, 0.0, 1.0);
-        }
-    }
     let some = collapse_intensity.is_some() || stress.is_some();
     faults.require(some, "/accuracy", "no accuracy is asked for: give collapse_intensity, stress or both");
-    faults.counted("/accuracy/subblocks", subblocks, 1..=MAX_SUBBLOCKS, "subblocks");
     Accuracy { collapse_intensity, stress, most_subblocks: subblocks }
 }

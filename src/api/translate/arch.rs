@@ -1,17 +1,16 @@
 //! The arch of a request, set out.
 
-use super::MAX_LENGTH_M;
 use super::profile::profile;
 use super::stone::joint_law;
 use crate::api::fault::{Faults, Shown};
 use crate::api::prose::Digits;
 use crate::api::request::{
-    ArchRequest, ExtradosCircle, JointsRequest, LineRequest, ProfileRequest, SpringingJoints, Surveyed,
+    ArchRequest, ExtradosCircle, JointsRequest, Length, Point, ProfileRequest, SpringingJoints, Surveyed,
     ThicknessRequest,
 };
 use crate::arch::profile::Profile;
 use crate::arch::ring::{JointEnds, JointLines, Line, Ring, Thickness, stations};
-use crate::arch::{ArchFault, MAX_VOUSSOIRS, assemble, stand_on_abutments, straight_voussoirs};
+use crate::arch::{ArchFault, assemble, stand_on_abutments, straight_voussoirs};
 use crate::geometry::Vec2;
 use crate::structure::{Joint, JointLaw, Stone, Structure};
 
@@ -23,10 +22,6 @@ const MAX_STONE_FAULTS: usize = 20;
 
 /// The whole arch (never halved here), or faults.
 pub fn arch(request: &ArchRequest, stone: Stone, faults: &mut Faults) -> Option<Structure> {
-    let before = faults.len();
-    if let Some(abutments) = &request.abutments {
-        faults.within("/arch/abutments/height_m", abutments.height_m, 0.0, MAX_LENGTH_M);
-    }
     let (ends, ring) = if let ProfileRequest::Surveyed(surveyed) = &request.profile {
         (surveyed_ends(request, surveyed, faults)?, None)
     } else {
@@ -36,9 +31,6 @@ pub fn arch(request: &ArchRequest, stone: Stone, faults: &mut Faults) -> Option<
     let mut voussoirs = straight_voussoirs(&ends).map_err(|found| list(&found, request, faults)).ok()?;
     if let Some(ring) = ring.filter(|_| request.curved_sides) {
         voussoirs = ring.curved_voussoirs(&ends)?;
-    }
-    if faults.len() > before {
-        return None;
     }
     let mut arch = assemble(&ends, voussoirs, stone, joint_law(&stone));
     if request.springing_joints == SpringingJoints::Bonded {
@@ -117,25 +109,9 @@ fn surveyed_ends(request: &ArchRequest, surveyed: &Surveyed, faults: &mut Faults
     let (intrados, extrados) = (&surveyed.intrados_m, &surveyed.extrados_m);
     let detail =
         format!("{} intrados points but {} extrados points: give one pair per joint", intrados.len(), extrados.len());
-    let mut listed = true;
-    for (name, points) in [("intrados_m", intrados), ("extrados_m", extrados)] {
-        let here = format!("{here}/{name}");
-        listed &= faults.listing(&here, points.len(), 3..=MAX_VOUSSOIRS + 1, "joints");
-        let far = |point: &&[f64; 2]| point.iter().any(|value| value.abs() > MAX_LENGTH_M);
-        for (k, point) in points.iter().enumerate().filter(|(_, point)| far(point)).take(MAX_STONE_FAULTS) {
-            check_point(&format!("{here}/{k}"), *point, faults);
-        }
-    }
-    faults.require(!listed || intrados.len() == extrados.len(), format!("{here}/extrados_m"), detail);
-    let pair = |(a, b): (&[f64; 2], &[f64; 2])| [Vec2::from(*a), Vec2::from(*b)];
+    faults.require(intrados.len() == extrados.len(), format!("{here}/extrados_m"), detail);
+    let pair = |(a, b): (&Point, &Point)| [Vec2::from(*a), Vec2::from(*b)];
     (faults.len() == before).then(|| intrados.iter().zip(extrados).map(pair).collect())
-}
-
-/// Whether a point, in m, lies as near as any of an arch.
-fn check_point(here: &str, point: [f64; 2], faults: &mut Faults) {
-    for (i, coordinate) in point.into_iter().enumerate() {
-        faults.either_way(format!("{here}/{i}"), coordinate, MAX_LENGTH_M);
-    }
 }
 
 /// The ring of an arch that is not surveyed, or faults.
@@ -146,10 +122,7 @@ pub fn ring(request: &ArchRequest, faults: &mut Faults) -> Option<Ring> {
     let thickness = thickness(request, line, profile.as_ref(), faults);
     let lengths = lengths(request, faults);
     let joints = match &request.joints {
-        Some(JointsRequest::Rays(rays)) => {
-            check_point("/arch/joints/rays/centre_m", rays.centre_m, faults);
-            JointLines::Rays(Vec2::from(rays.centre_m))
-        }
+        Some(JointsRequest::Rays(rays)) => JointLines::Rays(rays.centre_m.into()),
         _ => JointLines::Normal,
     };
     if request.curved_sides {
@@ -161,82 +134,47 @@ pub fn ring(request: &ArchRequest, faults: &mut Faults) -> Option<Ring> {
         faults.require(exact, "/arch/curved_sides", detail);
     }
     let (profile, thickness, lengths) = (profile?, thickness?, lengths?);
-    let line = match line {
-        LineRequest::Axis => Line::Axis,
-        LineRequest::Intrados => Line::Intrados,
-    };
     let stations = stations(profile.length(), &lengths);
     (faults.len() == before).then_some(Ring { profile, line, thickness, joints, stations })
 }
 
 fn lengths(request: &ArchRequest, faults: &mut Faults) -> Option<Vec<f64>> {
-    let before = faults.len();
-    let listed = request.relative_lengths.as_ref().is_none_or(|lengths| check_lengths(lengths, faults));
     let Some(n) = request.voussoirs else {
         faults.add("/arch/voussoirs", "the number of voussoirs is missing: add it");
         return None;
     };
-    if !faults.counted("/arch/voussoirs", n, 2..=MAX_VOUSSOIRS, "numbers of voussoirs") {
-        return None;
-    }
     let Some(lengths) = &request.relative_lengths else { return Some(vec![1.0; n]) };
     let detail = format!("{} lengths for {n} voussoirs: give one each", lengths.len());
-    faults.require(!listed || lengths.len() == n, "/arch/relative_lengths", detail);
-    (faults.len() == before).then(|| lengths.clone())
+    let fits = faults.require(lengths.len() == n, "/arch/relative_lengths", detail);
+    fits.then(|| lengths.iter().map(|length| length.0).collect())
 }
 
-/// Whether they are lengths of voussoirs; says whether there are as many as an arch may have.
-fn check_lengths(lengths: &[f64], faults: &mut Faults) -> bool {
-    let here = "/arch/relative_lengths";
-    let wrong = |length: &f64| *length <= 0.0 || *length > MAX_LENGTH_M;
-    for (i, &length) in lengths.iter().enumerate().filter(|(_, length)| wrong(length)).take(MAX_STONE_FAULTS) {
-        faults.within(format!("{here}/{i}"), length, 0.0, MAX_LENGTH_M);
-    }
-    faults.listing(here, lengths.len(), 2..=MAX_VOUSSOIRS, "lengths")
-}
-
-fn thickness(
-    request: &ArchRequest,
-    line: LineRequest,
-    profile: Option<&Profile>,
-    faults: &mut Faults,
-) -> Option<Thickness> {
+fn thickness(request: &ArchRequest, line: Line, profile: Option<&Profile>, faults: &mut Faults) -> Option<Thickness> {
     let here = "/arch/thickness";
     let Some(thickness) = &request.thickness else {
         faults.add(here, "the thickness is missing: add it");
         return None;
     };
-    let (pointer, crown, springing) = match thickness {
-        ThicknessRequest::ConstantM(t) => {
-            let pointer = format!("{here}/constant_m");
-            faults.within(&pointer, *t, 0.0, MAX_LENGTH_M).then_some((pointer, *t, *t))
-        }
-        ThicknessRequest::Linear(linear) => {
-            let crown = faults.within(format!("{here}/linear/crown_m"), linear.crown_m, 0.0, MAX_LENGTH_M);
-            let springing = faults.within(format!("{here}/linear/springing_m"), linear.springing_m, 0.0, MAX_LENGTH_M);
-            let pointer = format!("{here}/linear");
-            (crown && springing).then_some((pointer, linear.crown_m, linear.springing_m))
-        }
+    let (which, crown, springing) = match thickness {
+        ThicknessRequest::ConstantM(Length(t)) => ("constant_m", *t, *t),
+        ThicknessRequest::Linear(linear) => ("linear", linear.crown_m, linear.springing_m),
         ThicknessRequest::ExtradosCircle(circle) => return extrados_circle(circle, line, faults),
-    }?;
+    };
     // Where only the thicker end is too thick, the stones themselves will tell.
     let (thinnest, least) = (crown.min(springing), profile.map_or(f64::INFINITY, Profile::least_radius));
-    let fits = line != LineRequest::Axis || 0.5 * thinnest < least;
+    let fits = line != Line::Axis || 0.5 * thinnest < least;
     let detail = format!(
         "half of {} m is not less than the least radius of the axis, {} m: make the arch thinner",
         Shown(thinnest),
         Digits(least)
     );
-    faults.require(fits, pointer, detail).then_some(Thickness::Linear { crown, springing })
+    faults.require(fits, format!("{here}/{which}"), detail).then_some(Thickness::Linear { crown, springing })
 }
 
-fn extrados_circle(circle: &ExtradosCircle, line: LineRequest, faults: &mut Faults) -> Option<Thickness> {
-    let here = "/arch/thickness/extrados_circle";
-    let radius = faults.within(format!("{here}/radius_m"), circle.radius_m, 0.0, MAX_LENGTH_M);
-    let near = faults.either_way(format!("{here}/centre_y_m"), circle.centre_y_m, MAX_LENGTH_M);
-    let on_intrados = line == LineRequest::Intrados;
+fn extrados_circle(circle: &ExtradosCircle, line: Line, faults: &mut Faults) -> Option<Thickness> {
+    let on_intrados = line == Line::Intrados;
     let detail = "with an extrados circle the profile has to be the intrados: set line to `intrados`";
-    faults.require(on_intrados, "/arch/line", detail);
-    (radius && near && on_intrados)
+    faults
+        .require(on_intrados, "/arch/line", detail)
         .then_some(Thickness::ExtradosCircle { radius: circle.radius_m, centre_y: circle.centre_y_m })
 }

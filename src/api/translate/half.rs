@@ -1,6 +1,6 @@
 //! Half an arch: only of what is symmetric.
 
-use super::{arch, loads};
+use super::arch;
 use crate::api::fault::Faults;
 use crate::api::request::{ArchRequest, LoadEntry};
 use crate::structure::{PointForce, Structure, is_symmetric};
@@ -40,7 +40,7 @@ fn without_mirror_image(entries: &[LoadEntry], whole: &Structure, scaled: bool) 
     let (mut all, mut lopsided) = (Vec::new(), Vec::new());
     for (i, entry) in entries.iter().enumerate().filter(|(_, entry)| entry.scaled == scaled) {
         // A load that does not fit the arch has a fault of its own.
-        let Some(Ok(forces)) = loads::load(&entry.load).map(|load| load.on(whole, entry.coefficient)) else {
+        let Some(Ok(forces)) = entry.load.in_si(&[]).map(|load| load.on(whole, entry.coefficient)) else {
             return Vec::new();
         };
         if !symmetric(&forces) {

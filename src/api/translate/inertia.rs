@@ -1,19 +1,17 @@
 //! What the mass of fill does in an acceleration.
 
-use super::loads::{LoadForces, as_fill};
+use super::loads::LoadForces;
 use crate::api::fault::Faults;
 use crate::api::request::{LoadEntry, LoadRequest};
-use crate::geometry::Vec2;
+use crate::structure::Structure;
 use crate::structure::load::Fill;
-use crate::structure::{GRAVITY, Structure};
 
 /// Adds what all fill among `entries` does in the acceleration `entry`. The force has the coefficients of both, and is scaled
 /// where one of the two is. A fill that does not fit the arch has a fault of its own.
 pub fn add(entries: &[LoadEntry], entry: &LoadEntry, structure: &Structure, pieces: &[usize], forces: &mut LoadForces) {
     let LoadRequest::BodyAcceleration(body) = &entry.load else { return };
-    let acceleration = GRAVITY * Vec2::new(body.x_g, body.y_g);
     for (other, fill) in fills(entries) {
-        let acceleration = entry.coefficient * other.coefficient * acceleration;
+        let acceleration = entry.coefficient * other.coefficient * body.in_si();
         let carried = fill.inertia(structure, pieces, acceleration).unwrap_or_default();
         forces.of(entry.scaled || other.scaled).extend(carried);
     }
@@ -40,7 +38,7 @@ pub fn check(entries: &[LoadEntry], faults: &mut Faults) {
 
 fn fills(entries: &[LoadEntry]) -> impl Iterator<Item = (&LoadEntry, Fill)> {
     entries.iter().filter_map(|entry| match &entry.load {
-        LoadRequest::FillPressure(fill) => Some((entry, as_fill(fill))),
+        LoadRequest::FillPressure(fill) => Some((entry, fill.in_si())),
         _ => None,
     })
 }

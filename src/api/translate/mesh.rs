@@ -1,13 +1,10 @@
 //! Subblocks and stress fields of a request.
 
-use super::MAX_FACTOR;
 use super::structure::Layout;
 use crate::api::fault::Faults;
 use crate::api::request::{
-    MAX_FIELDS, MAX_SUBBLOCKS, MAX_SUBBLOCKS_EACH_WAY, MeshRequest, ReportRequest, StressFieldRequest, Subblocks,
-    SubblocksRequest,
+    MAX_SUBBLOCKS, MeshRequest, PerVoussoir, ReportRequest, StressFieldRequest, SubblocksRequest,
 };
-use crate::arch::MAX_VOUSSOIRS;
 use crate::collapse::{FieldAt, can_be_cut, subblocks_of};
 use crate::structure::{Body, Sides};
 
@@ -31,20 +28,12 @@ pub fn subblocks(
     let voussoirs = whole.map(|whole| whole.structure.voussoirs().len());
     let given = match &request.subblocks {
         SubblocksRequest::Uniform(each) => {
-            check(UNIFORM, *each, faults);
             let cut = |body: &Body| subblocks_of(body, [each.radial, each.along]).unwrap_or([1, 1]);
             whole.map_or_else(Vec::new, |whole| whole.structure.voussoirs().iter().map(cut).collect())
         }
-        SubblocksRequest::PerVoussoir(list) => {
+        SubblocksRequest::PerVoussoir(PerVoussoir(list)) => {
             let detail = format!("{} entries for {} voussoirs: give one each", list.len(), voussoirs.unwrap_or(0));
-            if faults.listing(PER_VOUSSOIR, list.len(), 2..=MAX_VOUSSOIRS, "entries") {
-                faults.require(voussoirs.is_none_or(|count| count == list.len()), PER_VOUSSOIR, detail);
-            }
-            for (k, each) in list.iter().enumerate() {
-                if faults.len() < before + MAX_VOUSSOIR_FAULTS {
-                    check(&format!("{PER_VOUSSOIR}/{k}"), *each, faults);
-                }
-            }
+            faults.require(voussoirs.is_none_or(|count| count == list.len()), PER_VOUSSOIR, detail);
             list.iter().map(|each| [each.radial, each.along]).collect()
         }
     };
@@ -61,13 +50,6 @@ pub fn subblocks(
 /// How many they are together.
 pub fn total<'a>(subblocks: impl Iterator<Item = &'a [usize; 2]>) -> usize {
     subblocks.map(|[radial, along]| radial * along).sum()
-}
-
-/// Whether a voussoir, or the curved beam, can be cut like this.
-pub fn check(here: &str, subblocks: Subblocks, faults: &mut Faults) {
-    for (name, count) in [("radial", subblocks.radial), ("along", subblocks.along)] {
-        faults.counted(format!("{here}/{name}"), count, 1..=MAX_SUBBLOCKS_EACH_WAY, "subblocks in this direction");
-    }
 }
 
 /// Whether every body can be cut like this.
@@ -110,19 +92,11 @@ pub fn why_whole(whole: &Layout, k: usize, subblocks: [usize; 2], or_else: &str)
 /// Where stress fields of so many subblocks are wanted.
 pub fn fields(request: &ReportRequest, subblocks: usize, faults: &mut Faults) -> Vec<FieldAt> {
     let (here, count) = ("/report/stress_fields", request.stress_fields.len());
-    if !faults.listing(here, count, 0..=MAX_FIELDS, "stress fields") {
-        return Vec::new();
-    }
     let total = count * subblocks;
     let detail = format!(
         "stress fields times subblocks come to {total}: keep to {MAX_FIELD_SUBBLOCKS} by fewer fields or a coarser mesh"
     );
     faults.require(total <= MAX_FIELD_SUBBLOCKS, here, detail);
-    for (i, field) in request.stress_fields.iter().enumerate() {
-        if let StressFieldRequest::LoadFactor(factor) = field {
-            faults.either_way(format!("{here}/{i}/load_factor"), *factor, MAX_FACTOR);
-        }
-    }
     request.stress_fields.iter().map(|&field| field.into()).collect()
 }
 
@@ -131,7 +105,7 @@ impl From<StressFieldRequest> for FieldAt {
         match field {
             StressFieldRequest::UnitLoad => FieldAt::LoadFactor(1.0),
             StressFieldRequest::NearCollapse => FieldAt::NearCollapse,
-            StressFieldRequest::LoadFactor(factor) => FieldAt::LoadFactor(factor),
+            StressFieldRequest::LoadFactor(factor) => FieldAt::LoadFactor(factor.0),
         }
     }
 }

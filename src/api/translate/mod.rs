@@ -19,23 +19,11 @@ mod stone;
 mod structure;
 
 use super::fault::{Fault, Faults};
-use super::request::{AimRequest, AnalysisRequest, MAX_TEXT, Request};
+use super::request::{AimRequest, AnalysisRequest, Request};
 use crate::collapse::{Analysis, Question};
 use site::Unloaded;
-use stone::friction_angle;
 
-pub use structure::{Layout, NO_STRUCTURE};
-
-/// Largest length and coordinate, m.
-pub const MAX_LENGTH_M: f64 = 1e5;
-/// Largest density, kg/m3 (heavier than any matter on Earth).
-pub const MAX_DENSITY_KG_M3: f64 = 1e5;
-/// Largest modulus, strength, cohesion or pressure, Pa.
-pub const MAX_STRESS_PA: f64 = 1e15;
-/// Largest force, N per metre of depth.
-pub const MAX_FORCE_N_PER_M: f64 = 1e15;
-/// Largest pure number: coefficients, load factors, accelerations in g.
-pub const MAX_FACTOR: f64 = 1e12;
+pub use structure::Layout;
 
 /// Translates a request.
 ///
@@ -79,12 +67,4 @@ fn structure_question(request: &AnalysisRequest, faults: &mut Faults) -> Option<
         Some(curve) => safety::points(&site, curve, faults).map(Question::Curve),
         None => site.analysis(&request.loads, faults).map(|analysis| Question::One(Box::new(analysis))),
     }
-}
-
-/// Whether a text is short enough and stands on one line.
-fn check_text(pointer: &str, text: &str, faults: &mut Faults) -> bool {
-    let detail = format!("this text is too long: shorten it to {MAX_TEXT} characters");
-    let short = faults.require(text.chars().count() <= MAX_TEXT, pointer, detail);
-    let detail = "this text has a line break or another control character: leave it out";
-    faults.require(!text.chars().any(|c| c.is_ascii_control()), pointer, detail) && short
 }

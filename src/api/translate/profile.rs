@@ -1,9 +1,7 @@
 //! The profile line of a request.
 
-use super::MAX_LENGTH_M;
 use crate::api::fault::{Faults, Shown, child};
 use crate::api::request::{Circular, MultiCentre, Pointed, ProfileRequest};
-use crate::arch::MAX_VOUSSOIRS;
 use crate::arch::profile::Profile;
 
 /// The profile line that stands at `place`; none for a surveyed arch, or with faults.
@@ -13,13 +11,10 @@ pub fn profile(request: &ProfileRequest, place: &str, faults: &mut Faults) -> Op
         ProfileRequest::Pointed(pointed) => pointed_profile(pointed, &child(place, "pointed"), faults),
         ProfileRequest::Elliptical(ellipse) => {
             let here = child(place, "elliptical");
-            let span = faults.within(format!("{here}/span_m"), ellipse.span_m, 0.0, MAX_LENGTH_M);
-            let rise = faults.within(format!("{here}/rise_m"), ellipse.rise_m, 0.0, MAX_LENGTH_M);
             let ratio = 2.0 * ellipse.rise_m / ellipse.span_m;
-            let measurable = !(span && rise) || (0.01..=100.0).contains(&ratio);
             let detail = format!("the rise is {} times half the span: it must be 0.01 to 100 times", Shown(ratio));
-            faults.require(measurable, format!("{here}/rise_m"), detail);
-            (span && rise && measurable).then(|| Profile::elliptical(ellipse.span_m, ellipse.rise_m))
+            let measurable = faults.require((0.01..=100.0).contains(&ratio), child(&here, "rise_m"), detail);
+            measurable.then(|| Profile::elliptical(ellipse.span_m, ellipse.rise_m))
         }
         ProfileRequest::MultiCentre(oval) => multi_centre_profile(oval, &format!("{place}/multi_centre/arcs"), faults),
         ProfileRequest::Surveyed(_) => None,
@@ -45,38 +40,17 @@ fn either<'a>(
     }
 }
 
-/// Whether the sizes that are given, in m, keep within their bounds.
-fn sizes<const N: usize>(here: &str, given: [(&str, Option<f64>); N], faults: &mut Faults) -> bool {
-    let before = faults.len();
-    for (name, size) in given {
-        if let Some(size) = size {
-            faults.within(format!("{here}/{name}"), size, 0.0, MAX_LENGTH_M);
-        }
-    }
-    faults.len() == before
-}
-
 fn circular_profile(circular: &Circular, here: &str, faults: &mut Faults) -> Option<Profile> {
     let by_radius = [("radius_m", circular.radius_m), ("opening_angle_deg", circular.opening_angle_deg)];
     let by_span = [("span_m", circular.span_m), ("rise_m", circular.rise_m)];
-    let sized = sizes(here, [by_radius[0], by_span[0], by_span[1]], faults);
-    let opens = |angle: f64| faults.inside(format!("{here}/opening_angle_deg"), angle, 0.0, 360.0);
-    let opens = circular.opening_angle_deg.is_none_or(opens);
     let (which, [(_, x), (_, y)]) = either(here, [by_radius, by_span], faults)?;
-    let profile = || if which == 0 { Profile::circular(x, y.to_radians()) } else { Profile::circular_by_span(x, y) };
-    (sized && opens).then(profile)
+    Some(if which == 0 { Profile::circular(x, y.to_radians()) } else { Profile::circular_by_span(x, y) })
 }
 
 fn pointed_profile(pointed: &Pointed, here: &str, faults: &mut Faults) -> Option<Profile> {
     let by_radius = [("radius_m", pointed.radius_m), ("centre_offset_m", pointed.centre_offset_m)];
     let by_span = [("span_m", pointed.span_m), ("rise_m", pointed.rise_m)];
-    let sized = sizes(here, [by_radius[0], by_span[0], by_span[1]], faults);
-    let offset = |offset: f64| faults.from_to(format!("{here}/centre_offset_m"), offset, 0.0, MAX_LENGTH_M);
-    let placed = pointed.centre_offset_m.is_none_or(offset);
     let (which, [(_, x), (b, y)]) = either(here, [by_radius, by_span], faults)?;
-    if !(sized && placed) {
-        return None;
-    }
     let (x_m, second) = (Shown(x), format!("{here}/{b}"));
     if which == 0 {
         let detail = format!("{} is too far: the centres lie less than the radius, {x_m} m, from mid-span", Shown(y));
@@ -87,15 +61,8 @@ fn pointed_profile(pointed: &Pointed, here: &str, faults: &mut Faults) -> Option
 }
 
 fn multi_centre_profile(oval: &MultiCentre, here: &str, faults: &mut Faults) -> Option<Profile> {
-    let (before, arcs) = (faults.len(), &oval.arcs);
-    faults.listing(here, arcs.len(), 1..=MAX_VOUSSOIRS, "arcs");
-    for (i, arc) in arcs.iter().enumerate() {
-        faults.within(format!("{here}/{i}/radius_m"), arc.radius_m, 0.0, MAX_LENGTH_M);
-        faults.inside(format!("{here}/{i}/angle_deg"), arc.angle_deg, 0.0, 180.0);
-    }
-    let sum: f64 = arcs.iter().map(|arc| arc.angle_deg).sum();
+    let sum: f64 = oval.arcs.iter().map(|arc| arc.angle_deg).sum();
     let detail = format!("the angles add up to {} degrees: half an arch turns by less than 180", Shown(sum));
-    faults.require(faults.len() > before || sum < 180.0, here, detail);
-    let pairs: Vec<_> = arcs.iter().map(|arc| (arc.radius_m, arc.angle_deg.to_radians())).collect();
-    (faults.len() == before).then(|| Profile::multi_centre(&pairs))
+    let pairs: Vec<_> = oval.arcs.iter().map(|arc| (arc.radius_m, arc.angle_deg.to_radians())).collect();
+    faults.require(sum < 180.0, here, detail).then(|| Profile::multi_centre(&pairs))
 }

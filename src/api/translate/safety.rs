@@ -1,9 +1,9 @@
 //! Safety analyses of a request, alone or along a curve.
 
 use super::site::Unloaded;
-use super::{MAX_FACTOR, check_text, loads, mesh};
+use super::{loads, mesh};
 use crate::api::fault::{Fault, Faults, Shown, lies_under};
-use crate::api::request::{AnalysisRequest, CurveRequest, LoadEntry, MAX_ABSCISSAE};
+use crate::api::request::{Abscissa, AnalysisRequest, CurveRequest, LoadEntry};
 use crate::collapse::{CurvePoint, Direction};
 use std::collections::BTreeSet;
 
@@ -52,7 +52,6 @@ pub fn check_flags(request: &AnalysisRequest, curve: Option<&CurveRequest>, faul
 
 /// The analysis at every abscissa; what is wrong with the loads at several of them is said once.
 pub fn points(site: &Unloaded<'_>, curve: &CurveRequest, faults: &mut Faults) -> Option<Vec<CurvePoint>> {
-    check_text(&format!("{CURVE}/unit"), &curve.unit, faults);
     let entries = &site.request.loads;
     if !(check_abscissae(curve, faults) && check_size(site, curve.abscissae.len(), faults)) {
         // The loads as they stand, so that their faults are listed too.
@@ -60,7 +59,7 @@ pub fn points(site: &Unloaded<'_>, curve: &CurveRequest, faults: &mut Faults) ->
     }
     let mut seen = BTreeSet::new();
     let mut points = Some(Vec::with_capacity(curve.abscissae.len()));
-    for &abscissa in &curve.abscissae {
+    for &Abscissa(abscissa) in &curve.abscissae {
         let mut here = Faults::default();
         let analysis = site.analysis(&at(entries, abscissa), &mut here);
         for Fault { pointer, detail } in here.into_vec() {
@@ -96,20 +95,14 @@ fn depends(entries: &[LoadEntry], pointer: &str) -> bool {
 
 fn check_abscissae(curve: &CurveRequest, faults: &mut Faults) -> bool {
     let (before, abscissae) = (faults.len(), &curve.abscissae);
-    if !faults.listing(ABSCISSAE, abscissae.len(), 1..=MAX_ABSCISSAE, "abscissae") {
-        return false;
-    }
-    for (i, &abscissa) in abscissae.iter().enumerate() {
-        let pointer = format!("{ABSCISSAE}/{i}");
-        let earlier = i.checked_sub(1).map_or(0.0, |i| abscissae[i]);
-        if faults.within(&pointer, abscissa, 0.0, MAX_FACTOR) {
-            let detail = format!(
-                "{} follows on {}: list the abscissae from lowest to highest, each once",
-                Shown(abscissa),
-                Shown(earlier)
-            );
-            faults.require(abscissa > earlier, pointer, detail);
-        }
+    for (i, pair) in abscissae.windows(2).enumerate() {
+        let [earlier, later] = [pair[0].0, pair[1].0];
+        let detail = format!(
+            "{} follows on {}: list the abscissae from lowest to highest, each once",
+            Shown(later),
+            Shown(earlier)
+        );
+        faults.require(later > earlier, format!("{ABSCISSAE}/{}", i + 1), detail);
     }
     faults.len() == before
 }

@@ -2,10 +2,9 @@
 
 use super::stone::{Stones, check_overrides, override_joints};
 use super::structure::{self, Layout};
-use super::{MAX_FACTOR, MAX_LENGTH_M, accuracy, check_text, crushing, half, loads, mesh, motion, settlement};
+use super::{accuracy, crushing, half, loads, mesh, motion, settlement};
 use crate::api::fault::Faults;
 use crate::api::request::{AimRequest, AnalysisRequest, LoadEntry, MethodRequest};
-use crate::arch::MAX_VOUSSOIRS;
 use crate::collapse::{
     Accuracy, Analysis, CollapseTask, FieldAt, Geometry, LOAD_PIECES, Mesh, Method, MotionAsked, Path, SafetyTask,
     SettlementTask, StatesAsked, Task,
@@ -35,8 +34,6 @@ pub struct Unloaded<'a> {
 impl<'a> Unloaded<'a> {
     /// Checks and translates all but the loads.
     pub fn new(request: &'a AnalysisRequest, faults: &mut Faults) -> Self {
-        check_text("/name", request.name.as_deref().unwrap_or(""), faults);
-        check_text("/load_factor/unit", &request.load_factor.unit, faults);
         let stones = Stones::new(request, faults);
         let mut layout = structure::layout(request, &stones, faults);
         structure::check(request, faults);
@@ -57,10 +54,8 @@ impl<'a> Unloaded<'a> {
         }
         let joints = structure.as_ref().map_or(usize::MAX, |structure| structure.ring().len());
         let steps = steps(&request.method, joints, faults);
-        check_load_factor(request, faults);
         check_method(request, faults);
         crushing::check(request, &subblocks, faults);
-        faults.inside("/report/share_of_collapse", request.report.share_of_collapse, 0.0, 1.0);
         let accuracy = accuracy::accuracy(request, layout.as_ref(), faults);
         let pieces = mesh::total(subblocks.iter().take(analysed.unwrap_or(0)));
         let refined = accuracy.filter(|accuracy| accuracy.stress.is_some());
@@ -152,14 +147,6 @@ impl<'a> Unloaded<'a> {
     }
 }
 
-fn check_load_factor(request: &AnalysisRequest, faults: &mut Faults) {
-    let factor = &request.load_factor;
-    if let Some(cap) = factor.cap {
-        faults.within("/load_factor/cap", cap, 0.0, MAX_FACTOR);
-    }
-    faults.within("/load_factor/intensity_per_unit", factor.intensity_per_unit, 0.0, MAX_FACTOR);
-}
-
 /// What cannot be followed in fixed steps.
 fn check_method(request: &AnalysisRequest, faults: &mut Faults) {
     let what = match (&request.analysis, request.geometry) {
@@ -175,12 +162,8 @@ fn check_method(request: &AnalysisRequest, faults: &mut Faults) {
 /// The fixed steps asked for, where they are.
 fn steps(request: &MethodRequest, joints: usize, faults: &mut Faults) -> Option<Method> {
     let MethodRequest::FixedSteps(steps) = request else { return None };
-    let here = "/method/fixed_steps";
-    faults.within(format!("{here}/step"), steps.step, 0.0, MAX_FACTOR);
-    faults.within(format!("{here}/opening_m"), steps.opening_m, 0.0, MAX_LENGTH_M);
-    let (pointer, hinges) = (format!("{here}/hinges"), steps.hinges);
+    let hinges = steps.hinges;
     let detail = format!("{hinges} hinges are more than the {joints} joints of the arch: give fewer");
-    let _ = faults.counted(&pointer, hinges, 1..=MAX_VOUSSOIRS + 1, "hinges")
-        && faults.require(hinges <= joints, pointer, detail);
+    faults.require(hinges <= joints, "/method/fixed_steps/hinges", detail);
     Some(Method::FixedSteps { step: steps.step, opening: steps.opening_m, hinges: steps.hinges })
 }

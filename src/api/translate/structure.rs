@@ -6,9 +6,6 @@ use crate::api::fault::Faults;
 use crate::api::request::AnalysisRequest;
 use crate::structure::Structure;
 
-/// The fault of a request without a structure.
-pub const NO_STRUCTURE: &str = "arch, bridge and blocks are all missing: add one of them";
-
 /// A structure, and what its bodies and supports are called; an arch has names for neither.
 #[derive(Debug, Clone)]
 pub struct Layout {
@@ -27,34 +24,16 @@ impl Layout {
     }
 }
 
-/// The three words for a structure, and whether each is given.
-fn words(request: &AnalysisRequest) -> [(&'static str, bool); 3] {
-    [("arch", request.arch.is_some()), ("bridge", request.bridge.is_some()), ("blocks", request.blocks.is_some())]
-}
-
 /// The structure of a request, or faults.
 pub fn layout(request: &AnalysisRequest, stones: &Stones<'_>, faults: &mut Faults) -> Option<Layout> {
-    let given: Vec<_> = words(request).into_iter().filter(|(_, given)| *given).map(|(word, _)| word).collect();
-    match given.as_slice() {
-        [_] => {}
-        [] => {
-            faults.add("/arch", NO_STRUCTURE);
-            return None;
-        }
-        [first, others @ ..] => {
-            for word in others {
-                faults.add(format!("/{word}"), format!("there is {first} too: leave one of them out"));
-            }
-            return None;
-        }
-    }
-    match request {
-        AnalysisRequest { bridge: Some(request), .. } => bridge::bridge(request, stones, faults),
-        AnalysisRequest { blocks: Some(request), .. } => blocks::blocks(request, stones, faults),
-        AnalysisRequest { arch: Some(request), .. } => {
+    // Of several, which is a fault, none counts.
+    match (&request.arch, &request.bridge, &request.blocks) {
+        (Some(request), None, None) => {
             let structure = arch::arch(request, stones.all[0], faults)?;
             Some(Layout { structure, bodies: Vec::new(), supports: Vec::new() })
         }
+        (None, Some(request), None) => bridge::bridge(request, stones, faults),
+        (None, None, Some(request)) => blocks::blocks(request, stones, faults),
         _ => None,
     }
 }

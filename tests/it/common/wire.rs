@@ -88,7 +88,7 @@ pub fn buried(radius: f64, joints: usize) -> Value {
             "voussoirs": joints - 1,
         },
         "loads": [{"load": {"self_weight": {}}}, {"load": fill}, jack(1.5), jack(-1.5)],
-        "load_factor": {"unit": "kN/m2"},
+        "load_factor": {"unit": "kN/m2", "intensity_per_unit": 1},
     })
 }
 

@@ -26,7 +26,7 @@ pub fn without(mut request: Value, pointer: &str) -> Value {
 
 fn arch() -> Value {
     json!({
-        "name": "all of it",
+        "name": "all of it", "width_m": 5,
         "arch": {
             "profile": {"circular": {"radius_m": 4.0, "opening_angle_deg": 150}},
             "line": "axis", "thickness": {"constant_m": 0.6}, "voussoirs": 12, "joints": "normal",

@@ -125,7 +125,8 @@ impl<'a> Tables<'a> {
             _ => field.words,
         }));
         if first.is_none() && !elsewhere {
-            self.told.extend(held.name.map(|name| (name, inside.clone())));
+            let holds = ["properties", "oneOf", "allOf"].iter().any(|word| held.schema.get(word).is_some());
+            self.told.extend(held.name.filter(|_| holds).map(|name| (name, inside.clone())));
             self.inside(&inside, held.schema, rows);
         }
     }

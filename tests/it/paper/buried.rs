@@ -1,7 +1,7 @@
 //! Case 1, the buried arch under two jacks: Table 2 and Fig. 8.
 
-use crate::common::answered;
 use super::sheet::{alternate, close, degrees, expected, left_hinges, number, request, solve};
+use crate::common::answered;
 use serde_json::{Value, json};
 
 /// Joints; critical intensity in kN/m of the experiment and of the paper's own computation.
