@@ -25,7 +25,7 @@ const STYLE: &str = "\
 .hinge{fill:#fff;stroke:#1d1d1f;stroke-width:2.4}
 .slide{stroke:#b06a00;stroke-width:2.4;stroke-linecap:round}
 .parting{stroke:#1d1d1f;stroke-width:2.4;stroke-dasharray:3 4}
-.crushed{stroke:#c8392b;stroke-width:7}
+.crushed{stroke:#c8392b;stroke-width:16;stroke-linecap:round;stroke-opacity:.45}
 .bar{stroke:#1d1d1f;stroke-width:1.6}
 text{font-family:Inter,'Helvetica Neue',Helvetica,Arial,sans-serif;fill:#1d1d1f}
 .title{font-size:19px;font-weight:600}
