@@ -95,11 +95,19 @@ fn facts(result: &AnalysisResult, wall_time: Duration) -> Table {
 
 fn end_facts(result: &AnalysisResult, end: &EndBody) -> Vec<(&'static str, String)> {
     let (unit, window) = (wording::unit(result), result.outcome == Outcome::StandsInWindow);
-    let at = |intensity: f64, factor: f64| format!("{} {unit} (load factor {})", Digits(intensity), Digits(factor));
+    let factor = |factor: f64| {
+        if unit == "(load factor)" { String::new() } else { format!(" (load factor {})", Digits(factor)) }
+    };
+    let at = |intensity: f64, load_factor: f64| format!("{} {unit}{}", Digits(intensity), factor(load_factor));
+    let name = match result.outcome {
+        Outcome::StandsInWindow => wording::name(end),
+        Outcome::Crushes if result.safety.is_none() => "without crushing",
+        _ => "intensity",
+    };
     let mut lines = Vec::new();
     // An arch that falls as built has no load to fall at.
     if window || matches!(result.outcome, Outcome::Collapse | Outcome::CannotTell | Outcome::Crushes) {
-        lines.push((if window { wording::name(end) } else { "intensity" }, at(end.intensity, end.load_factor)));
+        lines.push((name, at(end.intensity, end.load_factor)));
         lines.extend(
             end.range.as_ref().and_then(|range| wording::sliding_range(range, unit)).map(|range| ("range", range)),
         );
