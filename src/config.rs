@@ -26,6 +26,7 @@ pub struct Program {
 #[derive(Debug, Subcommand)]
 pub enum Verb {
     /// Analyse one request and print the answer
+    #[command(after_help = EXIT_CODES)]
     Solve(Solve),
     /// Serve HTTP until told to stop
     Serve(Serve),
@@ -35,6 +36,10 @@ pub enum Verb {
     Health(HealthOptions),
 }
 
+/// What `solve` ends with.
+const EXIT_CODES: &str = "Exit codes: 0 with an answer, whatever its outcome; 2 for a request that cannot be analysed, or a wrong \
+command line; 1 where there is no answer, the file cannot be read or nothing can be written.";
+
 /// Options of `solve`.
 #[derive(Debug, Args)]
 pub struct Solve {
@@ -43,7 +48,7 @@ pub struct Solve {
     /// Print the whole answer as JSON, byte for byte what /v1/jobs/{id}/results gives
     #[arg(long)]
     pub json: bool,
-    /// Also draw the arch where its load path ends, as SVG, into this file
+    /// Also draw how the arch collapses, as SVG, into this file
     #[arg(long, value_name = "OUT.svg")]
     pub figure: Option<PathBuf>,
 }

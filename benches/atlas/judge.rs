@@ -143,7 +143,7 @@ impl Truth {
         let fits = match report.outcome {
             Outcome::FallsAsBuilt => self.falls() || self.out_of_reach(report.cap),
             Outcome::SlidesAsBuilt => report.end.as_ref().is_some_and(slides),
-            Outcome::NeverCollapses => self.limit(sign).is_some_and(|limit| sign * limit >= report.cap * (1.0 - EQUAL)),
+            Outcome::Stands => self.limit(sign).is_some_and(|limit| sign * limit >= report.cap * (1.0 - EQUAL)),
             Outcome::Collapse => self.inside() >= -self.floor,
             Outcome::StandsInWindow => self.inside() <= self.floor && !self.falls(),
             _ => false,

@@ -18,11 +18,11 @@ mod words;
 
 pub use beam::BeamResult;
 pub use columns::{BlockColumns, ContactColumns, HistoryColumns, SnapshotBody, ThrustColumns, VelocityColumns};
-pub use falling::{
-    FrameColumns, MotionBody, MotionContactColumns, MotionEndWord, OpenHingeColumns, PlaceColumns, SlidColumns,
+pub use falling::{FrameColumns, MotionBody, MotionContactColumns, OpenHingeColumns, PlaceColumns, SlidColumns};
+pub use mechanism::{
+    CrushedJointBody, EndBody, FallBody, FigureBody, HingeBody, LiftOffBody, MechanismBody, RangeBody, SlideBody,
 };
-pub use mechanism::{Collapse, CrushedJointBody, EndBody, HingeBody, LiftOffBody, RangeBody, SlideBody};
-pub use plan::{BeamPlanBody, EstimateBody, MeshBody, PlanBody, SubblockCounts};
+pub use plan::{BeamPlanBody, PlanBody, SubblockCounts};
 pub use proof::{JointForceColumns, MotionColumns, ProofBody, ProofEndBody};
 pub use result::JobResult;
 pub use safety::{CurvePointBody, ReachBody, SafetyBody, SafetyCurveResult};
@@ -33,12 +33,13 @@ pub use stress::{
 };
 pub use structure::{BodyBody, JointBody, LawWord, LoadOnBody, StructureBody};
 pub use updated::UpdatedBody;
-pub use words::{GovernedBy, MethodWord};
+pub use words::MethodWord;
 
 use super::json::{NotFinite, line};
 use super::prose::in_its_words;
 use super::request::AnalysisRequest;
 use crate::collapse::{CollapseReport, Cost, LimitWindow, Note, Outcome, ThrustRange};
+use columns::column;
 use serde::Serialize;
 use settlement::Grounds;
 use utoipa::ToSchema;
@@ -52,8 +53,9 @@ pub struct AnalysisResult {
     pub method: MethodWord,
     /// Unit of every intensity.
     pub unit: String,
-    /// The end of the load path at which the structure collapses; null where nothing collapses.
-    pub collapse: Option<Collapse>,
+    /// Where it collapses, that of the asked direction first; the other one too of a structure that stands in a window only. None
+    /// where nothing collapses. Where `outcome` is `crushes` in an analysis of the collapse: of stone that does not crush.
+    pub ends: Vec<EndBody>,
     /// Lowest and highest intensity at which the static theorem finds equilibrium, each null where unbounded; null where
     /// nothing stands.
     pub limit_window: Option<[Option<f64>; 2]>,
@@ -66,28 +68,14 @@ pub struct AnalysisResult {
     pub thrust_range: Option<ThrustRangeBody>,
     /// All bodies and joints, with their loads and laws.
     pub structure: StructureBody,
-    /// Hinges of the collapse, in the order of their joints.
-    pub hinges: Vec<HingeBody>,
-    /// Sliding joints of the collapse, in their order.
-    pub slides: Vec<SlideBody>,
-    /// Joints that part altogether in the collapse, in their order.
-    pub lift_offs: Vec<LiftOffBody>,
-    /// Joints that crush at collapse, where `crushing_in_path` is set.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub crushed_joints: Vec<CrushedJointBody>,
-    /// Resultant per joint at collapse; null where nothing collapses.
-    pub thrust_line: Option<ThrustColumns>,
-    /// Velocity of every body in the mechanism; null where nothing collapses.
-    pub velocities: Option<VelocityColumns>,
-    /// The end of the path in the other direction, for an arch that stands in a window only.
-    pub other_end: Option<EndBody>,
     /// Load factor from which the path was followed.
     pub start_load_factor: f64,
     /// Largest absolute load factor that was tried.
     pub cap: f64,
     /// Share of the way to the end of the load path at which `near_collapse` was taken.
     pub share: f64,
-    /// State just before the end of the load path; where joints slide, that may lie beyond the collapse intensity.
+    /// State just before the end of the load path, of stone that does not crush unless `crushing_in_path` is set; where joints slide
+    /// or crush, that may lie beyond the collapse intensity.
     pub near_collapse: Option<SnapshotBody>,
     /// State at load factor 1, where the path passes it.
     pub at_unit_load: Option<SnapshotBody>,
@@ -104,21 +92,20 @@ pub struct AnalysisResult {
     pub settlement: Option<SettlementBody>,
     /// Safety factors, where `analysis` asks for them.
     pub safety: Option<SafetyBody>,
-    /// How the structure moves on from its collapse, where `motion` asks for it.
-    pub motion: Option<MotionBody>,
-    /// How it moves on from `other_end`, where `motion` asks for it.
-    pub other_motion: Option<MotionBody>,
     /// The load path, event by event.
     pub history: HistoryColumns,
     /// What was modelled, and how accurate it is, where `accuracy` is asked for.
     pub plan: Option<PlanBody>,
     /// Counts of the work done; the same on any machine.
-    pub cost: CostBody,
+    pub cost: Cost,
     /// What to know before using the numbers.
     pub notes: Vec<String>,
     /// The request, defaults filled in.
     #[serde(serialize_with = "crate::api::request::without_nulls")]
     pub request: AnalysisRequest,
+    /// What to change where there is no answer, if that is known.
+    #[serde(skip)]
+    pub(super) remedy: Option<&'static str>,
 }
 
 /// Horizontal thrust under the fixed loads, by the static theorem, with which the left springing pushes to the right; negative:
@@ -129,19 +116,6 @@ pub struct ThrustRangeBody {
     pub lowest_n_per_m: Option<f64>,
     /// Greatest; null: as much as one likes, as in an arch so flat that its stones are wedged.
     pub highest_n_per_m: Option<f64>,
-}
-
-/// Counts of the work done.
-#[derive(Debug, Clone, Serialize, ToSchema)]
-pub struct CostBody {
-    /// Contact events passed.
-    pub events: usize,
-    /// Factorisations, partial ones included.
-    pub factorisations: usize,
-    /// Block rows eliminated in all factorisations together.
-    pub block_rows: usize,
-    /// Displacement unknowns.
-    pub unknowns: usize,
 }
 
 /// Turns load factors into intensities.
@@ -172,14 +146,6 @@ impl AnalysisResult {
         let scale = Scale { per_unit: request.load_factor.intensity_per_unit, unit: &request.load_factor.unit };
         let window = report.limit_window;
         let snapshot = |snapshot| SnapshotBody::new(snapshot, &scale);
-        let main = report.end.as_ref().map(|end| EndBody::new(end, window, &scale));
-        let joints =
-            |end: &EndBody| (end.hinges.clone(), end.slides.clone(), end.lift_offs.clone(), end.crushed_joints.clone());
-        let (hinges, slides, lift_offs, crushed_joints) = main.as_ref().map(joints).unwrap_or_default();
-        let (collapse, thrust_line, velocities) = match main {
-            Some(end) => (Some(end.collapse), Some(end.thrust_line), Some(end.velocities)),
-            None => (None, None, None),
-        };
         let plan = report.plan.as_ref().map(PlanBody::from);
         let refined = plan.as_ref().filter(|plan| plan.stress.is_some());
         let mesh = refined.map_or_else(|| mesh_in_words(&request.mesh), PlanBody::mesh_in_words);
@@ -194,19 +160,12 @@ impl AnalysisResult {
             outcome: report.outcome,
             method: (&request.method).into(),
             unit: scale.unit.to_owned(),
-            collapse,
+            ends: column(&report.ends(), |end| EndBody::new(end, &scale)),
             limit_window: window.map(|window| scale.window(window)),
             limit_window_load_factor: window.map(|window| Scale::LOAD_FACTOR.window(window)),
             proof: report.proof.as_ref().map(ProofBody::new),
             thrust_range: report.thrust_range.filter(|_| request.blocks.is_none()).map(Into::into),
             structure,
-            hinges,
-            slides,
-            lift_offs,
-            crushed_joints,
-            thrust_line,
-            velocities,
-            other_end: report.other_end.as_ref().map(|end| EndBody::new(end, window, &scale)),
             start_load_factor: report.start,
             cap: report.cap,
             share: report.share,
@@ -218,16 +177,15 @@ impl AnalysisResult {
             updated_geometry: report.updated.as_ref().map(|updated| UpdatedBody::new(updated, report, &scale)),
             settlement,
             safety: report.safety().map(|factors| SafetyBody::new(factors, &[])),
-            motion: report.motion.as_ref().map(|motion| MotionBody::new(motion, &scale)),
-            other_motion: report.other_motion.as_ref().map(|motion| MotionBody::new(motion, &scale)),
             history: HistoryColumns::new(&report.history, &scale),
             plan,
-            cost: report.cost.into(),
+            cost: report.cost,
             notes: { report.notes.iter().map(Note::to_string) }
                 .chain(assumptions)
                 .map(|note| in_its_words(request, &note))
                 .collect(),
             request: request.clone(),
+            remedy: report.notes.iter().find_map(Note::remedy),
         })
     }
 
@@ -242,13 +200,6 @@ impl AnalysisResult {
     /// Where a number is not finite.
     pub fn to_bytes(&self) -> Result<Vec<u8>, NotFinite> {
         line(self)
-    }
-}
-
-impl From<Cost> for CostBody {
-    fn from(cost: Cost) -> Self {
-        let Cost { events, factorisations, block_rows, unknowns } = cost;
-        CostBody { events, factorisations, block_rows, unknowns }
     }
 }
 

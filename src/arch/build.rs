@@ -63,14 +63,8 @@ pub fn straight_voussoirs(ends: &[[Vec2; 2]]) -> Result<Vec<Body>, Vec<ArchFault
 }
 
 /// Puts a ring together from its voussoirs and the ends of their joints: one span, of one stone, between two supports, all
-/// joints with the same law. Angles are about `angle_centre`; loads stand on the extrados.
-pub fn assemble(
-    ends: &[[Vec2; 2]],
-    voussoirs: Vec<Body>,
-    stone: Stone,
-    law: JointLaw,
-    angle_centre: Vec2,
-) -> Structure {
+/// joints with the same law. Loads stand on the extrados.
+pub fn assemble(ends: &[[Vec2; 2]], voussoirs: Vec<Body>, stone: Stone, law: JointLaw) -> Structure {
     let n = voussoirs.len();
     let before = |k: usize| if k == 0 { Side::Support(0) } else { Side::Body(k - 1) };
     let after = |k: usize| if k == n { Side::Support(1) } else { Side::Body(k) };
@@ -85,7 +79,7 @@ pub fn assemble(
         stones: vec![stone],
         bodies: voussoirs,
         joints: ends.iter().enumerate().map(joint).collect(),
-        spans: vec![Span { bodies: 0..n, joints: 0..n + 1, angle_centre }],
+        spans: vec![Span { bodies: 0..n, joints: 0..n + 1 }],
         surfaces: ends.windows(2).enumerate().map(surface).collect(),
         supports: 2,
     }

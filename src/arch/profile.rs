@@ -56,15 +56,12 @@ enum Half {
 pub struct Profile {
     half: Half,
     half_length: f64,
-    angle_centre: Vec2,
 }
 
 impl Profile {
     /// A circular arc from its radius, m, and its full opening angle, rad.
     pub fn circular(radius: f64, opening: f64) -> Self {
-        let mut profile = Self::arcs(0.0, &[(radius, 0.5 * opening)]);
-        profile.angle_centre = Vec2::new(0.0, -radius * (0.5 * opening).cos());
-        profile
+        Self::arcs(0.0, &[(radius, 0.5 * opening)])
     }
 
     /// A circular arc from its span and rise, m: R = (h^2 + f^2) / 2f with half span h and rise f.
@@ -89,7 +86,7 @@ impl Profile {
     /// Half an ellipse, m.
     pub fn elliptical(span: f64, rise: f64) -> Self {
         let ellipse = Ellipse::new(0.5 * span, rise);
-        Profile { half_length: ellipse.quarter(), half: Half::Ellipse(ellipse), angle_centre: Vec2::zeros() }
+        Profile { half_length: ellipse.quarter(), half: Half::Ellipse(ellipse) }
     }
 
     /// Tangent arcs (radius in m, angle in rad) from the left springing to the crown, where the tangent is horizontal.
@@ -111,17 +108,12 @@ impl Profile {
         for arc in &mut arcs {
             arc.centre.y -= point.y;
         }
-        Profile { half: Half::Arcs(arcs), half_length: start, angle_centre: Vec2::zeros() }
+        Profile { half: Half::Arcs(arcs), half_length: start }
     }
 
     /// Arc length from springing to springing, m.
     pub fn length(&self) -> f64 {
         2.0 * self.half_length
-    }
-
-    /// Point about which positions are given as angles, m: the centre of a circle, else mid-span.
-    pub fn angle_centre(&self) -> Vec2 {
-        self.angle_centre
     }
 
     /// Least radius of curvature, m.
@@ -230,7 +222,7 @@ mod tests {
         let by_radius = Profile::circular(radius, 2.0 * half_angle);
         assert!((by_span.length() - by_radius.length()).abs() < 1e-13);
         assert!((by_span.at(-2.0).point - by_radius.at(-2.0).point).norm() < 1e-14);
-        assert!((by_span.angle_centre() - Vec2::new(0.0, -radius * half_angle.cos())).norm() < 1e-14);
+        assert!((by_span.centre_at(0.0).unwrap() - Vec2::new(0.0, -radius * half_angle.cos())).norm() < 1e-14);
     }
 
     #[test]

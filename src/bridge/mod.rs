@@ -230,11 +230,7 @@ impl Works<'_> {
                 let stones = [before, after].map(|(_, stone)| stone.unwrap_or(course.stone));
                 self.join([before.0, after.0], self.spans[span].joint(m, k), stones);
             }
-            self.structure.spans.push(Span {
-                bodies: first..first + n,
-                joints: joints..joints + n + 1,
-                angle_centre: self.spans[span].angle_centre,
-            });
+            self.structure.spans.push(Span { bodies: first..first + n, joints: joints..joints + n + 1 });
         }
     }
 

@@ -18,8 +18,6 @@ pub(super) struct SetOut {
     joints: Vec<Vec<usize>>,
     /// For every line the places at which it is cut: those of the joints of the ring below it or above it, rising.
     cuts: Vec<Vec<usize>>,
-    /// Point about which angles are measured, m.
-    pub angle_centre: Vec2,
 }
 
 impl SetOut {
@@ -52,7 +50,7 @@ impl SetOut {
             lines.push(ends.iter().map(|ends| ends[1]).collect::<Vec<_>>());
         }
         let cuts = (0..lines.len()).map(|line| cuts(&joints, line)).collect();
-        let set_out = SetOut { lines, joints, cuts, angle_centre: span.profile.angle_centre() };
+        let set_out = SetOut { lines, joints, cuts };
         let faults = set_out.faults(place);
         if faults.is_empty() { Ok(set_out) } else { Err(faults) }
     }
@@ -86,7 +84,6 @@ impl SetOut {
     /// Moves it to the right.
     pub fn shift(&mut self, by: f64) {
         self.lines.iter_mut().flatten().for_each(|point| point.x += by);
-        self.angle_centre.x += by;
     }
 
     /// Number of rings.

@@ -1,13 +1,13 @@
 //! The exact limit window of an arch, and what to make of a load path that differs from it.
 
 use super::path::total;
+use super::plastic_end;
 use super::tolerances;
 use super::{
     Analysis, AnalysisError, Crushing, Doubt, LimitWindow, LoadRange, Note, PathEnd, PlasticCrushing, Unreached,
 };
 use crate::budget::Budget;
 use crate::limit::{Resultant, StaticTheorem, Window};
-use crate::structure::Structure;
 
 /// Share of the load factor at which scaled and fixed loads are equal at which an arch that falls beyond 0 is seen to fall.
 const SOON: f64 = 1e-3;
@@ -99,25 +99,40 @@ impl Certificate {
     /// joints at either end of its window, where it has one.
     pub(super) fn crushing(
         &self,
-        structure: &Structure,
+        analysis: &Analysis,
         budget: &Budget,
     ) -> Result<(Crushing, [Vec<Resultant>; 2]), AnalysisError> {
+        let structure = &analysis.structure;
         let strengths: Vec<f64> = structure.joints.iter().map(|joint| structure.strength_at(joint)).collect();
         let strength = structure.least_strength();
         if self.solved && !self.theorem.crushes(&strengths) {
             let window = self.window.map(|[lowest, highest]| LimitWindow { lowest, highest });
-            let plastic_section = Some(PlasticCrushing { window, joints: Default::default() });
+            let plastic_section = Some(PlasticCrushing { window, ..PlasticCrushing::default() });
             return Ok((Crushing { strength, elastic: None, plastic_section }, Default::default()));
         }
         let found = self.theorem.crushing_window(&strengths, budget);
         budget.check()?;
         let mut forces = Default::default();
-        let plastic_section = found.ok().map(|window| {
-            let (ends, joints) = window.map(|window| (forces = window.forces, (window.ends, window.joints)).1).unzip();
-            let window = self.tidy(ends).map(|[lowest, highest]| LimitWindow { lowest, highest });
-            PlasticCrushing { window, joints: joints.unwrap_or_default() }
+        let plastic_section = found.ok().map(|found| {
+            let ends = self.tidy(found.as_ref().map(|found| found.ends));
+            let window = ends.map(|[lowest, highest]| LimitWindow { lowest, highest });
+            let Some(found) = found else { return PlasticCrushing { window, ..PlasticCrushing::default() } };
+            let states = [0, 1].map(|end| {
+                let at = ends?[end];
+                let before = self.crushes_before(end, at);
+                before.then(|| plastic_end::at(analysis, &self.theorem, &found, end, at)).flatten()
+            });
+            forces = found.forces;
+            PlasticCrushing { window, joints: found.joints, ends: states }
         });
         Ok((Crushing { strength, elastic: None, plastic_section }, forces))
+    }
+
+    /// Whether a window of plastic sections ends visibly before that of stone that does not crush.
+    fn crushes_before(&self, end: usize, at: f64) -> bool {
+        let limit = self.window.map_or(at, |window| window[end]);
+        let scale = at.abs().max(tolerances::SMALL_FACTOR * self.theorem.load_factor_scale());
+        [-1.0, 1.0][end] * (limit - at) > tolerances::SAME_FAILURE * scale
     }
 
     /// The path is held against the window of plastic sections from now on: its joints crush.

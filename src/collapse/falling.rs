@@ -36,7 +36,8 @@ type Loading = (f64, f64);
 pub(super) fn follow(analysis: &Analysis, report: &mut CollapseReport, budget: &Budget) -> Result<(), AnalysisError> {
     let Some(asked) = analysis.task.motion() else { return Ok(()) };
     let as_built = matches!(report.outcome, Outcome::FallsAsBuilt | Outcome::SlidesAsBuilt);
-    let falls = as_built || matches!(report.outcome, Outcome::Collapse | Outcome::StandsInWindow);
+    let ends = matches!(report.outcome, Outcome::Collapse | Outcome::StandsInWindow | Outcome::Crushes);
+    let falls = as_built || ends;
     if !falls || (report.end.is_none() && report.other_end.is_none()) {
         return Ok(());
     }

@@ -5,7 +5,7 @@ use super::rigid_parts::RigidParts;
 use super::smallest_motion::{Column, smallest_motion};
 use super::{Face, Hinge, LiftOff, Mechanism, Mode, Slide};
 use crate::budget::Budget;
-use crate::geometry::Vec2;
+use crate::geometry::{Vec2, mirrored};
 use crate::limit::{Release, Resultant, releases};
 use crate::structure::{Joint, JointLaw, Loops, PointForce, Side, Structure, resultants};
 use std::ops::Range;
@@ -13,7 +13,7 @@ use std::ops::Range;
 /// Releases slower than this share of the fastest do not move.
 const SLOWEST: f64 = 1e-6;
 /// In a direction of the load path, joint motions below this share of the fastest corner are elastic strain or rounding.
-const ELASTIC: f64 = 1e-5;
+pub(super) const ELASTIC: f64 = 1e-5;
 /// The same on a path on moving geometry, where joints go on straining as the arch falls: measured, real hinges turn at a
 /// hundredth or more of the fastest.
 const MOVING_ELASTIC: f64 = 3e-4;
@@ -140,13 +140,22 @@ pub(super) fn describe(structure: &Structure, loops: &Loops, releases: &[Release
 
 /// Reads a mechanism off velocities of the stones; for paths whose peak is not a mechanism of the joints at their limits.
 pub(super) fn from_velocities(structure: &Structure, motions: &[Motion]) -> Mechanism {
-    let corners = |joint: &Joint| {
-        let [before, after] = joint.between.map(|side| motion_of(side, motions).unwrap_or(Motion::STILL));
-        let rate = |v: Vec2| [v.dot(&joint.normal()), v.dot(&joint.tangent())];
-        [joint.intrados, joint.extrados].map(|corner| rate(after.plus(before, -1.0).at(corner)))
-    };
-    let rates: Vec<_> = structure.ring().iter().map(corners).collect();
+    let rates: Vec<_> = structure.ring().iter().map(|joint| corner_rates(joint, motions)).collect();
     read_off(structure, motions, &rates, &vec![false; rates.len()], ELASTIC)
+}
+
+/// Rates of gap and slip at the ends of a joint, intrados first.
+pub(super) fn corner_rates(joint: &Joint, motions: &[Motion]) -> [[f64; 2]; 2] {
+    let [before, after] = joint.between.map(|side| motion_of(side, motions).unwrap_or(Motion::STILL));
+    let rate = |v: Vec2| [v.dot(&joint.normal()), v.dot(&joint.tangent())];
+    [joint.intrados, joint.extrados].map(|corner| rate(after.plus(before, -1.0).at(corner)))
+}
+
+/// Speed of the fastest corner.
+pub(super) fn fastest(structure: &Structure, motions: &[Motion]) -> f64 {
+    let moving = structure.ring().iter().filter_map(|joint| Some((joint, motion_of(joint.between[0], motions)?)));
+    let speed = |(joint, m): (&Joint, Motion)| m.at(joint.intrados).norm().max(m.at(joint.extrados).norm());
+    moving.map(speed).fold(0.0, f64::max)
 }
 
 /// Motion of what lies on a side of a joint, if it moves.
@@ -166,16 +175,14 @@ pub(super) fn from_rates(
 }
 
 /// Elastic strain and rounding are no joint motion: below this share of the fastest corner nothing opens or slides.
-fn read_off(
+pub(super) fn read_off(
     structure: &Structure,
     motions: &[Motion],
     rates: &[[[f64; 2]; 2]],
     apart: &[bool],
     elastic: f64,
 ) -> Mechanism {
-    let moving = structure.ring().iter().filter_map(|joint| Some((joint, motion_of(joint.between[0], motions)?)));
-    let speed = |(joint, m): (&Joint, Motion)| m.at(joint.intrados).norm().max(m.at(joint.extrados).norm());
-    let still = elastic * moving.map(speed).fold(0.0, f64::max);
+    let still = elastic * fastest(structure, motions);
     let moves = |rate: f64| if rate.abs() < still { 0.0 } else { rate };
     let opening = |((joint, [[i, _], [e, _]]), &apart): ((&Joint, &[[f64; 2]; 2]), &bool)| {
         let (i, e) = (moves(*i) / joint.length(), moves(*e) / joint.length());
@@ -242,6 +249,18 @@ fn assemble(
     Mechanism { mode, hinges: hinges.collect(), slides, lift_offs, velocities: velocities.collect() }
 }
 
+impl Mechanism {
+    /// With the places of the joints in `structure`, but those that they turn about.
+    pub(super) fn placed_in(mut self, structure: &Structure) -> Self {
+        for hinge in &mut self.hinges {
+            (hinge.angle_from_springing, hinge.angle_from_crown) = angles(structure, hinge.joint).unzip();
+        }
+        self.slides.iter_mut().for_each(|slide| slide.at = structure.joints[slide.joint].middle());
+        self.lift_offs.iter_mut().for_each(|lift_off| lift_off.at = structure.joints[lift_off.joint].middle());
+        self
+    }
+}
+
 /// The joints that lift off and move, with the rates at which their ends open and move along them, m.
 fn lift_offs(
     structure: &Structure,
@@ -296,12 +315,16 @@ fn crowns(structure: &Structure) -> impl Iterator<Item = (Range<usize>, [usize; 
     })
 }
 
-/// Angles of a joint's middle about the angle centre of its span: from the nearer springing, and from the crown (left
-/// negative), rad; None of a joint of no span.
+/// Angles of a joint's middle about the middle between those of the springing joints of its span: from the nearer springing, and
+/// from the crown (left negative), rad; None of a joint of no span.
 fn angles(structure: &Structure, joint: usize) -> Option<(f64, f64)> {
     let span = structure.span_of(joint)?;
+    let [first, last] = [span.joints.start, span.joints.end - 1].map(|k| &structure.joints[k]);
+    // Half an arch ends on its axis.
+    let other = if last.is_symmetry() { mirrored(first.middle(), last.middle().x) } else { last.middle() };
+    let centre = 0.5 * (first.middle() + other);
     let from_vertical = |k: usize| {
-        let r = structure.joints[k].middle() - span.angle_centre;
+        let r = structure.joints[k].middle() - centre;
         r.x.atan2(r.y)
     };
     let here = from_vertical(joint);

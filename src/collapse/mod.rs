@@ -12,6 +12,7 @@ mod mirror;
 mod motion;
 mod path;
 mod plan;
+mod plastic_end;
 mod record;
 pub mod report;
 mod rigid_parts;
@@ -202,7 +203,7 @@ pub struct Analysis {
     pub scaled: Vec<PointForce>,
     /// Plane stress or plane strain.
     pub plane: PlaneModel,
-    /// Contact penalty as a multiple of Young's modulus (per metre of depth and contact point).
+    /// Contact penalty as a multiple of Young's modulus (per metre of width and contact point).
     pub penalty_ratio: f64,
     /// Tangential contact penalty as a multiple of the normal one.
     pub shear_penalty_ratio: f64,

@@ -122,7 +122,7 @@ fn why_load(report: &CollapseReport) -> PlanReason {
     match report.outcome {
         Outcome::FallsAsBuilt => PlanReason::NoEquilibrium,
         Outcome::SlidesAsBuilt => PlanReason::SlidesAsLoaded,
-        Outcome::NeverCollapses => PlanReason::NoEndInReach,
+        Outcome::Stands => PlanReason::NoEndInReach,
         Outcome::CannotTell => PlanReason::Disagreement,
         _ if slides => PlanReason::SlidesAtCollapse,
         _ => PlanReason::LoadNeedsNoMesh,

@@ -1,5 +1,6 @@
 //! What an analysis says: plain data, SI units, radians.
 
+mod end;
 mod falling;
 mod mechanism;
 mod note;
@@ -11,6 +12,7 @@ mod updated;
 
 pub use crate::limit::{Resultant, Window, WindowEnd};
 pub use crate::structure::Face;
+pub use end::*;
 pub use falling::*;
 pub use mechanism::*;
 pub use note::*;
@@ -20,7 +22,7 @@ pub use strength::*;
 pub use unfollowed::*;
 pub use updated::*;
 
-use super::FieldAt;
+use super::{Direction, FieldAt};
 use crate::geometry::Vec2;
 
 /// What happened.
@@ -38,13 +40,13 @@ pub enum Outcome {
     /// Does not stand at load factor 0, but does between two others.
     StandsInWindow,
     /// Stands up to the cap.
-    NeverCollapses,
+    Stands,
     /// Stands, and follows its springings through their whole movement.
     FollowsMovement,
     /// Stands, and falls before its springings have come to the end of their movement.
     FallsByMovement,
-    /// The stone crushes before the arch falls: in a safety analysis that crushing governs; in any other, where its joints
-    /// are crushed and its stones yield under the loads at the start of the path already.
+    /// The stone crushes: in a safety analysis where crushing governs; in any other where joints of its strength cannot carry the
+    /// fixed loads alone.
     Crushes,
     /// Path and certificate contradict each other, or the path could not be followed; the notes say why.
     CannotTell,
@@ -177,6 +179,7 @@ pub struct CrushedJoint {
 
 /// Counts of the work done; the same for the same request on any machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "server", derive(serde::Serialize, utoipa::ToSchema))]
 pub struct Cost {
     /// Contact events passed.
     pub events: usize,
@@ -202,13 +205,16 @@ pub struct ThrustRange {
 pub struct CollapseReport {
     /// What happened.
     pub outcome: Outcome,
+    /// Which way the load factor went.
+    pub direction: Direction,
     /// The exact limit window (static theorem, associated friction): the certificate. None where nothing stands.
     pub limit_window: Option<LimitWindow>,
     /// What proves it, where it was solved.
     pub proof: Option<Window>,
     /// Thrust range under the fixed loads, where they stand.
     pub thrust_range: Option<ThrustRange>,
-    /// The end of the path in the asked direction: collapse, or the mechanism of an arch that falls or slides as built.
+    /// The end of the path in the asked direction: collapse, or the mechanism of an arch that falls or slides as built. What
+    /// governs, which may be crushing, [`CollapseReport::ends`] says.
     pub end: Option<PathEnd>,
     /// The end of the path in the other direction, for an arch that stands in a window only.
     pub other_end: Option<PathEnd>,

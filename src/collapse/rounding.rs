@@ -24,7 +24,8 @@ impl CollapseReport {
 
     /// What of the path, its ends and the states on it is not finite.
     fn not_finite(&self) -> Option<&'static str> {
-        let ends = || self.end.iter().chain(&self.other_end);
+        let found = self.ends();
+        let ends = || found.iter().map(|end| end.state).chain(&self.end).chain(&self.other_end);
         let states = || self.near_collapse.iter().chain(&self.at_unit_load).chain(&self.at_start);
         let motions =
             self.motion.iter().chain(&self.other_motion).flat_map(|motion| [motion.load_factor, motion.overload]);

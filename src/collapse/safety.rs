@@ -66,31 +66,37 @@ pub(super) fn judge(report: &mut CollapseReport, counted: CrushingKind) {
     });
 }
 
-/// An arch that stands at the start of its path, but not on joints of the stone's strength: a note; and where its stones
-/// yield there already, it crushes. Not where crushing is in the path.
-pub(super) fn crushed_at_start(report: &mut CollapseReport, in_path: bool) {
-    let stands = |window: Option<LimitWindow>| {
-        window.is_some_and(|window| (window.lowest..=window.highest).contains(&report.start))
-    };
+/// What joints of the stone's strength make of an answer in which they are not in the path: a note and its outcome where they
+/// cannot carry the fixed loads alone (no stress within the strength is in equilibrium either, however fine the mesh); a collapse
+/// where only they do not carry any load that was tried.
+pub(super) fn crushed(report: &mut CollapseReport, in_path: bool) {
     if report.outcome == Outcome::CannotTell || in_path {
         return;
     }
-    let Crushing { strength, elastic, plastic_section } = &report.crushing;
+    let Crushing { strength, plastic_section, .. } = &report.crushing;
     let Some(plastic) = plastic_section else { return report.notes.push(Note::NoPlasticSections) };
-    if !stands(report.limit_window) || stands(plastic.window) {
+    let bears = |window: Option<LimitWindow>, at: f64| {
+        window.is_some_and(|window| (window.lowest..=window.highest).contains(&at))
+    };
+    if !bears(report.limit_window, report.start) {
         return;
     }
-    let (strength, start, window) = (*strength, report.start, plastic.window);
-    report.notes.push(Note::CrushesAtStart { strength, start, window });
-    if elastic.as_ref().is_some_and(|elastic| elastic.at_start) {
-        report.outcome = Outcome::Crushes;
+    let unloaded = bears(report.limit_window, 0.0);
+    if if unloaded { !bears(plastic.window, 0.0) } else { plastic.window.is_none() } {
+        let (strength, start, window) = (*strength, if unloaded { 0.0 } else { report.start }, plastic.window);
+        report.notes.push(Note::CrushesAtStart { strength, start, window });
+        if report.outcome != Outcome::SlidesAsBuilt {
+            report.outcome = Outcome::Crushes;
+        }
+    } else if report.outcome == Outcome::Stands && report.task == TaskReport::Collapse && !report.ends().is_empty() {
+        report.outcome = Outcome::Collapse;
     }
 }
 
 fn instability(report: &CollapseReport) -> Reach {
     let factor = report.end.as_ref().map(|end| end.load_factor);
     match (report.outcome, factor) {
-        (Outcome::NeverCollapses, _) => Reach::Never,
+        (Outcome::Stands, _) => Reach::Never,
         // An arch that can bear the loads reversed only does not stand under them.
         (Outcome::Collapse, Some(factor)) => {
             if factor > 0.0 {

@@ -11,12 +11,12 @@ use super::state::States;
 use super::strips::Strips;
 use super::updated::{self, Course};
 use super::{
-    Analysis, AnalysisError, CollapseReport, Cost, Crushing, Doubt, Geometry, LimitWindow, Note, Outcome,
-    SafetyFactors, SettlementEnd, SupportMovement, Task, TaskReport, ThrustRange, UpdatedGeometry, falling, plan,
-    rounding, safety, settlement,
+    Analysis, AnalysisError, CollapseReport, Cost, Crushing, Doubt, End, Geometry, GovernedBy, LimitWindow, Method,
+    Note, Outcome, SafetyFactors, SettlementEnd, SupportMovement, Task, TaskReport, ThrustRange, UpdatedGeometry,
+    falling, plan, rounding, safety, settlement,
 };
 use crate::budget::Budget;
-use crate::dda::{End, Tracer};
+use crate::dda::{self, Tracer};
 use crate::structure::{Joint, JointLaw};
 use std::ops::ControlFlow;
 
@@ -83,9 +83,13 @@ impl<'a> Setup<'a> {
     fn new(analysis: &'a Analysis, budget: &'a Budget<'a>) -> Result<Self, AnalysisError> {
         let mut certificate = Certificate::new(analysis, budget)?;
         let rigid = certificate.window;
-        let (crushing, forces) = certificate.crushing(&analysis.structure, budget)?;
+        let (mut crushing, forces) = certificate.crushing(analysis, budget)?;
         if analysis.task.crushes_on_path() {
             certificate.hold_to(&crushing);
+        }
+        if !matches!(analysis.task.method(), Method::EventPath(_)) {
+            // The path itself is the answer.
+            crushing.plastic_section.iter_mut().for_each(|plastic| plastic.ends = Default::default());
         }
         let (fixed, scaled) = (total(&analysis.fixed), total(&analysis.scaled));
         let balance = if fixed > 0.0 && scaled > 0.0 { fixed / scaled } else { 1.0 };
@@ -127,10 +131,13 @@ impl<'a> Setup<'a> {
         }
         report.updated = self.updated(&mut report, built)?;
         match &analysis.task {
-            Task::Collapse(_) => safety::crushed_at_start(&mut report, analysis.task.crushes_on_path()),
+            Task::Collapse(_) => safety::crushed(&mut report, analysis.task.crushes_on_path()),
             Task::Safety(task) => safety::judge(&mut report, task.crushing),
             Task::Settlement(task) => self.settle(&mut report, &task.movements, built)?,
         }
+        let slides = |end: &End| end.governed_by == GovernedBy::Crushing && end.state.mechanism.slips();
+        let dilates = !analysis.task.crushes_on_path() && report.ends().iter().any(slides);
+        report.notes.extend(dilates.then_some(Note::CrushesAndDilates));
         falling::follow(analysis, &mut report, budget)?;
         budget.ask()?;
         Ok(report)
@@ -214,23 +221,23 @@ impl<'a> Setup<'a> {
         &self,
         mut report: CollapseReport,
         model: &Model,
-        (mut tracer, end): (Tracer, End),
+        (mut tracer, end): (Tracer, dda::End),
         fixed: &[f64],
         progress: &mut OnEvent,
     ) -> Result<Attempted, AnalysisError> {
         let analysis = self.analysis;
         match end {
-            End::Stopped => return Err(self.budget.stopped().into()),
-            End::Reached if self.certificate.stands_at(self.start) => {}
-            End::Reached => return Ok(Attempted { report, doubt: Some(Doubt::StandsOutside) }),
-            End::Mechanism => return self.fallen(report, model, &tracer),
-            End::Rising | End::Lost => return Ok(Attempted { report, doubt: Some(Doubt::NotLoaded) }),
+            dda::End::Stopped => return Err(self.budget.stopped().into()),
+            dda::End::Reached if self.certificate.stands_at(self.start) => {}
+            dda::End::Reached => return Ok(Attempted { report, doubt: Some(Doubt::StandsOutside) }),
+            dda::End::Mechanism => return self.fallen(report, model, &tracer),
+            dda::End::Rising | dda::End::Lost => return Ok(Attempted { report, doubt: Some(Doubt::NotLoaded) }),
         }
         let mut states = States::new(model);
         let at_start = states.find(self.start, tracer.displacements())?;
         report.at_start = at_start.as_ref().map(|state| snapshot(model, state)).transpose()?;
         if nothing_grows(model, total(&analysis.scaled)) {
-            report.outcome = Outcome::NeverCollapses;
+            report.outcome = Outcome::Stands;
             at_start.map(|state| report.fields_at_rest(analysis, model, &state)).transpose()?;
             if !matches!(analysis.task, Task::Settlement(_)) {
                 report.notes.push(Note::NothingGrows);
@@ -276,7 +283,7 @@ impl<'a> Setup<'a> {
         movements: &[SupportMovement],
         built: &mut Discretisation<'a>,
     ) -> Result<(), AnalysisError> {
-        safety::crushed_at_start(report, false);
+        safety::crushed(report, false);
         if report.at_start.is_none() || report.outcome == Outcome::CannotTell {
             return Ok(());
         }
@@ -305,6 +312,7 @@ impl<'a> Setup<'a> {
         let window = self.rigid;
         CollapseReport {
             outcome: Outcome::CannotTell,
+            direction: self.analysis.task.direction(),
             limit_window: window.map(|[lowest, highest]| LimitWindow { lowest, highest }),
             proof: self.certificate.proof.clone(),
             thrust_range: self.thrust_range,

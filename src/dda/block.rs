@@ -118,7 +118,7 @@ impl Block {
         self.stress_matrix().tr_mul(&of_stress.into())
     }
 
-    /// Stiffness of the elastic energy 1/2 A eps:C:eps, N/m2 (per metre of depth).
+    /// Stiffness of the elastic energy 1/2 A eps:C:eps, N/m2 (per metre of width).
     pub fn stiffness(&self) -> M6 {
         let mut k = M6::zeros();
         for j in 0..3 {

@@ -64,7 +64,7 @@ pub(super) fn zone(state: State) -> Option<Zone> {
 /// A contact point between the block before and the block after an interface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contact {
-    /// Normal and tangential penalty stiffness, N/m2 (per metre of depth).
+    /// Normal and tangential penalty stiffness, N/m2 (per metre of width).
     pub stiffness: [f64; 2],
     /// Its law.
     pub law: Law,

@@ -11,6 +11,8 @@ use super::resultant::Resultant;
 use super::static_theorem::{Equilibrium, Limit};
 use super::{StaticTheorem, Unsolved};
 use crate::budget::Budget;
+use crate::geometry::{Vec2, cross};
+use crate::structure::Joint;
 
 /// A parabola may be violated by this, relative to the loads and to the size of the point: ten times what the linear
 /// programme grants its own rows, so that every cut moves the point.
@@ -29,7 +31,7 @@ const MOST_ROUNDS: usize = 300;
 const FIRST_CUTS: [f64; 3] = [0.25, 0.5, 1.0];
 
 /// Load factors in equilibrium with joints of finite strength.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct CrushingWindow {
     /// Lowest and highest, infinite where unbounded.
     pub ends: [f64; 2],
@@ -38,6 +40,10 @@ pub struct CrushingWindow {
     pub joints: [Vec<usize>; 2],
     /// Forces of all joints at either end; none where it is infinite.
     pub forces: [Vec<Resultant>; 2],
+    /// Motion of all bodies in which the loads of any load factor beyond either end do more work than cohesion and the strength
+    /// take (see [`super::WindowEnd`]): on the part of a joint that closes its strength works, and nothing where it opens. None
+    /// where the end is infinite.
+    pub motions: [Vec<[f64; 3]>; 2],
 }
 
 /// One dry joint of finite strength.
@@ -91,7 +97,7 @@ impl StaticTheorem {
         cut.limits = sections.iter().flat_map(first).flatten().collect();
         conic.sections = sections.clone();
         conic.errors[1] = NEARLY_SOLVED;
-        let mut window = CrushingWindow { ends: [0.0; 2], joints: Default::default(), forces: Default::default() };
+        let mut window = CrushingWindow { ends: [0.0; 2], ..CrushingWindow::default() };
         for (end, sign) in [-1.0, 1.0].into_iter().enumerate() {
             let objective = Objective::load_factor(sign);
             let few = self.has_few_unknowns();
@@ -100,8 +106,9 @@ impl StaticTheorem {
             let outcome =
                 if outcome == ProgrammeOutcome::Lost { conic.maximise_sparsely(&objective, budget) } else { outcome };
             match outcome {
-                ProgrammeOutcome::At(equilibrium, _) => {
+                ProgrammeOutcome::At(equilibrium, dual) => {
                     window.ends[end] = equilibrium.load_factor;
+                    window.motions[end] = self.motion(&dual, &cut.limits);
                     window.joints[end] = self.crushed(&sections, &equilibrium);
                     window.forces[end] = equilibrium.forces;
                 }
@@ -126,6 +133,28 @@ impl StaticTheorem {
             bounded.then_some(Section { joint, capacity })
         };
         strengths.iter().enumerate().filter_map(dry).collect()
+    }
+
+    /// What forces of all joints leave of the loads on any body at a load factor, the moment over the size of the structure, as a
+    /// share of all loads that stay.
+    pub fn unbalanced(&self, load_factor: f64, forces: &[Resultant]) -> f64 {
+        let [fixed, scaled] = &self.loads;
+        let mut left: Vec<[f64; 3]> =
+            fixed.iter().zip(scaled).map(|(f, s)| [0, 1, 2].map(|i| f[i] + load_factor * s[i])).collect();
+        for (joint, of) in self.joints.iter().zip(forces) {
+            let on = |at: Vec2, force: Vec2| [force.x, force.y, cross(at - self.frame.origin, force)];
+            let parts = [
+                on(joint.intrados, joint.normal() * of.intrados + joint.tangent() * of.shear),
+                on(joint.extrados, joint.normal() * of.extrados),
+            ];
+            for (side, sign) in joint.between.into_iter().zip([-1.0, 1.0]) {
+                let Some(body) = side.body() else { continue };
+                parts.iter().for_each(|part| (0..3).for_each(|i| left[body][i] += sign * part[i]));
+            }
+        }
+        let size = self.joints.iter().map(Joint::length).fold(self.frame.length, f64::max);
+        let share = |of: [f64; 3]| [of[0], of[1], of[2] / size].map(|part| part.abs() / self.force);
+        left.into_iter().flat_map(share).fold(0.0, |most, next| if next.is_nan() || next > most { next } else { most })
     }
 
     /// Joints with a parabola active in an equilibrium.

@@ -46,7 +46,7 @@ pub struct StaticTheorem {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Units {
     pub origin: Vec2,
-    length: f64,
+    pub length: f64,
 }
 
 impl Units {

@@ -63,9 +63,9 @@ impl StaticTheorem {
         let mut found = Vec::new();
         for sign in [-1.0, 1.0] {
             found.push(match Programme::new(self).maximise(&Objective::load_factor(sign), budget) {
-                ProgrammeOutcome::At(equilibrium, dual) => Some((equilibrium, self.motion(&dual))),
+                ProgrammeOutcome::At(equilibrium, dual) => Some((equilibrium, self.motion(&dual, &[]))),
                 ProgrammeOutcome::Unbounded(_) => None,
-                ProgrammeOutcome::Infeasible(dual) => return Ok(Window::Falls(self.motion(&dual))),
+                ProgrammeOutcome::Infeasible(dual) => return Ok(Window::Falls(self.motion(&dual, &[]))),
                 ProgrammeOutcome::Lost => return Err(Unsolved),
             });
         }
@@ -108,9 +108,10 @@ impl StaticTheorem {
         WindowEnd::Unbounded { load_factor: at.load_factor, forces: at.forces, ray }
     }
 
-    /// The motion of every body that no limit hinders: joints yield as their limits' multipliers say.
-    fn motion(&self, dual: &Dual) -> Vec<[f64; 3]> {
-        let about_middle = dual.motion.clone().unwrap_or_else(|| self.motion_of_limits(&dual.multipliers));
+    /// The motion of every body that no limit hinders: joints yield as the multipliers of their limits, and of those that a
+    /// programme has besides, say.
+    pub(super) fn motion(&self, dual: &Dual, besides: &[Limit]) -> Vec<[f64; 3]> {
+        let about_middle = dual.motion.clone().unwrap_or_else(|| self.motion_of_limits(&dual.multipliers, besides));
         let of_centroid = |([u, v, spin], centroid): ([f64; 3], &Vec2)| {
             let arm = centroid - self.frame.origin;
             [u - spin * arm.y, v + spin * arm.x, spin]
@@ -124,9 +125,9 @@ impl StaticTheorem {
     }
 
     /// Motion about the middle of all joints: down the tree every joint adds what its limits yield.
-    fn motion_of_limits(&self, multipliers: &[f64]) -> Vec<[f64; 3]> {
+    fn motion_of_limits(&self, multipliers: &[f64], besides: &[Limit]) -> Vec<[f64; 3]> {
         let mut relative = vec![[0.0; 3]; self.joints()];
-        for (limit, y) in self.limits.iter().zip(multipliers).filter(|(_, y)| **y != 0.0) {
+        for (limit, y) in self.limits.iter().chain(besides).zip(multipliers).filter(|(_, y)| **y != 0.0) {
             let functionals = joint_functionals(&self.joints[limit.joint], self.frame.origin);
             for (weight, functional) in limit.weights.iter().zip(functionals) {
                 (0..3).for_each(|i| relative[limit.joint][i] += y * weight * functional[i]);

@@ -3,7 +3,7 @@
 mod bodies;
 
 use super::canvas::{Canvas, WIDTH};
-use crate::collapse::{Face, PathEnd};
+use crate::collapse::PathEnd;
 use crate::geometry::{Vec2, cross, perpendicular};
 use crate::structure::{Joint, JointLaw, Structure};
 use std::ops::Range;
@@ -25,6 +25,7 @@ const STYLE: &str = "\
 .hinge{fill:#fff;stroke:#1d1d1f;stroke-width:2.4}
 .slide{stroke:#b06a00;stroke-width:2.4;stroke-linecap:round}
 .parting{stroke:#1d1d1f;stroke-width:2.4;stroke-dasharray:3 4}
+.crushed{stroke:#c8392b;stroke-width:16;stroke-linecap:round;stroke-opacity:.45}
 .bar{stroke:#1d1d1f;stroke-width:1.6}
 text{font-family:Inter,'Helvetica Neue',Helvetica,Arial,sans-serif;fill:#1d1d1f}
 .title{font-size:19px;font-weight:600}
@@ -58,6 +59,7 @@ pub fn svg(structure: &Structure, end: &PathEnd, caption: &str) -> String {
     } else {
         bodies::draw_thrust(&mut canvas, structure, end);
     }
+    draw_crushed(&mut canvas, structure, end);
     draw_lift_offs(&mut canvas, structure, end);
     draw_slides(&mut canvas, structure, end);
     draw_hinges(&mut canvas, structure, end);
@@ -189,14 +191,19 @@ fn draw_ground(canvas: &mut Canvas, held: &Joint, sign: f64) {
 fn draw_hinges(canvas: &mut Canvas, structure: &Structure, end: &PathEnd) {
     for hinge in &end.mechanism.hinges {
         let joint = &structure.joints[hinge.joint];
-        let (at, other) = match hinge.face {
-            Face::Intrados => (joint.intrados, joint.extrados),
-            Face::Extrados => (joint.extrados, joint.intrados),
-        };
-        let (at, other) = (canvas.place(at), canvas.place(other));
-        let away = (at - other).normalize();
-        canvas.dot("hinge", at, 5.5);
-        canvas.text("label", at + 20.0 * away + Vec2::new(0.0, 5.0), &hinge.joint.to_string());
+        let [end, other] = [hinge.face, hinge.face.other()].map(|face| canvas.place(joint.end(face)));
+        let away = (end - other).normalize();
+        canvas.dot("hinge", canvas.place(hinge.at), 5.5);
+        canvas.text("label", end + 20.0 * away + Vec2::new(0.0, 5.0), &hinge.joint.to_string());
+    }
+}
+
+/// The block of every joint that crushes, from the joint's end inwards.
+fn draw_crushed(canvas: &mut Canvas, structure: &Structure, end: &PathEnd) {
+    for crushed in &end.crushed {
+        let joint = &structure.joints[crushed.joint];
+        let inwards = (joint.end(crushed.face.other()) - crushed.at).normalize();
+        canvas.line("crushed", canvas.place(crushed.at), canvas.place(crushed.at + crushed.length * inwards));
     }
 }
 
@@ -252,6 +259,10 @@ fn draw_foot(canvas: &mut Canvas, end: &PathEnd, thrust: &str) {
     if !end.thrust_line.is_empty() {
         let at = entry(canvas, thrust, 120.0);
         canvas.line("thrust", at - half, at + half);
+    }
+    if !end.crushed.is_empty() {
+        let at = entry(canvas, "crushed", 100.0);
+        canvas.line("crushed", at - half, at + half);
     }
     if !end.mechanism.lift_offs.is_empty() {
         let at = entry(canvas, "parting joint", 128.0);

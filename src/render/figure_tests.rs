@@ -1,6 +1,6 @@
 use super::*;
 use crate::arch::{assemble, straight_voussoirs};
-use crate::collapse::{Hinge, LiftOff, Mechanism, Mode, Slide, Thrust};
+use crate::collapse::{CrushedJoint, Face, Hinge, LiftOff, Mechanism, Mode, Slide, Thrust};
 use crate::render::checks::{attributes, well_formed};
 use crate::structure::Stone;
 use std::f64::consts::PI;
@@ -13,7 +13,7 @@ fn example(n: usize, hinges: [usize; 4], mirror: bool) -> (Structure, PathEnd) {
         r * Vec2::new(angle.cos(), angle.sin())
     };
     let ends: Vec<[Vec2; 2]> = (0..=n).map(|k| [polar(4.25, k), polar(5.0, k)]).collect();
-    let structure = assemble(&ends, straight_voussoirs(&ends).unwrap(), Stone::default(), law, Vec2::zeros());
+    let structure = assemble(&ends, straight_voussoirs(&ends).unwrap(), Stone::default(), law);
     let at = |i: usize| {
         if i.is_multiple_of(2) { structure.joints[hinges[i]].intrados } else { structure.joints[hinges[i]].extrados }
     };
@@ -76,7 +76,7 @@ fn mirrored(mut structure: Structure, mut end: PathEnd) -> (Structure, PathEnd) 
     }
     end.mechanism.velocities.reverse();
     end.mechanism.velocities.iter_mut().for_each(|v| *v = [-v[0], v[1], -v[2]]);
-    end.mechanism.hinges.iter_mut().for_each(|h| h.joint = n - h.joint);
+    end.mechanism.hinges.iter_mut().for_each(|h| (h.joint, h.at) = (n - h.joint, flip(h.at)));
     end.mechanism.slides.iter_mut().for_each(|s| *s = Slide { joint: n - s.joint, at: s.at, rate: -s.rate });
     end.thrust_line.iter_mut().for_each(|t| (t.joint, t.at) = (n - t.joint, flip(t.at)));
     (structure, end)
@@ -101,6 +101,23 @@ fn a_joint_that_parts_is_drawn() {
     // The joint and the legend; the stones part there.
     assert_eq!(svg.matches("class=\"parting\"").count(), 2);
     assert_eq!(svg.matches("class=\"ghost\"").count(), 4 + 1);
+}
+
+#[test]
+fn a_joint_that_crushes_is_drawn_with_its_block() {
+    let (structure, mut end) = example(17, [1, 6, 11, 16], false);
+    let (joint, face) = (6, Face::Extrados);
+    let at = structure.joints[joint].end(face);
+    end.crushed.push(CrushedJoint { joint, face, at, length: structure.joints[joint].length() });
+    let svg = svg(&structure, &end, "");
+    // The block and the legend; here the block is the whole joint.
+    assert_eq!(svg.matches("class=\"crushed\"").count(), 2);
+    let line = svg.lines().find(|line| line.contains("class=\"crushed\"")).unwrap();
+    let canvas_ends = |name: &str| attributes(line, name)[0].parse::<f64>().unwrap();
+    let drawn = Vec2::new(canvas_ends("x2") - canvas_ends("x1"), canvas_ends("y2") - canvas_ends("y1"));
+    let hinges: Vec<f64> =
+        [(0, 1.0), (1, -1.0)].map(|(i, sign)| (structure.joints[joint].intrados - at)[i] * sign / drawn[i]).to_vec();
+    assert!((hinges[0] / hinges[1] - 1.0).abs() < 1e-2, "{hinges:?}");
 }
 
 #[test]

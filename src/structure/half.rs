@@ -50,11 +50,7 @@ impl Structure {
         } else {
             joints[n] = Joint { between: [joints[n].between[0], Side::Support(1)], law: JointLaw::Wall, ..joints[n] };
         }
-        let spans = self
-            .spans
-            .iter()
-            .map(|span| Span { bodies: 0..bodies.len(), joints: 0..joints.len(), ..span.clone() })
-            .collect();
+        let spans = self.spans.iter().map(|_| Span { bodies: 0..bodies.len(), joints: 0..joints.len() }).collect();
         if let [Some(abutment), _] = self.abutments() {
             let block = Side::Body(bodies.len());
             joints[0].between[0] = block;

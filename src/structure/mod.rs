@@ -1,6 +1,6 @@
 //! The structure: bodies of stone, the joints between them, and the ground they stand on.
 //!
-//! Nothing here knows how a structure was built or how it will be solved. All quantities are SI, per metre of depth; x runs
+//! Nothing here knows how a structure was built or how it will be solved. All quantities are SI, per metre of width; x runs
 //! to the right, y upwards.
 
 mod half;
@@ -244,8 +244,6 @@ pub struct Span {
     pub bodies: Range<usize>,
     /// Its joints, one more: joint `joints.start + k` lies before voussoir `bodies.start + k`.
     pub joints: Range<usize>,
-    /// Point about which positions are given as angles, m: the centre of the circle, else mid-span at the springing level.
-    pub angle_centre: Vec2,
 }
 
 /// A straight side on which loads and soil stand.
@@ -320,7 +318,7 @@ pub struct PointForce {
     pub body: usize,
     /// Where it acts, m; the body's centroid if it is spread.
     pub at: Vec2,
-    /// Force per metre of depth, N/m.
+    /// Force per metre of width, N/m.
     pub force: Vec2,
     /// True for a body force, spread evenly over the body's area.
     pub spread: bool,

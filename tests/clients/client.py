@@ -15,8 +15,8 @@ expected = json.loads((case / "expected.json").read_text())
 job = submit_job.sync(client=client, body=request, prefer="wait=30")
 assert isinstance(job, JobStatus) and job.status == StatusWord.SUCCESSFUL, job
 answer = get_results.sync(job.job_id, client=client)
-assert isinstance(answer, AnalysisResult) and answer.collapse, answer
-intensity: float = answer.collapse.intensity
+assert isinstance(answer, AnalysisResult) and answer.ends, answer
+intensity: float = answer.ends[0].intensity
 
 assert answer.outcome == expected["quantities"]["outcome"] and answer.unit == expected["quantities"]["unit"], answer
 assert abs(intensity - expected["quantities"]["intensity"]) <= expected["tolerance"]["intensity"]["absolute"], intensity

@@ -24,5 +24,5 @@ export async function collapse(service: string): Promise<number | undefined> {
   const submitted = await fetch(`${service}/v1/jobs`, { method: "POST", headers, body: JSON.stringify(request) });
   const job: components["schemas"]["JobStatus"] = await submitted.json();
   const answer: Answer = await (await fetch(`${service}/v1/jobs/${job.job_id}/results`)).json();
-  return "collapse" in answer ? answer.collapse?.intensity : undefined;
+  return "ends" in answer ? answer.ends[0]?.intensity : undefined;
 }

@@ -8,10 +8,11 @@ use voussoir::api::rendering::renderings;
 use voussoir::api::request::Request;
 use voussoir::api::response::JobResult;
 use voussoir::collapse::{
-    Answer, BeamReport, CollapseReport, Cost, CrushedJoint, Crushing, ElasticCrushing, Face, FallingMotion, Governs,
-    Hinge, HistoryPoint, LiftOff, LimitWindow, LoadRange, Mechanism, Mode, MotionContact, MotionEnd, MotionFrame, Note,
-    OpenHinge, Outcome, PathEnd, PlasticCrushing, Reach, SafetyFactors, SafetyPoint, SafetyZone, SettlementEnd,
-    SettlementPath, SettlementPoint, SettlementReport, Slid, Slide, StressField, SubblockStress, TaskReport, Thrust,
+    Answer, BeamReport, CollapseReport, Cost, CrushedJoint, Crushing, Direction, ElasticCrushing, Face, FallingMotion,
+    Governs, Hinge, HistoryPoint, LiftOff, LimitWindow, LoadRange, Mechanism, Mode, MotionContact, MotionEnd,
+    MotionFrame, Note, OpenHinge, Outcome, PathEnd, PlasticCrushing, Reach, SafetyFactors, SafetyPoint, SafetyZone,
+    SettlementEnd, SettlementPath, SettlementPoint, SettlementReport, Slid, Slide, StressField, SubblockStress,
+    TaskReport, Thrust,
 };
 use voussoir::geometry::Vec2;
 
@@ -57,9 +58,10 @@ fn factors() -> SafetyFactors {
 fn report() -> CollapseReport {
     let window = LimitWindow { lowest: f64::NEG_INFINITY, highest: 3.0 };
     let elastic = ElasticCrushing { load_factor: Some(1.5), at_start: false, where_largest: Some(subblock()) };
-    let plastic = PlasticCrushing { window: Some(window), joints: [vec![], vec![2, 5]] };
+    let plastic = PlasticCrushing { window: Some(window), joints: [vec![], vec![2, 5]], ends: [None, None] };
     CollapseReport {
         outcome: Outcome::Crushes,
+        direction: Direction::Increase,
         proof: None,
         limit_window: Some(window),
         thrust_range: None,

@@ -3,7 +3,7 @@
 //! Strict on both sides: a missing or unknown file, an unknown key, a number without a tolerance, and a tolerance
 //! without a number are failures, so that nothing written in a case goes unread.
 
-use crate::common::answered::solved;
+use crate::common::answered::{end, solved, uncrushed};
 use crate::common::folders;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -90,8 +90,8 @@ impl Case {
     fn quantity(&mut self, key: &str, value: &Value) {
         let found = match key {
             "outcome" | "unit" => self.answer[key].clone(),
-            "mode" => self.answer["collapse"]["mode"].clone(),
-            "intensity" => return self.number(key, value, "/collapse/intensity"),
+            "mode" => uncrushed(&self.answer["ends"][0])["mode"].clone(),
+            "intensity" => return self.load(key, value, &self.answer["ends"][0].clone()),
             "limit_window" => {
                 self.number(key, &value[0], "/limit_window/0");
                 return self.number(key, &value[1], "/limit_window/1");
@@ -100,18 +100,20 @@ impl Case {
                 self.number(key, &value[0], "/thrust_range/lowest_n_per_m");
                 return self.number(key, &value[1], "/thrust_range/highest_n_per_m");
             }
-            // Ends of a stability window: the path rises to the highest, and is followed down to the lowest too.
-            "highest" => return self.number(key, value, "/collapse/intensity"),
-            "lowest" => return self.number(key, value, "/other_end/intensity"),
-            "hinges" | "highest_hinges" => return self.same_hinges(key, value, "/hinges"),
-            "lowest_hinges" => return self.same_hinges(key, value, "/other_end/hinges"),
+            "highest" | "lowest" => return self.load(key, value, &end(&self.answer, key).clone()),
+            "hinges" => return self.same_hinges(key, value, &self.answer["ends"][0].clone()),
+            "highest_hinges" | "lowest_hinges" => {
+                let end = end(&self.answer, key.trim_end_matches("_hinges")).clone();
+                return self.same_hinges(key, value, &end);
+            }
             "slides" | "sliding_joints" => {
-                self.answer["slides"].as_array().unwrap().iter().map(|s| s["joint"].clone()).collect()
+                let slides = uncrushed(&self.answer["ends"][0])["slides"].as_array().unwrap();
+                slides.iter().map(|s| s["joint"].clone()).collect()
             }
             "error_percent" | "energy_j_per_m" | "exact_energy_j_per_m" => {
                 return self.number(key, value, &format!("/{key}"));
             }
-            "motion_crown" | "other_motion_crown" => json!(self.crown_in(key.trim_end_matches("_crown"))),
+            "motion_crown" | "other_motion_crown" => json!(self.crown_in(usize::from(key.starts_with("other")))),
             "safety" => return self.safety_point(key, value, &self.answer["safety"].clone()),
             "points" => return self.points(key, value.as_array().unwrap()),
             "minimum_thickness_m" => return self.least_thickness(key, value.as_f64().unwrap()),
@@ -120,9 +122,9 @@ impl Case {
         self.expect(found == *value, || format!("{key}: expected {value}, got {found}"));
     }
 
-    /// Which way the highest stone goes in a motion after collapse, from its first frame to its last.
-    fn crown_in(&self, motion: &str) -> &'static str {
-        let heights = &self.answer[motion]["places"]["y_m"];
+    /// Which way the highest stone goes in the motion after an end, from its first frame to its last.
+    fn crown_in(&self, end: usize) -> &'static str {
+        let heights = &self.answer["ends"][end]["motion"]["places"]["y_m"];
         let of =
             |frame: &Value| -> Vec<f64> { frame.as_array().unwrap().iter().map(|y| y.as_f64().unwrap()).collect() };
         let [first, last] =
@@ -180,10 +182,19 @@ impl Case {
         self.expect(fits, || format!("{key}: expected {expected}, got {found}, allowed {allowed:e}"));
     }
 
-    fn same_hinges(&mut self, key: &str, expected: &Value, place: &str) {
+    /// The intensity at an end of stone that does not crush, which is what rigid blocks know; where it crushes on the path, of that.
+    fn load(&mut self, key: &str, expected: &Value, end: &Value) {
+        let figure = if self.request["crushing_in_path"] == true { &end["crushing"] } else { &end["instability"] };
+        let (expected, found) = (expected.as_f64().unwrap(), figure["intensity"].as_f64().unwrap_or(f64::NAN));
+        let allowed = self.tolerance(key, expected);
+        let fits = (found - expected).abs() <= allowed;
+        self.expect(fits, || format!("{key}: expected {expected}, got {found}, allowed {allowed:e}"));
+    }
+
+    fn same_hinges(&mut self, key: &str, expected: &Value, end: &Value) {
         let known = |h: &Value| h.as_object().unwrap().keys().all(|k| k == "joint" || k == "face");
         self.expect(expected.as_array().unwrap().iter().all(known), || format!("{key}: unknown key in a hinge"));
-        let found = self.answer.pointer(place).map(hinges).unwrap_or_default();
+        let found = hinges(&uncrushed(end)["hinges"]);
         let expected = hinges(expected);
         self.expect(found == expected, || format!("{key}: expected {expected:?}, got {found:?}"));
     }
@@ -209,21 +220,37 @@ impl Case {
             profile["radius_m"] = json!(radius + (before - thickness) / 2.0);
         }
         arch["thickness"]["constant_m"] = json!(thickness);
+        // The reference knows stone that does not crush.
+        request["stone"]["compressive_strength_pa"] = json!(1e30);
         request
     }
 
     fn agrees_with_the_window(&mut self) {
-        for (end, side) in [("/collapse", 1), ("/other_end", 0)] {
-            let Some(found) = self.answer.pointer(end).and_then(|e| e["intensity"].as_f64()) else { continue };
-            let crushes = self.request["crushing_in_path"] == true;
-            let window = if crushes { "/crushing/plastic_section/window" } else { "/limit_window" };
-            let Some(limit) = self.answer.pointer(window).and_then(|ends| ends[side].as_f64()) else { continue };
-            let slides = self.answer.pointer(if side == 1 { "/slides" } else { "/other_end/slides" });
-            let slides = slides.is_some_and(|list| !list.as_array().unwrap().is_empty());
-            let above = (found - limit) / limit.abs() * if side == 1 { 1.0 } else { -1.0 };
-            self.expect(above <= WINDOW, || format!("{found} lies outside the limit window's end {limit}"));
+        for (which, side) in [("highest", 1), ("lowest", 0)] {
+            let (found, crushes) = (end(&self.answer, which).clone(), self.request["crushing_in_path"] == true);
+            let (figure, window) = match crushes {
+                true => ("crushing", "/crushing/plastic_section/window"),
+                false => ("instability", "/limit_window"),
+            };
+            let limit = self.answer.pointer(window).and_then(|ends| ends[side].as_f64());
+            let (Some(load), Some(limit)) = (found[figure]["intensity"].as_f64(), limit) else { continue };
+            let slides = !uncrushed(&found)["slides"].as_array().unwrap().is_empty();
+            let above = (load - limit) / limit.abs() * if side == 1 { 1.0 } else { -1.0 };
+            self.expect(above <= WINDOW, || format!("{load} lies outside the limit window's end {limit}"));
             let short = if crushes { CRUSHING } else { WINDOW };
-            self.expect(slides || above.abs() <= short, || format!("{found} is not the window's end {limit}"));
+            self.expect(slides || above.abs() <= short, || format!("{load} is not the window's end {limit}"));
+            // What governs is the lower of both figures.
+            let way = |figure: &str| found[figure]["load_factor"].as_f64().map(|at| if side == 1 { at } else { -at });
+            let least = [way("instability"), way("crushing")].into_iter().flatten().fold(f64::INFINITY, f64::min);
+            let governs = way_of(&found, side);
+            self.expect((governs - least).abs() <= WINDOW * least.abs(), || {
+                format!("{governs} is not the lower of both figures")
+            });
         }
     }
+}
+
+/// The load factor that governs, rising away from the load factors that the structure bears.
+fn way_of(end: &Value, side: usize) -> f64 {
+    end["load_factor"].as_f64().unwrap() * if side == 1 { 1.0 } else { -1.0 }
 }

@@ -300,8 +300,8 @@ fn a_motion_is_served_in_columns() {
     let answer = voussoir::collapse::answer(&question, &Budget::unlimited()).unwrap();
     let bytes = voussoir::api::response::JobResult::new(&request, &answer).unwrap().to_bytes().unwrap();
     let served: Value = serde_json::from_slice(&bytes).unwrap();
-    for key in ["motion", "other_motion"] {
-        let motion = &served[key];
+    for end in 0..2 {
+        let motion = &served["ends"][end]["motion"];
         assert_eq!(motion["end"], "moved");
         let rows = |group: &str, column: &str| motion[group][column].as_array().unwrap().len();
         let frames = rows("frames", "parameter_s2");

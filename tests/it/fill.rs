@@ -62,7 +62,7 @@ fn faults(request: &Value) -> Vec<(String, String)> {
 }
 
 fn intensity(request: &Value) -> f64 {
-    solved(request)["collapse"]["intensity"].as_f64().unwrap()
+    solved(request)["ends"][0]["instability"]["intensity"].as_f64().unwrap()
 }
 
 /// Force and moment about the origin of all forces.

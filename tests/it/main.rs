@@ -38,6 +38,8 @@ mod docs;
 #[cfg(feature = "server")]
 mod downstream;
 #[cfg(feature = "server")]
+mod ends;
+#[cfg(feature = "server")]
 mod falling;
 #[cfg(feature = "server")]
 mod fill;

@@ -22,11 +22,11 @@ fn random_arches_fall_where_limit_analysis_says() {
 }
 
 /// One of a contact point whose gap is nought and stays so but for rounding, next to loads without end; and one at whose collapse
-/// the next change of state is a hundred million spans away.
+/// the next change of state is a hundred million spans away. The path of the first has no end; its stone crushes.
 #[test]
 fn rounding_is_no_change_of_state() {
-    for (seed, outcome) in [(6547, Outcome::NeverCollapses), (6670, Outcome::Collapse)] {
+    for seed in [6547, 6670] {
         let checked = check(seed, true);
-        assert_eq!((checked.outcome, checked.complaints), (Some(outcome), Vec::new()), "seed {seed}");
+        assert_eq!((checked.outcome, checked.complaints), (Some(Outcome::Collapse), Vec::new()), "seed {seed}");
     }
 }

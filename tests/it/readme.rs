@@ -50,7 +50,7 @@ fn the_python_client_works() {
     assert!(client.lines().filter(|line| !line.is_empty()).count() <= 20, "twenty lines");
     let Some(output) = run("python3", &["-c", &client, &served.1], &ROOT.into()) else { return };
     let printed = String::from_utf8(output.stdout).unwrap();
-    assert!(printed.starts_with("collapse 243.12"), "{printed}{}", String::from_utf8_lossy(&output.stderr));
+    assert!(printed.starts_with("collapse 221.07"), "{printed}{}", String::from_utf8_lossy(&output.stderr));
 }
 
 #[test]

@@ -171,5 +171,4 @@ fn a_surveyed_arch_is_the_one_that_was_surveyed() {
     let surveyed = analyse(&request);
     assert_eq!(surveyed.structure.ring(), drawn.structure.ring());
     assert_eq!(surveyed.fixed, drawn.fixed);
-    assert!(surveyed.structure.spans[0].angle_centre.norm() < 1e-12);
 }

@@ -101,17 +101,24 @@ def forgeries(answer):
     pressed = max(range(len(answer["structure"]["joints"])), key=lambda k: at_end(answer, "intrados_n_per_m")[k])
     motion = answer["proof"]["highest"]["motion"]
     moving = max(range(len(motion["x"])), key=lambda k: math.hypot(motion["x"][k], motion["y"][k]))
-    return {
+    crushing = {
+        "a stronger stone": changed(lambda of: [joint.update(compressive_strength_pa=1.1 * joint["compressive_strength_pa"]) for joint in of["structure"]["joints"]]),
+        "a weaker stone": changed(lambda of: [joint.update(compressive_strength_pa=0.9 * joint["compressive_strength_pa"]) for joint in of["structure"]["joints"]]),
+        "a crushing end beyond its load": changed(lambda of: of["ends"][0].update(load_factor=1.01 * of["ends"][0]["load_factor"])),
+        "hinges of stone that does not crush": changed(lambda of: of["ends"][0].update(of["ends"][0]["without_crushing"])),
+        "joints that do not crush": changed(lambda of: of["ends"][0].update(governed_by="instability")),
+    } if answer["ends"][0]["governed_by"] == "crushing" else {}
+    return crushing | {
         "a higher end": changed(lambda of: load(of, 1.01 * end)),
         "a lower end": changed(lambda of: load(of, 0.99 * end)),
         "a window wider than its proof": changed(lambda of: of["limit_window_load_factor"].__setitem__(1, 1.01 * end)),
-        "a collapse at less than is borne": changed(lambda of: of["collapse"].update(load_factor=0.9 * end)),
+        "a collapse at less than is borne": changed(lambda of: of["ends"][0].update(load_factor=0.9 * end)),
         "a joint that pulls": changed(lambda of: at_end(of, "intrados_n_per_m").__setitem__(pressed, -at_end(of, "intrados_n_per_m")[pressed])),
         "a joint with more shear": changed(lambda of: at_end(of, "shear_n_per_m").__setitem__(pressed, 1.1 * at_end(of, "intrados_n_per_m")[pressed])),
         "a lighter stone": changed(lambda of: of["structure"]["bodies"][moving]["fixed_load"].update(y_n_per_m=0)),
         "a stone that stands still": changed(lambda of: [of["proof"]["highest"]["motion"][axis].__setitem__(moving, 0) for axis in motion]),
         "a joint elsewhere": changed(lambda of: of["structure"]["joints"][pressed]["ends_m"][0].__setitem__(0, of["structure"]["joints"][pressed]["ends_m"][0][0] + 0.1)),
-        "a thrust line of another load": changed(lambda of: of["thrust_line"].update(normal_n_per_m=[1.01 * n for n in of["thrust_line"]["normal_n_per_m"]])),
+        "a thrust line of another load": changed(lambda of: of["ends"][0]["thrust_line"].update(normal_n_per_m=[1.01 * n for n in of["ends"][0]["thrust_line"]["normal_n_per_m"]])),
         "less friction": changed(lambda of: [joint.update(friction_coefficient=0.01) for joint in of["structure"]["joints"]]),
         "a motion that closes joints": changed(lambda of: of["proof"]["highest"].update(motion={axis: [-v for v in column] for axis, column in motion.items()})),
     }
@@ -129,7 +136,7 @@ def main():
         unproved, said = checked(pathlib.Path(folder), whole)
         refuted, _ = checked(pathlib.Path(folder), {str(k): answer for k, answer in enumerate(forged.values())})
     passed = [name for k, name in enumerate(forged) if str(k) not in refuted]
-    print(f"{len(whole)} answers, {len(whole) - len(unproved)} proved, {said.count('by sliding')} of them slide below the upper bound")
+    print(f"{len(whole)} answers, {len(whole) - len(unproved)} proved, {said.count('by sliding')} of them slide below the upper bound, {said.count('by crushing')} crush")
     print(f"{len(refused)} requests without an answer, {len((answers | scenes)) - len(refused) - len(whole)} answers without a window to prove")
     print(f"{len(forged)} forgeries, {len(refuted)} refuted")
     for name in [*unproved, *passed]:

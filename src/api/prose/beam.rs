@@ -28,7 +28,7 @@ pub fn summary(result: &BeamResult, wall_time: Duration) -> String {
     let mut table = bare();
     table.add_rows([
         ["beam", &format!("a quarter ring from {} to {} m, {sides}", Digits(inner), Digits(outer))],
-        ["end shear", &format!("{} N per metre of depth", Digits(shear))],
+        ["end shear", &format!("{} N/m", Digits(shear))],
         ["mesh", &format!("{mesh}, {seams}")],
         ["error", &format!("{error} % (e_N of eq. (5) of the paper)")],
         ["energy", &format!("{} J/m; exact: {} J/m, so it is off by {off:.3} %", energy[0], energy[1])],

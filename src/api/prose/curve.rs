@@ -5,7 +5,7 @@ use super::noun::in_its_words;
 use super::safety::{mesh, reach, zone};
 use super::summary::{append, bare, paragraph};
 use super::wording::{self, word};
-use crate::api::prose::Digits;
+use crate::api::prose::{Digits, Rounded};
 use crate::api::response::{CurvePointBody, ReachBody, SafetyCurveResult};
 use crate::collapse::Governs;
 use comfy_table::Table;
@@ -20,6 +20,9 @@ pub fn summary(result: &SafetyCurveResult, wall_time: Duration) -> String {
     let headline = wording::wrapped(&headline(result));
     let mut text = format!("{name}{headline}\n\n{}\n", facts(result, wall_time).trim_fmt());
     append(&mut text, "Safety factors", points(result));
+    let of = |point: &CurvePointBody| (point.safety.mode, point.safety.zone);
+    let (modes, zones): (Vec<_>, Vec<_>) = result.points.iter().map(of).unzip();
+    wording::explain(&mut text, &result.request, modes.into_iter().flatten(), zones.into_iter().flatten());
     for (note, abscissae) in notes(&result.points) {
         paragraph(&mut text, &format!("Note (abscissa {abscissae}): {note}"));
     }
@@ -41,7 +44,7 @@ fn headline(result: &SafetyCurveResult) -> String {
         }
         (None, Some((factor, abscissa, governs))) => {
             let what = if governs == Governs::Crushing { "crushing" } else { "instability" };
-            let (factor, at) = (Digits(factor), place(result, abscissa));
+            let (factor, at) = (Rounded(factor), place(result, abscissa));
             format!("The least safety factor is {factor}, at abscissa {at}; {what} governs there.")
         }
         (None, None) => "No abscissa has a safety factor.".to_owned(),
@@ -50,8 +53,8 @@ fn headline(result: &SafetyCurveResult) -> String {
 
 fn place(result: &SafetyCurveResult, abscissa: f64) -> String {
     match result.unit.as_str() {
-        "-" => Digits(abscissa).to_string(),
-        unit => format!("{} {unit}", Digits(abscissa)),
+        "-" => Rounded(abscissa).to_string(),
+        unit => format!("{} {unit}", Rounded(abscissa)),
     }
 }
 

@@ -6,7 +6,7 @@ use crate::api::response::JobResult;
 use crate::collapse::{Answer, Outcome, Question};
 use crate::render::figure::svg;
 
-/// Draws the end of the load path in the asked direction as SVG; where it has none, the other one.
+/// Draws the state that governs at the end in the asked direction as SVG; where there is none, at the other one.
 ///
 /// # Errors
 /// Why there is no picture.
@@ -14,7 +14,8 @@ pub fn figure(question: &Question, answer: &Answer, result: &JobResult) -> Resul
     let (Question::One(analysis), Answer::One(report), JobResult::Analysis(result)) = (question, answer, result) else {
         return Err("no figure: only one structure that falls is drawn, no curve and no curved beam".to_owned());
     };
-    let Some(end) = report.end.as_ref().or(report.other_end.as_ref()) else {
+    let (ends, words) = (report.ends(), result.ends.first());
+    let (Some(end), Some(words)) = (ends.first(), words) else {
         return Err(format!("no figure: nothing moves (outcome: {})", wording::word(&result.outcome)));
     };
     let name = result.request.name.as_deref().unwrap_or(match noun(&result.request) {
@@ -24,7 +25,7 @@ pub fn figure(question: &Question, answer: &Answer, result: &JobResult) -> Resul
     });
     let mut caption = format!("{name}\n{}", wording::wrapped(&wording::headline(result)));
     if report.outcome == Outcome::StandsInWindow {
-        caption.push_str(&format!("\nDrawn: {}.", wording::shown(result)));
+        caption.push_str(&format!("\nDrawn: the {}.", wording::name(words)));
     }
-    Ok(svg(&analysis.structure, end, &caption))
+    Ok(svg(&analysis.structure, end.state, &caption))
 }

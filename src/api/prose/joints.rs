@@ -1,13 +1,17 @@
 //! Tables of the joints that move and of those that carry the whole. Joints of a bridge or of blocks are named by what lies on
 //! both sides of them, and their places by coordinates.
 
-use super::summary::bare;
-use super::wording::word;
+use super::noun::in_its_words;
+use super::summary::{append, bare};
+use super::wording::{self, word};
 use crate::api::prose::Digits;
-use crate::api::response::{AnalysisResult, CrushedJointBody, HingeBody, LiftOffBody, SlideBody, StructureBody};
+use crate::api::response::{
+    AnalysisResult, CrushedJointBody, EndBody, HingeBody, LiftOffBody, MechanismBody, SlideBody, StructureBody,
+};
+use crate::collapse::Outcome;
 use comfy_table::Table;
 
-/// Forces below this share of the largest are round-off.
+/// Forces below this share of the largest are round-off, and lengths.
 const ROUND_OFF: f64 = 1e-12;
 /// Most joints on the ground that are listed.
 const JOINTS_LISTED: usize = 12;
@@ -19,7 +23,9 @@ fn between(structure: &StructureBody, joint: usize) -> String {
 }
 
 fn place(at: [f64; 2]) -> String {
-    let [x, y] = at.map(Digits);
+    let size = at[0].hypot(at[1]);
+    // The rounding of a sine is no height.
+    let [x, y] = at.map(|along| Digits(if along.abs() > ROUND_OFF * size { along } else { 0.0 }));
     format!("({x}, {y}) m")
 }
 
@@ -28,7 +34,7 @@ fn rate(rate: f64) -> String {
 }
 
 /// A table, unless it has no rows.
-fn table<const N: usize>(header: [&str; N], rows: Vec<[String; N]>) -> Option<Table> {
+pub fn table<const N: usize>(header: [&str; N], rows: Vec<[String; N]>) -> Option<Table> {
     let mut table = bare();
     table.set_header(header);
     let some = !rows.is_empty();
@@ -51,7 +57,7 @@ pub fn hinges(hinges: &[HingeBody], structure: Option<&StructureBody>) -> Option
             rate(hinge.rotation),
         ]
     };
-    let header = ["joint", "pressed at", "deg from springing", "deg from crown", "rotation"];
+    let header = ["joint", "pressed at", "deg from springing", "deg from crown (left negative)", "rotation"];
     table(header, hinges.iter().map(row).collect())
 }
 
@@ -83,35 +89,59 @@ pub fn lift_offs(lift_offs: &[LiftOffBody], structure: Option<&StructureBody>) -
     table(["joint", "opens at intrados", "opens at extrados"], lift_offs.iter().map(row).collect())
 }
 
-/// What the joints on the ground carry where the path ends; of an arch its first and its last joint. With their name.
-pub fn outer(result: &AnalysisResult) -> (&'static str, Option<Table>) {
-    let other = || result.other_end.as_ref().map(|end| &end.thrust_line);
-    let name = if result.named().is_some() { "Joints on the ground" } else { "Outer joints" };
-    let Some(thrust) = result.thrust_line.as_ref().or_else(other) else { return (name, None) };
+/// Tables of the joints that move, each under its title.
+pub fn moving(text: &mut String, at: &str, moving: &MechanismBody, result: &AnalysisResult) {
+    let structure = result.named();
+    append(text, &format!("Hinges{at}"), hinges(&moving.hinges, structure));
+    append(
+        text,
+        &format!("Sliding joints{at} (positive: what lies after goes towards the extrados)"),
+        slides(&moving.slides, structure),
+    );
+    append(text, &format!("Joints that part altogether{at}"), lift_offs(&moving.lift_offs, structure));
+}
+
+/// Forces of the ground, or of an arch's springings, at an end.
+pub fn ground(text: &mut String, end: &EndBody, result: &AnalysisResult) {
+    let (thrust, structure) = (&end.fall.thrust_line, &result.structure);
+    let Some(last) = thrust.joint.len().checked_sub(1) else { return };
     let most = thrust.normal_n_per_m.iter().fold(0.0, |most: f64, normal| most.max(normal.abs()));
     // Round-off of a balance of large forces is no force.
     let force = |value: f64| Digits(if value.abs() > ROUND_OFF * most { value / 1e3 } else { 0.0 }).to_string();
-    let row = |k: usize, name: String| {
-        let [normal, shear] = [thrust.normal_n_per_m[k], thrust.shear_n_per_m[k]].map(force);
-        [name, normal, shear, Digits(thrust.eccentricity_m[k]).to_string()]
+    let row = |k: usize, name: String, sign: f64| {
+        let [[a, b], [c, d]] = structure.joints.get(thrust.joint[k]).map_or([[0.0; 2]; 2], |joint| joint.ends_m);
+        let length = (c - a).hypot(d - b);
+        let (along, normal, shear) =
+            ([(c - a) / length, (d - b) / length], thrust.normal_n_per_m[k], thrust.shear_n_per_m[k]);
+        let [x, y] =
+            [normal * along[1] + shear * along[0], shear * along[1] - normal * along[0]].map(|f| force(sign * f));
+        [name, x, y, place([thrust.x_m[k], thrust.y_m[k]])]
     };
-    let Some(last) = thrust.joint.len().checked_sub(1) else { return (name, None) };
-    let header = ["joint", "normal, kN", "shear, kN", "off the joint's middle, m"];
-    let Some(structure) = result.named() else {
-        let crown = |k: usize| if result.request.half() && k == last { " (crown)" } else { "" };
-        let rows = [0, last].map(|k| row(k, format!("{}{}", thrust.joint[k], crown(k))));
-        return (name, table(header, rows.into()));
+    let on_ground = |k: usize, side: usize| {
+        structure.joints.get(thrust.joint[k]).is_some_and(|joint| structure.supports.contains(&joint.between[side]))
     };
-    let grounded = |k: &usize| {
-        let joint = structure.joints.get(thrust.joint[*k]);
-        joint.is_some_and(|joint| joint.between.iter().any(|name| structure.supports.contains(name)))
+    let (title, mut rows) = match result.named() {
+        None => {
+            let right = if result.request.half() { "crown" } else { "right springing" };
+            ("Forces of the springings", vec![row(0, "left springing".into(), 1.0), row(last, right.into(), -1.0)])
+        }
+        Some(named) => {
+            let name = |k: usize| format!("{}: {}", thrust.joint[k], between(named, thrust.joint[k]));
+            let sides = (0..=last).flat_map(|k| [(k, 0, 1.0), (k, 1, -1.0)]);
+            let grounded = sides.filter(|&(k, side, _)| on_ground(k, side));
+            ("Forces of the ground", grounded.map(|(k, _, sign)| row(k, name(k), sign)).collect())
+        }
     };
-    let named = |k: usize| row(k, format!("{}: {}", thrust.joint[k], between(structure, thrust.joint[k])));
-    let mut rows: Vec<_> = (0..=last).filter(grounded).map(named).collect();
     let more = rows.len().saturating_sub(JOINTS_LISTED);
     rows.truncate(JOINTS_LISTED);
     if more > 0 {
         rows.push([format!("and {more} more"), String::new(), String::new(), String::new()]);
     }
-    (name, table(header, rows))
+    let at = if result.outcome == Outcome::StandsInWindow {
+        format!("the {}", wording::name(end))
+    } else {
+        "collapse".into()
+    };
+    let title = format!("{title} on the arch at {at} (x to the right, y upwards)");
+    append(text, &in_its_words(&result.request, &title), table(["joint", "x, kN/m", "y, kN/m", "through"], rows));
 }

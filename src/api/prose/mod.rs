@@ -11,11 +11,10 @@ mod notes;
 mod noun;
 mod plan;
 mod safety;
-mod sliding;
 mod summary;
 mod wording;
 
-pub use digits::Digits;
+pub use digits::{Digits, Rounded};
 pub use figure::figure;
 pub use noun::in_its_words;
 

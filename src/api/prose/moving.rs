@@ -1,14 +1,17 @@
 //! Moving geometry and moving supports in words.
 
+use super::joints;
+use super::noun::in_its_words;
+use super::summary::append;
 use super::wording::{self, word};
-use crate::api::prose::Digits;
-use crate::api::response::{AnalysisResult, SettlementBody, SettlementPathBody, UpdatedBody};
+use crate::api::prose::{Digits, Rounded};
+use crate::api::response::{AnalysisResult, EndBody, SettlementBody, SettlementPathBody, UpdatedBody};
 use crate::collapse::{SettlementEnd, UpdatedEnd};
 
 /// One sentence on supports that move.
 pub fn headline(settlement: &SettlementBody) -> String {
     let path = settlement.updated_geometry.as_ref().unwrap_or(&settlement.first_order);
-    let share = format!("{} %", Digits(100.0 * path.share_of_movement));
+    let share = format!("{} %", Rounded(100.0 * path.share_of_movement));
     match (path.end, &settlement.updated_geometry) {
         (SettlementEnd::Follows, Some(_)) => {
             format!("The arch follows its springings through their whole movement{}.", snaps(path))
@@ -23,7 +26,7 @@ pub fn headline(settlement: &SettlementBody) -> String {
             "On updated geometry the arch falls under its loads before its springings move.".into()
         }
         (SettlementEnd::CannotTell, _) => {
-            let safe = Digits(100.0 * path.safe_share_of_movement);
+            let safe = Rounded(100.0 * path.safe_share_of_movement);
             format!("No answer: the movement could not be followed beyond {safe} % of it.")
         }
     }
@@ -32,7 +35,7 @@ pub fn headline(settlement: &SettlementBody) -> String {
 /// Half a sentence on the first snap, where there is one.
 fn snaps(path: &SettlementPathBody) -> String {
     let words = |at: f64| {
-        format!(", but first snaps into another shape at {} %: rely on no more than that", Digits(100.0 * at))
+        format!(", but first snaps into another shape at {} %: rely on no more than that", Rounded(100.0 * at))
     };
     path.snap_share_of_movement.map(words).unwrap_or_default()
 }
@@ -42,11 +45,58 @@ fn because(why: Option<&String>) -> String {
     why.map(|why| format!(": {}", why.trim_end_matches('.'))).unwrap_or_default()
 }
 
-/// A sentence on an arch that falls on moving geometry before the loads at the start are on in full.
-pub fn before_the_start(result: &AnalysisResult) -> Option<&'static str> {
-    let updated = result.updated_geometry.as_ref()?;
-    let falls = updated.end == UpdatedEnd::FallsAsLoaded;
-    falls.then_some(" On moving geometry it falls before the loads at the start of its path are on in full.")
+/// Sentences on moving geometry, where it bears less than the first order does.
+pub fn before(result: &AnalysisResult, end: &EndBody) -> String {
+    let Some(updated) = &result.updated_geometry else { return String::new() };
+    let unit = wording::unit(result);
+    let lower =
+        |at: f64| at.abs() < end.intensity.abs() && Rounded(at).to_string() != Rounded(end.intensity).to_string();
+    let snap = updated
+        .snap_intensity
+        .filter(|at| lower(*at))
+        .map(|at| format!(" On moving geometry it first snaps into another shape, at {} {unit}.", Rounded(at)));
+    let falls = match (updated.end, updated.intensity) {
+        (UpdatedEnd::FallsAsLoaded, _) => {
+            " On moving geometry it falls before the loads at the start of its path are on in full.".to_owned()
+        }
+        (UpdatedEnd::Collapse, Some(at)) if lower(at) => {
+            format!(" On moving geometry it collapses at {} {unit} already.", Rounded(at))
+        }
+        _ => String::new(),
+    };
+    snap.unwrap_or_default() + &falls
+}
+
+/// What the ground carries, and where the structure turns, as its supports move.
+pub fn supports(text: &mut String, result: &AnalysisResult) {
+    let Some(settlement) = &result.settlement else { return };
+    let path = settlement.updated_geometry.as_ref().unwrap_or(&settlement.first_order);
+    let which = if settlement.updated_geometry.is_some() { "on moving geometry" } else { "at first order" };
+    joints::moving(text, &format!(" at the end of the movement, {which}"), &path.mechanism, result);
+    let history = &path.history;
+    let force = |column: Option<&Vec<f64>>, last: bool| {
+        let value = column.and_then(|column| if last { column.last() } else { column.first() });
+        value.map_or("-".to_owned(), |force| Digits(force / 1e3).to_string())
+    };
+    let row = |name: &str, x: Option<&Vec<f64>>, y: Option<&Vec<f64>>| {
+        [name.to_owned(), force(x, false), force(y, false), force(x, true), force(y, true)]
+    };
+    let right =
+        history.right_reaction_n_per_m.as_ref().and_then(|column| column.iter().copied().collect::<Option<Vec<_>>>());
+    let left = history.left_reaction_n_per_m.as_ref();
+    let mut rows: Vec<_> =
+        left.map(|left| row("left springing", history.thrust_n_per_m.as_ref(), Some(left))).into_iter().collect();
+    rows.extend(right.as_ref().map(|right| row("right springing", None, Some(right))));
+    let named = history.supports.iter();
+    rows.extend(named.map(|of| row(&of.support, Some(&of.rightwards_n_per_m), Some(&of.upwards_n_per_m))));
+    let title = format!(
+        "Forces of the supports on the arch before the movement and at its end, {which}, kN/m (x to the right, y upwards)"
+    );
+    append(
+        text,
+        &in_its_words(&result.request, &title),
+        joints::table(["support", "x before", "y before", "x at the end", "y at the end"], rows),
+    );
 }
 
 /// Name and value of every line about moving geometry and moving supports.
@@ -69,8 +119,9 @@ fn on_moving_geometry(result: &AnalysisResult, updated: &UpdatedBody) -> String 
     match updated.end {
         UpdatedEnd::Collapse => {
             let over = updated.over_first_order.map(|over| format!(", {} of the first-order load", Digits(over)));
-            let snap = updated.snap_intensity.map(|at| format!("; snaps first at {}", Digits(at)));
-            let mode = updated.mode.map(|mode| format!(" ({})", word(&mode))).unwrap_or_default();
+            let snap =
+                updated.snap_intensity.map(|at| format!("; snaps first at {} {}", Digits(at), wording::unit(result)));
+            let mode = updated.mechanism.as_ref().map(|of| format!(" ({})", word(&of.mode))).unwrap_or_default();
             format!("collapse at {at}{mode}{}{}", over.unwrap_or_default(), snap.unwrap_or_default())
         }
         UpdatedEnd::FallsAsLoaded => {
@@ -87,8 +138,7 @@ fn on_moving_geometry(result: &AnalysisResult, updated: &UpdatedBody) -> String 
 
 fn path(path: &SettlementPathBody) -> String {
     let share = Digits(100.0 * path.share_of_movement);
-    let thrust =
-        path.thrust_n_per_m.map(|thrust| format!("; thrust then {} kN per metre of depth", Digits(thrust / 1e3)));
+    let thrust = path.thrust_n_per_m.map(|thrust| format!("; thrust then {} kN/m", Digits(thrust / 1e3)));
     let end = match path.end {
         SettlementEnd::Follows => "follows the whole movement".to_owned(),
         SettlementEnd::Collapse => format!("falls at {share} % of the movement"),
@@ -97,7 +147,5 @@ fn path(path: &SettlementPathBody) -> String {
     };
     let safe = Digits(100.0 * path.safe_share_of_movement);
     let snap = if path.snap_share_of_movement.is_some() { format!("; snaps first at {safe} %") } else { String::new() };
-    let hinges: Vec<_> = path.hinges.iter().map(|hinge| hinge.joint.to_string()).collect();
-    let turning = if hinges.is_empty() { String::new() } else { format!(", turning at joints {}", hinges.join(", ")) };
-    format!("{end}{snap}{}{turning}", thrust.unwrap_or_default())
+    format!("{end}{snap}{}", thrust.unwrap_or_default())
 }

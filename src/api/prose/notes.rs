@@ -1,8 +1,20 @@
 //! What the mechanics have to say of an answer, in sentences.
 
 use super::Digits;
-use crate::collapse::{Doubt, FieldAt, LimitWindow, LoadRange, Note, OtherStates, PlanReason, Unfollowed, Unreached};
+use crate::collapse::{Doubt, FieldAt, LimitWindow, LoadRange, Note, OtherStates, Unfollowed, Unreached};
 use std::fmt;
+
+impl Note {
+    /// What to change in the request, where a note on a doubt knows it.
+    pub(in crate::api) fn remedy(&self) -> Option<&'static str> {
+        match self {
+            Note::Doubt(Doubt::LooseStones) => Some("Give the arch its self weight."),
+            Note::Doubt(Doubt::Slender { .. }) => Some("Check the unit of the thickness."),
+            Note::NotFinite(_) => Some("Check the units of the request."),
+            _ => None,
+        }
+    }
+}
 
 impl fmt::Display for Note {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -34,6 +46,7 @@ impl fmt::Display for Note {
             Note::NothingGrows => "Nothing grows with the load factor: the answer says only that the arch stands.".into(),
             Note::LaterMechanism => LATER_MECHANISM.into(),
             Note::CrushesAndSlides => CRUSHES_AND_SLIDES.into(),
+            Note::CrushesAndDilates => CRUSHES_AND_DILATES.into(),
             Note::CohesionByPoint => COHESION_BY_POINT.into(),
             Note::UnbentStones => UNBENT_STONES.into(),
             Note::NoPlasticSections => NO_PLASTIC_SECTIONS.into(),
@@ -49,6 +62,8 @@ const FALLS_FROM_ZERO: &str = "The arch stands at load factor 0 and at none beyo
      and velocities are those in which it falls as soon as the load factor leaves 0.";
 const CRUSHES_AND_SLIDES: &str = "Joints slide, and may crush on the path. The collapse load is that of this load path; \
      where joints slide without dilating the arch may fall at others too, and where joints may crush none lower is looked for.";
+const CRUSHES_AND_DILATES: &str = "Joints slide where the stone crushes. That load is limit analysis's, which lets sliding \
+     joints dilate (associated friction); joints that do not dilate may bear less.";
 const LATER_MECHANISM: &str = "Joints at their limits at the collapse load make no mechanism, as may be where they slide. \
      Hinges and slides are those in which the load path ends; the thrust line is that at the collapse load.";
 const COHESION_BY_POINT: &str = "Cohesion is shared out to a joint's contact points, and those that open lose theirs: where \
@@ -110,8 +125,9 @@ fn crushes([strength, start]: [Digits; 2], window: Option<LimitWindow>) -> Strin
         |window| format!("only from {} to {}", Digits(window.lowest), Digits(window.highest)),
     );
     format!(
-        "With joints of plastic sections and a strength of {strength} Pa the arch does not stand at load factor {start}, from \
-         which the load path starts, but {left}. Collapse, hinges and stresses are those of stone that does not crush."
+        "With joints of plastic sections and a strength of {strength} Pa the arch does not stand at load factor {start}, but {left}. \
+         No stress within the strength is in equilibrium either, however fine the mesh. Collapse, hinges and stresses are those of \
+         stone that does not crush."
     )
 }
 
@@ -177,7 +193,7 @@ fn no_field(at: FieldAt, falls: bool) -> String {
         FieldAt::NearCollapse if falls => {
             "No stress field near collapse: the arch falls before it could be loaded.".into()
         }
-        FieldAt::NearCollapse => "No stress field near collapse: the arch does not collapse.".into(),
+        FieldAt::NearCollapse => "No stress field near collapse: the load path does not come to one.".into(),
     }
 }
 
@@ -278,45 +294,3 @@ impl fmt::Display for Unfollowed {
         }
     }
 }
-
-impl fmt::Display for PlanReason {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        out.write_str(match self {
-            PlanReason::CoarsestTooLarge { subblocks, allowed } => {
-                return write!(
-                    out,
-                    "The coarsest mesh that bends would have {subblocks} subblocks, and {allowed} are allowed."
-                );
-            }
-            PlanReason::NextTooLarge { subblocks, allowed } => {
-                return write!(out, "The next mesh would have {subblocks} subblocks, and {allowed} are allowed.");
-            }
-            PlanReason::NoEquilibrium => NO_EQUILIBRIUM,
-            PlanReason::SlidesAsLoaded => "The arch slides as its loads come on: nothing to refine.",
-            PlanReason::NoEndInReach => "Limit analysis finds equilibrium at any load in reach.",
-            PlanReason::Disagreement => "Path and limit analysis do not agree, which no mesh would mend.",
-            PlanReason::SlidesAtCollapse => SLIDES_AT_COLLAPSE,
-            PlanReason::LoadNeedsNoMesh => LOAD_NEEDS_NO_MESH,
-            PlanReason::MeshAsGiven => "No accuracy of the stress is asked for: the mesh is the request's own.",
-            PlanReason::NoStress => "No load is known under which it stands, so there is no stress to be found.",
-            PlanReason::NoField => "The load path passes none of the stress fields asked for.",
-            PlanReason::HalfModelled => HALF_MODELLED,
-            PlanReason::HalfAlready => "The arch is half an arch already.",
-            PlanReason::WholeModelled => WHOLE_MODELLED,
-            PlanReason::CoarsestLost => "On the coarsest mesh that bends the load path could not be followed.",
-            PlanReason::NextLost => "On the next mesh the load path could not be followed to the same fields.",
-            PlanReason::Finest => "No finer mesh is left: next to a hinge, or a force on a point, stress has no bound.",
-            PlanReason::AccurateEnough => "The stress is as accurate as asked.",
-        })
-    }
-}
-
-const NO_EQUILIBRIUM: &str =
-    "Limit analysis finds no equilibrium that the arch could be loaded from: nothing to refine.";
-const SLIDES_AT_COLLAPSE: &str = "Joints slide at collapse: the load may be any from the least found to the end of the limit \
-     window. How far these are apart stands for the error; no mesh makes it smaller.";
-const LOAD_NEEDS_NO_MESH: &str =
-    "The collapse load of stones that do not slide does not depend on the mesh: path and limit window give it.";
-const HALF_MODELLED: &str = "Arch, loads and mechanism are symmetric: half the arch is modelled for the stress.";
-const WHOLE_MODELLED: &str =
-    "Arch, loads or mechanism are not symmetric, or joints slide: the whole arch is modelled for the stress.";

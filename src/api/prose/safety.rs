@@ -1,7 +1,7 @@
 //! Crushing and safety in words.
 
 use super::wording::{self, word};
-use crate::api::prose::Digits;
+use crate::api::prose::{Digits, Rounded};
 use crate::api::request::{AimRequest, MeshRequest, Subblocks, SubblocksRequest};
 use crate::api::response::{
     AnalysisResult, CrushedSubblock, CrushingBody, ElasticCrushingBody, PlasticCrushingBody, ReachBody, SafetyBody,
@@ -35,15 +35,15 @@ pub fn headline(result: &AnalysisResult, safety: &SafetyBody) -> String {
     };
     match safety.governing {
         ReachBody::At { load_factor } if load_factor >= 1.0 => {
-            format!("The arch carries its scaled loads {} times; then {what}.", Digits(load_factor))
+            format!("The arch carries its scaled loads {} times; then {what}.", Rounded(load_factor))
         }
         ReachBody::At { load_factor } => {
-            format!("The arch carries only {} times its scaled loads; then {what}.", Digits(load_factor))
+            format!("The arch carries only {} times its scaled loads; then {what}.", Rounded(load_factor))
         }
         ReachBody::Never => {
-            let times = Digits(result.cap);
+            let times = Rounded(result.cap);
             format!(
-                "The arch neither falls nor crushes: it carries its scaled loads {times} times, the most that was \
+                "The arch stands: it neither falls nor crushes under {times} times its scaled loads, the most that was \
                  tried."
             )
         }
@@ -136,6 +136,10 @@ fn place(result: &AnalysisResult, subblock: &CrushedSubblock) -> String {
 }
 
 fn plastic_section(result: &AnalysisResult, plastic: &PlasticCrushingBody) -> String {
+    if !wording::has(result, true) {
+        let carry = if plastic.window.is_some() { "carry" } else { "do not carry" };
+        return format!("joints of this strength {carry} the loads");
+    }
     let range = wording::range(plastic.window, wording::unit(result));
     let ends = [("lowest", &plastic.joints_at_lowest), ("highest", &plastic.joints_at_highest)];
     let crushed: Vec<String> = ends

@@ -1,11 +1,11 @@
 //! The answer as a person reads it.
 
 use super::noun::in_its_words;
-use super::wording::{self, LimitEnd, word};
-use super::{given, joints, moving, plan, safety, sliding};
+use super::wording::{self, word};
+use super::{given, joints, moving, plan, safety};
 use crate::api::prose::Digits;
-use crate::api::response::AnalysisResult;
-use crate::collapse::Outcome;
+use crate::api::response::{AnalysisResult, EndBody};
+use crate::collapse::{GovernedBy, Outcome};
 use comfy_table::{Table, presets};
 use std::fmt::Write;
 use std::time::Duration;
@@ -15,27 +15,28 @@ pub fn summary(result: &AnalysisResult, wall_time: Duration) -> String {
     let name = result.request.name.as_ref().map(|name| format!("{name}\n\n")).unwrap_or_default();
     let headline = wording::wrapped(&wording::headline(result));
     let mut text = format!("{name}{headline}\n\n{}\n", facts(result, wall_time).trim_fmt());
-    let structure = result.named();
-    if result.outcome == Outcome::StandsInWindow {
-        for (name, limit) in ["Lower", "Upper"].into_iter().zip(wording::limits(result)) {
-            window_end(&mut text, name, limit, result);
+    let window = result.outcome == Outcome::StandsInWindow;
+    for (title, end) in ["Lower end", "Upper end"].into_iter().zip(wording::limits(result)).filter(|_| window) {
+        if end.is_none() {
+            paragraph(&mut text, &format!("{title}: none was found."));
         }
-    } else {
-        append(&mut text, "Hinges", joints::hinges(&result.hinges, structure));
-        append(&mut text, "Sliding joints", joints::slides(&result.slides, structure));
-        append(&mut text, "Joints that part altogether", joints::lift_offs(&result.lift_offs, structure));
     }
-    let at = if result.outcome == Outcome::StandsInWindow {
-        format!("the {}", wording::shown(result))
-    } else {
-        "the end of the path".to_owned()
-    };
-    let (name, outer) = joints::outer(result);
-    append(&mut text, &format!("{name} at {at}, forces per metre of depth"), outer);
+    for end in &result.ends {
+        let at = if window { format!(" at the {}", wording::name(end)) } else { String::new() };
+        joints::moving(&mut text, &at, &end.fall.mechanism, result);
+    }
+    if let Some(end) = result.ends.first() {
+        joints::ground(&mut text, end, result);
+    }
+    moving::supports(&mut text, result);
+    let modes = result.ends.iter().map(|end| end.fall.mechanism.mode);
+    let modes = modes.chain(result.safety.iter().filter_map(|safety| safety.mode));
+    wording::explain(&mut text, &result.request, modes, result.safety.iter().filter_map(|safety| safety.zone));
     let of_safety = result.safety.iter().flat_map(|safety| &safety.notes);
-    for (name, motion) in [("", &result.motion), (" from the other end", &result.other_motion)] {
-        if let Some(motion) = motion {
-            paragraph(&mut text, &wording::motion(name, motion, wording::unit(result)));
+    for (i, end) in result.ends.iter().enumerate() {
+        if let Some(motion) = &end.motion {
+            let from = if i == 0 { "" } else { " from the other end" };
+            paragraph(&mut text, &wording::motion(from, motion, wording::unit(result)));
         }
     }
     for why in result.plan.iter().flat_map(|plan| &plan.why) {
@@ -72,7 +73,7 @@ fn facts(result: &AnalysisResult, wall_time: Duration) -> Table {
     }
     fact("outcome", word(&result.outcome));
     fact("method", word(&result.method));
-    for (name, value) in collapse_facts(result) {
+    for (name, value) in result.ends.iter().flat_map(|end| end_facts(result, end)) {
         fact(name, value);
     }
     fact("limit window", wording::window(result));
@@ -80,7 +81,7 @@ fn facts(result: &AnalysisResult, wall_time: Duration) -> Table {
         let words = |thrust: f64| Digits(thrust / 1e3).to_string();
         let [lowest, highest] =
             [range.lowest_n_per_m, range.highest_n_per_m].map(|end| end.map_or("any".to_owned(), words));
-        fact("thrust range", format!("{lowest} to {highest} kN per metre of depth"));
+        fact("thrust range", format!("{lowest} to {highest} kN/m"));
     }
     for (name, value) in moving::facts(result).into_iter().chain(safety::facts(result)) {
         fact(name, value);
@@ -92,29 +93,33 @@ fn facts(result: &AnalysisResult, wall_time: Duration) -> Table {
     table
 }
 
-fn collapse_facts(result: &AnalysisResult) -> Vec<(&'static str, String)> {
+fn end_facts(result: &AnalysisResult, end: &EndBody) -> Vec<(&'static str, String)> {
+    let (unit, window) = (wording::unit(result), result.outcome == Outcome::StandsInWindow);
+    let factor = |factor: f64| {
+        if unit == "(load factor)" { String::new() } else { format!(" (load factor {})", Digits(factor)) }
+    };
+    let at = |intensity: f64, load_factor: f64| format!("{} {unit}{}", Digits(intensity), factor(load_factor));
+    let name = match result.outcome {
+        Outcome::StandsInWindow => wording::name(end),
+        Outcome::Crushes if result.safety.is_none() => "without crushing",
+        _ => "intensity",
+    };
     let mut lines = Vec::new();
-    if let Some(collapse) = &result.collapse {
-        // An arch that falls as built has no load to fall at; a window has two.
-        if matches!(result.outcome, Outcome::Collapse | Outcome::CannotTell) {
-            lines.push(("intensity", wording::intensity(result, collapse)));
-            lines.push(("load factor", Digits(collapse.load_factor).to_string()));
-            lines.extend(sliding::fact(collapse, wording::unit(result)).map(|range| ("range", range)));
-        }
-        if result.outcome != Outcome::StandsInWindow {
-            lines.push(("mode", word(&collapse.mode)));
-        }
-        if result.safety.is_none() {
-            lines.push(("governed by", word(&collapse.governed_by)));
-        }
-        if !result.crushed_joints.is_empty() {
-            lines.push(("joints that crush", joints::crushed(&result.crushed_joints)));
-        }
-        lines.push((
-            "residual",
-            in_its_words(&result.request, &format!("{:.1e} of the arch's weight", collapse.residual)),
-        ));
+    // An arch that falls as built has no load to fall at.
+    if window || matches!(result.outcome, Outcome::Collapse | Outcome::CannotTell | Outcome::Crushes) {
+        lines.push((name, at(end.intensity, end.load_factor)));
+        lines.extend(
+            end.range.as_ref().and_then(|range| wording::sliding_range(range, unit)).map(|range| ("range", range)),
+        );
+        let other = end.instability.as_ref().filter(|_| end.governed_by == GovernedBy::Crushing);
+        lines.extend(other.map(|other| ("without crushing", at(other.intensity, other.load_factor))));
     }
+    lines.push(("mode", word(&end.fall.mechanism.mode)));
+    lines.push(("governed by", word(&end.governed_by)));
+    if !end.crushed_joints.is_empty() {
+        lines.push(("joints that crush", joints::crushed(&end.crushed_joints)));
+    }
+    lines.push(("residual", in_its_words(&result.request, &format!("{:.1e} of the arch's weight", end.residual))));
     lines
 }
 
@@ -126,23 +131,6 @@ fn explanation(result: &AnalysisResult) -> &'static str {
         }
         None => "Limit window: what rigid-block limit analysis allows.",
     }
-}
-
-fn window_end(text: &mut String, name: &str, limit: Option<LimitEnd<'_>>, result: &AnalysisResult) {
-    let Some(limit) = limit else {
-        return paragraph(text, &format!("{name} end: none was found."));
-    };
-    let (collapse, structure) = (limit.collapse, result.named());
-    let at = wording::intensity(result, collapse);
-    let range = sliding::fact(collapse, wording::unit(result)).map(|range| format!(" ({range})")).unwrap_or_default();
-    append(
-        text,
-        &format!("{name} end: {at}{range}, {}", word(&collapse.mode)),
-        joints::hinges(limit.hinges, structure),
-    );
-    let end = format!("at the {} end", name.to_lowercase());
-    append(text, &format!("Sliding joints {end}"), joints::slides(limit.slides, structure));
-    append(text, &format!("Joints that part altogether {end}"), joints::lift_offs(limit.lift_offs, structure));
 }
 
 /// A table without lines.

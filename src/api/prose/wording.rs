@@ -1,39 +1,27 @@
 //! An answer in sentences.
 
 use super::noun::in_its_words;
-use super::{moving, safety, sliding};
-use crate::api::prose::Digits;
-use crate::api::response::{AnalysisResult, Collapse, HingeBody, LiftOffBody, MethodWord, MotionBody, SlideBody};
-use crate::collapse::{Direction, Outcome};
+use super::summary::paragraph;
+use super::{moving, safety};
+use crate::api::prose::{Digits, Rounded};
+use crate::api::request::AnalysisRequest;
+use crate::api::response::{AnalysisResult, EndBody, MethodWord, MotionBody, RangeBody};
+use crate::collapse::{Direction, GovernedBy, Mode, Outcome, SafetyZone, WhichEnd};
 use serde::Serialize;
+use std::collections::BTreeSet;
+use std::fmt::Display;
 
 /// Longest line of prose, characters.
 const LINE_WIDTH: usize = 100;
 
-/// One end of the range of intensities in which an arch stands.
-#[derive(Clone, Copy)]
-pub struct LimitEnd<'a> {
-    pub collapse: &'a Collapse,
-    pub hinges: &'a [HingeBody],
-    pub slides: &'a [SlideBody],
-    pub lift_offs: &'a [LiftOffBody],
+/// Lower and upper end, each where there is one.
+pub fn limits(result: &AnalysisResult) -> [Option<&EndBody>; 2] {
+    [WhichEnd::Lowest, WhichEnd::Highest].map(|which| result.ends.iter().find(|end| end.which == which))
 }
 
-/// Lower and upper end of the path, each where there is one. The path runs both ways only in a window.
-pub fn limits(result: &AnalysisResult) -> [Option<LimitEnd<'_>>; 2] {
-    let main = result.collapse.as_ref().map(|collapse| LimitEnd {
-        collapse,
-        hinges: &result.hinges,
-        slides: &result.slides,
-        lift_offs: &result.lift_offs,
-    });
-    let other = result.other_end.as_ref().map(|end| LimitEnd {
-        collapse: &end.collapse,
-        hinges: &end.hinges,
-        slides: &end.slides,
-        lift_offs: &end.lift_offs,
-    });
-    if reversed(result) { [main, other] } else { [other, main] }
+/// What an end is called.
+pub fn name(end: &EndBody) -> &'static str {
+    if end.which == WhichEnd::Lowest { "lower end" } else { "upper end" }
 }
 
 /// Motion after collapse in two sentences.
@@ -49,10 +37,7 @@ pub fn motion(from: &str, motion: &MotionBody, unit: &str) -> String {
     )
 }
 
-/// Crushing that takes less than this share off a collapse load is not worth a word in the first line.
-const CRUSHING_SHOWN: f64 = 1e-3;
-
-/// One sentence.
+/// One sentence, or a few.
 pub fn headline(result: &AnalysisResult) -> String {
     in_its_words(&result.request, &of_an_arch(result))
 }
@@ -62,30 +47,24 @@ fn of_an_arch(result: &AnalysisResult) -> String {
     if let Some(safety) = &result.safety {
         return safety::headline(result, safety);
     }
-    if let Some(settlement) = &result.settlement {
+    if let Some(settlement) = result.settlement.as_ref().filter(|_| result.outcome != Outcome::Crushes) {
         return moving::headline(settlement);
     }
-    let sentence = match (result.outcome, &result.collapse) {
-        (Outcome::Collapse, Some(collapse)) if collapse.load_factor == 0.0 => at_once(result),
-        (Outcome::Collapse, Some(collapse)) => {
-            let first = if result.updated_geometry.is_some() { " at first order" } else { "" };
-            let moved = moving::before_the_start(result).unwrap_or_default();
-            let more = sliding::sentence(collapse, unit(result));
-            format!("The arch collapses{first} {}.{more}{}{moved}", reached(result, collapse), with_strength(result))
-        }
-        (Outcome::StandsInWindow, _) => in_window(result) + &with_strength(result),
+    let sentence = match (result.outcome, result.ends.first()) {
+        (Outcome::Collapse, Some(end)) if end.load_factor == 0.0 => at_once(result),
+        (Outcome::Collapse, Some(end)) => format!("{}{}", collapses(result, end), moving::before(result, end)),
+        (Outcome::StandsInWindow, _) => in_window(result),
         (Outcome::FallsAsBuilt, _) => falls(result).to_owned(),
         (Outcome::SlidesAsBuilt, _) => {
             "The arch slides as its loads come on, although limit analysis finds equilibrium: whether it stands depends on \
              how it was built."
                 .to_owned()
         }
-        (Outcome::NeverCollapses, _) => stands(result) + &with_strength(result),
+        (Outcome::Stands, _) => stands(result),
+        (Outcome::Crushes, end) => crushes(result, end),
         (Outcome::CannotTell, _) => {
-            "No answer: what was found cannot be trusted. The notes say why.".to_owned()
-        }
-        (Outcome::Crushes, _) => {
-            "The stone crushes before the scaled loads begin to act. The notes say how.".to_owned()
+            let remedy = result.remedy.unwrap_or("The notes say why.");
+            format!("No answer: what was found cannot be trusted. {remedy}")
         }
         (outcome, _) => format!("Outcome: {}.", word(&outcome)),
     };
@@ -97,55 +76,69 @@ fn of_an_arch(result: &AnalysisResult) -> String {
     }
 }
 
-fn reached(result: &AnalysisResult, collapse: &Collapse) -> String {
-    let at = intensity(result, collapse);
-    let times = Digits(collapse.load_factor.abs());
-    match collapse.load_factor < 0.0 {
-        false => format!("at {at}"),
-        true => format!("at {at}, that is with its scaled loads reversed and {times} times as large"),
-    }
-}
-
-/// What joints of the stone's strength make of an answer, where they change it visibly.
-fn with_strength(result: &AnalysisResult) -> String {
-    let plastic = result.crushing.as_ref().and_then(|crushing| crushing.plastic_section.as_ref());
-    let Some(plastic) = plastic.filter(|_| !result.request.crushing_in_path) else { return String::new() };
-    let start = result.start_load_factor * result.request.load_factor.intensity_per_unit;
-    let [low, high] = plastic.window.unwrap_or([Some(f64::INFINITY), None]);
-    let stands = low.is_none_or(|low| low <= start) && high.is_none_or(|high| high >= start);
-    if let (true, Outcome::Collapse, Some(collapse)) = (stands, result.outcome, &result.collapse) {
-        let end = if collapse.load_factor < 0.0 { low } else { high };
-        let before = end.filter(|end| end.abs() < (1.0 - CRUSHING_SHOWN) * collapse.intensity.abs());
-        let words = |end| format!(" Its joints crush before, at {} {} (plastic section).", Digits(end), unit(result));
-        return before.map(words).unwrap_or_default();
-    }
-    let same = |a: Option<f64>, b: Option<f64>| match (a, b) {
-        (Some(a), Some(b)) => (a - b).abs() <= CRUSHING_SHOWN * b.abs(),
-        (a, b) => a == b,
+fn collapses(result: &AnalysisResult, end: &EndBody) -> String {
+    let (unit, times) = (unit(result), Rounded(end.load_factor.abs()));
+    let first = if result.updated_geometry.is_some() { " at first order" } else { "" };
+    let reversed = match end.load_factor < 0.0 {
+        false => String::new(),
+        true => format!(", that is with its scaled loads reversed and {times} times as large"),
     };
-    let rigid = result.limit_window.unwrap_or([None, None]);
-    if stands && same(low, rigid[0]) && same(high, rigid[1]) {
-        return String::new();
-    }
-    format!(" With joints of its strength it {} (plastic section).", range(plastic.window, unit(result)))
+    let why = match (end.governed_by, &end.instability) {
+        (GovernedBy::Crushing, Some(other)) => {
+            format!(", as its joints crush; if its stone did not crush, at {} {unit}", Rounded(other.intensity))
+        }
+        (GovernedBy::Crushing, None) => ", as its joints crush".to_owned(),
+        _ => String::new(),
+    };
+    let range = end.range.as_ref().map(|range| may_stand(range, unit)).unwrap_or_default();
+    format!("The arch collapses{first} at {} {unit}{reversed}{why}.{range}", Rounded(end.intensity))
 }
 
-/// With its unit.
-pub fn intensity(result: &AnalysisResult, collapse: &Collapse) -> String {
-    format!("{} {}", Digits(collapse.intensity), unit(result))
+/// A sentence on what it may bear beyond the least load at which joints slide; nothing where that is the same.
+fn may_stand(range: &RangeBody, unit: &str) -> String {
+    match range.greatest {
+        None => " As its joints slide, it may also stand at any load beyond.".to_owned(),
+        Some(greatest) if differs(Rounded, range.least, greatest) => {
+            format!(" As its joints slide, it may also stand as far as {} {unit}.", Rounded(greatest))
+        }
+        Some(_) => String::new(),
+    }
+}
+
+/// Both ends of a range in a table of facts; none where they are the same.
+pub fn sliding_range(range: &RangeBody, unit: &str) -> Option<String> {
+    match range.greatest {
+        Some(greatest) => differs(Digits, range.least, greatest)
+            .then(|| format!("{} to {} {unit}, as joints slide", Digits(range.least), Digits(greatest))),
+        None => Some(format!("{} {unit} and beyond, as joints slide", Digits(range.least))),
+    }
+}
+
+/// Whether two numbers differ as they are shown.
+fn differs<D: Display>(shown: fn(f64) -> D, a: f64, b: f64) -> bool {
+    shown(a).to_string() != shown(b).to_string()
 }
 
 fn in_window(result: &AnalysisResult) -> String {
-    let [low, high] = limits(result).map(|end| end.map(|end| Digits(end.collapse.intensity)));
-    let unit = unit(result);
-    let tried = Digits(result.cap * result.request.load_factor.intensity_per_unit);
-    let range = match (low, high) {
+    let (ends, unit) = (limits(result), unit(result));
+    let tried = Rounded(result.cap * result.request.load_factor.intensity_per_unit);
+    let between = |low: Option<f64>, high: Option<f64>| match (low.map(Rounded), high.map(Rounded)) {
         (Some(low), Some(high)) => format!("between {low} and {high} {unit}"),
         (Some(low), None) => format!("above {low} {unit} (tried up to {tried})"),
         (None, Some(high)) => format!("below {high} {unit} (tried down to -{tried})"),
         (None, None) => format!("under its scaled loads (tried from -{tried} to {tried} {unit})"),
     };
-    format!("The arch stands only {range}; without its scaled loads it falls.")
+    let [low, high] = ends.map(|end| end.map(|end| end.intensity));
+    let stands = format!("The arch stands only {}; without its scaled loads it falls.", between(low, high));
+    let crushing = ends.map(|end| end.is_some_and(|end| end.governed_by == GovernedBy::Crushing));
+    let at = match crushing {
+        [false, false] => return stands,
+        [true, false] => "the lower end",
+        [false, true] => "the upper end",
+        [true, true] => "both ends",
+    };
+    let [low, high] = ends.map(|end| end.and_then(|end| end.instability).map(|figure| figure.intensity));
+    format!("{stands} At {at} its joints crush; if its stone did not crush, it would stand {}.", between(low, high))
 }
 
 fn falls(result: &AnalysisResult) -> &'static str {
@@ -159,7 +152,7 @@ fn falls(result: &AnalysisResult) -> &'static str {
 }
 
 /// Whether there are scaled loads, or fixed ones.
-fn has(result: &AnalysisResult, scaled: bool) -> bool {
+pub fn has(result: &AnalysisResult, scaled: bool) -> bool {
     result.request.loads.iter().any(|entry| entry.scaled == scaled)
 }
 
@@ -170,30 +163,63 @@ fn at_once(result: &AnalysisResult) -> String {
     format!("The arch collapses at {} {}: it stands {without}, and falls as soon as they {act}.", 0, unit(result))
 }
 
+/// Of an arch whose joints cannot carry the loads that the path starts from.
+fn crushes(result: &AnalysisResult, end: Option<&EndBody>) -> String {
+    let [low, high] = result.limit_window_load_factor.unwrap_or([None, None]);
+    let alone = low.is_none_or(|low| low <= 0.0) && high.is_none_or(|high| high >= 0.0);
+    let what =
+        if alone { "The fixed loads alone crush the arch" } else { "The arch crushes at any size of its scaled loads" };
+    let or = end.map(|end| {
+        format!("; if its stone did not crush, it would collapse at {} {}", Rounded(end.intensity), unit(result))
+    });
+    format!("{what}: joints of its strength cannot carry them{}.", or.filter(|_| alone).unwrap_or_default())
+}
+
 fn stands(result: &AnalysisResult) -> String {
-    if !result.request.loads.iter().any(|entry| entry.scaled) {
+    if !has(result, true) {
         return "The arch stands under its fixed loads.".to_owned();
     }
     let factor = &result.request.load_factor;
-    let (tried, unit) = (Digits(result.cap * factor.intensity_per_unit), unit(result));
-    match factor.direction {
-        Direction::Increase => {
-            format!("The arch does not collapse: it stands up to {tried} {unit}, the most that was tried.")
-        }
-        Direction::Decrease => format!(
-            "The arch does not collapse under its scaled loads reversed: it stands down to -{tried} {unit}, the most that was tried."
-        ),
-    }
-}
-
-/// The end that is drawn and whose forces are shown: that of the asked direction where there is one.
-pub fn shown(result: &AnalysisResult) -> &'static str {
-    let main_is_low = reversed(result) == result.collapse.is_some();
-    if main_is_low { "lower end" } else { "upper end" }
+    let (tried, unit) = (Rounded(result.cap * factor.intensity_per_unit), unit(result));
+    let to = match factor.direction {
+        Direction::Increase => format!("up to {tried} {unit}"),
+        Direction::Decrease => format!("under its scaled loads reversed, down to -{tried} {unit}"),
+    };
+    format!("The arch stands. It does not collapse {to}, the most that was tried.")
 }
 
 fn reversed(result: &AnalysisResult) -> bool {
     result.request.load_factor.direction == Direction::Decrease
+}
+
+/// What the modes, and the zones of the paper, that appear in an answer mean.
+pub fn explain(
+    text: &mut String,
+    request: &AnalysisRequest,
+    modes: impl Iterator<Item = Mode>,
+    zones: impl Iterator<Item = SafetyZone>,
+) {
+    let of_mode = |mode: Mode| {
+        let means = match mode {
+            Mode::CrownRises => "the crown goes up",
+            Mode::CrownDescends => "the crown goes down",
+            Mode::Sway => "the crown moves sideways more than up or down",
+            Mode::Sliding => "joints slide more than they open",
+            Mode::Overturning => "blocks turn over",
+            Mode::Crushing => "joints crush over their whole length, and none opens or slides",
+        };
+        format!("Mode {}: {means}.", word(&mode))
+    };
+    let of_zone = |zone: SafetyZone| {
+        let means = match zone {
+            SafetyZone::CrownRises => "the arch falls, and its crown rises",
+            SafetyZone::Crushing => "the stone crushes",
+            SafetyZone::CrownDescends => "the arch falls, and its crown descends",
+        };
+        format!("Zone {}: {means}.", safety::zone(Some(zone)))
+    };
+    let lines: BTreeSet<String> = modes.map(of_mode).chain(zones.map(of_zone)).collect();
+    lines.iter().for_each(|line| paragraph(text, &in_its_words(request, line)));
 }
 
 /// What limit analysis allows.

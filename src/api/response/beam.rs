@@ -12,9 +12,9 @@ use utoipa::ToSchema;
 pub struct BeamResult {
     /// Error e_N of eq. (5) of the paper, per cent.
     pub error_percent: f64,
-    /// Strain energy per metre of depth.
+    /// Strain energy per metre of width.
     pub energy_j_per_m: f64,
-    /// Strain energy per metre of depth in the theory of elasticity.
+    /// Strain energy per metre of width in the theory of elasticity.
     pub exact_energy_j_per_m: f64,
     /// Displacement unknowns.
     pub unknowns: usize,

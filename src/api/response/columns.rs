@@ -169,6 +169,6 @@ impl HistoryColumns {
     }
 }
 
-pub(super) fn column<R, V>(rows: &[R], value: impl Fn(&R) -> V) -> Vec<V> {
+pub(super) fn column<'a, R, V>(rows: &'a [R], value: impl Fn(&'a R) -> V) -> Vec<V> {
     rows.iter().map(value).collect()
 }

@@ -3,22 +3,8 @@
 use super::Scale;
 use super::columns::column;
 use crate::collapse::{Face, FallingMotion, MotionContact, MotionEnd, MotionFrame, OpenHinge, Slid};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use utoipa::ToSchema;
-
-/// How a motion ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum MotionEndWord {
-    /// Some corner has moved by the stated share of the span.
-    Moved,
-    /// Nothing moves any more: the stones have found an equilibrium.
-    AtRest,
-    /// The frames asked for are used up.
-    StepLimit,
-    /// No further step was found.
-    Lost,
-}
 
 /// Motion after collapse: rigid stones (sides along intrados and extrados straight) under constant loads, without inertia: a
 /// resistance in proportion to mass balances what loads and contact forces leave. Stones that are bonded move as one. Frames are
@@ -26,7 +12,7 @@ pub enum MotionEndWord {
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct MotionBody {
     /// How the motion ended.
-    pub end: MotionEndWord,
+    pub end: MotionEnd,
     /// How the motion ended, as a sentence.
     pub why: String,
     /// Stones that touch nothing in the last frame.
@@ -141,14 +127,8 @@ fn rows<'a, T>(frames: &'a [MotionFrame], of: impl Fn(&'a MotionFrame) -> &'a [T
 impl MotionBody {
     pub(super) fn new(motion: &FallingMotion, scale: &Scale<'_>) -> Self {
         let frames = &motion.frames;
-        let end = match motion.end {
-            MotionEnd::Moved => MotionEndWord::Moved,
-            MotionEnd::AtRest => MotionEndWord::AtRest,
-            MotionEnd::StepLimit => MotionEndWord::StepLimit,
-            MotionEnd::Lost => MotionEndWord::Lost,
-        };
         MotionBody {
-            end,
+            end: motion.end,
             why: why(motion),
             free_stones: free(motion),
             load_factor: motion.load_factor,

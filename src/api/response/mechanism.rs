@@ -1,32 +1,84 @@
-//! One end of the load path: where it ends and how the arch falls there.
+//! Ends of what a structure bears: where they are, what governs, and how it falls there.
 
 use super::Scale;
-use super::columns::{ThrustColumns, VelocityColumns};
-use super::words::GovernedBy;
-use crate::collapse::{CrushedJoint, Face, Hinge, LiftOff, LimitWindow, LoadRange, Mode, PathEnd, Slide};
+use super::columns::{ThrustColumns, VelocityColumns, column};
+use super::falling::MotionBody;
+use crate::collapse::{
+    CrushedJoint, End, Face, GovernedBy, Hinge, LiftOff, LoadRange, Mechanism, Mode, PathEnd, Slide, WhichEnd,
+};
 use serde::Serialize;
 use utoipa::ToSchema;
 
-/// Where the load path ends, and in which way.
+/// One end of what the structure bears.
 #[derive(Debug, Clone, Serialize, ToSchema)]
-pub struct Collapse {
-    /// Collapse intensity: `load_factor` times the request's intensity per unit of it; where joints slide, the least of `range`.
+pub struct EndBody {
+    /// Which end of the load factors it is.
+    pub which: WhichEnd,
+    /// The intensity that governs: `load_factor` times the request's intensity per unit of it; where joints slide, the least of
+    /// `range`.
     pub intensity: f64,
     /// Its unit.
     pub unit: String,
-    /// Load factor at collapse.
+    /// `intensity` as a load factor.
     pub load_factor: f64,
-    /// Range in which the collapse intensity may lie, as joints slide; null where none does.
+    /// What governs. All that follows but the two figures is of that state.
+    pub governed_by: GovernedBy,
+    /// Where stone that does not crush falls; null where it does not up to `cap`, and where `crushing_in_path` is set and joints
+    /// crush.
+    pub instability: Option<FigureBody>,
+    /// Where joints of the stone's strength (plastic sections) give way; null where that was not computed or has no end. It governs
+    /// where it comes first, but not by fixed steps.
+    pub crushing: Option<FigureBody>,
+    /// Range in which the intensity may lie, as joints slide; null where none does, and where crushing governs.
     pub range: Option<RangeBody>,
-    /// Largest equilibrium residual of any stone at any event, as a share of the arch's weight, or of the
-    /// largest load at a point where that is more.
+    /// Largest equilibrium residual of any body, at any event of the load path, as a share of the structure's weight, or of the
+    /// largest load at a point where that is more; where crushing governs, at its forces and as a share of the loads that stay.
     pub residual: f64,
-    /// Lowest and highest intensity of the static theorem, null where unbounded; null where nothing stands.
-    pub limit_window: Option<[Option<f64>; 2]>,
+    /// How it falls.
+    #[serde(flatten)]
+    pub fall: FallBody,
+    /// Joints that crush, in their order.
+    pub crushed_joints: Vec<CrushedJointBody>,
+    /// Where crushing governs: how it would fall at `instability` if its stone did not crush.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub without_crushing: Option<FallBody>,
+    /// How it moves on from `instability`, where `motion` asks for it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub motion: Option<MotionBody>,
+}
+
+/// An intensity, also as a load factor.
+#[derive(Debug, Clone, Copy, Serialize, ToSchema)]
+pub struct FigureBody {
+    /// Intensity.
+    pub intensity: f64,
+    /// Load factor.
+    pub load_factor: f64,
+}
+
+/// How a structure falls, and what its joints carry there.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub struct FallBody {
+    /// What moves.
+    #[serde(flatten)]
+    pub mechanism: MechanismBody,
+    /// Resultant of every joint.
+    pub thrust_line: ThrustColumns,
+    /// Velocity of every body.
+    pub velocities: VelocityColumns,
+}
+
+/// The joints at which a structure moves, each list in the order of the joints.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub struct MechanismBody {
     /// How the structure moves.
     pub mode: Mode,
-    /// What ends the load path.
-    pub governed_by: GovernedBy,
+    /// Hinges.
+    pub hinges: Vec<HingeBody>,
+    /// Sliding joints.
+    pub slides: Vec<SlideBody>,
+    /// Joints that part altogether.
+    pub lift_offs: Vec<LiftOffBody>,
 }
 
 /// It is seen from the start of the load path. Joints that slide without dilating have many loads at which a mechanism is in equilibrium; stiffness of the joints and
@@ -60,7 +112,8 @@ pub struct HingeBody {
     pub opens: Face,
     /// The point that it turns about, [x, y]: the joint's end on `face`, or that of the block that is crushed there.
     pub at_m: [f64; 2],
-    /// Position: angle from the nearer springing, about the angle centre of its span; null of a joint of no span.
+    /// Position: angle of its middle from that of the nearer springing joint of its span, about the middle between both; null of a
+    /// joint of no span.
     pub angle_from_springing_deg: Option<f64>,
     /// Position: angle from the crown of its span, negative on the left; null of a joint of no span.
     pub angle_from_crown_deg: Option<f64>,
@@ -115,46 +168,45 @@ impl From<&CrushedJoint> for CrushedJointBody {
     }
 }
 
-/// A collapse with its mechanism.
-#[derive(Debug, Clone, Serialize, ToSchema)]
-pub struct EndBody {
-    /// Where it is, and how.
-    #[serde(flatten)]
-    pub collapse: Collapse,
-    /// Hinges from left to right.
-    pub hinges: Vec<HingeBody>,
-    /// Sliding joints from left to right.
-    pub slides: Vec<SlideBody>,
-    /// Joints that part altogether, from left to right.
-    pub lift_offs: Vec<LiftOffBody>,
-    /// Joints that crush, from left to right, where `crushing_in_path` is set.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub crushed_joints: Vec<CrushedJointBody>,
-    /// Resultant of every joint.
-    pub thrust_line: ThrustColumns,
-    /// Velocity of every body.
-    pub velocities: VelocityColumns,
+impl EndBody {
+    pub(super) fn new(end: &End<'_>, scale: &Scale<'_>) -> Self {
+        let figure = |load_factor| FigureBody { intensity: scale.intensity(load_factor), load_factor };
+        let state = end.state;
+        EndBody {
+            which: end.which,
+            intensity: scale.intensity(state.load_factor),
+            unit: scale.unit.to_owned(),
+            load_factor: state.load_factor,
+            governed_by: end.governed_by,
+            instability: end.uncrushed.map(|path| figure(path.load_factor)),
+            crushing: end.crushing.map(figure),
+            range: state.range.as_ref().map(|range| RangeBody::new(range, scale)),
+            residual: state.residual,
+            fall: state.into(),
+            crushed_joints: column(&state.crushed, Into::into),
+            without_crushing: end.uncrushed.filter(|_| end.governed_by == GovernedBy::Crushing).map(Into::into),
+            motion: end.motion.map(|motion| MotionBody::new(motion, scale)),
+        }
+    }
 }
 
-impl EndBody {
-    pub(super) fn new(end: &PathEnd, window: Option<LimitWindow>, scale: &Scale<'_>) -> Self {
-        EndBody {
-            collapse: Collapse {
-                intensity: scale.intensity(end.load_factor),
-                unit: scale.unit.to_owned(),
-                load_factor: end.load_factor,
-                range: end.range.as_ref().map(|range| RangeBody::new(range, scale)),
-                residual: end.residual,
-                limit_window: window.map(|window| scale.window(window)),
-                mode: end.mechanism.mode,
-                governed_by: if end.crushed.is_empty() { GovernedBy::Instability } else { GovernedBy::Crushing },
-            },
-            hinges: end.mechanism.hinges.iter().map(HingeBody::from).collect(),
-            slides: end.mechanism.slides.iter().map(SlideBody::from).collect(),
-            lift_offs: end.mechanism.lift_offs.iter().map(LiftOffBody::from).collect(),
-            crushed_joints: end.crushed.iter().map(CrushedJointBody::from).collect(),
+impl From<&PathEnd> for FallBody {
+    fn from(end: &PathEnd) -> Self {
+        FallBody {
+            mechanism: (&end.mechanism).into(),
             thrust_line: ThrustColumns::new(&end.thrust_line),
             velocities: VelocityColumns::new(&end.mechanism.velocities),
+        }
+    }
+}
+
+impl From<&Mechanism> for MechanismBody {
+    fn from(mechanism: &Mechanism) -> Self {
+        MechanismBody {
+            mode: mechanism.mode,
+            hinges: column(&mechanism.hinges, Into::into),
+            slides: column(&mechanism.slides, Into::into),
+            lift_offs: column(&mechanism.lift_offs, Into::into),
         }
     }
 }

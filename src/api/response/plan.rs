@@ -14,13 +14,13 @@ pub struct PlanBody {
     /// Subblocks of every voussoir of the whole arch.
     pub subblocks: SubblockCounts,
     /// Accuracy of the collapse intensity, where asked.
-    pub collapse_intensity: Option<EstimateBody>,
+    pub collapse_intensity: Option<Estimate>,
     /// Accuracy of the stress fields, where asked.
-    pub stress: Option<EstimateBody>,
+    pub stress: Option<Estimate>,
     /// Share by which the load factor of first yield changed with the last mesh; null where it was not found on two.
     pub first_yield_change: Option<f64>,
     /// The meshes that were tried for the stress, coarsest first.
-    pub meshes: Vec<MeshBody>,
+    pub meshes: Vec<MeshTried>,
     /// What was decided, and why.
     pub why: Vec<String>,
 }
@@ -42,28 +42,6 @@ pub struct SubblockCounts {
     pub along: Vec<usize>,
 }
 
-/// An accuracy asked for, and what was had.
-#[derive(Debug, Clone, Copy, Serialize, ToSchema)]
-pub struct EstimateBody {
-    /// Largest error allowed, as a share.
-    pub asked: f64,
-    /// Estimated error of the answer, as a share; null where it is not known or there is no number to be off.
-    pub estimate: Option<f64>,
-    /// Whether the answer is as accurate as asked.
-    pub met: bool,
-}
-
-/// A mesh that was tried.
-#[derive(Debug, Clone, Copy, Serialize, ToSchema)]
-pub struct MeshBody {
-    /// Subblocks modelled.
-    pub subblocks: usize,
-    /// Contact points modelled; null for the curved beam, which has no joints.
-    pub contact_points: Option<usize>,
-    /// Estimated error of the stress, as a share; null for the first mesh, which has none to be compared with.
-    pub stress_estimate: Option<f64>,
-}
-
 /// The mesh of the curved beam and its accuracy.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct BeamPlanBody {
@@ -72,16 +50,16 @@ pub struct BeamPlanBody {
     /// Subblocks from end to end.
     pub along: usize,
     /// Accuracy of the stress, estimated without the exact one.
-    pub stress: EstimateBody,
+    pub stress: Estimate,
     /// The meshes that were tried, coarsest first.
-    pub meshes: Vec<MeshBody>,
+    pub meshes: Vec<MeshTried>,
 }
 
 impl From<&BeamPlan> for BeamPlanBody {
     fn from(plan: &BeamPlan) -> Self {
         let [radial, along] = plan.subblocks;
-        let meshes = plan.meshes.iter().copied().map(Into::into).collect();
-        BeamPlanBody { radial, along, stress: plan.stress.into(), meshes }
+        let meshes = plan.meshes.clone();
+        BeamPlanBody { radial, along, stress: plan.stress, meshes }
     }
 }
 
@@ -93,25 +71,11 @@ impl From<&Plan> for PlanBody {
                 radial: column(&plan.subblocks, |[radial, _]| *radial),
                 along: column(&plan.subblocks, |[_, along]| *along),
             },
-            collapse_intensity: plan.collapse_intensity.map(Into::into),
-            stress: plan.stress.map(Into::into),
+            collapse_intensity: plan.collapse_intensity,
+            stress: plan.stress,
             first_yield_change: plan.first_yield,
-            meshes: plan.meshes.iter().copied().map(Into::into).collect(),
+            meshes: plan.meshes.clone(),
             why: plan.why.iter().map(PlanReason::to_string).collect(),
         }
-    }
-}
-
-impl From<Estimate> for EstimateBody {
-    fn from(estimate: Estimate) -> Self {
-        let Estimate { asked, estimate, met } = estimate;
-        EstimateBody { asked, estimate, met }
-    }
-}
-
-impl From<MeshTried> for MeshBody {
-    fn from(mesh: MeshTried) -> Self {
-        let MeshTried { subblocks, contact_points, stress } = mesh;
-        MeshBody { subblocks, contact_points, stress_estimate: stress }
     }
 }

@@ -1,8 +1,8 @@
 //! What the movement of supports does.
 
 use super::columns::{ThrustColumns, column};
-use super::mechanism::{HingeBody, LiftOffBody, SlideBody};
-use crate::collapse::{Mode, SettlementEnd, SettlementPath, SettlementPoint, SettlementReport};
+use super::mechanism::MechanismBody;
+use crate::collapse::{SettlementEnd, SettlementPath, SettlementPoint, SettlementReport};
 use serde::Serialize;
 use utoipa::ToSchema;
 
@@ -33,14 +33,9 @@ pub struct SettlementPathBody {
     /// The path, event by event, from the arch as it stands before the movement to the largest share it reaches. Where the
     /// share falls in between, the arch snaps into another shape.
     pub history: SettlementColumns,
-    /// How the crown goes on at the end.
-    pub mode: Mode,
-    /// Hinges on which the arch follows its supports, or falls, at the end.
-    pub hinges: Vec<HingeBody>,
-    /// Joints that slide at the end.
-    pub slides: Vec<SlideBody>,
-    /// Joints that part altogether at the end.
-    pub lift_offs: Vec<LiftOffBody>,
+    /// How it follows its supports, or falls, at the end.
+    #[serde(flatten)]
+    pub mechanism: MechanismBody,
     /// Resultant per joint at the end, as places on the joints as built.
     pub thrust_line: ThrustColumns,
     /// Displacements at the end.
@@ -113,10 +108,7 @@ impl SettlementPathBody {
             safe_share_of_movement: path.safe,
             thrust_n_per_m: history.thrust_n_per_m.as_ref().map(|thrust| thrust.last().copied().unwrap_or(0.0)),
             history,
-            mode: path.mechanism.mode,
-            hinges: path.mechanism.hinges.iter().map(Into::into).collect(),
-            slides: path.mechanism.slides.iter().map(Into::into).collect(),
-            lift_offs: path.mechanism.lift_offs.iter().map(Into::into).collect(),
+            mechanism: (&path.mechanism).into(),
             thrust_line: ThrustColumns::new(&path.thrust_line),
             displacements: DisplacementColumns {
                 x_m: column(&path.displacements, |row| row[0]),
@@ -134,31 +126,21 @@ impl SettlementColumns {
         let forces = |support: usize| {
             [0, 1].map(|axis| column(rows, |row| row.forces.get(support).map_or(0.0, |force| force[axis])))
         };
-        let share_of_movement = column(rows, |row| row.share);
-        match grounds {
-            Grounds::Arch { half } => {
-                let ([thrust, left], [_, right]) = (forces(0), forces(1));
-                SettlementColumns {
-                    share_of_movement,
-                    thrust_n_per_m: Some(thrust),
-                    left_reaction_n_per_m: Some(left),
-                    right_reaction_n_per_m: Some(right.into_iter().map(|up| (!half).then_some(up)).collect()),
-                    supports: Vec::new(),
-                }
-            }
-            Grounds::Named(names) => {
-                let support = |(k, name): (usize, &String)| {
-                    let [rightwards_n_per_m, upwards_n_per_m] = forces(k);
-                    SupportForces { support: name.clone(), rightwards_n_per_m, upwards_n_per_m }
-                };
-                SettlementColumns {
-                    share_of_movement,
-                    thrust_n_per_m: None,
-                    left_reaction_n_per_m: None,
-                    right_reaction_n_per_m: None,
-                    supports: names.iter().enumerate().map(support).collect(),
-                }
-            }
+        let support = |(k, name): (usize, &String)| {
+            let [rightwards_n_per_m, upwards_n_per_m] = forces(k);
+            SupportForces { support: name.clone(), rightwards_n_per_m, upwards_n_per_m }
+        };
+        let (half, names): (_, &[String]) = match grounds {
+            Grounds::Arch { half } => (Some(*half), &[]),
+            Grounds::Named(names) => (None, names),
+        };
+        let ([thrust, left], [_, right]) = (forces(0), forces(1));
+        SettlementColumns {
+            share_of_movement: column(rows, |row| row.share),
+            thrust_n_per_m: half.map(|_| thrust),
+            left_reaction_n_per_m: half.map(|_| left),
+            right_reaction_n_per_m: half.map(|half| right.into_iter().map(|up| (!half).then_some(up)).collect()),
+            supports: names.iter().enumerate().map(support).collect(),
         }
     }
 }

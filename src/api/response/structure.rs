@@ -25,7 +25,7 @@ pub struct StructureBody {
     pub(super) whole: Vec<usize>,
 }
 
-/// A body: a stone, or a block of a pier or an abutment. Forces are per metre of depth.
+/// A body: a stone, or a block of a pier or an abutment. Forces are per metre of width.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct BodyBody {
     /// Its name.

@@ -1,8 +1,8 @@
 //! The answer on moving geometry.
 
 use super::Scale;
-use super::mechanism::{HingeBody, LiftOffBody, SlideBody};
-use crate::collapse::{CollapseReport, Mode, Outcome, UpdatedEnd, UpdatedGeometry};
+use super::mechanism::MechanismBody;
+use crate::collapse::{CollapseReport, Outcome, UpdatedEnd, UpdatedGeometry};
 use serde::Serialize;
 use utoipa::ToSchema;
 
@@ -19,7 +19,7 @@ pub struct UpdatedBody {
     pub intensity: Option<f64>,
     /// `intensity` as a load factor.
     pub load_factor: Option<f64>,
-    /// Load factor over that of the first-order collapse; null where either is missing, and for an arch that stands in a
+    /// Load factor over that of the first-order collapse of stone that does not crush; null where either is missing, and for an arch that stands in a
     /// window only.
     pub over_first_order: Option<f64>,
     /// Share of the loads at the start of the path under which the arch falls as they come on together; null otherwise.
@@ -28,14 +28,8 @@ pub struct UpdatedBody {
     pub crown_displacement_m: Option<[f64; 2]>,
     /// Largest displacement of a stone's centroid at that load.
     pub largest_displacement_m: Option<f64>,
-    /// How the crown moves as the arch begins to fall; null where it does not.
-    pub mode: Option<Mode>,
-    /// Hinges as the arch begins to fall.
-    pub hinges: Vec<HingeBody>,
-    /// Sliding joints as the arch begins to fall.
-    pub slides: Vec<SlideBody>,
-    /// Joints that part altogether as the arch begins to fall.
-    pub lift_offs: Vec<LiftOffBody>,
+    /// How the arch begins to fall; null where it does not.
+    pub mechanism: Option<MechanismBody>,
     /// Intensity at which the arch first snaps into another shape: the path dips there by more than a hundredth of what it
     /// rose, then goes on rising; null where it does not.
     pub snap_intensity: Option<f64>,
@@ -47,7 +41,6 @@ impl UpdatedBody {
     pub(super) fn new(updated: &UpdatedGeometry, report: &CollapseReport, scale: &Scale<'_>) -> Self {
         let first_order = report.end.as_ref().map(|end| end.load_factor);
         let over = updated.load_factor.zip(first_order).map(|(updated, first)| updated / first);
-        let mechanism = updated.mechanism.as_ref();
         UpdatedBody {
             end: updated.end,
             why: updated.why.map(|why| why.to_string()),
@@ -58,10 +51,7 @@ impl UpdatedBody {
             share_of_loads: updated.share_of_loads,
             crown_displacement_m: updated.crown.map(Into::into),
             largest_displacement_m: updated.largest,
-            mode: mechanism.map(|mechanism| mechanism.mode),
-            hinges: mechanism.map_or_else(Vec::new, |m| m.hinges.iter().map(Into::into).collect()),
-            slides: mechanism.map_or_else(Vec::new, |m| m.slides.iter().map(Into::into).collect()),
-            lift_offs: mechanism.map_or_else(Vec::new, |m| m.lift_offs.iter().map(Into::into).collect()),
+            mechanism: updated.mechanism.as_ref().map(Into::into),
             snap_intensity: updated.snap.map(|at| scale.intensity(at)),
             residual: updated.residual,
         }

@@ -14,16 +14,6 @@ pub enum MethodWord {
     FixedSteps,
 }
 
-/// What ends the load path.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum GovernedBy {
-    /// A mechanism of rigid stones.
-    Instability,
-    /// A mechanism some of whose joints crush, where `crushing_in_path` is set.
-    Crushing,
-}
-
 /// Where a contact point lies on its joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]

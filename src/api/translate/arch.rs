@@ -22,21 +22,17 @@ const MAX_STONE_FAULTS: usize = 20;
 
 /// The whole arch (never halved here), or faults.
 pub fn arch(request: &ArchRequest, stone: Stone, faults: &mut Faults) -> Option<Structure> {
-    let (ends, ring, centre) = if let ProfileRequest::Surveyed(surveyed) = &request.profile {
-        let ends = surveyed_ends(request, surveyed, faults)?;
-        let centre = 0.25 * (ends[0][0] + ends[0][1] + ends[ends.len() - 1][0] + ends[ends.len() - 1][1]);
-        (ends, None, centre)
+    let (ends, ring) = if let ProfileRequest::Surveyed(surveyed) = &request.profile {
+        (surveyed_ends(request, surveyed, faults)?, None)
     } else {
         let ring = ring(request, faults)?;
-        let ends = ring.set_out().map_err(|found| list(&found, request, faults)).ok()?;
-        let centre = ring.profile.angle_centre();
-        (ends, Some(ring), centre)
+        (ring.set_out().map_err(|found| list(&found, request, faults)).ok()?, Some(ring))
     };
     let mut voussoirs = straight_voussoirs(&ends).map_err(|found| list(&found, request, faults)).ok()?;
     if let Some(ring) = ring.filter(|_| request.curved_sides) {
         voussoirs = ring.curved_voussoirs(&ends)?;
     }
-    let mut arch = assemble(&ends, voussoirs, stone, joint_law(&stone), centre);
+    let mut arch = assemble(&ends, voussoirs, stone, joint_law(&stone));
     if request.springing_joints == SpringingJoints::Bonded {
         let last = arch.joints.len() - 1;
         arch.joints[0].law = JointLaw::Bonded;

@@ -8,7 +8,7 @@ use crate::structure::{JointLaw, Stone};
 fn certificate(limit: f64) -> Certificate {
     let law = JointLaw::Dry { friction: 0.5, cohesion: 0.0 };
     let ends = [0.0, 1.0].map(|x| [0.0, 1.0].map(|y| Vec2::new(x, y)));
-    let structure = assemble(&ends, straight_voussoirs(&ends).unwrap(), Stone::default(), law, Vec2::zeros());
+    let structure = assemble(&ends, straight_voussoirs(&ends).unwrap(), Stone::default(), law);
     let theorem = StaticTheorem::new(&structure, &[], &[]).unwrap();
     Certificate {
         theorem,

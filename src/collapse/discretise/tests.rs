@@ -20,7 +20,7 @@ fn semicircle(n: usize, subblocks: [usize; 2], curved: bool) -> Analysis {
     let ends = ring.set_out().unwrap();
     let stones = if curved { ring.curved_voussoirs(&ends).unwrap() } else { straight_voussoirs(&ends).unwrap() };
     let law = JointLaw::Dry { friction: 0.6, cohesion: 0.0 };
-    let structure = assemble(&ends, stones, Stone::default(), law, Vec2::zeros());
+    let structure = assemble(&ends, stones, Stone::default(), law);
     let mesh = Mesh { subblocks: vec![subblocks; n], seams: Seams::Split };
     Analysis { mesh, ..Analysis::new(structure, Vec::new(), Vec::new()) }
 }

@@ -11,7 +11,7 @@ fn semicircle(n: usize) -> Structure {
             [0.9, 1.1].map(|radius| radius * Vec2::new(cos, sin))
         })
         .collect();
-    assemble(&ends, straight_voussoirs(&ends).unwrap(), Stone::default(), law, Vec2::zeros())
+    assemble(&ends, straight_voussoirs(&ends).unwrap(), Stone::default(), law)
 }
 
 /// Joint forces with hinges at the given joints and faces, pressed in the middle elsewhere.

@@ -5,6 +5,8 @@ use crate::structure::Face;
 
 /// How a motion ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "server", derive(serde::Serialize, serde::Deserialize, utoipa::ToSchema))]
+#[cfg_attr(feature = "server", serde(rename_all = "snake_case"))]
 pub enum MotionEnd {
     /// Some corner has moved by the stated share of the span.
     Moved,

@@ -31,8 +31,8 @@ pub struct Hinge {
     pub face: Face,
     /// The point that it turns about: the end of the joint on that face, or of the block that is crushed there, m.
     pub at: Vec2,
-    /// Angle of the joint from the nearer springing of its span, about the angle centre of that, rad; None of a joint of no
-    /// span.
+    /// Angle of the joint's middle from that of the nearer springing of its span, about the middle between both springings, rad;
+    /// None of a joint of no span.
     pub angle_from_springing: Option<f64>,
     /// Angle of the joint from the crown of its span, negative on the left, rad; None of a joint of no span.
     pub angle_from_crown: Option<f64>,

@@ -24,6 +24,8 @@ pub enum Note {
     LaterMechanism,
     /// Joints crush and slide: the load is that of the path, and none lower is looked for.
     CrushesAndSlides,
+    /// Joints slide in the mechanism in which joints crush: limit analysis lets them dilate.
+    CrushesAndDilates,
     /// Joints slide, and no other load was found at which the arch falls.
     SoleSlidingLoad(LoadRange),
     /// Joints slide, and the arch may fall at any load of a range.

@@ -72,10 +72,11 @@ pub enum PlanReason {
 
 /// An accuracy asked for, and what was had.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "server", derive(serde::Serialize, utoipa::ToSchema))]
 pub struct Estimate {
     /// Largest error allowed, as a share.
     pub asked: f64,
-    /// Error that the answer is estimated to have, as a share; None where it is not known.
+    /// Error that the answer is estimated to have, as a share; none where it is not known or there is no number to be off.
     pub estimate: Option<f64>,
     /// Whether the answer is as accurate as asked, or has nothing that could be inaccurate.
     pub met: bool,
@@ -83,12 +84,14 @@ pub struct Estimate {
 
 /// One mesh on the way to the last.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "server", derive(serde::Serialize, utoipa::ToSchema))]
 pub struct MeshTried {
     /// Subblocks modelled.
     pub subblocks: usize,
-    /// Contact points modelled; none where there are no joints.
+    /// Contact points modelled; none for the curved beam, which has no joints.
     pub contact_points: Option<usize>,
-    /// Estimated error of the stress; None for the first, which is compared with nothing.
+    /// Estimated error of the stress, as a share; none for the first mesh, which has none to be compared with.
+    #[cfg_attr(feature = "server", serde(rename = "stress_estimate"))]
     pub stress: Option<f64>,
 }
 

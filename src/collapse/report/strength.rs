@@ -1,6 +1,6 @@
 //! Stress, crushing and safety in an answer, and the curved beam's.
 
-use super::{BeamPlan, LimitWindow, Mode, Note};
+use super::{BeamPlan, LimitWindow, Mode, Note, PathEnd};
 use crate::geometry::Vec2;
 
 /// State of stress in one subblock, constant in it.
@@ -65,12 +65,14 @@ pub struct ElasticCrushing {
 }
 
 /// Limit analysis with joints of finite strength.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct PlasticCrushing {
     /// Load factors in equilibrium; None where there are none.
     pub window: Option<LimitWindow>,
     /// Joints that are crushed at the window's lowest and at its highest end.
     pub joints: [Vec<usize>; 2],
+    /// How the structure gives way at either end, where that comes before the end of the limit window.
+    pub ends: [Option<PathEnd>; 2],
 }
 
 /// Both answers about crushing.

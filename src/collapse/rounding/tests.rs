@@ -1,11 +1,12 @@
 use super::*;
-use crate::collapse::{Cost, Crushing, HistoryPoint, LimitWindow, Reach, SafetyFactors, TaskReport};
+use crate::collapse::{Cost, Crushing, Direction, HistoryPoint, LimitWindow, Reach, SafetyFactors, TaskReport};
 use crate::geometry::Vec2;
 
 /// A report of nothing but its limit window.
 fn blank() -> CollapseReport {
     CollapseReport {
         outcome: Outcome::CannotTell,
+        direction: Direction::Increase,
         proof: None,
         limit_window: Some(LimitWindow { lowest: -1.0, highest: f64::INFINITY }),
         thrust_range: None,

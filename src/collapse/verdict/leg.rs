@@ -40,7 +40,7 @@ impl Setup<'_> {
             Leg::Endless => {
                 report.add_fields(analysis, states, &recorder, None)?;
                 report.history = recorder.history;
-                report.outcome = Outcome::NeverCollapses;
+                report.outcome = Outcome::Stands;
                 return Ok(self.certificate.endless(sign, self.cap).or(self.certificate.standing_doubt(residual)));
             }
             Leg::Criterion(at) => {

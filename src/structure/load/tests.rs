@@ -18,7 +18,7 @@ pub(super) const STONE: Stone = Stone {
 
 pub(super) fn arch_of(ring: &Ring) -> Structure {
     let ends = ring.set_out().unwrap();
-    assemble(&ends, straight_voussoirs(&ends).unwrap(), STONE, LAW, Vec2::zeros())
+    assemble(&ends, straight_voussoirs(&ends).unwrap(), STONE, LAW)
 }
 
 pub(super) fn ring(profile: Profile, thickness: f64, n: usize) -> Ring {
@@ -275,7 +275,7 @@ fn pieces_of_a_side_carry_together_what_the_side_carries() {
 fn a_triangular_pressure_on_a_piece_has_its_own_resultant() {
     // Fill up to y = 1 on a vertical side from y = 0 to 1, in four pieces: the lowest carries 7/32 of q_h at its foot.
     let ends = [[Vec2::new(0.0, 0.0), Vec2::new(-1.0, 0.0)], [Vec2::new(0.0, 1.0), Vec2::new(-1.0, 1.0)]];
-    let arch = assemble(&ends, straight_voussoirs(&ends).unwrap(), STONE, LAW, Vec2::zeros());
+    let arch = assemble(&ends, straight_voussoirs(&ends).unwrap(), STONE, LAW);
     let forces = Load::Fill(fill(Some(1.0))).on_pieces(&arch, &[4], 1.0).unwrap();
     let lowest: f64 = forces.iter().filter(|f| f.at.y < 0.25).map(|f| f.force.x).sum();
     let all: f64 = forces.iter().map(|f| f.force.x).sum();
@@ -285,7 +285,7 @@ fn a_triangular_pressure_on_a_piece_has_its_own_resultant() {
 #[test]
 fn an_embankment_presses_on_a_level_side_at_the_top_of_the_fill() {
     let ends = [[Vec2::new(0.0, 0.0), Vec2::new(0.0, 1.0)], [Vec2::new(2.0, 0.0), Vec2::new(2.0, 1.0)]];
-    let arch = assemble(&ends, straight_voussoirs(&ends).unwrap(), STONE, LAW, Vec2::zeros());
+    let arch = assemble(&ends, straight_voussoirs(&ends).unwrap(), STONE, LAW);
     let load = Fill { embankment: 0.5, embankment_density: 1000.0, ..fill(Some(1.0)) };
     let forces = Load::Fill(load).on(&arch, 1.0).unwrap();
     close(sum(&forces).y, -0.5 * 1000.0 * GRAVITY * 2.0, 1e-9);

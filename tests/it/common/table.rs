@@ -46,7 +46,7 @@ impl Table {
     pub fn least(&mut self, name: &str, thickness: f64, request: impl Fn(f64) -> Value) {
         let [above, below] = [1.005, 0.995].map(|factor| solve(&request(factor * thickness)).outcome);
         let line = format!("{name:<46} {thickness:>10.7}: above {above:?}, below {below:?}");
-        self.note(line, above == Outcome::NeverCollapses && below == Outcome::FallsAsBuilt);
+        self.note(line, above == Outcome::Stands && below == Outcome::FallsAsBuilt);
     }
 }
 

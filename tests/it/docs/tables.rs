@@ -29,7 +29,7 @@ pub const WORDS: [(&str, &str); 11] = [
     ("ReachBody", "States of a safety factor"),
     ("UpdatedEnd", "Ends on moving geometry"),
     ("SettlementEnd", "Ends of a movement"),
-    ("MotionEndWord", "Ends of a motion"),
+    ("MotionEnd", "Ends of a motion"),
     ("LawWord", "Laws of a joint"),
     ("StatusWord", "Status of a job"),
 ];

@@ -61,24 +61,26 @@ impl Pair {
 
     fn answer(&mut self, whole: &Value, half: &Value) {
         self.word("outcome", &whole["outcome"], &half["outcome"]);
-        self.falls = !whole["collapse"].is_null();
+        self.falls = !whole["ends"][0].is_null();
         for end in 0..2 {
             self.statics = self.statics.max(apart(&whole["limit_window"][end], &half["limit_window"][end]));
         }
         for end in ["lowest_n_per_m", "highest_n_per_m"] {
             self.statics = self.statics.max(apart(&whole["thrust_range"][end], &half["thrust_range"][end]));
         }
-        let plastic = ["/crushing/plastic_section/load_factor", "/safety/plastic_section/load_factor"];
+        let plastic = [
+            "/crushing/plastic_section/window/0",
+            "/crushing/plastic_section/window/1",
+            "/safety/plastic_section/load_factor",
+        ];
         for pointer in plastic {
             let [a, b] = [whole, half].map(|answer| answer.pointer(pointer).unwrap_or(&Value::Null));
             self.statics = self.statics.max(apart(a, b));
         }
-        let other = [&whole["other_end"], &half["other_end"]];
-        for ([a, b], loads) in [([whole, half], ["/collapse/intensity"; 2]), (other, ["/intensity"; 2])] {
+        for [a, b] in [0, 1].map(|end| [&whole["ends"][end], &half["ends"][end]]) {
             let slides = |answer: &Value| answer["slides"].as_array().is_some_and(|slides| !slides.is_empty());
             self.slides |= slides(a) || slides(b);
-            let [found, expected] = [a, b].map(|answer| answer.pointer(loads[0]).cloned().unwrap_or(Value::Null));
-            self.path = self.path.max(apart(&found, &expected));
+            self.path = self.path.max(apart(&a["intensity"], &b["intensity"]));
             if !slides(a) && !slides(b) {
                 self.hinges(a, b, a["velocities"]["x"].as_array().map_or(0, Vec::len));
             }

@@ -1,6 +1,7 @@
 //! Cases 2 and 3, the oval: Fig. 11, and Tables 3 and 4 with the limits they belong to.
 
 use super::sheet::{alternate, close, degrees, expected, left_hinges, number, request, solve};
+use crate::common::answered;
 use serde_json::{Value, json};
 
 /// One end of a window: what the paper prints, limit analysis, ours.
@@ -49,12 +50,10 @@ const TABLE_4: [Limit<'static>; 2] = [
     },
 ];
 
-/// Intensity and hinges at an end of the window.
+/// Intensity and hinges of stone that does not crush at an end of the window.
 fn end(answer: &Value, which: &str) -> (f64, Vec<(f64, String)>) {
-    match which {
-        "lowest" => (number(answer, "/other_end/intensity"), left_hinges(&answer["other_end"])),
-        _ => (number(answer, "/collapse/intensity"), left_hinges(answer)),
-    }
+    let end = answered::end(answer, which);
+    (number(end, "/instability/intensity"), left_hinges(answered::uncrushed(end)))
 }
 
 fn print(limits: &[Limit<'_>]) {
@@ -99,7 +98,7 @@ fn lumped(mut request: Value) -> f64 {
     let loads = request["loads"].as_array_mut().unwrap();
     loads.retain(|load| load["scaled"] != true);
     loads.extend([on(7), on(8)]);
-    number(&solve(&request), "/collapse/intensity")
+    number(&solve(&request), "/ends/0/instability/intensity")
 }
 
 /// Shapes that fit the published limits of the embankment as well, or nearly.

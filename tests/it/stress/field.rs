@@ -115,7 +115,7 @@ fn a_cut_through_a_column_of_subblocks_carries_the_thrust() {
     }
 }
 
-/// Stress couple in the middle column of subblocks of stone `k`, N m per metre of depth.
+/// Stress couple in the middle column of subblocks of stone `k`, N m per metre of width.
 fn couple(analysis: &Analysis, report: &CollapseReport, k: usize, [radial, along]: [usize; 2]) -> f64 {
     let middle = analysis.structure.joints[k].middle() + analysis.structure.joints[k + 1].middle();
     let forward = Vec2::new(middle.y, -middle.x).normalize();

@@ -13,7 +13,7 @@ fn whole_wrench(forces: &[PointForce]) -> [f64; 3] {
 /// One stone whose extrados runs straight from `a` to `b`.
 fn straight_side(a: Vec2, b: Vec2) -> Structure {
     let ends = [[a - Vec2::new(0.0, 1.0), a], [b - Vec2::new(0.0, 1.0), b]];
-    assemble(&ends, straight_voussoirs(&ends).unwrap(), STONE, LAW, Vec2::zeros())
+    assemble(&ends, straight_voussoirs(&ends).unwrap(), STONE, LAW)
 }
 
 #[test]

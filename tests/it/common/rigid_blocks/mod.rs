@@ -22,7 +22,7 @@ pub mod scene;
 pub mod simplex;
 pub mod wall;
 
-/// A point or a vector in the plane, m or N per metre of depth.
+/// A point or a vector in the plane, m or N per metre of width.
 pub type Point = [f64; 2];
 
 /// Where two blocks touch, or a block and the ground: a straight segment. Going from its first end to its second, what lies

@@ -6,9 +6,9 @@ use crate::common::largest::{larger, largest};
 /// The force of a joint as an answer reports it: all that goes through the joint, acting on what lies after it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reported {
-    /// Compression is positive, N per metre of depth.
+    /// Compression is positive, N per metre of width.
     pub normal: f64,
-    /// From the first end of the joint to its second, N per metre of depth.
+    /// From the first end of the joint to its second, N per metre of width.
     pub shear: f64,
     /// Where the normal force acts: from the middle of the joint towards its second end, m.
     pub eccentricity: f64,
@@ -23,11 +23,11 @@ impl Reported {
     }
 }
 
-/// What an answer on the wire reports of the joints where it ends, in their order: its `thrust_line`, which has these very signs.
+/// What an end of an answer on the wire reports of its joints, in their order: its `thrust_line`, which has these very signs.
 #[cfg(feature = "server")]
-pub fn of_answer(answer: &serde_json::Value) -> Vec<Reported> {
+pub fn of_end(end: &serde_json::Value) -> Vec<Reported> {
     let column = |name: &str| {
-        let values = answer["thrust_line"][name].as_array().unwrap_or_else(|| panic!("no thrust_line/{name}"));
+        let values = end["thrust_line"][name].as_array().unwrap_or_else(|| panic!("no thrust_line/{name}"));
         values.iter().map(|value| value.as_f64().expect("a number")).collect::<Vec<_>>()
     };
     let rows = column("normal_n_per_m").into_iter().zip(column("shear_n_per_m")).zip(column("eccentricity_m"));

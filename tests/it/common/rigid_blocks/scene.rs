@@ -16,7 +16,7 @@ pub struct Support {
 /// A load that is scaled.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Load {
-    /// At a point of a block, N per metre of depth.
+    /// At a point of a block, N per metre of width.
     Point(Push),
     /// Of all blocks, in g: a force of their weight times this.
     Acceleration(Point),
