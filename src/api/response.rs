@@ -14,6 +14,7 @@ mod settlement;
 mod stress;
 mod structure;
 mod updated;
+mod width;
 mod words;
 
 pub use beam::BeamResult;
@@ -33,12 +34,13 @@ pub use stress::{
 };
 pub use structure::{BodyBody, JointBody, LawWord, LoadOnBody, StructureBody};
 pub use updated::UpdatedBody;
+pub use width::{ScaledLoadBody, ThrustRangeBody};
 pub use words::MethodWord;
 
 use super::json::{NotFinite, line};
 use super::prose::in_its_words;
 use super::request::AnalysisRequest;
-use crate::collapse::{CollapseReport, Cost, LimitWindow, Note, Outcome, ThrustRange};
+use crate::collapse::{CollapseReport, Cost, LimitWindow, Note, Outcome};
 use columns::column;
 use serde::Serialize;
 use settlement::Grounds;
@@ -108,16 +110,6 @@ pub struct AnalysisResult {
     pub(super) remedy: Option<&'static str>,
 }
 
-/// Horizontal thrust under the fixed loads, by the static theorem, with which the left springing pushes to the right; negative:
-/// to the left.
-#[derive(Debug, Clone, Serialize, ToSchema)]
-pub struct ThrustRangeBody {
-    /// Least; null: as far the other way as one likes.
-    pub lowest_n_per_m: Option<f64>,
-    /// Greatest; null: as much as one likes, as in an arch so flat that its stones are wedged.
-    pub highest_n_per_m: Option<f64>,
-}
-
 /// Turns load factors into intensities.
 #[derive(Debug, Clone, Copy)]
 struct Scale<'a> {
@@ -155,16 +147,20 @@ impl AnalysisResult {
             None => Grounds::Named(&structure.supports),
         };
         let settlement = report.settlement().map(|settlement| SettlementBody::new(settlement, &grounds));
+        let scaled_load = ScaledLoadBody::new(request, &structure);
         let assumptions = assumptions::assumptions(request, &structure);
         Some(AnalysisResult {
             outcome: report.outcome,
             method: (&request.method).into(),
             unit: scale.unit.to_owned(),
-            ends: column(&report.ends(), |end| EndBody::new(end, &scale)),
+            ends: column(&report.ends(), |end| EndBody::new(end, scaled_load, &scale)),
             limit_window: window.map(|window| scale.window(window)),
             limit_window_load_factor: window.map(|window| Scale::LOAD_FACTOR.window(window)),
             proof: report.proof.as_ref().map(ProofBody::new),
-            thrust_range: report.thrust_range.filter(|_| request.blocks.is_none()).map(Into::into),
+            thrust_range: report
+                .thrust_range
+                .filter(|_| request.blocks.is_none())
+                .map(|range| ThrustRangeBody::new(range, request.width_m)),
             structure,
             start_load_factor: report.start,
             cap: report.cap,
@@ -200,13 +196,5 @@ impl AnalysisResult {
     /// Where a number is not finite.
     pub fn to_bytes(&self) -> Result<Vec<u8>, NotFinite> {
         line(self)
-    }
-}
-
-impl From<ThrustRange> for ThrustRangeBody {
-    fn from(range: ThrustRange) -> Self {
-        let [lowest_n_per_m, highest_n_per_m] =
-            [range.lowest, range.highest].map(|end| (!end.is_infinite()).then_some(end));
-        ThrustRangeBody { lowest_n_per_m, highest_n_per_m }
     }
 }

@@ -97,8 +97,8 @@ impl Case {
                 return self.number(key, &value[1], "/limit_window/1");
             }
             "thrust_range" => {
-                self.number(key, &value[0], "/thrust_range/lowest_n_per_m");
-                return self.number(key, &value[1], "/thrust_range/highest_n_per_m");
+                self.number(key, &value[0], "/thrust_range/lowest_kn_per_m");
+                return self.number(key, &value[1], "/thrust_range/highest_kn_per_m");
             }
             "highest" | "lowest" => return self.load(key, value, &end(&self.answer, key).clone()),
             "hinges" => return self.same_hinges(key, value, &self.answer["ends"][0].clone()),

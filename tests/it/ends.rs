@@ -233,3 +233,27 @@ fn angles_of_hinges_do_not_depend_on_how_the_shape_was_typed() {
         }
     }
 }
+
+#[test]
+fn forces_over_the_width_are_those_per_metre_times_the_width() {
+    let mut request = semicircle(1e30, -5.0);
+    assert!(solved(&request)["ends"][0]["scaled_load"]["y_kn"].is_null());
+    request["width_m"] = json!(4);
+    let whole = solved(&request);
+    let end = &whole["ends"][0];
+    let [x, y] = ["x_kn_per_m", "y_kn_per_m"].map(|name| number(&end["scaled_load"], &format!("/{name}")));
+    // One load of 1 kN/m, downwards.
+    assert!(x == 0.0 && close(y, -number(end, "/load_factor"), 1e-12), "{end}");
+    assert!(close(number(end, "/scaled_load/y_kn"), 4.0 * y, 1e-12), "{end}");
+    let thrust = &whole["thrust_range"];
+    for (per_metre, over_all) in [("/lowest_kn_per_m", "/lowest_kn"), ("/highest_kn_per_m", "/highest_kn")] {
+        assert!(close(4.0 * number(thrust, per_metre), number(thrust, over_all), 1e-12), "{thrust}");
+    }
+    // Half an arch stands for the whole.
+    request["loads"][1]["load"]["point_load"]["x_m"] = json!(0);
+    let whole = solved(&request);
+    request["arch"]["half"] = json!(true);
+    let half = solved(&request);
+    let loads = [&whole, &half].map(|result| number(result, "/ends/0/scaled_load/y_kn"));
+    assert!(close(loads[0], loads[1], 1e-6), "{loads:?}");
+}

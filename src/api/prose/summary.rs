@@ -78,10 +78,11 @@ fn facts(result: &AnalysisResult, wall_time: Duration) -> Table {
     }
     fact("limit window", wording::window(result));
     if let Some(range) = &result.thrust_range {
-        let words = |thrust: f64| Digits(thrust / 1e3).to_string();
-        let [lowest, highest] =
-            [range.lowest_n_per_m, range.highest_n_per_m].map(|end| end.map_or("any".to_owned(), words));
-        fact("thrust range", format!("{lowest} to {highest} kN/m"));
+        let range = [range.lowest_kn_per_m, range.highest_kn_per_m];
+        fact("thrust range", format!("{} kN/m", from_to(range)));
+    }
+    if let Some(width) = result.request.width_m {
+        fact("over the width", over_width(result, width));
     }
     for (name, value) in moving::facts(result).into_iter().chain(safety::facts(result)) {
         fact(name, value);
@@ -91,6 +92,24 @@ fn facts(result: &AnalysisResult, wall_time: Duration) -> Table {
     fact("cost", format!("{} events, {} factorisations, {} unknowns", counts.0, counts.1, counts.2));
     fact("time", format!("{:.3} ms", wall_time.as_secs_f64() * 1e3));
     table
+}
+
+/// Forces over the whole width.
+fn over_width(result: &AnalysisResult, width: f64) -> String {
+    let scaled = |end: &EndBody| {
+        let [x, y] = [end.scaled_load.x_kn?, end.scaled_load.y_kn?].map(Digits);
+        let at = if result.outcome == Outcome::StandsInWindow { wording::name(end) } else { "collapse" };
+        Some(format!("; scaled loads at {at} ({x}, {y}) kN"))
+    };
+    let thrust =
+        result.thrust_range.map(|range| format!("; thrust {} kN", from_to([range.lowest_kn, range.highest_kn])));
+    let loads: String = result.ends.iter().filter_map(scaled).collect();
+    format!("{} m{loads}{}", Digits(width), thrust.unwrap_or_default())
+}
+
+fn from_to(ends: [Option<f64>; 2]) -> String {
+    let [lowest, highest] = ends.map(|end| end.map_or("any".to_owned(), |end| Digits(end).to_string()));
+    format!("{lowest} to {highest}")
 }
 
 fn end_facts(result: &AnalysisResult, end: &EndBody) -> Vec<(&'static str, String)> {

@@ -3,6 +3,7 @@
 use super::Scale;
 use super::columns::{ThrustColumns, VelocityColumns, column};
 use super::falling::MotionBody;
+use super::width::ScaledLoadBody;
 use crate::collapse::{
     CrushedJoint, End, Face, GovernedBy, Hinge, LiftOff, LoadRange, Mechanism, Mode, PathEnd, Slide, WhichEnd,
 };
@@ -34,6 +35,8 @@ pub struct EndBody {
     /// Largest equilibrium residual of any body, at any event of the load path, as a share of the structure's weight, or of the
     /// largest load at a point where that is more; where crushing governs, at its forces and as a share of the loads that stay.
     pub residual: f64,
+    /// What the scaled loads come to there.
+    pub scaled_load: ScaledLoadBody,
     /// How it falls.
     #[serde(flatten)]
     pub fall: FallBody,
@@ -169,7 +172,7 @@ impl From<&CrushedJoint> for CrushedJointBody {
 }
 
 impl EndBody {
-    pub(super) fn new(end: &End<'_>, scale: &Scale<'_>) -> Self {
+    pub(super) fn new(end: &End<'_>, scaled_load: ScaledLoadBody, scale: &Scale<'_>) -> Self {
         let figure = |load_factor| FigureBody { intensity: scale.intensity(load_factor), load_factor };
         let state = end.state;
         EndBody {
@@ -182,6 +185,7 @@ impl EndBody {
             crushing: end.crushing.map(figure),
             range: state.range.as_ref().map(|range| RangeBody::new(range, scale)),
             residual: state.residual,
+            scaled_load: scaled_load.times(state.load_factor),
             fall: state.into(),
             crushed_joints: column(&state.crushed, Into::into),
             without_crushing: end.uncrushed.filter(|_| end.governed_by == GovernedBy::Crushing).map(Into::into),

@@ -65,7 +65,7 @@ impl Pair {
         for end in 0..2 {
             self.statics = self.statics.max(apart(&whole["limit_window"][end], &half["limit_window"][end]));
         }
-        for end in ["lowest_n_per_m", "highest_n_per_m"] {
+        for end in ["lowest_kn_per_m", "highest_kn_per_m"] {
             self.statics = self.statics.max(apart(&whole["thrust_range"][end], &half["thrust_range"][end]));
         }
         let plastic = [
