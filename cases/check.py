@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Proves answers anew from their JSON alone: python3 check.py ANSWER.json ...; exit code 1 where a proof fails.
+"""Proves answers anew from their JSON alone: python3 check.py ANSWER.json ...; exit code 1 where a proof fails or is none.
 
 A load factor is borne if some joint forces balance every body and break no joint's law (static theorem). None is borne whose loads
 do more work than the joints take, in some motion that no joint hinders (kinematic theorem; joints that slide dilate in it, and what
@@ -51,6 +51,7 @@ class Structure:
         return drives and max(hindered) <= 1e-6 * fastest
 
 def check(answer):
+    if "structure" not in answer: return False, "without a proof: an answer of one structure has one, a curve and a curved beam have none"
     structure, proof, window = Structure(answer["structure"]), answer["proof"], answer["limit_window_load_factor"]
     if window is None: return structure.falls(rows(proof["falls"]), 0, 0), "no load factor is borne"
     same, good, said = lambda a, b: math.isclose(a, b, rel_tol=1e-6, abs_tol=1e-9), [], f"borne from {window[0]} to {window[1]}"

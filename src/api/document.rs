@@ -31,7 +31,7 @@ const PROBLEMS: [Refused; 19] = [
     ("415", "The body is not said to be JSON", |_, id| has_body(id)),
     ("422", "The analysis failed", |path, _| path.contains("/results")),
     ("422", FAULTY_OR_TAKEN, |_, id| id == "submit_job"),
-    ("422", "Describes no analysis: every fault is listed", |_, id| id == "validate"),
+    ("422", "Describes no analysis: the faults are listed", |_, id| id == "validate"),
     ("429", "As many jobs of this client wait as may", |_, id| id == "submit_job"),
     ("500", "A defect of the program", |_, _| true),
     ("503", "Too many answers are on their way", |path, _| path.contains("/results")),
@@ -42,7 +42,7 @@ const PROBLEMS: [Refused; 19] = [
 ];
 
 const FAULTY_OR_TAKEN: &str =
-    "Describes no analysis: every fault is listed; or the idempotency key was used for another request";
+    "Describes no analysis: the faults are listed; or the idempotency key was used for another request";
 
 /// What a job's id is good for.
 const LINKED: [&str; 8] =

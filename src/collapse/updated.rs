@@ -4,7 +4,7 @@ use super::discretise::{Discretisation, Model};
 use super::path::{Attempt, FALLEN, MOVED, Moved, disturbed, first_that_tells, lost, stand_moved};
 use super::tolerances;
 use super::{Analysis, AnalysisError, Cost, Unfollowed, UpdatedEnd, UpdatedGeometry, ending, mechanism};
-use crate::dda::{Drive, End, Patience, Tracer};
+use crate::dda::{Drive, End, LOW, Patience, Tracer};
 
 /// From where to where the load factor goes.
 #[derive(Debug, Clone, Copy)]
@@ -25,7 +25,7 @@ pub(super) struct Course {
 }
 
 /// A rise by less than the first of these shares of that at first order is none; one by more than the second is all of it.
-const RISEN: [f64; 2] = [0.01, 0.99];
+const RISEN: [f64; 2] = [LOW, 0.99];
 
 impl Course {
     /// Whether a path that has come down past its start had fallen: it had risen, and moved on as it came down, or had come as far

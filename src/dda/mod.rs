@@ -32,4 +32,4 @@ pub use block::{Block, Elasticity, V6};
 pub use condense::{Condensed, Loose, Node, Unbuilt, free_response};
 pub use contact::{Contact, ContactForce, Law, State, Zone};
 pub use macroblock::{Bond, Macroblock, Seam};
-pub use trace::{Drive, End, Lost, Movement, Patience, Peak, Tracer, Violation, covering};
+pub use trace::{Drive, End, LOW, Lost, Movement, Patience, Peak, Tracer, Violation, covering};

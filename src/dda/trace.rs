@@ -20,7 +20,7 @@ mod tangent;
 
 pub use drive::{Drive, Movement, covering};
 pub use lost::{Lost, Violation};
-pub use moving::Patience;
+pub use moving::{LOW, Patience};
 pub use peak::Peak;
 
 use super::assembly::Assembly;

@@ -269,14 +269,14 @@ type Forgery = fn(&mut CollapseReport, f64);
 
 /// Where a number of a forged report is refused.
 const FORGED: [(&str, Forgery); 12] = [
-    ("/motion/frames/residual", |report, none| report.motion.as_mut().unwrap().frames[0].residual = none),
-    ("/motion/contacts/gap_m", |report, none| report.motion.as_mut().unwrap().frames[0].contacts[0].gap = none),
-    ("/motion/hinges/", |report, none| report.motion.as_mut().unwrap().frames[0].hinges[0].opening = none),
+    ("/ends/0/motion/frames/residual", |report, none| report.motion.as_mut().unwrap().frames[0].residual = none),
+    ("/ends/0/motion/contacts/gap_m", |report, none| report.motion.as_mut().unwrap().frames[0].contacts[0].gap = none),
+    ("/ends/0/motion/hinges/", |report, none| report.motion.as_mut().unwrap().frames[0].hinges[0].opening = none),
     ("/settlement/first_order/residual", |report, none| settled(report).first_order.residual = none),
     ("/settlement/updated_geometry/residual", |report, none| settled(report).updated.as_mut().unwrap().residual = none),
-    ("/hinges/0/rotation", |report, none| report.end.as_mut().unwrap().mechanism.hinges[0].rotation = none),
-    ("/collapse/", |report, none| report.end.as_mut().unwrap().residual = none),
-    ("/thrust_line/", |report, none| report.end.as_mut().unwrap().thrust_line[0].at.y = none),
+    ("/ends/0/hinges/0/rotation", |report, none| report.end.as_mut().unwrap().mechanism.hinges[0].rotation = none),
+    ("/ends/0/residual", |report, none| report.end.as_mut().unwrap().residual = none),
+    ("/ends/0/thrust_line/", |report, none| report.end.as_mut().unwrap().thrust_line[0].at.y = none),
     ("/history/", |report, none| report.history[0].largest = none),
     ("/stress_fields/0/subblocks/", |report, none| report.stress_fields[0].subblocks[1].stress[2] = none),
     ("/crushing/elastic/", |report, none| report.crushing.elastic.as_mut().unwrap().load_factor = Some(none)),
@@ -304,7 +304,7 @@ fn a_number_that_is_none_is_refused_by_its_name() {
     // Unbounded is null; unknown is neither a number nor unbounded.
     let mut spoilt = full();
     spoilt.limit_window.as_mut().unwrap().highest = f64::NAN;
-    assert_eq!(one(spoilt), Err(NotFinite("/collapse/limit_window/1".to_owned())));
+    assert_eq!(one(spoilt), Err(NotFinite("/limit_window/1".to_owned())));
     let spoilt = BeamReport { error: f64::NAN, ..beam() };
     let spoilt = JobResult::new(&beam_request(), &Answer::CurvedBeam(spoilt)).unwrap();
     assert_eq!(spoilt.to_bytes(), Err(NotFinite("/error_percent".to_owned())));

@@ -145,7 +145,7 @@ fn every_outcome_is_told_in_words_that_fit_it() {
     let table = [
         (
             first(|_| {}),
-            "The arch collapses at 221.1 kN, as its joints crush; if its stone did not crush, at 243.1 kN.",
+            "The arch collapses at 221.1 kN/m, as its joints crush; if its stone did not crush, at 243.1 kN/m.",
         ),
         (
             first(|r| r["load_factor"]["direction"] = json!("decrease")),
@@ -153,7 +153,7 @@ fn every_outcome_is_told_in_words_that_fit_it() {
         ),
         (
             first(|r| r["load_factor"]["cap"] = json!(100)),
-            "The arch stands. It does not collapse up to 100 kN, the most that was tried.",
+            "The arch stands. It does not collapse up to 100 kN/m, the most that was tried.",
         ),
         (first(|r| r["load_factor"] = json!({})), "The arch collapses at 221.1 (load factor), as its joints crush;"),
         (first(|r| r["arch"]["thickness"]["constant_m"] = json!(0.9)), "The arch falls as built"),

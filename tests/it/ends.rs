@@ -99,7 +99,8 @@ fn an_arch_crushes_at_the_hinges_of_the_path_on_which_its_joints_crush() {
         list(&ours["without_crushing"], "hinges").len() == 4 && turning(&ours["without_crushing"]) != turning(&ours)
     );
     let text = text(&request);
-    for words in ["collapses at 137.7 kN, as its joints crush; if its stone did not crush, at 243.1 kN.", "Mode sway:"]
+    for words in
+        ["collapses at 137.7 kN/m, as its joints crush; if its stone did not crush, at 243.1 kN/m.", "Mode sway:"]
     {
         assert!(text.contains(words), "{text}");
     }
@@ -144,7 +145,7 @@ fn fixed_loads_that_crush_the_stone_alone_are_told_however_coarse_the_mesh() {
     assert!(close(number(&answer, "/ends/0/instability/intensity"), 243.125, 1e-6));
     let text = text(&request);
     assert!(text.contains("The fixed loads alone crush the arch"), "{text}");
-    assert!(text.contains("if its stone did not crush, it would collapse at 243.1 kN"), "{text}");
+    assert!(text.contains("if its stone did not crush, it would collapse at 243.1 kN/m"), "{text}");
 }
 
 #[test]

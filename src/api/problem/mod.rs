@@ -52,7 +52,7 @@ impl Problem {
 
     /// The request is JSON, but describes no analysis.
     pub fn faults(errors: Vec<Fault>) -> Self {
-        let detail = "every fault is listed in errors, with the place where it sits";
+        let detail = "the faults are listed in errors, each with the place where it sits";
         Problem { errors, ..Problem::of(kinds::INVALID_REQUEST, detail) }
     }
 

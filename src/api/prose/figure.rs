@@ -16,7 +16,8 @@ pub fn figure(question: &Question, answer: &Answer, result: &JobResult) -> Resul
     };
     let (ends, words) = (report.ends(), result.ends.first());
     let (Some(end), Some(words)) = (ends.first(), words) else {
-        return Err(format!("no figure: nothing moves (outcome: {})", wording::word(&result.outcome)));
+        let why = if result.settlement.is_some() { "a settlement is not drawn" } else { "nothing moves" };
+        return Err(format!("no figure: {why} (outcome: {})", wording::word(&result.outcome)));
     };
     let name = result.request.name.as_deref().unwrap_or(match noun(&result.request) {
         "arch" => "Arch",

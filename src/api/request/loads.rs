@@ -184,7 +184,12 @@ impl LoadRequest {
     pub fn forces_per_side(&self) -> usize {
         match self {
             LoadRequest::LateralPressure(lateral) => lateral.bands.len(),
-            _ => 1,
+            LoadRequest::SelfWeight(_)
+            | LoadRequest::FillPressure(_)
+            | LoadRequest::PointLoad(_)
+            | LoadRequest::PatchLoad(_)
+            | LoadRequest::PointForce(_)
+            | LoadRequest::BodyAcceleration(_) => 1,
         }
     }
 
@@ -221,7 +226,9 @@ impl LoadRequest {
             (LoadRequest::PointLoad(_), _) => Some("x_m"),
             (LoadRequest::PatchLoad(_), _) => Some("centre_x_m"),
             (LoadRequest::PointForce(_), _) => Some("at_m"),
-            _ => None,
+            (LoadRequest::SelfWeight(_) | LoadRequest::LateralPressure(_) | LoadRequest::BodyAcceleration(_), _) => {
+                None
+            }
         }
     }
 

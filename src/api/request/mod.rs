@@ -163,7 +163,8 @@ pub struct StoneRequest {
     /// `stress`: plane stress, that is no stress across the arch. `strain`: plane strain, that is no strain across the arch.
     pub plane: PlaneModel,
     /// Contact penalty: stiffness of contacts as a multiple of Young's modulus. Left out: 10, and 1 for a bridge and for blocks,
-    /// whose joints slide: where they are stiffer than the stones, a load path may end higher.
+    /// whose joints slide: where they are stiffer than the stones, a load path may end higher, or far lower in rings that slide on
+    /// each other.
     #[schema(minimum = 0.01, maximum = 100.0)]
     pub penalty_ratio: Option<f64>,
     /// Tangential contact penalty as a multiple of the normal one.
@@ -230,7 +231,7 @@ pub struct LoadFactorRequest {
     pub cap: Option<f64>,
     /// Unit of the intensity, such as `kN/m` or `m`: a label, nothing is converted.
     pub unit: Text,
-    /// Intensity at load factor 1.
+    /// Intensity at load factor 1. Required beside `unit`.
     #[schema(exclusive_minimum = 0.0, maximum = 1e12)]
     pub intensity_per_unit: f64,
 }

@@ -8,6 +8,10 @@ const FILL_IS_SHAKEN: &str = "Fill has mass: in the acceleration the column of f
      extrados that looks up pushes with its mass, each of the two at half its height, and the stone below carries it. \
      What lies beside the arch does not push.";
 
+/// Note on contacts stiffer than the default, where joints slide.
+const STIFF_CONTACTS: &str = "Contacts are stiffer than the default of a bridge and of blocks. Where joints slide, such as those \
+     between rings, the load path may end far from where it does with penalty_ratio 1 or less: compare the two.";
+
 /// Note on stones whose weight nobody has mentioned.
 const NO_WEIGHT: &str =
     "The stones weigh nothing: no load is their self weight. If they do, add {\"load\": {\"self_weight\": {}}}.";
@@ -26,7 +30,13 @@ pub(super) fn assumptions(request: &AnalysisRequest, structure: &StructureBody) 
     let shaken = any(|load| matches!(load, LoadRequest::BodyAcceleration(_)));
     let fill = any(|load| matches!(load, LoadRequest::FillPressure(_)));
     let massless = any(|load| matches!(load, LoadRequest::LateralPressure(_)));
-    let notes = [(!weight, NO_WEIGHT), (shaken && fill, FILL_IS_SHAKEN), (shaken && massless, MASSLESS_IS_SHAKEN)];
+    let stiff = request.arch.is_none() && request.stone.penalty_ratio.is_some_and(|ratio| ratio > 1.0);
+    let notes = [
+        (stiff, STIFF_CONTACTS),
+        (!weight, NO_WEIGHT),
+        (shaken && fill, FILL_IS_SHAKEN),
+        (shaken && massless, MASSLESS_IS_SHAKEN),
+    ];
     let notes = notes.into_iter().filter(|(holds, _)| *holds).map(|(_, note)| note.to_owned());
     notes.chain(uncut(request, structure)).collect()
 }

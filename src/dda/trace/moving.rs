@@ -33,6 +33,10 @@ const SURE: [f64; 2] = [0.1, 0.01];
 const DEEP: f64 = 0.5;
 /// A snap is worth telling where the parameter falls by this share of what it rose.
 const SNAP: f64 = 0.01;
+/// A peak above the start by less than this share of what counts as a rise may be that of a snap, which runs back far before it goes
+/// on: how far it falls does not count then, only how far the assembly moves. (A keystone that tips over in a symmetric arch of soft
+/// stone peaks at a hundredth of the collapse load, and comes back past its start.)
+pub const LOW: f64 = 0.1;
 /// Displacements beyond this share of the size are no arch of this shape any more.
 const FARTHEST: f64 = 0.3;
 /// A path that comes back to its start with less movement since its peak than so many times what it had moved by there, or than this
@@ -137,7 +141,7 @@ impl Tracer<'_> {
     /// Whether a path that came down past its start had fallen by then, and not only taken a wrong turn: it had risen, and moved
     /// on as it came down. Springings that move back take the arch along.
     fn fell_past_start(&self, start: f64, patience: Patience) -> bool {
-        let risen = self.peak.as_ref().is_some_and(|peak| peak.parameter - start > SNAP * patience.rise);
+        let risen = self.peak.as_ref().is_some_and(|peak| peak.parameter - start > LOW * patience.rise);
         risen && !(self.retraced && patience.loads)
     }
 
@@ -288,11 +292,12 @@ impl Tracer<'_> {
             }
             let fall = (peak.parameter - self.parameter) / (peak.parameter - start).max(patience.rise);
             let [little, far] = patience.movement;
-            let beyond = |most: f64, far: f64| moved > far || (fall > most && moved > little);
+            let low = peak.parameter - start < LOW * patience.rise;
+            let beyond = |most: f64, far: f64| moved > far || (fall > most && moved > little && !low);
             if beyond(patience.fall, far) {
                 return Some(End::Mechanism);
             }
-            self.fallen = patience.loads && (beyond(SURE[0], SURE[1]) || fall > DEEP);
+            self.fallen = patience.loads && (beyond(SURE[0], SURE[1]) || (fall > DEEP && !low));
             if fall > SNAP && peak.parameter > start {
                 self.dip = self.dip.or(Some(peak.parameter));
             }
