@@ -1,9 +1,8 @@
 //! The path on moving geometry.
 //!
-//! Between changes of state the path is a smooth curve now. A step goes along its tangent, to the next change of state or
-//! as far as the curve is nearly straight, and is then corrected to equilibrium while one quantity is held: the border
-//! of the change of state; the displacement that grows fastest, so that the load may rise or fall and limit points
-//! are passed; or the parameter, at the end.
+//! Between changes of state the path is a smooth curve now. A step goes along its tangent, to the next change of state or as far as
+//! the curve is nearly straight, and is then corrected to equilibrium while one quantity is held: the border of the change of state;
+//! the displacement that grows fastest, so that limit points are passed; or the parameter, at the end.
 
 use super::correct::{EQUILIBRIUM, FAILED, Hold};
 use super::lost::Lost;
@@ -33,9 +32,8 @@ const SURE: [f64; 2] = [0.1, 0.01];
 const DEEP: f64 = 0.5;
 /// A snap is worth telling where the parameter falls by this share of what it rose.
 const SNAP: f64 = 0.01;
-/// A peak above the start by less than this share of what counts as a rise may be that of a snap, which runs back far before it goes
-/// on: how far it falls does not count then, only how far the assembly moves. (A keystone that tips over in a symmetric arch of soft
-/// stone peaks at a hundredth of the collapse load, and comes back past its start.)
+/// A peak above the start by less than this share of what counts as a rise may be that of a snap, which runs back past the start before
+/// it goes on, such as that of a keystone that tips over: how far it falls does not count then, only how far the assembly moves.
 pub const LOW: f64 = 0.1;
 /// Displacements beyond this share of the size are no arch of this shape any more.
 const FARTHEST: f64 = 0.3;
@@ -63,12 +61,15 @@ pub struct Patience {
     pub loads: bool,
 }
 
-/// A path to follow: how far, for how long below its peak, and from its start with the parameter rising (+1) or falling (-1).
+/// A path to follow.
 #[derive(Debug, Clone, Copy)]
 struct Way {
     target: f64,
     patience: Patience,
+    /// From its start the parameter rises (+1) or falls (-1).
     sign: f64,
+    /// Whether through the dip below a low peak.
+    through: bool,
 }
 
 impl Tracer<'_> {
@@ -102,11 +103,8 @@ impl Tracer<'_> {
             ..Drive::default()
         };
         self.set_parameter(0.0);
-        let end = self.trace_moving(
-            1.0,
-            Patience { fall: f64::INFINITY, rise: 1.0, movement: [0.0, SURE[1]], creep: 0.0, loads: true },
-            see,
-        );
+        let patience = Patience { fall: f64::INFINITY, rise: 1.0, movement: [0.0, SURE[1]], creep: 0.0, loads: true };
+        let end = self.trace_moving(1.0, patience, see);
         (self.drive, self.peak) = (drive, None);
         self.set_parameter(parameter);
         end
@@ -122,16 +120,24 @@ impl Tracer<'_> {
         see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>,
     ) -> End {
         let (start, at, states, residual) = (self.parameter, self.point(), self.states.clone(), self.worst_residual);
-        let end = self.trace_one_way(Way { target, patience, sign: 1.0 }, see);
+        let up = Way { target, patience, sign: 1.0, through: false };
+        let end = self.trace_one_way(up, see);
         if end != End::Mechanism || self.parameter >= start || self.fell_past_start(start, patience) {
             return end;
         }
         // From a point on the middle branch of an S the path up ends where the parameter was to come from; the way down
         // passes a fold and goes up then.
+        let low = self.peak.as_ref().is_some_and(|peak| is_low(peak.parameter - start, patience));
         let first = (self.parameter, self.peak.take(), self.dip, self.worst_residual, self.retraced);
         self.go_to(&at);
-        (self.states, self.worst_residual) = (states, residual);
-        let end = self.trace_one_way(Way { target, patience, sign: -1.0 }, see);
+        (self.states, self.worst_residual) = (states.clone(), residual);
+        let end = self.trace_one_way(Way { sign: -1.0, ..up }, see);
+        let fails = end == End::Lost || (end == End::Mechanism && self.parameter < start);
+        if low && fails {
+            self.go_to(&at);
+            (self.states, self.worst_residual) = (states, residual);
+            return self.trace_one_way(Way { through: true, ..up }, see);
+        }
         if end == End::Mechanism && self.parameter < start {
             (self.parameter, self.peak, self.dip, self.worst_residual, self.retraced) = first;
         }
@@ -141,7 +147,7 @@ impl Tracer<'_> {
     /// Whether a path that came down past its start had fallen by then, and not only taken a wrong turn: it had risen, and moved
     /// on as it came down. Springings that move back take the arch along.
     fn fell_past_start(&self, start: f64, patience: Patience) -> bool {
-        let risen = self.peak.as_ref().is_some_and(|peak| peak.parameter - start > LOW * patience.rise);
+        let risen = self.peak.as_ref().is_some_and(|peak| !is_low(peak.parameter - start, patience));
         risen && !(self.retraced && patience.loads)
     }
 
@@ -157,7 +163,7 @@ impl Tracer<'_> {
 
     fn walk(
         &mut self,
-        Way { target, patience, sign }: Way,
+        Way { target, patience, sign, through }: Way,
         see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>,
     ) -> Result<End, Lost> {
         let start = self.parameter;
@@ -183,7 +189,7 @@ impl Tracer<'_> {
             if see(self).is_break() {
                 return Ok(End::Stopped);
             }
-            if let Some(end) = self.is_over(&from, patience) {
+            if let Some(end) = self.is_over(&from, patience, through) {
                 return Ok(end);
             }
             if patience.creep > 0.0 && self.creeps(&mut stretch, patience) {
@@ -278,8 +284,8 @@ impl Tracer<'_> {
         found
     }
 
-    /// How the path has ended, if it has.
-    fn is_over(&mut self, from: &PathState, patience: Patience) -> Option<End> {
+    /// How the path has ended, if it has; `through`: below a low peak only by how far it has moved.
+    fn is_over(&mut self, from: &PathState, patience: Patience, through: bool) -> Option<End> {
         let start = from.parameter;
         let below = self.peak.as_ref().filter(|peak| self.parameter < peak.parameter);
         let is_below = below.is_some();
@@ -292,7 +298,7 @@ impl Tracer<'_> {
             }
             let fall = (peak.parameter - self.parameter) / (peak.parameter - start).max(patience.rise);
             let [little, far] = patience.movement;
-            let low = peak.parameter - start < LOW * patience.rise;
+            let low = through && is_low(peak.parameter - start, patience);
             let beyond = |most: f64, far: f64| moved > far || (fall > most && moved > little && !low);
             if beyond(patience.fall, far) {
                 return Some(End::Mechanism);
@@ -326,6 +332,11 @@ impl Tracer<'_> {
         }
         self.reassemble_all();
     }
+}
+
+/// Whether a peak so far above the start may be that of a snap.
+fn is_low(risen: f64, patience: Patience) -> bool {
+    risen < LOW * patience.rise
 }
 
 /// Largest difference of two displacements.
