@@ -127,14 +127,15 @@ fn end_facts(result: &AnalysisResult, end: &EndBody) -> Vec<(&'static str, Strin
     // An arch that falls as built has no load to fall at.
     if window || matches!(result.outcome, Outcome::Collapse | Outcome::CannotTell | Outcome::Crushes) {
         lines.push((name, at(end.intensity, end.load_factor)));
-        lines.extend(
-            end.range.as_ref().and_then(|range| wording::sliding_range(range, unit)).map(|range| ("range", range)),
-        );
+        lines.extend(wording::sliding_range(end, unit).map(|range| ("range", range)));
         let other = end.instability.as_ref().filter(|_| end.governed_by == GovernedBy::Crushing);
         lines.extend(other.map(|other| ("without crushing", at(other.intensity, other.load_factor))));
     }
     lines.push(("mode", word(&end.fall.mechanism.mode)));
-    lines.push(("governed by", word(&end.governed_by)));
+    // Where the fixed loads crush the stone, what follows is of stone that does not crush.
+    if result.outcome != Outcome::Crushes || result.safety.is_some() {
+        lines.push(("governed by", word(&end.governed_by)));
+    }
     if !end.crushed_joints.is_empty() {
         lines.push(("joints that crush", joints::crushed(&end.crushed_joints)));
     }

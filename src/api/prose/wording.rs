@@ -90,12 +90,18 @@ fn collapses(result: &AnalysisResult, end: &EndBody) -> String {
         (GovernedBy::Crushing, None) => ", as its joints crush".to_owned(),
         _ => String::new(),
     };
-    let range = end.range.as_ref().map(|range| may_stand(range, unit)).unwrap_or_default();
+    let range = end.range.as_ref().map(|range| may_stand(end, range, unit)).unwrap_or_default();
     format!("The arch collapses{first} at {} {unit}{reversed}{why}.{range}", Rounded(end.intensity))
 }
 
 /// A sentence on what it may bear beyond the least load at which joints slide; nothing where that is the same.
-fn may_stand(range: &RangeBody, unit: &str) -> String {
+fn may_stand(end: &EndBody, range: &RangeBody, unit: &str) -> String {
+    if let Some(crushing) = crushes_within(end, range) {
+        return format!(
+            " As its joints slide, it may also stand as far as {} {unit}, where they crush.",
+            Rounded(crushing)
+        );
+    }
     match range.greatest {
         None => " As its joints slide, it may also stand at any load beyond.".to_owned(),
         Some(greatest) if differs(Rounded, range.least, greatest) => {
@@ -105,8 +111,18 @@ fn may_stand(range: &RangeBody, unit: &str) -> String {
     }
 }
 
-/// Both ends of a range in a table of facts; none where they are the same.
-pub fn sliding_range(range: &RangeBody, unit: &str) -> Option<String> {
+/// The intensity within the range at which joints of the stone's strength crush: no more is possible.
+fn crushes_within(end: &EndBody, range: &RangeBody) -> Option<f64> {
+    let crushing = end.crushing.map(|figure| figure.intensity)?;
+    range.greatest.is_none_or(|greatest| differs(Rounded, crushing, greatest)).then_some(crushing)
+}
+
+/// Both ends of the range of an end in a table of facts; none where they are the same.
+pub fn sliding_range(end: &EndBody, unit: &str) -> Option<String> {
+    let range = end.range.as_ref()?;
+    if let Some(crushing) = crushes_within(end, range) {
+        return Some(format!("{} to {} {unit}, as joints slide, then crush", Digits(range.least), Digits(crushing)));
+    }
     match range.greatest {
         Some(greatest) => differs(Digits, range.least, greatest)
             .then(|| format!("{} to {} {unit}, as joints slide", Digits(range.least), Digits(greatest))),

@@ -90,7 +90,8 @@ pub struct MechanismBody {
 pub struct RangeBody {
     /// Least intensity found at which a mechanism without dilation is in equilibrium. It governs.
     pub least: f64,
-    /// End of the limit window, in which sliding joints dilate (associated friction): no more is possible. Null where unbounded.
+    /// End of the limit window, in which sliding joints dilate (associated friction): no more is possible; where joints crush first,
+    /// no more than `crushing`. Null where unbounded.
     pub greatest: Option<f64>,
     /// Intensity at which this load path ended.
     pub path: f64,
