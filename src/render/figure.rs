@@ -262,7 +262,7 @@ fn draw_foot(canvas: &mut Canvas, end: &PathEnd, thrust: &str) {
     }
     if !end.crushed.is_empty() {
         let at = entry(canvas, "crushed", 100.0);
-        canvas.line("crushed", at - half, at + half);
+        canvas.line("crushed", at - 0.3 * half, at + 0.3 * half);
     }
     if !end.mechanism.lift_offs.is_empty() {
         let at = entry(canvas, "parting joint", 128.0);
