@@ -30,8 +30,8 @@ pub struct Limits {
     pub kept: usize,
     /// How long a finished job is kept.
     pub kept_for: Duration,
-    /// What requests and answers of all jobs may take, bytes: beyond it finished ones are forgotten, the one that ended first before others,
-    /// and where those that have not ended take more, nothing is accepted.
+    /// What requests and answers of all jobs may take, bytes: beyond it finished ones are forgotten, the one that ended first before
+    /// others, and where those that have not ended take more, nothing is accepted.
     pub bytes: usize,
     /// How long a worker may be at one job.
     pub time: Duration,

@@ -250,6 +250,15 @@ fn forces_over_the_width_are_those_per_metre_times_the_width() {
     for (per_metre, over_all) in [("/lowest_kn_per_m", "/lowest_kn"), ("/highest_kn_per_m", "/highest_kn")] {
         assert!(close(4.0 * number(thrust, per_metre), number(thrust, over_all), 1e-12), "{thrust}");
     }
+    assert!(text(&request).contains("scaled loads at collapse (0, -"), "{}", text(&request));
+    // What falls as built has no load at which it falls.
+    let mut thin = request.clone();
+    thin["arch"]["thickness"]["constant_m"] = json!(0.9);
+    let thin = text(&thin);
+    assert!(
+        thin.contains("falls as built") && thin.contains("over the width") && !thin.contains("at collapse ("),
+        "{thin}"
+    );
     // Half an arch stands for the whole.
     request["loads"][1]["load"]["point_load"]["x_m"] = json!(0);
     let whole = solved(&request);

@@ -380,7 +380,8 @@ fn only_the_exact_path_moves() {
 /// follow the same movements of a springing.
 #[test]
 fn a_keystone_that_tips_over_is_no_collapse() {
-    let arch = |voussoirs: usize| json!({"profile": {"circular": {"radius_m": 10, "opening_angle_deg": 180}}, "thickness": {"constant_m": 1.5}, "voussoirs": voussoirs});
+    let circle = json!({"circular": {"radius_m": 10, "opening_angle_deg": 180}});
+    let arch = |n: usize| json!({"profile": circle, "thickness": {"constant_m": 1.5}, "voussoirs": n});
     let weight = json!({"load": {"self_weight": {}}});
     let load = json!({"load": {"point_load": {"force_n_per_m": 1000, "x_m": -5}}, "scaled": true});
     let mut shares = Vec::new();

@@ -96,6 +96,8 @@ fn facts(result: &AnalysisResult, wall_time: Duration) -> Table {
 
 /// Forces over the whole width.
 fn over_width(result: &AnalysisResult, width: f64) -> String {
+    // As in `end_facts`: an arch that falls as built has no load to fall at, and one that its fixed loads crush bears none.
+    let falls = matches!(result.outcome, Outcome::Collapse | Outcome::StandsInWindow);
     let scaled = |end: &EndBody| {
         let [x, y] = [end.scaled_load.x_kn?, end.scaled_load.y_kn?].map(Digits);
         let at = if result.outcome == Outcome::StandsInWindow { wording::name(end) } else { "collapse" };
@@ -103,7 +105,7 @@ fn over_width(result: &AnalysisResult, width: f64) -> String {
     };
     let thrust =
         result.thrust_range.map(|range| format!("; thrust {} kN", from_to([range.lowest_kn, range.highest_kn])));
-    let loads: String = result.ends.iter().filter_map(scaled).collect();
+    let loads: String = result.ends.iter().filter(|_| falls).filter_map(scaled).collect();
     format!("{} m{loads}{}", Digits(width), thrust.unwrap_or_default())
 }
 

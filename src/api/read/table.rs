@@ -137,7 +137,10 @@ impl Table {
     }
 
     fn choice(&self, choice: &OneOf, value: &mut Value, here: &str, faults: &mut Faults) {
-        let null = |schema: &RefOr<Schema>| matches!(schema, RefOr::T(Schema::Object(object)) if kind_of(&object.schema_type) == Type::Null);
+        let null = |schema: &RefOr<Schema>| {
+            let RefOr::T(Schema::Object(object)) = schema else { return false };
+            kind_of(&object.schema_type) == Type::Null
+        };
         let mut others = choice.items.iter().filter(|schema| !null(schema));
         if let (Some(only), None) = (others.next(), others.next()) {
             if !value.is_null() {
