@@ -9,10 +9,10 @@
 
 use divan::{Bencher, black_box};
 use serde_json::{Value, json};
-use voussoir::api::read::read_analysis;
 use voussoir::budget::Budget;
 use voussoir::collapse::{Analysis, CollapseTask, FieldAt, StatesAsked, Task, run};
 use voussoir::limit::StaticTheorem;
+use voussoir::wire::read::read_analysis;
 
 /// Numbers of voussoirs.
 const SIZES: [usize; 4] = [9, 61, 201, 1001];

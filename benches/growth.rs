@@ -27,12 +27,12 @@ use semicircle::semicircle;
 use serde_json::json;
 use std::process::Command;
 use std::time::Instant;
-use voussoir::api::read::read_analysis;
 use voussoir::budget::Budget;
 use voussoir::collapse::{
     Analysis, Answer, CollapseTask, Cost, CurvedBeam, FieldAt, PlaneModel, Question, Seams, StatesAsked, Task, answer,
 };
 use voussoir::structure::JointLaw;
+use voussoir::wire::read::read_analysis;
 
 /// Most runs of a row, and seconds after which no other is begun.
 const RUNS: usize = 5;

@@ -16,12 +16,12 @@ use common::field::error;
 use common::folders::{cases, folders, name};
 use serde_json::{Value, json};
 use std::time::Instant;
-use voussoir::api::read::read_question;
 use voussoir::budget::Budget;
 use voussoir::collapse::{
     Accuracy, Analysis, Answer, BeamReport, CollapseReport, CollapseTask, CurvedBeam, FieldAt, Method, Path, Question,
     SafetyTask, StatesAsked, StressField, Task, answer, run,
 };
+use voussoir::wire::read::read_question;
 
 /// Subblocks across of the mesh that stands for the exact stress.
 const FINE: usize = 24;

@@ -22,9 +22,9 @@ use std::backtrace::Backtrace;
 use std::cell::RefCell;
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
-use voussoir::api::read::read_question;
 use voussoir::budget::{Budget, LoadStep};
 use voussoir::collapse::{AnalysisError, Answer, Question, answer};
+use voussoir::wire::read::read_question;
 
 /// Measures the time between calls, and stops the analysis when it has had its time.
 struct Stopwatch {

@@ -8,10 +8,10 @@ use std::path::PathBuf;
 use std::thread::available_parallelism;
 use std::time::Duration;
 use tracing_subscriber::filter::LevelFilter;
-use voussoir::api::request::MAX_SUBBLOCKS;
-use voussoir::api::{self, Settings, Tokens};
 use voussoir::arch::MAX_VOUSSOIRS;
+use voussoir::http::{self, Settings, Tokens};
 use voussoir::jobs;
+use voussoir::wire::request::MAX_SUBBLOCKS;
 
 /// Tells when a masonry arch falls, how, and how sure we are.
 #[derive(Debug, Parser)]
@@ -190,7 +190,7 @@ impl Serve {
             return Err(io::Error::other("a --token is made of letters, digits and -._~+/= and is not empty"));
         }
         Ok(Settings {
-            limits: api::ApiLimits {
+            limits: http::ApiLimits {
                 body: size(requests.body_limit),
                 request_time: Duration::from_secs(requests.request_time),
                 voussoirs: size(self.work.voussoirs),

@@ -1,7 +1,5 @@
 //! Voussoir: tells when a masonry structure collapses, how, and how sure that is.
 
-#[cfg(feature = "server")]
-pub mod api;
 pub mod arch;
 pub mod blocks;
 pub mod bridge;
@@ -10,6 +8,8 @@ pub mod collapse;
 pub mod dda;
 pub mod geometry;
 #[cfg(feature = "server")]
+pub mod http;
+#[cfg(feature = "server")]
 pub mod jobs;
 #[cfg(test)]
 #[path = "../tests/it/common/largest.rs"]
@@ -17,3 +17,5 @@ mod largest;
 pub mod limit;
 pub mod render;
 pub mod structure;
+#[cfg(feature = "server")]
+pub mod wire;

@@ -10,7 +10,7 @@ use std::process::ExitCode;
 
 /// Prints the OpenAPI document.
 pub fn openapi() -> ExitCode {
-    print(voussoir::api::document().as_bytes())
+    print(voussoir::http::document().as_bytes())
 }
 
 fn print(bytes: &[u8]) -> ExitCode {

@@ -16,8 +16,8 @@ use std::time::Duration;
 use tokio::net::TcpStream;
 use tokio::runtime::Runtime;
 use tokio_io_timeout::TimeoutStream;
-use voussoir::api::{self, Service};
 use voussoir::collapse;
+use voussoir::http::{self, Service};
 
 /// Time for answers that are on their way when everything else has ended.
 const LAST_ANSWERS: Duration = Duration::from_secs(2);
@@ -48,7 +48,7 @@ fn run(options: &Serve) -> io::Result<()> {
         let server = axum_server::from_tcp(listener)?.acceptor(Patient(request_time));
         let mut server = server.handle(handle).http1_only();
         be_patient(server.http_builder(), request_time);
-        server.serve(api::router(service).into_make_service_with_connect_info::<SocketAddr>()).await?;
+        server.serve(http::router(service).into_make_service_with_connect_info::<SocketAddr>()).await?;
         ending.await.map_err(io::Error::other)
     })?;
     // What is still connected is cut off.

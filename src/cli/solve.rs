@@ -7,12 +7,12 @@ use std::io::{self, Read};
 use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
-use voussoir::api::Format;
-use voussoir::api::fault::Fault;
-use voussoir::api::read::read_question;
-use voussoir::api::rendering::{FIGURE, WHOLE, find, renderings};
 use voussoir::budget::Budget;
 use voussoir::collapse;
+use voussoir::wire::fault::Fault;
+use voussoir::wire::format::Format;
+use voussoir::wire::read::read_question;
+use voussoir::wire::rendering::{FIGURE, WHOLE, find, renderings};
 
 /// Exit code for a request that cannot be analysed.
 const FAULTY: u8 = 2;

@@ -2,11 +2,6 @@
 
 use serde_json::{Value, json};
 use std::time::Duration;
-use voussoir::api::json::NotFinite;
-use voussoir::api::read::read_question;
-use voussoir::api::rendering::renderings;
-use voussoir::api::request::Request;
-use voussoir::api::response::JobResult;
 use voussoir::collapse::{
     Answer, BeamReport, CollapseReport, Cost, CrushedJoint, Crushing, Direction, ElasticCrushing, Face, FallingMotion,
     Governs, Hinge, HistoryPoint, LiftOff, LimitWindow, LoadRange, Mechanism, Mode, MotionContact, MotionEnd,
@@ -15,6 +10,11 @@ use voussoir::collapse::{
     TaskReport, Thrust,
 };
 use voussoir::geometry::Vec2;
+use voussoir::wire::json::NotFinite;
+use voussoir::wire::read::read_question;
+use voussoir::wire::rendering::renderings;
+use voussoir::wire::request::Request;
+use voussoir::wire::response::JobResult;
 
 fn request(analysis: Value) -> Request {
     let flagged = analysis.pointer("/safety/curve").is_some();

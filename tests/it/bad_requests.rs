@@ -3,8 +3,8 @@
 use crate::common::places::places;
 use proptest::prelude::*;
 use serde_json::{Value, json};
-use voussoir::api::fault::Fault;
-use voussoir::api::read::{read, read_analysis};
+use voussoir::wire::fault::Fault;
+use voussoir::wire::read::{read, read_analysis};
 
 /// A request with something of everything, and nothing wrong.
 fn good() -> Value {

@@ -2,8 +2,8 @@
 
 use crate::contract::bodies::{with, without};
 use serde_json::{Value, json};
-use voussoir::api::fault::Fault;
-use voussoir::api::read::{read, read_question};
+use voussoir::wire::fault::Fault;
+use voussoir::wire::read::{read, read_question};
 
 fn wall() -> Value {
     let block = |k: usize| {

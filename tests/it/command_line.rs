@@ -67,7 +67,7 @@ fn solve_lists_faults() {
 #[test]
 fn openapi_prints_the_document() {
     let output = fed(&["openapi"], "");
-    assert!(output.status.success() && output.stdout == voussoir::api::document().into_bytes());
+    assert!(output.status.success() && output.stdout == voussoir::http::document().into_bytes());
 }
 
 /// A served program, and the address it says it listens at.

@@ -7,8 +7,8 @@ use bodies::{bodies, with, without};
 use schema::{Leaf, document, is, leaves, validator};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
-use voussoir::api::fault::Fault;
-use voussoir::api::read::{read, read_question};
+use voussoir::wire::fault::Fault;
+use voussoir::wire::read::{read, read_question};
 
 pub mod bodies;
 mod schema;

@@ -4,11 +4,11 @@
 use crate::common::semicircle::semicircle;
 use serde_json::json;
 use std::path::Path;
-use voussoir::api::read::read_analysis;
-use voussoir::api::response::AnalysisResult;
 use voussoir::budget::Budget;
 use voussoir::collapse::{Analysis, Cost, run};
 use voussoir::structure::JointLaw;
+use voussoir::wire::read::read_analysis;
+use voussoir::wire::response::AnalysisResult;
 
 /// Counts may grow by this much before a change has to explain itself.
 const ROOM: f64 = 1.25;

@@ -296,9 +296,9 @@ fn sixty_one_stones_fall_in_less_than_300_steps() {
 #[test]
 fn a_motion_is_served_in_columns() {
     let body = case("paper/table-4").to_string();
-    let (request, question) = voussoir::api::read::read_question(body.as_bytes()).unwrap();
+    let (request, question) = voussoir::wire::read::read_question(body.as_bytes()).unwrap();
     let answer = voussoir::collapse::answer(&question, &Budget::unlimited()).unwrap();
-    let bytes = voussoir::api::response::JobResult::new(&request, &answer).unwrap().to_bytes().unwrap();
+    let bytes = voussoir::wire::response::JobResult::new(&request, &answer).unwrap().to_bytes().unwrap();
     let served: Value = serde_json::from_slice(&bytes).unwrap();
     for end in 0..2 {
         let motion = &served["ends"][end]["motion"];

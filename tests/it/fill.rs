@@ -5,10 +5,10 @@ use crate::common::dice::Dice;
 use crate::common::masonry::Ring;
 use crate::common::oracle::{Problem, Push};
 use serde_json::{Value, json};
-use voussoir::api::read::{read, read_analysis, read_question};
 use voussoir::collapse::{Analysis, CurvePoint, Question};
 use voussoir::geometry::{Vec2, cross};
 use voussoir::structure::PointForce;
+use voussoir::wire::read::{read, read_analysis, read_question};
 
 /// A semicircle of mean radius 10 m and thickness 1.5 m, its weight, and these loads.
 fn arch(loads: Value) -> Value {

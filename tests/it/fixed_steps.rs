@@ -2,9 +2,9 @@
 
 use serde_json::{Value, json};
 use std::path::Path;
-use voussoir::api::read::read_analysis;
 use voussoir::budget::Budget;
 use voussoir::collapse::{AnalysisError, CollapseReport, Note, run};
+use voussoir::wire::read::read_analysis;
 
 fn case(name: &str, change: impl Fn(&mut Value)) -> Result<CollapseReport, AnalysisError> {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(name).join("request.json");

@@ -207,7 +207,7 @@ fn the_service_describes_itself() {
     let live = server.get("/health/live");
     assert_eq!((live.status, &live.json()["status"]), (200, &"live".into()));
     assert_eq!(live.header("x-content-type-options"), Some("nosniff"));
-    assert!(server.get("/openapi.json").text() == voussoir::api::document());
+    assert!(server.get("/openapi.json").text() == voussoir::http::document());
     let answer = server.call("GET", "/health/live", "x-request-id: mine\r\n", b"");
     assert_eq!(answer.header("x-request-id"), Some("mine"));
 }

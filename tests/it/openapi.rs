@@ -8,12 +8,12 @@ use std::path::Path;
 fn the_document_on_disk_is_the_one_of_the_code() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("openapi/voussoir.json");
     let disk = fs::read_to_string(path).unwrap();
-    assert!(disk == voussoir::api::document(), "stale: run `cargo run -- openapi > openapi/voussoir.json`");
+    assert!(disk == voussoir::http::document(), "stale: run `cargo run -- openapi > openapi/voussoir.json`");
 }
 
 #[test]
 fn every_operation_is_described() {
-    let document: Value = serde_json::from_str(&voussoir::api::document()).unwrap();
+    let document: Value = serde_json::from_str(&voussoir::http::document()).unwrap();
     let mut operations = 0;
     for (path, methods) in document["paths"].as_object().unwrap() {
         for (method, operation) in methods.as_object().unwrap() {
@@ -39,6 +39,6 @@ fn every_reference_leads_somewhere() {
             _ => {}
         }
     }
-    let document: Value = serde_json::from_str(&voussoir::api::document()).unwrap();
+    let document: Value = serde_json::from_str(&voussoir::http::document()).unwrap();
     walk(&document, &document);
 }

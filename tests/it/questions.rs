@@ -4,9 +4,9 @@ use crate::common::places::places;
 use crate::docs::examples;
 use proptest::prelude::*;
 use serde_json::{Value, json};
-use voussoir::api::fault::Fault;
-use voussoir::api::read::{read, read_analysis, read_question};
 use voussoir::collapse::{Analysis, CollapseTask, CrushingKind, CurvePoint, FieldAt, Question, Seams, Task};
+use voussoir::wire::fault::Fault;
+use voussoir::wire::read::{read, read_analysis, read_question};
 
 /// A safety curve over a mesh: nothing wrong.
 fn curve() -> Value {

@@ -1,9 +1,9 @@
 //! Safety analyses, crushing and stress fields, asked as a user asks.
 
 use serde_json::{Value, json};
-use voussoir::api::read::read_question;
 use voussoir::budget::Budget;
 use voussoir::collapse::{Answer, CollapseReport, Governs, Note, Outcome, Question, Reach, answer, run};
+use voussoir::wire::read::read_question;
 
 /// The oval under 2 m of embankment of `cases/paper/figure-11`, changed.
 fn oval(change: impl Fn(&mut Value)) -> CollapseReport {

@@ -3,9 +3,9 @@
 use crate::common::folders;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
-use voussoir::api::read::{read, read_analysis, read_question};
 use voussoir::collapse::{Analysis, CollapseTask, Direction, Method, Task};
 use voussoir::structure::JointLaw;
+use voussoir::wire::read::{read, read_analysis, read_question};
 
 fn cases() -> Vec<PathBuf> {
     folders::folders(&folders::cases())

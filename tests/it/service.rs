@@ -6,8 +6,8 @@ use crate::support::{Answer, ENDLESS, ERROR, PANIC, Server, beam, curve, limits,
 use serde_json::{Value, json};
 use std::thread::{scope, sleep};
 use std::time::{Duration, Instant};
-use voussoir::api::problem::kinds;
-use voussoir::api::{self, Settings, Tokens};
+use voussoir::http::problem::kinds;
+use voussoir::http::{self, Settings, Tokens};
 use voussoir::jobs::Limits;
 
 const JSON: &str = "content-type: application/json\r\n";
@@ -84,7 +84,7 @@ fn progress_counts_the_events_of_all_paths() {
 
 #[test]
 fn an_answer_larger_than_its_room_is_still_given() {
-    let outgoing = api::ApiLimits { outgoing: 1024, ..settings().limits };
+    let outgoing = http::ApiLimits { outgoing: 1024, ..settings().limits };
     let server = Server::with(limits(1, 10), Settings { limits: outgoing, ..settings() });
     let path = done(&server, &stressed());
     // One answer is larger than the room and takes all of it, and gives it back.
@@ -524,7 +524,7 @@ fn the_documents_list_every_kind_of_problem() {
 
 #[test]
 fn a_body_that_trickles_in_is_given_up() {
-    let requests = api::ApiLimits { request_time: Duration::from_millis(100), ..settings().limits };
+    let requests = http::ApiLimits { request_time: Duration::from_millis(100), ..settings().limits };
     let server = Server::with(limits(1, 10), Settings { limits: requests, ..settings() });
     let head =
         format!("POST /v1/jobs HTTP/1.1\r\nhost: test\r\nconnection: close\r\n{JSON}content-length: 1000\r\n\r\n");

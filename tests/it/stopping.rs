@@ -5,9 +5,9 @@ use crate::common::semicircle::{mesh, semicircle};
 use serde_json::{Value, json};
 use std::cell::RefCell;
 use std::ops::{ControlFlow, Range};
-use voussoir::api::read::read_question;
 use voussoir::budget::{Budget, LoadStep, Stopped};
 use voussoir::collapse::{AnalysisError, Answer, Question, answer};
+use voussoir::wire::read::read_question;
 
 /// What a request is answered, and what it tells its budget, which is spent at the `stops`-th call and at any after that.
 fn watched(question: &Question, stops: usize) -> (Result<Answer, AnalysisError>, Vec<LoadStep>) {

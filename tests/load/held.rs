@@ -2,13 +2,13 @@
 
 use std::cell::Cell;
 use std::ops::ControlFlow;
-use voussoir::api::fault::Fault;
-use voussoir::api::read::read_question;
-use voussoir::api::request::Request;
-use voussoir::api::response::JobResult;
 use voussoir::budget::Budget;
 use voussoir::collapse::{self, Analysis, Question, Task};
 use voussoir::structure::{JointLaw, PointForce, Structure};
+use voussoir::wire::fault::Fault;
+use voussoir::wire::read::read_question;
+use voussoir::wire::request::Request;
+use voussoir::wire::response::JobResult;
 
 /// Reads a body; what was asked, where it was not refused.
 pub fn read(body: &[u8]) -> Option<(Request, Question)> {
@@ -153,7 +153,7 @@ pub struct Answers([jsonschema::Validator; 3]);
 
 impl Answers {
     pub fn new() -> Self {
-        let document = voussoir::api::document();
+        let document = voussoir::http::document();
         let document: serde_json::Value = serde_json::from_str(&document).expect("the document is JSON");
         let schema = |name: &str| {
             let reference = format!("#/components/schemas/{name}");

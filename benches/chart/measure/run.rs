@@ -6,10 +6,10 @@ use super::scenes::{CollapseScene, Scenes, StressScene};
 use super::stress::Stresses;
 use super::table::{Kind, Row};
 use serde_json::Value;
-use voussoir::api::read::read_question;
 use voussoir::budget::Budget;
 use voussoir::collapse::{self, Analysis, Answer, CollapseReport, Outcome, Question, UpdatedEnd};
 use voussoir::limit::StaticTheorem;
+use voussoir::wire::read::read_question;
 
 /// What a model answers, or why it does not.
 type Found = Result<Measured, String>;

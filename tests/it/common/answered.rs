@@ -2,11 +2,11 @@
 
 use serde_json::Value;
 use std::time::Duration;
-use voussoir::api::prose::prose;
-use voussoir::api::read::read_question;
-use voussoir::api::response::JobResult;
 use voussoir::budget::Budget;
 use voussoir::collapse::answer;
+use voussoir::wire::prose::prose;
+use voussoir::wire::read::read_question;
+use voussoir::wire::response::JobResult;
 
 /// Runs a request that has to be a good one.
 pub fn result(request: &Value) -> JobResult {

@@ -11,7 +11,7 @@ use voussoir::structure::{JointLaw, PointForce};
 /// # Errors
 /// What is wrong with it, one line a fault.
 pub fn analysis(request: &Value) -> Result<Analysis, String> {
-    match voussoir::api::read::read_analysis(request.to_string().as_bytes()) {
+    match voussoir::wire::read::read_analysis(request.to_string().as_bytes()) {
         Ok((_, analysis)) => Ok(analysis),
         Err(faults) => Err(faults.iter().map(|f| format!("{}: {}\n", f.pointer, f.detail)).collect()),
     }

@@ -1,6 +1,6 @@
 //! The program that CONTRIBUTING.md shows to users of the library.
 
-use voussoir::{api::read::read_analysis, budget::Budget, collapse::run};
+use voussoir::{budget::Budget, collapse::run, wire::read::read_analysis};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let request = std::fs::read("cases/first-arch/request.json")?;

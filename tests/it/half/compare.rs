@@ -1,10 +1,10 @@
 //! The answers for a whole arch and for its half, side by side.
 
 use serde_json::Value;
-use voussoir::api::read::read_question;
-use voussoir::api::response::JobResult;
 use voussoir::budget::Budget;
 use voussoir::collapse;
+use voussoir::wire::read::read_question;
+use voussoir::wire::response::JobResult;
 
 /// The answer on the wire.
 ///

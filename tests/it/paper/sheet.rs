@@ -2,10 +2,10 @@
 
 use serde_json::{Value, json};
 use std::path::Path;
-use voussoir::api::read::read_question;
-use voussoir::api::response::JobResult;
 use voussoir::budget::Budget;
 use voussoir::collapse;
+use voussoir::wire::read::read_question;
+use voussoir::wire::response::JobResult;
 
 /// A file of a case of the paper.
 fn file(case: &str, name: &str) -> Value {

@@ -2,10 +2,10 @@
 
 use crate::common::largest::larger;
 use std::f64::consts::FRAC_PI_2;
-use voussoir::api::read::read_analysis;
 use voussoir::budget::Budget;
 use voussoir::collapse::{Analysis, CollapseReport, CollapseTask, FieldAt, StatesAsked, Task, run};
 use voussoir::geometry::Vec2;
+use voussoir::wire::read::read_analysis;
 
 /// Stones of the arch, its radii, half its opening angle in degrees.
 const COUNT: usize = 15;

@@ -10,9 +10,9 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 use tokio::net::TcpListener;
 use tokio::runtime::Runtime;
-use voussoir::api::{self, Service, Settings, Tokens};
 use voussoir::budget::{Budget, LoadStep};
 use voussoir::collapse::{self, AnalysisError, Question};
+use voussoir::http::{self, Service, Settings, Tokens};
 use voussoir::jobs::Limits;
 
 pub const BODY_LIMIT: usize = 64 << 10;
@@ -92,7 +92,7 @@ pub fn limits(workers: usize, queue: usize) -> Limits {
 
 /// An open service.
 pub fn settings() -> Settings {
-    let limits = api::ApiLimits {
+    let limits = http::ApiLimits {
         body: BODY_LIMIT,
         request_time: Duration::from_secs(30),
         voussoirs: 200,
@@ -122,7 +122,7 @@ impl Server {
 
     pub fn with(limits: Limits, settings: Settings) -> Self {
         let service = Service::start(limits, settings, analyse).unwrap();
-        let router = api::router(service.clone());
+        let router = http::router(service.clone());
         let runtime = tokio::runtime::Builder::new_multi_thread().worker_threads(1).enable_all().build().unwrap();
         let listener = runtime.block_on(TcpListener::bind("127.0.0.1:0")).unwrap();
         let address = listener.local_addr().unwrap();

@@ -1,0 +1,69 @@
+//! The HTTP interface: routes, the layers around them, problems, event streams. Nothing is read or written here but by
+//! [`wire`](crate::wire), and nothing is computed.
+
+mod accept;
+mod body;
+mod docs;
+mod document;
+mod etag;
+mod events;
+mod jobs;
+mod layers;
+mod limits;
+mod meta;
+mod metrics;
+mod outgoing;
+pub mod problem;
+mod results;
+mod service;
+pub mod status;
+mod submit;
+
+pub use document::document;
+pub use layers::Tokens;
+pub use limits::ApiLimits;
+pub use service::{Service, Settings, Solver};
+
+use axum::Router;
+use utoipa::OpenApi;
+use utoipa_axum::router::OpenApiRouter;
+use utoipa_axum::routes;
+
+#[derive(OpenApi)]
+#[openapi(
+    info(title = "Voussoir", description = "Tells when a masonry arch falls, how, and how sure we are."),
+    tags(
+        (name = "jobs", description = "Analyses, from submission to their end; words of OGC API - Processes"),
+        (name = "results", description = "What came out, as a whole and in parts"),
+        (name = "service", description = "The service itself"),
+    )
+)]
+struct Document;
+
+/// What needs a token, where there are tokens.
+fn guarded() -> OpenApiRouter<Service> {
+    OpenApiRouter::with_openapi(Document::openapi())
+        .routes(routes!(submit::submit, jobs::list))
+        .routes(routes!(jobs::show, jobs::dismiss))
+        .routes(routes!(jobs::request))
+        .routes(routes!(events::events))
+        .routes(routes!(results::results))
+        .routes(routes!(results::history))
+        .routes(routes!(results::field))
+        .routes(routes!(results::figure))
+        .routes(routes!(submit::validate))
+        .routes(routes!(metrics::metrics))
+}
+
+/// What is open to all.
+fn open() -> OpenApiRouter<Service> {
+    OpenApiRouter::new().routes(routes!(meta::live)).routes(routes!(meta::ready)).routes(routes!(meta::openapi))
+}
+
+/// The service, ready to be served.
+pub fn router(service: Service) -> Router {
+    let (guarded, _) = guarded().split_for_parts();
+    let (open, _) = open().split_for_parts();
+    let router = layers::guard(guarded, service.settings.tokens.clone()).merge(open).merge(docs::router());
+    layers::wrap(router.with_state(service.clone()), &service)
+}

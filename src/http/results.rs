@@ -1,0 +1,145 @@
+//! Handlers of `/v1/jobs/{id}/results`: the answer as a whole and in parts, as it was written when the job ended.
+
+use super::Service;
+use super::accept;
+use super::etag::Version;
+use super::jobs::{Known, query_fault};
+use super::problem::{Problem, kinds};
+use crate::jobs::{Job, JobState};
+use crate::wire::format::{self, Format};
+use crate::wire::rendering;
+use crate::wire::response::{HistoryColumns, JobResult, StressFieldBody};
+use axum::extract::rejection::{PathRejection, QueryRejection};
+use axum::extract::{FromRequestParts, Path, Query};
+use axum::http::request::Parts;
+use axum::http::{HeaderMap, HeaderValue, header};
+use axum::response::Response;
+use serde::Deserialize;
+
+/// In which format.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FormatQuery {
+    f: Option<String>,
+}
+
+/// What is asked of an answer: whose, in which format, and what the client has already.
+pub(super) struct Asked {
+    service: Service,
+    job: Job,
+    f: Option<String>,
+    headers: HeaderMap,
+}
+
+impl FromRequestParts<Service> for Asked {
+    type Rejection = Problem;
+
+    async fn from_request_parts(parts: &mut Parts, service: &Service) -> Result<Self, Problem> {
+        let Known(job) = Known::from_request_parts(parts, service).await?;
+        let query: Result<Query<FormatQuery>, QueryRejection> = Query::from_request_parts(parts, service).await;
+        let Query(FormatQuery { f }) = query.map_err(|bad| query_fault(&bad))?;
+        Ok(Asked { service: service.clone(), job, f, headers: parts.headers.clone() })
+    }
+}
+
+impl Asked {
+    /// A part of the answer in the format the client wants, unless it has it already; `missing` says why an answer has none.
+    fn give(self, part: &str, offered: &[Format], missing: &str) -> Result<Response, Problem> {
+        let Asked { service, job: Job { id, state, .. }, f, headers } = self;
+        let none = |kind, detail: String| Err(Problem::of(kind, detail));
+        let product = match state {
+            JobState::Successful(product) => product,
+            JobState::Failed(failure) => return Err((&failure).into()),
+            JobState::Dismissed => {
+                return none(kinds::DISMISSED, format!("job {id} was dismissed and has no result; submit it again"));
+            }
+            JobState::Accepted | JobState::Running => {
+                let detail = format!("job {id} has not ended yet; its status is at /v1/jobs/{id}");
+                return none(kinds::RESULT_NOT_READY, detail);
+            }
+        };
+        let format = accept::choose(f.as_deref(), &headers, offered)?;
+        let version = Version::of((id, part, format));
+        let mut response = match version.known(&headers) {
+            Some(response) => response,
+            None => match rendering::find(&product, part, format) {
+                Some(Ok(body)) => {
+                    let body = service.outgoing.body(body.clone())?;
+                    version.mark(([(header::CONTENT_TYPE, format.content_type())], body))
+                }
+                Some(Err(reason)) => return none(kinds::NO_SUCH_PART, reason.clone()),
+                None => return none(kinds::NO_SUCH_PART, missing.to_owned()),
+            },
+        };
+        response.headers_mut().append(header::VARY, HeaderValue::from_static("accept"));
+        Ok(response)
+    }
+}
+
+/// A job's results.
+#[utoipa::path(
+    get, path = "/v1/jobs/{id}/results", tag = "results", operation_id = "get_results",
+    params(("id" = String, Path, format = "uuid", description = "Job id")),
+    responses(
+        (status = 200, description = "The answer to what was asked; the same bytes for the same request", content(
+            (JobResult = "application/json"), (String = "text/plain"),
+        ), headers(("etag" = String, description = "Names this answer"))),
+    )
+)]
+pub(super) async fn results(asked: Asked) -> Result<Response, Problem> {
+    asked.give(rendering::WHOLE, &format::RESULTS, "")
+}
+
+/// The load path of a job, point by point.
+#[utoipa::path(
+    get, path = "/v1/jobs/{id}/results/history", tag = "results", operation_id = "get_history",
+    params(("id" = String, Path, format = "uuid", description = "Job id")),
+    responses(
+        (status = 200, description = "One column per quantity", content(
+            (HistoryColumns = "application/json"), (String = "text/csv"),
+        ), headers(("etag" = String, description = "Names this answer"))),
+    )
+)]
+pub(super) async fn history(asked: Asked) -> Result<Response, Problem> {
+    let missing = "only an analysis of one structure has a load path: a curve and a curved beam have none";
+    asked.give(rendering::HISTORY, &format::HISTORY, missing)
+}
+
+/// A stress field of a job.
+#[utoipa::path(
+    get, path = "/v1/jobs/{id}/results/fields/{load}", tag = "results", operation_id = "get_field",
+    params(
+        ("id" = String, Path, format = "uuid", description = "Job id"),
+        ("load" = String, Path, description = "`unit_load`, `near_collapse` or a load factor, as asked for in \
+            `report.stress_fields`", example = "near_collapse"),
+    ),
+    responses(
+        (status = 200, description = "Stress in every subblock", content(
+            (StressFieldBody = "application/json"), (String = "text/csv"), (String = "application/vnd.vtk.vtu+xml"),
+        ), headers(("etag" = String, description = "Names this answer"))),
+    )
+)]
+pub(super) async fn field(
+    asked: Asked,
+    path: Result<Path<(String, String)>, PathRejection>,
+) -> Result<Response, Problem> {
+    let Path((_, load)) = path.map_err(|_| Problem::no_such_path("this path"))?;
+    let missing = format!(
+        "no stress field is there for {load}: those of one structure that report.stress_fields asks for are, by the words \
+         unit_load and near_collapse or by their load factor"
+    );
+    asked.give(&rendering::field(&load), &format::FIELD, &missing)
+}
+
+/// The picture of a job's answer.
+#[utoipa::path(
+    get, path = "/v1/jobs/{id}/results/figure", tag = "results", operation_id = "get_figure",
+    params(("id" = String, Path, format = "uuid", description = "Job id")),
+    responses(
+        (status = 200, description = "The arch as it falls", content((String = "image/svg+xml"), (String = "text/xml")),
+            headers(("etag" = String, description = "Names this answer"))),
+    )
+)]
+pub(super) async fn figure(asked: Asked) -> Result<Response, Problem> {
+    asked.give(rendering::FIGURE, &format::FIGURE, "")
+}

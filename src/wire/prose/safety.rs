@@ -1,0 +1,160 @@
+//! Crushing and safety in words.
+
+use super::wording::{self, word};
+use crate::collapse::{CrushingKind, Governs, SafetyZone, Seams};
+use crate::wire::prose::{Digits, Rounded};
+use crate::wire::request::{AimRequest, MeshRequest, Subblocks, SubblocksRequest};
+use crate::wire::response::{
+    AnalysisResult, CrushedSubblock, CrushingBody, ElasticCrushingBody, PlasticCrushingBody, ReachBody, SafetyBody,
+    mesh_in_words,
+};
+
+/// The mesh; none where every voussoir is one block.
+pub fn mesh(mesh: &MeshRequest) -> Option<String> {
+    let one = Subblocks { radial: 1, along: 1 };
+    let whole = match &mesh.subblocks {
+        SubblocksRequest::Uniform(each) => *each == one,
+        SubblocksRequest::PerVoussoir(list) => list.0.iter().all(|each| *each == one),
+    };
+    let seams = match mesh.seams {
+        Seams::Split => "",
+        Seams::Corners => ", held at the corners of their seams",
+    };
+    (!whole).then(|| format!("{}{seams}", mesh_in_words(mesh)))
+}
+
+/// One sentence.
+pub fn headline(result: &AnalysisResult, safety: &SafetyBody) -> String {
+    let kind = match &result.request.analysis {
+        AimRequest::Safety(request) if request.crushing == CrushingKind::Elastic => "first yield",
+        _ => "plastic section",
+    };
+    let what = match safety.governed_by {
+        Governs::Crushing => format!("its stone crushes ({kind})"),
+        _ => "it falls".to_owned(),
+    };
+    match safety.governing {
+        ReachBody::At { load_factor } if load_factor >= 1.0 => {
+            format!("The arch carries its scaled loads {} times; then {what}.", Rounded(load_factor))
+        }
+        ReachBody::At { load_factor } => {
+            format!("The arch carries only {} times its scaled loads; then {what}.", Rounded(load_factor))
+        }
+        ReachBody::Never => {
+            let times = Rounded(result.cap);
+            format!(
+                "The arch stands: it neither falls nor crushes under {times} times its scaled loads, the most that was \
+                 tried."
+            )
+        }
+        ReachBody::DoesNotStand => match safety.governed_by {
+            Governs::Crushing => "The stone crushes under the scaled loads in full.".to_owned(),
+            _ => "The arch does not stand under its scaled loads in full.".to_owned(),
+        },
+        ReachBody::Unknown => "No safety factor: it cannot be told. The notes say why.".to_owned(),
+    }
+}
+
+/// A safety factor, briefly.
+pub fn reach(reach: ReachBody) -> String {
+    match reach {
+        ReachBody::At { load_factor } => Digits(load_factor).to_string(),
+        ReachBody::Never => "never".to_owned(),
+        ReachBody::DoesNotStand => "does not stand".to_owned(),
+        ReachBody::Unknown => "unknown".to_owned(),
+    }
+}
+
+/// The number of a zone of the paper.
+pub fn zone(zone: Option<SafetyZone>) -> &'static str {
+    match zone {
+        Some(SafetyZone::CrownRises) => "I",
+        Some(SafetyZone::Crushing) => "II",
+        Some(SafetyZone::CrownDescends) => "III",
+        None => "-",
+    }
+}
+
+/// Name and value of every line about crushing and safety.
+pub fn facts(result: &AnalysisResult) -> Vec<(&'static str, String)> {
+    let mut lines = Vec::new();
+    if let Some(crushing) = &result.crushing {
+        crushing_facts(&mut lines, result, crushing);
+    }
+    if let Some(safety) = &result.safety {
+        lines.push(("safety factor", factors(safety)));
+    }
+    lines
+}
+
+fn factors(safety: &SafetyBody) -> String {
+    let zone = safety.zone.map(|_| format!(", zone {}", zone(safety.zone))).unwrap_or_default();
+    let [governing, instability, elastic, plastic] =
+        [safety.governing, safety.instability, safety.elastic, safety.plastic_section].map(reach);
+    let governs = word(&safety.governed_by);
+    let moving = safety.updated_geometry.map(|at| format!("; on moving geometry: {}", reach(at))).unwrap_or_default();
+    format!(
+        "{governing}, governed by: {governs}{zone}\n\
+         (instability: {instability}{moving}; first yield: {elastic}; plastic section: {plastic})"
+    )
+}
+
+fn crushing_facts(lines: &mut Vec<(&'static str, String)>, result: &AnalysisResult, crushing: &CrushingBody) {
+    let limited = crushing.strength_pa < NO_LIMIT_PA;
+    let strength =
+        if limited { format!("{} MPa", Digits(crushing.strength_pa / 1e6)) } else { "not limited".to_owned() };
+    lines.push(("strength", strength));
+    if let Some(elastic) = &crushing.elastic {
+        lines.push(("first yield", first_yield(result, elastic)));
+    }
+    if let Some(plastic) = &crushing.plastic_section {
+        lines.push(("plastic section", plastic_section(result, plastic)));
+    }
+}
+
+/// Strength beyond that of any matter, Pa: the request means none.
+const NO_LIMIT_PA: f64 = 1e15;
+
+/// What the two answers about crushing mean.
+pub const EXPLANATION: &str = "First yield: the equivalent stress of Tresca reaches the strength in some subblock; it \
+    depends on the mesh. Plastic section: what limit analysis allows where no joint carries more than the strength.";
+
+fn first_yield(result: &AnalysisResult, elastic: &ElasticCrushingBody) -> String {
+    let at = elastic.subblock.as_ref().map(|subblock| format!(", in {}", place(result, subblock))).unwrap_or_default();
+    match (elastic.at_start, elastic.intensity) {
+        (true, _) => format!("at the start of the path already{at}"),
+        (false, Some(intensity)) => format!("at {} {}{at}", Digits(intensity), wording::unit(result)),
+        (false, None) => match &elastic.subblock {
+            Some(largest) => {
+                let stress = Digits(largest.tresca_pa / 1e6);
+                format!("not reached; largest equivalent stress {stress} MPa, in {}", place(result, largest))
+            }
+            None => "not reached".to_owned(),
+        },
+    }
+}
+
+fn place(result: &AnalysisResult, subblock: &CrushedSubblock) -> String {
+    if let Some(body) = result.named().and_then(|structure| structure.bodies.get(subblock.voussoir)) {
+        return body.name.clone();
+    }
+    format!("voussoir {}, subblock {}, {} (radial, along)", subblock.voussoir, subblock.radial, subblock.along)
+}
+
+fn plastic_section(result: &AnalysisResult, plastic: &PlasticCrushingBody) -> String {
+    if !wording::has(result, true) {
+        let carry = if plastic.window.is_some() { "carry" } else { "do not carry" };
+        return format!("joints of this strength {carry} the loads");
+    }
+    let range = wording::range(plastic.window, wording::unit(result));
+    let ends = [("lowest", &plastic.joints_at_lowest), ("highest", &plastic.joints_at_highest)];
+    let crushed: Vec<String> = ends
+        .iter()
+        .filter(|(_, joints)| !joints.is_empty())
+        .map(|(end, joints)| {
+            let list: Vec<_> = joints.iter().map(usize::to_string).collect();
+            format!("joints crushed at the {end}: {}", list.join(", "))
+        })
+        .collect();
+    [vec![range], crushed].concat().join("\n")
+}

@@ -1,0 +1,176 @@
+//! The answer as a person reads it.
+
+use super::noun::in_its_words;
+use super::wording::{self, word};
+use super::{given, joints, moving, plan, safety};
+use crate::collapse::{GovernedBy, Outcome};
+use crate::wire::prose::Digits;
+use crate::wire::response::{AnalysisResult, EndBody};
+use comfy_table::{Table, presets};
+use std::fmt::Write;
+use std::time::Duration;
+
+/// Everything but the rows of numbers per stone and joint.
+pub fn summary(result: &AnalysisResult, wall_time: Duration) -> String {
+    let name = result.request.name.as_ref().map(|name| format!("{name}\n\n")).unwrap_or_default();
+    let headline = wording::wrapped(&wording::headline(result));
+    let mut text = format!("{name}{headline}\n\n{}\n", facts(result, wall_time).trim_fmt());
+    let window = result.outcome == Outcome::StandsInWindow;
+    for (title, end) in ["Lower end", "Upper end"].into_iter().zip(wording::limits(result)).filter(|_| window) {
+        if end.is_none() {
+            paragraph(&mut text, &format!("{title}: none was found."));
+        }
+    }
+    for end in &result.ends {
+        let at = if window { format!(" at the {}", wording::name(end)) } else { String::new() };
+        joints::moving(&mut text, &at, &end.fall.mechanism, result);
+    }
+    if let Some(end) = result.ends.first() {
+        joints::ground(&mut text, end, result);
+    }
+    moving::supports(&mut text, result);
+    let modes = result.ends.iter().map(|end| end.fall.mechanism.mode);
+    let modes = modes.chain(result.safety.iter().filter_map(|safety| safety.mode));
+    wording::explain(&mut text, &result.request, modes, result.safety.iter().filter_map(|safety| safety.zone));
+    let of_safety = result.safety.iter().flat_map(|safety| &safety.notes);
+    for (i, end) in result.ends.iter().enumerate() {
+        if let Some(motion) = &end.motion {
+            let from = if i == 0 { "" } else { " from the other end" };
+            paragraph(&mut text, &wording::motion(from, motion, wording::unit(result)));
+        }
+    }
+    for why in result.plan.iter().flat_map(|plan| &plan.why) {
+        paragraph(&mut text, &format!("Model: {why}"));
+    }
+    for note in result.notes.iter().chain(of_safety.filter(|note| !result.notes.contains(note))) {
+        paragraph(&mut text, &format!("Note: {note}"));
+    }
+    paragraph(&mut text, &in_its_words(&result.request, explanation(result)));
+    if result.crushing.is_some() {
+        paragraph(&mut text, safety::EXPLANATION);
+    }
+    text
+}
+
+fn facts(result: &AnalysisResult, wall_time: Duration) -> Table {
+    let mut table = bare();
+    let mut fact = |name: &str, value: String| {
+        table.add_row([name, &value]);
+    };
+    let (name, structure) = given::structure(&result.request);
+    fact(name, structure);
+    if let Some(mesh) = safety::mesh(&result.request.mesh) {
+        fact("mesh", mesh);
+    }
+    for (name, value) in result.plan.iter().flat_map(plan::facts) {
+        fact(name, value);
+    }
+    fact("fixed loads", given::loads(&result.request.loads, false));
+    fact("scaled loads", given::loads(&result.request.loads, true));
+    if result.request.loads.iter().any(|load| load.scaled) {
+        let one = Digits(result.request.load_factor.intensity_per_unit);
+        fact("", format!("(at load factor 1, which is intensity {one} {})", wording::unit(result)));
+    }
+    fact("outcome", word(&result.outcome));
+    fact("method", word(&result.method));
+    for (name, value) in result.ends.iter().flat_map(|end| end_facts(result, end)) {
+        fact(name, value);
+    }
+    fact("limit window", wording::window(result));
+    if let Some(range) = &result.thrust_range {
+        let range = [range.lowest_kn_per_m, range.highest_kn_per_m];
+        fact("thrust range", format!("{} kN/m", from_to(range)));
+    }
+    if let Some(width) = result.request.width_m {
+        fact("over the width", over_width(result, width));
+    }
+    for (name, value) in moving::facts(result).into_iter().chain(safety::facts(result)) {
+        fact(name, value);
+    }
+    let cost = &result.cost;
+    let counts = (cost.events, cost.factorisations, cost.unknowns);
+    fact("cost", format!("{} events, {} factorisations, {} unknowns", counts.0, counts.1, counts.2));
+    fact("time", format!("{:.3} ms", wall_time.as_secs_f64() * 1e3));
+    table
+}
+
+/// Forces over the whole width.
+fn over_width(result: &AnalysisResult, width: f64) -> String {
+    // As in `end_facts`: an arch that falls as built has no load to fall at, and one that its fixed loads crush bears none.
+    let falls = matches!(result.outcome, Outcome::Collapse | Outcome::StandsInWindow);
+    let scaled = |end: &EndBody| {
+        let [x, y] = [end.scaled_load.x_kn?, end.scaled_load.y_kn?].map(Digits);
+        let at = if result.outcome == Outcome::StandsInWindow { wording::name(end) } else { "collapse" };
+        Some(format!("; scaled loads at {at} ({x}, {y}) kN"))
+    };
+    let thrust =
+        result.thrust_range.map(|range| format!("; thrust {} kN", from_to([range.lowest_kn, range.highest_kn])));
+    let loads: String = result.ends.iter().filter(|_| falls).filter_map(scaled).collect();
+    format!("{} m{loads}{}", Digits(width), thrust.unwrap_or_default())
+}
+
+fn from_to(ends: [Option<f64>; 2]) -> String {
+    let [lowest, highest] = ends.map(|end| end.map_or("any".to_owned(), |end| Digits(end).to_string()));
+    format!("{lowest} to {highest}")
+}
+
+fn end_facts(result: &AnalysisResult, end: &EndBody) -> Vec<(&'static str, String)> {
+    let (unit, window) = (wording::unit(result), result.outcome == Outcome::StandsInWindow);
+    let factor = |factor: f64| {
+        if unit == "(load factor)" { String::new() } else { format!(" (load factor {})", Digits(factor)) }
+    };
+    let at = |intensity: f64, load_factor: f64| format!("{} {unit}{}", Digits(intensity), factor(load_factor));
+    let name = match result.outcome {
+        Outcome::StandsInWindow => wording::name(end),
+        Outcome::Crushes if result.safety.is_none() => "without crushing",
+        _ => "intensity",
+    };
+    let mut lines = Vec::new();
+    // An arch that falls as built has no load to fall at.
+    if window || matches!(result.outcome, Outcome::Collapse | Outcome::CannotTell | Outcome::Crushes) {
+        lines.push((name, at(end.intensity, end.load_factor)));
+        lines.extend(wording::sliding_range(end, unit).map(|range| ("range", range)));
+        let other = end.instability.as_ref().filter(|_| end.governed_by == GovernedBy::Crushing);
+        lines.extend(other.map(|other| ("without crushing", at(other.intensity, other.load_factor))));
+    }
+    lines.push(("mode", word(&end.fall.mechanism.mode)));
+    // Where the fixed loads crush the stone, what follows is of stone that does not crush.
+    if result.outcome != Outcome::Crushes || result.safety.is_some() {
+        lines.push(("governed by", word(&end.governed_by)));
+    }
+    if !end.crushed_joints.is_empty() {
+        lines.push(("joints that crush", joints::crushed(&end.crushed_joints)));
+    }
+    lines.push(("residual", in_its_words(&result.request, &format!("{:.1e} of the arch's weight", end.residual))));
+    lines
+}
+
+fn explanation(result: &AnalysisResult) -> &'static str {
+    match result.thrust_range {
+        Some(_) => {
+            "Limit window: what rigid-block limit analysis allows. Thrust range: horizontal force with which the left \
+             springing pushes the arch to the right under the fixed loads alone; negative means to the left."
+        }
+        None => "Limit window: what rigid-block limit analysis allows.",
+    }
+}
+
+/// A table without lines.
+pub fn bare() -> Table {
+    let mut table = Table::new();
+    table.load_style(presets::NOTHING);
+    table
+}
+
+/// Adds a table, where there is one, under its title.
+pub fn append(text: &mut String, title: &str, table: Option<Table>) {
+    if let Some(table) = table {
+        // Writing to a string cannot fail.
+        let _ = write!(text, "\n{title}\n{}\n", table.trim_fmt());
+    }
+}
+
+/// Adds prose.
+pub fn paragraph(text: &mut String, words: &str) {
+    let _ = write!(text, "\n{}\n", wording::wrapped(words));
+}

@@ -1,0 +1,277 @@
+//! The loads in a request: their fields, what they are to the mechanics, and their words. Forces per metre of width.
+//!
+//! A new load has its fields and an arm of every function here, and its forces in `structure::load`.
+
+mod fill;
+
+use super::{ForceVector, Point, Text};
+use crate::geometry::Vec2;
+use crate::structure::GRAVITY;
+use crate::structure::load::{Band, Load, LoadFault, Place};
+use crate::wire::fault::{Faults, Shown};
+use crate::wire::prose::Digits;
+pub use fill::FillPressure;
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+/// A load, and whether the load factor multiplies it. Forces are per metre of width.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct LoadEntry {
+    /// What acts.
+    pub load: LoadRequest,
+    /// False: it is fixed. True: the load factor multiplies it.
+    #[schema(required = false, default = false)]
+    pub scaled: bool,
+    /// A factor of its own; not 0.
+    #[schema(required = false, default = 1.0, minimum = -1e12, maximum = 1e12)]
+    pub coefficient: f64,
+    /// True: the coefficient is multiplied by the abscissa of the safety curve that `analysis` asks for.
+    #[schema(required = false, default = false)]
+    pub per_abscissa: bool,
+}
+
+/// A load.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum LoadRequest {
+    /// Weight of the stones.
+    SelfWeight(SelfWeight),
+    /// Fill and embankment on the extrados.
+    FillPressure(FillPressure),
+    /// Horizontal pressure in bands of height.
+    LateralPressure(LateralPressure),
+    /// A vertical force at one point of the extrados.
+    PointLoad(PointLoad),
+    /// A force in any direction at a point of a block; of a bridge or blocks.
+    PointForce(PointForceLoad),
+    /// A vertical force spread over a plan width.
+    PatchLoad(PatchLoad),
+    /// An inertia force on stones and fill: their mass times an acceleration.
+    BodyAcceleration(BodyAcceleration),
+}
+
+/// Weight of the stones from their density, with g = 9.81 m/s2. Without this load they weigh nothing. It has no fields.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct SelfWeight {}
+
+/// Horizontal pressure in bands of height, towards the arch, on the vertical projection of the extrados.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct LateralPressure {
+    /// Bands of height; where bands overlap they add up.
+    #[schema(min_items = 1, max_items = 1000)]
+    pub bands: Vec<PressureBand>,
+}
+
+/// A horizontal pressure between two heights.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct PressureBand {
+    /// Lower end, m.
+    #[schema(minimum = -1e5, maximum = 1e5)]
+    pub from_m: f64,
+    /// Upper end, m; above the lower one.
+    #[schema(minimum = -1e5, maximum = 1e5)]
+    pub to_m: f64,
+    /// Pressure, Pa, towards the arch positive.
+    #[schema(minimum = -1e15, maximum = 1e15)]
+    pub pressure_pa: f64,
+}
+
+/// A vertical force at one point of the extrados: at an abscissa, or in the middle of a voussoir.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct PointLoad {
+    /// Force per metre of width, N/m, downwards positive; not 0.
+    #[schema(minimum = -1e15, maximum = 1e15)]
+    pub force_n_per_m: f64,
+    /// Abscissa, m; over a joint, its two voussoirs take half each. Either this or `voussoir` is given.
+    #[schema(minimum = -1e5, maximum = 1e5)]
+    pub x_m: Option<f64>,
+    /// Number of a voussoir, from 0 on the left: the middle of its extrados side.
+    #[schema(maximum = 2000)]
+    pub voussoir: Option<usize>,
+}
+
+/// A force in any direction at a point of a block; of a bridge or blocks, which take no load that stands on an extrados.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct PointForceLoad {
+    /// The block's name: that of `blocks.polygons`, or of a body of the bridge as `structure.bodies` of an answer lists them.
+    pub block: Text,
+    /// Where it acts, [x, y], m; inside the block or on its sides.
+    pub at_m: Point,
+    /// Force per metre of width to the right and upwards, N/m; not both 0.
+    pub force_n_per_m: ForceVector,
+}
+
+/// A vertical force spread evenly over a plan width: every voussoir takes the share that lies over it, in the
+/// middle of that share on its extrados side.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct PatchLoad {
+    /// Abscissa of the middle, m.
+    #[schema(minimum = -1e5, maximum = 1e5)]
+    pub centre_x_m: f64,
+    /// Plan width, m.
+    #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
+    pub width_m: f64,
+    /// Total force per metre of width, N/m, downwards positive; not 0.
+    #[schema(minimum = -1e15, maximum = 1e15)]
+    pub force_n_per_m: f64,
+}
+
+/// An inertia force on stones and fill, as in an earthquake: their mass times an acceleration. The fields are the direction of
+/// the force, not of the ground: ground that accelerates to the right makes the force act to the left.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct BodyAcceleration {
+    /// The inertia force to the right, as a multiple of the weight: the ground's acceleration to the left over g.
+    #[schema(required = false, default = 0.0, minimum = -1e12, maximum = 1e12)]
+    pub x_g: f64,
+    /// The inertia force upwards, as a multiple of the weight: the ground's acceleration downwards over g.
+    #[schema(required = false, default = 0.0, minimum = -1e12, maximum = 1e12)]
+    pub y_g: f64,
+}
+
+/// What a load can stand on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Bearer {
+    /// Every body of any structure.
+    AllBodies,
+    /// The extrados of an arch or a bridge.
+    Extrados,
+    /// A body that has a name, which those of an arch have not.
+    NamedBody,
+}
+
+impl LoadRequest {
+    /// What it is called in a request, and what it can stand on.
+    pub fn kind(&self) -> (&'static str, Bearer) {
+        match self {
+            LoadRequest::SelfWeight(_) => ("self_weight", Bearer::AllBodies),
+            LoadRequest::FillPressure(_) => ("fill_pressure", Bearer::Extrados),
+            LoadRequest::LateralPressure(_) => ("lateral_pressure", Bearer::Extrados),
+            LoadRequest::PointLoad(_) => ("point_load", Bearer::Extrados),
+            LoadRequest::PatchLoad(_) => ("patch_load", Bearer::Extrados),
+            LoadRequest::PointForce(_) => ("point_force", Bearer::NamedBody),
+            LoadRequest::BodyAcceleration(_) => ("body_acceleration", Bearer::AllBodies),
+        }
+    }
+
+    /// In SI, on bodies of these names; of a point load with two places, the abscissa counts. None of a body that nobody knows.
+    pub fn in_si(&self, names: &[String]) -> Option<Load> {
+        Some(match self {
+            LoadRequest::SelfWeight(_) => Load::SelfWeight,
+            LoadRequest::FillPressure(fill) => Load::Fill(fill.in_si()),
+            LoadRequest::LateralPressure(lateral) => {
+                let band = |band: &PressureBand| Band { from: band.from_m, to: band.to_m, pressure: band.pressure_pa };
+                Load::Lateral(lateral.bands.iter().map(band).collect())
+            }
+            LoadRequest::PointLoad(PointLoad { force_n_per_m, x_m: None, voussoir: Some(voussoir) }) => {
+                Load::Point(*force_n_per_m, Place::Body(*voussoir))
+            }
+            LoadRequest::PointLoad(point) => {
+                Load::Point(point.force_n_per_m, Place::Abscissa(point.x_m.unwrap_or(0.0)))
+            }
+            LoadRequest::PatchLoad(patch) => {
+                Load::Patch { force: patch.force_n_per_m, centre: patch.centre_x_m, width: patch.width_m }
+            }
+            LoadRequest::PointForce(force) => Load::Force {
+                body: names.iter().position(|name| **name == *force.block)?,
+                at: force.at_m.into(),
+                force: force.force_n_per_m.0.into(),
+            },
+            LoadRequest::BodyAcceleration(body) => Load::BodyAcceleration(body.in_si()),
+        })
+    }
+
+    /// Most forces that it puts on one side of a body.
+    pub fn forces_per_side(&self) -> usize {
+        match self {
+            LoadRequest::LateralPressure(lateral) => lateral.bands.len(),
+            LoadRequest::SelfWeight(_)
+            | LoadRequest::FillPressure(_)
+            | LoadRequest::PointLoad(_)
+            | LoadRequest::PatchLoad(_)
+            | LoadRequest::PointForce(_)
+            | LoadRequest::BodyAcceleration(_) => 1,
+        }
+    }
+
+    /// What it says against itself. `here` points to its fields.
+    pub fn check(&self, here: &str, faults: &mut Faults) {
+        match self {
+            LoadRequest::SelfWeight(_) | LoadRequest::BodyAcceleration(_) => {}
+            LoadRequest::FillPressure(fill) => fill.check(here, faults),
+            LoadRequest::LateralPressure(lateral) => {
+                for (i, band) in lateral.bands.iter().enumerate() {
+                    let from = Shown(band.from_m);
+                    let detail = format!("a band goes upwards: to_m must be greater than from_m, {from}");
+                    faults.require(band.to_m > band.from_m, format!("{here}/bands/{i}/to_m"), detail);
+                }
+            }
+            LoadRequest::PointLoad(point) => {
+                faults.not_zero(&format!("{here}/force_n_per_m"), point.force_n_per_m);
+                let one = point.x_m.is_some() != point.voussoir.is_some();
+                faults.require(one, here, "give either x_m or voussoir, not both and not neither");
+            }
+            LoadRequest::PatchLoad(patch) => faults.not_zero(&format!("{here}/force_n_per_m"), patch.force_n_per_m),
+            LoadRequest::PointForce(force) => {
+                let detail = "0 both ways makes this load vanish: give another force or leave the load out";
+                faults.require(force.force_n_per_m.0 != [0.0; 2], format!("{here}/force_n_per_m"), detail);
+            }
+        }
+    }
+
+    /// The field in which it is best mended where it does not fit the structure; none: the load as a whole.
+    pub fn field_of(&self, fault: LoadFault) -> Option<&'static str> {
+        match (self, fault) {
+            (LoadRequest::FillPressure(_), _) => Some("fill_height_m"),
+            (LoadRequest::PointLoad(_), LoadFault::NoSuchVoussoir { .. }) => Some("voussoir"),
+            (LoadRequest::PointLoad(_), _) => Some("x_m"),
+            (LoadRequest::PatchLoad(_), _) => Some("centre_x_m"),
+            (LoadRequest::PointForce(_), _) => Some("at_m"),
+            (LoadRequest::SelfWeight(_) | LoadRequest::LateralPressure(_) | LoadRequest::BodyAcceleration(_), _) => {
+                None
+            }
+        }
+    }
+
+    /// As a person says it.
+    pub fn words(&self) -> String {
+        match self {
+            LoadRequest::SelfWeight(_) => "self weight".to_owned(),
+            LoadRequest::FillPressure(fill) => fill.words(),
+            LoadRequest::LateralPressure(lateral) => {
+                format!("lateral pressure, bands of height: {}", lateral.bands.len())
+            }
+            LoadRequest::PointLoad(point) => {
+                let place = match (point.x_m, point.voussoir) {
+                    (None, Some(voussoir)) => format!("on voussoir {voussoir}"),
+                    (x, _) => format!("at x = {} m", Digits(x.unwrap_or(0.0))),
+                };
+                format!("{} {place}", kn_per_m(point.force_n_per_m))
+            }
+            LoadRequest::PatchLoad(patch) => {
+                let [width, centre] = [patch.width_m, patch.centre_x_m].map(Digits);
+                let force = kn_per_m(patch.force_n_per_m);
+                format!("{force}, spread over {width} m about x = {centre} m")
+            }
+            LoadRequest::PointForce(force) => {
+                let [fx, fy] = force.force_n_per_m.0.map(|force| Digits(force / 1e3));
+                let [x, y] = force.at_m.0.map(Digits);
+                format!("({fx}, {fy}) kN/m on {} at ({x}, {y}) m", force.block)
+            }
+            LoadRequest::BodyAcceleration(body) => {
+                let [x, y] = [body.x_g, body.y_g].map(Digits);
+                format!("inertia force of {x} times the weight to the right, {y} upwards")
+            }
+        }
+    }
+}
+
+fn kn_per_m(force: f64) -> String {
+    format!("{} kN/m", Digits(force / 1e3))
+}
+
+impl BodyAcceleration {
+    /// The acceleration that masses feel, m/s2.
+    pub fn in_si(&self) -> Vec2 {
+        GRAVITY * Vec2::new(self.x_g, self.y_g)
+    }
+}

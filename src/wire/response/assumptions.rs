@@ -1,0 +1,57 @@
+//! Notes on what a request means without saying it.
+
+use super::structure::StructureBody;
+use crate::wire::request::{AnalysisRequest, LoadEntry, LoadRequest, Subblocks, SubblocksRequest};
+
+/// Note on fill and acceleration together.
+const FILL_IS_SHAKEN: &str = "Fill has mass: in the acceleration the column of fill and embankment over every part of the \
+     extrados that looks up pushes with its mass, each of the two at half its height, and the stone below carries it. \
+     What lies beside the arch does not push.";
+
+/// Note on contacts stiffer than the default, where joints slide.
+const STIFF_CONTACTS: &str = "Contacts are stiffer than the default of a bridge and of blocks. Where joints slide, such as those \
+     between rings, the load path may end far from where it does with penalty_ratio 1 or less: compare the two.";
+
+/// Note on stones whose weight nobody has mentioned.
+const NO_WEIGHT: &str =
+    "The stones weigh nothing: no load is their self weight. If they do, add {\"load\": {\"self_weight\": {}}}.";
+
+/// Note on soil that presses without mass, and acceleration.
+const MASSLESS_IS_SHAKEN: &str = "A lateral pressure has no mass: in the acceleration it presses as before. Soil that shakes with \
+     the structure is a fill_pressure with its density.";
+
+/// Most bodies that are named in a note.
+const BODIES_NAMED: usize = 6;
+
+/// Notes on what is assumed of the loads, and of the bodies of a bridge or of blocks.
+pub(super) fn assumptions(request: &AnalysisRequest, structure: &StructureBody) -> Vec<String> {
+    let any = |fits: fn(&LoadRequest) -> bool| request.loads.iter().any(|LoadEntry { load, .. }| fits(load));
+    let weight = any(|load| matches!(load, LoadRequest::SelfWeight(_)));
+    let shaken = any(|load| matches!(load, LoadRequest::BodyAcceleration(_)));
+    let fill = any(|load| matches!(load, LoadRequest::FillPressure(_)));
+    let massless = any(|load| matches!(load, LoadRequest::LateralPressure(_)));
+    let stiff = request.arch.is_none() && request.stone.penalty_ratio.is_some_and(|ratio| ratio > 1.0);
+    let notes = [
+        (stiff, STIFF_CONTACTS),
+        (!weight, NO_WEIGHT),
+        (shaken && fill, FILL_IS_SHAKEN),
+        (shaken && massless, MASSLESS_IS_SHAKEN),
+    ];
+    let notes = notes.into_iter().filter(|(holds, _)| *holds).map(|(_, note)| note.to_owned());
+    notes.chain(uncut(request, structure)).collect()
+}
+
+/// Which bodies a mesh leaves whole.
+fn uncut(request: &AnalysisRequest, structure: &StructureBody) -> Option<String> {
+    if matches!(request.mesh.subblocks, SubblocksRequest::Uniform(Subblocks { radial: 1, along: 1 })) {
+        return None;
+    }
+    let whole: Vec<&str> = structure.whole.iter().map(|&body| structure.bodies[body].name.as_str()).collect();
+    let more =
+        if whole.len() > BODIES_NAMED { format!(" and {} more", whole.len() - BODIES_NAMED) } else { String::new() };
+    let names = whole.iter().take(BODIES_NAMED).copied().collect::<Vec<_>>().join(", ");
+    let words = format!(
+        "Bodies that turn inwards are not cut into subblocks. One block each, with one state of stress: {names}{more}."
+    );
+    (!whole.is_empty()).then_some(words)
+}

@@ -1,0 +1,210 @@
+//! Stress inside the stones and what it does to them.
+
+use super::Scale;
+use super::columns::column;
+use crate::collapse::{Crushing, ElasticCrushing, PlasticCrushing, StressField, SubblockStress};
+use crate::wire::request::{MeshRequest, SubblocksRequest};
+use serde::Serialize;
+use utoipa::ToSchema;
+
+/// Stress at one load factor.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub struct StressFieldBody {
+    /// Load factor.
+    pub load_factor: f64,
+    /// Intensity.
+    pub intensity: f64,
+    /// Every subblock: voussoir by voussoir (body by body), in it from joint to joint, in that from intrados to extrados.
+    pub subblocks: SubblockColumns,
+}
+
+impl StressFieldBody {
+    pub(super) fn new(field: &StressField, scale: &Scale<'_>) -> Self {
+        StressFieldBody {
+            load_factor: field.load_factor,
+            intensity: scale.intensity(field.load_factor),
+            subblocks: SubblockColumns::new(&field.subblocks),
+        }
+    }
+}
+
+/// The stress is constant in each; compression is negative.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub struct SubblockColumns {
+    /// Which voussoir, from 0 on the left; of a bridge and of blocks which of `structure.bodies`.
+    pub voussoir: Vec<usize>,
+    /// Place from the intrados, from 0; of a body that is no voussoir, from its side between corners 0 and 1; of a part of a body, from
+    /// the side that follows its corner.
+    pub radial: Vec<usize>,
+    /// Place from the joint before the voussoir, from 0; of a body that is no voussoir, from its side between corners 3 and 0; of a part
+    /// of a body, from the side before its corner, part after part.
+    pub along: Vec<usize>,
+    /// Centroid, to the right.
+    pub centre_x_m: Vec<f64>,
+    /// Centroid, upwards.
+    pub centre_y_m: Vec<f64>,
+    /// Corners, to the right; counter-clockwise from the intrados end at the joint before: four, and those of the body's own
+    /// between them; all of a whole body.
+    pub corners_x_m: Vec<Vec<f64>>,
+    /// The same corners, upwards.
+    pub corners_y_m: Vec<Vec<f64>>,
+    /// Horizontal normal stress.
+    pub sigma_x_pa: Vec<f64>,
+    /// Vertical normal stress.
+    pub sigma_y_pa: Vec<f64>,
+    /// Shear stress.
+    pub tau_xy_pa: Vec<f64>,
+    /// Larger (more tensile) principal stress.
+    pub sigma_1_pa: Vec<f64>,
+    /// Smaller (more compressive) principal stress.
+    pub sigma_2_pa: Vec<f64>,
+    /// Equivalent stress of Tresca, eq. (4) of the paper: the largest of |s1 - s2|, |s1| and |s2|.
+    pub tresca_pa: Vec<f64>,
+}
+
+impl SubblockColumns {
+    pub(super) fn new(rows: &[SubblockStress]) -> Self {
+        SubblockColumns {
+            voussoir: column(rows, |row| row.voussoir),
+            radial: column(rows, |row| row.place[0]),
+            along: column(rows, |row| row.place[1]),
+            centre_x_m: column(rows, |row| row.centre.x),
+            centre_y_m: column(rows, |row| row.centre.y),
+            corners_x_m: column(rows, |row| row.corners.iter().map(|corner| corner.x).collect()),
+            corners_y_m: column(rows, |row| row.corners.iter().map(|corner| corner.y).collect()),
+            sigma_x_pa: column(rows, |row| row.stress[0]),
+            sigma_y_pa: column(rows, |row| row.stress[1]),
+            tau_xy_pa: column(rows, |row| row.stress[2]),
+            sigma_1_pa: column(rows, |row| row.principal()[0]),
+            sigma_2_pa: column(rows, |row| row.principal()[1]),
+            tresca_pa: column(rows, SubblockStress::tresca),
+        }
+    }
+}
+
+/// When the stone crushes: both answers, neither of which changes the load path.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub struct CrushingBody {
+    /// Compressive strength of the stone.
+    pub strength_pa: f64,
+    /// First yield of a subblock, as in the paper; null where no path was followed.
+    pub elastic: Option<ElasticCrushingBody>,
+    /// Collapse with joints of finite strength; null where it could not be computed.
+    pub plastic_section: Option<PlasticCrushingBody>,
+}
+
+impl CrushingBody {
+    /// `mesh`: in words.
+    pub(super) fn new(crushing: &Crushing, mesh: &str, scale: &Scale<'_>) -> Self {
+        CrushingBody {
+            strength_pa: crushing.strength,
+            elastic: crushing.elastic.as_ref().map(|elastic| ElasticCrushingBody::new(elastic, mesh, scale)),
+            plastic_section: crushing.plastic_section.as_ref().map(|plastic| PlasticCrushingBody::new(plastic, scale)),
+        }
+    }
+}
+
+/// When the equivalent stress of Tresca first reaches the strength in some subblock.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub struct ElasticCrushingBody {
+    /// Load factor at which it does; null where it does not on the path.
+    pub load_factor: Option<f64>,
+    /// `load_factor` as an intensity.
+    pub intensity: Option<f64>,
+    /// True where it has at the start of the path already.
+    pub at_start: bool,
+    /// The subblock where it does, or that with the largest equivalent stress on the path.
+    pub subblock: Option<CrushedSubblock>,
+    /// How this depends on the mesh.
+    pub note: String,
+}
+
+impl ElasticCrushingBody {
+    fn new(elastic: &ElasticCrushing, mesh: &str, scale: &Scale<'_>) -> Self {
+        let note = format!(
+            "First yield depends on the mesh, here {mesh}: stress is constant in a subblock, so a finer mesh comes closer \
+             to the peaks at pressed corners and yields at a lower load."
+        );
+        ElasticCrushingBody {
+            load_factor: elastic.load_factor,
+            intensity: elastic.load_factor.map(|factor| scale.intensity(factor)),
+            at_start: elastic.at_start,
+            subblock: elastic.where_largest.as_ref().map(Into::into),
+            note,
+        }
+    }
+}
+
+/// A mesh as `4 x 8 subblocks (radial x along)`.
+pub fn mesh_in_words(mesh: &MeshRequest) -> String {
+    match &mesh.subblocks {
+        SubblocksRequest::Uniform(each) => format!("{} x {} subblocks (radial x along)", each.radial, each.along),
+        SubblocksRequest::PerVoussoir(list) => {
+            counts_in_words(list.0.iter().map(|each| each.radial), list.0.iter().map(|each| each.along))
+        }
+    }
+}
+
+/// The same where every voussoir has its own numbers, radial and along.
+pub fn counts_in_words(
+    radial: impl Iterator<Item = usize> + Clone,
+    along: impl Iterator<Item = usize> + Clone,
+) -> String {
+    let range = |least: Option<usize>, most: Option<usize>| match (least, most) {
+        (Some(least), Some(most)) if least != most => format!("{least} to {most}"),
+        (least, _) => least.unwrap_or(0).to_string(),
+    };
+    let radial = range(radial.clone().min(), radial.max());
+    let along = range(along.clone().min(), along.max());
+    format!("{radial} x {along} subblocks (radial x along), by voussoir")
+}
+
+/// One subblock under stress.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub struct CrushedSubblock {
+    /// Which voussoir, from 0 on the left.
+    pub voussoir: usize,
+    /// Place from the intrados, from 0.
+    pub radial: usize,
+    /// Place from the joint before the voussoir, from 0.
+    pub along: usize,
+    /// Centroid, to the right.
+    pub centre_x_m: f64,
+    /// Centroid, upwards.
+    pub centre_y_m: f64,
+    /// Its equivalent stress.
+    pub tresca_pa: f64,
+}
+
+impl From<&SubblockStress> for CrushedSubblock {
+    fn from(stress: &SubblockStress) -> Self {
+        let [radial, along] = stress.place;
+        let (centre_x_m, centre_y_m) = (stress.centre.x, stress.centre.y);
+        CrushedSubblock { voussoir: stress.voussoir, radial, along, centre_x_m, centre_y_m, tresca_pa: stress.tresca() }
+    }
+}
+
+/// Limit analysis with joints that carry no more than the strength; does not depend on the mesh.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub struct PlasticCrushingBody {
+    /// Lowest and highest intensity in equilibrium, each null where unbounded; null where nothing stands.
+    pub window: Option<[Option<f64>; 2]>,
+    /// `window` as load factors.
+    pub window_load_factor: Option<[Option<f64>; 2]>,
+    /// Joints that are crushed at the lowest.
+    pub joints_at_lowest: Vec<usize>,
+    /// Joints that are crushed at the highest.
+    pub joints_at_highest: Vec<usize>,
+}
+
+impl PlasticCrushingBody {
+    fn new(plastic: &PlasticCrushing, scale: &Scale<'_>) -> Self {
+        let [lowest, highest] = plastic.joints.clone();
+        PlasticCrushingBody {
+            window: plastic.window.map(|window| scale.window(window)),
+            window_load_factor: plastic.window.map(|window| Scale::LOAD_FACTOR.window(window)),
+            joints_at_lowest: lowest,
+            joints_at_highest: highest,
+        }
+    }
+}

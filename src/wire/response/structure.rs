@@ -1,0 +1,162 @@
+//! The structure that was analysed: all that the numbers of an answer stand for, and that a check of it needs.
+
+use super::columns::column;
+use crate::collapse::{Analysis, subblocks_of};
+use crate::geometry::cross;
+use crate::structure::{Body, Joint, JointLaw, PointForce, Side, Sides, Structure};
+use crate::wire::request::AnalysisRequest;
+use crate::wire::translate::analysed;
+use serde::Serialize;
+use utoipa::ToSchema;
+
+/// The structure as it was analysed: of half an arch the left half. What an answer calls intrados and extrados of a joint are its
+/// first and its second end here.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub struct StructureBody {
+    /// All bodies: of an arch its voussoirs from the left, then its abutment blocks; rows of `velocities` and of `blocks` come in
+    /// this order.
+    pub bodies: Vec<BodyBody>,
+    /// All joints; joint numbers count these from 0.
+    pub joints: Vec<JointBody>,
+    /// Names of all pieces of ground.
+    pub supports: Vec<String>,
+    /// Bodies that no mesh cuts.
+    #[serde(skip)]
+    pub(super) whole: Vec<usize>,
+}
+
+/// A body: a stone, or a block of a pier or an abutment. Forces are per metre of width.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub struct BodyBody {
+    /// Its name.
+    pub name: String,
+    /// Corners [x, y], counter-clockwise, m.
+    pub corners_m: Vec<[f64; 2]>,
+    /// Area, m2. Arcs between corners count.
+    pub area_m2: f64,
+    /// Centroid [x, y], m.
+    pub centroid_m: [f64; 2],
+    /// The loads on it that stay.
+    pub fixed_load: LoadOnBody,
+    /// The loads on it at load factor 1 that the load factor multiplies.
+    pub scaled_load: LoadOnBody,
+}
+
+/// Resultant of loads on one body.
+#[derive(Debug, Clone, Copy, Serialize, ToSchema)]
+pub struct LoadOnBody {
+    /// Force to the right.
+    pub x_n_per_m: f64,
+    /// Force upwards.
+    pub y_n_per_m: f64,
+    /// Moment about the centroid, counter-clockwise, N m per metre.
+    pub moment_n: f64,
+}
+
+/// A joint.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub struct JointBody {
+    /// Names of the bodies, or the support, before and after it.
+    pub between: [String; 2],
+    /// Its first and its second end [x, y], m: seen from what lies before it, from right to left.
+    pub ends_m: [[f64; 2]; 2],
+    /// What it can carry.
+    pub law: LawWord,
+    /// Friction coefficient; null of a joint that is not dry.
+    pub friction_coefficient: Option<f64>,
+    /// Cohesion times length: what it resists besides friction; null of a joint that is not dry.
+    pub cohesion_n_per_m: Option<f64>,
+    /// Compressive strength of the weaker stone beside it, Pa.
+    pub compressive_strength_pa: f64,
+}
+
+/// What a joint can carry.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum LawWord {
+    /// No tension, and shear up to friction and cohesion.
+    Dry,
+    /// Any force and moment.
+    Bonded,
+    /// Plane of symmetry at a joint: neither tension nor shear.
+    Wall,
+    /// Plane of symmetry through a stone: no shear.
+    Mirror,
+}
+
+impl StructureBody {
+    /// What `request` describes; none where it has faults.
+    pub(super) fn new(request: &AnalysisRequest) -> Option<Self> {
+        let (analysis, layout) = analysed(request)?;
+        let structure = &analysis.structure;
+        let (bodies, supports) = match request.arch {
+            Some(_) => arch_names(structure),
+            None => (layout.bodies, layout.supports),
+        };
+        let name = |side: Side| match side {
+            Side::Body(body) => bodies.get(body).cloned().unwrap_or_default(),
+            Side::Support(support) => supports.get(support).cloned().unwrap_or_default(),
+        };
+        let joints = structure.joints.iter().map(|joint| JointBody::new(joint, structure, name)).collect();
+        let uncut = |body: &Body| body.sides == Sides::Straight && subblocks_of(body, [2, 2]).is_none();
+        let whole = structure.bodies.iter().enumerate().filter(|(_, body)| uncut(body));
+        let whole = whole.map(|(k, _)| k).collect();
+        Some(StructureBody { joints, whole, bodies: bodies_of(&analysis, &bodies), supports })
+    }
+}
+
+/// Voussoirs are numbered from the left.
+fn arch_names(structure: &Structure) -> (Vec<String>, Vec<String>) {
+    let mut bodies: Vec<_> = (0..structure.bodies.len()).map(|k| format!("voussoir {k}")).collect();
+    for (abutment, side) in structure.abutments().iter().zip(["left", "right"]) {
+        if let Some(abutment) = abutment {
+            bodies[abutment.body] = format!("{side} abutment");
+        }
+    }
+    let right = if structure.is_half() { "plane of symmetry" } else { "right springing" };
+    (bodies, ["left springing", right].map(str::to_owned).to_vec())
+}
+
+fn bodies_of(analysis: &Analysis, names: &[String]) -> Vec<BodyBody> {
+    let structure = &analysis.structure;
+    let mut loads = vec![[LoadOnBody { x_n_per_m: 0.0, y_n_per_m: 0.0, moment_n: 0.0 }; 2]; structure.bodies.len()];
+    for (which, forces) in [&analysis.fixed, &analysis.scaled].into_iter().enumerate() {
+        forces.iter().for_each(|force| loads[force.body][which].add(force, &structure.bodies[force.body]));
+    }
+    let body = |((body, name), [fixed_load, scaled_load]): ((&Body, &String), [LoadOnBody; 2])| BodyBody {
+        name: name.clone(),
+        corners_m: column(&body.corners, |&corner| corner.into()),
+        area_m2: body.region.area,
+        centroid_m: body.region.centroid.into(),
+        fixed_load,
+        scaled_load,
+    };
+    structure.bodies.iter().zip(names).zip(loads).map(body).collect()
+}
+
+impl LoadOnBody {
+    fn add(&mut self, force: &PointForce, on: &Body) {
+        self.x_n_per_m += force.force.x;
+        self.y_n_per_m += force.force.y;
+        self.moment_n += cross(force.at - on.region.centroid, force.force);
+    }
+}
+
+impl JointBody {
+    fn new(joint: &Joint, structure: &Structure, name: impl Fn(Side) -> String) -> Self {
+        let (law, dry) = match joint.law {
+            JointLaw::Dry { friction, cohesion } => (LawWord::Dry, Some([friction, cohesion * joint.length()])),
+            JointLaw::Bonded => (LawWord::Bonded, None),
+            JointLaw::Wall => (LawWord::Wall, None),
+            JointLaw::Mirror => (LawWord::Mirror, None),
+        };
+        JointBody {
+            between: joint.between.map(name),
+            ends_m: [joint.intrados.into(), joint.extrados.into()],
+            law,
+            friction_coefficient: dry.map(|[friction, _]| friction),
+            cohesion_n_per_m: dry.map(|[_, cohesion]| cohesion),
+            compressive_strength_pa: structure.strength_at(joint),
+        }
+    }
+}

@@ -1,0 +1,52 @@
+//! Half an arch: only of what is symmetric.
+
+use super::arch;
+use crate::structure::{PointForce, Structure, is_symmetric};
+use crate::wire::fault::Faults;
+use crate::wire::request::{ArchRequest, LoadEntry};
+
+/// The left half of the arch of `request`.
+pub fn halved(whole: &Structure, request: &ArchRequest, faults: &mut Faults) -> Structure {
+    if let Some(joint) = whole.asymmetry() {
+        let other = whole.voussoirs().len() - joint;
+        let detail = format!(
+            "half an arch needs a symmetric one, but joint {joint} is not the mirror image of joint {other} in place, \
+             friction and cohesion: set half to false"
+        );
+        faults.add("/arch/half", detail);
+    }
+    let ring =
+        (request.curved_sides && whole.keystone().is_some()).then(|| arch::ring(request, &mut Faults::default()));
+    whole.left_half(ring.flatten().and_then(|ring| ring.left_half_of_keystone()))
+}
+
+/// Whether the fixed loads together, and the scaled loads together, are symmetric.
+pub fn check_loads(entries: &[LoadEntry], whole: &Structure, faults: &mut Faults) {
+    let mut lopsided = [false, true].map(|scaled| without_mirror_image(entries, whole, scaled)).concat();
+    lopsided.sort_unstable();
+    for i in lopsided {
+        let which = if entries[i].scaled { "scaled" } else { "fixed" };
+        let detail = format!(
+            "half an arch needs {which} loads that are symmetric together, and this one has no mirror image among \
+             them: add it, or set half to false"
+        );
+        faults.add(format!("/loads/{i}"), detail);
+    }
+}
+
+/// Of the fixed, or of the scaled, loads those that lean to one side; none where together they do not.
+fn without_mirror_image(entries: &[LoadEntry], whole: &Structure, scaled: bool) -> Vec<usize> {
+    let symmetric = |forces: &[PointForce]| is_symmetric(forces, whole.voussoirs().len(), whole.axis());
+    let (mut all, mut lopsided) = (Vec::new(), Vec::new());
+    for (i, entry) in entries.iter().enumerate().filter(|(_, entry)| entry.scaled == scaled) {
+        // A load that does not fit the arch has a fault of its own.
+        let Some(Ok(forces)) = entry.load.in_si(&[]).map(|load| load.on(whole, entry.coefficient)) else {
+            return Vec::new();
+        };
+        if !symmetric(&forces) {
+            lopsided.push(i);
+        }
+        all.extend(forces);
+    }
+    if symmetric(&all) { Vec::new() } else { lopsided }
+}

@@ -1,0 +1,112 @@
+//! The loads of a request as forces on bodies.
+
+use super::inertia;
+use super::structure::Layout;
+use crate::structure::PointForce;
+use crate::wire::fault::{Faults, Shown};
+use crate::wire::request::{AnalysisRequest, Bearer, LoadEntry, LoadRequest, PointLoad};
+
+/// Most forces that the loads of one request may put on its voussoirs: loads (a pressure counts once per band) times
+/// voussoirs times subblocks along each. Each is kept until the job has run.
+const MAX_FORCES: usize = 200_000;
+
+/// Largest coefficient, abscissa included.
+const MOST_COEFFICIENT: f64 = 1e12;
+
+/// How many forces these loads may put on each voussoir together.
+pub fn forces_per_voussoir_of(entries: &[LoadEntry]) -> usize {
+    entries.iter().map(|entry| entry.load.forces_per_side()).sum::<usize>() + inertia::forces_per_voussoir(entries)
+}
+
+/// Forces on voussoirs.
+#[derive(Default)]
+pub struct LoadForces {
+    /// Those that stay.
+    pub fixed: Vec<PointForce>,
+    /// Those that the load factor multiplies.
+    pub scaled: Vec<PointForce>,
+}
+
+impl LoadForces {
+    /// Those that stay, or those that are scaled.
+    pub fn of(&mut self, scaled: bool) -> &mut Vec<PointForce> {
+        if scaled { &mut self.scaled } else { &mut self.fixed }
+    }
+}
+
+/// The forces on the whole structure where there is one, with the sides of its bodies cut into `pieces` each.
+pub fn loads(
+    request: &AnalysisRequest,
+    entries: &[LoadEntry],
+    whole: Option<&Layout>,
+    pieces: &[usize],
+    faults: &mut Faults,
+) -> LoadForces {
+    let mut all = LoadForces::default();
+    let forces = forces_per_voussoir_of(entries) * pieces.iter().sum::<usize>();
+    if forces > MAX_FORCES {
+        let detail = format!(
+            "loads and bands times voussoirs (times subblocks along each) come to {forces}: keep to {MAX_FORCES} by joining \
+             loads or a coarser mesh"
+        );
+        faults.add("/loads", detail);
+        return all;
+    }
+    for (i, entry) in entries.iter().enumerate() {
+        let before = faults.len();
+        let here = format!("/loads/{i}");
+        check_coefficient(&format!("{here}/coefficient"), entry.coefficient, faults);
+        let fields = format!("{here}/load/{}", entry.load.kind().0);
+        entry.load.check(&fields, faults);
+        check_fits(&fields, &entry.load, request, faults);
+        let Some(layout) = whole.filter(|_| faults.len() == before) else { continue };
+        let Some(load) = entry.load.in_si(&layout.bodies) else {
+            faults.add(format!("{fields}/block"), "there is no block of this name: correct the name");
+            continue;
+        };
+        match load.on_pieces(&layout.structure, pieces, entry.coefficient) {
+            Ok(forces) if forces.is_empty() => {
+                faults.add(here, "this load puts no force on the structure: correct it or leave it out");
+            }
+            Ok(forces) => {
+                all.of(entry.scaled).extend(forces);
+                inertia::add(entries, entry, &layout.structure, pieces, &mut all);
+            }
+            Err(fault) => {
+                let place = entry.load.field_of(fault).map(|field| format!("{fields}/{field}"));
+                let detail = format!("{fault}: correct it or leave the load out");
+                faults.add(place.unwrap_or(format!("{here}/load")), detail);
+            }
+        }
+    }
+    inertia::check(entries, faults);
+    all
+}
+
+/// A coefficient, as the request or an abscissa of a curve has it.
+fn check_coefficient(pointer: &str, value: f64, faults: &mut Faults) {
+    faults.not_zero(pointer, value);
+    let rule = format!("it must be from -{most} to {most}", most = Shown(MOST_COEFFICIENT));
+    faults.require(value.abs() <= MOST_COEFFICIENT, pointer, format!("{} is out of range: {rule}", Shown(value)));
+}
+
+/// What cannot stand on this kind of structure.
+fn check_fits(fields: &str, load: &LoadRequest, request: &AnalysisRequest, faults: &mut Faults) {
+    match load.kind().1 {
+        Bearer::AllBodies => {}
+        Bearer::NamedBody => {
+            let detail = "the stones of an arch have no names: give a point_load instead";
+            faults.require(request.arch.is_none(), fields, detail);
+        }
+        Bearer::Extrados => {
+            let detail =
+                "blocks have no extrados for this to stand on: give a point_force on each block that carries it";
+            faults.require(request.blocks.is_none(), fields, detail);
+        }
+    }
+    if let (LoadRequest::PointLoad(PointLoad { voussoir: Some(_), .. }), Some(_)) = (load, &request.bridge) {
+        let detail =
+            "a bridge has many voussoirs of this number: give x_m instead, or a point_force on a block by its name";
+        faults.add(format!("{fields}/voussoir"), detail);
+    }
+}
