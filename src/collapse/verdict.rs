@@ -2,6 +2,7 @@
 
 mod fallen;
 mod leg;
+mod softer;
 
 use super::certificate::{Certificate, any_fixed, loaded, mesh_notes};
 use super::discretise::{Discretisation, Model};
@@ -55,6 +56,12 @@ type OnEvent<'w> = dyn FnMut(&Tracer, f64) -> ControlFlow<()> + 'w;
 
 /// The whole answer; stones that are in `built` already are not condensed again.
 pub(super) fn run<'a>(analysis: &'a Analysis, built: &mut Discretisation<'a>) -> Result<CollapseReport, AnalysisError> {
+    let report = answer(analysis, built)?;
+    softer::or_softer(analysis, report, built.budget)
+}
+
+/// The answer with contacts as stiff as asked.
+fn answer<'a>(analysis: &'a Analysis, built: &mut Discretisation<'a>) -> Result<CollapseReport, AnalysisError> {
     let question = Setup::new(analysis, built.budget)?;
     let report = question.answer(built)?;
     Ok(report.or_cannot_tell(question.blank(0)))
