@@ -56,15 +56,8 @@ type OnEvent<'w> = dyn FnMut(&Tracer, f64) -> ControlFlow<()> + 'w;
 
 /// The whole answer; stones that are in `built` already are not condensed again.
 pub(super) fn run<'a>(analysis: &'a Analysis, built: &mut Discretisation<'a>) -> Result<CollapseReport, AnalysisError> {
-    let report = answer(analysis, built)?;
+    let report = softer::as_asked(analysis, built)?;
     softer::or_softer(analysis, report, built.budget)
-}
-
-/// The answer with contacts as stiff as asked.
-fn answer<'a>(analysis: &'a Analysis, built: &mut Discretisation<'a>) -> Result<CollapseReport, AnalysisError> {
-    let question = Setup::new(analysis, built.budget)?;
-    let report = question.answer(built)?;
-    Ok(report.or_cannot_tell(question.blank(0)))
 }
 
 /// Limit window and load path on the mesh given; what follows from them is left to [`run`].

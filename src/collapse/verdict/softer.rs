@@ -5,12 +5,23 @@
 //! it jams (Painleve). The structure then jumps to another state of equilibrium, and the path turns back. That is no collapse, and
 //! softer contacts do not jam.
 
+use super::Setup;
 use crate::budget::Budget;
 use crate::collapse::discretise::Discretisation;
 use crate::collapse::{Analysis, AnalysisError, CollapseReport, Doubt, Note, Outcome};
 
 /// Contact penalties that are tried instead of stiffer ones, as multiples of Young's modulus.
 const SOFTER: [f64; 2] = [1.0, 0.1];
+
+/// The answer with contacts as stiff as asked.
+pub(super) fn as_asked<'a>(
+    analysis: &'a Analysis,
+    built: &mut Discretisation<'a>,
+) -> Result<CollapseReport, AnalysisError> {
+    let question = Setup::new(analysis, built.budget)?;
+    let report = question.answer(built)?;
+    Ok(report.or_cannot_tell(question.blank(0)))
+}
 
 /// The same answer, or where its path was lost that of softer contacts, whose loads are as good where stones are rigid.
 pub(super) fn or_softer(
@@ -25,7 +36,7 @@ pub(super) fn or_softer(
             _ => None,
         };
         let softer = Analysis { penalty_ratio: taken, ..analysis.clone() };
-        let mut next = super::answer(&softer, &mut Discretisation::new(budget))?;
+        let mut next = as_asked(&softer, &mut Discretisation::new(budget))?;
         if next.outcome == Outcome::CannotTell {
             report.cost.join(next.cost);
             continue;
