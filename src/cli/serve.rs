@@ -1,21 +1,15 @@
 //! `voussoir serve`: start, serve, stop in order.
 
+use super::connections::{self, Door};
 use super::fail;
 use crate::config::Serve;
 use crate::telemetry;
 use axum_server::Handle;
-use axum_server::accept::Accept;
-use hyper_util::rt::{TokioExecutor, TokioTimer};
-use hyper_util::server::conn::auto::Builder;
-use std::future::{Ready, ready};
 use std::io;
 use std::net::{SocketAddr, TcpListener};
-use std::pin::Pin;
 use std::process::ExitCode;
 use std::time::Duration;
-use tokio::net::TcpStream;
 use tokio::runtime::Runtime;
-use tokio_io_timeout::TimeoutStream;
 use voussoir::collapse;
 use voussoir::http::{self, Service};
 
@@ -34,20 +28,20 @@ pub fn serve(options: &Serve) -> ExitCode {
 }
 
 fn run(options: &Serve) -> io::Result<()> {
-    let (limits, settings) = (options.job_limits(), options.settings()?);
-    let request_time = settings.limits.request_time;
     let listener = TcpListener::bind(&options.address.bind)?;
     listener.set_nonblocking(true)?;
     let address = listener.local_addr()?;
+    let (limits, settings) = (options.job_limits(), options.settings(address)?);
+    let request_time = settings.limits.request_time;
     let service = Service::start(limits, settings, collapse::answer)?;
     tracing::info!(%address, ?limits, "listening");
     let runtime = Runtime::new()?;
     let handle = Handle::new();
     let ending = runtime.spawn(end(service.clone(), handle.clone(), Duration::from_secs(options.grace)));
     runtime.block_on(async {
-        let server = axum_server::from_tcp(listener)?.acceptor(Patient(request_time));
-        let mut server = server.handle(handle).http1_only();
-        be_patient(server.http_builder(), request_time);
+        let door = Door { connections: options.connections(), patience: request_time };
+        let mut server = axum_server::from_tcp(listener)?.acceptor(door).handle(handle);
+        connections::bound(server.http_builder(), request_time);
         server.serve(http::router(service).into_make_service_with_connect_info::<SocketAddr>()).await?;
         ending.await.map_err(io::Error::other)
     })?;
@@ -55,28 +49,6 @@ fn run(options: &Serve) -> io::Result<()> {
     runtime.shutdown_background();
     tracing::info!("stopped");
     Ok(())
-}
-
-/// So patient and no more with a request's head; a client that has said all it will may still read the answer. The server
-/// itself has to know that it speaks HTTP/1 only, or it waits for a first byte without end.
-fn be_patient(builder: &mut Builder<TokioExecutor>, request_time: Duration) {
-    builder.http1().timer(TokioTimer::new()).header_read_timeout(request_time).half_close(true);
-}
-
-/// Hangs up on clients that ask and then take nothing for so long.
-#[derive(Debug, Clone)]
-struct Patient(Duration);
-
-impl<S> Accept<TcpStream, S> for Patient {
-    type Stream = Pin<Box<TimeoutStream<TcpStream>>>;
-    type Service = S;
-    type Future = Ready<io::Result<(Self::Stream, S)>>;
-
-    fn accept(&self, stream: TcpStream, service: S) -> Self::Future {
-        let mut stream = TimeoutStream::new(stream);
-        stream.set_write_timeout(Some(self.0));
-        ready(Ok((Box::pin(stream), service)))
-    }
 }
 
 /// Once told to stop: accepts no more jobs and ends event streams, lets jobs end within `grace` while everyone can still

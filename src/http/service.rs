@@ -1,9 +1,12 @@
 //! What every handler can reach.
 
-use super::layers::Tokens;
+use super::body;
+use super::layers::{Hosts, Tokens};
 use super::limits::ApiLimits;
 use super::metrics::Metrics;
 use super::outgoing::Outgoing;
+use super::quota::Quota;
+use super::readers::Readers;
 use crate::budget::Budget;
 use crate::collapse::{AnalysisError, Answer, Question};
 use crate::jobs::{self, Failure, JobStore, Product};
@@ -12,9 +15,7 @@ use crate::wire::request::Request;
 use crate::wire::translate;
 use axum::http::HeaderValue;
 use std::io;
-use std::num::NonZeroUsize;
 use std::sync::Arc;
-use std::thread::available_parallelism;
 use std::time::Instant;
 use tokio::sync::Semaphore;
 use tokio_util::sync::CancellationToken;
@@ -29,8 +30,15 @@ pub struct Settings {
     pub limits: ApiLimits,
     /// Who may ask.
     pub tokens: Tokens,
+    /// The names it goes by.
+    pub hosts: Hosts,
     /// Pages of which origins may ask.
     pub origins: Vec<HeaderValue>,
+}
+
+/// What one client may have of what all have.
+fn part(all: usize) -> usize {
+    all.div_ceil(4)
 }
 
 /// How a handler is given the service.
@@ -46,13 +54,14 @@ pub struct Service {
     pub(super) settings: Arc<Settings>,
     pub(super) metrics: Metrics,
     pub(super) streams: Arc<Semaphore>,
-    /// As many requests are read at once as there are cores.
-    pub(super) readers: Arc<Semaphore>,
+    pub(super) readers: Readers,
+    /// Memory for bodies on their way in, bytes.
+    pub(super) incoming: Quota,
     pub(super) outgoing: Outgoing,
 }
 
 impl Service {
-    /// Starts the workers.
+    /// Starts the workers; of the memory for bodies and answers each client may have a part.
     ///
     /// # Errors
     /// When the system gives no thread.
@@ -61,14 +70,16 @@ impl Service {
         let counted = metrics.clone();
         let work = move |request: Request, budget: &Budget| perform(&request, budget, analyse);
         let jobs = JobStore::start(jobs, work, move |job| counted.ended(job))?;
-        let cores = available_parallelism().map_or(1, NonZeroUsize::get);
+        let (limits, longest) = (settings.limits, settings.limits.body.max(body::LEAST));
+        let incoming = limits.incoming.max(longest);
         Ok(Service {
             jobs: Arc::new(jobs),
             stopping: CancellationToken::new(),
             metrics,
-            streams: Arc::new(Semaphore::new(settings.limits.streams)),
-            readers: Arc::new(Semaphore::new(cores)),
-            outgoing: Outgoing::new(settings.limits.outgoing),
+            streams: Arc::new(Semaphore::new(limits.streams)),
+            readers: Readers::new(),
+            incoming: Quota::new(incoming, part(incoming).max(longest)),
+            outgoing: Outgoing::new(limits.outgoing, part(limits.outgoing)),
             settings: Arc::new(settings),
         })
     }

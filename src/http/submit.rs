@@ -11,7 +11,6 @@ use crate::wire::json;
 use crate::wire::read;
 use crate::wire::request::Request;
 use axum::Extension;
-use axum::body::Bytes;
 use axum::http::{HeaderMap, HeaderName, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use serde::Serialize;
@@ -49,7 +48,7 @@ pub(super) async fn submit(
     state: AppState,
     headers: HeaderMap,
     Extension(client): Extension<Client>,
-    JsonBody(body): JsonBody,
+    body: JsonBody,
 ) -> Result<Response, Problem> {
     let key = idempotency_key(&headers)?.map(|key| client.scoped(key));
     let submission = read_within(&state, body, move |work| {
@@ -86,7 +85,7 @@ pub(super) struct Verdict {
     request_body(content = Request, content_type = "application/json"),
     responses((status = 200, description = "It would be accepted", body = Verdict))
 )]
-pub(super) async fn validate(state: AppState, JsonBody(body): JsonBody) -> Result<Response, Problem> {
+pub(super) async fn validate(state: AppState, body: JsonBody) -> Result<Response, Problem> {
     read_within(&state, body, |request| answer(&Verdict { valid: true, request })).await
 }
 
@@ -95,10 +94,10 @@ pub(super) async fn validate(state: AppState, JsonBody(body): JsonBody) -> Resul
 #[allow(clippy::disallowed_methods, reason = "reading is no analysis: short, and needs no cancelling")]
 async fn read_within<V: Send + 'static>(
     state: &Service,
-    body: Bytes,
+    body: JsonBody,
     then: impl FnOnce(Request) -> Result<V, Problem> + Send + 'static,
 ) -> Result<V, Problem> {
-    let turn = state.readers.clone().acquire_owned().await.map_err(|_| Problem::internal())?;
+    let turn = state.readers.turn(body.len()).await.ok_or_else(Problem::internal)?;
     let limits = state.settings.limits;
     let reading = tokio::task::spawn_blocking(move || {
         // Given back when it has been read, also where the client has gone.

@@ -92,6 +92,8 @@ pub struct Rendering {
     pub format: &'static str,
     /// The bytes, or why this answer has no such part.
     pub body: Result<Bytes, String>,
+    /// How many bytes the part has, where those kept are packed (gzip).
+    pub packed_from: Option<usize>,
 }
 
 /// What a worker makes of a request: the answer in every form in which it is given out. Copies share it.

@@ -1,6 +1,9 @@
 //! An answer in every form in which it is given out, written once.
 
+mod packed;
 mod table;
+
+pub use packed::{Unpacking, plain};
 
 use super::format::Format;
 use super::json::line;
@@ -49,14 +52,13 @@ pub fn renderings(
         }
     }
     let figure = prose::figure(question, answer, &result).map(Bytes::from);
-    all.push(Rendering { names: named(FIGURE), format: Format::Svg.name(), body: figure });
+    all.push(Rendering { names: named(FIGURE), format: Format::Svg.name(), body: figure, packed_from: None });
     Ok(all.into())
 }
 
 fn rendering(names: Vec<String>, format: Format, body: impl Into<Vec<u8>>) -> Rendering {
-    // As it is kept, without the room it grew in.
-    let body = body.into().into_boxed_slice();
-    Rendering { names, format: format.name(), body: Ok(body.into()) }
+    let (body, packed_from) = packed::packed(body.into());
+    Rendering { names, format: format.name(), body: Ok(body), packed_from }
 }
 
 /// A stress field goes by its load factor, and by the word it was asked for with.
@@ -75,10 +77,9 @@ pub fn field(load: &str) -> String {
     format!("fields/{}", number.unwrap_or_else(|_| load.to_owned()))
 }
 
-/// A part in a format; none where the answer has no such part, an error where it says why.
-pub fn find<'a>(product: &'a [Rendering], name: &str, format: Format) -> Option<&'a Result<Bytes, String>> {
+/// A part in a format, where the answer has it or says why not.
+pub fn find<'a>(product: &'a [Rendering], name: &str, format: Format) -> Option<&'a Rendering> {
     // A drawing is kept once, and goes by two media types.
     let format = if format == Format::Xml { Format::Svg } else { format };
-    let fits = |one: &&Rendering| one.format == format.name() && one.names.iter().any(|other| other == name);
-    product.iter().find(fits).map(|one| &one.body)
+    product.iter().find(|one| one.format == format.name() && one.names.iter().any(|other| other == name))
 }

@@ -47,7 +47,7 @@ fn failed() -> AnalysisError {
 
 /// In two parts, and without a third.
 fn answer() -> Product {
-    let part = |name: &str, body| Rendering { names: vec![name.to_owned()], format: "json", body };
+    let part = |name: &str, body| Rendering { names: vec![name.to_owned()], format: "json", body, packed_from: None };
     let of = |bytes: usize| Ok(vec![b' '; bytes].into());
     [part("most", of(ANSWER - 1)), part("rest", of(1)), part("third", Err("not here".to_owned()))].into()
 }

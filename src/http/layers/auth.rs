@@ -1,6 +1,7 @@
 //! Who may ask, and who asks.
 
 use crate::http::problem::Problem;
+use crate::http::quota::address_name;
 use axum::extract::{ConnectInfo, Request, State};
 use axum::http::StatusCode;
 use axum::middleware::Next;
@@ -54,7 +55,7 @@ impl Client {
 pub(super) async fn admit(State(tokens): State<Tokens>, mut request: Request, next: Next) -> Result<Response, Problem> {
     let client = if tokens.0.is_empty() {
         let address = request.extensions().get::<ConnectInfo<SocketAddr>>();
-        Client { name: address.map(|address| address.ip().to_string()).unwrap_or_default(), token: None }
+        Client { name: address.map(|address| address_name(address.ip())).unwrap_or_default(), token: None }
     } else {
         let given = request.headers().typed_get::<Authorization<Bearer>>();
         let token = given.and_then(|given| tokens.find(given.token())).ok_or_else(|| {
