@@ -7,6 +7,7 @@ use crate::wire::format::{FIELD, FIGURE, Format, HISTORY, RESULTS};
 use serde_json::{Value, from_value, json};
 use utoipa::ToSchema;
 use utoipa::openapi::OpenApi;
+use utoipa::openapi::ServerBuilder;
 use utoipa::openapi::link::{Link, LinkBuilder};
 use utoipa::openapi::security::{Http, HttpAuthScheme, SecurityRequirement, SecurityScheme};
 
@@ -20,9 +21,10 @@ const NO_SCOPES: [&str; 0] = [];
 type Refused = (&'static str, &'static str, fn(&str, &str) -> bool);
 
 /// Problems; of two for the same status code the first one holds.
-const PROBLEMS: [Refused; 19] = [
+const PROBLEMS: [Refused; 24] = [
     ("400", "The query cannot be read", |path, id| path.contains("/results") || id == "list_jobs"),
     ("400", "Not JSON, or a header that cannot be read", |_, id| has_body(id)),
+    ("400", "The header `host` is missing, given twice or no host name", |_, _| true),
     ("401", "No token, or another one; only where the service has tokens", |path, _| is_guarded(path)),
     ("404", "No such job, result not ready, or no such part", |path, _| path.contains("{id}")),
     ("406", "Not to be had in this format", |path, _| path.contains("/results")),
@@ -30,13 +32,19 @@ const PROBLEMS: [Refused; 19] = [
     ("410", "The job was dismissed", |path, _| path.contains("/results")),
     ("413", "The body is too long", |_, id| has_body(id)),
     ("415", "The body is not said to be JSON", |_, id| has_body(id)),
+    ("421", "The service does not go by the name in the header `host`", |_, _| true),
     ("422", "The analysis failed", |path, _| path.contains("/results")),
     ("422", FAULTY_OR_TAKEN, |_, id| id == "submit_job"),
     ("422", "Describes no analysis: the faults are listed", |_, id| id == "validate"),
-    ("429", "As many jobs of this client wait as may", |_, id| id == "submit_job"),
+    ("429", "As many jobs of this client wait as may, or as many of its bodies are on their way", |_, id| {
+        id == "submit_job"
+    }),
+    ("429", "As many bodies of this client are on their way as may", |_, id| id == "validate"),
+    ("429", "As many answers to this client are on their way as may", |path, _| path.contains("/results")),
     ("500", "A defect of the program", |_, _| true),
     ("503", "Too many answers are on their way", |path, _| path.contains("/results")),
     ("503", "Queue or memory full, or shutting down", |_, id| id == "submit_job"),
+    ("503", "As many bodies are on their way as there is memory for", |_, id| id == "validate"),
     ("503", "Too many streams are open, or shutting down", |_, id| id == "get_events"),
     ("503", "Shutting down", |_, id| id == "ready"),
     ("304", "As the client knows it already", |path, _| path.contains("/results")),
@@ -91,11 +99,9 @@ fn complete(document: &mut OpenApi) {
                 });
                 operation.parameters.get_or_insert_default().extend(from_value(format));
             }
-            if is_guarded(path) {
-                // A token, or none where the service is open to all.
-                operation.security =
-                    Some(vec![SecurityRequirement::new(TOKEN, NO_SCOPES), SecurityRequirement::default()]);
-            }
+            // A token, or none where the service is open to all; for the rest never one.
+            let token = || vec![SecurityRequirement::new(TOKEN, NO_SCOPES), SecurityRequirement::default()];
+            operation.security = Some(if is_guarded(path) { token() } else { Vec::new() });
         }
     }
     let submission = document.paths.paths.get_mut("/v1/jobs").and_then(|item| item.post.as_mut());
@@ -104,6 +110,7 @@ fn complete(document: &mut OpenApi) {
     {
         accepted.links.extend(LINKED.map(|operation| (operation.to_owned(), link(operation).into())));
     }
+    document.servers = Some(vec![ServerBuilder::new().url("/").description(Some("Where this was found")).build()]);
     let scheme = SecurityScheme::Http(Http::new(HttpAuthScheme::Bearer));
     document.components.get_or_insert_default().add_security_scheme(TOKEN, scheme);
 }

@@ -11,6 +11,9 @@ use std::io::{self, Read, Write};
 /// Parts of more bytes are packed. Shorter ones are compressed quickly enough as they are sent.
 const LARGE: usize = 256 << 10;
 
+/// How hard they are packed: a second of a worker for a hundred megabytes, which come to a third.
+const LEVEL: Compression = Compression::new(3);
+
 /// Bytes unpacked at once: a fraction of a millisecond.
 const STEP: usize = 64 << 10;
 
@@ -20,7 +23,7 @@ pub(super) fn packed(plain: Vec<u8>) -> (Bytes, Option<usize>) {
     if plain.len() <= LARGE {
         return whole(plain);
     }
-    let mut packer = GzEncoder::new(Vec::new(), Compression::fast());
+    let mut packer = GzEncoder::new(Vec::new(), LEVEL);
     // Writing to memory cannot fail.
     match packer.write_all(&plain).and_then(|()| packer.finish()) {
         Ok(packed) => (packed.into_boxed_slice().into(), Some(plain.len())),
