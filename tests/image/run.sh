@@ -8,8 +8,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 work=$(mktemp -d)
-export BUILDAH_ISOLATION=chroot STORAGE_DRIVER=vfs
-quiet="--quiet --storage-driver vfs --root $work/images --runroot $work/run"
+export BUILDAH_ISOLATION=chroot
 buildah() { command buildah --storage-driver vfs --root "$work/images" --runroot "$work/run" "$@"; }
 finish() { buildah rm --all > "$work/log" 2>&1 || true; rm -rf "$work"; }
 trap finish EXIT

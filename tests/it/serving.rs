@@ -13,13 +13,13 @@ mod process;
 #[path = "../load/requests.rs"]
 mod requests;
 
-use client::{connect, read_answer, request, send};
+use client::{connect, request, send};
 use draining::{Drained, Known, drain};
 use hostile::{half_closed, in_sequence, pipelined, refusals, rest, running, slow_body, slow_heads, stream, vanish};
 use process::Voussoir;
 use requests::{endless, tiny};
 use std::collections::BTreeSet;
-use std::io::{BufReader, Read, Write};
+use std::io::{Read, Write};
 use std::thread::scope;
 use std::time::{Duration, Instant};
 
