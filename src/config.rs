@@ -31,7 +31,7 @@ pub enum Verb {
     #[command(after_help = EXIT_CODES)]
     Solve(Solve),
     /// Serve HTTP until told to stop
-    Serve(Serve),
+    Serve(Box<Serve>),
     /// Print the OpenAPI document
     Openapi,
     /// Ask a running service for a sign of life

@@ -3,16 +3,18 @@
 use super::problem::{Problem, kinds};
 use super::quota::{Full, Quota, Share};
 use axum::body::Bytes;
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 
 /// Room for answers; copies are the same.
 #[derive(Debug, Clone)]
 pub(super) struct Outgoing {
     room: Quota,
-    /// By client and by where the bytes are.
-    under_way: Arc<Mutex<HashMap<(String, usize), Weak<Held>>>>,
+    under_way: Arc<Mutex<UnderWay>>,
 }
+
+/// What is held, by client and by where its bytes are.
+type UnderWay = BTreeMap<(String, usize), Weak<Held>>;
 
 /// An answer, and its share of the room until its last byte has gone to the last of the client's requests for it.
 #[derive(Debug)]

@@ -1,6 +1,6 @@
 //! So much of something, shared between clients: each of them may hold only a part of it.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::net::IpAddr;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -18,7 +18,7 @@ struct Books {
 #[derive(Debug, Default)]
 struct Held {
     all: usize,
-    each: HashMap<String, usize>,
+    each: BTreeMap<String, usize>,
 }
 
 /// What one client holds, until it is dropped.

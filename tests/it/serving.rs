@@ -31,7 +31,7 @@ fn slow_clients_are_closed_and_others_answered() {
     scope(|scope| {
         let slow = scope.spawn(|| slow_heads(&service, 20, &[b'G'; 200], SECOND / 10, 10 * SECOND));
         let silent = scope.spawn(|| slow_heads(&service, 20, b"", SECOND, 10 * SECOND));
-        let undecided = scope.spawn(|| slow_heads(&service, 20, b"PRI * HTTP/2.0\r\n", 0 * SECOND, 10 * SECOND));
+        let undecided = scope.spawn(|| slow_heads(&service, 20, b"PRI * HTTP/2.0\r\n", Duration::ZERO, 10 * SECOND));
         assert!(slow_body(&service).is_problem(408, ""));
         for closed in [slow, silent, undecided] {
             let closed = closed.join().unwrap();

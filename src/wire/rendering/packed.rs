@@ -11,7 +11,7 @@ use std::io::{self, Read, Write};
 /// Parts of more bytes are packed. Shorter ones are compressed quickly enough as they are sent.
 const LARGE: usize = 256 << 10;
 
-/// How hard they are packed: a second of a worker for a hundred megabytes, which come to a third.
+/// How hard they are packed: a hundred megabytes of numbers come to a third.
 const LEVEL: Compression = Compression::new(3);
 
 /// Bytes unpacked at once: a fraction of a millisecond.
