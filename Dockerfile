@@ -1,8 +1,20 @@
-FROM rust:1-slim-bookworm AS build
+# syntax=docker/dockerfile:1
+# Whoever publishes images pins the two bases by digest, as in rust:1.95-slim-bookworm@sha256:...
+FROM rust:1.95-slim-bookworm AS build
 WORKDIR /build
-# .dockerignore lets through what a build needs.
+# The same sources give the same program: no time and no path of this machine is in it.
+ENV SOURCE_DATE_EPOCH=0 CARGO_INCREMENTAL=0 \
+    RUSTFLAGS="--remap-path-prefix=/build=. --remap-path-prefix=/usr/local/cargo=cargo"
+# Dependencies first: this layer is built again only when they change. Cargo asks that every target of the manifest is there.
+COPY Cargo.toml Cargo.lock ./
+RUN set -eu; mkdir -p src benches tests/it tests/load; touch src/lib.rs; \
+    for target in src/main tests/it/main tests/load/main tests/load/malformed \
+        $(sed -n '/^\[\[bench\]\]/,/^$/s/^name = "\(.*\)"/benches\/\1/p' Cargo.toml); \
+    do echo 'fn main() {}' > $target.rs; done; \
+    cargo build --release --locked --bin voussoir
+# .dockerignore lets through what a build needs. What was there before is older than it looks to cargo.
 COPY . .
-RUN cargo build --release --locked --bin voussoir
+RUN touch src/lib.rs src/main.rs && cargo build --release --locked --bin voussoir
 
 FROM debian:bookworm-slim
 RUN useradd --system --no-create-home --uid 10001 voussoir

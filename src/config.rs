@@ -4,12 +4,14 @@ use axum::http::HeaderValue;
 use clap::builder::RangedU64ValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::io;
+use std::net::{Ipv6Addr, SocketAddr};
 use std::path::PathBuf;
 use std::thread::available_parallelism;
 use std::time::Duration;
 use tracing_subscriber::filter::LevelFilter;
 use voussoir::arch::MAX_VOUSSOIRS;
-use voussoir::http::{self, Settings, Tokens};
+use voussoir::http::quota::Quota;
+use voussoir::http::{self, Hosts, Settings, Tokens};
 use voussoir::jobs;
 use voussoir::wire::request::MAX_SUBBLOCKS;
 
@@ -29,7 +31,7 @@ pub enum Verb {
     #[command(after_help = EXIT_CODES)]
     Solve(Solve),
     /// Serve HTTP until told to stop
-    Serve(Serve),
+    Serve(Box<Serve>),
     /// Print the OpenAPI document
     Openapi,
     /// Ask a running service for a sign of life
@@ -138,7 +140,16 @@ pub struct Requests {
     /// Event streams open at once; beyond it 503
     #[arg(long, env = "VOUSSOIR_EVENT_STREAMS", default_value_t = 100, value_parser = count(0, 100_000))]
     pub event_streams: u64,
-    /// Bytes of answers on their way at once, large ones and those to slow clients; beyond it 503
+    /// Connections open at once; beyond it one is answered with 503 and closed
+    #[arg(long, env = "VOUSSOIR_CONNECTIONS", default_value_t = 1000, value_parser = count(1, 1_000_000))]
+    pub connections: u64,
+    /// Connections of one address (of a /64 in IPv6) open at once [default: half of --connections]
+    #[arg(long, env = "VOUSSOIR_CONNECTIONS_PER_CLIENT", value_parser = count(1, 1_000_000))]
+    pub connections_per_client: Option<u64>,
+    /// Bytes of bodies on their way in at once, beyond it 503; a quarter of them for one client, beyond it 429
+    #[arg(long, env = "VOUSSOIR_BODY_BYTES", default_value_t = 1 << 26, value_parser = count(1 << 20, 1 << 40))]
+    pub body_bytes: u64,
+    /// Bytes of answers on their way at once, beyond it 503; a quarter of them for one client, beyond it 429
     #[arg(long, env = "VOUSSOIR_ANSWER_BYTES", default_value_t = 1 << 28, value_parser = count(1 << 20, 1 << 40))]
     pub answer_bytes: u64,
     /// Bearer token that opens the service, may be given several times or as a list with commas; open to all without
@@ -148,6 +159,10 @@ pub struct Requests {
     /// changes
     #[arg(long, env = "VOUSSOIR_TOKEN_FILE")]
     pub token_file: Option<PathBuf>,
+    /// Name the service goes by, without port, may be given several times or as a list; requests for others are refused. Beside
+    /// names of the machine itself, which always hold [default: any, but none for an open service at a loopback address]
+    #[arg(long = "host", env = "VOUSSOIR_HOSTS", value_delimiter = ',', value_parser = host)]
+    pub hosts: Vec<String>,
     /// Origin whose pages may ask (CORS), such as https://example.org, may be given several times or as a list
     #[arg(long = "cors-origin", env = "VOUSSOIR_CORS_ORIGINS", value_delimiter = ',', value_parser = origin)]
     pub origins: Vec<HeaderValue>,
@@ -201,11 +216,17 @@ impl Serve {
         http::Work { workers: workers.map_or_else(spare, size), time: Duration::from_secs(job_time) }
     }
 
-    /// How the interface behaves.
+    /// How many connections there may be.
+    pub fn connections(&self) -> Quota {
+        let Requests { connections, connections_per_client, .. } = self.requests;
+        Quota::new(size(connections), size(connections_per_client.unwrap_or(connections.div_ceil(2))))
+    }
+
+    /// How the interface behaves, at the address where it listens.
     ///
     /// # Errors
     /// When some token cannot be one. Told here and not by the parser of the command line, which quotes what it refuses.
-    pub fn settings(&self) -> io::Result<Settings> {
+    pub fn settings(&self, address: SocketAddr) -> io::Result<Settings> {
         let requests = &self.requests;
         if !requests.tokens.iter().all(|token| http::is_token(token)) {
             return Err(io::Error::other(format!("--token: {}", http::NO_TOKEN)));
@@ -213,6 +234,8 @@ impl Serve {
         if requests.token_file.is_some() && !requests.tokens.is_empty() {
             return Err(io::Error::other("give --token or --token-file, not both"));
         }
+        let is_private = requests.tokens.is_empty() && address.ip().is_loopback();
+        let any = requests.hosts.is_empty() && !is_private;
         Ok(Settings {
             limits: http::ApiLimits {
                 body: size(requests.body_limit),
@@ -220,9 +243,11 @@ impl Serve {
                 voussoirs: size(self.work.voussoirs),
                 subblocks: size(self.work.subblocks),
                 streams: size(requests.event_streams),
+                incoming: size(requests.body_bytes),
                 outgoing: size(requests.answer_bytes),
             },
             tokens: Tokens::new(requests.tokens.iter().map(String::as_str)),
+            hosts: if any { Hosts::default() } else { Hosts::only(requests.hosts.clone()) },
             origins: requests.origins.clone(),
         })
     }
@@ -245,6 +270,15 @@ fn directives(text: &str) -> Result<String, String> {
         true => Ok(text.to_owned()),
         false => Err("give off, error, warn, info, debug or trace, or a list of target=level".to_owned()),
     }
+}
+
+/// The name of a host, without scheme, path or port.
+fn host(text: &str) -> Result<String, String> {
+    let name = text.strip_prefix('[').and_then(|rest| rest.strip_suffix(']'));
+    let is_address = name.is_some_and(|address| address.parse::<Ipv6Addr>().is_ok());
+    let is_name = !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_alphanumeric() || b"-._".contains(&byte));
+    let fits = is_address || is_name;
+    fits.then(|| text.to_owned()).ok_or_else(|| "a host is a name without port, such as arches.example.org".to_owned())
 }
 
 /// An origin as a browser sends it: scheme, host and perhaps port, nothing after.

@@ -1,5 +1,6 @@
 //! The verbs.
 
+mod connections;
 pub mod health;
 pub mod serve;
 pub mod solve;

@@ -1,26 +1,20 @@
 //! `voussoir serve`: start, serve, stop in order.
 
+use super::connections::{self, Door};
 use super::fail;
 use crate::config::Serve;
 use crate::telemetry;
 use axum_server::Handle;
-use axum_server::accept::Accept;
-use hyper_util::rt::{TokioExecutor, TokioTimer};
-use hyper_util::server::conn::auto::Builder;
 use std::fmt::Display;
 use std::fs;
-use std::future::{Ready, ready};
 use std::io;
 use std::net::{SocketAddr, TcpListener};
 use std::path::{Path, PathBuf};
-use std::pin::Pin;
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::Duration;
-use tokio::net::TcpStream;
 use tokio::runtime::Runtime;
 use tokio::time::{sleep, timeout};
-use tokio_io_timeout::TimeoutStream;
 use voussoir::collapse;
 use voussoir::http::{self, Service, Tokens};
 use voussoir::jobs::Memory;
@@ -49,14 +43,14 @@ pub fn serve(options: &Serve) -> ExitCode {
 }
 
 fn run(options: &Serve) -> io::Result<()> {
-    let (limits, work, settings) = (options.job_limits(), options.work(), options.settings()?);
+    let listener = TcpListener::bind(&options.address.bind)?;
+    listener.set_nonblocking(true)?;
+    let address = listener.local_addr()?;
+    let (limits, work, settings) = (options.job_limits(), options.work(), options.settings(address)?);
     let request_time = settings.limits.request_time;
     if let Some(file) = &options.requests.token_file {
         take_tokens(&settings.tokens, file)?;
     }
-    let listener = TcpListener::bind(&options.address.bind)?;
-    listener.set_nonblocking(true)?;
-    let address = listener.local_addr()?;
     let runtime = Runtime::new()?;
     let handle = Handle::new();
     runtime.block_on(async {
@@ -67,9 +61,9 @@ fn run(options: &Serve) -> io::Result<()> {
             tokio::spawn(follow_tokens(tokens, file));
         }
         let ending = tokio::spawn(end(service.clone(), handle.clone(), Duration::from_secs(options.grace)));
-        let server = axum_server::from_tcp(listener)?.acceptor(Patient(request_time));
-        let mut server = server.handle(handle).http1_only();
-        be_patient(server.http_builder(), request_time);
+        let door = Door { connections: options.connections(), patience: request_time };
+        let mut server = axum_server::from_tcp(listener)?.acceptor(door).handle(handle);
+        connections::bound(server.http_builder(), request_time);
         server.serve(http::router(service).into_make_service_with_connect_info::<SocketAddr>()).await?;
         ending.await.map_err(io::Error::other)
     })?;
@@ -77,28 +71,6 @@ fn run(options: &Serve) -> io::Result<()> {
     runtime.shutdown_background();
     tracing::info!("stopped");
     Ok(())
-}
-
-/// So patient and no more with a request's head; a client that has said all it will may still read the answer. The server
-/// itself has to know that it speaks HTTP/1 only, or it waits for a first byte without end.
-fn be_patient(builder: &mut Builder<TokioExecutor>, request_time: Duration) {
-    builder.http1().timer(TokioTimer::new()).header_read_timeout(request_time).half_close(true);
-}
-
-/// Hangs up on clients that ask and then take nothing for so long.
-#[derive(Debug, Clone)]
-struct Patient(Duration);
-
-impl<S> Accept<TcpStream, S> for Patient {
-    type Stream = Pin<Box<TimeoutStream<TcpStream>>>;
-    type Service = S;
-    type Future = Ready<io::Result<(Self::Stream, S)>>;
-
-    fn accept(&self, stream: TcpStream, service: S) -> Self::Future {
-        let mut stream = TimeoutStream::new(stream);
-        stream.set_write_timeout(Some(self.0));
-        ready(Ok((Box::pin(stream), service)))
-    }
 }
 
 /// Once told to stop: accepts no more jobs and ends event streams. Within `grace`, and until told a second time, jobs may end

@@ -12,7 +12,7 @@ use voussoir::collapse;
 use voussoir::wire::fault::Fault;
 use voussoir::wire::format::Format;
 use voussoir::wire::read::read_question;
-use voussoir::wire::rendering::{FIGURE, WHOLE, renderings};
+use voussoir::wire::rendering::{FIGURE, WHOLE, plain, renderings};
 
 /// Exit code for a request that cannot be analysed.
 const FAULTY: u8 = 2;
@@ -39,7 +39,7 @@ pub fn solve(options: &Solve) -> ExitCode {
     };
     let written = |name: &str, format: Format| {
         let part = product.iter().find(|part| part.is(name, format.name()));
-        part.map_or_else(|| Err(format!("there is no {name}")), |part| part.body.clone())
+        part.map_or_else(|| Err(format!("there is no {name}")), |part| plain(&part.part))
     };
     let drawn = options.figure.as_ref().map_or(Ok(()), |file| {
         let figure = written(FIGURE, Format::Svg)?;

@@ -29,6 +29,20 @@ pub(super) fn choose(asked: Option<&str>, headers: &HeaderMap, offered: &[Format
     })
 }
 
+/// True for a client that takes what is compressed with gzip (RFC 9110, section 12.5.3).
+pub(super) fn takes_gzip(headers: &HeaderMap) -> bool {
+    let weight = |wanted: &[&str]| {
+        let lines = headers.get_all(header::ACCEPT_ENCODING).iter().filter_map(|value| value.to_str().ok());
+        lines.flat_map(|line| line.split(',')).find_map(|one| {
+            let (name, weight) = one.split_once(';').unwrap_or((one, "q=1"));
+            let named = wanted.iter().any(|wanted| name.trim().eq_ignore_ascii_case(wanted));
+            let (_, weight) = weight.split_once('=').filter(|_| named)?;
+            weight.trim().parse::<f32>().ok()
+        })
+    };
+    weight(&["gzip", "x-gzip"]).or_else(|| weight(&["*"])).is_some_and(|weight| weight > 0.0)
+}
+
 /// The media ranges of `accept` with their weights; other parameters do not tell our formats apart.
 fn accepted(headers: &HeaderMap) -> String {
     let lines = headers.get_all(header::ACCEPT).iter().filter_map(|value| value.to_str().ok());
@@ -64,5 +78,24 @@ mod tests {
         assert_eq!(choose(Some("csv"), "application/json"), Some(Format::Csv));
         assert_eq!(choose(Some("vtu"), "*/*"), None);
         assert_eq!(super::choose(None, &HeaderMap::new(), &offered).ok(), Some(Format::Json));
+    }
+
+    #[test]
+    fn gzip_is_for_those_who_name_it() {
+        for (text, takes) in [
+            ("gzip", true),
+            ("deflate, GZIP;q=0.5", true),
+            ("br;q=1.0, *;q=0.1", true),
+            ("x-gzip", true),
+            ("", false),
+            ("br", false),
+            ("identity, *;q=0", false),
+            ("*, gzip; q=0", false),
+            ("gzip;q=none", false),
+        ] {
+            let headers = HeaderMap::from_iter([(header::ACCEPT_ENCODING, HeaderValue::from_static(text))]);
+            assert_eq!(takes_gzip(&headers), takes, "{text}");
+        }
+        assert!(!takes_gzip(&HeaderMap::new()));
     }
 }

@@ -1,16 +1,33 @@
-//! A body of JSON on its way in.
+//! A body of JSON on its way in: together they hold only so much memory.
 
 use super::Service;
+use super::layers::Client;
 use super::problem::{Problem, kinds};
-use axum::body::Bytes;
+use super::quota::{Full, Share};
+use axum::body::Body;
 use axum::extract::{FromRequest, Request};
 use axum::http::{HeaderMap, StatusCode, header};
-use axum::response::IntoResponse;
+use futures_util::StreamExt;
 use headers::{ContentLength, HeaderMapExt};
 use serde::de::IgnoredAny;
+use std::ops::Deref;
 
-/// A body that is JSON, arrived in time and is not too long.
-pub(super) struct JsonBody(pub(super) Bytes);
+/// What the shortest body counts, bytes: what is kept beside it, and reading it, cost no less.
+pub(super) const LEAST: usize = 16 << 10;
+
+/// A body that is JSON, arrived in time and is not too long. Its share of the memory is given back when it has been read.
+pub(super) struct JsonBody {
+    bytes: Vec<u8>,
+    share: Share,
+}
+
+impl Deref for JsonBody {
+    type Target = [u8];
+
+    fn deref(&self) -> &[u8] {
+        &self.bytes
+    }
+}
 
 impl FromRequest<Service> for JsonBody {
     type Rejection = Problem;
@@ -24,20 +41,55 @@ impl FromRequest<Service> for JsonBody {
             return unsupported("send the body as it is, without content-encoding");
         }
         let (most, time) = (service.settings.limits.body, service.settings.limits.request_time);
-        let too_long =
-            || Problem::plain(StatusCode::PAYLOAD_TOO_LARGE, format!("the body may have at most {most} bytes"));
         // Told before the body is sent, to clients that ask whether they may.
-        if request.headers().typed_get::<ContentLength>().is_some_and(|length| length.0 > most as u64) {
-            return Err(too_long());
+        let length = request.headers().typed_get::<ContentLength>().map(|length| length.0);
+        if length.is_some_and(|length| length > most as u64) {
+            return Err(too_long(most));
         }
-        let body = tokio::time::timeout(time, Bytes::from_request(request, service)).await.map_err(|_| {
+        let client = request.extensions().get::<Client>().map(|client| &*client.name).unwrap_or_default();
+        let share = service.incoming.take(client, LEAST).map_err(no_room)?;
+        let body = JsonBody { bytes: Vec::new(), share };
+        tokio::time::timeout(time, body.fill(request.into_body(), most)).await.map_err(|_| {
             let detail = format!("the body did not arrive within {} s", time.as_secs_f64());
             Problem::plain(StatusCode::REQUEST_TIMEOUT, detail)
-        })?;
-        body.map(JsonBody).map_err(|rejection| match rejection.into_response().status() {
-            StatusCode::PAYLOAD_TOO_LARGE => too_long(),
-            _ => Problem::plain(StatusCode::BAD_REQUEST, "the body could not be read to its end"),
-        })
+        })?
+    }
+}
+
+impl JsonBody {
+    /// Takes what arrives, at most `most` bytes, and room for it as it grows.
+    async fn fill(mut self, body: Body, most: usize) -> Result<Self, Problem> {
+        let broken = |_| Problem::plain(StatusCode::BAD_REQUEST, "the body could not be read to its end");
+        let mut stream = body.into_data_stream();
+        while let Some(piece) = stream.next().await {
+            let piece = piece.map_err(broken)?;
+            let needed = self.bytes.len() + piece.len();
+            if needed > most {
+                return Err(too_long(most));
+            }
+            let room = self.bytes.capacity();
+            if needed > room {
+                let wanted = needed.max(2 * room).max(LEAST).min(most);
+                self.share.grow(wanted.max(LEAST) - room.max(LEAST)).map_err(no_room)?;
+                // Copied, since a piece is part of a larger buffer and would keep all of that.
+                self.bytes.reserve_exact(wanted - self.bytes.len());
+            }
+            self.bytes.extend_from_slice(&piece);
+        }
+        Ok(self)
+    }
+}
+
+fn too_long(most: usize) -> Problem {
+    Problem::plain(StatusCode::PAYLOAD_TOO_LARGE, format!("the body may have at most {most} bytes"))
+}
+
+fn no_room(full: Full) -> Problem {
+    match full {
+        Full::OfClient => {
+            Problem::of(kinds::CLIENT_BODIES_FULL, "as many bodies of this client are on their way as one may send")
+        }
+        Full::OfAll => Problem::of(kinds::BODIES_FULL, "as many bodies are on their way as there is memory for"),
     }
 }
 

@@ -7,6 +7,7 @@ use crate::wire::format::{FIELD, FIGURE, Format, HISTORY, RESULTS};
 use serde_json::{Value, from_value, json};
 use utoipa::ToSchema;
 use utoipa::openapi::OpenApi;
+use utoipa::openapi::ServerBuilder;
 use utoipa::openapi::link::{Link, LinkBuilder};
 use utoipa::openapi::security::{Http, HttpAuthScheme, SecurityRequirement, SecurityScheme};
 
@@ -20,9 +21,10 @@ const NO_SCOPES: [&str; 0] = [];
 type Refused = (&'static str, &'static str, fn(&str, &str) -> bool);
 
 /// Problems; of two for the same status code the first one holds.
-const PROBLEMS: [Refused; 23] = [
+const PROBLEMS: [Refused; 28] = [
     ("400", "The query cannot be read", |path, id| of_results(path, id) || id == "list_jobs"),
     ("400", "Not JSON, or a header that cannot be read", |_, id| has_body(id)),
+    ("400", "The header `host` is missing, given twice or no host name", |_, _| true),
     ("401", "No token, or another one; only where the service has tokens", |path, _| is_guarded(path)),
     ("403", "The token may not do this; only where the service has tokens", |path, _| is_guarded(path)),
     ("404", "No such job, result not ready, or no such part", |path, _| path.contains("{id}")),
@@ -34,13 +36,21 @@ const PROBLEMS: [Refused; 23] = [
     ("410", "The job was dismissed", of_results),
     ("413", "The body is too long", |_, id| has_body(id)),
     ("415", "The body is not said to be JSON", |_, id| has_body(id)),
+    ("421", "The service does not go by the name in the header `host`", |_, _| true),
     ("422", "The analysis failed", of_results),
     ("422", FAULTY_OR_TAKEN, |_, id| id == "submit_job"),
     ("422", "Describes no analysis: the faults are listed", |_, id| id == "validate"),
-    ("429", "As many jobs of this client wait, or as many bytes are kept for it, as may", |_, id| id == "submit_job"),
+    (
+        "429",
+        "As many jobs of this client wait, or as many bytes are kept for it or on their way from it, as may",
+        |_, id| id == "submit_job",
+    ),
+    ("429", "As many bodies of this client are on their way as may", |_, id| id == "validate"),
+    ("429", "As many answers to this client are on their way as may", of_results),
     ("500", "A defect of the program", |_, _| true),
     ("503", "Too many answers are on their way", of_results),
     ("503", "Queue or memory full, or shutting down", |_, id| id == "submit_job"),
+    ("503", "As many bodies are on their way as there is memory for", |_, id| id == "validate"),
     ("503", "Too many streams are open, or shutting down", |_, id| id == "get_events"),
     ("503", "Shutting down", |_, id| id == "ready"),
     ("304", "As the client knows it already", of_results),
@@ -109,11 +119,9 @@ fn complete(document: &mut OpenApi) {
                 });
                 operation.parameters.get_or_insert_default().extend(from_value(format));
             }
-            if is_guarded(path) {
-                // A token, or none where the service is open to all.
-                operation.security =
-                    Some(vec![SecurityRequirement::new(TOKEN, NO_SCOPES), SecurityRequirement::default()]);
-            }
+            // A token, or none where the service is open to all; for the rest never one.
+            let token = || vec![SecurityRequirement::new(TOKEN, NO_SCOPES), SecurityRequirement::default()];
+            operation.security = Some(if is_guarded(path) { token() } else { Vec::new() });
         }
     }
     let submission = document.paths.paths.get_mut("/v1/jobs").and_then(|item| item.post.as_mut());
@@ -122,6 +130,7 @@ fn complete(document: &mut OpenApi) {
     {
         accepted.links.extend(LINKED.map(|operation| (operation.to_owned(), link(operation).into())));
     }
+    document.servers = Some(vec![ServerBuilder::new().url("/").description(Some("Where this was found")).build()]);
     let scheme = SecurityScheme::Http(Http::new(HttpAuthScheme::Bearer));
     document.components.get_or_insert_default().add_security_scheme(TOKEN, scheme);
 }

@@ -18,6 +18,8 @@ pub struct ApiLimits {
     pub subblocks: usize,
     /// Most event streams open at once.
     pub streams: usize,
+    /// Most bytes of bodies on their way in.
+    pub incoming: usize,
     /// Most bytes of answers on their way.
     pub outgoing: usize,
 }

@@ -15,17 +15,21 @@ mod meta;
 mod metrics;
 mod outgoing;
 pub mod problem;
+pub mod quota;
+mod readers;
 mod results;
 mod service;
 pub mod status;
 mod submit;
 
 pub use document::document;
-pub use layers::{NO_TOKEN, Tokens, is_token};
+pub use layers::{Hosts, NO_TOKEN, Tokens, is_token};
 pub use limits::ApiLimits;
 pub use service::{Service, Settings, Solver, Work};
 
 use axum::Router;
+use axum::response::Redirect;
+use axum::routing::get;
 use utoipa::OpenApi;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
@@ -65,6 +69,9 @@ fn open() -> OpenApiRouter<Service> {
 pub fn router(service: Service) -> Router {
     let (guarded, _) = guarded().split_for_parts();
     let (open, _) = open().split_for_parts();
-    let router = layers::guard(guarded, service.settings.tokens.clone()).merge(open).merge(docs::router());
+    let router = layers::guard(guarded, service.settings.tokens.clone())
+        .merge(open)
+        .merge(docs::router())
+        .route("/", get(Redirect::to("/docs/")));
     layers::wrap(router.with_state(service.clone()), &service)
 }

@@ -4,17 +4,21 @@ use super::Service;
 use super::accept;
 use super::etag::Version;
 use super::jobs::{Known, query_fault};
+use super::layers::Client;
 use super::problem::{Problem, kinds};
-use crate::jobs::{Job, JobState};
+use crate::jobs::{Job, JobState, Part};
 use crate::wire::format::{self, Format};
-use crate::wire::rendering;
+use crate::wire::rendering::{self, Unpacking};
 use crate::wire::response::{HistoryColumns, JobResult, StressFieldBody};
+use axum::body::{Body, Bytes};
 use axum::extract::rejection::{PathRejection, QueryRejection};
 use axum::extract::{FromRequestParts, Path, Query};
 use axum::http::request::Parts;
 use axum::http::{HeaderMap, HeaderValue, header};
-use axum::response::Response;
+use axum::response::{IntoResponse, Response};
+use futures_util::stream;
 use serde::Deserialize;
+use std::sync::Arc;
 
 /// In which format.
 #[derive(Debug, Deserialize)]
@@ -29,6 +33,7 @@ pub(super) struct Asked {
     job: Job,
     f: Option<String>,
     headers: HeaderMap,
+    client: Arc<str>,
 }
 
 impl FromRequestParts<Service> for Asked {
@@ -38,14 +43,15 @@ impl FromRequestParts<Service> for Asked {
         let Known(job) = Known::from_request_parts(parts, service).await?;
         let query: Result<Query<FormatQuery>, QueryRejection> = Query::from_request_parts(parts, service).await;
         let Query(FormatQuery { f }) = query.map_err(|bad| query_fault(&bad))?;
-        Ok(Asked { service: service.clone(), job, f, headers: parts.headers.clone() })
+        let client = parts.extensions.get::<Client>().map(|client| client.name.clone()).unwrap_or_default();
+        Ok(Asked { service: service.clone(), job, f, headers: parts.headers.clone(), client })
     }
 }
 
 impl Asked {
     /// A part of the answer in the format the client wants, unless it has it already; `missing` says why an answer has none.
     async fn give(self, part: &str, offered: &[Format], missing: &str) -> Result<Response, Problem> {
-        let Asked { service, job: Job { id, state, .. }, f, headers } = self;
+        let Asked { service, job: Job { id, state, .. }, f, headers, client } = self;
         let none = |kind, detail: String| Err(Problem::of(kind, detail));
         match state {
             JobState::Successful => {}
@@ -65,17 +71,33 @@ impl Asked {
         let version = Version::of((id, part, format));
         let mut response = match version.known(&headers) {
             Some(response) => response,
-            None => match service.store.part(id, part, rendering::kept_as(format)).await?.map(|part| part.body) {
-                Some(Ok(body)) => {
-                    let body = service.outgoing.body(body)?;
-                    version.mark(([(header::CONTENT_TYPE, format.content_type())], body))
+            None => match service.store.part(id, part, rendering::kept_as(format)).await? {
+                Some(Part { body: Ok(bytes), packed_from }) => {
+                    let bytes = service.outgoing.hold(&client, bytes)?;
+                    let content_type = [(header::CONTENT_TYPE, format.content_type())];
+                    version.mark((content_type, body(bytes, packed_from, &headers)))
                 }
-                Some(Err(reason)) => return none(kinds::NO_SUCH_PART, reason),
+                Some(Part { body: Err(reason), .. }) => return none(kinds::NO_SUCH_PART, reason),
                 None => return none(kinds::NO_SUCH_PART, missing.to_owned()),
             },
         };
-        response.headers_mut().append(header::VARY, HeaderValue::from_static("accept"));
+        response.headers_mut().append(header::VARY, HeaderValue::from_static("accept, accept-encoding"));
         Ok(response)
+    }
+}
+
+/// A part as its client takes it. What is kept packed goes out as it is to those who accept gzip; to others it is unpacked
+/// as they read, a step at a time.
+pub(super) fn body(bytes: Bytes, packed_from: Option<usize>, headers: &HeaderMap) -> Response {
+    match packed_from {
+        None => Body::from(bytes).into_response(),
+        Some(_) if accept::takes_gzip(headers) => {
+            ([(header::CONTENT_ENCODING, "gzip")], Body::from(bytes)).into_response()
+        }
+        Some(length) => {
+            let plain = Body::from_stream(stream::iter(Unpacking::new(bytes)));
+            ([(header::CONTENT_LENGTH, HeaderValue::from(length))], plain).into_response()
+        }
     }
 }
 

@@ -1,9 +1,12 @@
 //! What every handler can reach.
 
-use super::layers::Tokens;
+use super::body;
+use super::layers::{Hosts, Tokens};
 use super::limits::ApiLimits;
 use super::metrics::Metrics;
 use super::outgoing::Outgoing;
+use super::quota::Quota;
+use super::readers::Readers;
 use crate::budget::Budget;
 use crate::collapse::{AnalysisError, Answer, Question};
 use crate::jobs::{Failure, Job, JobState, Product, Store, Workers};
@@ -11,9 +14,7 @@ use crate::wire::read::read_question;
 use crate::wire::rendering::renderings;
 use axum::body::Bytes;
 use axum::http::HeaderValue;
-use std::num::NonZeroUsize;
 use std::sync::Arc;
-use std::thread::available_parallelism;
 use std::time::{Duration, Instant};
 use tokio::sync::Semaphore;
 use tokio_util::sync::CancellationToken;
@@ -28,8 +29,15 @@ pub struct Settings {
     pub limits: ApiLimits,
     /// Who may ask.
     pub tokens: Tokens,
+    /// The names it goes by.
+    pub hosts: Hosts,
     /// Pages of which origins may ask.
     pub origins: Vec<HeaderValue>,
+}
+
+/// What one client may have of what all have.
+fn part(all: usize) -> usize {
+    all.div_ceil(4)
 }
 
 /// How a handler is given the service.
@@ -57,28 +65,31 @@ pub struct Service {
     pub(super) settings: Arc<Settings>,
     pub(super) metrics: Metrics,
     pub(super) streams: Arc<Semaphore>,
-    /// As many requests are read at once as there are cores.
-    pub(super) readers: Arc<Semaphore>,
+    pub(super) readers: Readers,
+    /// Memory for bodies on their way in, bytes.
+    pub(super) incoming: Quota,
     pub(super) outgoing: Outgoing,
 }
 
 impl Service {
-    /// Starts the workers, in the runtime of the caller.
+    /// Starts the workers, in the runtime of the caller; of the memory for bodies and answers each client may have a part.
     pub fn start(store: Arc<dyn Store>, work: Work, settings: Settings, analyse: Solver) -> Self {
         let metrics = Metrics::default();
         let counted = metrics.clone();
         let analyse = move |request: &Bytes, budget: &Budget| perform(request, budget, analyse);
         let workers = Workers::start(store.clone(), work.workers, work.time, analyse, move |job| ended(&counted, job));
-        let cores = available_parallelism().map_or(1, NonZeroUsize::get);
+        let (limits, longest) = (settings.limits, settings.limits.body.max(body::LEAST));
+        let incoming = limits.incoming.max(longest);
         Service {
             store,
             workers: Arc::new(workers),
             stopping: CancellationToken::new(),
             work,
             metrics,
-            streams: Arc::new(Semaphore::new(settings.limits.streams)),
-            readers: Arc::new(Semaphore::new(cores)),
-            outgoing: Outgoing::new(settings.limits.outgoing),
+            streams: Arc::new(Semaphore::new(limits.streams)),
+            readers: Readers::new(),
+            incoming: Quota::new(incoming, part(incoming).max(longest)),
+            outgoing: Outgoing::new(limits.outgoing, part(limits.outgoing)),
             settings: Arc::new(settings),
         }
     }

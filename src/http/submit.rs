@@ -4,6 +4,7 @@ use super::body::{JsonBody, check_syntax};
 use super::jobs::{JSON, answer};
 use super::layers::Client;
 use super::problem::{Problem, kinds};
+use super::results;
 use super::service::{AppState, Service};
 use super::status::{self, JobStatus};
 use crate::jobs::{Job, JobId, Status, Submission};
@@ -13,7 +14,6 @@ use crate::wire::read;
 use crate::wire::rendering;
 use crate::wire::request::Request;
 use axum::Extension;
-use axum::body::Bytes;
 use axum::http::{HeaderMap, HeaderName, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use serde::Serialize;
@@ -55,12 +55,13 @@ pub(super) async fn submit(
     state: AppState,
     headers: HeaderMap,
     Extension(client): Extension<Client>,
-    JsonBody(body): JsonBody,
+    body: JsonBody,
 ) -> Result<Response, Problem> {
     let key = idempotency_key(&headers)?.map(|key| client.scoped(key));
+    let name = client.name.clone();
     let submission = read_within(&state, body, move |work| {
-        let (name, request) = (work.name().map(str::to_owned), json::line(&work).map_err(Problem::unwritable)?.into());
-        Ok(Submission { request, name, client: client.name, key })
+        let request = json::line(&work).map_err(Problem::unwritable)?.into();
+        Ok(Submission { request, name: work.name().map(str::to_owned), client: client.name, key })
     });
     let job = match state.store.submit(submission.await?).await {
         Ok(job) => job,
@@ -71,10 +72,13 @@ pub(super) async fn submit(
     let job = stand_after(&state, job, preferred.wait.unwrap_or_default()).await?;
     let whole = preferred.results && job.status() == Status::Successful;
     let part = if whole { state.store.part(job.id, rendering::WHOLE, Format::Json.name()).await? } else { None };
-    let results = part.and_then(|part| part.body.ok());
+    let results = part.and_then(|part| Some((part.body.ok()?, part.packed_from)));
     let heeded = preferred.heeded(results.is_some()).and_then(|heeded| heeded.parse().ok());
     let mut response = match results {
-        Some(results) => (results_of(job.id), JSON, state.outgoing.body(results)?).into_response(),
+        Some((bytes, packed_from)) => {
+            let body = results::body(state.outgoing.hold(&name, bytes)?, packed_from, &headers);
+            (results_of(job.id), JSON, body).into_response()
+        }
         None => answer(&JobStatus::from(&job))?,
     };
     response.headers_mut().extend(heeded.map(|heeded| (PREFERENCE_APPLIED, heeded)));
@@ -116,7 +120,7 @@ pub(super) struct Verdict {
     request_body(content = Request, content_type = "application/json"),
     responses((status = 200, description = "It would be accepted", body = Verdict))
 )]
-pub(super) async fn validate(state: AppState, JsonBody(body): JsonBody) -> Result<Response, Problem> {
+pub(super) async fn validate(state: AppState, body: JsonBody) -> Result<Response, Problem> {
     read_within(&state, body, |request| answer(&Verdict { valid: true, request })).await
 }
 
@@ -125,10 +129,10 @@ pub(super) async fn validate(state: AppState, JsonBody(body): JsonBody) -> Resul
 #[allow(clippy::disallowed_methods, reason = "reading is no analysis: short, and needs no cancelling")]
 async fn read_within<V: Send + 'static>(
     state: &Service,
-    body: Bytes,
+    body: JsonBody,
     then: impl FnOnce(Request) -> Result<V, Problem> + Send + 'static,
 ) -> Result<V, Problem> {
-    let turn = state.readers.clone().acquire_owned().await.map_err(|_| Problem::internal())?;
+    let turn = state.readers.turn(body.len()).await.ok_or_else(Problem::internal)?;
     let limits = state.settings.limits;
     let reading = tokio::task::spawn_blocking(move || {
         // Given back when it has been read, also where the client has gone.

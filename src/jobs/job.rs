@@ -77,15 +77,24 @@ impl JobState {
     }
 }
 
-/// A part of an answer in one format, as it is given out.
+/// A part of an answer in one format.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rendering {
     /// What the part is called, one name or more.
     pub names: Vec<String>,
     /// Its format, as the query names it.
     pub format: &'static str,
-    /// The part, or why the answer has none.
+    /// What is kept of it.
+    pub part: Part,
+}
+
+/// A part as it is kept.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Part {
+    /// Its bytes, or why the answer has none.
     pub body: Result<Bytes, String>,
+    /// How many bytes the part has, where those kept are packed (gzip).
+    pub packed_from: Option<usize>,
 }
 
 impl Rendering {

@@ -1,6 +1,6 @@
 //! The store in memory: nothing to install, and gone with the process.
 
-use super::job::{Job, JobId, Rendering, Status};
+use super::job::{Job, JobId, Part, Status};
 use super::journal::Journal;
 use super::store::{Cancelled, Ending, Lease, Occupancy, Refusal, Store, Submission, Unavailable, Which};
 use super::table::Table;
@@ -99,12 +99,12 @@ impl Store for Memory {
         Ok(self.books(|table| table.request(id)))
     }
 
-    async fn part(&self, id: JobId, name: &str, format: &str) -> Result<Option<Rendering>, Unavailable> {
+    async fn part(&self, id: JobId, name: &str, format: &str) -> Result<Option<Part>, Unavailable> {
         let product = self.books(|table| {
             table.seen(id);
             table.product(id)
         });
-        Ok(product.and_then(|product| product.iter().find(|part| part.is(name, format)).cloned()))
+        Ok(product.and_then(|product| product.iter().find(|one| one.is(name, format)).map(|one| one.part.clone())))
     }
 
     async fn seen(&self, id: JobId) -> Result<(), Unavailable> {

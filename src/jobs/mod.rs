@@ -13,7 +13,7 @@ mod store;
 mod table;
 mod workers;
 
-pub use job::{Failure, Job, JobId, JobState, Product, Rendering, Status};
+pub use job::{Failure, Job, JobId, JobState, Part, Product, Rendering, Status};
 pub use memory::{Limits, Memory};
 pub use progress::Progress;
 pub use store::{Cancelled, Ending, Lease, Occupancy, Refusal, Store, Submission, Unavailable, Which};

@@ -1,6 +1,6 @@
 //! What every store of jobs does.
 
-use super::job::{Job, JobId, JobState, Product, Rendering, Status};
+use super::job::{Job, JobId, JobState, Part, Product, Status};
 use super::progress::Progress;
 use bytes::Bytes;
 use std::sync::Arc;
@@ -137,7 +137,7 @@ pub trait Store: Send + Sync {
     async fn request(&self, id: JobId) -> Result<Option<Bytes>, Unavailable>;
 
     /// A part of a successful job's answer. The job counts as read.
-    async fn part(&self, id: JobId, name: &str, format: &str) -> Result<Option<Rendering>, Unavailable>;
+    async fn part(&self, id: JobId, name: &str, format: &str) -> Result<Option<Part>, Unavailable>;
 
     /// Notes that a client has learnt how a job ended that has no answer to read.
     async fn seen(&self, id: JobId) -> Result<(), Unavailable>;

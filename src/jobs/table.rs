@@ -161,7 +161,7 @@ impl Table {
     /// The end of a job that had none.
     fn finish(&mut self, id: JobId, state: JobState, product: Product, wall_time: Option<Duration>) -> Option<Job> {
         let entry = self.jobs.get_mut(&id).filter(|entry| entry.ended.is_none())?;
-        let bytes = product.iter().map(|part| part.body.as_ref().map_or(0, Bytes::len)).sum::<usize>();
+        let bytes = product.iter().map(|one| one.part.body.as_ref().map_or(0, Bytes::len)).sum::<usize>();
         self.ends += 1;
         (entry.product, entry.ended) = (product, Some((self.ends, Instant::now())));
         entry.bytes += bytes;

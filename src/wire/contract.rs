@@ -1,5 +1,7 @@
-//! What the derives of the request cannot say in the OpenAPI document: that unknown fields are refused, bounds of what
-//! has no field of its own, and examples.
+//! What the derives of the request cannot say in the OpenAPI document: that unknown fields are refused, that those of an answer
+//! are always there, names of alternatives, and examples.
+
+mod alternatives;
 
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -23,17 +25,39 @@ const EXAMPLES: [(&str, &str); 9] = [
     ("curved-beam", include_str!("../../cases/paper/section-3-3/sectors/7x7/request.json")),
 ];
 
+/// Fields of answers that are left out where they have nothing to say; all others are always there, be it as null.
+const LEFT_OUT: [(&str, &str); 4] =
+    [("EndBody", "without_crushing"), ("EndBody", "motion"), ("Problem", "errors"), ("ListLinks", "next")];
+
 /// The document as it was derived, completed.
 pub fn complete(mut document: OpenApi) -> OpenApi {
     if let Some(components) = &mut document.components {
-        close_objects(components);
+        let asked = close_objects(components);
+        for (name, schema) in &mut components.schemas {
+            if !asked.contains(name) {
+                require(name, schema);
+            }
+            alternatives::describe(name, schema);
+        }
     }
     add_examples(&mut document);
     document
 }
 
-/// Unknown fields are refused in every object of a body.
-fn close_objects(components: &mut Components) {
+/// What an answer's object always has is required of it.
+fn require(name: &str, schema: &mut RefOr<Schema>) {
+    match schema {
+        RefOr::T(Schema::Object(object)) => {
+            let always = object.properties.keys().filter(|field| !LEFT_OUT.contains(&(name, field.as_str())));
+            object.required = always.cloned().collect();
+        }
+        RefOr::T(Schema::AllOf(all)) => all.items.iter_mut().for_each(|item| require(name, item)),
+        _ => {}
+    }
+}
+
+/// Unknown fields are refused in every object of a body; the names of what a body is made of.
+fn close_objects(components: &mut Components) -> BTreeSet<String> {
     let (mut open, mut seen) = (vec![BODY.to_owned()], BTreeSet::new());
     while let Some(name) = open.pop() {
         if let Some(schema) = components.schemas.get_mut(&name)
@@ -42,6 +66,7 @@ fn close_objects(components: &mut Components) {
             close(schema, &mut open);
         }
     }
+    seen
 }
 
 /// Closes the objects of a schema; names what it refers to.

@@ -26,12 +26,11 @@ pub fn lies_under(pointer: &str, place: &str) -> bool {
 /// Most faults that are listed.
 const MOST_FAULTS_LISTED: usize = 100;
 
-/// The faults as they are listed: the first hundred, and how many more there are.
+/// The faults as they are listed: the first hundred, and whether there are more.
 pub fn listed(mut faults: Vec<Fault>) -> Vec<Fault> {
-    let more = faults.len().saturating_sub(MOST_FAULTS_LISTED);
-    faults.truncate(MOST_FAULTS_LISTED);
-    if more > 0 {
-        faults.push(Fault { pointer: String::new(), detail: format!("and {more} more: mend these first") });
+    if faults.len() > MOST_FAULTS_LISTED {
+        faults.truncate(MOST_FAULTS_LISTED);
+        faults.push(Fault { pointer: String::new(), detail: "and more: mend these first".to_owned() });
     }
     faults
 }
@@ -68,9 +67,14 @@ impl Faults {
         self.strays += 1;
     }
 
-    /// True when nothing is wrong but fields that do not belong.
+    /// True when there are more than are listed: looking for others is in vain.
+    pub fn is_full(&self) -> bool {
+        self.all.len() > MOST_FAULTS_LISTED
+    }
+
+    /// True when nothing is wrong but fields that do not belong, and all of it is known.
     pub fn only_strays(&self) -> bool {
-        self.all.len() == self.strays
+        self.all.len() == self.strays && !self.is_full()
     }
 
     /// True when nothing is wrong so far.

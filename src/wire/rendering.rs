@@ -1,6 +1,9 @@
 //! An answer in every form in which it is given out, written once.
 
+mod packed;
 mod table;
+
+pub use packed::{Unpacking, plain};
 
 use super::format::Format;
 use super::json::line;
@@ -8,7 +11,7 @@ use super::prose;
 use super::request::{AnalysisRequest, Request, StressFieldRequest};
 use super::response::JobResult;
 use crate::collapse::{Answer, CollapseReport, Question};
-use crate::jobs::{Failure, Product, Rendering};
+use crate::jobs::{Failure, Part, Product, Rendering};
 use crate::render::vtu::vtu;
 use bytes::Bytes;
 use std::time::Duration;
@@ -49,14 +52,13 @@ pub fn renderings(
         }
     }
     let figure = prose::figure(question, answer, &result).map(Bytes::from);
-    all.push(Rendering { names: named(FIGURE), format: Format::Svg.name(), body: figure });
+    let part = Part { body: figure, packed_from: None };
+    all.push(Rendering { names: named(FIGURE), format: Format::Svg.name(), part });
     Ok(all.into())
 }
 
 fn rendering(names: Vec<String>, format: Format, body: impl Into<Vec<u8>>) -> Rendering {
-    // As it is kept, without the room it grew in.
-    let body = body.into().into_boxed_slice();
-    Rendering { names, format: format.name(), body: Ok(body.into()) }
+    Rendering { names, format: format.name(), part: packed::packed(body.into()) }
 }
 
 /// A stress field goes by its load factor, and by the word it was asked for with.

@@ -22,20 +22,32 @@ const MOST_REPEATED: usize = 100;
 pub fn parse(text: &[u8]) -> Result<(Value, Vec<String>), serde_json::Error> {
     let repeated = RefCell::new(Vec::new());
     let mut reader = serde_json::Deserializer::from_slice(text);
-    let value = JsonNode { pointer: String::new(), repeated: &repeated }.deserialize(&mut reader)?;
+    let value = JsonNode { place: Place::Root, repeated: &repeated }.deserialize(&mut reader)?;
     reader.end()?;
     Ok((value, repeated.into_inner()))
 }
 
-struct JsonNode<'a> {
-    pointer: String,
-    repeated: &'a RefCell<Vec<String>>,
+/// Where a value stands. Written out only where something is to be said of it: most requests have nothing to say.
+#[derive(Clone, Copy)]
+enum Place<'a> {
+    Root,
+    Item(&'a Place<'a>, usize),
+    Member(&'a Place<'a>, &'a str),
 }
 
-impl JsonNode<'_> {
-    fn child(&self, key: &str) -> Self {
-        JsonNode { pointer: child(&self.pointer, key), repeated: self.repeated }
+impl Place<'_> {
+    fn pointer(self) -> String {
+        match self {
+            Place::Root => String::new(),
+            Place::Item(list, index) => child(&list.pointer(), &index.to_string()),
+            Place::Member(object, name) => child(&object.pointer(), name),
+        }
     }
+}
+
+struct JsonNode<'a> {
+    place: Place<'a>,
+    repeated: &'a RefCell<Vec<String>>,
 }
 
 impl<'de> DeserializeSeed<'de> for JsonNode<'_> {
@@ -81,7 +93,10 @@ impl<'de> Visitor<'de> for JsonNode<'_> {
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut items: A) -> Result<Value, A::Error> {
         let mut list = Vec::new();
-        while let Some(item) = items.next_element_seed(self.child(&list.len().to_string()))? {
+        let repeated = self.repeated;
+        while let Some(item) =
+            items.next_element_seed(JsonNode { place: Place::Item(&self.place, list.len()), repeated })?
+        {
             list.push(item);
             if list.len() > LONGEST_LIST {
                 return Err(A::Error::custom(format!(
@@ -100,13 +115,12 @@ impl<'de> Visitor<'de> for JsonNode<'_> {
                     "a name of more than {LONGEST_NAME} bytes, longer than any here"
                 )));
             }
-            let node = self.child(&name);
-            let pointer = node.pointer.clone();
-            let value = members.next_value_seed(node)?;
-            let mut repeated = self.repeated.borrow_mut();
-            if object.insert(name, value).is_some() && repeated.len() < MOST_REPEATED {
-                repeated.push(pointer);
+            let place = Place::Member(&self.place, &name);
+            let value = members.next_value_seed(JsonNode { place, repeated: self.repeated })?;
+            if object.contains_key(&name) && self.repeated.borrow().len() < MOST_REPEATED {
+                self.repeated.borrow_mut().push(place.pointer());
             }
+            object.insert(name, value);
         }
         Ok(Value::Object(object))
     }

@@ -319,7 +319,7 @@ fn no_form_of_a_refused_answer_is_written() {
     let write = |report| renderings(&request, &question, &Answer::One(Box::new(report)), Duration::ZERO);
     let fine = write(full()).unwrap();
     for rendering in fine.iter() {
-        let bytes = rendering.body.as_ref().unwrap();
+        let bytes = rendering.part.body.as_ref().unwrap();
         let text = String::from_utf8(bytes.to_vec()).unwrap();
         assert!(!text.contains("NaN") && !text.contains("inf,") && !text.contains("inf "), "{:?}", rendering.names);
     }

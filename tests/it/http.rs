@@ -161,7 +161,7 @@ fn whatever_is_not_there_is_a_problem() {
         assert_eq!(server.get(path).problem(404)["type"], NO_SUCH_JOB, "{path}");
     }
     server.delete(UNKNOWN).problem(404);
-    for path in ["/", "/v1", "/v1/jobs/", "/v2/jobs", "/v1/jobs/%FF", "/health", "/a/../b"] {
+    for path in ["/v1", "/v1/jobs/", "/v2/jobs", "/v1/jobs/%FF", "/health", "/a/../b"] {
         server.get(path).problem(404);
     }
     for (method, path) in [("PUT", "/v1/jobs"), ("POST", UNKNOWN), ("POST", "/health/live"), ("PATCH", "/openapi.json")]
@@ -214,6 +214,9 @@ fn the_service_describes_itself() {
     assert_eq!((live.status, &live.json()["status"]), (200, &"live".into()));
     assert_eq!(live.header("x-content-type-options"), Some("nosniff"));
     assert!(server.get("/openapi.json").text() == voussoir::http::document());
+    let start = server.get("/");
+    assert_eq!((start.status, start.header("location")), (303, Some("/docs/")));
+    assert_eq!(server.get("/docs/").status, 200);
     let answer = server.call("GET", "/health/live", "x-request-id: mine\r\n", b"");
     assert_eq!(answer.header("x-request-id"), Some("mine"));
 }

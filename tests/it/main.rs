@@ -17,6 +17,8 @@ mod atlas;
 mod bad_requests;
 #[cfg(feature = "server")]
 mod bad_structures;
+#[cfg(feature = "server")]
+mod bounds;
 mod builders;
 #[cfg(feature = "server")]
 mod cases;

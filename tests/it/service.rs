@@ -487,6 +487,7 @@ fn pages_of_other_origins_may_ask_where_they_are_listed() {
     let server = Server::with(limits(10), work(1), Settings { origins, ..settings() });
     let allowed = asks(&server, "https://a.example");
     assert_eq!((allowed.status, allowed.header("access-control-allow-origin")), (200, Some("https://a.example")));
+    assert_eq!(allowed.header("access-control-max-age"), Some("86400"), "asked once, not before every request");
     assert!(asks(&server, "https://b.example").header("access-control-allow-origin").is_none());
     let answer = server.call("GET", "/v1/jobs", "origin: https://a.example\r\n", b"");
     assert!(answer.header("access-control-expose-headers").unwrap().contains("retry-after"));

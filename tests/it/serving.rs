@@ -13,12 +13,15 @@ mod process;
 #[path = "../load/requests.rs"]
 mod requests;
 
+use client::{connect, request, send};
 use draining::{Drained, Known, drain};
 use hostile::{half_closed, in_sequence, pipelined, refusals, rest, running, slow_body, slow_heads, stream, vanish};
 use process::Voussoir;
 use requests::{endless, tiny};
+use std::collections::BTreeSet;
+use std::io::{Read, Write};
 use std::thread::scope;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 const SECOND: Duration = Duration::from_secs(1);
 
@@ -28,8 +31,9 @@ fn slow_clients_are_closed_and_others_answered() {
     scope(|scope| {
         let slow = scope.spawn(|| slow_heads(&service, 20, &[b'G'; 200], SECOND / 10, 10 * SECOND));
         let silent = scope.spawn(|| slow_heads(&service, 20, b"", SECOND, 10 * SECOND));
+        let undecided = scope.spawn(|| slow_heads(&service, 20, b"PRI * HTTP/2.0\r\n", Duration::ZERO, 10 * SECOND));
         assert!(slow_body(&service).is_problem(408, ""));
-        for closed in [slow, silent] {
+        for closed in [slow, silent, undecided] {
             let closed = closed.join().unwrap();
             assert!(closed.all.is_some() && closed.slowest_answer < SECOND);
         }
@@ -47,6 +51,71 @@ fn what_cannot_be_is_refused() {
     }
     assert_eq!(pipelined(&service), Some([200, 404]));
     assert_eq!(in_sequence(&service, 100), 100);
+}
+
+#[test]
+fn connections_are_counted_and_given_back() {
+    let service = Voussoir::serve(&["--connections", "8", "--connections-per-client", "3"]);
+    let mut open: Vec<_> = (0..4).map(|_| connect(service.address).unwrap()).collect();
+    open.iter().for_each(|stream| stream.set_nonblocking(true).unwrap());
+    let clock = Instant::now();
+    // Only one is told anything: it is one too many.
+    let mut refused = [0; 12];
+    while !open.iter_mut().any(|stream| stream.read_exact(&mut refused).is_ok()) {
+        assert!(clock.elapsed() < 10 * SECOND);
+    }
+    assert_eq!(&refused, b"HTTP/1.1 503");
+    drop(open);
+    let live = request("GET", "/health/live", "connection: close\r\n", b"");
+    while !send(service.address, &live, false).is_ok_and(|answer| answer.status == 200) {
+        assert!(clock.elapsed() < 10 * SECOND);
+    }
+}
+
+#[test]
+fn a_head_takes_no_more_than_it_needs() {
+    let service = Voussoir::serve(&[]);
+    let with = |bytes: usize| format!("x-long: {}\r\n", "x".repeat(bytes));
+    let ask = |headers: &str| send(service.address, &request("GET", "/health/live", headers, b""), false).unwrap();
+    assert_eq!((ask(&with(8 << 10)).status, ask(&with(20 << 10)).status), (200, 431));
+}
+
+/// A frame of HTTP/2: its kind, flags, stream and what it carries.
+fn frame(kind: u8, flags: u8, stream: u32, payload: &[u8]) -> Vec<u8> {
+    let length = u32::try_from(payload.len()).unwrap().to_be_bytes();
+    [&length[1..], &[kind, flags], &stream.to_be_bytes(), payload].concat()
+}
+
+/// The frame that asks for a path: GET and http by their places in the static table of HPACK, path and host spelt out.
+fn asks(stream: u32, path: &str) -> Vec<u8> {
+    let spelt = |name: u8, value: &str| [&[name, u8::try_from(value.len()).unwrap()], value.as_bytes()].concat();
+    let head = [vec![0x82, 0x86], spelt(0x04, path), spelt(0x01, "localhost")].concat();
+    frame(0x1, 0x5, stream, &head)
+}
+
+#[test]
+fn one_connection_carries_many_streams() {
+    let service = Voussoir::serve(&["--workers", "1"]);
+    let mut client = service.client();
+    let path = running(&mut client, &endless());
+    let mut connection = connect(service.address).unwrap();
+    let follow = (0..12).flat_map(|i| asks(2 * i + 1, &format!("{path}/events")));
+    let asked: Vec<u8> = [b"PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n".to_vec(), frame(0x4, 0, 0, b"")].concat();
+    let asked: Vec<u8> = asked.into_iter().chain(follow).chain(asks(99, "/health/live")).collect();
+    connection.write_all(&asked).unwrap();
+    let mut answered = BTreeSet::new();
+    while answered.len() < 13 {
+        let mut head = [0; 9];
+        connection.read_exact(&mut head).unwrap();
+        let mut payload = vec![0; u32::from_be_bytes([0, head[0], head[1], head[2]]) as usize];
+        connection.read_exact(&mut payload).unwrap();
+        if head[3] == 0x1 {
+            assert_eq!(payload[0], 0x88, "status 200 by its place in the static table");
+            answered.insert(u32::from_be_bytes(head[5..9].try_into().unwrap()));
+        }
+    }
+    assert!(answered.contains(&99));
+    assert_eq!(client.delete(&path).status, 200);
 }
 
 #[test]

@@ -9,7 +9,9 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 use tokio::runtime::Runtime;
 use voussoir::budget::{Budget, LoadStep};
-use voussoir::jobs::{Failure, Job, JobId, Limits, Memory, Product, Rendering, Status, Store, Submission, Workers};
+use voussoir::jobs::{
+    Failure, Job, JobId, Limits, Memory, Part, Product, Rendering, Status, Store, Submission, Workers,
+};
 
 const QUICK: &str = "quick";
 const ENDLESS: &str = "endless";
@@ -97,7 +99,11 @@ fn failed() -> Failure {
 
 /// In two parts, and without a third.
 fn answer() -> Product {
-    let part = |name: &str, body| Rendering { names: vec![name.to_owned()], format: "json", body };
+    let part = |name: &str, body| Rendering {
+        names: vec![name.to_owned()],
+        format: "json",
+        part: Part { body, packed_from: None },
+    };
     let of = |bytes: usize| Ok(vec![b' '; bytes].into());
     [part("most", of(ANSWER - 1)), part("rest", of(1)), part("third", Err("not here".to_owned()))].into()
 }

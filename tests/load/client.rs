@@ -92,7 +92,7 @@ pub fn connect(address: SocketAddr) -> io::Result<TcpStream> {
 /// A request as it goes out.
 pub fn request(method: &str, path: &str, headers: &str, body: &[u8]) -> Vec<u8> {
     let length = body.len();
-    let head = format!("{method} {path} HTTP/1.1\r\nhost: load\r\ncontent-length: {length}\r\n{headers}\r\n");
+    let head = format!("{method} {path} HTTP/1.1\r\nhost: localhost\r\ncontent-length: {length}\r\n{headers}\r\n");
     [head.as_bytes(), body].concat()
 }
 

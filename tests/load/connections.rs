@@ -14,7 +14,8 @@ const SECOND: Duration = Duration::from_secs(1);
 /// Connections that may just be on their way out.
 const SPARE: usize = 2;
 
-const HEAD: &[u8] = b"GET /v1/jobs HTTP/1.1\r\nhost: load\r\nx-slow: 0123456789012345678901234567890123456789\r\n\r\n";
+const HEAD: &[u8] =
+    b"GET /v1/jobs HTTP/1.1\r\nhost: localhost\r\nx-slow: 0123456789012345678901234567890123456789\r\n\r\n";
 
 pub fn run(part: usize, report: &mut Report) {
     let service = Voussoir::serve(&["--workers", "1", "--request-time", "2", "--body-limit", "65536"]);

@@ -49,7 +49,7 @@ fn is_open(stream: &mut TcpStream) -> bool {
 
 /// A body that stops half-way.
 pub fn slow_body(service: &Voussoir) -> Answer {
-    let head = format!("POST /v1/jobs HTTP/1.1\r\nhost: load\r\n{JSON}content-length: 1000\r\n\r\n{{\"arch\"");
+    let head = format!("POST /v1/jobs HTTP/1.1\r\nhost: localhost\r\n{JSON}content-length: 1000\r\n\r\n{{\"arch\"");
     send(service.address, head.as_bytes(), false).unwrap()
 }
 
@@ -108,7 +108,7 @@ pub fn refusals(service: &Voussoir, body_limit: usize) -> Vec<(&'static str, u16
     vec![
         ("a header of 1 MiB", 431, false, ask("GET", "/v1/jobs", &long, b"")),
         ("200 headers", 431, false, ask("GET", "/v1/jobs", &many, b"")),
-        ("a path of 100 kB", 414, false, ask("GET", &format!("/{}", "x".repeat(100_000)), "", b"")),
+        ("a path of 100 kB", 431, false, ask("GET", &format!("/{}", "x".repeat(100_000)), "", b"")),
         ("garbage", 400, false, raw(b"\x16\x03\x01\x02\x00garbage \xff\xfe\r\n\r\n")),
         ("a body that is too long", 413, true, ask("POST", "/v1/jobs", JSON, &vec![b' '; body_limit + 1])),
         ("a body that is no JSON", 400, true, ask("POST", "/v1/jobs", JSON, b"{")),

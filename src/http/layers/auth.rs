@@ -2,6 +2,7 @@
 
 use super::tokens::{Role, Tokens};
 use crate::http::problem::Problem;
+use crate::http::quota::address_name;
 use crate::jobs::Job;
 use axum::extract::{ConnectInfo, Request, State};
 use axum::http::{Method, StatusCode};
@@ -51,7 +52,7 @@ fn reads(method: &Method) -> bool {
 pub(super) async fn admit(State(tokens): State<Tokens>, mut request: Request, next: Next) -> Result<Response, Problem> {
     let client = if tokens.is_open() {
         let address = request.extensions().get::<ConnectInfo<SocketAddr>>();
-        let name = address.map(|address| address.ip().to_string()).unwrap_or_default();
+        let name = address.map(|address| address_name(address.ip())).unwrap_or_default();
         Client { name: name.into(), roles: None }
     } else {
         let given = request.headers().typed_get::<Authorization<Bearer>>();

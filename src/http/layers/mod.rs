@@ -1,8 +1,10 @@
 //! What is wrapped around every route: fallbacks, limits, ids, one log line per request.
 
 mod auth;
+mod host;
 mod tokens;
 
+pub use host::Hosts;
 pub use tokens::{NO_TOKEN, Tokens, is_token};
 
 pub(super) use auth::Client;
@@ -11,7 +13,7 @@ use super::Service;
 use super::problem::Problem;
 use axum::Router;
 use axum::body::Body;
-use axum::extract::{DefaultBodyLimit, MatchedPath, State};
+use axum::extract::{MatchedPath, State};
 use axum::http::{HeaderName, HeaderValue, Method, Request, StatusCode, Uri, header};
 use axum::middleware::{Next, from_fn_with_state};
 use axum::response::{IntoResponse, Response};
@@ -33,6 +35,9 @@ const POLICY: HeaderValue = HeaderValue::from_static("default-src 'none'; frame-
 /// Longest path and request id in the log, characters.
 const LONGEST_LOGGED: usize = 200;
 
+/// How long a browser may remember what pages of another origin may ask: the longest that browsers allow is a day.
+const REMEMBERED: Duration = Duration::from_secs(86_400);
+
 /// Unless an answer says otherwise, whoever keeps it has to ask whether it still holds.
 const ASK_AGAIN: HeaderValue = HeaderValue::from_static("no-cache");
 
@@ -49,10 +54,10 @@ pub(super) fn wrap(router: Router, service: &Service) -> Router {
     router
         .fallback(no_such_path)
         .method_not_allowed_fallback(method_not_allowed)
-        .layer(DefaultBodyLimit::max(service.settings.limits.body))
         .layer(CatchPanicLayer::custom(panicked))
         .layer(CompressionLayer::new())
         .layer(option_layer((!origins.is_empty()).then(|| cors(origins))))
+        .layer(from_fn_with_state(service.settings.hosts.clone(), host::check))
         .layer(from_fn_with_state(service.clone(), count))
         .layer(SetResponseHeaderLayer::if_not_present(header::CONTENT_SECURITY_POLICY, POLICY))
         .layer(SetResponseHeaderLayer::if_not_present(header::CACHE_CONTROL, ASK_AGAIN))
@@ -69,6 +74,7 @@ fn cors(origins: &[HeaderValue]) -> CorsLayer {
         .allow_origin(origins.to_vec())
         .allow_methods([Method::GET, Method::POST, Method::DELETE])
         .allow_headers(AllowHeaders::mirror_request())
+        .max_age(REMEMBERED)
         .expose_headers([
             header::ETAG,
             header::LOCATION,

@@ -65,8 +65,16 @@ kinds! {
     QUEUE_FULL: SERVICE_UNAVAILABLE "urn:voussoir:problem:queue-full" "The queue is full"
     /// The jobs that have not ended fill the memory.
     MEMORY_FULL: SERVICE_UNAVAILABLE "urn:voussoir:problem:memory-full" "The memory for jobs is full"
+    /// The bodies on their way in fill the memory for them.
+    BODIES_FULL: SERVICE_UNAVAILABLE "urn:voussoir:problem:bodies-full" "Too many bodies are on their way"
+    /// The bodies of one client fill what it may have of that memory.
+    CLIENT_BODIES_FULL: TOO_MANY_REQUESTS "urn:voussoir:problem:client-bodies-full"
+        "Too many bodies of one client are on their way"
     /// The answers on their way fill the memory.
     ANSWERS_FULL: SERVICE_UNAVAILABLE "urn:voussoir:problem:answers-full" "Too many answers are on their way"
+    /// The answers to one client fill what it may have of that memory.
+    CLIENT_ANSWERS_FULL: TOO_MANY_REQUESTS "urn:voussoir:problem:client-answers-full"
+        "Too many answers to one client are on their way"
     /// As many event streams are open as may.
     STREAMS_FULL: SERVICE_UNAVAILABLE "urn:voussoir:problem:streams-full" "Too many event streams are open"
     /// The store of jobs cannot be reached.

@@ -47,7 +47,8 @@ impl Table {
         matches!(self.resolved(&self.body), Some(Schema::Object(body)) if body.properties.contains_key(name))
     }
 
-    /// Everything that is wrong with a body by itself: kinds, ranges, missing and unknown fields. Fills in defaults.
+    /// What is wrong with a body by itself: kinds, ranges, missing and unknown fields, as many as are listed. Fills in
+    /// defaults.
     pub fn check(&self, body: &mut Value, faults: &mut Faults) {
         self.value(&self.body, body, "", faults);
     }
@@ -96,6 +97,10 @@ impl Table {
 
     fn members(&self, object: &Object, members: &mut Map<String, Value>, here: &str, faults: &mut Faults) {
         for (name, value) in members.iter_mut() {
+            // A body is refused in no more time than it takes to read: the words of a fault take longer than its field.
+            if faults.is_full() {
+                return;
+            }
             match object.properties.get(name) {
                 Some(schema) => self.value(schema, value, &child(here, name), faults),
                 None => {
@@ -131,6 +136,9 @@ impl Table {
             && let ArrayItems::RefOrSchema(schema) = &list.items
         {
             for (i, item) in items.iter_mut().enumerate() {
+                if faults.is_full() {
+                    return;
+                }
                 self.value(schema, item, &child(here, &i.to_string()), faults);
             }
         }

@@ -27,6 +27,7 @@ pub struct StructureBody {
 
 /// A body: a stone, or a block of a pier or an abutment. Forces are per metre of width.
 #[derive(Debug, Clone, Serialize, ToSchema)]
+#[schema(as = Body)]
 pub struct BodyBody {
     /// Its name.
     pub name: String,

@@ -13,7 +13,7 @@ use tokio::net::TcpListener;
 use tokio::runtime::Runtime;
 use voussoir::budget::{Budget, LoadStep};
 use voussoir::collapse::{self, AnalysisError, Question};
-use voussoir::http::{self, Service, Settings, Tokens, Work};
+use voussoir::http::{self, Hosts, Service, Settings, Tokens, Work};
 use voussoir::jobs::{Limits, Memory};
 
 pub const BODY_LIMIT: usize = 64 << 10;
@@ -113,9 +113,10 @@ pub fn settings() -> Settings {
         voussoirs: 200,
         subblocks: 1000,
         streams: 3,
+        incoming: 1 << 20,
         outgoing: 1 << 20,
     };
-    Settings { limits, tokens: Tokens::default(), origins: vec![] }
+    Settings { limits, tokens: Tokens::default(), hosts: Hosts::default(), origins: vec![] }
 }
 
 pub struct Server {
