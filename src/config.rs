@@ -91,6 +91,10 @@ pub struct Work {
     /// Seconds a worker may be at one job; then it fails
     #[arg(long, env = "VOUSSOIR_JOB_TIME", default_value_t = 600, value_parser = count(1, 1_000_000))]
     pub job_time: u64,
+    /// Most memory of one analysis in bytes, as it is estimated before it is accepted; beyond it 422 [default: what 2 GiB leave
+    /// each worker beside --kept-bytes and --answer-bytes]
+    #[arg(long, env = "VOUSSOIR_JOB_MEMORY", value_parser = count(1 << 20, 1 << 40))]
+    pub job_memory: Option<u64>,
     /// Most voussoirs of an arch
     #[arg(long, env = "VOUSSOIR_VOUSSOIRS", default_value_t = MAX_VOUSSOIRS as u64,
         value_parser = count(2, MAX_VOUSSOIRS as u64))]
@@ -164,13 +168,30 @@ pub enum LogFormat {
     Json,
 }
 
+/// What the process keeps to by default, and what of it is neither analyses nor answers, bytes.
+const PROCESS: usize = 2 << 30;
+const REST: usize = 128 << 20;
+/// Least memory that an analysis is allowed by default, bytes.
+const LEAST_JOB_MEMORY: usize = 64 << 20;
+
 impl Serve {
-    /// What the store of jobs takes on. One core is left to answer requests.
-    pub fn job_limits(&self) -> jobs::Limits {
+    /// One core is left to answer requests.
+    fn workers(&self) -> usize {
         let spare = || available_parallelism().map_or(1, |cores| cores.get().saturating_sub(1).max(1));
+        self.work.workers.map_or_else(spare, size)
+    }
+
+    /// Most memory of one analysis, bytes.
+    fn job_memory(&self) -> usize {
+        let left = PROCESS.saturating_sub(size(self.kept.kept_bytes) + size(self.requests.answer_bytes) + REST);
+        self.work.job_memory.map_or_else(|| (left / self.workers()).max(LEAST_JOB_MEMORY), size)
+    }
+
+    /// What the store of jobs takes on.
+    pub fn job_limits(&self) -> jobs::Limits {
         let (work, kept) = (&self.work, &self.kept);
         jobs::Limits {
-            workers: work.workers.map_or_else(spare, size),
+            workers: self.workers(),
             queue: size(work.queue),
             queue_per_client: size(work.queue_per_client.unwrap_or(work.queue)),
             kept: size(kept.jobs_kept),
@@ -195,6 +216,8 @@ impl Serve {
                 request_time: Duration::from_secs(requests.request_time),
                 voussoirs: size(self.work.voussoirs),
                 subblocks: size(self.work.subblocks),
+                job_memory: self.job_memory(),
+                job_time: Duration::from_secs(self.work.job_time),
                 streams: size(requests.event_streams),
                 outgoing: size(requests.answer_bytes),
             },

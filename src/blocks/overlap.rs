@@ -3,6 +3,9 @@
 use super::outline::Outline;
 use crate::geometry::{Vec2, cross, distance_from_segment, lies_inside};
 
+/// Rounding of a cross product of differences of points, over the lengths that are in it.
+const MEETING_ROUNDING: f64 = 16.0 * f64::EPSILON;
+
 /// Pairs of outlines whose boxes, widened by `reach`, have a point in common; the lower number first, in rising order.
 ///
 /// A sweep along the longer axis: every box is compared with those that begin before it ends.
@@ -39,7 +42,12 @@ pub(super) fn overlap(a: &Outline, b: &Outline, tolerance: f64) -> Option<(Vec2,
     let mut deepest: Option<(Vec2, f64)> = None;
     for (of, within) in [(a, b), (b, a)] {
         let mut points = vec![inner_point(&of.corners)];
-        for_sides(&of.corners, |u, v| points.extend(places(u, v, &within.corners)));
+        for_sides(&of.corners, |u, v| {
+            // A side that meets no side of the other lies inside as a whole, or outside.
+            if meets(u, v, &within.corners) || lies_inside(u, &within.corners) {
+                points.extend(places(u, v, &within.corners));
+            }
+        });
         for point in points.into_iter().filter(|&point| lies_inside(point, &within.corners)) {
             let depth = depth(point, &within.corners);
             if depth > tolerance && deepest.is_none_or(|(_, best)| depth > best) {
@@ -66,6 +74,21 @@ fn for_sides(corners: &[Vec2], mut each: impl FnMut(Vec2, Vec2)) {
     for i in 0..corners.len() {
         each(corners[i], corners[(i + 1) % corners.len()]);
     }
+}
+
+/// Whether the side `u`-`v` may have a point in common with the outline: there is one where both sides have ends on either side of
+/// the other's line, or on it.
+fn meets(u: Vec2, v: Vec2, corners: &[Vec2]) -> bool {
+    let apart = |a: Vec2, b: Vec2, c: Vec2, d: Vec2| {
+        let [from, to] = [c, d].map(|p| cross(b - a, p - a));
+        // What rounding leaves of zero is not told from it.
+        let blurred =
+            MEETING_ROUNDING * (b - a).norm() * [a, b, c, d].iter().fold(0.0, |most: f64, p| most.max(p.norm()));
+        (from > blurred && to > blurred) || (from < -blurred && to < -blurred)
+    };
+    let mut found = false;
+    for_sides(corners, |c, d| found = found || !(apart(u, v, c, d) || apart(c, d, u, v)));
+    found
 }
 
 /// Points of the side `u`-`v` among which those deepest inside the polygon are: between where it crosses the outline and the feet

@@ -6,6 +6,7 @@ mod mirror;
 mod places;
 
 pub use build::{AssemblyBuilder, Touch};
+pub(super) use build::{has_core, interfaces_of};
 
 use super::block::V6;
 use super::condense::{Condensed, Node};

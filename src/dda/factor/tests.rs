@@ -49,7 +49,7 @@ fn cores() -> Pattern {
 
 #[test]
 fn the_two_faces_of_an_interface_between_cores_are_eliminated_together() {
-    let tree = Tree::new(&cores(), |_| true);
+    let tree = Tree::new(&cores(), |_| true, &Budget::unlimited()).unwrap();
     assert!(tree.fronts[..tree.directed()].iter().any(|front| front.sizes == [8, 12]));
     // Each of six interfaces saves one of 16, so at most 10; two more are pinned.
     assert_eq!(tree.into.len(), 8, "cliques of 16 faces and cores");
@@ -82,7 +82,7 @@ fn error(pattern: &Pattern, k: &Elements, b: &[f64], x: &[f64]) -> f64 {
 #[test]
 fn agrees_with_a_dense_solver_wherever_the_change_is() {
     for pattern in patterns() {
-        let (mut k, tree) = (matrix(&pattern), Tree::new(&pattern, |_| true));
+        let (mut k, tree) = (matrix(&pattern), Tree::new(&pattern, |_| true, &Budget::unlimited()).unwrap());
         let mut factor = Factor::new(&tree);
         let n = pattern.unknowns();
         let mut source = numbers().skip(5000);
@@ -107,7 +107,7 @@ fn agrees_with_a_dense_solver_wherever_the_change_is() {
 #[test]
 fn until_the_next_update_the_factors_are_those_of_the_last() {
     let pattern = &patterns()[1];
-    let (mut k, tree) = (matrix(pattern), Tree::new(pattern, |_| true));
+    let (mut k, tree) = (matrix(pattern), Tree::new(pattern, |_| true, &Budget::unlimited()).unwrap());
     let (before, b, mut x) = (k.clone(), vec![1.0; pattern.unknowns()], vec![0.0; pattern.unknowns()]);
     let mut factor = Factor::new(&tree);
     factor.update(&k, &b, &mut x, 2, &Budget::unlimited()).unwrap();
@@ -121,7 +121,7 @@ fn until_the_next_update_the_factors_are_those_of_the_last() {
 #[test]
 fn a_change_costs_the_rows_between_it_and_the_last() {
     let pattern = row(&[4; 100]);
-    let (k, tree) = (matrix(&pattern), Tree::new(&pattern, |_| true));
+    let (k, tree) = (matrix(&pattern), Tree::new(&pattern, |_| true, &Budget::unlimited()).unwrap());
     let mut factor = Factor::new(&tree);
     let (b, mut x) = (vec![0.0; 400], vec![0.0; 400]);
     let mut cost = |element: usize| {
@@ -149,7 +149,7 @@ fn arches_on_piers_tie_nothing_that_was_not() {
         elements.push(vec![last]);
     }
     let pattern = pattern(&sizes, &elements.iter().map(|e| e.as_slice()).collect::<Vec<_>>());
-    let tree = Tree::new(&pattern, |_| true);
+    let tree = Tree::new(&pattern, |_| true, &Budget::unlimited()).unwrap();
     let largest = tree.fronts.iter().map(|front| front.sizes[0] + front.sizes[1]).max();
     assert_eq!(largest, Some(12));
 }
@@ -157,7 +157,7 @@ fn arches_on_piers_tie_nothing_that_was_not() {
 #[test]
 fn a_singular_block_shows_in_the_pivot_ratio() {
     let pattern = pattern(&[4], &[&[0]]);
-    let tree = Tree::new(&pattern, |_| true);
+    let tree = Tree::new(&pattern, |_| true, &Budget::unlimited()).unwrap();
     let mut k = Elements::zeros(&pattern);
     k.get_mut(0).copy_from_slice(&[1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 0.]);
     let mut factor = Factor::new(&tree);
