@@ -50,6 +50,8 @@ const MOST_ENTRIES: usize = 1 << 30;
 /// Bytes of a number.
 const NUMBER: usize = size_of::<f64>();
 
+/// Bytes that any analysis takes: what it gives back stays with the allocator.
+const LEAST: usize = 16 << 20;
 /// Bytes of the analysis as it was translated, for every body with its joints, and for every force.
 const TRANSLATED: [usize; 2] = [1000, 100];
 /// Bytes of a model besides its matrices, for every subblock, body, contact point and unknown.
@@ -120,7 +122,7 @@ fn translated(analysis: &Analysis) -> usize {
 
 fn of(analysis: &Analysis, budget: &Budget) -> Result<Demand, Stopped> {
     let structure = &analysis.structure;
-    let rest = translated(analysis) + limit_analysis(structure);
+    let rest = LEAST + translated(analysis) + limit_analysis(structure);
     let refined = analysis.task.accuracy().filter(|accuracy| accuracy.stress.is_some());
     let Some(most) = refined.map(|accuracy| accuracy.most_subblocks) else {
         return Ok(on_mesh(analysis, budget)?.and(rest, Share::Stones));
@@ -288,6 +290,6 @@ fn of_beam(beam: &CurvedBeam) -> Demand {
     let [radial, along] = if beam.accuracy.is_some() { [plan::MOST_EACH_WAY; 2] } else { beam.subblocks };
     let (cells, factors) = (radial * along, factors(radial, along));
     let fields = if beam.accuracy.is_some() { 3 } else { 1 };
-    let memory = 2 * NUMBER * factors + (SUBBLOCK + CONDENSING + fields * FIELD) * cells;
+    let memory = LEAST + 2 * NUMBER * factors + (SUBBLOCK + CONDENSING + fields * FIELD) * cells;
     Demand { memory, work: factors as f64, largest: Share::Mesh }
 }
