@@ -153,14 +153,9 @@ fn on_mesh(analysis: &Analysis, budget: &Budget) -> Result<Demand, Stopped> {
         .iter()
         .map(|joint| contact_points(joint, &grids).max(if crushes { STRIPS } else { 0 }))
         .collect();
-    let beside = |side| match side {
-        Side::Body(body) => Beside::Body(body),
-        Side::Support(support) => Beside::Ground(support),
-    };
-    let between = structure.joints.iter().map(|joint| joint.between.map(beside));
     let subblocks: Vec<usize> = grids.iter().map(|grid| grid.radial * grid.along).collect();
-    let interfaces: Vec<_> = between.zip(points.iter().copied()).collect();
-    let size = AssemblySize::new(&subblocks, &interfaces, MOST_ENTRIES, budget)?;
+    let moves = analysis.task.geometry() == Geometry::Updated;
+    let size = assembled(structure, &subblocks, &points, moves, budget)?;
     let kinds: Vec<Kind> = kinds(structure, &grids, &points, budget)?
         .into_iter()
         .map(|body| Kind::new(&grids[body], size.nodes[body]))
@@ -173,26 +168,10 @@ fn on_mesh(analysis: &Analysis, budget: &Budget) -> Result<Demand, Stopped> {
     let trees = FACE * (size.elimination.faces + size.plain.map_or(0, |plain| plain.faces));
     let following = following(analysis, &size, unknowns, contacts);
     let [fields, motion] = reported(analysis, cells, contacts);
-    // The matrices of the path are given back before the answer is written, the model only after.
+    // The matrices of the path are given back before the answer is written, the model only after. What condensing gives back may
+    // stay with the allocator.
     let modelled = rest + condensed + NUMBER * size.elements + trees;
-    let memory = modelled + following.max(condensing).max(fields + motion);
-    if std::env::var("PARTS").is_ok() {
-        let m = |x: usize| x as f64 / 1048576.0;
-        eprintln!(
-            "cells {cells} contacts {contacts} unknowns {unknowns} kinds {} elements {:.1} rest {:.1} condensed {:.1} condensing {:.1} trees {:.1} following {:.1} fields {:.1} motion {:.1} elim {:?} plain {:?}",
-            kinds.len(),
-            m(8 * size.elements),
-            m(rest),
-            m(condensed),
-            m(condensing),
-            m(trees),
-            m(following),
-            m(fields),
-            m(motion),
-            size.elimination,
-            size.plain
-        );
-    }
+    let memory = modelled + (following + condensing).max(fields + motion);
     let work = kinds.iter().map(|kind| kind.work).sum::<f64>() + size.elimination.work;
     let largest = if cells > grids.len() { Share::Mesh } else { Share::Stones };
     let largest = match (fields.max(motion) > modelled, fields > motion) {
@@ -203,15 +182,31 @@ fn on_mesh(analysis: &Analysis, budget: &Budget) -> Result<Demand, Stopped> {
     Ok(Demand { memory, work, largest })
 }
 
+/// The size of the assembly of bodies of so many subblocks, with so many contact points at every joint.
+fn assembled(
+    structure: &Structure,
+    subblocks: &[usize],
+    points: &[usize],
+    moves: bool,
+    budget: &Budget,
+) -> Result<AssemblySize, Stopped> {
+    let beside = |side| match side {
+        Side::Body(body) => Beside::Body(body),
+        Side::Support(support) => Beside::Ground(support),
+    };
+    let between = structure.joints.iter().map(|joint| joint.between.map(beside));
+    let interfaces: Vec<_> = between.zip(points.iter().copied()).collect();
+    AssemblySize::new(subblocks, &interfaces, moves, MOST_ENTRIES, budget)
+}
+
 /// Bytes of matrices, their factors and what is kept of the path while it is followed.
 fn following(analysis: &Analysis, size: &AssemblySize, unknowns: usize, contacts: usize) -> usize {
-    let tree =
-        if analysis.task.geometry() == Geometry::Updated { size.plain } else { None }.unwrap_or(size.elimination);
+    let tree = size.plain.unwrap_or(size.elimination);
     let [towards, back, whole] = tree.entries;
     let (matrix, all) = (size.elements, towards + back + whole);
     // A path both ways is begun from the same factors; equilibrium is found with factors that lead one way.
     let ways = if matches!(analysis.task, Task::Collapse(_)) { 2 } else { 1 };
-    let moving = if analysis.task.geometry() == Geometry::Updated { matrix } else { 0 };
+    let moving = if size.plain.is_some() { matrix } else { 0 };
     let matrices = ways * (matrix + all) + (matrix + towards) + moving + 2 * tree.largest;
     // Points of the path between the share asked for and its end: they crowd before the end.
     let kept = (1.0 - analysis.task.share()).max(0.0).sqrt() * contacts as f64;
@@ -252,7 +247,7 @@ impl Kind {
 /// Entries of the factors of a body of so many subblocks: eliminated across its shorter way, or dissected.
 fn factors(radial: usize, along: usize) -> usize {
     let (cells, across) = (radial * along, radial.min(along) as f64);
-    let dissected = 3.5 * (cells as f64).log2();
+    let dissected = 4.0 * (cells as f64).log2();
     36 * (cells as f64 * (2.0 + across.min(dissected))) as usize
 }
 

@@ -14,19 +14,20 @@ pub struct AssemblySize {
     pub elements: usize,
     /// Eliminating, by way of bodies' cores where there are any.
     pub elimination: Elimination,
-    /// The same with bodies as their faces alone, where there are cores.
+    /// The same with bodies as their faces alone, as on moving geometry.
     pub plain: Option<Elimination>,
 }
 
 impl AssemblySize {
-    /// Of bodies of so many subblocks, joined at interfaces of so many contact points. Entries of elements are found first: where
-    /// they are more than `most`, no more is said.
+    /// Of bodies of so many subblocks, joined at interfaces of so many contact points, whose geometry may be `moving`. Entries of
+    /// elements are found first: where they are more than `most`, no more is said.
     ///
     /// # Errors
     /// When stopped.
     pub fn new(
         subblocks: &[usize],
         interfaces: &[([Beside; 2], usize)],
+        moving: bool,
         most: usize,
         budget: &Budget,
     ) -> Result<Self, Stopped> {
@@ -43,7 +44,7 @@ impl AssemblySize {
         if entries <= most {
             let with_cores = |element: usize| cored.binary_search(&element).is_err();
             size.elimination = Elimination::new(&pattern, with_cores, budget)?;
-            let plain = (!cored.is_empty()).then(|| Elimination::new(&pattern, |element| element < elements, budget));
+            let plain = moving.then(|| Elimination::new(&pattern, |element| element < elements, budget));
             size.plain = plain.transpose()?;
         }
         Ok(size)

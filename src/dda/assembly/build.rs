@@ -9,6 +9,7 @@ use crate::dda::macroblock::Macroblock;
 use crate::dda::tree::Tree;
 use crate::geometry::{Vec2, cross, perpendicular};
 use nalgebra::{DMatrix, DVectorView};
+use std::cell::OnceCell;
 
 /// Coordinates that differ by this share of the farthest from the origin differ by rounding: some operations' worth.
 const COORDINATE_ROUNDING: f64 = 256.0 * f64::EPSILON;
@@ -141,9 +142,7 @@ impl AssemblyBuilder {
             interface: self.interfaces.iter().enumerate().flat_map(of_contact).collect(),
             beside: self.interfaces.iter().map(|interface| interface.between).collect(),
             tree: Tree::new(&pattern, |element| cored.binary_search(&element).is_err(), budget)?,
-            plain_tree: (!cored.is_empty())
-                .then(|| Tree::new(&pattern, |element| element < elements, budget))
-                .transpose()?,
+            plain_tree: OnceCell::new(),
             unknowns,
             bodies,
             kinds,
