@@ -42,9 +42,13 @@ pub(super) fn overlap(a: &Outline, b: &Outline, tolerance: f64) -> Option<(Vec2,
     let mut deepest: Option<(Vec2, f64)> = None;
     for (of, within) in [(a, b), (b, a)] {
         let mut points = vec![inner_point(&of.corners)];
+        // A side that meets no side of the other lies inside as a whole, or outside, and so does the next that meets none.
+        let mut inside = None;
         for_sides(&of.corners, |u, v| {
-            // A side that meets no side of the other lies inside as a whole, or outside.
-            if meets(u, v, &within.corners) || lies_inside(u, &within.corners) {
+            let met = meets([u, v], &within.corners);
+            let tried = met || inside.unwrap_or_else(|| lies_inside(u, &within.corners));
+            inside = (!met).then_some(tried);
+            if tried {
                 points.extend(places(u, v, &within.corners));
             }
         });
@@ -76,18 +80,22 @@ fn for_sides(corners: &[Vec2], mut each: impl FnMut(Vec2, Vec2)) {
     }
 }
 
-/// Whether the side `u`-`v` may have a point in common with the outline: there is one where both sides have ends on either side of
-/// the other's line, or on it.
-fn meets(u: Vec2, v: Vec2, corners: &[Vec2]) -> bool {
-    let apart = |a: Vec2, b: Vec2, c: Vec2, d: Vec2| {
-        let [from, to] = [c, d].map(|p| cross(b - a, p - a));
+/// Whether a side may have a point in common with the outline: there is none where the boxes of two sides are apart, or both ends of
+/// one lie on the same side of the other's line.
+fn meets(side: [Vec2; 2], corners: &[Vec2]) -> bool {
+    let [low, high] = [side[0].inf(&side[1]), side[0].sup(&side[1])];
+    let beyond = |[a, b]: [Vec2; 2], ends: [Vec2; 2]| {
+        let [from, to] = ends.map(|p| cross(b - a, p - a));
         // What rounding leaves of zero is not told from it.
-        let blurred =
-            MEETING_ROUNDING * (b - a).norm() * [a, b, c, d].iter().fold(0.0, |most: f64, p| most.max(p.norm()));
-        (from > blurred && to > blurred) || (from < -blurred && to < -blurred)
+        let size = [a, b, ends[0], ends[1]].iter().fold(0.0, |most: f64, p| most.max(p.norm()));
+        from * to > 0.0 && from.abs().min(to.abs()) > MEETING_ROUNDING * (b - a).norm() * size
     };
     let mut found = false;
-    for_sides(corners, |c, d| found = found || !(apart(u, v, c, d) || apart(c, d, u, v)));
+    for_sides(corners, |c, d| {
+        let (least, most) = (c.inf(&d), c.sup(&d));
+        let near = (0..2).all(|axis| least[axis] <= high[axis] && low[axis] <= most[axis]);
+        found = found || (near && !beyond(side, [c, d]) && !beyond([c, d], side));
+    });
     found
 }
 

@@ -1,8 +1,10 @@
 use super::*;
 use crate::budget::Budget;
 use crate::dda::elements::Pattern;
+use crate::dda::tree::Elimination;
 use crate::largest::largest;
 use faer::linalg::solvers::Solve;
+use std::ops::ControlFlow;
 
 /// A fixed, well-spread sequence of numbers in (-1, 1).
 fn numbers() -> impl Iterator<Item = f64> {
@@ -163,4 +165,42 @@ fn a_singular_block_shows_in_the_pivot_ratio() {
     let mut factor = Factor::new(&tree);
     factor.update(&k, &[0.0; 4], &mut [0.0; 4], 0, &Budget::unlimited()).unwrap();
     assert!(factor.pivot_ratio() < 1e-14);
+}
+
+#[test]
+fn what_eliminating_takes_is_counted_before_as_it_is_built() {
+    for pattern in patterns() {
+        let tree = Tree::new(&pattern, |_| true, &Budget::unlimited()).unwrap();
+        let counted = Elimination::new(&pattern, |_| true, &Budget::unlimited()).unwrap();
+        let (mut entries, mut largest) = ([0; 3], 0);
+        for (number, front) in tree.fronts.iter().enumerate() {
+            let [removed, kept] = front.sizes;
+            let way = if number < tree.directed() { number % 2 } else { 2 };
+            entries[way] += removed * removed + 2 * removed * kept + kept * kept;
+            largest = largest.max((removed + kept).pow(2));
+        }
+        assert_eq!((counted.entries, counted.largest), (entries, largest));
+    }
+}
+
+#[test]
+fn a_large_front_is_not_eliminated_without_asking() {
+    let pattern = row(&[300, 300, 300]);
+    let (k, tree) = (matrix(&pattern), Tree::new(&pattern, |_| true, &Budget::unlimited()).unwrap());
+    let asked = std::cell::Cell::new(0);
+    let stops_at = |most: usize| {
+        asked.set(0);
+        let ask = |_| {
+            asked.set(asked.get() + 1);
+            if asked.get() < most { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        };
+        Factor::new(&tree).update(&k, &[1.0; 900], &mut [0.0; 900], 0, &Budget::new(&ask)).is_err()
+    };
+    assert!(!stops_at(usize::MAX));
+    // Two fronts, of 300 and 600 unknowns: 1.4e8 multiplications, and a question every 4e6.
+    let all = asked.get();
+    assert!(all > 20, "{all}");
+    for most in [1, all / 2, all] {
+        assert!(stops_at(most) && asked.get() == most, "{} of {most}", asked.get());
+    }
 }
