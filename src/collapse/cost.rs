@@ -167,11 +167,11 @@ fn on_mesh(analysis: &Analysis, budget: &Budget) -> Result<Demand, Stopped> {
     let condensing = kinds.iter().map(|kind| kind.transient).max().unwrap_or(0);
     let trees = FACE * (size.elimination.faces + size.plain.map_or(0, |plain| plain.faces));
     let following = following(analysis, &size, unknowns, contacts);
-    let [fields, motion] = reported(analysis, cells, contacts);
+    let [fields, motion, settled] = reported(analysis, cells, contacts);
     // The matrices of the path are given back before the answer is written, the model only after. What condensing gives back may
     // stay with the allocator.
     let modelled = rest + condensed + NUMBER * size.elements + trees;
-    let memory = modelled + (following + condensing).max(fields + motion);
+    let memory = modelled + (following + condensing).max(fields + motion + settled);
     let work = kinds.iter().map(|kind| kind.work).sum::<f64>() + size.elimination.work;
     let largest = if cells > grids.len() { Share::Mesh } else { Share::Stones };
     let largest = match (fields.max(motion) > modelled, fields > motion) {
@@ -213,15 +213,15 @@ fn following(analysis: &Analysis, size: &AssemblySize, unknowns: usize, contacts
     NUMBER * (matrices + (kept as usize + 16) * unknowns)
 }
 
-/// Bytes of what is reported and written: stress fields, and motions or settlements.
-fn reported(analysis: &Analysis, cells: usize, contacts: usize) -> [usize; 2] {
+/// Bytes of what is reported and written: stress fields, a motion, a settlement.
+fn reported(analysis: &Analysis, cells: usize, contacts: usize) -> [usize; 3] {
     let (bodies, joints) = (analysis.structure.bodies.len(), analysis.structure.joints.len());
     let motion = analysis.task.motion().map_or(0, |motion| motion.most_frames.saturating_mul(bodies) * FRAME);
     let settled = match analysis.task {
         Task::Settlement(_) => (STEPS[0] + contacts / STEPS[1]) * joints * SETTLED,
         _ => 0,
     };
-    [FIELD * cells * analysis.task.fields().len(), motion + settled]
+    [FIELD * cells * analysis.task.fields().len(), motion, settled]
 }
 
 /// What a kind of body takes.

@@ -69,9 +69,12 @@ impl ApiLimits {
 
     fn check_demand(&self, demand: &Demand, request: &Request, faults: &mut Faults) {
         let (place, remedy) = remedy(demand.largest, request);
-        let takes = if demand.memory == usize::MAX { "more than can be counted".into() } else { shown(demand.memory) };
+        let takes = match demand.memory {
+            usize::MAX => "more than can be counted".to_owned(),
+            memory => format!("about {}", shown(memory)),
+        };
         let most = shown(self.job_memory);
-        let detail = format!("this analysis would take about {takes} of memory; this service allows {most}; {remedy}");
+        let detail = format!("this analysis would take {takes} of memory; this service allows {most}; {remedy}");
         faults.require(demand.memory <= self.job_memory, place, detail);
         let (seconds, most) = (demand.work / MULTIPLICATIONS, self.job_time.as_secs_f64());
         let detail = format!(

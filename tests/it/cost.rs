@@ -66,6 +66,20 @@ fn wall(columns: usize, courses: usize, more: &Value) -> Value {
     request
 }
 
+/// So many blocks in a row on one slab.
+fn slab(blocks: usize) -> Value {
+    let n = blocks as f64;
+    let mut polygons = vec![json!({"name": "slab", "corners_m": [[0.0, 0.0], [n, 0.0], [n, 1.0], [0.0, 1.0]]})];
+    polygons.extend((0..blocks).map(|i| {
+        let x = i as f64;
+        json!({"name": i.to_string(), "corners_m": [[x, 1.0], [x + 1.0, 1.0], [x + 1.0, 2.0], [x, 2.0]]})
+    }));
+    let mut request = wall(1, 1, &json!({}));
+    request["blocks"]["polygons"] = polygons.into();
+    request["blocks"]["supports"][0]["segments_m"] = json!([[[-1.0, 0.0], [n + 1.0, 0.0]]]);
+    request
+}
+
 #[test]
 #[cfg(target_os = "linux")]
 fn no_analysis_takes_more_than_its_estimate() {
@@ -78,6 +92,7 @@ fn no_analysis_takes_more_than_its_estimate() {
         ("long stones, stress", uneven(60, &json!({"mesh": mesh(1, 48), "report": {"stress_fields": fields}}))),
         ("moving geometry", uneven(31, &json!({"mesh": mesh(3, 3), "geometry": "updated"}))),
         ("wall", wall(10, 10, &json!({}))),
+        ("slab", slab(100)),
         ("wall of subblocks", wall(4, 6, &json!({"mesh": mesh(6, 6)}))),
     ] {
         let (estimated, taken) = (demand(&request).memory, peak(&request));
@@ -115,14 +130,5 @@ fn an_estimate_grows_with_what_is_asked() {
     assert!(of(&uneven(100, &json!({"mesh": mesh(8, 8)}))) > of(&semicircle(100, &json!({"mesh": mesh(8, 8)}))));
     assert!(of(&wall(20, 20, &json!({}))) > of(&wall(10, 10, &json!({}))));
     // Bodies that many others touch.
-    let slab = |blocks: usize| {
-        let n = blocks as f64;
-        let mut polygons = vec![json!({"name": "slab", "corners_m": [[0.0, 0.0], [n, 0.0], [n, 1.0], [0.0, 1.0]]})];
-        polygons.extend((0..blocks).map(|i| {
-            let x = i as f64;
-            json!({"name": i.to_string(), "corners_m": [[x, 1.0], [x + 1.0, 1.0], [x + 1.0, 2.0], [x, 2.0]]})
-        }));
-        json!({"blocks": {"polygons": polygons, "supports": [{"name": "ground", "segments_m": [[[-1.0, 0.0], [n + 1.0, 0.0]]]}]}})
-    };
     assert!(of(&slab(1000)) > 3 * of(&slab(400)), "{} {}", of(&slab(1000)), of(&slab(400)));
 }
