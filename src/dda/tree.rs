@@ -95,8 +95,9 @@ impl Elimination {
         let sizes = cliques.iter().map(|clique| [&clique.faces[..], clique.shared_faces()].map(|of| pattern.total(of)));
         let sizes: Vec<[usize; 2]> = sizes.collect();
         for (clique, [all, shared]) in cliques.iter().zip(&sizes) {
-            let towards = clique.parent.map(|parent| sizes[parent][0] - shared);
-            let fronts = [Some([all - shared, *shared]), towards.map(|removed| [removed, *shared]), Some([*all, 0])];
+            let along = |removed: usize| [removed - shared, *shared];
+            let ways = clique.parent.map(|parent| [along(*all), along(sizes[parent][0])]);
+            let fronts = [ways.map(|[up, _]| up), ways.map(|[_, down]| down), Some([*all, 0])];
             for (sum, [removed, kept]) in sum.entries.iter_mut().zip(fronts).filter_map(|(sum, of)| Some((sum, of?))) {
                 *sum += removed * removed + 2 * removed * kept + kept * kept;
             }

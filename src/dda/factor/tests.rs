@@ -186,7 +186,11 @@ fn what_eliminating_takes_is_counted_before_as_it_is_built() {
 #[test]
 fn a_large_front_is_not_eliminated_without_asking() {
     let pattern = row(&[300, 300, 300]);
-    let (k, tree) = (matrix(&pattern), Tree::new(&pattern, |_| true, &Budget::unlimited()).unwrap());
+    let (mut k, tree) = (Elements::zeros(&pattern), Tree::new(&pattern, |_| true, &Budget::unlimited()).unwrap());
+    for element in 0..2 {
+        k.get_mut(element).fill(1e-3);
+        (0..600).for_each(|j| k.get_mut(element)[j * 601] += 9.0);
+    }
     let asked = std::cell::Cell::new(0);
     let stops_at = |most: usize| {
         asked.set(0);
