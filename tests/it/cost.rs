@@ -18,6 +18,7 @@ fn demand(request: &Value) -> Demand {
 
 /// Most memory that `voussoir solve` had resident while it answered a request, bytes.
 #[cfg(target_os = "linux")]
+#[allow(clippy::disallowed_methods, reason = "a process is looked at now and then until it has ended")]
 fn peak(request: &Value) -> usize {
     let mut command = Command::new(env!("CARGO_BIN_EXE_voussoir"));
     command.args(["solve", "--json", "-"]).stdin(Stdio::piped()).stdout(Stdio::null());
