@@ -85,7 +85,7 @@ pub struct Work {
     /// Jobs that may wait; beyond it a submission is answered with 503
     #[arg(long, env = "VOUSSOIR_QUEUE", default_value_t = 1000, value_parser = count(1, 1_000_000))]
     pub queue: u64,
-    /// Jobs of one client (token, or else address) that may wait; beyond it 429 [default: as --queue]
+    /// Jobs of one client (token, or else address) that may wait; beyond it 429 [default: half of --queue]
     #[arg(long, env = "VOUSSOIR_QUEUE_PER_CLIENT", value_parser = count(1, 1_000_000))]
     pub queue_per_client: Option<u64>,
     /// Seconds a worker may be at one job; then it fails
@@ -109,15 +109,24 @@ pub struct Work {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Jobs kept")]
 pub struct Kept {
-    /// Finished jobs kept; beyond it the one that finished first is forgotten
-    #[arg(long, env = "VOUSSOIR_JOBS_KEPT", default_value_t = 1000, value_parser = count(1, 1_000_000))]
+    /// Finished jobs kept; beyond it some are forgotten, those of the client that holds most bytes first
+    #[arg(long, env = "VOUSSOIR_JOBS_KEPT", default_value_t = 100_000, value_parser = count(1, 10_000_000))]
     pub jobs_kept: u64,
-    /// Seconds a finished job is kept
+    /// Seconds a finished job is kept at most
     #[arg(long, env = "VOUSSOIR_KEPT_FOR", default_value_t = 86_400, value_parser = count(1, 100_000_000))]
     pub kept_for: u64,
-    /// Bytes all jobs may hold: beyond it finished ones are forgotten, those that finished first before others
+    /// Seconds a finished job is kept at least, unless its results are read before; submissions are refused rather
+    #[arg(long, env = "VOUSSOIR_KEPT_AT_LEAST", default_value_t = 60, value_parser = count(0, 86_400))]
+    pub kept_at_least: u64,
+    /// Seconds an idempotency key lives at least
+    #[arg(long, env = "VOUSSOIR_KEYS_FOR", default_value_t = 3600, value_parser = count(1, 1_000_000))]
+    pub keys_for: u64,
+    /// Bytes that requests, results and keys may take: beyond it finished jobs are forgotten
     #[arg(long, env = "VOUSSOIR_KEPT_BYTES", default_value_t = 1 << 29, value_parser = count(1 << 20, 1 << 40))]
     pub kept_bytes: u64,
+    /// Of these, bytes of one client [default: half of --kept-bytes]
+    #[arg(long, env = "VOUSSOIR_KEPT_BYTES_PER_CLIENT", value_parser = count(1 << 19, 1 << 40))]
+    pub kept_bytes_per_client: Option<u64>,
 }
 
 /// What one request may ask for, and who may ask.
@@ -139,6 +148,10 @@ pub struct Requests {
     /// Bearer token that opens the service, may be given several times or as a list with commas; open to all without
     #[arg(long = "token", env = "VOUSSOIR_TOKENS", value_delimiter = ',', hide_env_values = true)]
     pub tokens: Vec<String>,
+    /// File of tokens, a line each: name, roles with commas (submit, read, read-all, metrics, admin), token; read again when it
+    /// changes
+    #[arg(long, env = "VOUSSOIR_TOKEN_FILE")]
+    pub token_file: Option<PathBuf>,
     /// Origin whose pages may ask (CORS), such as https://example.org, may be given several times or as a list
     #[arg(long = "cors-origin", env = "VOUSSOIR_CORS_ORIGINS", value_delimiter = ',', value_parser = origin)]
     pub origins: Vec<HeaderValue>,
@@ -175,30 +188,33 @@ const REST: usize = 128 << 20;
 const LEAST_JOB_MEMORY: usize = 64 << 20;
 
 impl Serve {
-    /// One core is left to answer requests.
-    fn workers(&self) -> usize {
-        let spare = || available_parallelism().map_or(1, |cores| cores.get().saturating_sub(1).max(1));
-        self.work.workers.map_or_else(spare, size)
-    }
-
     /// Most memory of one analysis, bytes.
     fn job_memory(&self) -> usize {
         let left = PROCESS.saturating_sub(size(self.kept.kept_bytes) + size(self.requests.answer_bytes) + REST);
-        self.work.job_memory.map_or_else(|| (left / self.workers()).max(LEAST_JOB_MEMORY), size)
+        self.work.job_memory.map_or_else(|| (left / self.work().workers).max(LEAST_JOB_MEMORY), size)
     }
 
     /// What the store of jobs takes on.
     pub fn job_limits(&self) -> jobs::Limits {
         let (work, kept) = (&self.work, &self.kept);
+        let half = |count: u64| size(count.div_ceil(2));
         jobs::Limits {
-            workers: self.workers(),
             queue: size(work.queue),
-            queue_per_client: size(work.queue_per_client.unwrap_or(work.queue)),
+            queue_per_client: work.queue_per_client.map_or(half(work.queue), size),
             kept: size(kept.jobs_kept),
             kept_for: Duration::from_secs(kept.kept_for),
+            promised: Duration::from_secs(kept.kept_at_least),
+            keys_for: Duration::from_secs(kept.keys_for),
             bytes: size(kept.kept_bytes),
-            time: Duration::from_secs(work.job_time),
+            bytes_per_client: kept.kept_bytes_per_client.map_or(half(kept.kept_bytes), size),
         }
+    }
+
+    /// How jobs are worked off. One core is left to answer requests.
+    pub fn work(&self) -> http::Work {
+        let spare = || available_parallelism().map_or(1, |cores| cores.get().saturating_sub(1).max(1));
+        let Work { workers, job_time, .. } = self.work;
+        http::Work { workers: workers.map_or_else(spare, size), time: Duration::from_secs(job_time) }
     }
 
     /// How the interface behaves.
@@ -207,8 +223,11 @@ impl Serve {
     /// When some token cannot be one. Told here and not by the parser of the command line, which quotes what it refuses.
     pub fn settings(&self) -> io::Result<Settings> {
         let requests = &self.requests;
-        if !requests.tokens.iter().all(|token| is_token(token)) {
-            return Err(io::Error::other("a --token is made of letters, digits and -._~+/= and is not empty"));
+        if !requests.tokens.iter().all(|token| http::is_token(token)) {
+            return Err(io::Error::other(format!("--token: {}", http::NO_TOKEN)));
+        }
+        if requests.token_file.is_some() && !requests.tokens.is_empty() {
+            return Err(io::Error::other("give --token or --token-file, not both"));
         }
         Ok(Settings {
             limits: http::ApiLimits {
@@ -234,11 +253,6 @@ fn size(count: u64) -> usize {
 
 fn count(least: u64, most: u64) -> RangedU64ValueParser {
     clap::value_parser!(u64).range(least..=most)
-}
-
-/// True for what an authorization header can carry (`b64token` of RFC 6750).
-fn is_token(text: &str) -> bool {
-    !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_alphanumeric() || b"-._~+/=".contains(&byte))
 }
 
 /// Levels, alone or each for a target. A bare word that is no level would be taken for a target, and silence the rest.

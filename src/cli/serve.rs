@@ -7,20 +7,35 @@ use axum_server::Handle;
 use axum_server::accept::Accept;
 use hyper_util::rt::{TokioExecutor, TokioTimer};
 use hyper_util::server::conn::auto::Builder;
+use std::fmt::Display;
+use std::fs;
 use std::future::{Ready, ready};
 use std::io;
 use std::net::{SocketAddr, TcpListener};
+use std::path::{Path, PathBuf};
 use std::pin::Pin;
 use std::process::ExitCode;
+use std::sync::Arc;
 use std::time::Duration;
 use tokio::net::TcpStream;
 use tokio::runtime::Runtime;
+use tokio::time::{sleep, timeout};
 use tokio_io_timeout::TimeoutStream;
 use voussoir::collapse;
-use voussoir::http::{self, Service};
+use voussoir::http::{self, Service, Tokens};
+use voussoir::jobs::Memory;
 
 /// Time for answers that are on their way when everything else has ended.
 const LAST_ANSWERS: Duration = Duration::from_secs(2);
+
+/// Time for analyses that were told to stop.
+const LAST_STEP: Duration = Duration::from_secs(2);
+
+/// How often it is looked whether the file of tokens has changed.
+const LOOK_AT_FILE: Duration = Duration::from_secs(1);
+
+/// How often it is looked whether results were read.
+const LOOK: Duration = Duration::from_millis(50);
 
 /// Serves until SIGTERM or ctrl-c.
 pub fn serve(options: &Serve) -> ExitCode {
@@ -34,17 +49,24 @@ pub fn serve(options: &Serve) -> ExitCode {
 }
 
 fn run(options: &Serve) -> io::Result<()> {
-    let (limits, settings) = (options.job_limits(), options.settings()?);
+    let (limits, work, settings) = (options.job_limits(), options.work(), options.settings()?);
     let request_time = settings.limits.request_time;
+    if let Some(file) = &options.requests.token_file {
+        take_tokens(&settings.tokens, file)?;
+    }
     let listener = TcpListener::bind(&options.address.bind)?;
     listener.set_nonblocking(true)?;
     let address = listener.local_addr()?;
-    let service = Service::start(limits, settings, collapse::answer)?;
-    tracing::info!(%address, ?limits, "listening");
     let runtime = Runtime::new()?;
     let handle = Handle::new();
-    let ending = runtime.spawn(end(service.clone(), handle.clone(), Duration::from_secs(options.grace)));
     runtime.block_on(async {
+        let tokens = settings.tokens.clone();
+        let service = Service::start(Arc::new(Memory::new(limits)), work, settings, collapse::answer);
+        tracing::info!(%address, ?limits, ?work, "listening");
+        if let Some(file) = options.requests.token_file.clone() {
+            tokio::spawn(follow_tokens(tokens, file));
+        }
+        let ending = tokio::spawn(end(service.clone(), handle.clone(), Duration::from_secs(options.grace)));
         let server = axum_server::from_tcp(listener)?.acceptor(Patient(request_time));
         let mut server = server.handle(handle).http1_only();
         be_patient(server.http_builder(), request_time);
@@ -79,28 +101,57 @@ impl<S> Accept<TcpStream, S> for Patient {
     }
 }
 
-/// Once told to stop: accepts no more jobs and ends event streams, lets jobs end within `grace` while everyone can still
-/// ask for them, or until told a second time, cancels the rest, and then lets the last answers out.
+/// Once told to stop: accepts no more jobs and ends event streams. Within `grace`, and until told a second time, jobs may end
+/// and their results be read; it goes on when there is nothing more to wait for. Then it cancels the rest, and lets the last
+/// answers out.
 async fn end(service: Service, handle: Handle<SocketAddr>, grace: Duration) {
     asked_to_stop().await;
     tracing::info!("stopping");
-    service.jobs.close();
+    service.store.close();
     service.stopping.cancel();
-    let jobs = service.jobs.clone();
-    #[allow(clippy::disallowed_methods, reason = "waits for the workers, which takes a thread but no core")]
-    let mut idle = tokio::task::spawn_blocking(move || jobs.shutdown(grace));
-    let idle = tokio::select! {
-        idle = &mut idle => idle,
-        () = asked_to_stop() => {
-            tracing::info!("stopping at once");
-            service.jobs.cancel_all();
-            idle.await
-        }
+    let done = async {
+        service.workers.idle().await;
+        all_read(&service).await;
     };
-    if !matches!(idle, Ok(true)) {
+    tokio::select! {
+        _ = timeout(grace, done) => {}
+        () = asked_to_stop() => tracing::info!("stopping at once"),
+    }
+    service.workers.abandon().await;
+    if timeout(LAST_STEP, service.workers.idle()).await.is_err() {
         tracing::warn!("an analysis would not stop");
     }
     handle.graceful_shutdown(Some(LAST_ANSWERS));
+}
+
+/// Takes the tokens of a file.
+fn take_tokens(tokens: &Tokens, file: &Path) -> io::Result<()> {
+    let named = |fault: &dyn Display| io::Error::other(format!("--token-file {}: {fault}", file.display()));
+    let text = fs::read_to_string(file).map_err(|error| named(&error))?;
+    let count = tokens.replace(&text).map_err(|fault| named(&fault))?;
+    tracing::info!(count, "tokens read");
+    Ok(())
+}
+
+/// Takes the tokens of a file again whenever it has changed; a faulty one changes nothing.
+async fn follow_tokens(tokens: Tokens, file: PathBuf) {
+    let changed = || fs::metadata(&file).and_then(|about| about.modified()).ok();
+    let mut known = changed();
+    loop {
+        sleep(LOOK_AT_FILE).await;
+        let now = changed();
+        if now.is_some() && now != known {
+            known = now;
+            take_tokens(&tokens, &file).unwrap_or_else(|error| tracing::error!(%error, "the tokens stay as they were"));
+        }
+    }
+}
+
+/// Returns when every result that was promised to be kept has been read.
+async fn all_read(service: &Service) {
+    while service.store.occupancy().await.is_ok_and(|occupancy| occupancy.unread > 0) {
+        sleep(LOOK).await;
+    }
 }
 
 /// Waits for SIGTERM or ctrl-c.

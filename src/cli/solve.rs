@@ -12,7 +12,7 @@ use voussoir::collapse;
 use voussoir::wire::fault::Fault;
 use voussoir::wire::format::Format;
 use voussoir::wire::read::read_question;
-use voussoir::wire::rendering::{FIGURE, WHOLE, find, renderings};
+use voussoir::wire::rendering::{FIGURE, WHOLE, renderings};
 
 /// Exit code for a request that cannot be analysed.
 const FAULTY: u8 = 2;
@@ -38,7 +38,8 @@ pub fn solve(options: &Solve) -> ExitCode {
         Err(failure) => return fail(failure),
     };
     let written = |name: &str, format: Format| {
-        find(&product, name, format).cloned().unwrap_or_else(|| Err(format!("there is no {name}")))
+        let part = product.iter().find(|part| part.is(name, format.name()));
+        part.map_or_else(|| Err(format!("there is no {name}")), |part| part.body.clone())
     };
     let drawn = options.figure.as_ref().map_or(Ok(()), |file| {
         let figure = written(FIGURE, Format::Svg)?;

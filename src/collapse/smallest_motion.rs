@@ -47,7 +47,7 @@ pub(super) fn smallest_motion(columns: &[Column], unknowns: usize, budget: &Budg
                 column.iter().for_each(|&(j, b)| hessian[(i, j)] += a * b);
             }
         }
-        if gradient.norm() < 1e-11 * scale + rounding {
+        if gradient.norm() < (1e-11 * scale + rounding).min(CLOSURE[0] * scale) {
             return Some(x);
         }
         let ridge = 1e-14 * hessian.trace().max(1e-6);
@@ -203,6 +203,15 @@ mod tests {
         ];
         let x = smallest_motion(&columns, 4, &Budget::unlimited()).unwrap();
         assert!((0..3).all(|i| (x[i] / x[5 - i] - 1.0).abs() < 1e-6), "{x:?}");
+    }
+
+    #[test]
+    fn a_motion_that_closes_but_for_a_little_is_none() {
+        // The first unknown wants equal rates, which the second lets no rate but 0 have; multipliers grow as it fades.
+        for off in [1e-5, 1e-6, 1e-7] {
+            let columns = vec![vec![(0, 1.0), (2, 1.0)], vec![(0, -1.0), (1, off), (2, -0.5)]];
+            assert_eq!(smallest_motion(&columns, 3, &Budget::unlimited()), None, "{off}");
+        }
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 mod fallen;
 mod leg;
+mod softer;
 
 use super::certificate::{Certificate, any_fixed, loaded, mesh_notes};
 use super::discretise::{Discretisation, Model};
@@ -55,9 +56,8 @@ type OnEvent<'w> = dyn FnMut(&Tracer, f64) -> ControlFlow<()> + 'w;
 
 /// The whole answer; stones that are in `built` already are not condensed again.
 pub(super) fn run<'a>(analysis: &'a Analysis, built: &mut Discretisation<'a>) -> Result<CollapseReport, AnalysisError> {
-    let question = Setup::new(analysis, built.budget)?;
-    let report = question.answer(built)?;
-    Ok(report.or_cannot_tell(question.blank(0)))
+    let report = softer::as_asked(analysis, built)?;
+    softer::or_softer(analysis, report, built.budget)
 }
 
 /// Limit window and load path on the mesh given; what follows from them is left to [`run`].

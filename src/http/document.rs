@@ -20,34 +20,47 @@ const NO_SCOPES: [&str; 0] = [];
 type Refused = (&'static str, &'static str, fn(&str, &str) -> bool);
 
 /// Problems; of two for the same status code the first one holds.
-const PROBLEMS: [Refused; 19] = [
-    ("400", "The query cannot be read", |path, id| path.contains("/results") || id == "list_jobs"),
+const PROBLEMS: [Refused; 23] = [
+    ("400", "The query cannot be read", |path, id| of_results(path, id) || id == "list_jobs"),
     ("400", "Not JSON, or a header that cannot be read", |_, id| has_body(id)),
     ("401", "No token, or another one; only where the service has tokens", |path, _| is_guarded(path)),
+    ("403", "The token may not do this; only where the service has tokens", |path, _| is_guarded(path)),
     ("404", "No such job, result not ready, or no such part", |path, _| path.contains("{id}")),
-    ("406", "Not to be had in this format", |path, _| path.contains("/results")),
+    ("406", "Not to be had in this format", of_results),
     ("408", "The body did not arrive in time", |_, id| has_body(id)),
-    ("410", "The job was dismissed", |path, _| path.contains("/results")),
+    ("409", "The job has ended with a result or a failure", |_, id| id == "dismiss_job"),
+    ("409", "The job has not ended", |_, id| id == "forget_job"),
+    ("410", "The idempotency key was used for a job that is forgotten", |_, id| id == "submit_job"),
+    ("410", "The job was dismissed", of_results),
     ("413", "The body is too long", |_, id| has_body(id)),
     ("415", "The body is not said to be JSON", |_, id| has_body(id)),
-    ("422", "The analysis failed", |path, _| path.contains("/results")),
+    ("422", "The analysis failed", of_results),
     ("422", FAULTY_OR_TAKEN, |_, id| id == "submit_job"),
     ("422", "Describes no analysis: the faults are listed", |_, id| id == "validate"),
-    ("429", "As many jobs of this client wait as may", |_, id| id == "submit_job"),
+    ("429", "As many jobs of this client wait, or as many bytes are kept for it, as may", |_, id| id == "submit_job"),
     ("500", "A defect of the program", |_, _| true),
-    ("503", "Too many answers are on their way", |path, _| path.contains("/results")),
+    ("503", "Too many answers are on their way", of_results),
     ("503", "Queue or memory full, or shutting down", |_, id| id == "submit_job"),
     ("503", "Too many streams are open, or shutting down", |_, id| id == "get_events"),
     ("503", "Shutting down", |_, id| id == "ready"),
-    ("304", "As the client knows it already", |path, _| path.contains("/results")),
+    ("304", "As the client knows it already", of_results),
 ];
 
 const FAULTY_OR_TAKEN: &str =
     "Describes no analysis: the faults are listed; or the idempotency key was used for another request";
 
 /// What a job's id is good for.
-const LINKED: [&str; 8] =
-    ["get_job", "dismiss_job", "get_request", "get_events", "get_results", "get_history", "get_field", "get_figure"];
+const LINKED: [&str; 9] = [
+    "get_job",
+    "dismiss_job",
+    "forget_job",
+    "get_request",
+    "get_events",
+    "get_results",
+    "get_history",
+    "get_field",
+    "get_figure",
+];
 
 /// Ends of paths, and the formats on offer there.
 const FORMATS: [(&str, &[Format]); 4] =
@@ -67,6 +80,11 @@ fn is_guarded(path: &str) -> bool {
     path.starts_with("/v1") || path == "/metrics"
 }
 
+/// True for what reads an answer or a part of it.
+fn of_results(path: &str, operation: &str) -> bool {
+    path.contains("/results") && operation != "forget_job"
+}
+
 fn has_body(operation: &str) -> bool {
     ["submit_job", "validate"].contains(&operation)
 }
@@ -83,7 +101,7 @@ fn complete(document: &mut OpenApi) {
                         .extend(from_value(refused(status, meaning)).map(|refused| ((*status).to_owned(), refused)));
                 }
             }
-            if let Some((_, formats)) = FORMATS.iter().find(|(end, _)| path.ends_with(end)) {
+            if let Some((_, formats)) = FORMATS.iter().find(|(end, _)| path.ends_with(end) && of_results(path, id)) {
                 let names: Vec<_> = formats.iter().map(|format| format.name()).collect();
                 let format = json!({
                     "name": "f", "in": "query", "description": "Format; goes before the header `accept`",

@@ -7,7 +7,7 @@ use super::jobs::Known;
 use super::problem::{Problem, kinds};
 use super::service::{AppState, Service};
 use super::status::JobStatus;
-use crate::jobs::{Job, Stand, Status};
+use crate::jobs::{Job, Status};
 use crate::wire::json::{NotFinite, compact};
 use axum::http::{HeaderMap, HeaderName, StatusCode};
 use axum::response::sse::{Event, KeepAlive, Sse};
@@ -15,7 +15,6 @@ use axum::response::{IntoResponse, Response};
 use futures_util::stream;
 use std::time::Duration;
 use tokio::sync::OwnedSemaphorePermit;
-use tokio::sync::watch::Receiver;
 use utoipa::ToSchema;
 
 /// How often a running analysis is looked at.
@@ -55,7 +54,6 @@ pub(super) async fn events(state: AppState, Known(job): Known, headers: HeaderMa
         |_| Problem::of(kinds::STREAMS_FULL, format!("{} event streams are open", service.settings.limits.streams));
     let follower = Follower {
         _permit: service.streams.clone().try_acquire_owned().map_err(full)?,
-        changes: job.progress.stand(),
         job,
         // An end that has not come is that of another job.
         seen: seen.filter(|_| ended.is_none()),
@@ -104,7 +102,6 @@ impl Seen {
 struct Follower {
     service: Service,
     job: Job,
-    changes: Receiver<Stand>,
     seen: Option<Seen>,
     _permit: OwnedSemaphorePermit,
 }
@@ -116,26 +113,26 @@ impl Follower {
             return None;
         }
         loop {
-            self.changes.borrow_and_update();
-            // One that the store has forgotten has ended, and its own stand says how.
-            let job = self.service.jobs.get(self.job.id).unwrap_or_else(|| self.job.now());
-            let (status, step) = (job.status(), job.progress.step());
+            let (status, step) = (self.job.status(), self.job.progress);
             let now = Seen { status, events: step.map(|step| step.events) };
             let (name, data) = match self.seen {
                 Some(seen) if seen.status == status => {
                     ("step", step.filter(|_| seen != now).map(|step| compact(&step)))
                 }
-                _ => (if status.is_final() { "end" } else { "status" }, Some(compact(&JobStatus::from(&job)))),
+                _ => (if status.is_final() { "end" } else { "status" }, Some(compact(&JobStatus::from(&self.job)))),
             };
             if let Some(data) = data {
                 self.seen = Some(now);
                 return Some(data.map(|data| Event::default().event(name).id(now.write()).data(data)));
             }
-            tokio::select! {
+            let (store, id) = (&self.service.store, self.job.id);
+            let now = tokio::select! {
                 () = self.service.stopping.cancelled() => return None,
-                _ = self.changes.changed() => {}
-                () = tokio::time::sleep(LOOK), if status == Status::Running => {}
-            }
+                changed = store.wait(id, status) => changed,
+                () = tokio::time::sleep(LOOK), if status == Status::Running => store.job(id).await,
+            };
+            // One that is forgotten, or that nobody can tell of: the client comes back and asks.
+            self.job = now.ok().flatten()?;
         }
     }
 }

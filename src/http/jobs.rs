@@ -1,12 +1,14 @@
 //! Handlers of `/v1/jobs` beside submission: list, status, request, dismissal.
 
 use super::etag::Version;
-use super::problem::{Problem, RETRY_AFTER, kinds};
-use super::service::{AppState, Service};
+use super::layers::Client;
+use super::problem::{Problem, kinds};
+use super::service::{AppState, Service, ended};
 use super::status::{JobList, JobStatus, ListLinks};
-use crate::jobs::{Dismissal, Job, JobId, Status};
+use crate::jobs::{Cancelled, Job, JobId, JobState, Status, Which};
 use crate::wire::json;
 use crate::wire::request::Request;
+use axum::Extension;
 use axum::extract::rejection::QueryRejection;
 use axum::extract::{FromRequestParts, Path, Query};
 use axum::http::request::Parts;
@@ -22,7 +24,7 @@ const JOBS_LISTED: usize = 50;
 const MOST_JOBS_LISTED: usize = 1000;
 
 /// The header of an answer that is JSON.
-const JSON: [(header::HeaderName, &str); 1] = [(header::CONTENT_TYPE, "application/json")];
+pub(super) const JSON: [(header::HeaderName, &str); 1] = [(header::CONTENT_TYPE, "application/json")];
 
 /// Which part of the list is asked for.
 #[derive(Debug, Deserialize, IntoParams)]
@@ -51,6 +53,7 @@ pub(super) fn answer(value: &impl Serialize) -> Result<Response, Problem> {
 )]
 pub(super) async fn list(
     state: AppState,
+    Extension(client): Extension<Client>,
     query: Result<Query<ListQuery>, QueryRejection>,
 ) -> Result<Response, Problem> {
     let Query(ListQuery { status, limit, cursor }) = query.map_err(|rejection| query_fault(&rejection))?;
@@ -59,7 +62,7 @@ pub(super) async fn list(
         return Err(Problem::of(kinds::BAD_QUERY, format!("limit must lie between 1 and {MOST_JOBS_LISTED}")));
     }
     // One more than asked for tells whether there is a next page.
-    let mut jobs = state.jobs.list(status, cursor, limit + 1);
+    let mut jobs = state.store.list(Which { client: client.sees(), status, before: cursor, limit: limit + 1 }).await?;
     let more = jobs.len() > limit;
     jobs.truncate(limit);
     let next = jobs.last().filter(|_| more).map(|last| {
@@ -84,13 +87,15 @@ pub(super) async fn list(
         (status = 304, description = "Still as the client knows it"),
     )
 )]
-pub(super) async fn show(Known(job): Known, headers: HeaderMap) -> Result<Response, Problem> {
+pub(super) async fn show(state: AppState, Known(job): Known, headers: HeaderMap) -> Result<Response, Problem> {
     let body = json::line(&JobStatus::from(&job)).map_err(Problem::unwritable)?;
     let version = Version::of(&body);
     let mut response = version.known(&headers).unwrap_or_else(|| version.mark((JSON, body)));
-    if !job.status().is_final() {
-        response.headers_mut().insert(header::RETRY_AFTER, HeaderValue::from(RETRY_AFTER));
+    if matches!(job.state, JobState::Failed(_)) {
+        state.store.seen(job.id).await?;
     }
+    let again = state.look_again(&job).await;
+    response.headers_mut().extend(again.map(|seconds| (header::RETRY_AFTER, HeaderValue::from(seconds))));
     Ok(response)
 }
 
@@ -103,23 +108,49 @@ pub(super) async fn show(Known(job): Known, headers: HeaderMap) -> Result<Respon
             byte", body = Request),
     )
 )]
-pub(super) async fn request(Known(job): Known) -> impl IntoResponse {
-    (JSON, job.request)
+pub(super) async fn request(state: AppState, Known(job): Known) -> Result<Response, Problem> {
+    let request = state.store.request(job.id).await?;
+    Ok((JSON, request.ok_or_else(|| Problem::no_such_job(&job.id.to_string()))?).into_response())
 }
 
-/// Cancel a job that has not ended, forget one that has.
+/// Cancel a job. Asked again, it answers the same.
 #[utoipa::path(
     delete, path = "/v1/jobs/{id}", tag = "jobs", operation_id = "dismiss_job",
     params(("id" = String, Path, format = "uuid", description = "Job id")),
     responses(
-        (status = 200, description = "Had not ended: it is dismissed", body = JobStatus),
-        (status = 204, description = "Had ended: it is forgotten"),
+        (status = 200, description = "It is dismissed, now or by an earlier request", body = JobStatus),
     )
 )]
 pub(super) async fn dismiss(state: AppState, Known(job): Known) -> Result<Response, Problem> {
-    match state.jobs.dismiss(job.id).ok_or_else(|| Problem::no_such_job(&job.id.to_string()))? {
-        Dismissal::Cancelled(job) => answer(&JobStatus::from(&*job)),
-        Dismissal::Forgotten => Ok(StatusCode::NO_CONTENT.into_response()),
+    let id = job.id;
+    match state.store.cancel(id).await?.ok_or_else(|| Problem::no_such_job(&id.to_string()))? {
+        Cancelled::Now(job) => {
+            ended(&state.metrics, &job);
+            answer(&JobStatus::from(&job))
+        }
+        Cancelled::Before(job) if job.status() == Status::Dismissed => answer(&JobStatus::from(&job)),
+        Cancelled::Before(job) => {
+            let detail = format!("job {id} is {}; DELETE /v1/jobs/{id}/results forgets it", job.status().word());
+            Err(Problem::of(kinds::HAS_ENDED, detail))
+        }
+    }
+}
+
+/// Forget a job that has ended, with its request and its results.
+#[utoipa::path(
+    delete, path = "/v1/jobs/{id}/results", tag = "results", operation_id = "forget_job",
+    params(("id" = String, Path, format = "uuid", description = "Job id")),
+    responses((status = 204, description = "It is forgotten"))
+)]
+pub(super) async fn forget(state: AppState, Known(job): Known) -> Result<Response, Problem> {
+    let id = job.id;
+    if !job.status().is_final() {
+        let detail = format!("job {id} is {}; DELETE /v1/jobs/{id} cancels it", job.status().word());
+        return Err(Problem::of(kinds::NOT_ENDED, detail));
+    }
+    match state.store.forget(id).await? {
+        true => Ok(StatusCode::NO_CONTENT.into_response()),
+        false => Err(Problem::no_such_job(&id.to_string())),
     }
 }
 
@@ -133,8 +164,11 @@ impl FromRequestParts<Service> for Known {
         let path = Path::<Vec<(String, String)>>::from_request_parts(parts, service).await;
         let id = path.ok().and_then(|Path(names)| names.into_iter().find(|(name, _)| name == "id"));
         let (_, id) = id.ok_or_else(|| Problem::no_such_path(parts.uri.path()))?;
-        let job = JobId::try_parse(&id).ok().and_then(|id| service.jobs.get(id));
-        job.map(Known).ok_or_else(|| Problem::no_such_job(&id))
+        let unknown = || Problem::no_such_job(&id);
+        let job = service.store.job(JobId::try_parse(&id).map_err(|_| unknown())?).await?;
+        // To others it is as if it were not there.
+        let may = |job: &Job| parts.extensions.get::<Client>().is_some_and(|client| client.may(&parts.method, job));
+        job.filter(may).map(Known).ok_or_else(unknown)
     }
 }
 

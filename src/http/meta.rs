@@ -42,7 +42,7 @@ pub(super) async fn live() -> Json<Health> {
     responses((status = 200, description = "Ready", body = Health))
 )]
 pub(super) async fn ready(state: axum::extract::State<Service>) -> Result<Json<Health>, Problem> {
-    if state.jobs.is_open() { Ok(Health::of("ready")) } else { Err(Problem::shutting_down()) }
+    if state.store.is_open() { Ok(Health::of("ready")) } else { Err(Problem::shutting_down()) }
 }
 
 /// This document.

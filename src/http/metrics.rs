@@ -79,9 +79,9 @@ impl Metrics {
     /// A job has ended.
     pub(super) fn ended(&self, job: &Job) {
         self.jobs.get_or_create(&[("outcome", job.status().word())]).inc();
-        if let Some(time) = job.wall_time().filter(|_| job.status() != Status::Dismissed) {
+        if let Some(time) = job.wall_time {
             self.seconds.observe(time.as_secs_f64());
-            self.events.observe(job.progress.step().map_or(0.0, |step| step.events as f64));
+            self.events.observe(job.progress.map_or(0.0, |step| step.events as f64));
         }
     }
 }
@@ -95,8 +95,10 @@ impl Metrics {
 pub(super) async fn metrics(state: AppState, headers: HeaderMap) -> Result<impl IntoResponse, Problem> {
     // Prometheus reads the same lines under its older media type, too.
     let format = accept::choose(None, &headers, &[Format::OpenMetrics, Format::Text]).unwrap_or(Format::OpenMetrics);
-    let (load, streams) =
-        (state.jobs.load(), state.settings.limits.streams.saturating_sub(state.streams.available_permits()));
+    let (load, streams) = (
+        state.store.occupancy().await?,
+        state.settings.limits.streams.saturating_sub(state.streams.available_permits()),
+    );
     let counts = [load.waiting, load.running, load.finished, load.bytes, streams];
     for (gauge, count) in state.metrics.gauges.iter().zip(counts) {
         gauge.set(i64::try_from(count).unwrap_or(i64::MAX));

@@ -2,6 +2,7 @@
 //! [`wire`](crate::wire), and nothing is computed.
 
 mod accept;
+mod backlog;
 mod body;
 mod docs;
 mod document;
@@ -20,9 +21,9 @@ pub mod status;
 mod submit;
 
 pub use document::document;
-pub use layers::Tokens;
+pub use layers::{NO_TOKEN, Tokens, is_token};
 pub use limits::ApiLimits;
-pub use service::{Service, Settings, Solver};
+pub use service::{Service, Settings, Solver, Work};
 
 use axum::Router;
 use utoipa::OpenApi;
@@ -47,7 +48,7 @@ fn guarded() -> OpenApiRouter<Service> {
         .routes(routes!(jobs::show, jobs::dismiss))
         .routes(routes!(jobs::request))
         .routes(routes!(events::events))
-        .routes(routes!(results::results))
+        .routes(routes!(results::results, jobs::forget))
         .routes(routes!(results::history))
         .routes(routes!(results::field))
         .routes(routes!(results::figure))

@@ -44,12 +44,15 @@ impl FromRequestParts<Service> for Asked {
 
 impl Asked {
     /// A part of the answer in the format the client wants, unless it has it already; `missing` says why an answer has none.
-    fn give(self, part: &str, offered: &[Format], missing: &str) -> Result<Response, Problem> {
+    async fn give(self, part: &str, offered: &[Format], missing: &str) -> Result<Response, Problem> {
         let Asked { service, job: Job { id, state, .. }, f, headers } = self;
         let none = |kind, detail: String| Err(Problem::of(kind, detail));
-        let product = match state {
-            JobState::Successful(product) => product,
-            JobState::Failed(failure) => return Err((&failure).into()),
+        match state {
+            JobState::Successful => {}
+            JobState::Failed(failure) => {
+                service.store.seen(id).await?;
+                return Err((&failure).into());
+            }
             JobState::Dismissed => {
                 return none(kinds::DISMISSED, format!("job {id} was dismissed and has no result; submit it again"));
             }
@@ -57,17 +60,17 @@ impl Asked {
                 let detail = format!("job {id} has not ended yet; its status is at /v1/jobs/{id}");
                 return none(kinds::RESULT_NOT_READY, detail);
             }
-        };
+        }
         let format = accept::choose(f.as_deref(), &headers, offered)?;
         let version = Version::of((id, part, format));
         let mut response = match version.known(&headers) {
             Some(response) => response,
-            None => match rendering::find(&product, part, format) {
+            None => match service.store.part(id, part, rendering::kept_as(format)).await?.map(|part| part.body) {
                 Some(Ok(body)) => {
-                    let body = service.outgoing.body(body.clone())?;
+                    let body = service.outgoing.body(body)?;
                     version.mark(([(header::CONTENT_TYPE, format.content_type())], body))
                 }
-                Some(Err(reason)) => return none(kinds::NO_SUCH_PART, reason.clone()),
+                Some(Err(reason)) => return none(kinds::NO_SUCH_PART, reason),
                 None => return none(kinds::NO_SUCH_PART, missing.to_owned()),
             },
         };
@@ -87,7 +90,7 @@ impl Asked {
     )
 )]
 pub(super) async fn results(asked: Asked) -> Result<Response, Problem> {
-    asked.give(rendering::WHOLE, &format::RESULTS, "")
+    asked.give(rendering::WHOLE, &format::RESULTS, "").await
 }
 
 /// The load path of a job, point by point.
@@ -102,7 +105,7 @@ pub(super) async fn results(asked: Asked) -> Result<Response, Problem> {
 )]
 pub(super) async fn history(asked: Asked) -> Result<Response, Problem> {
     let missing = "only an analysis of one structure has a load path: a curve and a curved beam have none";
-    asked.give(rendering::HISTORY, &format::HISTORY, missing)
+    asked.give(rendering::HISTORY, &format::HISTORY, missing).await
 }
 
 /// A stress field of a job.
@@ -128,7 +131,7 @@ pub(super) async fn field(
         "no stress field is there for {load}: those of one structure that report.stress_fields asks for are, by the words \
          unit_load and near_collapse or by their load factor"
     );
-    asked.give(&rendering::field(&load), &format::FIELD, &missing)
+    asked.give(&rendering::field(&load), &format::FIELD, &missing).await
 }
 
 /// The picture of a job's answer.
@@ -141,5 +144,5 @@ pub(super) async fn field(
     )
 )]
 pub(super) async fn figure(asked: Asked) -> Result<Response, Problem> {
-    asked.give(rendering::FIGURE, &format::FIGURE, "")
+    asked.give(rendering::FIGURE, &format::FIGURE, "").await
 }

@@ -6,16 +6,15 @@ use super::metrics::Metrics;
 use super::outgoing::Outgoing;
 use crate::budget::Budget;
 use crate::collapse::{AnalysisError, Answer, Question};
-use crate::jobs::{self, Failure, JobStore, Product};
+use crate::jobs::{Failure, Job, JobState, Product, Store, Workers};
+use crate::wire::read::read_question;
 use crate::wire::rendering::renderings;
-use crate::wire::request::Request;
-use crate::wire::translate;
+use axum::body::Bytes;
 use axum::http::HeaderValue;
-use std::io;
 use std::num::NonZeroUsize;
 use std::sync::Arc;
 use std::thread::available_parallelism;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 use tokio::sync::Semaphore;
 use tokio_util::sync::CancellationToken;
 
@@ -36,13 +35,25 @@ pub struct Settings {
 /// How a handler is given the service.
 pub(super) type AppState = axum::extract::State<Service>;
 
+/// How jobs are worked off.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Work {
+    /// Jobs worked on at once.
+    pub workers: usize,
+    /// How long a worker may be at one job.
+    pub time: Duration,
+}
+
 /// What every handler can reach; copies are the same service.
 #[derive(Clone)]
 pub struct Service {
-    /// All jobs. Their requests are kept as bytes, and as they were read until a worker takes them.
-    pub jobs: Arc<JobStore<Request>>,
+    /// All jobs.
+    pub store: Arc<dyn Store>,
+    /// Who works them off.
+    pub workers: Arc<Workers>,
     /// Cancelled when the service is to stop: ends event streams.
     pub stopping: CancellationToken,
+    pub(super) work: Work,
     pub(super) settings: Arc<Settings>,
     pub(super) metrics: Metrics,
     pub(super) streams: Arc<Semaphore>,
@@ -52,34 +63,45 @@ pub struct Service {
 }
 
 impl Service {
-    /// Starts the workers.
-    ///
-    /// # Errors
-    /// When the system gives no thread.
-    pub fn start(jobs: jobs::Limits, settings: Settings, analyse: Solver) -> io::Result<Self> {
+    /// Starts the workers, in the runtime of the caller.
+    pub fn start(store: Arc<dyn Store>, work: Work, settings: Settings, analyse: Solver) -> Self {
         let metrics = Metrics::default();
         let counted = metrics.clone();
-        let work = move |request: Request, budget: &Budget| perform(&request, budget, analyse);
-        let jobs = JobStore::start(jobs, work, move |job| counted.ended(job))?;
+        let analyse = move |request: &Bytes, budget: &Budget| perform(request, budget, analyse);
+        let workers = Workers::start(store.clone(), work.workers, work.time, analyse, move |job| ended(&counted, job));
         let cores = available_parallelism().map_or(1, NonZeroUsize::get);
-        Ok(Service {
-            jobs: Arc::new(jobs),
+        Service {
+            store,
+            workers: Arc::new(workers),
             stopping: CancellationToken::new(),
+            work,
             metrics,
             streams: Arc::new(Semaphore::new(settings.limits.streams)),
             readers: Arc::new(Semaphore::new(cores)),
             outgoing: Outgoing::new(settings.limits.outgoing),
             settings: Arc::new(settings),
-        })
+        }
+    }
+}
+
+/// Counts and logs the end of a job, wherever it has ended.
+pub(super) fn ended(metrics: &Metrics, job: &Job) {
+    metrics.ended(job);
+    let (id, client, outcome) = (job.id, &*job.client, job.status().word());
+    let ms = job.wall_time.map(|time| time.as_secs_f64() * 1e3);
+    match &job.state {
+        JobState::Failed(Failure::Defect) => tracing::error!(job.id = %id, client, outcome, ms, "ended"),
+        JobState::Failed(failure) => tracing::warn!(job.id = %id, client, outcome, ms, %failure, "ended"),
+        _ => tracing::info!(job.id = %id, client, outcome, ms, "ended"),
     }
 }
 
 /// What a worker does with a request.
-fn perform(request: &Request, budget: &Budget, analyse: Solver) -> Result<Product, Failure> {
-    // It was translated when it was accepted, so it can be again. A question may be ten thousand times as large as its request:
-    // while the job waited, only the request had to be kept.
-    let question = translate::translate(request).map_err(|_| Failure::Defect)?;
+fn perform(request: &Bytes, budget: &Budget, analyse: Solver) -> Result<Product, Failure> {
+    // It was read and translated when it was accepted, so it can be again. A question may be ten thousand times as large as its
+    // request: while the job waited, only the request had to be kept.
+    let (request, question) = read_question(request).map_err(|_| Failure::Defect)?;
     let clock = Instant::now();
     let answer = analyse(&question, budget)?;
-    renderings(request, &question, &answer, clock.elapsed())
+    renderings(&request, &question, &answer, clock.elapsed())
 }

@@ -2,9 +2,10 @@
 
 use super::problem::Problem;
 use crate::budget::LoadStep;
-use crate::jobs::{Job, JobId, JobState, Moment, Status};
+use crate::jobs::{Job, JobId, JobState, Status};
 use humantime::format_rfc3339_millis;
 use serde::Serialize;
+use std::time::SystemTime;
 use utoipa::ToSchema;
 
 /// Where to go from here.
@@ -81,7 +82,7 @@ pub fn path(id: JobId) -> String {
 
 impl From<&Job> for JobStatus {
     fn from(job: &Job) -> Self {
-        let time = |moment: Moment| format_rfc3339_millis(moment.wall).to_string();
+        let time = |moment: SystemTime| format_rfc3339_millis(moment).to_string();
         let status = path(job.id);
         let [request, events, results] = ["request", "events", "results"].map(|part| format!("{status}/{part}"));
         JobStatus {
@@ -92,9 +93,9 @@ impl From<&Job> for JobStatus {
             created: time(job.created),
             started: job.started.map(time),
             finished: job.finished.map(time),
-            wall_time_s: job.wall_time().map(|time| time.as_secs_f64()),
+            wall_time_s: job.wall_time.map(|time| time.as_secs_f64()),
             queue_position: job.position,
-            progress: job.progress.step(),
+            progress: job.progress,
             problem: if let JobState::Failed(failure) = &job.state { Some(failure.into()) } else { None },
             links: Links { status, request, events, results },
         }

@@ -1,14 +1,16 @@
 //! Handlers that take a request: submit it, or only look it over.
 
 use super::body::{JsonBody, check_syntax};
-use super::jobs::answer;
+use super::jobs::{JSON, answer};
 use super::layers::Client;
 use super::problem::{Problem, kinds};
 use super::service::{AppState, Service};
 use super::status::{self, JobStatus};
-use crate::jobs::Submission;
+use crate::jobs::{Job, JobId, Status, Submission};
+use crate::wire::format::Format;
 use crate::wire::json;
 use crate::wire::read;
+use crate::wire::rendering;
 use crate::wire::request::Request;
 use axum::Extension;
 use axum::body::Bytes;
@@ -16,6 +18,7 @@ use axum::http::{HeaderMap, HeaderName, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use serde::Serialize;
 use std::time::Duration;
+use tokio::time::{Instant, timeout_at};
 use utoipa::ToSchema;
 
 /// Longest wait for the end of a job.
@@ -33,15 +36,18 @@ const IDEMPOTENCY_KEY: HeaderName = HeaderName::from_static("idempotency-key");
     post, path = "/v1/jobs", tag = "jobs", operation_id = "submit_job",
     params(
         ("prefer" = Option<String>, Header,
-            description = "`wait=N`: answer when the job has ended, or after N seconds, 30 at most"),
+            description = "`wait=N`: answer when the job has ended, or after N seconds, 30 at most. With \
+                `return=representation` the answer is then the results, if there are any"),
         ("idempotency-key" = Option<String>, Header, min_length = 1, max_length = 200, pattern = "^[!-~]+$",
             description = "A name for this submission: sent again with the same body, it gives the job it named"),
     ),
     request_body(content = Request, content_type = "application/json"),
     responses(
-        (status = 201, description = "Accepted; poll the status", body = JobStatus, headers(
+        (status = 201, description = "Accepted; poll the status. The results instead, where they were asked for and are there in \
+            time", body = JobStatus, headers(
             ("location" = String, description = "Path of the job's status"),
-            ("preference-applied" = Option<String>, description = "The wait that was granted, where one was asked for"),
+            ("content-location" = Option<String>, description = "Path of the results, where the body is those"),
+            ("preference-applied" = Option<String>, description = "The preferences that were heeded"),
         )),
     )
 )]
@@ -54,21 +60,45 @@ pub(super) async fn submit(
     let key = idempotency_key(&headers)?.map(|key| client.scoped(key));
     let submission = read_within(&state, body, move |work| {
         let (name, request) = (work.name().map(str::to_owned), json::line(&work).map_err(Problem::unwritable)?.into());
-        Ok(Submission { work, request, name, client: client.name, key })
+        Ok(Submission { request, name, client: client.name, key })
     });
-    let mut job = state.jobs.submit(submission.await?)?;
+    let job = match state.store.submit(submission.await?).await {
+        Ok(job) => job,
+        Err(refusal) => return Err(state.refused(refusal).await),
+    };
     tracing::Span::current().record("job.id", tracing::field::display(job.id));
-    let wait = preferred_wait(&headers);
-    if let Some(wait) = wait {
-        // Timed out or ended, what counts is how the job stands then; the store may have forgotten it already.
-        let _ = tokio::time::timeout(wait, job.progress.ended()).await;
-        job = state.jobs.get(job.id).unwrap_or_else(|| job.now());
+    let preferred = Preferred::read(&headers);
+    let job = stand_after(&state, job, preferred.wait.unwrap_or_default()).await?;
+    let whole = preferred.results && job.status() == Status::Successful;
+    let part = if whole { state.store.part(job.id, rendering::WHOLE, Format::Json.name()).await? } else { None };
+    let results = part.and_then(|part| part.body.ok());
+    let heeded = preferred.heeded(results.is_some()).and_then(|heeded| heeded.parse().ok());
+    let mut response = match results {
+        Some(results) => (results_of(job.id), JSON, state.outgoing.body(results)?).into_response(),
+        None => answer(&JobStatus::from(&job))?,
+    };
+    response.headers_mut().extend(heeded.map(|heeded| (PREFERENCE_APPLIED, heeded)));
+    Ok((StatusCode::CREATED, [(header::LOCATION, status::path(job.id))], response).into_response())
+}
+
+/// The header that says that a body is the results of a job.
+fn results_of(id: JobId) -> [(HeaderName, String); 1] {
+    [(header::CONTENT_LOCATION, format!("{}/results", status::path(id)))]
+}
+
+/// A job as it stands when it has ended, or so long from now.
+async fn stand_after(state: &Service, mut job: Job, wait: Duration) -> Result<Job, Problem> {
+    let until = Instant::now() + wait;
+    while !job.status().is_final() {
+        match timeout_at(until, state.store.wait(job.id, job.status())).await {
+            Ok(Ok(Some(changed))) => job = changed,
+            // Forgotten between two looks: the last one has to do.
+            Ok(Ok(None)) => break,
+            Ok(Err(reason)) => return Err(reason.into()),
+            Err(_) => return Ok(state.store.job(job.id).await?.unwrap_or(job)),
+        }
     }
-    let location = [(header::LOCATION, status::path(job.id))];
-    let mut response = (StatusCode::CREATED, location, answer(&JobStatus::from(&job))?).into_response();
-    let granted = wait.and_then(|wait| format!("wait={}", wait.as_secs()).parse().ok());
-    response.headers_mut().extend(granted.map(|granted| (PREFERENCE_APPLIED, granted)));
-    Ok(response)
+    Ok(job)
 }
 
 /// A request that would be accepted.
@@ -123,15 +153,42 @@ fn idempotency_key(headers: &HeaderMap) -> Result<Option<&str>, Problem> {
     if plain { Ok(Some(key)) } else { Err(Problem::of(kinds::BAD_HEADER, detail)) }
 }
 
-/// The wait a client prefers (RFC 7240), cut to the longest there is; what cannot be read is left aside, as it asks.
-fn preferred_wait(headers: &HeaderMap) -> Option<Duration> {
-    let lines = headers.get_all(PREFER).iter().filter_map(|value| value.to_str().ok());
-    let mut preferences = lines.flat_map(|line| line.split(',')).map(|one| one.split(';').next().unwrap_or_default());
-    let seconds = preferences.find_map(|preference| {
-        let (_, value) = preference.split_once('=').filter(|(name, _)| name.trim().eq_ignore_ascii_case("wait"))?;
-        value.trim().trim_matches('"').parse().ok()
-    })?;
-    Some(Duration::from_secs(seconds).min(LONGEST_WAIT))
+/// What a client prefers (RFC 7240); what cannot be read is left aside, as that asks.
+#[derive(Debug, PartialEq, Default)]
+struct Preferred {
+    /// How long to wait for the end, cut to the longest there is.
+    wait: Option<Duration>,
+    /// That the answer is the results.
+    results: bool,
+}
+
+impl Preferred {
+    fn read(headers: &HeaderMap) -> Self {
+        let lines = headers.get_all(PREFER).iter().filter_map(|value| value.to_str().ok());
+        let preferences = lines.flat_map(|line| line.split(',')).filter_map(|one| {
+            let (name, value) = one.split(';').next()?.split_once('=')?;
+            Some((name.trim().to_ascii_lowercase(), value.trim().trim_matches('"')))
+        });
+        let mut preferred = Preferred::default();
+        for (name, value) in preferences {
+            match (name.as_str(), value.parse()) {
+                // Of two the first holds.
+                ("wait", Ok(seconds)) => {
+                    _ = preferred.wait.get_or_insert(Duration::from_secs(seconds).min(LONGEST_WAIT))
+                }
+                ("return", _) => preferred.results |= value.eq_ignore_ascii_case("representation"),
+                _ => {}
+            }
+        }
+        preferred
+    }
+
+    /// The preferences that were heeded, where there are any.
+    fn heeded(&self, results: bool) -> Option<String> {
+        let wait = self.wait.map(|wait| format!("wait={}", wait.as_secs()));
+        let heeded: Vec<_> = wait.into_iter().chain(results.then(|| "return=representation".to_owned())).collect();
+        (!heeded.is_empty()).then(|| heeded.join(", "))
+    }
 }
 
 #[cfg(test)]
@@ -140,20 +197,22 @@ mod tests {
     use axum::http::HeaderValue;
 
     #[test]
-    fn a_wait_is_read_as_rfc_7240_writes_it() {
-        for (text, seconds) in [
-            ("wait=5", Some(5)),
-            ("respond-async, wait=10", Some(10)),
-            ("Wait = \"7\"; x=1", Some(7)),
-            ("wait=900", Some(30)),
-            ("wait=0", Some(0)),
-            ("wait", None),
-            ("wait=-1", None),
-            ("wait=soon", None),
-            ("return=minimal", None),
+    fn preferences_are_read_as_rfc_7240_writes_them() {
+        for (text, seconds, results) in [
+            ("wait=5", Some(5), false),
+            ("respond-async, wait=10", Some(10), false),
+            ("Wait = \"7\"; x=1", Some(7), false),
+            ("wait=900", Some(30), false),
+            ("wait=0", Some(0), false),
+            ("wait", None, false),
+            ("wait=-1", None, false),
+            ("wait=soon, wait=2, wait=3", Some(2), false),
+            ("return=minimal", None, false),
+            ("return=representation, wait=3", Some(3), true),
         ] {
             let headers = HeaderMap::from_iter([(PREFER, HeaderValue::from_static(text))]);
-            assert_eq!(preferred_wait(&headers), seconds.map(Duration::from_secs), "{text}");
+            let wait = seconds.map(Duration::from_secs);
+            assert_eq!(Preferred::read(&headers), Preferred { wait, results }, "{text}");
         }
     }
 }

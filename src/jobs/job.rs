@@ -1,38 +1,38 @@
-//! One job and where it stands.
+//! A job, from its submission to its end.
 
-use super::progress::Progress;
+use crate::budget::LoadStep;
 use crate::collapse::AnalysisError;
 use bytes::Bytes;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
-use std::time::{Duration, Instant, SystemTime};
+use std::time::{Duration, SystemTime};
 
-/// Names a job; version 7, so that ids sort by time of submission.
+/// A job's name, of version 7, and so later ones are larger.
 pub type JobId = uuid::Uuid;
 
-/// Status words of OGC API - Processes.
+/// Where a job stands, in the words of OGC API - Processes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, utoipa::ToSchema)]
 #[serde(rename_all = "snake_case")]
 #[schema(as = StatusWord)]
 pub enum Status {
-    /// Waits in the queue.
+    /// It waits for a worker.
     Accepted,
-    /// Under way.
+    /// A worker has it.
     Running,
-    /// There are results.
+    /// It has a result.
     Successful,
-    /// There are none; `problem` says why.
+    /// It has none, and says why.
     Failed,
-    /// Cancelled.
+    /// A client cancelled it.
     Dismissed,
 }
 
 impl Status {
-    /// All of them.
+    /// Every status there is.
     pub const ALL: [Status; 5] =
         [Status::Accepted, Status::Running, Status::Successful, Status::Failed, Status::Dismissed];
 
-    /// The word.
+    /// The same word as in JSON.
     pub fn word(self) -> &'static str {
         match self {
             Status::Accepted => "accepted",
@@ -43,179 +43,135 @@ impl Status {
         }
     }
 
-    /// True for a state that a job never leaves.
+    /// True when it will not change any more.
     pub fn is_final(self) -> bool {
         self > Status::Running
     }
 }
 
-/// Where a job stands, with what belongs to it there.
+/// Where a job stands, with what belongs to it.
 #[derive(Debug, Clone, PartialEq)]
 pub enum JobState {
-    /// Waits in the queue.
+    /// It waits for a worker.
     Accepted,
-    /// A worker is at it.
+    /// A worker has it.
     Running,
-    /// Done.
-    Successful(Product),
-    /// Ended without an answer.
+    /// It has a result, kept in parts.
+    Successful,
+    /// It has none, and says why.
     Failed(Failure),
-    /// Cancelled.
+    /// A client cancelled it.
     Dismissed,
 }
 
 impl JobState {
-    /// What an answer takes, bytes.
-    pub(super) fn bytes(&self) -> usize {
-        let JobState::Successful(product) = self else { return 0 };
-        product.iter().map(|rendering| rendering.body.as_ref().map_or(0, Bytes::len)).sum()
-    }
-
-    /// In one word.
+    /// The same without what belongs to it.
     pub fn status(&self) -> Status {
         match self {
             JobState::Accepted => Status::Accepted,
             JobState::Running => Status::Running,
-            JobState::Successful(_) => Status::Successful,
+            JobState::Successful => Status::Successful,
             JobState::Failed(_) => Status::Failed,
             JobState::Dismissed => Status::Dismissed,
         }
     }
 }
 
-/// One part of an answer in one format, as it is given out.
+/// A part of an answer in one format, as it is given out.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rendering {
-    /// What the part is called; it may go by several names.
+    /// What the part is called, one name or more.
     pub names: Vec<String>,
-    /// The format's name.
+    /// Its format, as the query names it.
     pub format: &'static str,
-    /// The bytes, or why this answer has no such part.
+    /// The part, or why the answer has none.
     pub body: Result<Bytes, String>,
 }
 
-/// What a worker makes of a request: the answer in every form in which it is given out. Copies share it.
+impl Rendering {
+    /// True when it is the part of this name in this format.
+    pub fn is(&self, name: &str, format: &str) -> bool {
+        self.format == format && self.names.iter().any(|other| other == name)
+    }
+}
+
+/// An answer in all its parts and formats.
 pub type Product = Arc<[Rendering]>;
 
-/// Why a job has no answer.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+/// Why an analysis has no result.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, thiserror::Error)]
 pub enum Failure {
-    /// The mechanics said why.
-    #[error(transparent)]
-    Analysis(#[from] AnalysisError),
+    /// The mechanics says no.
+    #[error("{0}")]
+    Analysis(String),
     /// It took longer than a job may.
     #[error(
         "the analysis took longer than the {} s it may, and was stopped at load factor {load_factor} after {events} \
          events; a coarser mesh, fewer voussoirs or fewer abscissae take less", limit.as_secs_f64()
     )]
     Overdue {
-        /// The time it may take.
+        /// How long a job may take.
         limit: Duration,
-        /// Load factor reached.
+        /// Load factor it had reached.
         load_factor: f64,
-        /// Events so far.
+        /// Contact events it had seen.
         events: usize,
     },
-    /// A defect of the program: the analysis panicked, or its answer cannot be written down.
+    /// The analysis panicked.
     #[error("the analysis ended in an internal error; it is a defect of the program, not of the request")]
     Defect,
 }
 
-/// A moment, as the wall clock shows it and as durations are measured.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Moment {
-    /// Wall clock.
-    pub wall: SystemTime,
-    tick: Instant,
-}
-
-impl Moment {
-    /// The present moment.
-    pub fn now() -> Self {
-        Moment { wall: SystemTime::now(), tick: Instant::now() }
-    }
-
-    /// Time passed from `earlier` to here.
-    pub fn since(&self, earlier: &Moment) -> Duration {
-        self.tick.saturating_duration_since(earlier.tick)
+impl From<AnalysisError> for Failure {
+    fn from(error: AnalysisError) -> Self {
+        Failure::Analysis(error.to_string())
     }
 }
 
-/// How a job stands: what changes of it.
-#[derive(Debug, Clone)]
-pub struct Stand {
-    /// Where it stands.
-    pub state: JobState,
-    /// When a worker took it.
-    pub started: Option<Moment>,
-    /// When it reached a final state.
-    pub finished: Option<Moment>,
-}
-
-/// A job as it stood when the store was asked; cheap to copy.
+/// One submitted request and what became of it.
 #[derive(Debug, Clone)]
 pub struct Job {
-    /// Its name.
+    /// Names it.
     pub id: JobId,
-    /// What the request calls itself.
+    /// What its request calls itself.
     pub name: Option<Arc<str>>,
-    /// What is asked, as it is given out.
-    pub request: Bytes,
-    /// How far the analysis has come.
-    pub progress: Arc<Progress>,
+    /// Who submitted it.
+    pub client: Arc<str>,
     /// When it was accepted.
-    pub created: Moment,
+    pub created: SystemTime,
     /// When a worker took it.
-    pub started: Option<Moment>,
-    /// When it reached a final state.
-    pub finished: Option<Moment>,
+    pub started: Option<SystemTime>,
+    /// When it ended.
+    pub finished: Option<SystemTime>,
+    /// How long the worker was at it, once it has ended.
+    pub wall_time: Option<Duration>,
+    /// How far the analysis has come; none before its first step.
+    pub progress: Option<LoadStep>,
     /// Where it stands.
     pub state: JobState,
-    /// How many jobs go first, this one included, while it waits.
+    /// Its turn among those that wait, 1 for the next; none unless it waits.
     pub position: Option<usize>,
 }
 
 impl Job {
-    /// A job just accepted.
-    pub(super) fn accepted(id: JobId, name: Option<String>, request: Bytes) -> Self {
+    /// A job that waits.
+    pub(super) fn accepted(id: JobId, name: Option<String>, client: Arc<str>) -> Self {
         Job {
             id,
             name: name.map(Into::into),
-            request,
-            progress: Arc::default(),
-            created: Moment::now(),
+            client,
+            created: SystemTime::now(),
             started: None,
             finished: None,
+            wall_time: None,
+            progress: None,
             state: JobState::Accepted,
             position: None,
         }
     }
 
-    /// Brings it to another state.
-    pub(super) fn turn(&mut self, state: JobState) {
-        self.state = state;
-        let (now, status) = (Moment::now(), self.status());
-        match status {
-            Status::Running => self.started = Some(now),
-            _ => self.finished = Some(now),
-        }
-        let Job { state, started, finished, .. } = &*self;
-        self.progress.tell(Stand { state: state.clone(), started: *started, finished: *finished });
-    }
-
-    /// The job as it stands now, also where the store has forgotten it.
-    pub fn now(&self) -> Self {
-        let Stand { state, started, finished } = self.progress.stand().borrow().clone();
-        Job { state, started, finished, position: None, ..self.clone() }
-    }
-
-    /// The state in one word.
+    /// The state without what belongs to it.
     pub fn status(&self) -> Status {
         self.state.status()
-    }
-
-    /// Time a worker spent on it, once it has ended.
-    pub fn wall_time(&self) -> Option<Duration> {
-        Some(self.finished?.since(&self.started?))
     }
 }

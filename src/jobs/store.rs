@@ -1,196 +1,172 @@
-//! The store: accepts, shows, cancels and forgets jobs, and stops in order.
+//! What every store of jobs does.
 
-use super::job::{Failure, Job, JobId, Product, Status};
-use super::table::{Occupancy, Refusal, Submission, Table};
-use super::{Limits, lock, worker};
-use crate::budget::Budget;
-use std::sync::{Arc, Condvar, Mutex, PoisonError};
-use std::thread::{self, JoinHandle};
+use super::job::{Job, JobId, JobState, Product, Rendering, Status};
+use super::progress::Progress;
+use bytes::Bytes;
+use std::sync::Arc;
 use std::time::Duration;
 
-/// What the workers do.
-pub type Analyse<W> = dyn Fn(W, &Budget) -> Result<Product, Failure> + Send + Sync;
-
-/// Sees every job that has ended, once.
-pub type Ended = dyn Fn(&Job) + Send + Sync;
-
-/// How long a cancelled analysis may take to notice before its thread is given up.
-const LAST_STEP: Duration = Duration::from_secs(2);
-
-/// What [`JobStore::dismiss`] did.
+/// What a client submits.
 #[derive(Debug, Clone)]
-pub enum Dismissal {
-    /// The job had not ended: it is cancelled now.
-    Cancelled(Box<Job>),
-    /// The job had ended: it is forgotten now.
-    Forgotten,
+pub struct Submission {
+    /// The request, as it is given out and as a worker reads it.
+    pub request: Bytes,
+    /// What the request calls itself.
+    pub name: Option<String>,
+    /// Who submits it.
+    pub client: Arc<str>,
+    /// Names this submission: sent again with the same request it gives the same job, as long as the key lives.
+    pub key: Option<String>,
 }
 
-/// What store and workers share.
-pub(super) struct Shared<W> {
-    pub(super) analyse: Box<Analyse<W>>,
-    pub(super) ended: Box<Ended>,
-    pub(super) limits: Limits,
-    pub(super) table: Mutex<Table<W>>,
-    /// There is work, or there will never be again.
-    pub(super) work: Condvar,
-    /// A worker has come back.
-    pub(super) back: Condvar,
+/// Why a submission is not accepted.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum Refusal {
+    /// As many jobs wait as may.
+    #[error("the queue is full: {0} jobs are waiting")]
+    QueueFull(usize),
+    /// As many jobs of this client wait as may.
+    #[error("{0} jobs of this client are waiting, as many as one client may have there")]
+    ClientQueueFull(usize),
+    /// What has to be kept takes as many bytes as all jobs may.
+    #[error("{0} bytes are kept for jobs that have not ended or whose answers were not read yet; read or forget some")]
+    MemoryFull(usize),
+    /// What has to be kept of this client takes as many bytes as one client may.
+    #[error(
+        "{0} bytes are kept for jobs of this client that have not ended or whose answers it has not read yet; read or forget some"
+    )]
+    ClientMemoryFull(usize),
+    /// The key names another request.
+    #[error("job {0} was submitted with the same key and another request")]
+    KeyTaken(JobId),
+    /// The key names a job that is forgotten; to run it again would break what the key promises.
+    #[error(
+        "job {0} was submitted with the same key, and has been forgotten; submit with another key to have it run again"
+    )]
+    KeySpent(JobId),
+    /// The service is ending.
+    #[error("the service is shutting down")]
+    Closed,
+    /// Nobody knows.
+    #[error(transparent)]
+    Unavailable(#[from] Unavailable),
 }
 
-impl<W> Shared<W> {
-    /// Works on the books; what that takes off them is dropped when others may have them again.
-    pub(super) fn books<V>(&self, work: impl FnOnce(&mut Table<W>) -> V) -> V {
-        let mut table = lock(&self.table);
-        table.tidy();
-        let value = work(&mut table);
-        let forgotten = table.forgotten();
-        drop(table);
-        drop(forgotten);
-        value
-    }
+/// The store cannot be reached: what was asked may have happened or not.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("the store of jobs cannot be reached: {0}")]
+pub struct Unavailable(pub String);
+
+/// Which jobs are listed.
+#[derive(Debug, Clone, Default)]
+pub struct Which {
+    /// Those of this client only.
+    pub client: Option<Arc<str>>,
+    /// Those of this status only.
+    pub status: Option<Status>,
+    /// Those submitted before this one only.
+    pub before: Option<JobId>,
+    /// At most so many.
+    pub limit: usize,
 }
 
-/// All jobs and the threads that run them. `W` is what a worker is handed.
-pub struct JobStore<W> {
-    shared: Arc<Shared<W>>,
-    workers: Mutex<Vec<JoinHandle<()>>>,
-    /// How the shutdown ended, once it has.
-    over: Mutex<Option<bool>>,
+/// What became of a wish to cancel.
+#[derive(Debug, Clone)]
+pub enum Cancelled {
+    /// The job had not ended, and is dismissed now.
+    Now(Job),
+    /// It had ended before, so.
+    Before(Job),
 }
 
-impl<W: Send + 'static> JobStore<W> {
-    /// Starts the workers, which `analyse`; `ended` is told of every job that has ended.
-    ///
-    /// # Errors
-    /// When the system gives no thread.
-    pub fn start(
-        limits: Limits,
-        analyse: impl Fn(W, &Budget) -> Result<Product, Failure> + Send + Sync + 'static,
-        ended: impl Fn(&Job) + Send + Sync + 'static,
-    ) -> std::io::Result<Self> {
-        let shared = Arc::new(Shared {
-            analyse: Box::new(analyse),
-            ended: Box::new(ended),
-            limits,
-            table: Mutex::new(Table::new(limits)),
-            work: Condvar::new(),
-            back: Condvar::new(),
-        });
-        let store = JobStore { shared, workers: Mutex::default(), over: Mutex::default() };
-        for number in 0..limits.workers.max(1) {
-            let shared = store.shared.clone();
-            let name = format!("voussoir-worker-{number}");
-            let handle = thread::Builder::new().name(name).spawn(move || worker::work(&shared))?;
-            lock(&store.workers).push(handle);
-        }
-        Ok(store)
-    }
-
-    /// Puts a request at the end of the queue. One whose key is known and asks the same gives the job it named.
-    ///
-    /// # Errors
-    /// When the queue or the memory is full, the key names another request, or the store is shutting down; nothing is
-    /// accepted then.
-    pub fn submit(&self, submission: Submission<W>) -> Result<Job, Refusal> {
-        let job = self.shared.books(|table| table.accept(submission))?;
-        self.shared.work.notify_one();
-        Ok(job)
-    }
+/// A job in the hands of a worker. It is the worker's until it ends it or drops this.
+pub struct Lease {
+    /// Which job.
+    pub id: JobId,
+    /// Its request.
+    pub request: Bytes,
+    /// What the analysis tells of itself, and where it is told to stop.
+    pub progress: Arc<Progress>,
 }
 
-impl<W> JobStore<W> {
-    /// The job as it stands.
-    pub fn get(&self, id: JobId) -> Option<Job> {
-        self.shared.books(|table| table.get(id))
-    }
-
-    /// At most `limit` jobs, newest first; of one `status` only, and submitted before the job `before` only, if asked.
-    pub fn list(&self, status: Option<Status>, before: Option<JobId>, limit: usize) -> Vec<Job> {
-        self.shared.books(|table| table.list(status, before, limit))
-    }
-
-    /// What the store holds just now.
-    pub fn load(&self) -> Occupancy {
-        self.shared.books(|table| table.load())
-    }
-
-    /// False once the store accepts nothing more.
-    pub fn is_open(&self) -> bool {
-        self.shared.books(|table| table.is_open())
-    }
-
-    /// Cancels a job that has not ended, forgets one that has. None when there is no such job.
-    pub fn dismiss(&self, id: JobId) -> Option<Dismissal> {
-        let dismissal = self.shared.books(|table| {
-            table.get(id)?;
-            Some(match table.cancel(id) {
-                Some(job) => Dismissal::Cancelled(Box::new(job)),
-                None => {
-                    table.forget(id);
-                    Dismissal::Forgotten
-                }
-            })
-        })?;
-        if let Dismissal::Cancelled(job) = &dismissal {
-            (self.shared.ended)(job);
-        }
-        Some(dismissal)
-    }
-
-    /// Accepts nothing more. What was accepted still runs.
-    pub fn close(&self) {
-        self.shared.books(|table| table.close());
-        self.shared.work.notify_all();
-    }
-
-    /// Accepts nothing more, lets accepted jobs end within `grace`, cancels the rest and ends the workers.
-    /// A second call waits for nothing more and says the same.
-    /// False when an analysis would not stop and its thread had to be left behind.
-    pub fn shutdown(&self, grace: Duration) -> bool {
-        let mut over = lock(&self.over);
-        if let Some(idle) = *over {
-            return idle;
-        }
-        self.close();
-        if !self.wait_until_idle(grace) {
-            self.cancel_all();
-        }
-        let idle = self.wait_until_idle(LAST_STEP);
-        if idle {
-            for worker in lock(&self.workers).drain(..) {
-                // A worker cannot panic: the analysis is the only foreign code and its panics are caught.
-                let _ = worker.join();
-            }
-        }
-        *over = Some(idle);
-        idle
-    }
-
-    /// Cancels every job that has not ended.
-    pub fn cancel_all(&self) {
-        for id in self.shared.books(|table| table.active()) {
-            if let Some(job) = self.shared.books(|table| table.cancel(id)) {
-                (self.shared.ended)(&job);
-            }
-        }
-        self.shared.work.notify_all();
-        self.shared.back.notify_all();
-    }
-
-    fn wait_until_idle(&self, patience: Duration) -> bool {
-        let table = lock(&self.shared.table);
-        let (table, _) = self
-            .shared
-            .back
-            .wait_timeout_while(table, patience, |table| !table.is_idle())
-            .unwrap_or_else(PoisonError::into_inner);
-        table.is_idle()
-    }
+/// How an analysis has ended.
+#[derive(Debug, Clone)]
+pub struct Ending {
+    /// Successful or failed.
+    pub state: JobState,
+    /// The answer of one that was successful.
+    pub product: Product,
+    /// How long the worker was at it.
+    pub wall_time: Duration,
 }
 
-impl<W> Drop for JobStore<W> {
-    fn drop(&mut self) {
-        self.shutdown(Duration::ZERO);
-    }
+/// How full a store is.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Occupancy {
+    /// Jobs that wait.
+    pub waiting: usize,
+    /// Jobs in the hands of workers.
+    pub running: usize,
+    /// Jobs that have ended and are kept.
+    pub finished: usize,
+    /// Of those, the ones that are promised to be kept still: not read, and ended a short while ago.
+    pub unread: usize,
+    /// What requests, answers and keys take, bytes.
+    pub bytes: usize,
+    /// Finished jobs that had to make room for others so far.
+    pub evicted: u64,
+    /// Seconds a worker is at a job, mean of late.
+    pub seconds: f64,
+}
+
+/// Holds jobs: queue, records, requests and answers.
+///
+/// A job that was accepted is never lost before it has ended. Its answer is kept for a minimum time or until it was read.
+#[async_trait::async_trait]
+pub trait Store: Send + Sync {
+    /// Accepts a job, or gives the one that its key names.
+    async fn submit(&self, submission: Submission) -> Result<Job, Refusal>;
+
+    /// A job as it stands.
+    async fn job(&self, id: JobId) -> Result<Option<Job>, Unavailable>;
+
+    /// Jobs as they stand, newest first.
+    async fn list(&self, which: Which) -> Result<Vec<Job>, Unavailable>;
+
+    /// A job's request.
+    async fn request(&self, id: JobId) -> Result<Option<Bytes>, Unavailable>;
+
+    /// A part of a successful job's answer. The job counts as read.
+    async fn part(&self, id: JobId, name: &str, format: &str) -> Result<Option<Rendering>, Unavailable>;
+
+    /// Notes that a client has learnt how a job ended that has no answer to read.
+    async fn seen(&self, id: JobId) -> Result<(), Unavailable>;
+
+    /// Waits until a job's status is another than `known`; none where it is forgotten and nobody can tell any more.
+    async fn wait(&self, id: JobId, known: Status) -> Result<Option<Job>, Unavailable>;
+
+    /// Dismisses a job that has not ended; its analysis stops at its next step. None where there is no such job.
+    async fn cancel(&self, id: JobId) -> Result<Option<Cancelled>, Unavailable>;
+
+    /// Forgets a job that has ended; false where there is none.
+    async fn forget(&self, id: JobId) -> Result<bool, Unavailable>;
+
+    /// Waits for the next job; none once the store is closed and, where this process is alone with it, nothing waits.
+    async fn take(&self) -> Result<Option<Lease>, Unavailable>;
+
+    /// Writes down how a job has ended. None where it had ended before, or is not this worker's any more.
+    async fn end(&self, lease: &Lease, ending: Ending) -> Result<Option<Job>, Unavailable>;
+
+    /// How full it is.
+    async fn occupancy(&self) -> Result<Occupancy, Unavailable>;
+
+    /// Accepts no more jobs from here on.
+    fn close(&self);
+
+    /// True until it is closed.
+    fn is_open(&self) -> bool;
+
+    /// Stops what this process still has: a store that ends with it dismisses all that waits or runs, one that others share
+    /// gives its running jobs back. Those dismissed are returned.
+    async fn abandon(&self) -> Vec<Job>;
 }

@@ -1,214 +1,292 @@
-//! Every job there is, and who is next: plain bookkeeping, to be used under the store's lock.
+//! The books of the store in memory: every job, what it takes, and who has to make room.
 
-use super::Limits;
-use super::job::{Job, JobId, JobState, Moment, Status};
+mod room;
+
+use super::accounts::Accounts;
+use super::job::{Job, JobId, JobState, Product, Status};
+use super::journal::Journal;
+use super::keys::Keys;
+use super::memory::Limits;
+use super::progress::Progress;
+use super::store::{Cancelled, Ending, Lease, Occupancy, Refusal, Submission, Unavailable, Which};
 use bytes::Bytes;
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::BTreeMap;
 use std::mem;
+use std::sync::Arc;
+use std::time::{Duration, Instant, SystemTime};
+use tokio::sync::watch;
 
-/// A request on its way into the store.
-#[derive(Debug, Clone)]
-pub struct Submission<W> {
-    /// What a worker is handed.
-    pub work: W,
-    /// What is asked, as it is given out; two that are the same ask the same.
-    pub request: Bytes,
-    /// What the request calls itself.
-    pub name: Option<String>,
-    /// Who asks.
-    pub client: String,
-    /// A name the client gave this submission, so that sending it twice does no harm.
-    pub key: Option<String>,
-}
+/// What a job takes beside its request and its answer, bytes: its record, its places in the books, the names of its parts.
+const RECORD: usize = 2048;
 
-/// Why a request was not accepted.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-pub enum Refusal {
-    /// As many jobs wait as may.
-    #[error("the queue is full: {0} jobs are waiting")]
-    QueueFull(usize),
-    /// As many jobs of this client wait as may.
-    #[error("{0} jobs of this client are waiting, as many as one client may have there")]
-    ClientQueueFull(usize),
-    /// The jobs that have not ended fill the memory.
-    #[error("the jobs that have not ended hold {0} bytes, and with this one more than they may")]
-    MemoryFull(usize),
-    /// The key names another request.
-    #[error("job {0} was submitted with the same key and another request")]
-    KeyTaken(JobId),
-    /// The store is shutting down.
-    #[error("the service is shutting down")]
-    Closed,
-}
+/// Share of the latest job in the mean of their times.
+const LATEST: f64 = 0.05;
 
-/// What the store holds just now.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Occupancy {
-    /// Jobs that wait.
-    pub waiting: usize,
-    /// Jobs in the hands of workers, dismissed ones included until their worker is free.
-    pub running: usize,
-    /// Jobs that have ended and are kept.
-    pub finished: usize,
-    /// What their requests and answers take, bytes.
-    pub bytes: usize,
-}
-
-/// One job and what only the books know of it.
+/// A job with all that belongs to it.
 #[derive(Debug)]
-struct Entry<W> {
-    job: Job,
-    /// Until a worker takes it, or the job ends.
-    work: Option<W>,
+struct Entry {
+    /// The job; those who wait for it are told of every change.
+    job: watch::Sender<Job>,
+    request: Bytes,
+    product: Product,
+    progress: Arc<Progress>,
     bytes: usize,
-    client: String,
-    key: Option<String>,
+    /// Its place in the order of ends, and when that was.
+    ended: Option<(u64, Instant)>,
 }
 
-/// The books. Ids sort by time of submission, and so do the map and the queue.
+/// All jobs.
 #[derive(Debug)]
-pub(super) struct Table<W> {
+pub(super) struct Table {
     limits: Limits,
-    jobs: BTreeMap<JobId, Entry<W>>,
-    waiting: VecDeque<JobId>,
-    /// How many jobs of each client wait.
-    clients: BTreeMap<String, usize>,
-    /// Jobs by the key they were submitted with.
-    keys: BTreeMap<String, JobId>,
-    /// In the order in which they reached a final state.
-    finished: VecDeque<JobId>,
-    /// In the hands of workers, dismissed ones included.
-    running: Vec<JobId>,
-    /// What all jobs take, and those that have not ended.
+    jobs: BTreeMap<JobId, Entry>,
+    accounts: Accounts,
+    keys: Keys,
+    /// Jobs that have ended, by the order of their ends.
+    finished: BTreeMap<u64, JobId>,
+    /// How many have ended so far.
+    ends: u64,
+    waiting: usize,
+    running: usize,
     bytes: usize,
-    active_bytes: usize,
-    /// Taken off the books, to be dropped outside the lock.
-    forgotten: Vec<Job>,
+    evicted: u64,
+    seconds: f64,
     open: bool,
+    journal: Option<Journal>,
+    /// What was taken out of the books and is to be dropped where nobody waits for it.
+    removed: Vec<(Bytes, Product)>,
 }
 
-impl<W> Table<W> {
+impl Table {
     pub(super) fn new(limits: Limits) -> Self {
         Table {
             limits,
             jobs: BTreeMap::new(),
-            waiting: VecDeque::new(),
-            clients: BTreeMap::new(),
-            keys: BTreeMap::new(),
-            finished: VecDeque::new(),
-            running: Vec::new(),
+            accounts: Accounts::default(),
+            keys: Keys::default(),
+            finished: BTreeMap::new(),
+            ends: 0,
+            waiting: 0,
+            running: 0,
             bytes: 0,
-            active_bytes: 0,
-            forgotten: Vec::new(),
+            evicted: 0,
+            seconds: 0.0,
             open: true,
+            journal: None,
+            removed: Vec::new(),
         }
     }
 
-    /// Hands out the job that has waited longest.
-    pub(super) fn take(&mut self) -> Option<(Job, W)> {
-        let id = self.waiting.pop_front()?;
-        let entry = self.jobs.get_mut(&id)?;
-        left(&mut self.clients, &entry.client);
-        let work = entry.work.take()?;
-        entry.job.turn(JobState::Running);
-        self.running.push(id);
-        Some((entry.job.clone(), work))
-    }
-
-    /// A worker is done with `id`: the job as it has ended, unless it had before.
-    pub(super) fn give_back(&mut self, id: JobId, state: JobState) -> Option<Job> {
-        self.running.retain(|&other| other != id);
-        self.end(id, state)
-    }
-
-    /// Cancels a job that has not ended and returns it; its worker, if any, is told to stop.
-    pub(super) fn cancel(&mut self, id: JobId) -> Option<Job> {
-        if let Ok(place) = self.waiting.binary_search(&id) {
-            self.waiting.remove(place);
-            left(&mut self.clients, &self.jobs.get(&id)?.client);
+    /// Accepts a job, or gives the one that was accepted under the same key.
+    pub(super) fn accept(&mut self, submission: Submission) -> Result<Job, Refusal> {
+        if let Some(known) = submission.key.as_ref().and_then(|key| self.keys.get(key)) {
+            let (id, same) = (known.id, known.asked_for(&submission.request));
+            return if same { self.get(id).ok_or(Refusal::KeySpent(id)) } else { Err(Refusal::KeyTaken(id)) };
         }
-        self.jobs.get(&id)?.job.progress.cancel();
-        self.end(id, JobState::Dismissed)
+        self.admit(&submission, RECORD + submission.request.len() + Keys::bytes(submission.key.as_ref()))?;
+        let id = JobId::now_v7();
+        if let Some(journal) = &mut self.journal {
+            journal.accepted(id, &submission).map_err(|error| Unavailable(format!("the journal: {error}")))?;
+        }
+        self.enter(id, submission);
+        self.get(id).ok_or(Refusal::Closed)
     }
 
-    /// Ends a job that has not ended yet and returns it.
-    fn end(&mut self, id: JobId, state: JobState) -> Option<Job> {
-        let bytes = state.bytes();
-        let entry = self.jobs.get_mut(&id).filter(|entry| !entry.job.status().is_final())?;
-        entry.job.turn(state);
-        entry.work = None;
-        self.active_bytes -= entry.bytes;
+    /// Enters a job into the books: it waits from here on.
+    pub(super) fn enter(&mut self, id: JobId, submission: Submission) {
+        let Submission { request, name, client, key } = submission;
+        let bytes = RECORD + request.len();
+        if let Some(key) = key {
+            self.keys.name(&key, id, client.clone(), &request);
+            self.charge(&client, Keys::bytes(Some(&key)));
+        }
+        self.accounts.queue(&client, id);
+        self.waiting += 1;
+        self.charge(&client, bytes);
+        let job = watch::Sender::new(Job::accepted(id, name, client));
+        let (product, progress) = (Product::default(), Arc::default());
+        self.jobs.insert(id, Entry { job, request, product, progress, bytes, ended: None });
+    }
+
+    /// From here on what is owed is noted.
+    pub(super) fn keep_journal(&mut self, journal: Journal) {
+        self.journal = Some(journal);
+    }
+
+    /// A job is owed no more: its end is known to its client, or it is forgotten.
+    fn settle(&mut self, id: JobId) {
+        if let Some(Err(error)) = self.journal.as_mut().map(|journal| journal.over(id)) {
+            // It runs once more, if the store is opened again: a pity, and no loss.
+            tracing::error!(%error, "the journal cannot be written");
+        }
+    }
+
+    /// Hands out the next job; none where nobody waits, or where answers that are promised leave no room for more of them.
+    pub(super) fn take(&mut self) -> Option<Lease> {
+        let Limits { bytes, bytes_per_client, kept, .. } = self.limits;
+        for client in self.accounts.over(bytes_per_client) {
+            self.make_room_of(&client, 0);
+        }
+        self.make_room(0);
+        if self.bytes > bytes || self.finished.len() > kept {
+            return None;
+        }
+        let id = self.accounts.next(|account| account.bytes <= bytes_per_client)?;
+        let entry = self.jobs.get(&id)?;
+        (self.waiting, self.running) = (self.waiting - 1, self.running + 1);
+        entry.job.send_modify(|job| (job.state, job.started) = (JobState::Running, Some(SystemTime::now())));
+        Some(Lease { id, request: entry.request.clone(), progress: entry.progress.clone() })
+    }
+
+    /// A worker gives its job back. None where that had ended before.
+    pub(super) fn end(&mut self, id: JobId, ending: Ending) -> Option<Job> {
+        self.running -= 1;
+        let seconds = ending.wall_time.as_secs_f64();
+        let first = self.seconds == 0.0;
+        self.seconds = if first { seconds } else { self.seconds + LATEST * (seconds - self.seconds) };
+        self.finish(id, ending.state, ending.product, Some(ending.wall_time))
+    }
+
+    /// Dismisses a job that has not ended.
+    pub(super) fn cancel(&mut self, id: JobId) -> Option<Cancelled> {
+        let before = self.get(id)?;
+        if self.accounts.unqueue(&before.client, id) {
+            self.waiting -= 1;
+        }
+        self.jobs.get(&id)?.progress.cancel();
+        let now = self.finish(id, JobState::Dismissed, Product::default(), None);
+        Some(now.map_or(Cancelled::Before(before), Cancelled::Now))
+    }
+
+    /// The end of a job that had none.
+    fn finish(&mut self, id: JobId, state: JobState, product: Product, wall_time: Option<Duration>) -> Option<Job> {
+        let entry = self.jobs.get_mut(&id).filter(|entry| entry.ended.is_none())?;
+        let bytes = product.iter().map(|part| part.body.as_ref().map_or(0, Bytes::len)).sum::<usize>();
+        self.ends += 1;
+        (entry.product, entry.ended) = (product, Some((self.ends, Instant::now())));
         entry.bytes += bytes;
-        self.bytes += bytes;
-        let job = entry.job.clone();
-        self.finished.push_back(id);
-        self.tidy();
+        // Whoever dismissed a job knows of it.
+        let read = state == JobState::Dismissed;
+        entry.job.send_modify(|job| {
+            (job.finished, job.wall_time) = (Some(SystemTime::now()), wall_time);
+            (job.progress, job.state) = (entry.progress.step(), state);
+        });
+        let job = entry.job.borrow().clone();
+        self.charge(&job.client, bytes);
+        self.finished.insert(self.ends, id);
+        let account = self.accounts.of(&job.client);
+        if read { &mut account.read } else { &mut account.unread }.insert(self.ends, id);
+        if read {
+            self.settle(id);
+        }
+        self.make_room_of(&job.client, 0);
+        self.make_room(0);
         Some(job)
     }
 
-    /// Forgets finished jobs, oldest first, until what is left is within the limits. The one that ended last stays
-    /// whatever it costs, or nobody could ever read it.
-    pub(super) fn tidy(&mut self) {
-        let (Limits { kept, kept_for, bytes, .. }, now) = (self.limits, Moment::now());
-        while let Some(&oldest) = self.finished.front() {
-            let ended = self.jobs.get(&oldest).and_then(|entry| entry.job.finished);
-            let old = ended.is_none_or(|ended| now.since(&ended) > kept_for);
-            let surplus = self.finished.len() > kept || (self.bytes > bytes && self.finished.len() > 1);
-            if !old && !surplus {
-                break;
-            }
-            self.finished.pop_front();
-            self.remove(oldest);
+    /// A client has learnt how a job has ended: from here on it may make room for others.
+    pub(super) fn seen(&mut self, id: JobId) {
+        let Some(entry) = self.jobs.get(&id) else { return };
+        let Some((end, _)) = entry.ended else { return };
+        let client = entry.job.borrow().client.clone();
+        let account = self.accounts.of(&client);
+        account.unread.remove(&end);
+        account.read.insert(end, id);
+        self.settle(id);
+    }
+
+    /// Forgets a job that has ended; false where there is none.
+    pub(super) fn forget(&mut self, id: JobId) -> bool {
+        let ended = self.jobs.get(&id).is_some_and(|entry| entry.ended.is_some());
+        ended && self.remove(id).is_some()
+    }
+
+    fn remove(&mut self, id: JobId) -> Option<()> {
+        let Entry { job, request, product, bytes, ended, .. } = self.jobs.remove(&id)?;
+        let client = job.borrow().client.clone();
+        if let Some((end, _)) = ended {
+            self.finished.remove(&end);
+            let account = self.accounts.of(&client);
+            account.read.remove(&end);
+            account.unread.remove(&end);
         }
+        self.discharge(&client, bytes);
+        self.settle(id);
+        self.removed.push((request, product));
+        Some(())
     }
 
-    /// Drops a finished job from the books.
-    pub(super) fn forget(&mut self, id: JobId) {
-        self.finished.retain(|&other| other != id);
-        self.remove(id);
+    fn charge(&mut self, client: &Arc<str>, bytes: usize) {
+        self.accounts.of(client).bytes += bytes;
+        self.bytes += bytes;
     }
 
-    fn remove(&mut self, id: JobId) {
-        let Some(entry) = self.jobs.remove(&id) else { return };
-        self.bytes -= entry.bytes;
-        if let Some(key) = &entry.key {
-            self.keys.remove(key);
-        }
-        self.forgotten.push(entry.job);
+    fn discharge(&mut self, client: &Arc<str>, bytes: usize) {
+        self.accounts.of(client).bytes -= bytes;
+        self.bytes -= bytes;
+        self.accounts.close(client);
     }
 
-    /// What has been taken off the books since the last call.
-    pub(super) fn forgotten(&mut self) -> Vec<Job> {
-        mem::take(&mut self.forgotten)
+    /// What was taken out, to be dropped where nobody waits for it.
+    pub(super) fn removed(&mut self) -> Vec<(Bytes, Product)> {
+        mem::take(&mut self.removed)
     }
 
+    /// A job as it stands.
     pub(super) fn get(&self, id: JobId) -> Option<Job> {
-        self.jobs.get(&id).map(|entry| self.seen(entry))
+        self.jobs.get(&id).map(|entry| self.view(entry))
     }
 
-    /// At most `limit` jobs, newest first, of one status if asked, submitted before `before` if asked.
-    pub(super) fn list(&self, status: Option<Status>, before: Option<JobId>, limit: usize) -> Vec<Job> {
-        let end = before.unwrap_or(JobId::max());
-        let wanted = |entry: &&Entry<W>| status.is_none_or(|status| entry.job.status() == status);
-        let entries = self.jobs.range(..end).rev().map(|(_, entry)| entry);
-        entries.filter(wanted).take(limit).map(|entry| self.seen(entry)).collect()
+    fn view(&self, entry: &Entry) -> Job {
+        let mut job = entry.job.borrow().clone();
+        match job.status() {
+            Status::Accepted => job.position = self.accounts.position(&job.client, job.id),
+            Status::Running => job.progress = entry.progress.step(),
+            _ => {}
+        }
+        job
     }
 
-    /// The job with its place in the queue.
-    fn seen(&self, entry: &Entry<W>) -> Job {
-        let waits = entry.job.status() == Status::Accepted;
-        let place = if waits { self.waiting.binary_search(&entry.job.id).ok() } else { None };
-        Job { position: place.map(|place| place + 1), ..entry.job.clone() }
+    /// Told of every change of a job.
+    pub(super) fn watch(&self, id: JobId) -> Option<watch::Receiver<Job>> {
+        self.jobs.get(&id).map(|entry| entry.job.subscribe())
     }
 
-    /// Ids of all jobs that have not ended.
+    pub(super) fn request(&self, id: JobId) -> Option<Bytes> {
+        self.jobs.get(&id).map(|entry| entry.request.clone())
+    }
+
+    pub(super) fn product(&self, id: JobId) -> Option<Product> {
+        self.jobs.get(&id).map(|entry| entry.product.clone())
+    }
+
+    pub(super) fn list(&self, which: &Which) -> Vec<Job> {
+        let Which { client, status, before, limit } = which;
+        let entries = self.jobs.range(..before.unwrap_or(JobId::max())).rev().map(|(_, entry)| entry);
+        let wanted = |entry: &&Entry| {
+            let job = entry.job.borrow();
+            status.is_none_or(|status| job.status() == status)
+                && client.as_ref().is_none_or(|client| job.client == *client)
+        };
+        entries.filter(wanted).take(*limit).map(|entry| self.view(entry)).collect()
+    }
+
+    /// Every job that has not ended.
     pub(super) fn active(&self) -> Vec<JobId> {
-        self.waiting.iter().chain(&self.running).copied().collect()
+        self.jobs.iter().filter(|(_, entry)| entry.ended.is_none()).map(|(&id, _)| id).collect()
     }
 
-    pub(super) fn load(&self) -> Occupancy {
-        let (waiting, running) = (self.waiting.len(), self.running.len());
-        Occupancy { waiting, running, finished: self.finished.len(), bytes: self.bytes }
+    pub(super) fn occupancy(&self) -> Occupancy {
+        let promised = |id: &&JobId| self.age(**id) < self.limits.promised;
+        Occupancy {
+            waiting: self.waiting,
+            running: self.running,
+            finished: self.finished.len(),
+            unread: self.accounts.iter().map(|(_, account)| account.unread.values().filter(promised).count()).sum(),
+            bytes: self.bytes,
+            evicted: self.evicted,
+            seconds: self.seconds,
+        }
     }
 
     pub(super) fn close(&mut self) {
@@ -219,60 +297,8 @@ impl<W> Table<W> {
         self.open
     }
 
-    pub(super) fn has_work(&self) -> bool {
-        !self.waiting.is_empty()
-    }
-
-    pub(super) fn is_idle(&self) -> bool {
-        self.waiting.is_empty() && self.running.is_empty()
-    }
-
-    /// Puts a request at the end of the queue; the job that already has its key and asks the same is left as it is.
-    pub(super) fn accept(&mut self, submission: Submission<W>) -> Result<Job, Refusal> {
-        if let Some(&id) = submission.key.as_ref().and_then(|key| self.keys.get(key)) {
-            let known = self.get(id).filter(|job| job.request == submission.request);
-            return known.ok_or(Refusal::KeyTaken(id));
-        }
-        self.check(&submission)?;
-        let Submission { work, request, name, client, key } = submission;
-        let bytes = request.len();
-        // Named under the lock, so that the order of ids is the order of the queue.
-        let id = JobId::now_v7();
-        *self.clients.entry(client.clone()).or_default() += 1;
-        self.keys.extend(key.clone().map(|key| (key, id)));
-        self.waiting.push_back(id);
-        self.bytes += bytes;
-        self.active_bytes += bytes;
-        let entry = Entry { job: Job::accepted(id, name, request), work: Some(work), bytes, client, key };
-        let job = entry.job.clone();
-        self.jobs.insert(id, entry);
-        self.tidy();
-        Ok(Job { position: Some(self.waiting.len()), ..job })
-    }
-
-    fn check(&self, submission: &Submission<W>) -> Result<(), Refusal> {
-        let of_client = self.clients.get(&submission.client).copied().unwrap_or(0);
-        let (waiting, limits) = (self.waiting.len(), &self.limits);
-        if !self.open {
-            Err(Refusal::Closed)
-        } else if waiting >= limits.queue {
-            Err(Refusal::QueueFull(waiting))
-        } else if self.active_bytes.saturating_add(submission.request.len()) > limits.bytes {
-            Err(Refusal::MemoryFull(self.active_bytes))
-        } else if of_client >= limits.queue_per_client {
-            Err(Refusal::ClientQueueFull(of_client))
-        } else {
-            Ok(())
-        }
-    }
-}
-
-/// One job of this client waits no more.
-fn left(clients: &mut BTreeMap<String, usize>, client: &str) {
-    if let Some(count) = clients.get_mut(client) {
-        *count -= 1;
-        if *count == 0 {
-            clients.remove(client);
-        }
+    /// True when nobody will submit, and nothing waits.
+    pub(super) fn is_over(&self) -> bool {
+        !self.open && self.waiting == 0
     }
 }

@@ -162,6 +162,30 @@ fn every_outcome_is_told_in_words_that_fit_it() {
             summary("paper/table-4", |r| r["load_factor"]["cap"] = json!(9)),
             "The arch stands only above 7.76 kN (tried up to 9)",
         ),
+        (
+            summary("paper/table-4", |r| {
+                let scaled = r["loads"].as_array_mut().unwrap().iter_mut().find(|load| load["scaled"] == true).unwrap();
+                let force = scaled["load"].as_object_mut().unwrap().values_mut().next().unwrap();
+                force["force_n_per_m"] = json!(-force["force_n_per_m"].as_f64().unwrap());
+            }),
+            "The arch stands only between -193.4 and -7.76 kN, that is with its scaled loads reversed; without",
+        ),
+        (
+            first(|r| {
+                r["arch"]["thickness"]["constant_m"] = json!(1e-5);
+                r["loads"][0]["scaled"] = json!(true);
+            }),
+            "cannot be trusted. In limit analysis it stands from 0 to 0 kN/m. Check",
+        ),
+        (first(|r| r["stone"]["density_kg_m3"] = json!(23)), "No stone has a density of 23 kg/m3"),
+        (
+            first(|r| {
+                r["arch"]["profile"] = json!({"circular": {"span_m": 8000, "rise_m": 2000}});
+                r["arch"]["thickness"]["constant_m"] = json!(600);
+                r["loads"][1]["load"]["point_load"]["x_m"] = json!(-2000);
+            }),
+            "The structure is 8480 m long: lengths are in metres.",
+        ),
         (summary("half-arch", |_| {}), "The arch stands under its fixed loads."),
         // The whole arch falls at the same load: its jacks are a pair.
         (

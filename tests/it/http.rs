@@ -97,14 +97,20 @@ fn a_running_job_shows_progress_and_can_be_dismissed_and_forgotten() {
     while server.get(&path).json()["progress"].is_null() {}
     let progress = server.get(&path).json()["progress"].take();
     assert!(progress["load_factor"].is_f64() && progress["events"].is_u64(), "{progress}");
+    assert_eq!(server.delete(&format!("{path}/results")).problem(409)["type"], "urn:voussoir:problem:not-ended");
     let dismissed = server.delete(&path);
     assert_eq!((dismissed.status, &dismissed.json()["status"]), (200, &"dismissed".into()));
     assert_eq!(server.get(&path).json()["status"], "dismissed");
     server.get(&format!("{path}/results")).problem(410);
-    assert_eq!(server.delete(&path).status, 204);
+    let again = server.delete(&path);
+    assert_eq!((again.status, again.body), (200, dismissed.body.clone()), "a retried request does nothing more");
+    assert_eq!(server.delete(&format!("{path}/results")).status, 204);
+    assert_eq!(server.delete(&format!("{path}/results")).problem(404)["type"], NO_SUCH_JOB);
     assert_eq!(server.get(&path).problem(404)["type"], NO_SUCH_JOB);
     let next = server.submit(&request());
     server.until(&next, &["successful"]);
+    assert_eq!(server.delete(&next).problem(409)["type"], "urn:voussoir:problem:has-ended");
+    assert_eq!(server.get(&format!("{next}/results")).status, 200, "nothing was lost");
 }
 
 #[test]

@@ -51,8 +51,6 @@ mod fixed_steps;
 mod half;
 #[cfg(feature = "server")]
 mod http;
-#[cfg(feature = "server")]
-mod jobs;
 mod kernel;
 #[cfg(feature = "server")]
 mod malformed_few;
@@ -98,6 +96,8 @@ mod sliding;
 mod states;
 #[cfg(feature = "server")]
 mod stopping;
+#[cfg(feature = "server")]
+mod stores;
 mod stress;
 #[cfg(feature = "server")]
 mod structure_cases;

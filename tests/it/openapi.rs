@@ -21,7 +21,7 @@ fn every_operation_is_described() {
             operations += 1;
         }
     }
-    assert_eq!(operations, 15);
+    assert_eq!(operations, 16);
 }
 
 #[test]

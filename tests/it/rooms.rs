@@ -17,7 +17,11 @@ const TABLE: [(&str, &[&str], &[&str]); 13] = [
     ("dda", &["budget", "geometry"], &["nalgebra", "faer", "thiserror"]),
     ("limit", &["budget", "geometry", "structure"], &["nalgebra", "faer", "thiserror"]),
     ("collapse", &["budget", "geometry", "structure", "dda", "limit"], &["nalgebra", "faer", "thiserror"]),
-    ("jobs", &["budget", "collapse"], &["bytes", "serde", "thiserror", "tokio", "tracing", "utoipa", "uuid"]),
+    (
+        "jobs",
+        &["budget", "collapse"],
+        &["async_trait", "bytes", "serde", "serde_json", "sha2", "thiserror", "tokio", "tracing", "utoipa", "uuid"],
+    ),
     ("render", &["collapse", "structure", "geometry"], &["thiserror"]),
     (
         "wire",
@@ -52,7 +56,8 @@ const TABLE: [(&str, &[&str], &[&str]); 13] = [
 ];
 
 /// Crates that some room may not use; an outside crate is one of these.
-const CRATES: [&str; 33] = [
+const CRATES: [&str; 34] = [
+    "async_trait",
     "axum",
     "axum_server",
     "bytes",

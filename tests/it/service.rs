@@ -2,12 +2,12 @@
 //! limits, tokens, counts.
 #![allow(clippy::disallowed_methods, reason = "tests wait for jobs by looking again")]
 
-use crate::support::{Answer, ENDLESS, ERROR, PANIC, Server, beam, curve, limits, request, settings, trouble};
+use crate::support::{Answer, ENDLESS, ERROR, PANIC, Server, beam, curve, limits, request, settings, trouble, work};
 use serde_json::{Value, json};
 use std::thread::{scope, sleep};
 use std::time::{Duration, Instant};
 use voussoir::http::problem::kinds;
-use voussoir::http::{self, Settings, Tokens};
+use voussoir::http::{self, Settings, Tokens, Work};
 use voussoir::jobs::Limits;
 
 const JSON: &str = "content-type: application/json\r\n";
@@ -38,6 +38,13 @@ fn a_submission_may_wait_for_the_end() {
     assert_eq!((answer.status, answer.header("preference-applied")), (201, Some("wait=20")));
     assert_eq!(answer.json()["status"], "successful");
     assert_eq!(answer.header("location"), answer.json()["links"]["self"].as_str());
+    let whole = post(&server, "prefer: wait=20, return=representation\r\n", &request());
+    assert_eq!((whole.status, whole.header("preference-applied")), (201, Some("wait=20, return=representation")));
+    let path = whole.header("content-location").unwrap();
+    assert_eq!(Some(path), whole.header("location").map(|status| format!("{status}/results")).as_deref());
+    assert_eq!((whole.header("content-type"), &whole.body), (Some("application/json"), &server.get(path).body));
+    let none = post(&server, "prefer: wait=20, return=representation\r\n", &trouble(ERROR));
+    assert_eq!((&none.json()["status"], none.header("preference-applied")), (&"failed".into(), Some("wait=20")));
     let (clock, answer) = (Instant::now(), post(&server, "prefer: wait=1\r\n", &trouble(ENDLESS)));
     assert!(clock.elapsed() >= Duration::from_secs(1), "it does not end");
     assert_eq!((answer.status, &answer.json()["status"]), (201, &"running".into()));
@@ -46,7 +53,7 @@ fn a_submission_may_wait_for_the_end() {
 
 #[test]
 fn those_who_wait_learn_the_end_of_a_job_that_is_forgotten_at_once() {
-    let server = Server::with(Limits { kept: 1, ..limits(2, 1000) }, settings());
+    let server = Server::with(Limits { kept: 1, ..limits(1000) }, work(2), settings());
     scope(|scope| {
         for _ in 0..8 {
             scope.spawn(|| {
@@ -85,7 +92,7 @@ fn progress_counts_the_events_of_all_paths() {
 #[test]
 fn an_answer_larger_than_its_room_is_still_given() {
     let outgoing = http::ApiLimits { outgoing: 1024, ..settings().limits };
-    let server = Server::with(limits(1, 10), Settings { limits: outgoing, ..settings() });
+    let server = Server::with(limits(10), work(1), Settings { limits: outgoing, ..settings() });
     let path = done(&server, &stressed());
     // One answer is larger than the room and takes all of it, and gives it back.
     for _ in 0..3 {
@@ -404,7 +411,7 @@ fn what_takes_too_much_memory_is_refused_with_its_estimate() {
 
 #[test]
 fn one_client_is_told_429_and_all_are_told_503() {
-    let server = Server::with(Limits { queue_per_client: 1, ..limits(1, 10) }, settings());
+    let server = Server::with(Limits { queue_per_client: 1, ..limits(10) }, work(1), settings());
     let running = server.submit(&trouble(ENDLESS));
     server.until(&running, &["running"]);
     server.submit(&request());
@@ -412,7 +419,7 @@ fn one_client_is_told_429_and_all_are_told_503() {
     assert_eq!(refused.problem(429)["type"], kinds::CLIENT_QUEUE_FULL.uri);
     assert!(refused.header("retry-after").is_some());
     assert_eq!(server.get("/health/ready").status, 200);
-    server.service.jobs.close();
+    server.service.store.close();
     let refused = server.post(request().to_string().as_bytes());
     assert_eq!(refused.problem(503)["type"], kinds::SHUTTING_DOWN.uri);
     assert!(refused.header("retry-after").is_some());
@@ -423,7 +430,7 @@ fn one_client_is_told_429_and_all_are_told_503() {
 
 #[test]
 fn a_job_may_take_so_long() {
-    let server = Server::with(Limits { time: Duration::from_millis(50), ..limits(1, 10) }, settings());
+    let server = Server::with(limits(10), Work { time: Duration::from_millis(50), ..work(1) }, settings());
     let path = server.submit(&trouble(ENDLESS));
     let body = server.until(&path, &["failed"]);
     assert_eq!(body["problem"]["type"], kinds::ANALYSIS_OVERDUE.uri);
@@ -433,7 +440,7 @@ fn a_job_may_take_so_long() {
 #[test]
 fn tokens_shut_the_service_but_not_its_health() {
     let tokens = Tokens::new(["first-token", "second-token"]);
-    let server = Server::with(limits(1, 10), Settings { tokens, ..settings() });
+    let server = Server::with(limits(10), work(1), Settings { tokens, ..settings() });
     let with = |path: &str, token: &str| server.call("GET", path, &format!("authorization: {token}\r\n"), b"");
     for path in ["/v1/jobs", "/metrics", "/v1/jobs/01890000-0000-7000-8000-000000000000/results"] {
         for token in ["", "Bearer", "Bearer third-token", "Bearer first-toke", "Basic Zmlyc3QtdG9rZW4=", "first-token"]
@@ -459,6 +466,38 @@ fn tokens_shut_the_service_but_not_its_health() {
 }
 
 #[test]
+fn a_token_sees_and_does_what_its_roles_say() {
+    let tokens = Tokens::default();
+    let file = "mine submit,read a\nyours submit,read b\nall read-all,metrics c\nboss admin d\nblind submit e\n";
+    assert_eq!(tokens.replace(file), Ok(5));
+    let server = Server::with(limits(10), work(1), Settings { tokens: tokens.clone(), ..settings() });
+    let call = |token: &str, method: &str, path: &str| {
+        server.call(method, path, &format!("authorization: Bearer {token}\r\n"), b"").status
+    };
+    let submitted =
+        |token: &str| post(&server, &format!("authorization: Bearer {token}\r\nprefer: wait=20\r\n"), &request());
+    let job = submitted("a").header("location").unwrap().to_owned();
+    let results = format!("{job}/results");
+    for (token, seen) in [("a", 200), ("b", 404), ("c", 200), ("d", 200), ("e", 403), ("f", 401)] {
+        for path in [&job, &results, &format!("{job}/request"), &format!("{results}/figure")] {
+            assert_eq!(call(token, "GET", path), seen, "{token} {path}");
+        }
+    }
+    assert_eq!(["a", "c", "d", "f"].map(|token| call(token, "GET", "/metrics")), [403, 200, 200, 401]);
+    assert_eq!(submitted("c").status, 403);
+    assert_eq!(submitted("e").status, 201);
+    let listed = |token: &str| {
+        let list = server.call("GET", "/v1/jobs", &format!("authorization: Bearer {token}\r\n"), b"");
+        list.json()["jobs"].as_array().unwrap().len()
+    };
+    assert_eq!(["a", "b", "c", "d"].map(listed), [1, 0, 2, 2]);
+    assert_eq!(["b", "c", "f"].map(|token| call(token, "DELETE", &results)), [404, 403, 401]);
+    assert_eq!(call("d", "DELETE", &results), 204);
+    tokens.replace("new submit,read z").unwrap();
+    assert_eq!(["a", "z"].map(|token| call(token, "GET", "/v1/jobs")), [401, 200], "without a restart");
+}
+
+#[test]
 fn pages_of_other_origins_may_ask_where_they_are_listed() {
     let asks = |server: &Server, origin: &str| {
         let headers = format!("origin: {origin}\r\naccess-control-request-method: POST\r\n");
@@ -467,7 +506,7 @@ fn pages_of_other_origins_may_ask_where_they_are_listed() {
     let shut = Server::start(1, 10);
     assert!(asks(&shut, "https://a.example").header("access-control-allow-origin").is_none());
     let origins = vec!["https://a.example".parse().unwrap()];
-    let server = Server::with(limits(1, 10), Settings { origins, ..settings() });
+    let server = Server::with(limits(10), work(1), Settings { origins, ..settings() });
     let allowed = asks(&server, "https://a.example");
     assert_eq!((allowed.status, allowed.header("access-control-allow-origin")), (200, Some("https://a.example")));
     assert!(asks(&server, "https://b.example").header("access-control-allow-origin").is_none());
@@ -547,7 +586,7 @@ fn the_documents_list_every_kind_of_problem() {
 #[test]
 fn a_body_that_trickles_in_is_given_up() {
     let requests = http::ApiLimits { request_time: Duration::from_millis(100), ..settings().limits };
-    let server = Server::with(limits(1, 10), Settings { limits: requests, ..settings() });
+    let server = Server::with(limits(10), work(1), Settings { limits: requests, ..settings() });
     let head =
         format!("POST /v1/jobs HTTP/1.1\r\nhost: test\r\nconnection: close\r\n{JSON}content-length: 1000\r\n\r\n");
     server.send(&head, b"{\"arch\"").problem(408);

@@ -91,7 +91,7 @@ fn in_order(service: &Voussoir, drained: &Drained) {
 
 #[test]
 fn told_to_stop_it_ends_its_jobs() {
-    let mut service = Voussoir::serve(&["--workers", "1"]);
+    let mut service = Voussoir::serve(&["--workers", "1", "--grace", "3"]);
     let known = known(&service);
     let mut client = service.client();
     let paths: Vec<_> = (0..50).map(|_| client.submit(&tiny())).collect();
@@ -100,6 +100,20 @@ fn told_to_stop_it_ends_its_jobs() {
     in_order(&service, &drained);
     assert_eq!(service.said("ended"), 51, "every accepted job");
     assert!(rest(follows).is_some(), "the stream ends in order");
+}
+
+#[test]
+fn told_to_stop_it_lets_results_be_read() {
+    let mut service = Voussoir::serve(&["--workers", "1", "--grace", "1000"]);
+    let mut client = service.client();
+    let paths: Vec<_> = (0..20).map(|_| client.submit(&tiny())).collect();
+    service.terminate();
+    for path in paths {
+        client.ended(&path);
+        assert_eq!(client.get(&format!("{path}/results")).status, 200);
+    }
+    assert_eq!(service.wait(20 * SECOND), Some(0), "nothing is left to wait for");
+    assert!(service.troubles().is_empty(), "{:?}", service.troubles());
 }
 
 #[test]
@@ -113,6 +127,6 @@ fn told_to_stop_it_waits_no_longer_than_it_may() {
     let drained = drain(&mut service, &known, 20 * SECOND);
     in_order(&service, &drained);
     assert!(drained.rounds > 0 && drained.took > SECOND, "{drained:?}");
-    assert_eq!((service.said("ended"), service.said("an analysis would not stop")), (1, 0));
+    assert_eq!((service.said("ended"), service.said("an analysis would not stop")), (3, 0), "two of them dismissed");
     assert!(rest(follows).is_some());
 }

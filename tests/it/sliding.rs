@@ -78,3 +78,43 @@ fn the_least_is_never_above_a_variant_and_is_the_least_of_all_mechanisms_of_smal
     // The set must go on asking real questions.
     assert!(slide >= 500 && ranges >= 80 && tried >= 300);
 }
+
+/// Two spans of two rings on a pier, under fill and two axles.
+fn two_rings(penalty_ratio: f64) -> Value {
+    let rings = json!([{"thickness_m": 0.35, "voussoirs": 35}, {"thickness_m": 0.35, "voussoirs": 37}]);
+    let span = json!({"profile": {"circular": {"span_m": 8, "rise_m": 2}}, "rings": rings});
+    let beside = json!({"height_m": 1, "width_m": 2.5});
+    let axle = |x: f64| json!({"load": {"patch_load": {"centre_x_m": x, "width_m": 0.8, "force_n_per_m": 1000}}, "scaled": true});
+    json!({
+        "bridge": {
+            "spans": [span, span], "piers": [{"top_width_m": 1.6, "height_m": 4, "courses": 6, "batter": 0.03}],
+            "backing": {"level_m": 1.2}, "abutments": {"left": beside, "right": beside}, "ring_friction_angle_deg": 25,
+        },
+        "stone": {"friction_angle_deg": 35, "compressive_strength_pa": 1e30, "penalty_ratio": penalty_ratio},
+        "loads": [
+            {"load": {"self_weight": {}}},
+            {"load": {"fill_pressure": {"fill_height_m": 3.2, "fill_density_kg_m3": 1800, "lateral_ratio": 0.3}}},
+            axle(-6.8), axle(-5.6),
+        ],
+    })
+}
+
+#[test]
+fn contacts_that_jam_are_no_collapse() {
+    let softer = door::solve(&two_rings(1.0));
+    let load = softer.end.unwrap().load_factor;
+    assert!((150.0..180.0).contains(&load) && !softer.notes.iter().any(|n| matches!(n, Note::SofterContacts { .. })));
+    // The path turns back at these loads, where some contact jams: far below any at which the bridge falls.
+    for (penalty_ratio, jams) in [(10.0, 5.979), (30.0, 33.483)] {
+        let report = door::solve(&two_rings(penalty_ratio));
+        assert_eq!(report.outcome, Outcome::Collapse);
+        assert!((report.end.unwrap().load_factor / load - 1.0).abs() < 0.02);
+        let said = report.notes.iter().any(|note| match note {
+            Note::SofterContacts { asked, taken, turned_back: Some(at) } => {
+                *asked == penalty_ratio && *taken == 1.0 && (at / jams - 1.0).abs() < 1e-3
+            }
+            _ => false,
+        });
+        assert!(said, "{:?}", report.notes);
+    }
+}

@@ -20,6 +20,15 @@ pub enum Note {
     FallsFromZero,
     /// No load grows.
     NothingGrows,
+    /// With contacts as stiff as asked the path could not be followed: the answer is that with softer ones.
+    SofterContacts {
+        /// Contact penalty asked for, as a multiple of Young's modulus.
+        asked: f64,
+        /// That of the answer.
+        taken: f64,
+        /// The load factor at which the path asked for turned back, if it did.
+        turned_back: Option<f64>,
+    },
     /// Hinges and slides are not those of the joints at their limits at the collapse load.
     LaterMechanism,
     /// Joints crush and slide: the load is that of the path, and none lower is looked for.
@@ -134,7 +143,8 @@ pub enum Doubt {
     SlidesInside,
     /// Stones without weight or load are free to move.
     LooseStones,
-    /// After this load factor, its highest, the path runs back past its start, without a mechanism.
+    /// After this load factor, its farthest, the path runs back past its start, without a mechanism there: contacts jam, and the
+    /// structure moves on to some other state of equilibrium, which this path does not lead to.
     TurnedBack(f64),
     /// The path ends in sliding joints that are not at the limit of their friction.
     Stray {
@@ -160,9 +170,15 @@ pub enum Doubt {
 }
 
 impl Doubt {
-    /// True where path and certificate cannot both be right; sliding may part them without either being wrong.
+    /// True where the load of the path is none to believe; sliding may part it from the certificate without either being wrong.
     pub(in crate::collapse) fn is_contradiction(&self) -> bool {
-        !matches!(self, Doubt::SlidesInside | Doubt::TurnedBack(_))
+        !matches!(self, Doubt::SlidesInside)
+    }
+
+    /// True where the path could not be followed to an end.
+    pub(in crate::collapse) fn is_lost(&self) -> bool {
+        let back = matches!(self, Doubt::TurnedBack(_) | Doubt::Stray { .. });
+        back || matches!(self, Doubt::NotLoaded | Doubt::Lost | Doubt::Unbalanced(_))
     }
 }
 

@@ -1,8 +1,9 @@
 //! What is wrapped around every route: fallbacks, limits, ids, one log line per request.
 
 mod auth;
+mod tokens;
 
-pub use auth::Tokens;
+pub use tokens::{NO_TOKEN, Tokens, is_token};
 
 pub(super) use auth::Client;
 

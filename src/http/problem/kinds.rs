@@ -34,6 +34,8 @@ kinds! {
     BAD_HEADER: BAD_REQUEST "urn:voussoir:problem:bad-header" "A header cannot be read"
     /// The idempotency key names another request.
     KEY_TAKEN: UNPROCESSABLE_ENTITY "urn:voussoir:problem:key-taken" "The idempotency key was used for another request"
+    /// The idempotency key names a job that is forgotten.
+    KEY_SPENT: GONE "urn:voussoir:problem:key-spent" "The idempotency key was used for a job that is forgotten"
     /// There is no job of this name.
     NO_SUCH_JOB: NOT_FOUND "http://www.opengis.net/def/exceptions/ogcapi-processes-1/1.0/no-such-job" "No such job"
     /// The job has not ended yet.
@@ -41,6 +43,10 @@ kinds! {
         "The result is not ready"
     /// The answer has no such part.
     NO_SUCH_PART: NOT_FOUND "urn:voussoir:problem:no-such-part" "The answer has no such part"
+    /// The job has ended and cannot be cancelled any more.
+    HAS_ENDED: CONFLICT "urn:voussoir:problem:has-ended" "The job has ended"
+    /// The job has not ended and cannot be forgotten.
+    NOT_ENDED: CONFLICT "urn:voussoir:problem:not-ended" "The job has not ended"
     /// The job was cancelled.
     DISMISSED: GONE "urn:voussoir:problem:dismissed" "The job was dismissed"
     /// The mechanics gave no answer.
@@ -52,6 +58,9 @@ kinds! {
     /// One client has as many jobs waiting as it may.
     CLIENT_QUEUE_FULL: TOO_MANY_REQUESTS "urn:voussoir:problem:client-queue-full"
         "Too many jobs of one client are waiting"
+    /// What one client has fills its share of the memory.
+    CLIENT_MEMORY_FULL: TOO_MANY_REQUESTS "urn:voussoir:problem:client-memory-full"
+        "The memory for jobs of one client is full"
     /// As many jobs wait as may.
     QUEUE_FULL: SERVICE_UNAVAILABLE "urn:voussoir:problem:queue-full" "The queue is full"
     /// The jobs that have not ended fill the memory.
@@ -60,6 +69,8 @@ kinds! {
     ANSWERS_FULL: SERVICE_UNAVAILABLE "urn:voussoir:problem:answers-full" "Too many answers are on their way"
     /// As many event streams are open as may.
     STREAMS_FULL: SERVICE_UNAVAILABLE "urn:voussoir:problem:streams-full" "Too many event streams are open"
+    /// The store of jobs cannot be reached.
+    STORE_UNAVAILABLE: SERVICE_UNAVAILABLE "urn:voussoir:problem:store-unavailable" "The store of jobs cannot be reached"
     /// The service is ending.
     SHUTTING_DOWN: SERVICE_UNAVAILABLE "urn:voussoir:problem:shutting-down" "The service is shutting down"
 }

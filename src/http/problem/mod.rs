@@ -2,7 +2,7 @@
 
 pub mod kinds;
 
-use crate::jobs::{Failure, Refusal};
+use crate::jobs::{Failure, Refusal, Unavailable};
 use crate::wire::fault::Fault;
 use crate::wire::json::NotFinite;
 use axum::http::{HeaderValue, StatusCode, header};
@@ -14,8 +14,8 @@ use utoipa::ToSchema;
 /// The media type of a problem.
 pub const MEDIA_TYPE: &str = "application/problem+json";
 
-/// Seconds after which a client may try again.
-pub(super) const RETRY_AFTER: u64 = 1;
+/// Seconds after which a client may try again, where nothing is known of it.
+const RETRY_AFTER: u64 = 1;
 
 /// What went wrong, for whom it may concern.
 #[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
@@ -33,13 +33,23 @@ pub struct Problem {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     #[schema(required = false)]
     errors: Vec<Fault>,
+    /// Seconds after which to try again, where that may help.
+    #[serde(skip)]
+    retry_after: Option<u64>,
 }
 
 impl Problem {
     /// A problem of a kind of ours.
     pub fn of(kind: ProblemKind, detail: impl Into<String>) -> Self {
         let ProblemKind { uri, status, title } = kind;
-        Problem { kind: uri, title, status: status.as_u16(), detail: detail.into(), errors: Vec::new() }
+        let may_help = matches!(status.as_u16(), 429 | 503) || uri == kinds::RESULT_NOT_READY.uri;
+        let retry_after = may_help.then_some(RETRY_AFTER);
+        Problem { kind: uri, title, status: status.as_u16(), detail: detail.into(), errors: Vec::new(), retry_after }
+    }
+
+    /// The same, to be tried again after so many seconds, if trying again may help.
+    pub(super) fn after(self, seconds: u64) -> Self {
+        Problem { retry_after: self.retry_after.map(|_| seconds), ..self }
     }
 
     /// A problem that its status code says all about.
@@ -88,13 +98,24 @@ impl Problem {
 impl From<Refusal> for Problem {
     fn from(refusal: Refusal) -> Self {
         let kind = match refusal {
+            Refusal::Unavailable(reason) => return reason.into(),
             Refusal::QueueFull(_) => kinds::QUEUE_FULL,
             Refusal::ClientQueueFull(_) => kinds::CLIENT_QUEUE_FULL,
             Refusal::MemoryFull(_) => kinds::MEMORY_FULL,
+            Refusal::ClientMemoryFull(_) => kinds::CLIENT_MEMORY_FULL,
             Refusal::KeyTaken(_) => kinds::KEY_TAKEN,
+            Refusal::KeySpent(_) => kinds::KEY_SPENT,
             Refusal::Closed => kinds::SHUTTING_DOWN,
         };
         Problem::of(kind, refusal.to_string())
+    }
+}
+
+impl From<Unavailable> for Problem {
+    fn from(reason: Unavailable) -> Self {
+        tracing::error!(%reason);
+        // Where the store is, and what it said, is no business of clients.
+        Problem::of(kinds::STORE_UNAVAILABLE, "try again; what was asked may have happened or not")
     }
 }
 
@@ -116,10 +137,7 @@ impl IntoResponse for Problem {
         let fixed = [(header::CONTENT_TYPE, MEDIA_TYPE), (header::CACHE_CONTROL, "no-store")];
         let mut response = (status, fixed, body).into_response();
         let headers = response.headers_mut();
-        // Where trying again later may help.
-        if matches!(self.status, 429 | 503) || self.kind == kinds::RESULT_NOT_READY.uri {
-            headers.insert(header::RETRY_AFTER, HeaderValue::from(RETRY_AFTER));
-        }
+        headers.extend(self.retry_after.map(|seconds| (header::RETRY_AFTER, HeaderValue::from(seconds))));
         if status == StatusCode::UNAUTHORIZED {
             headers.insert(header::WWW_AUTHENTICATE, HeaderValue::from_static("Bearer"));
         }

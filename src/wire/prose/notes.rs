@@ -42,6 +42,9 @@ impl fmt::Display for Note {
                  doubtful.",
                 Digits(*share)
             ),
+            Note::SofterContacts { asked, taken, turned_back } => {
+                softer([*asked, *taken].map(Digits), turned_back.map(Digits))
+            }
             Note::FallsFromZero => FALLS_FROM_ZERO.into(),
             Note::NothingGrows => "Nothing grows with the load factor: the answer says only that the arch stands.".into(),
             Note::LaterMechanism => LATER_MECHANISM.into(),
@@ -240,10 +243,21 @@ const SLIDES_INSIDE: &str = "The arch falls by sliding as its loads come on. Lim
 const LOOSE_STONES: &str = "Stones that carry neither weight nor load are free to move, so the load path cannot be followed. \
      Give the arch its self weight.";
 
+fn softer([asked, taken]: [Digits; 2], turned_back: Option<Digits>) -> String {
+    let why = match turned_back {
+        Some(farthest) => format!("joints slide and jam at load factor {farthest}, and the load path turns back there"),
+        None => "the load path could not be followed".into(),
+    };
+    format!(
+        "With penalty_ratio {asked} {why}. This is the answer with penalty_ratio {taken}: the load is that of rigid stones as well, \
+         displacements are those of softer joints."
+    )
+}
+
 fn turned_back(highest: Digits) -> String {
     format!(
-        "After its highest load factor, {highest}, the load path runs back past its start: joints slide and jam there, and no \
-         mechanism was found in which the arch falls. Take the load for a bound of this model."
+        "After load factor {highest}, its farthest, the load path runs back past its start: joints slide and jam there, and no \
+         mechanism was found in which the arch falls. It may bear more, up to the limit window's end."
     )
 }
 

@@ -64,7 +64,8 @@ fn of_an_arch(result: &AnalysisResult) -> String {
         (Outcome::Crushes, end) => crushes(result, end),
         (Outcome::CannotTell, _) => {
             let remedy = result.remedy.unwrap_or("The notes say why.");
-            format!("No answer: what was found cannot be trusted. {remedy}")
+            let window = result.limit_window.map(|_| format!(" In limit analysis it {}.", window(result)));
+            format!("No answer: what was found cannot be trusted.{} {remedy}", window.unwrap_or_default())
         }
         (outcome, _) => format!("Outcome: {}.", word(&outcome)),
     };
@@ -145,7 +146,8 @@ fn in_window(result: &AnalysisResult) -> String {
         (None, None) => format!("under its scaled loads (tried from -{tried} to {tried} {unit})"),
     };
     let [low, high] = ends.map(|end| end.map(|end| end.intensity));
-    let stands = format!("The arch stands only {}; without its scaled loads it falls.", between(low, high));
+    let reversed = if high.is_some_and(|high| high < 0.0) { ", that is with its scaled loads reversed" } else { "" };
+    let stands = format!("The arch stands only {}{reversed}; without its scaled loads it falls.", between(low, high));
     let crushing = ends.map(|end| end.is_some_and(|end| end.governed_by == GovernedBy::Crushing));
     let at = match crushing {
         [false, false] => return stands,

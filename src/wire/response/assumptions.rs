@@ -1,6 +1,7 @@
 //! Notes on what a request means without saying it.
 
 use super::structure::StructureBody;
+use crate::wire::prose::Digits;
 use crate::wire::request::{AnalysisRequest, LoadEntry, LoadRequest, Subblocks, SubblocksRequest};
 
 /// Note on fill and acceleration together.
@@ -10,7 +11,7 @@ const FILL_IS_SHAKEN: &str = "Fill has mass: in the acceleration the column of f
 
 /// Note on contacts stiffer than the default, where joints slide.
 const STIFF_CONTACTS: &str = "Contacts are stiffer than the default of a bridge and of blocks. Where joints slide, such as those \
-     between rings, the load path may end far from where it does with penalty_ratio 1 or less: compare the two.";
+     between rings, the load path may end elsewhere than with penalty_ratio 1 or less: compare the two.";
 
 /// Note on stones whose weight nobody has mentioned.
 const NO_WEIGHT: &str =
@@ -19,6 +20,10 @@ const NO_WEIGHT: &str =
 /// Note on soil that presses without mass, and acceleration.
 const MASSLESS_IS_SHAKEN: &str = "A lateral pressure has no mass: in the acceleration it presses as before. Soil that shakes with \
      the structure is a fill_pressure with its density.";
+
+/// Densities of stone that there are, kg/m3; and lengths of masonry structures, m: others are taken for a slip of units.
+const DENSITIES: [f64; 2] = [500.0, 5000.0];
+const LENGTHS: [f64; 2] = [0.02, 1000.0];
 
 /// Most bodies that are named in a note.
 const BODIES_NAMED: usize = 6;
@@ -38,7 +43,22 @@ pub(super) fn assumptions(request: &AnalysisRequest, structure: &StructureBody) 
         (shaken && massless, MASSLESS_IS_SHAKEN),
     ];
     let notes = notes.into_iter().filter(|(holds, _)| *holds).map(|(_, note)| note.to_owned());
-    notes.chain(uncut(request, structure)).collect()
+    notes.chain(uncut(request, structure)).chain(units(request, structure)).collect()
+}
+
+/// Which numbers look as if they were in other units.
+fn units(request: &AnalysisRequest, structure: &StructureBody) -> Vec<String> {
+    let stones = std::iter::once(&request.stone.density_kg_m3);
+    let densities = stones.filter(|density| !(DENSITIES[0]..=DENSITIES[1]).contains(*density));
+    let densities = densities.map(|density| {
+        format!("Is the unit right? No stone has a density of {} kg/m3; most have 1500 to 3000.", Digits(*density))
+    });
+    let across = structure.bodies.iter().flat_map(|body| &body.corners_m).map(|corner| corner[0]);
+    let [first, last] = across.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)]);
+    let length = last - first;
+    let long = (!(LENGTHS[0]..=LENGTHS[1]).contains(&length))
+        .then(|| format!("Is the unit right? The structure is {} m long: lengths are in metres.", Digits(length)));
+    densities.chain(long).collect()
 }
 
 /// Which bodies a mesh leaves whole.

@@ -6,14 +6,15 @@ pub mod broken;
 use serde_json::{Value, json};
 use std::io::{Read, Write};
 use std::net::{SocketAddr, TcpStream};
+use std::sync::Arc;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 use tokio::net::TcpListener;
 use tokio::runtime::Runtime;
 use voussoir::budget::{Budget, LoadStep};
 use voussoir::collapse::{self, AnalysisError, Question};
-use voussoir::http::{self, Service, Settings, Tokens};
-use voussoir::jobs::Limits;
+use voussoir::http::{self, Service, Settings, Tokens, Work};
+use voussoir::jobs::{Limits, Memory};
 
 pub const BODY_LIMIT: usize = 64 << 10;
 
@@ -84,10 +85,24 @@ pub fn trouble(share: f64) -> Value {
     request
 }
 
-/// Limits of a store with so many workers and places in the queue.
-pub fn limits(workers: usize, queue: usize) -> Limits {
-    let (kept_for, time) = (Duration::from_secs(1000), Duration::from_secs(1000));
-    Limits { workers, queue, queue_per_client: queue, kept: 1000, kept_for, bytes: 1 << 30, time }
+/// Limits of a store with so many places in the queue.
+pub fn limits(queue: usize) -> Limits {
+    let long = Duration::from_secs(1000);
+    Limits {
+        queue,
+        queue_per_client: queue,
+        kept: 1000,
+        kept_for: long,
+        promised: Duration::ZERO,
+        keys_for: long,
+        bytes: 1 << 30,
+        bytes_per_client: 1 << 30,
+    }
+}
+
+/// So many workers, with all the time they need.
+pub fn work(workers: usize) -> Work {
+    Work { workers, time: Duration::from_secs(1000) }
 }
 
 /// An open service.
@@ -108,7 +123,7 @@ pub fn settings() -> Settings {
 pub struct Server {
     pub address: SocketAddr,
     pub service: Service,
-    _runtime: Runtime,
+    runtime: Option<Runtime>,
 }
 
 pub struct Answer {
@@ -119,17 +134,19 @@ pub struct Answer {
 
 impl Server {
     pub fn start(workers: usize, queue: usize) -> Self {
-        Self::with(limits(workers, queue), settings())
+        Self::with(limits(queue), work(workers), settings())
     }
 
-    pub fn with(limits: Limits, settings: Settings) -> Self {
-        let service = Service::start(limits, settings, analyse).unwrap();
-        let router = http::router(service.clone());
+    pub fn with(limits: Limits, work: Work, settings: Settings) -> Self {
         let runtime = tokio::runtime::Builder::new_multi_thread().worker_threads(1).enable_all().build().unwrap();
+        let within = runtime.enter();
+        let service = Service::start(Arc::new(Memory::new(limits)), work, settings, analyse);
+        let router = http::router(service.clone());
+        drop(within);
         let listener = runtime.block_on(TcpListener::bind("127.0.0.1:0")).unwrap();
         let address = listener.local_addr().unwrap();
         runtime.spawn(async { axum::serve(listener, router).await });
-        Server { address, service, _runtime: runtime }
+        Server { address, service, runtime: Some(runtime) }
     }
 
     /// Sends bytes as they are and reads until the server hangs up.
@@ -183,6 +200,16 @@ impl Server {
             }
             assert!(clock.elapsed() < Duration::from_secs(30), "{status}");
             sleep(Duration::from_millis(2));
+        }
+    }
+}
+
+/// Analyses are told to stop and not waited for.
+impl Drop for Server {
+    fn drop(&mut self) {
+        if let Some(runtime) = self.runtime.take() {
+            runtime.block_on(self.service.workers.abandon());
+            runtime.shutdown_background();
         }
     }
 }

@@ -1,0 +1,60 @@
+//! Paths that cannot be followed with contacts as stiff as asked.
+//!
+//! Seen from a contact that slides, the structure gives way by c_nn + s mu c_nt along its normal, c being the compliance of the rest.
+//! Where that is negative and the contact is stiffer than its reciprocal, no state follows that in which the contact is about to open:
+//! it jams (Painleve). The structure then jumps to another state of equilibrium, and the path turns back. That is no collapse, and
+//! softer contacts do not jam.
+
+use super::Setup;
+use crate::budget::Budget;
+use crate::collapse::discretise::Discretisation;
+use crate::collapse::{Analysis, AnalysisError, CollapseReport, Doubt, Note, Outcome};
+
+/// Contact penalties that are tried instead of stiffer ones, as multiples of Young's modulus.
+const SOFTER: [f64; 2] = [1.0, 0.1];
+
+/// The answer with contacts as stiff as asked.
+pub(super) fn as_asked<'a>(
+    analysis: &'a Analysis,
+    built: &mut Discretisation<'a>,
+) -> Result<CollapseReport, AnalysisError> {
+    let question = Setup::new(analysis, built.budget)?;
+    let report = question.answer(built)?;
+    Ok(report.or_cannot_tell(question.blank(0)))
+}
+
+/// The same answer, or where its path was lost that of softer contacts, whose loads are as good where stones are rigid.
+pub(super) fn or_softer(
+    analysis: &Analysis,
+    mut report: CollapseReport,
+    budget: &Budget,
+) -> Result<CollapseReport, AnalysisError> {
+    for taken in SOFTER.into_iter().filter(|ratio| *ratio < analysis.penalty_ratio) {
+        let Some(doubt) = report.lost() else { break };
+        let turned_back = match doubt {
+            Doubt::TurnedBack(path) | Doubt::Stray { path, .. } => Some(*path),
+            _ => None,
+        };
+        let softer = Analysis { penalty_ratio: taken, ..analysis.clone() };
+        let mut next = as_asked(&softer, &mut Discretisation::new(budget))?;
+        if next.outcome == Outcome::CannotTell {
+            report.cost.join(next.cost);
+            continue;
+        }
+        next.cost.join(report.cost);
+        next.notes.push(Note::SofterContacts { asked: analysis.penalty_ratio, taken, turned_back });
+        report = next;
+    }
+    Ok(report)
+}
+
+impl CollapseReport {
+    /// Why its path could not be followed to an end, where that leaves it without an answer.
+    fn lost(&self) -> Option<&Doubt> {
+        let cannot_tell = self.outcome == Outcome::CannotTell;
+        self.notes.iter().filter(|_| cannot_tell).find_map(|note| match note {
+            Note::Doubt(doubt) if doubt.is_lost() => Some(doubt),
+            _ => None,
+        })
+    }
+}
