@@ -93,6 +93,10 @@ pub struct Work {
     /// Seconds a worker may be at one job; then it fails
     #[arg(long, env = "VOUSSOIR_JOB_TIME", default_value_t = 600, value_parser = count(1, 1_000_000))]
     pub job_time: u64,
+    /// Most memory of one analysis in bytes, as it is estimated before it is accepted; beyond it 422 [default: what 2 GiB leave
+    /// each worker beside --kept-bytes and --answer-bytes]
+    #[arg(long, env = "VOUSSOIR_JOB_MEMORY", value_parser = count(1 << 20, 1 << 40))]
+    pub job_memory: Option<u64>,
     /// Most voussoirs of an arch
     #[arg(long, env = "VOUSSOIR_VOUSSOIRS", default_value_t = MAX_VOUSSOIRS as u64,
         value_parser = count(2, MAX_VOUSSOIRS as u64))]
@@ -192,7 +196,19 @@ pub enum LogFormat {
     Json,
 }
 
+/// What the process keeps to by default, and what of it is neither analyses nor answers, bytes.
+const PROCESS: usize = 2 << 30;
+const REST: usize = 128 << 20;
+/// Least memory that an analysis is allowed by default, bytes.
+const LEAST_JOB_MEMORY: usize = 64 << 20;
+
 impl Serve {
+    /// Most memory of one analysis, bytes.
+    fn job_memory(&self) -> usize {
+        let left = PROCESS.saturating_sub(size(self.kept.kept_bytes) + size(self.requests.answer_bytes) + REST);
+        self.work.job_memory.map_or_else(|| (left / self.work().workers).max(LEAST_JOB_MEMORY), size)
+    }
+
     /// What the store of jobs takes on.
     pub fn job_limits(&self) -> jobs::Limits {
         let (work, kept) = (&self.work, &self.kept);
@@ -242,6 +258,8 @@ impl Serve {
                 request_time: Duration::from_secs(requests.request_time),
                 voussoirs: size(self.work.voussoirs),
                 subblocks: size(self.work.subblocks),
+                job_memory: self.job_memory(),
+                job_time: Duration::from_secs(self.work.job_time),
                 streams: size(requests.event_streams),
                 incoming: size(requests.body_bytes),
                 outgoing: size(requests.answer_bytes),

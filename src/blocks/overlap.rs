@@ -3,6 +3,9 @@
 use super::outline::Outline;
 use crate::geometry::{Vec2, cross, distance_from_segment, lies_inside};
 
+/// Rounding of a cross product of differences of points, over the lengths that are in it.
+const MEETING_ROUNDING: f64 = 16.0 * f64::EPSILON;
+
 /// Pairs of outlines whose boxes, widened by `reach`, have a point in common; the lower number first, in rising order.
 ///
 /// A sweep along the longer axis: every box is compared with those that begin before it ends.
@@ -39,7 +42,16 @@ pub(super) fn overlap(a: &Outline, b: &Outline, tolerance: f64) -> Option<(Vec2,
     let mut deepest: Option<(Vec2, f64)> = None;
     for (of, within) in [(a, b), (b, a)] {
         let mut points = vec![inner_point(&of.corners)];
-        for_sides(&of.corners, |u, v| points.extend(places(u, v, &within.corners)));
+        // A side that meets no side of the other lies inside as a whole, or outside, and so does the next that meets none.
+        let mut inside = None;
+        for_sides(&of.corners, |u, v| {
+            let met = meets([u, v], &within.corners);
+            let tried = met || inside.unwrap_or_else(|| lies_inside(u, &within.corners));
+            inside = (!met).then_some(tried);
+            if tried {
+                points.extend(places(u, v, &within.corners));
+            }
+        });
         for point in points.into_iter().filter(|&point| lies_inside(point, &within.corners)) {
             let depth = depth(point, &within.corners);
             if depth > tolerance && deepest.is_none_or(|(_, best)| depth > best) {
@@ -66,6 +78,25 @@ fn for_sides(corners: &[Vec2], mut each: impl FnMut(Vec2, Vec2)) {
     for i in 0..corners.len() {
         each(corners[i], corners[(i + 1) % corners.len()]);
     }
+}
+
+/// Whether a side may have a point in common with the outline: there is none where the boxes of two sides are apart, or both ends of
+/// one lie on the same side of the other's line.
+fn meets(side: [Vec2; 2], corners: &[Vec2]) -> bool {
+    let [low, high] = [side[0].inf(&side[1]), side[0].sup(&side[1])];
+    let beyond = |[a, b]: [Vec2; 2], ends: [Vec2; 2]| {
+        let [from, to] = ends.map(|p| cross(b - a, p - a));
+        // What rounding leaves of zero is not told from it.
+        let size = [a, b, ends[0], ends[1]].iter().fold(0.0, |most: f64, p| most.max(p.norm()));
+        from * to > 0.0 && from.abs().min(to.abs()) > MEETING_ROUNDING * (b - a).norm() * size
+    };
+    let mut found = false;
+    for_sides(corners, |c, d| {
+        let (least, most) = (c.inf(&d), c.sup(&d));
+        let near = (0..2).all(|axis| least[axis] <= high[axis] && low[axis] <= most[axis]);
+        found = found || (near && !beyond(side, [c, d]) && !beyond([c, d], side));
+    });
+    found
 }
 
 /// Points of the side `u`-`v` among which those deepest inside the polygon are: between where it crosses the outline and the feet

@@ -10,7 +10,7 @@ use super::{Analysis, AnalysisError, Geometry, PlaneModel, Seams};
 use crate::budget::Budget;
 use crate::dda::{Assembly, AssemblyBuilder, Beside, Bond, Elasticity, Loads, MeanMotion, Push};
 use crate::geometry::{Region, Vec2};
-use crate::structure::{PointForce, Side, Stone};
+use crate::structure::{Joint, PointForce, Side, Stone};
 use touches::{around, penalties, points, touches};
 
 /// Work of cutting out a subblock with its seams, in multiplications.
@@ -174,8 +174,13 @@ pub(super) fn bond(seams: Seams, penalty: f64) -> Bond {
     }
 }
 
+/// Number of contact points of a joint that does not crush, between bodies cut like this.
+pub(super) fn contact_points(joint: &Joint, grids: &[Grid]) -> usize {
+    points(None, joint.law, &around(joint, grids)).0.len()
+}
+
 /// How every body is cut: whole, where the mesh says nothing of it.
-fn grids(analysis: &Analysis) -> Vec<Grid> {
+pub(super) fn grids(analysis: &Analysis) -> Vec<Grid> {
     let subblocks = |k: usize| analysis.mesh.subblocks.get(k).copied().unwrap_or([1, 1]);
     analysis.structure.bodies.iter().enumerate().map(|(k, body)| Grid::of(body, subblocks(k))).collect()
 }

@@ -2,6 +2,7 @@
 
 mod beam;
 mod certificate;
+pub mod cost;
 mod crushed;
 mod discretise;
 mod ending;

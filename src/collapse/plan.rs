@@ -13,6 +13,7 @@ mod unfold;
 
 pub(super) use beam::solve as beam;
 pub use mesh::{LOAD_PIECES, can_be_refined};
+pub(super) use mesh::{MOST_EACH_WAY, around};
 
 use super::{
     Accuracy, Analysis, AnalysisError, CollapseReport, Direction, Estimate, Outcome, PathEnd, Plan, PlanReason,
@@ -86,7 +87,7 @@ fn on_finer_meshes(
 }
 
 /// The same question on another mesh.
-fn with_mesh(analysis: &Analysis, subblocks: Vec<[usize; 2]>) -> Analysis {
+pub(super) fn with_mesh(analysis: &Analysis, subblocks: Vec<[usize; 2]>) -> Analysis {
     let mut analysis = analysis.clone();
     analysis.mesh.subblocks = subblocks;
     analysis

@@ -6,6 +6,7 @@ mod mirror;
 mod places;
 
 pub use build::{AssemblyBuilder, Touch};
+pub(super) use build::{has_core, interfaces_of};
 
 use super::block::V6;
 use super::condense::{Condensed, Node};
@@ -18,6 +19,7 @@ use crate::budget::{Budget, Stopped};
 use crate::geometry::{Vec2, cross, perpendicular};
 use mirror::Mirror;
 use nalgebra::{DMatrix, DVector, SMatrix};
+use std::cell::OnceCell;
 use std::ops::Range;
 
 /// Work of putting a force on a subblock, in multiplications; and of solving for the inside of a body, over the number of
@@ -126,9 +128,9 @@ pub struct Assembly {
     nodes: Vec<Range<usize>>,
     /// Bodies and interfaces as elements of a matrix over the faces: first all bodies, then all interfaces.
     pattern: Pattern,
-    /// The tree with bodies' cores, where there are any, and that of bodies as their faces alone.
+    /// The tree with bodies' cores, where there are any, and that of bodies as their faces alone, once it has been asked for.
     tree: Tree,
-    plain_tree: Option<Tree>,
+    plain_tree: OnceCell<Tree>,
     /// Unknowns of all nodes.
     unknowns: usize,
     /// Elastic stiffness of the bodies; nothing in the interfaces.
@@ -169,9 +171,17 @@ impl Assembly {
         &self.tree
     }
 
-    /// The same where bodies are their faces alone, as on moving geometry.
-    pub(super) fn plain_tree(&self) -> &Tree {
-        self.plain_tree.as_ref().unwrap_or(&self.tree)
+    /// The same where bodies are their faces alone, as on moving geometry; none where stopped.
+    pub(super) fn plain_tree(&self, budget: &Budget) -> Option<&Tree> {
+        let elements = self.bodies.len() + self.faces.len();
+        if self.pattern.faces.len() == elements {
+            return Some(&self.tree);
+        }
+        if self.plain_tree.get().is_none() {
+            let tree = Tree::new(&self.pattern, |element| element < elements, budget).ok()?;
+            return Some(self.plain_tree.get_or_init(|| tree));
+        }
+        self.plain_tree.get()
     }
 
     /// The element of interface `k` in a matrix.

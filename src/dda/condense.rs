@@ -6,6 +6,8 @@
 //! `X = K^-1 X0`, and on the nodes act `S p - X' F`, with `S = links - X0' X` (Guyan 1965). Nothing is lost: the condensed
 //! macroblock answers to forces at its nodes exactly as the whole one does.
 
+mod product;
+
 use super::block::{M6, V6};
 use super::macroblock::Macroblock;
 use crate::budget::{Budget, Stopped};
@@ -15,6 +17,7 @@ use faer::sparse::linalg::solvers::{Llt as SparseLlt, SymbolicLlt};
 use faer::sparse::{SparseColMat, SymbolicSparseColMat};
 use faer::{Mat, Side};
 use nalgebra::{DMatrix, DVector};
+use product::product;
 use std::ops::Range;
 
 /// A node on a face, tied to the subblocks there.
@@ -120,7 +123,7 @@ impl Condensed {
         let q = &rigid[0];
         // Rounding in the elimination must not take away equilibrium: a rigid motion costs no force at all.
         let still = DMatrix::identity(columns, columns) - q * q.transpose();
-        let stiffness = &still * (0.5 * (&raw + raw.transpose())) * &still;
+        let stiffness = product(&product(&still, &(0.5 * (&raw + raw.transpose())), budget)?, &still, budget)?;
         Ok(Condensed { unknowns, ties, stiffness, rigid, factors })
     }
 

@@ -17,10 +17,36 @@ pub struct Pattern {
     pub faces: Vec<Vec<usize>>,
 }
 
+/// The faces on either side of every interface; none: the ground.
+pub type Faces = Vec<[Option<usize>; 2]>;
+
 impl Pattern {
+    /// First all bodies, then all interfaces. `of_bodies`: the interfaces of every body, each with the side on which the body lies;
+    /// `points`: contact points of every interface. Also the faces at every interface, and the unknowns of every body.
+    pub fn new(of_bodies: &[Vec<(usize, usize)>], points: &[usize]) -> (Self, Faces, Vec<Range<usize>>) {
+        let (mut pattern, mut nodes) = (Pattern { start: vec![0], faces: Vec::new() }, Vec::new());
+        let mut faces = vec![[None; 2]; points.len()];
+        for interfaces in of_bodies {
+            let (first, begin) = (pattern.start.len() - 1, pattern.unknowns());
+            for &(k, side) in interfaces {
+                faces[k][side] = Some(pattern.start.len() - 1);
+                pattern.start.push(pattern.unknowns() + 2 * points[k]);
+            }
+            pattern.faces.push((first..pattern.start.len() - 1).collect());
+            nodes.push(begin..pattern.unknowns());
+        }
+        pattern.faces.extend(faces.iter().map(|sides| sides.iter().flatten().copied().collect()));
+        (pattern, faces, nodes)
+    }
+
     /// The unknowns of face `i`.
     pub fn range(&self, i: usize) -> Range<usize> {
         self.start[i]..self.start[i + 1]
+    }
+
+    /// Unknowns of these faces together.
+    pub fn total(&self, faces: &[usize]) -> usize {
+        faces.iter().map(|&face| self.range(face).len()).sum()
     }
 
     /// Number of all unknowns.
@@ -39,7 +65,7 @@ impl Pattern {
 
     /// Number of unknowns of an element.
     pub fn size(&self, element: usize) -> usize {
-        self.faces[element].iter().map(|&face| self.range(face).len()).sum()
+        self.total(&self.faces[element])
     }
 }
 

@@ -136,9 +136,8 @@ impl<'t> Factor<'t> {
         order.push(self.root);
         self.find_order(&mut order, |current| !current);
         for &front in order.iter().rev() {
-            self.eliminate(k, front);
+            self.eliminate(k, front, budget)?;
             self.forward_front(b, front);
-            budget.work(self.tree.fronts[front].work()[0])?;
         }
         self.scratch.order = order;
         self.substitute_back(x);
@@ -174,7 +173,7 @@ impl<'t> Factor<'t> {
     }
 
     /// Adds a front up and eliminates what it removes, those that feed it being current.
-    fn eliminate(&mut self, k: &Elements, number: usize) {
+    fn eliminate(&mut self, k: &Elements, number: usize, budget: &Budget) -> Result<(), Stopped> {
         let front = &self.tree.fronts[number];
         let [removed, kept] = front.sizes;
         let width = removed + kept;
@@ -191,13 +190,15 @@ impl<'t> Factor<'t> {
         let (above, below) = rows.split_at_mut(removed * width);
         let ends = &self.tree.ends[front.ends.clone()];
         let ahead = self.ahead.get_mut(number);
-        self.pivots[number].factor(above, kept, ahead, ends);
-        reduce(below, ahead, front.sizes, self.below.get_mut(number), self.left.get_mut(number));
+        let shape = front.sizes;
+        self.pivots[number].factor(above, kept, ahead, ends, budget)?;
+        reduce(below, ahead, shape, [self.below.get_mut(number), self.left.get_mut(number)], budget)?;
         let fed = self.tree.feeding(number).map(|other| self.ratio[other]);
         self.ratio[number] = fed.fold(self.pivots[number].ratio, f64::min);
         self.current[number] = true;
         self.eliminated += front.ends.len();
         self.scratch.rows = rows;
+        budget.work(width * width)
     }
 
     /// Forward substitution of a right-hand side through a front.

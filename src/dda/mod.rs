@@ -23,6 +23,7 @@ mod macroblock;
 mod moving;
 mod panels;
 mod pivot;
+mod size;
 mod trace;
 mod tree;
 
@@ -32,4 +33,5 @@ pub use block::{Block, Elasticity, V6};
 pub use condense::{Condensed, Loose, Node, Unbuilt, free_response};
 pub use contact::{Contact, ContactForce, Law, State, Zone};
 pub use macroblock::{Bond, Macroblock, Seam};
+pub use size::AssemblySize;
 pub use trace::{Drive, End, LOW, Lost, Movement, Patience, Peak, Tracer, Violation, covering};

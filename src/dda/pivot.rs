@@ -3,6 +3,7 @@
 #![allow(clippy::needless_range_loop, reason = "indices are the mathematics here")]
 
 use super::panels::dot;
+use crate::budget::{Budget, Stopped};
 
 /// LU of one pivot block, rows exchanged by partial pivoting.
 #[derive(Debug, Clone, Default)]
@@ -24,19 +25,37 @@ impl Pivot {
     /// Factors a and solves a X = b for all `columns` of b in the same sweep, given as `rows` of [a | b], which are used up; X goes
     /// to `solved`, row by row. `ends` of the groups of columns within which pivots are compared: what is left for later ones
     /// may be softer by far.
-    pub(super) fn factor(&mut self, rows: &mut [f64], columns: usize, solved: &mut [f64], ends: &[usize]) {
+    ///
+    /// # Errors
+    /// When stopped: there are no factors.
+    pub(super) fn factor(
+        &mut self,
+        rows: &mut [f64],
+        columns: usize,
+        solved: &mut [f64],
+        ends: &[usize],
+        budget: &Budget,
+    ) -> Result<(), Stopped> {
         match (self.n, columns) {
             (0, _) => self.ratio = f64::INFINITY,
             // Two contact points a joint: shapes known to the compiler run several times faster.
             (4, 4) => self.factor_fixed::<4, 8>(rows, solved, ends),
             (8, 0) => self.factor_fixed::<8, 8>(rows, solved, ends),
-            (n, columns) => self.factor_of(n, columns, rows, solved, ends),
+            (n, columns) => return self.factor_of([n, columns], rows, solved, ends, budget),
         }
+        Ok(())
     }
 
     /// Rows of [a | b] are kept together: an elimination step is one operation on neighbours, which compilers turn into
     /// vector instructions.
-    fn factor_of(&mut self, n: usize, columns: usize, rows: &mut [f64], b: &mut [f64], ends: &[usize]) {
+    fn factor_of(
+        &mut self,
+        [n, columns]: [usize; 2],
+        rows: &mut [f64],
+        b: &mut [f64],
+        ends: &[usize],
+        budget: &Budget,
+    ) -> Result<(), Stopped> {
         let width = n + columns;
         let rows = &mut rows[..n * width];
         self.rows.resize(n * n, 0.0);
@@ -64,6 +83,7 @@ impl Pivot {
                     *entry -= l * above;
                 }
             }
+            budget.work((n - k) * (width - k))?;
         }
         for i in (0..n).rev() {
             let (above, below) = rows.split_at_mut((i + 1) * width);
@@ -77,8 +97,10 @@ impl Pivot {
             right.iter_mut().for_each(|entry| *entry *= left[i]);
             self.rows[i * n..(i + 1) * n].copy_from_slice(left);
             b[i * columns..(i + 1) * columns].copy_from_slice(right);
+            budget.work((n - i) * columns)?;
         }
         self.ratio = ratios.least;
+        Ok(())
     }
 
     /// The same where `W` numbers are in each of `N` rows. Whole rows, without asking which columns are left, take fewer

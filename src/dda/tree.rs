@@ -11,6 +11,7 @@
 mod cliques;
 
 use super::elements::Pattern;
+use crate::budget::{Budget, Stopped};
 use cliques::{Ordered, cliques};
 use std::ops::Range;
 
@@ -69,6 +70,45 @@ fn work([removed, kept]: [usize; 2]) -> [usize; 2] {
     [removed * (removed * removed / 3 + removed * kept + kept * kept), removed * (removed + 2 * kept)]
 }
 
+/// What eliminating takes, from either direction of every edge.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Elimination {
+    /// Entries of the factors of all fronts: those that lead from clique to clique one way, the other way, and those that
+    /// eliminate all of a clique.
+    pub entries: [usize; 3],
+    /// Entries of the largest front.
+    pub largest: usize,
+    /// Faces in all fronts together.
+    pub faces: usize,
+    /// Multiplications of eliminating once.
+    pub work: f64,
+}
+
+impl Elimination {
+    /// That of the tree of those elements of a pattern that are `wanted`.
+    ///
+    /// # Errors
+    /// When stopped.
+    pub fn new(pattern: &Pattern, wanted: impl Fn(usize) -> bool, budget: &Budget) -> Result<Self, Stopped> {
+        let mut sum = Elimination::default();
+        let cliques = cliques(pattern, wanted, budget)?.cliques;
+        let sizes = cliques.iter().map(|clique| [&clique.faces[..], clique.shared_faces()].map(|of| pattern.total(of)));
+        let sizes: Vec<[usize; 2]> = sizes.collect();
+        for (clique, [all, shared]) in cliques.iter().zip(&sizes) {
+            let along = |removed: usize| [removed - shared, *shared];
+            let ways = clique.parent.map(|parent| [along(*all), along(sizes[parent][0])]);
+            let fronts = [ways.map(|[up, _]| up), ways.map(|[_, down]| down), Some([*all, 0])];
+            for (sum, [removed, kept]) in sum.entries.iter_mut().zip(fronts).filter_map(|(sum, of)| Some((sum, of?))) {
+                *sum += removed * removed + 2 * removed * kept + kept * kept;
+            }
+            sum.largest = sum.largest.max(all * all);
+            sum.faces += 3 * clique.faces.len();
+            sum.work += work([all - shared, *shared])[0] as f64;
+        }
+        Ok(sum)
+    }
+}
+
 /// Cliques, the edges between them, and the fronts: front `2 e` goes along edge `e`, front `2 e + 1` the other way, and the one
 /// that eliminates all of clique `c` is number `2 edges + c`.
 #[derive(Debug, Clone, Default)]
@@ -90,8 +130,11 @@ pub struct Tree {
 
 impl Tree {
     /// The tree of those elements of a pattern that are `wanted`.
-    pub fn new(pattern: &Pattern, wanted: impl Fn(usize) -> bool) -> Self {
-        let Ordered { cliques, of_face, turn } = cliques(pattern, &wanted);
+    ///
+    /// # Errors
+    /// When stopped.
+    pub fn new(pattern: &Pattern, wanted: impl Fn(usize) -> bool, budget: &Budget) -> Result<Self, Stopped> {
+        let Ordered { cliques, of_face, turn } = cliques(pattern, &wanted, budget)?;
         let mut tree = Tree { into: vec![Vec::new(); cliques.len()], ..Tree::default() };
         let mut place = vec![0; pattern.start.len() - 1];
         // The clique in which the first of an element's faces is eliminated has them all.
@@ -124,7 +167,7 @@ impl Tree {
         }
         (0..cliques.len()).for_each(|clique| add(clique, None));
         tree.solving = tree.fronts.iter().step_by(2).take(tree.edges).map(|front| front.work()[1]).sum();
-        tree
+        Ok(tree)
     }
 
     /// Adds the front that eliminates the first of `faces` of a clique and keeps the second.

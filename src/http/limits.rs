@@ -1,5 +1,6 @@
 //! How much one request may ask for.
 
+use crate::collapse::cost::{Demand, Share, estimate};
 use crate::collapse::{Analysis, Question};
 use crate::wire::fault::{Fault, Faults};
 use crate::wire::request::{AnalysisRequest, MAX_SUBBLOCKS_EACH_WAY, ProfileRequest, Request};
@@ -16,6 +17,10 @@ pub struct ApiLimits {
     pub voussoirs: usize,
     /// Most subblocks of an analysis.
     pub subblocks: usize,
+    /// Most memory of an analysis by its [`estimate`], bytes.
+    pub job_memory: usize,
+    /// How long an analysis may go on.
+    pub job_time: Duration,
     /// Most event streams open at once.
     pub streams: usize,
     /// Most bytes of bodies on their way in.
@@ -24,9 +29,15 @@ pub struct ApiLimits {
     pub outgoing: usize,
 }
 
+/// No core makes so many multiplications a second: what takes longer even so ends in no time that is allowed.
+const MULTIPLICATIONS: f64 = 2e10;
+
 impl ApiLimits {
-    /// What of a question is more than this service takes.
-    pub(super) fn check(&self, request: &Request, question: &Question) -> Vec<Fault> {
+    /// What a question takes.
+    ///
+    /// # Errors
+    /// What of it is more than this service takes.
+    pub(super) fn check(&self, request: &Request, question: &Question) -> Result<Demand, Vec<Fault>> {
         let mut faults = Faults::default();
         let (voussoirs, subblocks) = size(question);
         let place = match request {
@@ -48,8 +59,55 @@ impl ApiLimits {
         };
         let detail = format!("{subblocks} subblocks in all: this service takes at most {most}; {remedy}");
         faults.require(subblocks <= most, place, detail);
-        faults.into_vec()
+        if faults.is_empty() {
+            let demand = estimate(question);
+            self.check_demand(&demand, request, &mut faults);
+            if faults.is_empty() {
+                return Ok(demand);
+            }
+        }
+        Err(faults.into_vec())
     }
+
+    fn check_demand(&self, demand: &Demand, request: &Request, faults: &mut Faults) {
+        let (place, remedy) = remedy(demand.largest, request);
+        let takes = match demand.memory {
+            usize::MAX => "more than can be counted".to_owned(),
+            memory => format!("about {}", shown(memory)),
+        };
+        let most = shown(self.job_memory);
+        let detail = format!("this analysis would take {takes} of memory; this service allows {most}; {remedy}");
+        faults.require(demand.memory <= self.job_memory, place, detail);
+        let (seconds, most) = (demand.work / MULTIPLICATIONS, self.job_time.as_secs_f64());
+        let detail = format!(
+            "this analysis would take more than {seconds:.0} s; this service stops it after {most:.0} s; {remedy}"
+        );
+        faults.require(seconds <= most || !faults.is_empty(), place, detail);
+    }
+}
+
+/// Where to ask for less of what takes most, and how.
+fn remedy(largest: Share, request: &Request) -> (&'static str, &'static str) {
+    match (request, largest) {
+        (Request::CurvedBeam(beam), _) if beam.accuracy.is_some() => {
+            ("/accuracy", "leave accuracy out and name a mesh")
+        }
+        (Request::CurvedBeam(_), _) => ("/mesh/subblocks", "use a coarser mesh"),
+        (_, Share::Points) => ("/analysis/safety/curve/abscissae", "use fewer"),
+        (_, Share::Fields) => ("/report/stress_fields", "ask for fewer, or use a coarser mesh"),
+        (_, Share::Frames) => ("/motion/most_frames", "use fewer"),
+        (Request::Structure(request), _) if request.accuracy.is_some_and(|accuracy| accuracy.stress.is_some()) => {
+            ("/accuracy/subblocks", "allow fewer")
+        }
+        (_, Share::Mesh) => ("/mesh/subblocks", "use a coarser mesh, or fewer stones"),
+        (Request::Structure(request), Share::Stones) => (place_of_stones(request), "use fewer stones"),
+    }
+}
+
+/// So many bytes in words.
+fn shown(bytes: usize) -> String {
+    let bytes = bytes as f64;
+    if bytes >= 1e9 { format!("{:.1} GB", bytes / 1e9) } else { format!("{:.0} MB", (bytes / 1e6).max(1.0)) }
 }
 
 /// Where the number of stones is given.

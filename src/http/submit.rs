@@ -140,8 +140,8 @@ async fn read_within<V: Send + 'static>(
         let read = read::read_question(&body);
         let (request, question) =
             read.map_err(|faults| check_syntax(&body).err().unwrap_or(Problem::faults(faults)))?;
-        let faults = limits.check(&request, &question);
-        if faults.is_empty() { then(request) } else { Err(Problem::faults(faults)) }
+        limits.check(&request, &question).map_err(Problem::faults)?;
+        then(request)
     });
     reading.await.unwrap_or_else(|_| Err(Problem::internal()))
 }

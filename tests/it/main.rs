@@ -30,6 +30,8 @@ mod common;
 #[cfg(feature = "server")]
 mod contract;
 #[cfg(feature = "server")]
+mod cost;
+#[cfg(feature = "server")]
 mod crushing;
 #[cfg(feature = "server")]
 mod crushing_path;

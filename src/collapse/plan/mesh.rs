@@ -10,7 +10,7 @@ pub const LOAD_PIECES: usize = 96;
 /// Subblocks from intrados to extrados in a voussoir's first mesh: the least that bend.
 const FIRST_RADIAL: usize = 2;
 /// Most subblocks in either direction.
-const MOST_EACH_WAY: usize = 48;
+pub(in super::super) const MOST_EACH_WAY: usize = 48;
 
 /// Length along the arch over height of the subblocks that the meshes aim at: stress changes more across a stone than along it
 /// (measured: 4 x 2 subblocks are as accurate as 4 x 4 in a stone three quarters as long as it is thick).
@@ -26,6 +26,18 @@ pub(super) fn ladder(structure: &Structure, k: usize) -> Vec<[usize; 2]> {
     let pieces = if structure.joints.iter().any(mirrored) { LOAD_PIECES / 2 } else { LOAD_PIECES };
     let of_arch = structure.spans.iter().any(|span| span.bodies.contains(&k));
     meshes(&structure.bodies[k], if of_arch { ASPECT } else { 1.0 }, pieces)
+}
+
+/// Of the meshes whose bodies are all refined alike, the finest of at most so many subblocks (or the coarsest), and the next.
+pub(in super::super) fn around(structure: &Structure, most: usize) -> [Vec<[usize; 2]>; 2] {
+    let ladders: Vec<_> = (0..structure.voussoirs().len()).map(|k| ladder(structure, k)).collect();
+    let at = |level: usize| -> Vec<[usize; 2]> {
+        ladders.iter().map(|ladder| ladder[level.min(ladder.len() - 1)]).collect()
+    };
+    let fits = |level: &usize| at(*level).iter().map(|[radial, along]| radial * along).sum::<usize>() <= most;
+    let levels = ladders.iter().map(Vec::len).max().unwrap_or(1);
+    let level = (0..levels).rfind(fits).unwrap_or(0);
+    [at(level), at(level + 1)]
 }
 
 /// Whether the error of the stress in a body can be told: by two meshes.

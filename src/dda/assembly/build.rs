@@ -9,6 +9,7 @@ use crate::dda::macroblock::Macroblock;
 use crate::dda::tree::Tree;
 use crate::geometry::{Vec2, cross, perpendicular};
 use nalgebra::{DMatrix, DVectorView};
+use std::cell::OnceCell;
 
 /// Coordinates that differ by this share of the farthest from the origin differ by rounding: some operations' worth.
 const COORDINATE_ROUNDING: f64 = 256.0 * f64::EPSILON;
@@ -69,7 +70,8 @@ impl AssemblyBuilder {
     /// # Errors
     /// When a body is not held by two contact points at least, or when stopped.
     pub fn finish(self, budget: &Budget) -> Result<Assembly, Unbuilt> {
-        let of_bodies = self.interfaces_of_bodies();
+        let of_bodies =
+            interfaces_of(self.macroblocks.len(), self.interfaces.iter().map(|interface| interface.between));
         let mut kinds: Vec<Kind> = Vec::new();
         let mut bodies = Vec::new();
         for (i, macroblock) in self.macroblocks.iter().enumerate() {
@@ -93,19 +95,6 @@ impl AssemblyBuilder {
         self.put_together(&of_bodies, bodies, kinds, budget)
     }
 
-    /// The interfaces of every body, each with the side on which the body lies.
-    fn interfaces_of_bodies(&self) -> Vec<Vec<(usize, usize)>> {
-        let mut of_bodies = vec![Vec::new(); self.macroblocks.len()];
-        for (k, interface) in self.interfaces.iter().enumerate() {
-            for (side, beside) in interface.between.iter().enumerate() {
-                if let Beside::Body(body) = beside {
-                    of_bodies[*body].push((k, side));
-                }
-            }
-        }
-        of_bodies
-    }
-
     fn put_together(
         self,
         of_bodies: &[Vec<(usize, usize)>],
@@ -113,21 +102,13 @@ impl AssemblyBuilder {
         kinds: Vec<Kind>,
         budget: &Budget,
     ) -> Result<Assembly, Unbuilt> {
-        let (mut pattern, mut nodes) = (Pattern { start: vec![0], faces: Vec::new() }, Vec::new());
-        let mut faces = vec![[None; 2]; self.interfaces.len()];
-        for interfaces in of_bodies {
-            let (first, begin) = (pattern.start.len() - 1, pattern.unknowns());
-            for &(k, side) in interfaces {
-                faces[k][side] = Some(pattern.start.len() - 1);
-                pattern.start.push(pattern.unknowns() + 2 * self.interfaces[k].touches.len());
-            }
-            pattern.faces.push((first..pattern.start.len() - 1).collect());
-            nodes.push(begin..pattern.unknowns());
-        }
-        pattern.faces.extend(faces.iter().map(|sides| sides.iter().flatten().copied().collect()));
+        let points: Vec<usize> = self.interfaces.iter().map(|interface| interface.touches.len()).collect();
+        let (mut pattern, faces, nodes) = Pattern::new(of_bodies, &points);
         let (unknowns, elements) = (pattern.unknowns(), pattern.faces.len());
         let kind_of = |body: usize| &kinds[bodies[body].kind];
-        let cored: Vec<usize> = (0..bodies.len()).filter(|&i| kind_of(i).has_core(of_bodies[i].len())).collect();
+        let cored: Vec<usize> = (0..bodies.len())
+            .filter(|&i| has_core(kind_of(i).macroblock.blocks().len(), of_bodies[i].len(), kind_of(i).nodes.len()))
+            .collect();
         cored.iter().for_each(|&body| pattern.add_core(body));
         let mut elastic = Elements::zeros(&pattern);
         let mut element = elements;
@@ -160,8 +141,8 @@ impl AssemblyBuilder {
             sites: touches().map(|t| Site { at: t.at, normal: t.normal }).collect(),
             interface: self.interfaces.iter().enumerate().flat_map(of_contact).collect(),
             beside: self.interfaces.iter().map(|interface| interface.between).collect(),
-            tree: Tree::new(&pattern, |element| cored.binary_search(&element).is_err()),
-            plain_tree: (!cored.is_empty()).then(|| Tree::new(&pattern, |element| element < elements)),
+            tree: Tree::new(&pattern, |element| cored.binary_search(&element).is_err(), budget)?,
+            plain_tree: OnceCell::new(),
             unknowns,
             bodies,
             kinds,
@@ -179,13 +160,29 @@ impl AssemblyBuilder {
     }
 }
 
-impl Kind {
-    /// Whether a body between so many faces is better eliminated by way of its own unknowns: where it has one subblock, more than
-    /// the two faces of a chain, and fewer unknowns than they.
-    fn has_core(&self, faces: usize) -> bool {
-        self.macroblock.blocks().len() == 1 && faces > 2 && 2 * self.nodes.len() > 6
+/// The interfaces of each of so many bodies, each with the side on which the body lies.
+pub(in crate::dda) fn interfaces_of(
+    bodies: usize,
+    between: impl Iterator<Item = [Beside; 2]>,
+) -> Vec<Vec<(usize, usize)>> {
+    let mut of_bodies = vec![Vec::new(); bodies];
+    for (k, between) in between.enumerate() {
+        for (side, beside) in between.into_iter().enumerate() {
+            if let Beside::Body(body) = beside {
+                of_bodies[body].push((k, side));
+            }
+        }
     }
+    of_bodies
+}
 
+/// Whether a body of so many subblocks between so many faces with so many nodes is better eliminated by way of its own unknowns:
+/// where it has one subblock, more than the two faces of a chain, and fewer unknowns than they.
+pub(in crate::dda) fn has_core(subblocks: usize, faces: usize, nodes: usize) -> bool {
+    subblocks == 1 && faces > 2 && 2 * nodes > 6
+}
+
+impl Kind {
     fn new(macroblock: Macroblock, nodes: Vec<Node>, budget: &Budget) -> Result<Self, Unbuilt> {
         let blocks = macroblock.blocks();
         let area: f64 = blocks.iter().map(|b| b.area()).sum();

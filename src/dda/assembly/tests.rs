@@ -36,7 +36,7 @@ fn tee() -> Assembly {
 #[test]
 fn a_body_moves_by_its_core_as_by_its_faces() {
     let assembly = tee();
-    let (cored, plain) = (assembly.tree(), assembly.plain_tree());
+    let (cored, plain) = (assembly.tree(), assembly.plain_tree(&Budget::unlimited()).unwrap());
     // Stones 0, 1 and 2 have three faces each.
     assert_eq!(cored.unknowns, assembly.node_unknowns() + 18);
     let mut matrix = assembly.elastic().clone();

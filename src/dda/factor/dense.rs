@@ -1,5 +1,6 @@
 //! What elimination does to the dense rows of a front.
 
+use crate::budget::{Budget, Stopped};
 use crate::dda::tree::Run;
 
 /// Adds the entries of a square matrix, whose rows are `size` apart, into a front of rows that are `width` apart.
@@ -39,16 +40,32 @@ pub fn copy(from: &[f64], into: &mut [f64], length: usize) {
 }
 
 /// From rows [C | D] to C and D - C X, for what is removed and what is kept.
-pub fn reduce(rows: &[f64], x: &[f64], sizes: [usize; 2], below: &mut [f64], left: &mut [f64]) {
+///
+/// # Errors
+/// When stopped.
+pub fn reduce(
+    rows: &[f64],
+    x: &[f64],
+    sizes: [usize; 2],
+    [below, left]: [&mut [f64]; 2],
+    budget: &Budget,
+) -> Result<(), Stopped> {
     match sizes {
         [4, 4] => reduce_four(rows, x, below, left),
         [_, 0] => {}
         [0, _] => left.copy_from_slice(rows),
-        sizes => reduce_of(rows, x, sizes, below, left),
+        sizes => return reduce_of(rows, x, sizes, [below, left], budget),
     }
+    Ok(())
 }
 
-fn reduce_of(rows: &[f64], x: &[f64], [removed, kept]: [usize; 2], below: &mut [f64], left: &mut [f64]) {
+fn reduce_of(
+    rows: &[f64],
+    x: &[f64],
+    [removed, kept]: [usize; 2],
+    [below, left]: [&mut [f64]; 2],
+    budget: &Budget,
+) -> Result<(), Stopped> {
     let into = below.chunks_exact_mut(removed).zip(left.chunks_exact_mut(kept));
     for (row, (below, left)) in rows.chunks_exact(removed + kept).zip(into) {
         let (c, d) = row.split_at(removed);
@@ -66,7 +83,9 @@ fn reduce_of(rows: &[f64], x: &[f64], [removed, kept]: [usize; 2], below: &mut [
         for (l, x) in c[rest..].iter().zip(x[rest * kept..].chunks_exact(kept)) {
             left.iter_mut().zip(x).for_each(|(entry, x)| *entry -= l * x);
         }
+        budget.work(removed * kept)?;
     }
+    Ok(())
 }
 
 fn reduce_four(rows: &[f64], x: &[f64], below: &mut [f64], left: &mut [f64]) {

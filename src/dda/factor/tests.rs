@@ -1,8 +1,10 @@
 use super::*;
 use crate::budget::Budget;
 use crate::dda::elements::Pattern;
+use crate::dda::tree::Elimination;
 use crate::largest::largest;
 use faer::linalg::solvers::Solve;
+use std::ops::ControlFlow;
 
 /// A fixed, well-spread sequence of numbers in (-1, 1).
 fn numbers() -> impl Iterator<Item = f64> {
@@ -49,7 +51,7 @@ fn cores() -> Pattern {
 
 #[test]
 fn the_two_faces_of_an_interface_between_cores_are_eliminated_together() {
-    let tree = Tree::new(&cores(), |_| true);
+    let tree = Tree::new(&cores(), |_| true, &Budget::unlimited()).unwrap();
     assert!(tree.fronts[..tree.directed()].iter().any(|front| front.sizes == [8, 12]));
     // Each of six interfaces saves one of 16, so at most 10; two more are pinned.
     assert_eq!(tree.into.len(), 8, "cliques of 16 faces and cores");
@@ -82,7 +84,7 @@ fn error(pattern: &Pattern, k: &Elements, b: &[f64], x: &[f64]) -> f64 {
 #[test]
 fn agrees_with_a_dense_solver_wherever_the_change_is() {
     for pattern in patterns() {
-        let (mut k, tree) = (matrix(&pattern), Tree::new(&pattern, |_| true));
+        let (mut k, tree) = (matrix(&pattern), Tree::new(&pattern, |_| true, &Budget::unlimited()).unwrap());
         let mut factor = Factor::new(&tree);
         let n = pattern.unknowns();
         let mut source = numbers().skip(5000);
@@ -107,7 +109,7 @@ fn agrees_with_a_dense_solver_wherever_the_change_is() {
 #[test]
 fn until_the_next_update_the_factors_are_those_of_the_last() {
     let pattern = &patterns()[1];
-    let (mut k, tree) = (matrix(pattern), Tree::new(pattern, |_| true));
+    let (mut k, tree) = (matrix(pattern), Tree::new(pattern, |_| true, &Budget::unlimited()).unwrap());
     let (before, b, mut x) = (k.clone(), vec![1.0; pattern.unknowns()], vec![0.0; pattern.unknowns()]);
     let mut factor = Factor::new(&tree);
     factor.update(&k, &b, &mut x, 2, &Budget::unlimited()).unwrap();
@@ -121,7 +123,7 @@ fn until_the_next_update_the_factors_are_those_of_the_last() {
 #[test]
 fn a_change_costs_the_rows_between_it_and_the_last() {
     let pattern = row(&[4; 100]);
-    let (k, tree) = (matrix(&pattern), Tree::new(&pattern, |_| true));
+    let (k, tree) = (matrix(&pattern), Tree::new(&pattern, |_| true, &Budget::unlimited()).unwrap());
     let mut factor = Factor::new(&tree);
     let (b, mut x) = (vec![0.0; 400], vec![0.0; 400]);
     let mut cost = |element: usize| {
@@ -149,7 +151,7 @@ fn arches_on_piers_tie_nothing_that_was_not() {
         elements.push(vec![last]);
     }
     let pattern = pattern(&sizes, &elements.iter().map(|e| e.as_slice()).collect::<Vec<_>>());
-    let tree = Tree::new(&pattern, |_| true);
+    let tree = Tree::new(&pattern, |_| true, &Budget::unlimited()).unwrap();
     let largest = tree.fronts.iter().map(|front| front.sizes[0] + front.sizes[1]).max();
     assert_eq!(largest, Some(12));
 }
@@ -157,10 +159,52 @@ fn arches_on_piers_tie_nothing_that_was_not() {
 #[test]
 fn a_singular_block_shows_in_the_pivot_ratio() {
     let pattern = pattern(&[4], &[&[0]]);
-    let tree = Tree::new(&pattern, |_| true);
+    let tree = Tree::new(&pattern, |_| true, &Budget::unlimited()).unwrap();
     let mut k = Elements::zeros(&pattern);
     k.get_mut(0).copy_from_slice(&[1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 0.]);
     let mut factor = Factor::new(&tree);
     factor.update(&k, &[0.0; 4], &mut [0.0; 4], 0, &Budget::unlimited()).unwrap();
     assert!(factor.pivot_ratio() < 1e-14);
+}
+
+#[test]
+fn what_eliminating_takes_is_counted_before_as_it_is_built() {
+    for pattern in patterns() {
+        let tree = Tree::new(&pattern, |_| true, &Budget::unlimited()).unwrap();
+        let counted = Elimination::new(&pattern, |_| true, &Budget::unlimited()).unwrap();
+        let (mut entries, mut largest) = ([0; 3], 0);
+        for (number, front) in tree.fronts.iter().enumerate() {
+            let [removed, kept] = front.sizes;
+            let way = if number < tree.directed() { number % 2 } else { 2 };
+            entries[way] += removed * removed + 2 * removed * kept + kept * kept;
+            largest = largest.max((removed + kept).pow(2));
+        }
+        assert_eq!((counted.entries, counted.largest), (entries, largest));
+    }
+}
+
+#[test]
+fn a_large_front_is_not_eliminated_without_asking() {
+    let pattern = row(&[300, 300, 300]);
+    let (mut k, tree) = (Elements::zeros(&pattern), Tree::new(&pattern, |_| true, &Budget::unlimited()).unwrap());
+    for element in 0..2 {
+        k.get_mut(element).fill(1e-3);
+        (0..600).for_each(|j| k.get_mut(element)[j * 601] += 9.0);
+    }
+    let asked = std::cell::Cell::new(0);
+    let stops_at = |most: usize| {
+        asked.set(0);
+        let ask = |_| {
+            asked.set(asked.get() + 1);
+            if asked.get() < most { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        };
+        Factor::new(&tree).update(&k, &[1.0; 900], &mut [0.0; 900], 0, &Budget::new(&ask)).is_err()
+    };
+    assert!(!stops_at(usize::MAX));
+    // Two fronts, of 300 and 600 unknowns: 1.4e8 multiplications, and a question every 4e6.
+    let all = asked.get();
+    assert!(all > 20, "{all}");
+    for most in [1, all / 2, all] {
+        assert!(stops_at(most) && asked.get() == most, "{} of {most}", asked.get());
+    }
 }

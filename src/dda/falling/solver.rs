@@ -95,7 +95,7 @@ impl StepProblem {
     /// When the iteration converges from none of its starts, or where the budget is spent.
     pub(super) fn solve(&self, budget: &Budget) -> Result<Solution, NotConverged> {
         let (pattern, elements) = self.pattern();
-        let tree = Tree::new(&pattern, |_| true);
+        let tree = Tree::new(&pattern, |_| true, budget).map_err(|_| NotConverged)?;
         let mut system = System { elements, matrix: Elements::zeros(&pattern), factor: Factor::new(&tree) };
         STARTS.iter().find_map(|&start| self.solve_from(start, &mut system, budget).ok()).ok_or(NotConverged)
     }

@@ -37,7 +37,7 @@ impl Tracer<'_> {
     fn corrected(&mut self, worst: f64) -> Option<f64> {
         let mut corrections = vec![0.0; self.residual.len()];
         self.factor.solve(&self.residual, &mut corrections, self.budget).ok()?;
-        self.updates.apply(self.assembly, &self.states, |_| [0.0; 2], &mut corrections);
+        self.updates.apply(self.assembly, &self.states, |_| [0.0; 2], &mut corrections, self.budget);
         self.correct_by(&corrections, 1.0);
         let corrected = self.find_residual();
         // Next to a mechanism the correction of mere rounding may lead far across borders.

@@ -82,7 +82,8 @@ impl Tracer<'_> {
 
     fn let_go(&mut self, drive: Drive, parameter: f64, see: &mut dyn FnMut(&Tracer) -> ControlFlow<()>) -> End {
         (self.drive, self.moving) = (drive.clone(), Some(Placed::new(self.assembly, self.budget)));
-        self.factor = Factor::new(self.assembly.plain_tree()).after(self.factor.eliminated());
+        let Some(tree) = self.assembly.plain_tree(self.budget) else { return End::Stopped };
+        self.factor = Factor::new(tree).after(self.factor.eliminated());
         self.set_parameter(parameter);
         // Gaps on moving geometry differ from those at first order, and so may states.
         self.find_residual();

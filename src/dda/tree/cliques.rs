@@ -1,6 +1,7 @@
 //! The order of elimination by least degree, and the cliques it makes.
 
 use super::work;
+use crate::budget::{Budget, Stopped};
 use crate::dda::elements::Pattern;
 use std::collections::BTreeSet;
 
@@ -25,8 +26,14 @@ pub(super) struct Ordered {
     pub turn: Vec<usize>,
 }
 
+/// Work of merging one face into a list of ties, in multiplications.
+const MERGED: usize = 4;
+
 /// The cliques of an elimination by least degree.
-pub(super) fn cliques(pattern: &Pattern, wanted: impl Fn(usize) -> bool) -> Ordered {
+///
+/// # Errors
+/// When stopped.
+pub(super) fn cliques(pattern: &Pattern, wanted: impl Fn(usize) -> bool, budget: &Budget) -> Result<Ordered, Stopped> {
     let faces = pattern.start.len() - 1;
     let mut tied: Vec<Vec<usize>> = vec![Vec::new(); faces];
     for element in pattern.faces.iter().enumerate().filter(|(number, _)| wanted(*number)).map(|(_, faces)| faces) {
@@ -38,8 +45,7 @@ pub(super) fn cliques(pattern: &Pattern, wanted: impl Fn(usize) -> bool) -> Orde
         tied.sort_unstable();
         tied.dedup();
     });
-    let degree = |tied: &[usize]| tied.iter().map(|&face| pattern.range(face).len()).sum::<usize>();
-    let mut degrees: Vec<usize> = tied.iter().map(|tied| degree(tied)).collect();
+    let mut degrees: Vec<usize> = tied.iter().map(|tied| pattern.total(tied)).collect();
     let mut waiting: BTreeSet<(usize, usize)> = degrees.iter().copied().zip(0..).collect();
     let mut order = Vec::with_capacity(faces);
     while let Some((_, face)) = waiting.pop_first() {
@@ -48,7 +54,8 @@ pub(super) fn cliques(pattern: &Pattern, wanted: impl Fn(usize) -> bool) -> Orde
         for &other in &around {
             let more = around.iter().copied().filter(|&f| f != other);
             tied[other] = merged(&tied[other], more, face);
-            let now = degree(&tied[other]);
+            budget.work(MERGED * (around.len() + tied[other].len()))?;
+            let now = pattern.total(&tied[other]);
             if now != degrees[other] {
                 waiting.remove(&(degrees[other], other));
                 waiting.insert((now, other));
@@ -60,7 +67,7 @@ pub(super) fn cliques(pattern: &Pattern, wanted: impl Fn(usize) -> bool) -> Orde
     let mut ordered = hung_up(&order, &tied);
     ordered.put_together(pattern);
     ordered.hang_together();
-    ordered
+    Ok(ordered)
 }
 
 /// Two sorted lists without repetition, `but` left out.
@@ -122,13 +129,17 @@ impl Clique {
     fn own(&self) -> &[usize] {
         &self.faces[..self.faces.len() - self.shared]
     }
+
+    /// Those that it shares with the clique it hangs on.
+    pub(super) fn shared_faces(&self) -> &[usize] {
+        &self.faces[self.faces.len() - self.shared..]
+    }
 }
 
 impl Ordered {
     /// Puts cliques and those they hang on together where that takes hardly more multiplications.
     fn put_together(&mut self, pattern: &Pattern) {
-        let size = |faces: &[usize]| faces.iter().map(|&face| pattern.range(face).len()).sum::<usize>();
-        let sizes = |clique: &Clique| [size(clique.own()), size(&clique.faces) - size(clique.own())];
+        let sizes = |clique: &Clique| [clique.own(), clique.shared_faces()].map(|faces| pattern.total(faces));
         self.cliques.iter_mut().for_each(|clique| clique.apart = work(sizes(clique)));
         for child in 0..self.cliques.len() {
             let Some(&shared) = self.cliques[child].faces.get(self.cliques[child].own().len()) else { continue };

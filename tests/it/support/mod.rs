@@ -111,6 +111,8 @@ pub fn settings() -> Settings {
         body: BODY_LIMIT,
         request_time: Duration::from_secs(30),
         voussoirs: 200,
+        job_memory: 1 << 30,
+        job_time: Duration::from_secs(600),
         subblocks: 1000,
         streams: 3,
         incoming: 1 << 20,

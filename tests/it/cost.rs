@@ -1,0 +1,135 @@
+//! What an analysis takes, against what it was estimated to take before it began.
+
+use crate::common::semicircle::{mesh, semicircle};
+use serde_json::{Value, json};
+use std::io::Write;
+use std::process::{Command, Stdio};
+use std::time::Duration;
+use voussoir::collapse::cost::{Demand, Share, estimate};
+use voussoir::wire::read::read_question;
+
+const MIB: usize = 1 << 20;
+/// What the program takes before it has read anything, and a little more.
+const PROGRAM: usize = 24 * MIB;
+
+fn demand(request: &Value) -> Demand {
+    estimate(&read_question(request.to_string().as_bytes()).unwrap().1)
+}
+
+/// Most memory that `voussoir solve` had resident while it answered a request, bytes.
+#[cfg(target_os = "linux")]
+#[allow(clippy::disallowed_methods, reason = "a process is looked at now and then until it has ended")]
+fn peak(request: &Value) -> usize {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_voussoir"));
+    command.args(["solve", "--json", "-"]).stdin(Stdio::piped()).stdout(Stdio::null());
+    let mut child = command.spawn().unwrap();
+    child.stdin.take().unwrap().write_all(request.to_string().as_bytes()).unwrap();
+    let (file, mut peak) = (format!("/proc/{}/status", child.id()), 0);
+    while child.try_wait().unwrap().is_none() {
+        // Without the line it has ended.
+        let status = std::fs::read_to_string(&file).unwrap_or_default();
+        let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+        peak = line.map_or(peak, |line| 1024 * line.trim().trim_end_matches(" kB").parse::<usize>().unwrap());
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    assert!(child.wait().unwrap().success());
+    peak
+}
+
+/// An arch of which no two stones are alike.
+fn uneven(voussoirs: usize, more: &Value) -> Value {
+    let mut request = semicircle(voussoirs, more);
+    request["arch"]["thickness"] = json!({"linear": {"crown_m": 1.5, "springing_m": 2.0}});
+    request
+}
+
+/// A wall of courses of so many blocks, every second one shifted by half a block.
+fn wall(columns: usize, courses: usize, more: &Value) -> Value {
+    let mut polygons = Vec::new();
+    for course in 0..courses {
+        let (y, shift) = (0.5 * course as f64, 0.5 * (course % 2) as f64);
+        let edge = |i: usize| (i as f64 - shift).clamp(0.0, columns as f64);
+        for i in 0..columns + course % 2 {
+            let [left, right] = [edge(i), edge(i + 1)];
+            let corners = [[left, y], [right, y], [right, y + 0.5], [left, y + 0.5]];
+            polygons.push(json!({"name": format!("{course}.{i}"), "corners_m": corners}));
+        }
+    }
+    let supports = json!([{"name": "ground", "segments_m": [[[-1.0, 0.0], [columns as f64 + 1.0, 0.0]]]}]);
+    let push = json!({"load": {"body_acceleration": {"x_g": 0.3}}, "scaled": true});
+    let mut request = json!({
+        "blocks": {"polygons": polygons, "supports": supports},
+        "loads": [{"load": {"self_weight": {}}}, push],
+    });
+    for (name, value) in more.as_object().unwrap() {
+        request[name] = value.clone();
+    }
+    request
+}
+
+/// So many blocks in a row on one slab.
+fn slab(blocks: usize) -> Value {
+    let n = blocks as f64;
+    let mut polygons = vec![json!({"name": "slab", "corners_m": [[0.0, 0.0], [n, 0.0], [n, 1.0], [0.0, 1.0]]})];
+    polygons.extend((0..blocks).map(|i| {
+        let x = i as f64;
+        json!({"name": i.to_string(), "corners_m": [[x, 1.0], [x + 1.0, 1.0], [x + 1.0, 2.0], [x, 2.0]]})
+    }));
+    let mut request = wall(1, 1, &json!({}));
+    request["blocks"]["polygons"] = polygons.into();
+    request["blocks"]["supports"][0]["segments_m"] = json!([[[-1.0, 0.0], [n + 1.0, 0.0]]]);
+    request
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn no_analysis_takes_more_than_its_estimate() {
+    let fields = json!(["near_collapse", {"load_factor": 1.0}]);
+    for (name, request) in [
+        ("few stones", semicircle(27, &json!({}))),
+        ("many stones", semicircle(1000, &json!({"report": {"share_of_collapse": 0.001}}))),
+        ("stones of many subblocks", uneven(11, &json!({"mesh": mesh(16, 16)}))),
+        ("wide joints", uneven(9, &json!({"mesh": mesh(40, 1)}))),
+        ("long stones, stress", uneven(60, &json!({"mesh": mesh(1, 48), "report": {"stress_fields": fields}}))),
+        ("moving geometry", uneven(31, &json!({"mesh": mesh(3, 3), "geometry": "updated"}))),
+        ("wall", wall(10, 10, &json!({}))),
+        ("slab", slab(100)),
+        ("wall of subblocks", wall(4, 6, &json!({"mesh": mesh(6, 6)}))),
+    ] {
+        let (estimated, taken) = (demand(&request).memory, peak(&request));
+        assert!(taken < estimated + PROGRAM, "{name}: {} MiB, estimated {}", taken / MIB, estimated / MIB);
+        assert!(estimated < 4 * taken + PROGRAM, "{name}: {} MiB, estimated {}", taken / MIB, estimated / MIB);
+    }
+}
+
+#[test]
+fn what_takes_most_is_told() {
+    let loads = json!([
+        {"load": {"self_weight": {}}},
+        {"load": {"point_load": {"force_n_per_m": 1000.0, "x_m": -5.0}}, "scaled": true, "per_abscissa": true},
+    ]);
+    let abscissae: Vec<f64> = (1..=120).map(|i| 0.1 * f64::from(i)).collect();
+    let curve = json!({"loads": loads, "analysis": {"safety": {"curve": {"abscissae": abscissae}}}});
+    let fields = json!([{"load_factor": 1.0}, {"load_factor": 2.0}, "near_collapse"]);
+    for (request, largest) in [
+        (semicircle(500, &json!({})), Share::Stones),
+        (uneven(100, &json!({"mesh": mesh(48, 1)})), Share::Mesh),
+        (semicircle(1000, &json!({"mesh": mesh(1, 48), "report": {"stress_fields": fields}})), Share::Fields),
+        (semicircle(20, &json!({"motion": {"most_frames": 3000, "share_of_span": 1.0}})), Share::Frames),
+        (semicircle(2000, &curve), Share::Points),
+    ] {
+        assert_eq!(demand(&request).largest, largest, "{request}");
+    }
+}
+
+#[test]
+fn an_estimate_grows_with_what_is_asked() {
+    // 345 bytes that take more than any machine should give.
+    let worst = demand(&uneven(2001, &json!({"mesh": mesh(48, 1)})));
+    assert!(worst.memory > 5_000_000_000, "{worst:?}");
+    let of = |request: &Value| demand(request).memory;
+    assert!(of(&uneven(100, &json!({"mesh": mesh(8, 8)}))) > of(&semicircle(100, &json!({"mesh": mesh(8, 8)}))));
+    assert!(of(&wall(20, 20, &json!({}))) > of(&wall(10, 10, &json!({}))));
+    // Bodies that many others touch.
+    assert!(of(&slab(1000)) > 3 * of(&slab(400)), "{} {}", of(&slab(1000)), of(&slab(400)));
+}
