@@ -93,10 +93,10 @@ pub struct Work {
     /// Seconds a worker may be at one job; then it fails
     #[arg(long, env = "VOUSSOIR_JOB_TIME", default_value_t = 600, value_parser = count(1, 1_000_000))]
     pub job_time: u64,
-    /// Most memory of one analysis in bytes, as it is estimated before it is accepted; beyond it 422 [default: what 2 GiB leave
-    /// each worker beside --kept-bytes and --answer-bytes]
-    #[arg(long, env = "VOUSSOIR_JOB_MEMORY", value_parser = count(1 << 20, 1 << 40))]
-    pub job_memory: Option<u64>,
+    /// Bytes that analyses may take together, as estimated before they are accepted; a request that takes more alone is answered
+    /// with 422, others wait for each other [default: what --kept-bytes and --answer-bytes leave of 2 GiB]
+    #[arg(long, env = "VOUSSOIR_WORK_MEMORY", value_parser = count(1 << 20, 1 << 40))]
+    pub work_memory: Option<u64>,
     /// Most voussoirs of an arch
     #[arg(long, env = "VOUSSOIR_VOUSSOIRS", default_value_t = MAX_VOUSSOIRS as u64,
         value_parser = count(2, MAX_VOUSSOIRS as u64))]
@@ -199,14 +199,14 @@ pub enum LogFormat {
 /// What the process keeps to by default, and what of it is neither analyses nor answers, bytes.
 const PROCESS: usize = 2 << 30;
 const REST: usize = 128 << 20;
-/// Least memory that an analysis is allowed by default, bytes.
-const LEAST_JOB_MEMORY: usize = 64 << 20;
+/// Least memory that analyses are allowed by default, bytes.
+const LEAST_WORK_MEMORY: usize = 256 << 20;
 
 impl Serve {
-    /// Most memory of one analysis, bytes.
-    fn job_memory(&self) -> usize {
+    /// Memory of all analyses together, bytes.
+    fn work_memory(&self) -> usize {
         let left = PROCESS.saturating_sub(size(self.kept.kept_bytes) + size(self.requests.answer_bytes) + REST);
-        self.work.job_memory.map_or_else(|| (left / self.work().workers).max(LEAST_JOB_MEMORY), size)
+        self.work.work_memory.map_or_else(|| left.max(LEAST_WORK_MEMORY), size)
     }
 
     /// What the store of jobs takes on.
@@ -222,6 +222,7 @@ impl Serve {
             keys_for: Duration::from_secs(kept.keys_for),
             bytes: size(kept.kept_bytes),
             bytes_per_client: kept.kept_bytes_per_client.map_or(half(kept.kept_bytes), size),
+            work_memory: self.work_memory(),
         }
     }
 
@@ -258,7 +259,7 @@ impl Serve {
                 request_time: Duration::from_secs(requests.request_time),
                 voussoirs: size(self.work.voussoirs),
                 subblocks: size(self.work.subblocks),
-                job_memory: self.job_memory(),
+                job_memory: self.work_memory(),
                 job_time: Duration::from_secs(self.work.job_time),
                 streams: size(requests.event_streams),
                 incoming: size(requests.body_bytes),

@@ -57,7 +57,7 @@ type OnEvent<'w> = dyn FnMut(&Tracer, f64) -> ControlFlow<()> + 'w;
 /// The whole answer; stones that are in `built` already are not condensed again.
 pub(super) fn run<'a>(analysis: &'a Analysis, built: &mut Discretisation<'a>) -> Result<CollapseReport, AnalysisError> {
     let report = softer::as_asked(analysis, built)?;
-    softer::or_softer(analysis, report, built.budget)
+    softer::or_softer(analysis, report, built)
 }
 
 /// Limit window and load path on the mesh given; what follows from them is left to [`run`].

@@ -59,9 +59,9 @@ pub(super) async fn submit(
 ) -> Result<Response, Problem> {
     let key = idempotency_key(&headers)?.map(|key| client.scoped(key));
     let name = client.name.clone();
-    let submission = read_within(&state, body, move |work| {
+    let submission = read_within(&state, body, move |work, memory| {
         let request = json::line(&work).map_err(Problem::unwritable)?.into();
-        Ok(Submission { request, name: work.name().map(str::to_owned), client: client.name, key })
+        Ok(Submission { request, name: work.name().map(str::to_owned), client: client.name, memory, key })
     });
     let job = match state.store.submit(submission.await?).await {
         Ok(job) => job,
@@ -121,7 +121,7 @@ pub(super) struct Verdict {
     responses((status = 200, description = "It would be accepted", body = Verdict))
 )]
 pub(super) async fn validate(state: AppState, body: JsonBody) -> Result<Response, Problem> {
-    read_within(&state, body, |request| answer(&Verdict { valid: true, request })).await
+    read_within(&state, body, |request, _| answer(&Verdict { valid: true, request })).await
 }
 
 /// Reads a body and, if this service takes the request, makes something of it. That may take a while: others go on meanwhile,
@@ -130,7 +130,7 @@ pub(super) async fn validate(state: AppState, body: JsonBody) -> Result<Response
 async fn read_within<V: Send + 'static>(
     state: &Service,
     body: JsonBody,
-    then: impl FnOnce(Request) -> Result<V, Problem> + Send + 'static,
+    then: impl FnOnce(Request, usize) -> Result<V, Problem> + Send + 'static,
 ) -> Result<V, Problem> {
     let turn = state.readers.turn(body.len()).await.ok_or_else(Problem::internal)?;
     let limits = state.settings.limits;
@@ -140,8 +140,8 @@ async fn read_within<V: Send + 'static>(
         let read = read::read_question(&body);
         let (request, question) =
             read.map_err(|faults| check_syntax(&body).err().unwrap_or(Problem::faults(faults)))?;
-        limits.check(&request, &question).map_err(Problem::faults)?;
-        then(request)
+        let demand = limits.check(&request, &question).map_err(Problem::faults)?;
+        then(request, demand.memory)
     });
     reading.await.unwrap_or_else(|_| Err(Problem::internal()))
 }

@@ -59,6 +59,12 @@ impl Accounts {
         }
     }
 
+    /// The next job of the next client for whom `may` holds, left where it is.
+    pub(super) fn peek(&self, may: impl Fn(&Account) -> bool) -> Option<JobId> {
+        let mut accounts = self.turns.iter().filter_map(|client| self.of.get(client));
+        accounts.find(|account| may(account))?.waiting.front().copied()
+    }
+
     /// The next job of the next client for whom `may` holds.
     pub(super) fn next(&mut self, may: impl Fn(&Account) -> bool) -> Option<JobId> {
         let place = self.turns.iter().position(|client| self.of.get(client).is_some_and(&may))?;

@@ -22,6 +22,7 @@ enum Line<'a> {
         client: Cow<'a, str>,
         name: Option<Cow<'a, str>>,
         key: Option<Cow<'a, str>>,
+        memory: usize,
         request: Cow<'a, str>,
     },
     Over(JobId),
@@ -61,7 +62,14 @@ impl Journal {
     pub(super) fn accepted(&mut self, id: JobId, submission: &Submission) -> io::Result<()> {
         let request = String::from_utf8_lossy(&submission.request);
         let (name, key) = (submission.name.as_deref().map(Cow::from), submission.key.as_deref().map(Cow::from));
-        let line = line(&Line::Accepted { id, client: Cow::from(&*submission.client), name, key, request })?;
+        let line = line(&Line::Accepted {
+            id,
+            client: Cow::from(&*submission.client),
+            name,
+            key,
+            memory: submission.memory,
+            request,
+        })?;
         self.file.write_all(line.as_bytes())?;
         (self.written, self.of_owed) = (self.written + line.len(), self.of_owed + line.len());
         self.owed.insert(id, line);
@@ -87,9 +95,9 @@ fn line(line: &Line) -> io::Result<String> {
 }
 
 fn submission(line: &str) -> Option<(JobId, Submission)> {
-    let Ok(Line::Accepted { id, client, name, key, request }) = serde_json::from_str(line) else { return None };
+    let Ok(Line::Accepted { id, client, name, key, memory, request }) = serde_json::from_str(line) else { return None };
     let (name, key) = (name.map(Cow::into_owned), key.map(Cow::into_owned));
-    Some((id, Submission { request: request.into_owned().into(), name, client: client.into(), key }))
+    Some((id, Submission { request: request.into_owned().into(), name, client: client.into(), memory, key }))
 }
 
 /// Writes the file anew beside the old one, and puts it in its place.
@@ -115,6 +123,7 @@ mod tests {
             request: request.to_owned().into(),
             name: Some("a \"name\"\n".to_owned()),
             client: "me".into(),
+            memory: 1,
             key: None,
         };
         let ids: Vec<_> = (1..=3).map(JobId::from_u128).collect();

@@ -35,6 +35,8 @@ pub struct Limits {
     pub bytes: usize,
     /// What those of one client may take.
     pub bytes_per_client: usize,
+    /// What all analyses that run may take together, bytes; one that takes more runs alone.
+    pub work_memory: usize,
 }
 
 /// Jobs in memory.
@@ -140,7 +142,10 @@ impl Store for Memory {
     }
 
     async fn end(&self, lease: &Lease, ending: Ending) -> Result<Option<Job>, Unavailable> {
-        Ok(self.books(|table| table.end(lease.id, ending)))
+        let ended = self.books(|table| table.end(lease.id, ending));
+        // What it took may be what another waits for.
+        self.work.notify_waiters();
+        Ok(ended)
     }
 
     async fn occupancy(&self) -> Result<Occupancy, Unavailable> {

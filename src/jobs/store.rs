@@ -15,6 +15,8 @@ pub struct Submission {
     pub name: Option<String>,
     /// Who submits it.
     pub client: Arc<str>,
+    /// What its analysis takes at most, as it was estimated, bytes.
+    pub memory: usize,
     /// Names this submission: sent again with the same request it gives the same job, as long as the key lives.
     pub key: Option<String>,
 }

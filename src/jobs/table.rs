@@ -2,7 +2,7 @@
 
 mod room;
 
-use super::accounts::Accounts;
+use super::accounts::{Account, Accounts};
 use super::job::{Job, JobId, JobState, Product, Status};
 use super::journal::Journal;
 use super::keys::Keys;
@@ -30,6 +30,8 @@ struct Entry {
     request: Bytes,
     product: Product,
     progress: Arc<Progress>,
+    /// What its analysis takes.
+    memory: usize,
     bytes: usize,
     /// Its place in the order of ends, and when that was.
     ended: Option<(u64, Instant)>,
@@ -47,7 +49,8 @@ pub(super) struct Table {
     /// How many have ended so far.
     ends: u64,
     waiting: usize,
-    running: usize,
+    /// Jobs in the hands of workers, and what their analyses take.
+    running: BTreeMap<JobId, usize>,
     bytes: usize,
     evicted: u64,
     seconds: f64,
@@ -67,7 +70,7 @@ impl Table {
             finished: BTreeMap::new(),
             ends: 0,
             waiting: 0,
-            running: 0,
+            running: BTreeMap::new(),
             bytes: 0,
             evicted: 0,
             seconds: 0.0,
@@ -94,7 +97,7 @@ impl Table {
 
     /// Enters a job into the books: it waits from here on.
     pub(super) fn enter(&mut self, id: JobId, submission: Submission) {
-        let Submission { request, name, client, key } = submission;
+        let Submission { request, name, client, memory, key } = submission;
         let bytes = RECORD + request.len();
         if let Some(key) = key {
             self.keys.name(&key, id, client.clone(), &request);
@@ -105,7 +108,7 @@ impl Table {
         self.charge(&client, bytes);
         let job = watch::Sender::new(Job::accepted(id, name, client));
         let (product, progress) = (Product::default(), Arc::default());
-        self.jobs.insert(id, Entry { job, request, product, progress, bytes, ended: None });
+        self.jobs.insert(id, Entry { job, request, product, progress, memory, bytes, ended: None });
     }
 
     /// From here on what is owed is noted.
@@ -131,16 +134,24 @@ impl Table {
         if self.bytes > bytes || self.finished.len() > kept {
             return None;
         }
-        let id = self.accounts.next(|account| account.bytes <= bytes_per_client)?;
+        let may = |account: &Account| account.bytes <= bytes_per_client;
+        let memory = self.jobs.get(&self.accounts.peek(may)?)?.memory;
+        let taken = self.running.values().sum::<usize>();
+        // Nobody goes before a large one, or it would wait for ever.
+        if taken > 0 && taken.saturating_add(memory) > self.limits.work_memory {
+            return None;
+        }
+        let id = self.accounts.next(may)?;
         let entry = self.jobs.get(&id)?;
-        (self.waiting, self.running) = (self.waiting - 1, self.running + 1);
+        self.waiting -= 1;
+        self.running.insert(id, memory);
         entry.job.send_modify(|job| (job.state, job.started) = (JobState::Running, Some(SystemTime::now())));
         Some(Lease { id, request: entry.request.clone(), progress: entry.progress.clone() })
     }
 
     /// A worker gives its job back. None where that had ended before.
     pub(super) fn end(&mut self, id: JobId, ending: Ending) -> Option<Job> {
-        self.running -= 1;
+        self.running.remove(&id);
         let seconds = ending.wall_time.as_secs_f64();
         let first = self.seconds == 0.0;
         self.seconds = if first { seconds } else { self.seconds + LATEST * (seconds - self.seconds) };
@@ -280,7 +291,7 @@ impl Table {
         let promised = |id: &&JobId| self.age(**id) < self.limits.promised;
         Occupancy {
             waiting: self.waiting,
-            running: self.running,
+            running: self.running.len(),
             finished: self.finished.len(),
             unread: self.accounts.iter().map(|(_, account)| account.unread.values().filter(promised).count()).sum(),
             bytes: self.bytes,

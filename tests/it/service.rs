@@ -390,7 +390,7 @@ fn a_service_takes_no_more_than_it_is_set_to() {
 #[test]
 fn what_takes_too_much_memory_is_refused_with_its_estimate() {
     let little = http::ApiLimits { job_memory: 20_000_000, voussoirs: 2001, subblocks: 100_000, ..settings().limits };
-    let server = Server::with(limits(1, 10), Settings { limits: little, ..settings() });
+    let server = Server::with(limits(10), work(1), Settings { limits: little, ..settings() });
     let fault = |request: &Value| server.post(request.to_string().as_bytes()).problem(422)["errors"][0].take();
     let (mut many, mut fine, mut shown) = (request(), request(), request());
     many["arch"]["voussoirs"] = json!(2001);
@@ -403,7 +403,7 @@ fn what_takes_too_much_memory_is_refused_with_its_estimate() {
         assert!(words.iter().all(|words| fault["detail"].as_str().unwrap().contains(words)), "{fault}");
     }
     let brief = http::ApiLimits { job_time: Duration::ZERO, subblocks: 100_000, ..settings().limits };
-    let server = Server::with(limits(1, 10), Settings { limits: brief, ..settings() });
+    let server = Server::with(limits(10), work(1), Settings { limits: brief, ..settings() });
     let fault = server.post(shown.to_string().as_bytes()).problem(422)["errors"][0].take();
     assert_eq!(fault["pointer"], "/mesh/subblocks", "{fault}");
     assert!(fault["detail"].as_str().unwrap().contains("this service stops it after 0 s"), "{fault}");

@@ -53,6 +53,7 @@ promises! {
     queue::a_full_queue_refuses_and_loses_nothing
     queue::one_client_cannot_fill_the_queue_of_all
     queue::clients_take_turns
+    queue::what_takes_much_memory_waits_and_others_behind_it
     queue::a_closed_store_ends_what_it_accepted
     queue::pages_of_the_list_hold_every_job_once
     queue::a_list_may_be_of_one_client
@@ -119,6 +120,7 @@ fn limits() -> Limits {
         keys_for: Duration::from_secs(1000),
         bytes: 1 << 30,
         bytes_per_client: 1 << 30,
+        work_memory: 1 << 30,
     }
 }
 
@@ -127,7 +129,7 @@ fn workers(store: &Arc<dyn Store>, count: usize) -> Workers {
 }
 
 fn order(request: &str) -> Submission {
-    Submission { request: request.to_owned().into(), name: None, client: "me".into(), key: None }
+    Submission { request: request.to_owned().into(), name: None, client: "me".into(), memory: 1000, key: None }
 }
 
 fn of(client: &str, request: &str) -> Submission {

@@ -51,7 +51,7 @@ fn main() -> ExitCode {
         let measured = measure(&std::fs::read(file).unwrap(), job_time);
         row(&measured, file);
     }
-    let limit = number("--job-memory", 1024.0 * MIB);
+    let limit = number("--work-memory", 1024.0 * MIB);
     match files.is_empty() {
         true => search(number("--seconds", 600.0), number("--seed", 1.0) as u64, limit, job_time),
         false => ExitCode::SUCCESS,

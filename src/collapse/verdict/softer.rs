@@ -6,7 +6,6 @@
 //! softer contacts do not jam.
 
 use super::Setup;
-use crate::budget::Budget;
 use crate::collapse::discretise::Discretisation;
 use crate::collapse::{Analysis, AnalysisError, CollapseReport, Doubt, Note, Outcome};
 
@@ -24,17 +23,20 @@ pub(super) fn as_asked<'a>(
 }
 
 /// The same answer, or where its path was lost that of softer contacts, whose loads are as good where stones are rigid.
-pub(super) fn or_softer(
+pub(super) fn or_softer<'a>(
     analysis: &Analysis,
     mut report: CollapseReport,
-    budget: &Budget,
+    built: &mut Discretisation<'a>,
 ) -> Result<CollapseReport, AnalysisError> {
+    let budget = built.budget;
     for taken in SOFTER.into_iter().filter(|ratio| *ratio < analysis.penalty_ratio) {
         let Some(doubt) = report.lost() else { break };
         let turned_back = match doubt {
             Doubt::TurnedBack(path) | Doubt::Stray { path, .. } => Some(*path),
             _ => None,
         };
+        // One model at a time.
+        *built = Discretisation::new(budget);
         let softer = Analysis { penalty_ratio: taken, ..analysis.clone() };
         let mut next = as_asked(&softer, &mut Discretisation::new(budget))?;
         if next.outcome == Outcome::CannotTell {

@@ -163,7 +163,7 @@ pub struct StoneRequest {
     /// `stress`: plane stress, that is no stress across the arch. `strain`: plane strain, that is no strain across the arch.
     pub plane: PlaneModel,
     /// Contact penalty: stiffness of contacts as a multiple of Young's modulus. Left out: 10, and 1 for a bridge and for blocks,
-    /// whose joints slide: where they are stiffer than the stones, a load path may end higher, or far lower in rings that slide on
+    /// whose joints slide: where they are stiffer than the stones, a load path may end higher, or jam in rings that slide on
     /// each other.
     #[schema(minimum = 0.01, maximum = 100.0)]
     pub penalty_ratio: Option<f64>,

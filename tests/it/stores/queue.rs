@@ -5,7 +5,7 @@ use super::{answer, ended, limits, of, order, running, submitted, until, workers
 use std::sync::{Arc, Mutex};
 use tokio::time::timeout;
 use voussoir::budget::Budget;
-use voussoir::jobs::{Limits, Refusal, Status, Which, Workers};
+use voussoir::jobs::{Limits, Refusal, Status, Submission, Which, Workers};
 
 pub(super) async fn a_full_queue_refuses_and_loses_nothing(new: New<'_>) {
     let store = new(Limits { queue: 3, ..limits() });
@@ -102,4 +102,23 @@ pub(super) async fn a_list_may_be_of_one_client(new: New<'_>) {
     let listed = store.list(of_client("you")).await.unwrap();
     assert_eq!(listed.iter().map(|job| job.id).collect::<Vec<_>>(), [yours]);
     assert!(store.list(of_client("nobody")).await.unwrap().is_empty());
+}
+
+pub(super) async fn what_takes_much_memory_waits_and_others_behind_it(new: New<'_>) {
+    let store = new(Limits { work_memory: 2500, ..limits() });
+    let _workers = workers(&store, 3);
+    let first = submitted(&store, ENDLESS).await;
+    until(&store, first, running).await;
+    let large = store.submit(Submission { memory: 2000, ..of("you", ENDLESS) }).await.unwrap().id;
+    let small = submitted(&store, QUICK).await;
+    tokio::time::sleep(std::time::Duration::from_millis(300)).await;
+    for id in [large, small] {
+        assert_eq!(store.job(id).await.unwrap().unwrap().status(), Status::Accepted);
+    }
+    store.cancel(first).await.unwrap();
+    until(&store, large, running).await;
+    store.cancel(large).await.unwrap();
+    until(&store, small, ended).await;
+    let alone = store.submit(Submission { memory: 9000, ..of("you", QUICK) }).await.unwrap().id;
+    until(&store, alone, ended).await;
 }

@@ -97,6 +97,7 @@ pub fn limits(queue: usize) -> Limits {
         keys_for: long,
         bytes: 1 << 30,
         bytes_per_client: 1 << 30,
+        work_memory: 1 << 30,
     }
 }
 
