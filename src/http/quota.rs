@@ -128,7 +128,8 @@ mod tests {
         assert_eq!(quota.held().each.len(), 1);
         assert!(quota.take("c", 6).is_ok());
         drop(second);
-        assert_eq!((quota.held().all, quota.held().each.len()), (0, 0));
+        let held = quota.held();
+        assert_eq!((held.all, held.each.len()), (0, 0));
     }
 
     #[test]
