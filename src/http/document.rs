@@ -21,7 +21,7 @@ const NO_SCOPES: [&str; 0] = [];
 type Refused = (&'static str, &'static str, fn(&str, &str) -> bool);
 
 /// Problems; of two for the same status code the first one holds.
-const PROBLEMS: [Refused; 28] = [
+const PROBLEMS: [Refused; 29] = [
     ("400", "The query cannot be read", |path, id| of_results(path, id) || id == "list_jobs"),
     ("400", "Not JSON, or a header that cannot be read", |_, id| has_body(id)),
     ("400", "The header `host` is missing, given twice or no host name", |_, _| true),
@@ -51,6 +51,7 @@ const PROBLEMS: [Refused; 28] = [
     ("503", "Too many answers are on their way", of_results),
     ("503", "Queue or memory full, or shutting down", |_, id| id == "submit_job"),
     ("503", "As many bodies are on their way as there is memory for", |_, id| id == "validate"),
+    ("429", "As many event streams of this client are open as may", |_, id| id == "get_events"),
     ("503", "Too many streams are open, or shutting down", |_, id| id == "get_events"),
     ("503", "Shutting down", |_, id| id == "ready"),
     ("304", "As the client knows it already", of_results),

@@ -4,17 +4,19 @@
 //! what has changed since.
 
 use super::jobs::Known;
+use super::layers::Client;
 use super::problem::{Problem, kinds};
+use super::quota::{Full, Share};
 use super::service::{AppState, Service};
 use super::status::JobStatus;
 use crate::jobs::{Job, Status};
 use crate::wire::json::{NotFinite, compact};
+use axum::Extension;
 use axum::http::{HeaderMap, HeaderName, StatusCode};
 use axum::response::sse::{Event, KeepAlive, Sse};
 use axum::response::{IntoResponse, Response};
 use futures_util::stream;
 use std::time::Duration;
-use tokio::sync::OwnedSemaphorePermit;
 use utoipa::ToSchema;
 
 /// How often a running analysis is looked at.
@@ -40,7 +42,12 @@ const LAST_EVENT_ID: HeaderName = HeaderName::from_static("last-event-id");
         (status = 204, description = "The client has seen the end"),
     )
 )]
-pub(super) async fn events(state: AppState, Known(job): Known, headers: HeaderMap) -> Result<Response, Problem> {
+pub(super) async fn events(
+    state: AppState,
+    Extension(client): Extension<Client>,
+    Known(job): Known,
+    headers: HeaderMap,
+) -> Result<Response, Problem> {
     let service = state.0;
     let seen = headers.get(LAST_EVENT_ID).and_then(|id| Seen::read(id.to_str().ok()?));
     let ended = seen.filter(|seen| seen.status.is_final());
@@ -50,10 +57,14 @@ pub(super) async fn events(state: AppState, Known(job): Known, headers: HeaderMa
     if service.stopping.is_cancelled() {
         return Err(Problem::shutting_down());
     }
-    let full =
-        |_| Problem::of(kinds::STREAMS_FULL, format!("{} event streams are open", service.settings.limits.streams));
+    let full = |full| match full {
+        Full::OfAll => Problem::of(kinds::STREAMS_FULL, "as many event streams are open as may"),
+        Full::OfClient => {
+            Problem::of(kinds::CLIENT_STREAMS_FULL, "as many event streams of this client are open as may")
+        }
+    };
     let follower = Follower {
-        _permit: service.streams.clone().try_acquire_owned().map_err(full)?,
+        _share: service.streams.take(&client.name, 1).map_err(full)?,
         job,
         // An end that has not come is that of another job.
         seen: seen.filter(|_| ended.is_none()),
@@ -103,7 +114,7 @@ struct Follower {
     service: Service,
     job: Job,
     seen: Option<Seen>,
-    _permit: OwnedSemaphorePermit,
+    _share: Share,
 }
 
 impl Follower {

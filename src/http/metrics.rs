@@ -2,18 +2,22 @@
 
 use super::accept;
 use super::problem::Problem;
+use super::problem::kinds::ProblemKind;
 use super::service::AppState;
-use crate::jobs::{Job, Status};
+use crate::jobs::{Job, Occupancy, Status};
 use crate::wire::format::Format;
-use axum::http::{HeaderMap, Method, StatusCode, header};
-use axum::response::IntoResponse;
+use axum::http::{HeaderMap, Method, header};
+use axum::response::{IntoResponse, Response};
 use prometheus_client::encoding::text::encode;
 use prometheus_client::metrics::counter::Counter;
 use prometheus_client::metrics::family::Family;
 use prometheus_client::metrics::gauge::Gauge;
 use prometheus_client::metrics::histogram::Histogram;
+use prometheus_client::metrics::info::Info;
 use prometheus_client::registry::{Registry, Unit};
 use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::time::Duration;
 
 /// Upper ends of the histogram of times, s.
 const SECONDS: [f64; 13] = [1e-3, 3e-3, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0];
@@ -22,39 +26,53 @@ const SECONDS: [f64; 13] = [1e-3, 3e-3, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30
 const EVENTS: [f64; 11] = [1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1e3, 3e3, 1e4, 3e4, 1e5];
 
 /// What there is just now.
-const GAUGES: [(&str, &str); 5] = [
+const GAUGES: [(&str, &str); 7] = [
     ("queue_length", "Jobs that wait"),
     ("jobs_running", "Jobs in the hands of workers"),
     ("jobs_kept", "Jobs that have ended and are kept"),
-    ("held_bytes", "What requests and answers of all jobs take"),
+    ("jobs_unread", "Of these, jobs that are promised to be kept, since nobody has read their results"),
+    ("held_bytes", "What requests, answers and keys take"),
     ("event_streams", "Event streams open"),
+    ("process_resident_memory_bytes", "Memory of the process, where the system tells it"),
 ];
 
 /// Method, route and status of an answer.
 type Answered = [(&'static str, String); 3];
 
-/// How a job has ended.
-type Outcome = [(&'static str, &'static str); 1];
+/// One label with its value.
+type Label = [(&'static str, &'static str); 1];
 
 /// Everything that is counted; copies count together.
 #[derive(Debug, Clone)]
 pub struct Metrics {
     registry: Arc<Registry>,
     requests: Family<Answered, Counter>,
-    jobs: Family<Outcome, Counter>,
+    latency: Histogram,
+    refusals: Family<Label, Counter>,
+    jobs: Family<Label, Counter>,
+    waits: Histogram,
     seconds: Histogram,
     events: Histogram,
-    gauges: [Gauge; 5],
+    evictions: Counter,
+    gauges: [Gauge; 7],
 }
 
 impl Default for Metrics {
     fn default() -> Self {
         let mut registry = Registry::with_prefix("voussoir");
-        let (requests, jobs, gauges) = (Family::default(), Family::default(), <[Gauge; 5]>::default());
-        let (seconds, events) = (Histogram::new(SECONDS), Histogram::new(EVENTS));
+        let (requests, refusals, jobs) = (Family::default(), Family::default(), Family::default());
+        let [latency, waits, seconds] = [SECONDS; 3].map(Histogram::new);
+        let (events, evictions, gauges) = (Histogram::new(EVENTS), Counter::default(), <[Gauge; 7]>::default());
+        let build = Info::new([("version", env!("CARGO_PKG_VERSION"))]);
+        registry.register("build", "The program", build);
         registry.register("http_requests", "Requests answered", Family::clone(&requests));
+        let told = "Time from a request's head to the head of its answer";
+        registry.register_with_unit("http_request", told, Unit::Seconds, latency.clone());
+        registry.register("refusals", "Problems answered, by the last word of their type", Family::clone(&refusals));
+        registry.register_with_unit("queue_wait", "Time that jobs waited for a worker", Unit::Seconds, waits.clone());
+        registry.register("evictions", "Finished jobs that had to make room for others", evictions.clone());
         for status in [Status::Successful, Status::Failed, Status::Dismissed] {
-            drop(Family::<Outcome, Counter>::get_or_create(&jobs, &[("outcome", status.word())]));
+            drop(Family::<Label, Counter>::get_or_create(&jobs, &[("outcome", status.word())]));
         }
         registry.register("jobs", "Jobs that have ended", jobs.clone());
         registry.register_with_unit("analysis", "Time a worker spent on a job", Unit::Seconds, seconds.clone());
@@ -62,13 +80,21 @@ impl Default for Metrics {
         for ((name, help), gauge) in GAUGES.into_iter().zip(&gauges) {
             registry.register(name, help, gauge.clone());
         }
-        Metrics { registry: Arc::new(registry), requests, jobs, seconds, events, gauges }
+        let registry = Arc::new(registry);
+        Metrics { registry, requests, latency, refusals, jobs, waits, seconds, events, evictions, gauges }
     }
 }
 
 impl Metrics {
     /// A request was answered; `route` is none where no route knew it.
-    pub(super) fn answered(&self, method: &Method, route: Option<String>, status: StatusCode) {
+    pub(super) fn answered(&self, method: &Method, route: Option<String>, response: &Response, latency: Duration) {
+        if let Some(ProblemKind { uri, .. }) = response.extensions().get() {
+            let named = uri.strip_prefix("about:").map(|_| *uri).or_else(|| uri.rsplit([':', '/']).next());
+            let word = named.unwrap_or_default();
+            self.refusals.get_or_create(&[("reason", word)]).inc();
+        }
+        self.latency.observe(latency.as_secs_f64());
+        let status = response.status();
         let known = [Method::GET, Method::HEAD, Method::POST, Method::DELETE, Method::OPTIONS].contains(method);
         let method = if known { method.as_str() } else { "other" };
         let route = route.unwrap_or_else(|| "none".to_owned());
@@ -79,11 +105,21 @@ impl Metrics {
     /// A job has ended.
     pub(super) fn ended(&self, job: &Job) {
         self.jobs.get_or_create(&[("outcome", job.status().word())]).inc();
+        let wait = job.started.and_then(|started| started.duration_since(job.created).ok());
+        self.waits.observe(wait.unwrap_or_default().as_secs_f64());
         if let Some(time) = job.wall_time {
             self.seconds.observe(time.as_secs_f64());
             self.events.observe(job.progress.map_or(0.0, |step| step.events as f64));
         }
     }
+}
+
+/// Memory of this process, bytes; none where the system does not tell it as Linux does.
+fn resident_memory() -> Option<usize> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;
+    let kibibytes: usize = line.split_whitespace().next()?.parse().ok()?;
+    kibibytes.checked_mul(1024)
 }
 
 /// What the service counts.
@@ -95,11 +131,11 @@ impl Metrics {
 pub(super) async fn metrics(state: AppState, headers: HeaderMap) -> Result<impl IntoResponse, Problem> {
     // Prometheus reads the same lines under its older media type, too.
     let format = accept::choose(None, &headers, &[Format::OpenMetrics, Format::Text]).unwrap_or(Format::OpenMetrics);
-    let (load, streams) = (
-        state.store.occupancy().await?,
-        state.settings.limits.streams.saturating_sub(state.streams.available_permits()),
-    );
-    let counts = [load.waiting, load.running, load.finished, load.bytes, streams];
+    let load = state.store.occupancy().await?;
+    let Occupancy { waiting, running, finished, unread, bytes, evicted, .. } = load;
+    let memory = resident_memory().unwrap_or_default();
+    let counts = [waiting, running, finished, unread, bytes, state.streams.amount(), memory];
+    state.metrics.evictions.inner().store(evicted, Ordering::Relaxed);
     for (gauge, count) in state.metrics.gauges.iter().zip(counts) {
         gauge.set(i64::try_from(count).unwrap_or(i64::MAX));
     }

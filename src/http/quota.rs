@@ -49,6 +49,11 @@ impl Quota {
         self.0.most_each
     }
 
+    /// What all hold together.
+    pub fn amount(&self) -> usize {
+        self.held().all
+    }
+
     /// A share of this size.
     ///
     /// # Errors

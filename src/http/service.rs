@@ -16,7 +16,6 @@ use axum::body::Bytes;
 use axum::http::HeaderValue;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-use tokio::sync::Semaphore;
 use tokio_util::sync::CancellationToken;
 
 /// The mechanics, or what stands in for them in a test.
@@ -64,7 +63,7 @@ pub struct Service {
     pub(super) work: Work,
     pub(super) settings: Arc<Settings>,
     pub(super) metrics: Metrics,
-    pub(super) streams: Arc<Semaphore>,
+    pub(super) streams: Quota,
     pub(super) readers: Readers,
     /// Memory for bodies on their way in, bytes.
     pub(super) incoming: Quota,
@@ -86,7 +85,7 @@ impl Service {
             stopping: CancellationToken::new(),
             work,
             metrics,
-            streams: Arc::new(Semaphore::new(limits.streams)),
+            streams: Quota::new(limits.streams, part(limits.streams)),
             readers: Readers::new(),
             incoming: Quota::new(incoming, part(incoming).max(longest)),
             outgoing: Outgoing::new(limits.outgoing, part(limits.outgoing)),

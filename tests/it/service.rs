@@ -222,13 +222,14 @@ fn a_stream_tells_what_happens_and_resumes() {
 
 #[test]
 fn so_many_streams_and_no_more() {
-    let server = Server::start(1, 10);
+    let many = http::ApiLimits { streams: 12, ..settings().limits };
+    let server = Server::with(limits(10), work(1), Settings { limits: many, ..settings() });
     let path = server.submit(&trouble(ENDLESS));
     scope(|scope| {
         let streams: Vec<_> = (0..3).map(|_| scope.spawn(|| events(&server, &path, ""))).collect();
         while !server.get("/metrics").text().contains("voussoir_event_streams 3\n") {}
         let refused = server.get(&format!("{path}/events"));
-        assert_eq!(refused.problem(503)["type"], kinds::STREAMS_FULL.uri);
+        assert_eq!(refused.problem(429)["type"], kinds::CLIENT_STREAMS_FULL.uri, "a quarter of all");
         assert!(refused.header("retry-after").is_some());
         server.service.stopping.cancel();
         for stream in streams {
@@ -535,12 +536,17 @@ fn everything_is_counted() {
         "voussoir_analysis_seconds_count 2",
         "voussoir_analysis_events_count 2",
         "voussoir_queue_length 0",
+        "voussoir_queue_wait_seconds_count 2",
+        "voussoir_refusals_total{reason=\"about:blank\"} 1",
+        "voussoir_evictions_total 0",
+        "voussoir_jobs_unread 0",
         "voussoir_jobs_kept 2",
     ] {
         assert!(text.lines().any(|other| other == line), "{line}\n{text}");
     }
     let held = text.lines().find_map(|line| line.strip_prefix("voussoir_held_bytes ")).unwrap();
     assert!(held.parse::<usize>().unwrap() > 10_000, "{held}");
+    assert!(text.contains("voussoir_build_info{version=\"") && text.contains("voussoir_http_request_seconds_bucket"));
     assert!(text.ends_with("# EOF\n"));
 }
 

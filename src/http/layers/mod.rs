@@ -18,7 +18,7 @@ use axum::http::{HeaderName, HeaderValue, Method, Request, StatusCode, Uri, head
 use axum::middleware::{Next, from_fn_with_state};
 use axum::response::{IntoResponse, Response};
 use std::any::Any;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 use tower::util::option_layer;
 use tower_http::catch_panic::CatchPanicLayer;
 use tower_http::compression::CompressionLayer;
@@ -88,8 +88,9 @@ fn cors(origins: &[HeaderValue]) -> CorsLayer {
 async fn count(State(service): State<Service>, request: Request<Body>, next: Next) -> Response {
     let method = request.method().clone();
     let route = request.extensions().get::<MatchedPath>().map(|path| path.as_str().to_owned());
+    let clock = Instant::now();
     let response = next.run(request).await;
-    service.metrics.answered(&method, route, response.status());
+    service.metrics.answered(&method, route, &response, clock.elapsed());
     response
 }
 

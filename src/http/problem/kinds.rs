@@ -75,6 +75,9 @@ kinds! {
     /// The answers to one client fill what it may have of that memory.
     CLIENT_ANSWERS_FULL: TOO_MANY_REQUESTS "urn:voussoir:problem:client-answers-full"
         "Too many answers to one client are on their way"
+    /// One client has as many event streams open as it may.
+    CLIENT_STREAMS_FULL: TOO_MANY_REQUESTS "urn:voussoir:problem:client-streams-full"
+        "Too many event streams of one client are open"
     /// As many event streams are open as may.
     STREAMS_FULL: SERVICE_UNAVAILABLE "urn:voussoir:problem:streams-full" "Too many event streams are open"
     /// The store of jobs cannot be reached.

@@ -133,9 +133,12 @@ impl From<&Failure> for Problem {
 impl IntoResponse for Problem {
     fn into_response(self) -> Response {
         let status = StatusCode::from_u16(self.status).unwrap_or(StatusCode::INTERNAL_SERVER_ERROR);
+        let kind = ProblemKind { uri: self.kind, status, title: self.title };
         let body = serde_json::to_vec(&self).unwrap_or_default();
         let fixed = [(header::CONTENT_TYPE, MEDIA_TYPE), (header::CACHE_CONTROL, "no-store")];
         let mut response = (status, fixed, body).into_response();
+        // What is counted is told by its kind.
+        response.extensions_mut().insert(kind);
         let headers = response.headers_mut();
         headers.extend(self.retry_after.map(|seconds| (header::RETRY_AFTER, HeaderValue::from(seconds))));
         if status == StatusCode::UNAUTHORIZED {
