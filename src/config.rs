@@ -129,6 +129,9 @@ pub struct Kept {
     /// Of these, bytes of one client [default: half of --kept-bytes]
     #[arg(long, env = "VOUSSOIR_KEPT_BYTES_PER_CLIENT", value_parser = count(1 << 19, 1 << 40))]
     pub kept_bytes_per_client: Option<u64>,
+    /// File that notes which jobs are owed: accepted, their results not read yet; they run again when the service starts again
+    #[arg(long, env = "VOUSSOIR_JOURNAL")]
+    pub journal: Option<PathBuf>,
 }
 
 /// What one request may ask for, and who may ask.

@@ -55,7 +55,11 @@ fn run(options: &Serve) -> io::Result<()> {
     let handle = Handle::new();
     runtime.block_on(async {
         let tokens = settings.tokens.clone();
-        let service = Service::start(Arc::new(Memory::new(limits)), work, settings, collapse::answer);
+        let store = match &options.kept.journal {
+            Some(file) => Memory::with_journal(limits, file).map_err(|error| named("--journal", file, &error))?,
+            None => Memory::new(limits),
+        };
+        let service = Service::start(Arc::new(store), work, settings, collapse::answer);
         tracing::info!(%address, ?limits, ?work, "listening");
         if let Some(file) = options.requests.token_file.clone() {
             tokio::spawn(follow_tokens(tokens, file));
@@ -98,11 +102,15 @@ async fn end(service: Service, handle: Handle<SocketAddr>, grace: Duration) {
 
 /// Takes the tokens of a file.
 fn take_tokens(tokens: &Tokens, file: &Path) -> io::Result<()> {
-    let named = |fault: &dyn Display| io::Error::other(format!("--token-file {}: {fault}", file.display()));
-    let text = fs::read_to_string(file).map_err(|error| named(&error))?;
-    let count = tokens.replace(&text).map_err(|fault| named(&fault))?;
+    let text = fs::read_to_string(file).map_err(|error| named("--token-file", file, &error))?;
+    let count = tokens.replace(&text).map_err(|fault| named("--token-file", file, &fault))?;
     tracing::info!(count, "tokens read");
     Ok(())
+}
+
+/// What is wrong with a file, and which setting named it.
+fn named(setting: &str, file: &Path, fault: &dyn Display) -> io::Error {
+    io::Error::other(format!("{setting} {}: {fault}", file.display()))
 }
 
 /// Takes the tokens of a file again whenever it has changed; a faulty one changes nothing.

@@ -199,3 +199,32 @@ fn told_to_stop_it_waits_no_longer_than_it_may() {
     assert_eq!((service.said("ended"), service.said("an analysis would not stop")), (3, 0), "two of them dismissed");
     assert!(rest(follows).is_some());
 }
+
+#[test]
+fn what_is_owed_survives_the_process() {
+    let journal = std::env::temp_dir().join(format!("voussoir-owed-{}", std::process::id()));
+    let flags = ["--workers", "1", "--journal", journal.to_str().unwrap()];
+    let service = Voussoir::serve(&flags);
+    let mut client = service.client();
+    let read = client.submit(&tiny());
+    client.ended(&read);
+    assert_eq!(client.get(&format!("{read}/results")).status, 200);
+    let unread = client.submit(&tiny());
+    client.ended(&unread);
+    let endless = running(&mut client, &endless());
+    let waiting = client.submit(&tiny());
+    // It is killed.
+    drop(service);
+    let service = Voussoir::serve(&flags);
+    let mut client = service.client();
+    assert_eq!(client.get(&read).status, 404, "nothing is owed of it");
+    client.ended(&unread);
+    assert_eq!(client.delete(&endless).status, 200);
+    for path in [unread, waiting] {
+        client.ended(&path);
+        assert_eq!(client.get(&format!("{path}/results")).status, 200);
+    }
+    drop(service);
+    assert_eq!(Voussoir::serve(&flags).client().get(&endless).status, 404, "what was cancelled is not owed");
+    std::fs::remove_file(journal).unwrap();
+}

@@ -20,7 +20,11 @@ const LOOK: Duration = Duration::from_millis(25);
 pub fn run(part: usize, report: &mut Report) {
     let bodies: Vec<String> = (0..VARIANTS).map(arch).collect();
     let alone: Vec<Vec<u8>> = bodies.iter().map(|body| solve(body)).collect();
-    let service = Voussoir::serve(&["--jobs-kept", "20000", "--queue", "1000", "--kept-bytes", "4294967296"]);
+    let (queue, bytes) = ("1000", "4294967296");
+    let of_all = ["--jobs-kept", "20000", "--queue", queue, "--kept-bytes", bytes];
+    // All clients here are one to the service.
+    let of_one = ["--queue-per-client", queue, "--kept-bytes-per-client", bytes];
+    let service = Voussoir::serve(&[of_all.as_slice(), &of_one].concat());
     let jobs = RwLock::new(Vec::new());
     report.promise(
         one_by_one(&service, &bodies, &alone, &jobs),

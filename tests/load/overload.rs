@@ -25,7 +25,8 @@ struct Seen {
 
 pub fn run(part: usize, report: &mut Report) {
     let body = moving(1);
-    let service = Voussoir::serve(&["--workers", "1", "--queue", "50", "--jobs-kept", "20000"]);
+    let queue = ["--queue", "50", "--queue-per-client", "50"];
+    let service = Voussoir::serve(&[["--workers", "1", "--jobs-kept", "20000"].as_slice(), &queue].concat());
     let (seen, memory, full) = overload(&service, &body, Duration::from_secs((SECONDS / part).max(2) as u64));
     let accepted: Vec<String> = seen.iter().flat_map(|seen| seen.accepted.clone()).collect();
     let mut refusals: Vec<Duration> = seen.iter().flat_map(|seen| seen.refusals.clone()).collect();

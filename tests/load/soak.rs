@@ -17,7 +17,8 @@ const FLAT: f64 = 0.05;
 
 pub fn run(part: usize, report: &mut Report) {
     let (body, count) = (tiny(), JOBS / part);
-    let service = Voussoir::serve(&["--jobs-kept", "1000", "--queue", "1000"]);
+    let kept = ["--jobs-kept", "1000", "--kept-at-least", "0"];
+    let service = Voussoir::serve(&[kept.as_slice(), &["--queue", "1000", "--queue-per-client", "1000"]].concat());
     let (next, failed, clock) = (AtomicUsize::new(0), AtomicBool::new(false), Instant::now());
     let work = || {
         let (mut client, stopper) = (service.client(), Stopper(&failed));
