@@ -1,5 +1,7 @@
 //! What can be set, by flag or by environment variable; `--help` is the list.
 
+pub mod store;
+
 use axum::http::HeaderValue;
 use clap::builder::RangedU64ValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -8,6 +10,7 @@ use std::net::{Ipv6Addr, SocketAddr};
 use std::path::PathBuf;
 use std::thread::available_parallelism;
 use std::time::Duration;
+use store::{Place, Role, Shared};
 use tracing_subscriber::filter::LevelFilter;
 use voussoir::arch::MAX_VOUSSOIRS;
 use voussoir::http::quota::Quota;
@@ -65,6 +68,8 @@ pub struct Serve {
     #[command(flatten)]
     pub kept: Kept,
     #[command(flatten)]
+    pub shared: Shared,
+    #[command(flatten)]
     pub requests: Requests,
     /// Seconds accepted jobs may take to end once told to stop; then they are cancelled
     #[arg(long, env = "VOUSSOIR_GRACE", default_value_t = 10, value_parser = count(0, 3600))]
@@ -81,7 +86,7 @@ pub struct Serve {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Work")]
 pub struct Work {
-    /// Threads that analyse [default: cores less one]
+    /// Jobs analysed at once [default: cores less one; all cores of a worker]
     #[arg(long, env = "VOUSSOIR_WORKERS", value_parser = count(1, 1024))]
     pub workers: Option<u64>,
     /// Jobs that may wait; beyond it a submission is answered with 503
@@ -229,11 +234,30 @@ impl Serve {
         }
     }
 
-    /// How jobs are worked off. One core is left to answer requests.
+    /// How jobs are worked off. Where requests are answered, too, one core is left for them.
     pub fn work(&self) -> http::Work {
-        let spare = || available_parallelism().map_or(1, |cores| cores.get().saturating_sub(1).max(1));
+        let cores = || available_parallelism().map_or(1, usize::from);
         let Work { workers, job_time, .. } = self.work;
-        http::Work { workers: workers.map_or_else(spare, size), time: Duration::from_secs(job_time) }
+        let workers = match self.shared.role {
+            Role::All => workers.map_or_else(|| cores().saturating_sub(1).max(1), size),
+            Role::Worker => workers.map_or_else(cores, size),
+            Role::Api => 0,
+        };
+        http::Work { workers, time: Duration::from_secs(job_time) }
+    }
+
+    /// Says what does not fit together of where jobs are and what is done with them.
+    fn check_store(&self) -> Result<(), &'static str> {
+        let Shared { store, role, .. } = &self.shared;
+        match (store, role) {
+            (Place::Memory, Role::Api) => Err("--role api: jobs in memory have no other workers; name a --store"),
+            (Place::Memory, Role::Worker) => Err("--role worker: nobody could submit to it; name a --store"),
+            (_, Role::Api) if self.work.workers.is_some() => Err("--workers: a process of --role api has none"),
+            (Place::Postgres(_), _) if self.kept.journal.is_some() => {
+                Err("--journal: a store in PostgreSQL keeps what is owed by itself")
+            }
+            _ => Ok(()),
+        }
     }
 
     /// How many connections there may be.
@@ -248,6 +272,7 @@ impl Serve {
     /// When some token cannot be one. Told here and not by the parser of the command line, which quotes what it refuses.
     pub fn settings(&self, address: SocketAddr) -> io::Result<Settings> {
         let requests = &self.requests;
+        self.check_store().map_err(io::Error::other)?;
         if !requests.tokens.iter().all(|token| http::is_token(token)) {
             return Err(io::Error::other(format!("--token: {}", http::NO_TOKEN)));
         }

@@ -126,6 +126,15 @@ pub enum Failure {
         /// Contact events it had seen.
         events: usize,
     },
+    /// So many workers were lost while they were at it.
+    #[error(
+        "the analysis was given up: {workers} processes ended while they were at it, perhaps for the memory it takes; a coarser \
+         mesh, fewer voussoirs or fewer abscissae take less"
+    )]
+    Lost {
+        /// How many.
+        workers: u16,
+    },
     /// The analysis panicked.
     #[error("the analysis ended in an internal error; it is a defect of the program, not of the request")]
     Defect,

@@ -124,6 +124,7 @@ impl From<&Failure> for Problem {
         let kind = match failure {
             Failure::Overdue { .. } => kinds::ANALYSIS_OVERDUE,
             Failure::Analysis(_) => kinds::ANALYSIS_FAILED,
+            Failure::Lost { .. } => kinds::ANALYSIS_LOST,
             Failure::Defect => kinds::ANALYSIS_DEFECT,
         };
         Problem::of(kind, failure.to_string())
