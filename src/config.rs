@@ -93,8 +93,11 @@ pub struct Work {
     /// Seconds a worker may be at one job; then it fails
     #[arg(long, env = "VOUSSOIR_JOB_TIME", default_value_t = 600, value_parser = count(1, 1_000_000))]
     pub job_time: u64,
+    /// Bytes of memory that the process keeps to: beyond it the largest analysis is stopped, and its job fails
+    #[arg(long, env = "VOUSSOIR_MEMORY", default_value_t = 1 << 31, value_parser = count(1 << 20, 1 << 40))]
+    pub memory: u64,
     /// Bytes that analyses may take together, as estimated before they are accepted; a request that takes more alone is answered
-    /// with 422, others wait for each other [default: what --kept-bytes and --answer-bytes leave of 2 GiB]
+    /// with 422, others wait for each other [default: what --kept-bytes and --answer-bytes leave of --memory]
     #[arg(long, env = "VOUSSOIR_WORK_MEMORY", value_parser = count(1 << 20, 1 << 40))]
     pub work_memory: Option<u64>,
     /// Most voussoirs of an arch
@@ -199,8 +202,7 @@ pub enum LogFormat {
     Json,
 }
 
-/// What the process keeps to by default, and what of it is neither analyses nor answers, bytes.
-const PROCESS: usize = 2 << 30;
+/// What the process keeps for neither analyses nor answers, bytes.
 const REST: usize = 128 << 20;
 /// Least memory that analyses are allowed by default, bytes.
 const LEAST_WORK_MEMORY: usize = 256 << 20;
@@ -208,7 +210,8 @@ const LEAST_WORK_MEMORY: usize = 256 << 20;
 impl Serve {
     /// Memory of all analyses together, bytes.
     fn work_memory(&self) -> usize {
-        let left = PROCESS.saturating_sub(size(self.kept.kept_bytes) + size(self.requests.answer_bytes) + REST);
+        let left =
+            size(self.work.memory).saturating_sub(size(self.kept.kept_bytes) + size(self.requests.answer_bytes) + REST);
         self.work.work_memory.map_or_else(|| left.max(LEAST_WORK_MEMORY), size)
     }
 
@@ -230,10 +233,11 @@ impl Serve {
     }
 
     /// How jobs are worked off. One core is left to answer requests.
-    pub fn work(&self) -> http::Work {
+    pub fn work(&self) -> jobs::Work {
         let spare = || available_parallelism().map_or(1, |cores| cores.get().saturating_sub(1).max(1));
-        let Work { workers, job_time, .. } = self.work;
-        http::Work { workers: workers.map_or_else(spare, size), time: Duration::from_secs(job_time) }
+        let Work { workers, job_time, memory, .. } = self.work;
+        let workers = workers.map_or_else(spare, size);
+        jobs::Work { workers, time: Duration::from_secs(job_time), memory: size(memory) }
     }
 
     /// How many connections there may be.
