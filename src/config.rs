@@ -98,8 +98,11 @@ pub struct Work {
     /// Seconds a worker may be at one job; then it fails
     #[arg(long, env = "VOUSSOIR_JOB_TIME", default_value_t = 600, value_parser = count(1, 1_000_000))]
     pub job_time: u64,
+    /// Bytes of memory that the process keeps to: beyond it the largest analysis is stopped, and its job fails
+    #[arg(long, env = "VOUSSOIR_MEMORY", default_value_t = 1 << 31, value_parser = count(1 << 20, 1 << 40))]
+    pub memory: u64,
     /// Bytes that analyses may take together, as estimated before they are accepted; a request that takes more alone is answered
-    /// with 422, others wait for each other [default: what --kept-bytes and --answer-bytes leave of 2 GiB]
+    /// with 422, others wait for each other [default: what --kept-bytes and --answer-bytes leave of --memory]
     #[arg(long, env = "VOUSSOIR_WORK_MEMORY", value_parser = count(1 << 20, 1 << 40))]
     pub work_memory: Option<u64>,
     /// Most voussoirs of an arch
@@ -204,8 +207,7 @@ pub enum LogFormat {
     Json,
 }
 
-/// What the process keeps to by default, and what of it is neither analyses nor answers, bytes.
-const PROCESS: usize = 2 << 30;
+/// What the process keeps for neither analyses nor answers, bytes.
 const REST: usize = 128 << 20;
 /// Least memory that analyses are allowed by default, bytes.
 const LEAST_WORK_MEMORY: usize = 256 << 20;
@@ -213,7 +215,8 @@ const LEAST_WORK_MEMORY: usize = 256 << 20;
 impl Serve {
     /// Memory of all analyses together, bytes.
     fn work_memory(&self) -> usize {
-        let left = PROCESS.saturating_sub(size(self.kept.kept_bytes) + size(self.requests.answer_bytes) + REST);
+        let left =
+            size(self.work.memory).saturating_sub(size(self.kept.kept_bytes) + size(self.requests.answer_bytes) + REST);
         self.work.work_memory.map_or_else(|| left.max(LEAST_WORK_MEMORY), size)
     }
 
@@ -235,15 +238,15 @@ impl Serve {
     }
 
     /// How jobs are worked off. Where requests are answered, too, one core is left for them.
-    pub fn work(&self) -> http::Work {
+    pub fn work(&self) -> jobs::Work {
         let cores = || available_parallelism().map_or(1, usize::from);
-        let Work { workers, job_time, .. } = self.work;
+        let Work { workers, job_time, memory, .. } = self.work;
         let workers = match self.shared.role {
             Role::All => workers.map_or_else(|| cores().saturating_sub(1).max(1), size),
             Role::Worker => workers.map_or_else(cores, size),
             Role::Api => 0,
         };
-        http::Work { workers, time: Duration::from_secs(job_time) }
+        jobs::Work { workers, time: Duration::from_secs(job_time), memory: size(memory) }
     }
 
     /// Says what does not fit together of where jobs are and what is done with them.

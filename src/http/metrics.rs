@@ -4,7 +4,7 @@ use super::accept;
 use super::problem::Problem;
 use super::problem::kinds::ProblemKind;
 use super::service::AppState;
-use crate::jobs::{Job, Occupancy, Status};
+use crate::jobs::{Job, Occupancy, Status, resident};
 use crate::wire::format::Format;
 use axum::http::{HeaderMap, Method, header};
 use axum::response::{IntoResponse, Response};
@@ -114,14 +114,6 @@ impl Metrics {
     }
 }
 
-/// Memory of this process, bytes; none where the system does not tell it as Linux does.
-fn resident_memory() -> Option<usize> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;
-    let kibibytes: usize = line.split_whitespace().next()?.parse().ok()?;
-    kibibytes.checked_mul(1024)
-}
-
 /// What the service counts.
 #[utoipa::path(
     get, path = "/metrics", tag = "service", operation_id = "metrics",
@@ -133,7 +125,7 @@ pub(super) async fn metrics(state: AppState, headers: HeaderMap) -> Result<impl 
     let format = accept::choose(None, &headers, &[Format::OpenMetrics, Format::Text]).unwrap_or(Format::OpenMetrics);
     let load = state.store.occupancy().await?;
     let Occupancy { waiting, running, finished, unread, bytes, evicted, .. } = load;
-    let memory = resident_memory().unwrap_or_default();
+    let memory = resident().unwrap_or_default();
     let counts = [waiting, running, finished, unread, bytes, state.streams.amount(), memory];
     state.metrics.evictions.inner().store(evicted, Ordering::Relaxed);
     for (gauge, count) in state.metrics.gauges.iter().zip(counts) {

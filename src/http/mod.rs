@@ -25,7 +25,7 @@ mod submit;
 pub use document::document;
 pub use layers::{Hosts, NO_TOKEN, Tokens, is_token};
 pub use limits::ApiLimits;
-pub use service::{Service, Settings, Solver, Work};
+pub use service::{Service, Settings, Solver};
 
 use axum::Router;
 use axum::response::Redirect;

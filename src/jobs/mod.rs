@@ -11,6 +11,7 @@ mod memory;
 #[cfg(feature = "postgres")]
 mod postgres;
 mod progress;
+mod resident;
 mod store;
 mod table;
 mod workers;
@@ -20,5 +21,6 @@ pub use memory::{Limits, Memory};
 #[cfg(feature = "postgres")]
 pub use postgres::Postgres;
 pub use progress::Progress;
+pub use resident::resident;
 pub use store::{Cancelled, Ending, Lease, Occupancy, Refusal, Store, Submission, Unavailable, Which};
-pub use workers::{Analyse, Ended, Workers};
+pub use workers::{Analyse, Ended, Work, Workers};

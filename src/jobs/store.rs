@@ -87,6 +87,8 @@ pub struct Lease {
     pub id: JobId,
     /// Its request.
     pub request: Bytes,
+    /// What its analysis takes at most, as it was estimated, bytes.
+    pub memory: usize,
     /// What the analysis tells of itself, and where it is told to stop.
     pub progress: Arc<Progress>,
 }

@@ -146,7 +146,7 @@ impl Table {
         self.waiting -= 1;
         self.running.insert(id, memory);
         entry.job.send_modify(|job| (job.state, job.started) = (JobState::Running, Some(SystemTime::now())));
-        Some(Lease { id, request: entry.request.clone(), progress: entry.progress.clone() })
+        Some(Lease { id, request: entry.request.clone(), memory, progress: entry.progress.clone() })
     }
 
     /// A worker gives its job back. None where that had ended before.

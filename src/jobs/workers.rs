@@ -1,9 +1,10 @@
 //! Workers: each takes a job, has it analysed, writes down how that ended, and takes the next.
 
 use super::job::{Failure, Job, JobState, Product};
-use super::progress::{Observer, Progress};
+use super::progress::Observer;
+use super::resident::Running;
 use super::store::{Ending, Lease, Store, Unavailable};
-use crate::budget::{Budget, LoadStep, Stopped};
+use crate::budget::Budget;
 use bytes::Bytes;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -19,11 +20,23 @@ pub type Ended = dyn Fn(&Job) + Send + Sync;
 /// Time between two tries to reach a store.
 const AGAIN: Duration = Duration::from_secs(1);
 
+/// How jobs are worked off.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Work {
+    /// Jobs worked on at once.
+    pub workers: usize,
+    /// How long a worker may be at one job.
+    pub time: Duration,
+    /// Memory of the process beyond which the largest analysis is stopped, bytes.
+    pub memory: usize,
+}
+
 /// What all workers share.
 struct Bench {
     store: Arc<dyn Store>,
     /// How long one may be at a job.
     time: Duration,
+    running: Running,
     analyse: Box<Analyse>,
     ended: Box<Ended>,
 }
@@ -35,18 +48,19 @@ pub struct Workers {
 }
 
 impl Workers {
-    /// Starts so many workers, each for so long at a job, in the runtime of the caller.
+    /// Starts them, in the runtime of the caller.
     pub fn start(
         store: Arc<dyn Store>,
-        workers: usize,
-        time: Duration,
+        work: Work,
         analyse: impl Fn(&Bytes, &Budget) -> Result<Product, Failure> + Send + Sync + 'static,
         ended: impl Fn(&Job) + Send + Sync + 'static,
     ) -> Self {
-        let bench = Arc::new(Bench { store, time, analyse: Box::new(analyse), ended: Box::new(ended) });
+        let Work { workers, time, memory } = work;
+        let running = Running::new(memory);
+        let bench = Arc::new(Bench { store, time, running, analyse: Box::new(analyse), ended: Box::new(ended) });
         let mut tasks = JoinSet::new();
         for _ in 0..workers {
-            tasks.spawn(work(bench.clone()));
+            tasks.spawn(live(bench.clone()));
         }
         Workers { bench, tasks: Mutex::new(tasks) }
     }
@@ -65,7 +79,7 @@ impl Workers {
 }
 
 /// The life of a worker.
-async fn work(bench: Arc<Bench>) {
+async fn live(bench: Arc<Bench>) {
     loop {
         match bench.store.take().await {
             Ok(Some(lease)) => attend(&bench, lease).await,
@@ -81,9 +95,10 @@ async fn work(bench: Arc<Bench>) {
 /// Sees a job to its end.
 async fn attend(bench: &Arc<Bench>, lease: Lease) {
     let clock = Instant::now();
-    let (request, progress, there) = (lease.request.clone(), lease.progress.clone(), bench.clone());
+    let (lease, there) = (Arc::new(lease), bench.clone());
+    let leased = lease.clone();
     #[allow(clippy::disallowed_methods, reason = "this is where analyses run; the budget stops them")]
-    let analysis = tokio::task::spawn_blocking(move || attempt(&there, &request, &progress));
+    let analysis = tokio::task::spawn_blocking(move || attempt(&there, &leased));
     // A panic ends the thread's task and nothing else: the answer is built from the request alone and is lost with it.
     let result = analysis.await.unwrap_or(Err(Failure::Defect));
     let (state, product) = match result {
@@ -101,16 +116,13 @@ async fn attend(bench: &Arc<Bench>, lease: Lease) {
 }
 
 /// Answers one request.
-fn attempt(bench: &Bench, request: &Bytes, progress: &Progress) -> Result<Product, Failure> {
-    let limit = bench.time;
-    let observer = Observer::new(progress, limit);
+fn attempt(bench: &Bench, lease: &Lease) -> Result<Product, Failure> {
+    let place = bench.running.enter(lease.memory, lease.id);
+    let observer = Observer::new(&lease.progress, bench.time, place);
     let see = |step| observer.see(step);
     let budget = Budget::new(&see);
-    match (bench.analyse)(request, &budget) {
-        Err(Failure::Analysis(_)) if observer.overdue() => {
-            let Stopped(LoadStep { load_factor, events }) = budget.stopped();
-            Err(Failure::Overdue { limit, load_factor, events })
-        }
+    match (bench.analyse)(&lease.request, &budget) {
+        Err(Failure::Analysis(said)) => Err(observer.failure(budget.stopped()).unwrap_or(Failure::Analysis(said))),
         other => other,
     }
 }

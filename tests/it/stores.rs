@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 use tokio::runtime::Runtime;
 use voussoir::budget::{Budget, LoadStep};
 use voussoir::jobs::{
-    Failure, Job, JobId, Limits, Memory, Part, Product, Rendering, Status, Store, Submission, Workers,
+    Failure, Job, JobId, Limits, Memory, Part, Product, Rendering, Status, Store, Submission, Work, Workers,
 };
 
 const QUICK: &str = "quick";
@@ -58,6 +58,7 @@ promises! {
     runs::progress_is_seen_and_cancel_is_heard
     runs::a_cancelled_job_stays_until_it_is_forgotten
     runs::a_job_that_takes_too_long_fails
+    runs::an_analysis_that_outgrows_the_process_is_stopped_and_the_smaller_go_on
     runs::those_who_wait_are_told_of_every_change
     runs::every_end_is_told_once
     runs::jobs_dismissed_at_any_moment_leave_the_workers_whole
@@ -135,8 +136,13 @@ fn limits() -> Limits {
     }
 }
 
+/// So many workers, with all the time and memory they need.
+fn work(workers: usize) -> Work {
+    Work { workers, time: Duration::from_secs(1000), memory: usize::MAX }
+}
+
 fn workers(store: &Arc<dyn Store>, count: usize) -> Workers {
-    Workers::start(store.clone(), count, Duration::from_secs(1000), stand_in, |_| {})
+    Workers::start(store.clone(), work(count), stand_in, |_| {})
 }
 
 fn order(request: &str) -> Submission {

@@ -60,7 +60,7 @@ pub(super) async fn take(hub: &Arc<Hub>) -> Result<Option<Lease>, Unavailable> {
     let memory = usize::try_from(row.try_get::<i64, _>("memory")?).unwrap_or(usize::MAX);
     let beat = AbortOnDropHandle::new(tokio::spawn(beat(hub.clone(), id, token, progress.clone())));
     hub.here().insert(id, Held { progress: progress.clone(), memory, token, _beat: beat });
-    Ok(Some(Lease { id, request: row.try_get::<Vec<u8>, _>("body")?.into(), progress }))
+    Ok(Some(Lease { id, request: row.try_get::<Vec<u8>, _>("body")?.into(), memory, progress }))
 }
 
 /// Renews a lease as long as it holds, and tells how far the analysis has come. One that does not hold any more stops it.

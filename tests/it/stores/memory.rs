@@ -1,6 +1,8 @@
 //! What only a store in memory does: it ends with its process.
 
-use super::{ENDLESS, PATIENCE, QUICK, answer, ended, limits, running, submitted, until, within_runtime, workers};
+use super::{
+    ENDLESS, PATIENCE, QUICK, answer, ended, limits, running, submitted, until, within_runtime, work, workers,
+};
 use std::sync::Arc;
 use std::time::Duration;
 use tokio::time::timeout;
@@ -49,7 +51,7 @@ fn an_analysis_that_would_not_stop_is_not_waited_for() {
             std::thread::sleep(Duration::from_secs(2));
             Ok(answer())
         };
-        let workers = Workers::start(store.clone(), 1, PATIENCE, deaf, |_| {});
+        let workers = Workers::start(store.clone(), work(1), deaf, |_| {});
         let id = submitted(&store, "deaf").await;
         until(&store, id, running).await;
         store.close();

@@ -1,7 +1,7 @@
 //! What only a store that processes share does. Every store here stands for a process.
 
 use super::{ANSWER, ENDLESS, PATIENCE, QUICK, answer, limits, order, submitted, workers};
-use super::{ended, running, stand_in, until, within_runtime};
+use super::{ended, running, stand_in, until, within_runtime, work};
 use crate::common::database::database;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -80,7 +80,7 @@ fn a_job_is_never_taken_twice() {
                 Ok(answer())
             }
         };
-        let start = |store: &Arc<dyn Store>| Workers::start(store.clone(), 3, PATIENCE, count(runs.clone()), |_| {});
+        let start = |store: &Arc<dyn Store>| Workers::start(store.clone(), work(3), count(runs.clone()), |_| {});
         let _workers = stores.each_ref().map(start);
         let mut ids = vec![];
         for place in 0..150 {
@@ -158,7 +158,7 @@ fn a_process_that_stops_gives_its_jobs_back_at_once() {
             b"endless" => Ok(answer()),
             _ => stand_in(request, budget),
         };
-        let _workers = Workers::start(second.clone(), 1, PATIENCE, runs, |_| {});
+        let _workers = Workers::start(second.clone(), work(1), runs, |_| {});
         for id in [id, waiting] {
             assert_eq!(until(&second, id, ended).await.status(), Status::Successful);
         }

@@ -1,7 +1,7 @@
 //! Jobs that wait.
 
 use super::{ENDLESS, ERROR, New, PATIENCE, QUICK};
-use super::{answer, ended, limits, of, order, running, submitted, until, workers};
+use super::{answer, ended, limits, of, order, running, submitted, until, work, workers};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 use tokio::time::timeout;
@@ -53,7 +53,7 @@ pub(super) async fn clients_take_turns(new: New<'_>) {
         log.lock().unwrap().push(String::from_utf8(order.to_vec()).unwrap());
         Ok(answer())
     };
-    let _workers = Workers::start(store.clone(), 1, PATIENCE, note, |_| {});
+    let _workers = Workers::start(store.clone(), work(1), note, |_| {});
     until(&store, ids[5], ended).await;
     let wanted = ["many 0", "few 0", "many 1", "few 1", "many 2", "many 3", "many 4", "many 5"];
     assert_eq!(*seen.lock().unwrap(), wanted);
