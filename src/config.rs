@@ -1,6 +1,9 @@
 //! What can be set, by flag or by environment variable; `--help` is the list.
 
 pub mod store;
+mod variables;
+
+pub use variables::strays;
 
 use axum::http::HeaderValue;
 use clap::builder::RangedU64ValueParser;
@@ -277,10 +280,11 @@ impl Serve {
         let requests = &self.requests;
         self.check_store().map_err(io::Error::other)?;
         if !requests.tokens.iter().all(|token| http::is_token(token)) {
-            return Err(io::Error::other(format!("--token: {}", http::NO_TOKEN)));
+            return Err(io::Error::other(format!("--token or VOUSSOIR_TOKENS: {}", http::NO_TOKEN)));
         }
         if requests.token_file.is_some() && !requests.tokens.is_empty() {
-            return Err(io::Error::other("give --token or --token-file, not both"));
+            let detail = "give --token (VOUSSOIR_TOKENS) or --token-file (VOUSSOIR_TOKEN_FILE), not both";
+            return Err(io::Error::other(detail));
         }
         let is_private = requests.tokens.is_empty() && address.ip().is_loopback();
         let any = requests.hosts.is_empty() && !is_private;
@@ -299,6 +303,7 @@ impl Serve {
             tokens: Tokens::new(requests.tokens.iter().map(String::as_str)),
             hosts: if any { Hosts::default() } else { Hosts::only(requests.hosts.clone()) },
             origins: requests.origins.clone(),
+            store: self.job_limits(),
         })
     }
 }

@@ -2,8 +2,8 @@
 
 use super::connections::{self, Door};
 use super::fail;
-use crate::config::Serve;
 use crate::config::store::{Place, Role};
+use crate::config::{Serve, strays};
 use crate::telemetry;
 use axum_server::Handle;
 use std::fmt::Display;
@@ -37,7 +37,7 @@ const LOOK: Duration = Duration::from_millis(50);
 /// Serves until SIGTERM or ctrl-c.
 pub fn serve(options: &Serve) -> ExitCode {
     if let Err(error) = telemetry::start(options.log_format, &options.log) {
-        return fail(format_args!("--log: {error}"));
+        return fail(format_args!("--log or VOUSSOIR_LOG: {error}"));
     }
     match run(options) {
         Ok(()) => ExitCode::SUCCESS,
@@ -60,6 +60,10 @@ fn run(options: &Serve) -> io::Result<()> {
         let tokens = settings.tokens.clone();
         let service = Service::start(open(options, limits).await?, work, settings, collapse::answer);
         tracing::info!(%address, ?limits, ?work, role = ?options.shared.role, "listening");
+        if tokens.is_open() && !address.ip().is_loopback() {
+            tracing::warn!(%address, "open to all who can reach this address; --token or --token-file closes it");
+        }
+        strays().iter().for_each(|words| tracing::warn!("{words}"));
         if let Some(file) = options.requests.token_file.clone() {
             tokio::spawn(follow_tokens(tokens, file));
         }
