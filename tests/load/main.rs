@@ -11,11 +11,13 @@ mod connections;
 #[allow(dead_code, reason = "others use the rest")]
 mod dice;
 mod draining;
+mod heaviest;
 mod hostile;
 mod overload;
 mod process;
 mod report;
 mod requests;
+mod scenes;
 mod sigterm;
 mod soak;
 #[path = "load.rs"]
@@ -29,7 +31,7 @@ use std::time::Instant;
 /// One scenario, with counts and times divided by its first argument.
 type Scenario = fn(usize, &mut Report);
 
-const SCENARIOS: [(&str, Scenario); 7] = [
+const SCENARIOS: [(&str, Scenario); 8] = [
     ("load", throughput::run),
     ("overload", overload::run),
     ("soak", soak::run),
@@ -37,6 +39,7 @@ const SCENARIOS: [(&str, Scenario); 7] = [
     ("workers", workers::run),
     ("connections", connections::run),
     ("sigterm", sigterm::run),
+    ("heaviest", heaviest::run),
 ];
 
 fn main() -> ExitCode {
