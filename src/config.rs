@@ -1,5 +1,10 @@
 //! What can be set, by flag or by environment variable; `--help` is the list.
 
+pub mod store;
+mod variables;
+
+pub use variables::strays;
+
 use axum::http::HeaderValue;
 use clap::builder::RangedU64ValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -8,6 +13,7 @@ use std::net::{Ipv6Addr, SocketAddr};
 use std::path::PathBuf;
 use std::thread::available_parallelism;
 use std::time::Duration;
+use store::{Place, Role, Shared};
 use tracing_subscriber::filter::LevelFilter;
 use voussoir::arch::MAX_VOUSSOIRS;
 use voussoir::http::quota::Quota;
@@ -65,6 +71,8 @@ pub struct Serve {
     #[command(flatten)]
     pub kept: Kept,
     #[command(flatten)]
+    pub shared: Shared,
+    #[command(flatten)]
     pub requests: Requests,
     /// Seconds accepted jobs may take to end once told to stop; then they are cancelled
     #[arg(long, env = "VOUSSOIR_GRACE", default_value_t = 10, value_parser = count(0, 3600))]
@@ -81,7 +89,7 @@ pub struct Serve {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Work")]
 pub struct Work {
-    /// Threads that analyse [default: cores less one]
+    /// Jobs analysed at once [default: cores less one; all cores of a worker]
     #[arg(long, env = "VOUSSOIR_WORKERS", value_parser = count(1, 1024))]
     pub workers: Option<u64>,
     /// Jobs that may wait; beyond it a submission is answered with 503
@@ -232,12 +240,30 @@ impl Serve {
         }
     }
 
-    /// How jobs are worked off. One core is left to answer requests.
+    /// How jobs are worked off. Where requests are answered, too, one core is left for them.
     pub fn work(&self) -> jobs::Work {
-        let spare = || available_parallelism().map_or(1, |cores| cores.get().saturating_sub(1).max(1));
+        let cores = || available_parallelism().map_or(1, usize::from);
         let Work { workers, job_time, memory, .. } = self.work;
-        let workers = workers.map_or_else(spare, size);
+        let workers = match self.shared.role {
+            Role::All => workers.map_or_else(|| cores().saturating_sub(1).max(1), size),
+            Role::Worker => workers.map_or_else(cores, size),
+            Role::Api => 0,
+        };
         jobs::Work { workers, time: Duration::from_secs(job_time), memory: size(memory) }
+    }
+
+    /// Says what does not fit together of where jobs are and what is done with them.
+    fn check_store(&self) -> Result<(), &'static str> {
+        let Shared { store, role, .. } = &self.shared;
+        match (store, role) {
+            (Place::Memory, Role::Api) => Err("--role api: jobs in memory have no other workers; name a --store"),
+            (Place::Memory, Role::Worker) => Err("--role worker: nobody could submit to it; name a --store"),
+            (_, Role::Api) if self.work.workers.is_some() => Err("--workers: a process of --role api has none"),
+            (Place::Postgres(_), _) if self.kept.journal.is_some() => {
+                Err("--journal: a store in PostgreSQL keeps what is owed by itself")
+            }
+            _ => Ok(()),
+        }
     }
 
     /// How many connections there may be.
@@ -252,11 +278,13 @@ impl Serve {
     /// When some token cannot be one. Told here and not by the parser of the command line, which quotes what it refuses.
     pub fn settings(&self, address: SocketAddr) -> io::Result<Settings> {
         let requests = &self.requests;
+        self.check_store().map_err(io::Error::other)?;
         if !requests.tokens.iter().all(|token| http::is_token(token)) {
-            return Err(io::Error::other(format!("--token: {}", http::NO_TOKEN)));
+            return Err(io::Error::other(format!("--token or VOUSSOIR_TOKENS: {}", http::NO_TOKEN)));
         }
         if requests.token_file.is_some() && !requests.tokens.is_empty() {
-            return Err(io::Error::other("give --token or --token-file, not both"));
+            let detail = "give --token (VOUSSOIR_TOKENS) or --token-file (VOUSSOIR_TOKEN_FILE), not both";
+            return Err(io::Error::other(detail));
         }
         let is_private = requests.tokens.is_empty() && address.ip().is_loopback();
         let any = requests.hosts.is_empty() && !is_private;
@@ -275,6 +303,7 @@ impl Serve {
             tokens: Tokens::new(requests.tokens.iter().map(String::as_str)),
             hosts: if any { Hosts::default() } else { Hosts::only(requests.hosts.clone()) },
             origins: requests.origins.clone(),
+            store: self.job_limits(),
         })
     }
 }

@@ -4,7 +4,6 @@ mod cli;
 mod config;
 mod telemetry;
 
-use clap::Parser;
 use config::{Program, Verb};
 use mimalloc::MiMalloc;
 use std::process::ExitCode;
@@ -14,7 +13,8 @@ use std::process::ExitCode;
 static ALLOCATOR: MiMalloc = MiMalloc;
 
 fn main() -> ExitCode {
-    match Program::parse().verb {
+    let program = Program::read().unwrap_or_else(|error| error.exit());
+    match program.verb {
         Verb::Solve(options) => cli::solve::solve(&options),
         Verb::Serve(options) => cli::serve::serve(&options),
         Verb::Openapi => cli::openapi(),

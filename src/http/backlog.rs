@@ -2,32 +2,33 @@
 
 use super::problem::Problem;
 use super::service::Service;
-use crate::jobs::{Job, Refusal, Status};
+use crate::jobs::{Job, Occupancy, Refusal, Status};
 
 /// Longest time after which anybody is asked to come back, s.
 const LONGEST: f64 = 60.0;
 
 impl Service {
-    /// Seconds in which so many jobs are worked off, as long as jobs take of late: whole ones, at least one.
-    async fn time_of(&self, jobs: usize) -> u64 {
-        let seconds = self.store.occupancy().await.map_or(0.0, |occupancy| occupancy.seconds);
-        let time = jobs as f64 * seconds / self.work.workers.max(1) as f64;
+    /// Seconds in which the jobs that `ahead` counts are worked off, as long as jobs take of late: whole ones, at least one.
+    async fn time_of(&self, ahead: impl Fn(&Occupancy) -> usize) -> u64 {
+        let occupancy = self.store.occupancy().await.unwrap_or_default();
+        // Other processes may have workers, too: all who are there are at work when somebody waits.
+        let workers = self.work.workers.max(occupancy.running).max(1);
+        let time = ahead(&occupancy) as f64 * occupancy.seconds / workers as f64;
         time.clamp(1.0, LONGEST).ceil() as u64
     }
 
     /// Seconds after which a job may have ended; none where it has.
     pub(super) async fn look_again(&self, job: &Job) -> Option<u64> {
         match job.status() {
-            Status::Accepted => Some(self.time_of(job.position.unwrap_or(1)).await),
-            Status::Running => Some(self.time_of(1).await),
+            Status::Accepted => Some(self.time_of(|_| job.position.unwrap_or(1)).await),
+            Status::Running => Some(self.time_of(|_| 1).await),
             _ => None,
         }
     }
 
     /// A refused submission, and when there may be room for it.
     pub(super) async fn refused(&self, refusal: Refusal) -> Problem {
-        let waiting = self.store.occupancy().await.map_or(0, |occupancy| occupancy.waiting);
-        let seconds = self.time_of(waiting).await;
+        let seconds = self.time_of(|occupancy| occupancy.waiting).await;
         Problem::from(refusal).after(seconds)
     }
 }

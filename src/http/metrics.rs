@@ -3,15 +3,15 @@
 use super::accept;
 use super::problem::Problem;
 use super::problem::kinds::ProblemKind;
-use super::service::AppState;
-use crate::jobs::{Job, Occupancy, Status, resident};
+use super::service::{AppState, Settings};
+use crate::jobs::{Job, Occupancy, Status, Work, resident};
 use crate::wire::format::Format;
 use axum::http::{HeaderMap, Method, header};
 use axum::response::{IntoResponse, Response};
 use prometheus_client::encoding::text::encode;
 use prometheus_client::metrics::counter::Counter;
 use prometheus_client::metrics::family::Family;
-use prometheus_client::metrics::gauge::Gauge;
+use prometheus_client::metrics::gauge::{ConstGauge, Gauge};
 use prometheus_client::metrics::histogram::Histogram;
 use prometheus_client::metrics::info::Info;
 use prometheus_client::registry::{Registry, Unit};
@@ -57,8 +57,29 @@ pub struct Metrics {
     gauges: [Gauge; 7],
 }
 
-impl Default for Metrics {
-    fn default() -> Self {
+/// Limits, which do not change.
+fn limits(work: Work, settings: &Settings) -> [(&'static str, &'static str, usize); 12] {
+    let Settings { limits: api, store, .. } = settings;
+    let seconds = usize::try_from(work.time.as_secs()).unwrap_or(usize::MAX);
+    [
+        ("workers", "Jobs that this process works on at once", work.workers),
+        ("queue_length_limit", "Jobs that may wait", store.queue),
+        ("client_queue_length_limit", "Jobs of one client that may wait", store.queue_per_client),
+        ("jobs_kept_limit", "Jobs that have ended and may be kept", store.kept),
+        ("held_limit_bytes", "What requests, answers and keys may take", store.bytes),
+        ("client_held_limit_bytes", "What those of one client may take", store.bytes_per_client),
+        ("work_memory_limit_bytes", "What analyses may take together, as estimated", store.work_memory),
+        ("analysis_limit_seconds", "Time that a worker may be at one job", seconds),
+        ("event_streams_limit", "Event streams that may be open", api.streams),
+        ("body_limit_bytes", "Longest body", api.body),
+        ("bodies_limit_bytes", "Bodies that may be on their way at once", api.incoming),
+        ("answers_limit_bytes", "Answers that may be on their way at once", api.outgoing),
+    ]
+}
+
+impl Metrics {
+    /// Nothing is counted yet.
+    pub(super) fn new(work: Work, settings: &Settings) -> Self {
         let mut registry = Registry::with_prefix("voussoir");
         let (requests, refusals, jobs) = (Family::default(), Family::default(), Family::default());
         let [latency, waits, seconds] = [SECONDS; 3].map(Histogram::new);
@@ -80,12 +101,13 @@ impl Default for Metrics {
         for ((name, help), gauge) in GAUGES.into_iter().zip(&gauges) {
             registry.register(name, help, gauge.clone());
         }
+        for (name, help, limit) in limits(work, settings) {
+            registry.register(name, help, ConstGauge::new(i64::try_from(limit).unwrap_or(i64::MAX)));
+        }
         let registry = Arc::new(registry);
         Metrics { registry, requests, latency, refusals, jobs, waits, seconds, events, evictions, gauges }
     }
-}
 
-impl Metrics {
     /// A request was answered; `route` is none where no route knew it.
     pub(super) fn answered(&self, method: &Method, route: Option<String>, response: &Response, latency: Duration) {
         if let Some(ProblemKind { uri, .. }) = response.extensions().get() {

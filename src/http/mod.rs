@@ -75,3 +75,11 @@ pub fn router(service: Service) -> Router {
         .route("/", get(Redirect::to("/docs/")));
     layers::wrap(router.with_state(service.clone()), &service)
 }
+
+/// What a process answers that only works: whether it lives, and what it counts.
+pub fn worker_router(service: Service) -> Router {
+    let (guarded, _) = OpenApiRouter::new().routes(routes!(metrics::metrics)).split_for_parts();
+    let (open, _) = open().split_for_parts();
+    let router = layers::guard(guarded, service.settings.tokens.clone()).merge(open);
+    layers::wrap(router.with_state(service.clone()), &service)
+}

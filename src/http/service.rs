@@ -9,8 +9,8 @@ use super::quota::Quota;
 use super::readers::Readers;
 use crate::budget::Budget;
 use crate::collapse::{AnalysisError, Answer, Question};
-use crate::jobs::{Failure, Job, JobState, Product, Store, Work, Workers};
-use crate::wire::read::read_question;
+use crate::jobs::{Failure, Job, JobState, Limits, Product, Store, Work, Workers};
+use crate::wire::read::read_again;
 use crate::wire::rendering::renderings;
 use axum::body::Bytes;
 use axum::http::HeaderValue;
@@ -32,6 +32,8 @@ pub struct Settings {
     pub hosts: Hosts,
     /// Pages of which origins may ask.
     pub origins: Vec<HeaderValue>,
+    /// What the store takes on, for those who watch it.
+    pub store: Limits,
 }
 
 /// What one client may have of what all have.
@@ -64,7 +66,7 @@ pub struct Service {
 impl Service {
     /// Starts the workers, in the runtime of the caller; of the memory for bodies and answers each client may have a part.
     pub fn start(store: Arc<dyn Store>, work: Work, settings: Settings, analyse: Solver) -> Self {
-        let metrics = Metrics::default();
+        let metrics = Metrics::new(work, &settings);
         let counted = metrics.clone();
         let analyse = move |request: &Bytes, budget: &Budget| perform(request, budget, analyse);
         let workers = Workers::start(store.clone(), work, analyse, move |job| ended(&counted, job));
@@ -101,7 +103,7 @@ pub(super) fn ended(metrics: &Metrics, job: &Job) {
 fn perform(request: &Bytes, budget: &Budget, analyse: Solver) -> Result<Product, Failure> {
     // It was read and translated when it was accepted, so it can be again. A question may be ten thousand times as large as its
     // request: while the job waited, only the request had to be kept.
-    let (request, question) = read_question(request).map_err(|_| Failure::Defect)?;
+    let (request, question) = read_again(request).ok_or(Failure::Defect)?;
     let clock = Instant::now();
     let answer = analyse(&question, budget)?;
     renderings(&request, &question, &answer, clock.elapsed())

@@ -42,7 +42,7 @@ pub struct Limits {
 /// Jobs in memory.
 pub struct Memory {
     table: Mutex<Table>,
-    /// Rung when there may be something to take.
+    /// Rung when there may be something to take. It wakes one worker; whoever takes a job wakes the next if there are more.
     work: Notify,
 }
 
@@ -75,7 +75,7 @@ impl Memory {
         let removed = table.removed();
         drop(table);
         if !removed.is_empty() {
-            self.work.notify_waiters();
+            self.work.notify_one();
         }
         value
     }
@@ -133,8 +133,15 @@ impl Store for Memory {
     async fn take(&self) -> Result<Option<Lease>, Unavailable> {
         loop {
             let rung = self.work.notified();
-            let (lease, over) = self.books(|table| (table.take(), table.is_over()));
-            if lease.is_some() || over {
+            let (lease, waiting, open) = self.books(|table| (table.take(), table.waiting(), table.is_open()));
+            match (&lease, waiting) {
+                (None, 0) if !open => return Ok(None),
+                // The last one: those who wait for another go home.
+                (Some(_), 0) if !open => self.work.notify_waiters(),
+                (Some(_), 1..) => self.work.notify_one(),
+                _ => {}
+            }
+            if lease.is_some() {
                 return Ok(lease);
             }
             let _ = timeout(LOOK, rung).await;
@@ -142,10 +149,8 @@ impl Store for Memory {
     }
 
     async fn end(&self, lease: &Lease, ending: Ending) -> Result<Option<Job>, Unavailable> {
-        let ended = self.books(|table| table.end(lease.id, ending));
-        // What it took may be what another waits for.
-        self.work.notify_waiters();
-        Ok(ended)
+        // What it took may be what others wait for: its worker takes the first of them next, and wakes more.
+        Ok(self.books(|table| table.end(lease.id, ending)))
     }
 
     async fn occupancy(&self) -> Result<Occupancy, Unavailable> {
@@ -159,6 +164,10 @@ impl Store for Memory {
 
     fn is_open(&self) -> bool {
         self.books(|table| table.is_open())
+    }
+
+    fn outlives_the_process(&self) -> bool {
+        false
     }
 
     async fn abandon(&self) -> Vec<Job> {

@@ -5,7 +5,7 @@ mod room;
 use super::accounts::{Account, Accounts};
 use super::job::{Job, JobId, JobState, Product, Status};
 use super::journal::Journal;
-use super::keys::Keys;
+use super::keys::{self, Keys};
 use super::memory::Limits;
 use super::progress::Progress;
 use super::store::{Cancelled, Ending, Lease, Occupancy, Refusal, Submission, Unavailable, Which};
@@ -17,7 +17,7 @@ use std::time::{Duration, Instant, SystemTime};
 use tokio::sync::watch;
 
 /// What a job takes beside its request and its answer, bytes: its record, its places in the books, the names of its parts.
-const RECORD: usize = 2048;
+pub(super) const RECORD: usize = 2048;
 
 /// Share of the latest job in the mean of their times.
 const LATEST: f64 = 0.05;
@@ -46,6 +46,8 @@ pub(super) struct Table {
     keys: Keys,
     /// Jobs that have ended, by the order of their ends.
     finished: BTreeMap<u64, JobId>,
+    /// Of these, the ones that nobody has read and that are promised to be kept still, with when each ended.
+    promised: BTreeMap<u64, Instant>,
     /// How many have ended so far.
     ends: u64,
     waiting: usize,
@@ -68,6 +70,7 @@ impl Table {
             accounts: Accounts::default(),
             keys: Keys::default(),
             finished: BTreeMap::new(),
+            promised: BTreeMap::new(),
             ends: 0,
             waiting: 0,
             running: BTreeMap::new(),
@@ -86,7 +89,7 @@ impl Table {
             let (id, same) = (known.id, known.asked_for(&submission.request));
             return if same { self.get(id).ok_or(Refusal::KeySpent(id)) } else { Err(Refusal::KeyTaken(id)) };
         }
-        self.admit(&submission, RECORD + submission.request.len() + Keys::bytes(submission.key.as_ref()))?;
+        self.admit(&submission, RECORD + submission.request.len() + keys::bytes(submission.key.as_deref()))?;
         let id = JobId::now_v7();
         if let Some(journal) = &mut self.journal {
             journal.accepted(id, &submission).map_err(|error| Unavailable(format!("the journal: {error}")))?;
@@ -101,7 +104,7 @@ impl Table {
         let bytes = RECORD + request.len();
         if let Some(key) = key {
             self.keys.name(&key, id, client.clone(), &request);
-            self.charge(&client, Keys::bytes(Some(&key)));
+            self.charge(&client, keys::bytes(Some(&key)));
         }
         self.accounts.queue(&client, id);
         self.waiting += 1;
@@ -174,7 +177,8 @@ impl Table {
         let entry = self.jobs.get_mut(&id).filter(|entry| entry.ended.is_none())?;
         let bytes = product.iter().map(|one| one.part.body.as_ref().map_or(0, Bytes::len)).sum::<usize>();
         self.ends += 1;
-        (entry.product, entry.ended) = (product, Some((self.ends, Instant::now())));
+        let now = Instant::now();
+        (entry.product, entry.ended) = (product, Some((self.ends, now)));
         entry.bytes += bytes;
         // Whoever dismissed a job knows of it.
         let read = state == JobState::Dismissed;
@@ -189,6 +193,8 @@ impl Table {
         if read { &mut account.read } else { &mut account.unread }.insert(self.ends, id);
         if read {
             self.settle(id);
+        } else {
+            self.promised.insert(self.ends, now);
         }
         self.make_room_of(&job.client, 0);
         self.make_room(0);
@@ -203,6 +209,7 @@ impl Table {
         let account = self.accounts.of(&client);
         account.unread.remove(&end);
         account.read.insert(end, id);
+        self.promised.remove(&end);
         self.settle(id);
     }
 
@@ -217,6 +224,7 @@ impl Table {
         let client = job.borrow().client.clone();
         if let Some((end, _)) = ended {
             self.finished.remove(&end);
+            self.promised.remove(&end);
             let account = self.accounts.of(&client);
             account.read.remove(&end);
             account.unread.remove(&end);
@@ -288,12 +296,11 @@ impl Table {
     }
 
     pub(super) fn occupancy(&self) -> Occupancy {
-        let promised = |id: &&JobId| self.age(**id) < self.limits.promised;
         Occupancy {
             waiting: self.waiting,
             running: self.running.len(),
             finished: self.finished.len(),
-            unread: self.accounts.iter().map(|(_, account)| account.unread.values().filter(promised).count()).sum(),
+            unread: self.promised.len(),
             bytes: self.bytes,
             evicted: self.evicted,
             seconds: self.seconds,
@@ -308,8 +315,8 @@ impl Table {
         self.open
     }
 
-    /// True when nobody will submit, and nothing waits.
-    pub(super) fn is_over(&self) -> bool {
-        !self.open && self.waiting == 0
+    /// How many jobs wait.
+    pub(super) fn waiting(&self) -> usize {
+        self.waiting
     }
 }

@@ -6,10 +6,14 @@ use super::resident::Running;
 use super::store::{Ending, Lease, Store, Unavailable};
 use crate::budget::Budget;
 use bytes::Bytes;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
+use std::thread;
 use std::time::{Duration, Instant};
-use tokio::sync::Mutex;
+use tokio::runtime::Handle;
+use tokio::sync::{Mutex, oneshot};
 use tokio::task::JoinSet;
+use tokio::time::sleep;
 
 /// What is done with a request, until the [`Budget`] says stop.
 pub type Analyse = dyn Fn(&Bytes, &Budget) -> Result<Product, Failure> + Send + Sync;
@@ -41,7 +45,8 @@ struct Bench {
     ended: Box<Ended>,
 }
 
-/// The workers of a process. Each is a task that hands its analysis to a thread of the runtime's blocking pool.
+/// The workers of a process, each on a thread of its own: it need not hand jobs over, and the memory that one analysis gives back
+/// is at hand for the next.
 pub struct Workers {
     bench: Arc<Bench>,
     tasks: Mutex<JoinSet<()>>,
@@ -60,7 +65,7 @@ impl Workers {
         let bench = Arc::new(Bench { store, time, running, analyse: Box::new(analyse), ended: Box::new(ended) });
         let mut tasks = JoinSet::new();
         for _ in 0..workers {
-            tasks.spawn(live(bench.clone()));
+            tasks.spawn(employ(bench.clone()));
         }
         Workers { bench, tasks: Mutex::new(tasks) }
     }
@@ -78,30 +83,44 @@ impl Workers {
     }
 }
 
+/// Sees a worker through its life, on a thread of its own. Where the runtime ends before, so does the worker, at its next wait.
+async fn employ(bench: Arc<Bench>) {
+    let (mut here, gone) = oneshot::channel::<()>();
+    let runtime = Handle::current();
+    let life = async move {
+        tokio::select! {
+            biased;
+            _ = gone => {}
+            () = live(&bench) => {}
+        }
+    };
+    match thread::Builder::new().name("worker".to_owned()).spawn(move || runtime.block_on(life)) {
+        Ok(_) => here.closed().await,
+        Err(error) => tracing::error!(%error, "a worker has no thread"),
+    }
+}
+
 /// The life of a worker.
-async fn live(bench: Arc<Bench>) {
+async fn live(bench: &Bench) {
     loop {
         match bench.store.take().await {
-            Ok(Some(lease)) => attend(&bench, lease).await,
+            Ok(Some(lease)) => attend(bench, lease).await,
             Ok(None) => return,
             Err(Unavailable(reason)) => {
                 tracing::warn!(reason, "no store to take jobs from");
-                tokio::time::sleep(AGAIN).await;
+                sleep(AGAIN).await;
             }
         }
     }
 }
 
 /// Sees a job to its end.
-async fn attend(bench: &Arc<Bench>, lease: Lease) {
+async fn attend(bench: &Bench, lease: Lease) {
     let clock = Instant::now();
-    let (lease, there) = (Arc::new(lease), bench.clone());
-    let leased = lease.clone();
-    #[allow(clippy::disallowed_methods, reason = "this is where analyses run; the budget stops them")]
-    let analysis = tokio::task::spawn_blocking(move || attempt(&there, &leased));
-    // A panic ends the thread's task and nothing else: the answer is built from the request alone and is lost with it.
-    let result = analysis.await.unwrap_or(Err(Failure::Defect));
-    let (state, product) = match result {
+    // The thread waits for nothing else. A panic ends the analysis and no more: the answer is built from the request alone and is
+    // lost with it.
+    let result = catch_unwind(AssertUnwindSafe(|| attempt(bench, &lease)));
+    let (state, product) = match result.unwrap_or(Err(Failure::Defect)) {
         Ok(product) => (JobState::Successful, product),
         Err(failure) => (JobState::Failed(failure), Product::default()),
     };
@@ -111,7 +130,7 @@ async fn attend(bench: &Arc<Bench>, lease: Lease) {
             Ok(ended) => return ended.iter().for_each(|job| (bench.ended)(job)),
             Err(Unavailable(reason)) => tracing::warn!(job.id = %lease.id, reason, "an answer waits for the store"),
         }
-        tokio::time::sleep(AGAIN).await;
+        sleep(AGAIN).await;
     }
 }
 
@@ -124,5 +143,50 @@ fn attempt(bench: &Bench, lease: &Lease) -> Result<Product, Failure> {
     match (bench.analyse)(&lease.request, &budget) {
         Err(Failure::Analysis(said)) => Err(observer.failure(budget.stopped()).unwrap_or(Failure::Analysis(said))),
         other => other,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::jobs::{Limits, Memory, Submission};
+    use std::collections::BTreeSet;
+    use std::sync::Mutex;
+
+    #[test]
+    fn a_worker_analyses_all_its_jobs_on_one_thread() {
+        let long = Duration::from_secs(1000);
+        let (few, many) = (100, 1 << 30);
+        let limits = Limits {
+            queue: few,
+            queue_per_client: few,
+            kept: few,
+            kept_for: long,
+            promised: long,
+            keys_for: long,
+            bytes: many,
+            bytes_per_client: many,
+            work_memory: many,
+        };
+        let names = Arc::new(Mutex::new(BTreeSet::new()));
+        let seen = names.clone();
+        let analyse = move |_: &Bytes, _: &Budget| {
+            let thread = thread::current();
+            seen.lock().unwrap().insert(format!("{:?} {:?}", thread.name(), thread.id()));
+            Ok(Product::default())
+        };
+        tokio::runtime::Runtime::new().unwrap().block_on(async {
+            let store: Arc<dyn Store> = Arc::new(Memory::new(limits));
+            let workers = Workers::start(store.clone(), Work { workers: 2, time: long, memory: many }, analyse, |_| {});
+            for _ in 0..50 {
+                let (request, client) = (Bytes::new(), "me".into());
+                store.submit(Submission { request, name: None, client, memory: 1, key: None }).await.unwrap();
+            }
+            store.close();
+            workers.idle().await;
+            assert_eq!(store.occupancy().await.unwrap().finished, 50);
+        });
+        let names = names.lock().unwrap();
+        assert!((1..=2).contains(&names.len()) && names.iter().all(|name| name.contains("worker")), "{names:?}");
     }
 }

@@ -44,6 +44,15 @@ pub fn read_question(body: &[u8]) -> Result<(Request, Question), Vec<Fault>> {
     Err(listed(faults))
 }
 
+/// Reads a request once more that was read before and written as JSON with its defaults: nothing is looked for that cannot be
+/// wrong any more. None where that text was written by another version of this program and does not fit this one.
+pub fn read_again(written: &[u8]) -> Option<(Request, Question)> {
+    let structure = serde_json::from_slice(written).map(Request::Structure);
+    let request = structure.or_else(|_| serde_json::from_slice(written).map(Request::CurvedBeam)).ok()?;
+    let question = translate::translate(&request).ok()?;
+    Some((request, question))
+}
+
 /// True for a fault that may come of a stray field: of an object that lacks something where a misspelt name stands in it.
 fn follows(fault: &Fault, strays: &[Fault]) -> bool {
     strays.iter().any(|stray| !fault.pointer.is_empty() && lies_under(&stray.pointer, &fault.pointer))
@@ -123,4 +132,26 @@ fn of_a_structure(pointer: &str) -> Option<&'static str> {
     known.then_some(
         "this goes with an arch, a bridge or blocks, not with curved_beam: leave this out, or leave out curved_beam",
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::wire::json;
+    use std::fs;
+
+    #[test]
+    fn what_was_written_is_read_again_as_it_was() {
+        let cases = fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/cases")).unwrap();
+        let requests = cases.filter_map(|case| fs::read(case.unwrap().path().join("request.json")).ok());
+        let mut count = 0;
+        for body in requests {
+            let (request, _) = read_question(&body).unwrap();
+            let (again, _) = read_again(&json::line(&request).unwrap()).unwrap();
+            assert_eq!(again, request);
+            count += 1;
+        }
+        assert!(count >= 10, "{count} cases");
+        assert!(read_again(b"{}").is_none() && read_again(b"{\"curved_beam\": {}}").is_none());
+    }
 }

@@ -101,6 +101,43 @@ fn settings_that_cannot_be_are_refused_without_being_quoted() {
     }
 }
 
+/// What `serve` says on standard error with these variables, and these arguments after `--bind`, until `enough`.
+fn said(arguments: &[&str], variables: &[(&str, &str)], bind: &str, enough: &str) -> String {
+    let mut command = program(&["serve", "--bind", bind]);
+    let mut child = command.args(arguments).envs(variables.iter().copied()).spawn().unwrap();
+    let mut lines = String::new();
+    let mut log = BufReader::new(child.stderr.take().unwrap());
+    while log.read_line(&mut lines).unwrap() > 0 && !lines.contains(enough) {}
+    child.kill().unwrap();
+    child.wait().unwrap();
+    lines
+}
+
+#[test]
+fn a_setting_is_refused_by_the_name_that_was_used() {
+    let refused = |arguments: &[&str], variables: &[(&str, &str)]| said(arguments, variables, "127.0.0.1:0", "--help");
+    let by_variable = refused(&[], &[("VOUSSOIR_QUEUE", "abc")]);
+    assert!(by_variable.contains("VOUSSOIR_QUEUE") && !by_variable.contains("--queue"), "{by_variable}");
+    let by_flag = refused(&["--queue=0"], &[("VOUSSOIR_QUEUE", "abc")]);
+    assert!(by_flag.contains("'0' for '--queue <QUEUE>'") && !by_flag.contains("VOUSSOIR"), "{by_flag}");
+    let of_words = refused(&["--queue-per-client", "7"], &[("VOUSSOIR_LOG_FORMAT", "xml"), ("VOUSSOIR_QUEUE", "1")]);
+    assert!(of_words.contains("VOUSSOIR_LOG_FORMAT") && of_words.contains("json"), "{of_words}");
+}
+
+#[test]
+fn the_log_warns_of_what_may_not_be_meant() {
+    let stray = said(&[], &[("VOUSSOIR_QUEU", "7")], "127.0.0.1:0", "QUEU");
+    assert!(stray.contains("WARN") && stray.contains("write VOUSSOIR_QUEUE if that is meant"), "{stray}");
+    let open = said(&[], &[], "0.0.0.0:0", "open to all");
+    assert!(open.contains("WARN") && open.contains("--token"), "{open}");
+    // With a token, or at a loopback address, there is nothing to warn of: what is said last is the stray name.
+    for (bind, token) in [("0.0.0.0:0", "s3cret"), ("127.0.0.1:0", "")] {
+        let token = if token.is_empty() { vec![] } else { vec!["--token", token] };
+        let told = said(&token, &[("VOUSSOIR_NOTHING", "")], bind, "VOUSSOIR_NOTHING is no setting");
+        assert!(told.contains("listening") && !told.contains("open to all"), "{told}");
+    }
+}
+
 fn case(name: &str) -> String {
     format!("{}/cases/{name}", env!("CARGO_MANIFEST_DIR"))
 }

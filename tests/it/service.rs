@@ -549,6 +549,11 @@ fn everything_is_counted() {
         "voussoir_evictions_total 0",
         "voussoir_jobs_unread 0",
         "voussoir_jobs_kept 2",
+        "voussoir_workers 1",
+        "voussoir_queue_length_limit 10",
+        "voussoir_held_limit_bytes 1073741824",
+        "voussoir_event_streams_limit 3",
+        "voussoir_analysis_limit_seconds 1000",
     ] {
         assert!(text.lines().any(|other| other == line), "{line}\n{text}");
     }

@@ -2,6 +2,8 @@
 
 mod kept;
 mod memory;
+#[cfg(feature = "postgres")]
+mod postgresql;
 mod queue;
 mod runs;
 
@@ -37,6 +39,15 @@ macro_rules! promises {
                 super::within_runtime(super::$module::$name(&new));
             })*
         }
+
+        /// The store in PostgreSQL, every test with a database of its own.
+        #[cfg(feature = "postgres")]
+        mod in_postgresql {
+            $(#[test]
+            fn $name() {
+                super::within_runtime(super::$module::$name(&super::postgresql::open_new));
+            })*
+        }
     };
 }
 
@@ -55,7 +66,7 @@ promises! {
     queue::one_client_cannot_fill_the_queue_of_all
     queue::clients_take_turns
     queue::what_takes_much_memory_waits_and_others_behind_it
-    queue::a_closed_store_ends_what_it_accepted
+    queue::a_closed_store_accepts_no_more
     queue::pages_of_the_list_hold_every_job_once
     queue::a_list_may_be_of_one_client
     kept::what_was_not_read_is_kept_and_submissions_are_refused
@@ -169,6 +180,15 @@ fn ended(job: &Job) -> bool {
 
 fn running(job: &Job) -> bool {
     job.status() == Status::Running
+}
+
+/// Waits until a job is forgotten: some make room only when others have ended.
+async fn gone(store: &Arc<dyn Store>, id: JobId) {
+    let clock = Instant::now();
+    while !forgotten(store, id).await {
+        assert!(clock.elapsed() < PATIENCE, "never forgotten");
+        tokio::time::sleep(Duration::from_millis(5)).await;
+    }
 }
 
 async fn forgotten(store: &Arc<dyn Store>, id: JobId) -> bool {

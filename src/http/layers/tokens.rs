@@ -90,7 +90,7 @@ impl Tokens {
     }
 
     /// True where the service is open to all.
-    pub(super) fn is_open(&self) -> bool {
+    pub fn is_open(&self) -> bool {
         self.0.read().unwrap_or_else(PoisonError::into_inner).is_empty()
     }
 

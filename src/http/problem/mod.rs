@@ -125,6 +125,7 @@ impl From<&Failure> for Problem {
             Failure::Overdue { .. } => kinds::ANALYSIS_OVERDUE,
             Failure::Outgrown { .. } => kinds::ANALYSIS_OUTGROWN,
             Failure::Analysis(_) => kinds::ANALYSIS_FAILED,
+            Failure::Lost { .. } => kinds::ANALYSIS_LOST,
             Failure::Defect => kinds::ANALYSIS_DEFECT,
         };
         Problem::of(kind, failure.to_string())

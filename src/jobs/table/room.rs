@@ -37,8 +37,13 @@ impl Table {
         Ok(())
     }
 
-    /// Forgets what is too old.
+    /// Forgets what is too old, and promises that are.
     pub(in crate::jobs) fn tidy(&mut self) {
+        while let Some(oldest) = self.promised.first_entry()
+            && oldest.get().elapsed() >= self.limits.promised
+        {
+            oldest.remove();
+        }
         while let Some((_, &id)) = self.finished.first_key_value()
             && self.age(id) > self.limits.kept_for
         {

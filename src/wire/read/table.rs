@@ -83,12 +83,15 @@ impl Table {
             (Type::String, Value::String(text)) => check_text(object, text, here, faults),
             (Type::Number, Value::Number(number)) => {
                 let value = number.as_f64().unwrap_or(f64::NAN);
-                faults.require(in_range(object, value), here, out_of_range(object, value, "a number"));
+                if !in_range(object, value) {
+                    faults.add(here, out_of_range(object, value, "a number"));
+                }
             }
             (Type::Integer, Value::Number(number)) => {
                 let value = number.as_f64().unwrap_or(f64::NAN);
-                let whole = number.is_u64() && in_range(object, value);
-                faults.require(whole, here, out_of_range(object, value, "a whole number"));
+                if !number.is_u64() || !in_range(object, value) {
+                    faults.add(here, out_of_range(object, value, "a whole number"));
+                }
             }
             (Type::Boolean, Value::Bool(_)) => {}
             (kind, value) => faults.add(here, wrong_kind(value, &kind, &words_of(object))),
@@ -126,15 +129,14 @@ impl Table {
             return faults.add(here, wrong_kind(value, &Type::Array, &[]));
         };
         let (count, least, most) = (items.len(), list.min_items.unwrap_or(0), list.max_items.unwrap_or(usize::MAX));
-        let rule = match (least, most) {
-            (least, most) if least == most => format!("it has {least}"),
-            (0, most) => format!("list at most {most}"),
-            (least, most) => format!("list {least} to {most}"),
-        };
-        let detail = format!("{count} items, which is out of range: {rule}");
-        if faults.require((least..=most).contains(&count), here, detail)
-            && let ArrayItems::RefOrSchema(schema) = &list.items
-        {
+        if !(least..=most).contains(&count) {
+            let rule = match (least, most) {
+                (least, most) if least == most => format!("it has {least}"),
+                (0, most) => format!("list at most {most}"),
+                (least, most) => format!("list {least} to {most}"),
+            };
+            faults.add(here, format!("{count} items, which is out of range: {rule}"));
+        } else if let ArrayItems::RefOrSchema(schema) = &list.items {
             for (i, item) in items.iter_mut().enumerate() {
                 if faults.is_full() {
                     return;
@@ -209,15 +211,18 @@ fn words_of(object: &Object) -> Vec<&str> {
 fn check_text(object: &Object, text: &str, here: &str, faults: &mut Faults) {
     let words = words_of(object);
     if !words.is_empty() {
-        let detail = format!("`{}` is no word of this field: write {}", quoted(text), one_of(&words));
-        faults.require(words.contains(&text), here, detail);
+        if !words.contains(&text) {
+            faults.add(here, format!("`{}` is no word of this field: write {}", quoted(text), one_of(&words)));
+        }
         return;
     }
     let most = object.max_length.unwrap_or(usize::MAX);
-    let detail = format!("this text is too long: shorten it to {most} characters");
-    faults.require(text.chars().count() <= most, here, detail);
-    let detail = "this text has a line break or another control character: leave it out";
-    faults.require(object.pattern.is_none() || !text.chars().any(|c| c.is_ascii_control()), here, detail);
+    if text.chars().count() > most {
+        faults.add(here, format!("this text is too long: shorten it to {most} characters"));
+    }
+    if object.pattern.is_some() && text.chars().any(|c| c.is_ascii_control()) {
+        faults.add(here, "this text has a line break or another control character: leave it out");
+    }
 }
 
 /// Bounds of a number: least and most, each with whether it is in the range itself.

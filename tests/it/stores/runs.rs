@@ -151,6 +151,9 @@ pub(super) async fn every_end_is_told_once(new: New<'_>) {
             _ => None,
         });
     }
+    for id in &ids {
+        until(&store, *id, ended).await;
+    }
     store.close();
     timeout(PATIENCE, workers.idle()).await.unwrap();
     let mut told = told.lock().unwrap().clone();

@@ -119,7 +119,7 @@ pub fn settings() -> Settings {
         incoming: 1 << 20,
         outgoing: 1 << 20,
     };
-    Settings { limits, tokens: Tokens::default(), hosts: Hosts::default(), origins: vec![] }
+    Settings { limits, tokens: Tokens::default(), hosts: Hosts::default(), origins: vec![], store: self::limits(10) }
 }
 
 pub struct Server {
@@ -141,6 +141,7 @@ impl Server {
 
     pub fn with(limits: Limits, work: Work, settings: Settings) -> Self {
         let runtime = tokio::runtime::Builder::new_multi_thread().worker_threads(1).enable_all().build().unwrap();
+        let settings = Settings { store: limits, ..settings };
         let within = runtime.enter();
         let service = Service::start(Arc::new(Memory::new(limits)), work, settings, analyse);
         let router = http::router(service.clone());
