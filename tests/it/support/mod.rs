@@ -13,7 +13,7 @@ use tokio::net::TcpListener;
 use tokio::runtime::Runtime;
 use voussoir::budget::{Budget, LoadStep};
 use voussoir::collapse::{self, AnalysisError, Question};
-use voussoir::http::{self, Hosts, Service, Settings, Tokens, Work};
+use voussoir::http::{self, Hosts, LinkKey, Service, Settings, Tokens, Work};
 use voussoir::jobs::{Limits, Memory};
 
 pub const BODY_LIMIT: usize = 64 << 10;
@@ -119,7 +119,8 @@ pub fn settings() -> Settings {
         incoming: 1 << 20,
         outgoing: 1 << 20,
     };
-    Settings { limits, tokens: Tokens::default(), hosts: Hosts::default(), origins: vec![], store: self::limits(10) }
+    Settings { limits, tokens: Tokens::default(),
+        links: LinkKey::random().unwrap(), hosts: Hosts::default(), origins: vec![], store: self::limits(10) }
 }
 
 pub struct Server {
