@@ -264,7 +264,8 @@ impl Serve {
             return Err(io::Error::other(detail));
         }
         let links = requests.link_secret.as_deref().map_or_else(LinkKey::random, LinkKey::new);
-        let links = links.map_err(|fault| io::Error::other(format!("--link-secret or VOUSSOIR_LINK_SECRET: {fault}")))?;
+        let links =
+            links.map_err(|fault| io::Error::other(format!("--link-secret or VOUSSOIR_LINK_SECRET: {fault}")))?;
         let is_private = requests.tokens.is_empty() && address.ip().is_loopback();
         let any = requests.hosts.is_empty() && !is_private;
         Ok(Settings {

@@ -38,9 +38,9 @@ impl LinkRequest {
     }
 }
 
-/// A link.
+/// A link, and how long it opens what it leads to.
 #[derive(Debug, Serialize, ToSchema)]
-pub(super) struct Link {
+pub(super) struct SignedLink {
     /// What opens the path, relative to this service.
     url: String,
     /// Until when, UTC. An event stream that was opened before goes on.
@@ -52,7 +52,7 @@ pub(super) struct Link {
 #[utoipa::path(
     post, path = "/v1/links", tag = "service", operation_id = "create_link",
     request_body(content = LinkRequest, content_type = "application/json"),
-    responses((status = 200, description = "The link", body = Link))
+    responses((status = 200, description = "The link", body = SignedLink))
 )]
 pub(super) async fn create(
     state: AppState,
@@ -63,11 +63,12 @@ pub(super) async fn create(
     let fault = |pointer: &str, detail: String| Problem::faults(vec![Fault { pointer: pointer.to_owned(), detail }]);
     let LinkRequest { path, life_s } = serde_json::from_slice(&body).map_err(|error| fault("", error.to_string()))?;
     let target = path.parse::<PathAndQuery>().ok().filter(|target| target.as_str() == path && path.starts_with("/v1/"));
-    let target = target.ok_or_else(|| fault("/path", "this is no path under /v1/: give one, with its query".to_owned()))?;
+    let target =
+        target.ok_or_else(|| fault("/path", "this is no path under /v1/: give one, with its query".to_owned()))?;
     if !LIFE.contains(&life_s) {
         let detail = format!("{life_s} is out of range: from {} to {}", LIFE.start(), LIFE.end());
         return Err(fault("/life_s", detail));
     }
     let (url, expires) = client.link(&state.settings.links, &target, Duration::from_secs(life_s));
-    answer(&Link { url, expires: format_rfc3339_seconds(expires).to_string() })
+    answer(&SignedLink { url, expires: format_rfc3339_seconds(expires).to_string() })
 }

@@ -53,6 +53,7 @@ fn guarded() -> OpenApiRouter<Service> {
         .routes(routes!(jobs::show, jobs::dismiss))
         .routes(routes!(jobs::request))
         .routes(routes!(events::events))
+        .routes(routes!(events::events_of_many))
         .routes(routes!(results::results, jobs::forget))
         .routes(routes!(results::history))
         .routes(routes!(results::field))

@@ -128,7 +128,7 @@ fn attempt(bench: &Bench, request: &Bytes, progress: &Progress) -> Result<Produc
     let budget = Budget::new(&see);
     match (bench.analyse)(request, &budget) {
         Err(Failure::Analysis(_)) if observer.overdue() => {
-            let Stopped(LoadStep { load_factor, events }) = budget.stopped();
+            let Stopped(LoadStep { load_factor, events, .. }) = budget.stopped();
             Err(Failure::Overdue { limit, load_factor, events })
         }
         other => other,

@@ -34,8 +34,10 @@ const TABLE: [(&str, &[&str], &[&str]); 13] = [
         &[
             "axum",
             "futures_util",
+            "getrandom",
             "headers",
             "headers_accept",
+            "hmac",
             "humantime",
             "mediatype",
             "prometheus_client",
@@ -56,7 +58,7 @@ const TABLE: [(&str, &[&str], &[&str]); 13] = [
 ];
 
 /// Crates that some room may not use; an outside crate is one of these.
-const CRATES: [&str; 34] = [
+const CRATES: [&str; 36] = [
     "async_trait",
     "axum",
     "axum_server",
@@ -66,8 +68,10 @@ const CRATES: [&str; 34] = [
     "csv",
     "faer",
     "futures_util",
+    "getrandom",
     "headers",
     "headers_accept",
+    "hmac",
     "humantime",
     "hyper_util",
     "mediatype",

@@ -11,8 +11,8 @@ pub use tokens::{NO_TOKEN, Tokens, is_token};
 
 pub(super) use auth::Client;
 
-use super::{Service, Settings};
 use super::problem::Problem;
+use super::{Service, Settings};
 use axum::Router;
 use axum::body::Body;
 use axum::extract::{MatchedPath, State};

@@ -40,9 +40,9 @@ fn analyse(question: &Question, budget: &Budget) -> Result<collapse::Answer, Ana
 
 /// Steps on until told to stop.
 fn endless(budget: &Budget) -> Result<collapse::Answer, AnalysisError> {
-    let mut step = LoadStep { load_factor: 0.0, events: 0 };
+    let mut step = LoadStep::default();
     while budget.step(step.load_factor, step.events).is_continue() {
-        step = LoadStep { load_factor: step.load_factor + 0.25, events: step.events + 1 };
+        step = LoadStep { load_factor: step.load_factor + 0.25, events: step.events + 1, ..step };
         sleep(Duration::from_millis(1));
     }
     Err(budget.stopped().into())
@@ -119,8 +119,14 @@ pub fn settings() -> Settings {
         incoming: 1 << 20,
         outgoing: 1 << 20,
     };
-    Settings { limits, tokens: Tokens::default(),
-        links: LinkKey::random().unwrap(), hosts: Hosts::default(), origins: vec![], store: self::limits(10) }
+    Settings {
+        limits,
+        tokens: Tokens::default(),
+        links: LinkKey::random().unwrap(),
+        hosts: Hosts::default(),
+        origins: vec![],
+        store: self::limits(10),
+    }
 }
 
 pub struct Server {
