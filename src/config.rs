@@ -17,7 +17,7 @@ use store::{Place, Role, Shared};
 use tracing_subscriber::filter::LevelFilter;
 use voussoir::arch::MAX_VOUSSOIRS;
 use voussoir::http::quota::Quota;
-use voussoir::http::{self, Hosts, Settings, Tokens};
+use voussoir::http::{self, Hosts, LinkKey, Settings, Tokens};
 use voussoir::jobs;
 use voussoir::wire::request::MAX_SUBBLOCKS;
 
@@ -177,6 +177,10 @@ pub struct Requests {
     /// changes
     #[arg(long, env = "VOUSSOIR_TOKEN_FILE")]
     pub token_file: Option<PathBuf>,
+    /// Secret that links are signed with, at least 32 characters; services with the same one open each other's links [default: one of
+    /// its own at each start]
+    #[arg(long, env = "VOUSSOIR_LINK_SECRET", hide_env_values = true)]
+    pub link_secret: Option<String>,
     /// Name the service goes by, without port, may be given several times or as a list; requests for others are refused. Beside
     /// names of the machine itself, which always hold [default: any, but none for an open service at a loopback address]
     #[arg(long = "host", env = "VOUSSOIR_HOSTS", value_delimiter = ',', value_parser = host)]
@@ -286,6 +290,9 @@ impl Serve {
             let detail = "give --token (VOUSSOIR_TOKENS) or --token-file (VOUSSOIR_TOKEN_FILE), not both";
             return Err(io::Error::other(detail));
         }
+        let links = requests.link_secret.as_deref().map_or_else(LinkKey::random, LinkKey::new);
+        let links =
+            links.map_err(|fault| io::Error::other(format!("--link-secret or VOUSSOIR_LINK_SECRET: {fault}")))?;
         let is_private = requests.tokens.is_empty() && address.ip().is_loopback();
         let any = requests.hosts.is_empty() && !is_private;
         Ok(Settings {
@@ -301,6 +308,7 @@ impl Serve {
                 outgoing: size(requests.answer_bytes),
             },
             tokens: Tokens::new(requests.tokens.iter().map(String::as_str)),
+            links,
             hosts: if any { Hosts::default() } else { Hosts::only(requests.hosts.clone()) },
             origins: requests.origins.clone(),
             store: self.job_limits(),
