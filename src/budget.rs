@@ -15,6 +15,9 @@ pub struct LoadStep {
     pub load_factor: f64,
     /// Contact events so far, on all paths of the analysis together.
     pub events: usize,
+    /// How much of the analysis is done, percent: of a curve, of its points. Null of everything else: nobody can tell how many
+    /// events a load path has before it ends.
+    pub percent: Option<f64>,
 }
 
 /// Asked to stop. What was being computed is no answer.
@@ -58,9 +61,14 @@ impl<'b> Budget<'b> {
             let [before, latest] = self.events.get();
             let before = if events < latest { before + latest } else { before };
             self.events.set([before, events]);
-            self.last.set(LoadStep { load_factor, events: before + events });
+            self.last.set(LoadStep { load_factor, events: before + events, ..self.last.get() });
         }
         if self.ask().is_err() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+
+    /// So many parts of the analysis are done, of so many that are alike.
+    pub fn done(&self, parts: usize, of: usize) {
+        self.last.set(LoadStep { percent: Some(100.0 * parts as f64 / of as f64), ..self.last.get() });
     }
 
     /// Asks whether to go on.

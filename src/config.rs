@@ -17,7 +17,7 @@ use store::{Place, Role, Shared};
 use tracing_subscriber::filter::LevelFilter;
 use voussoir::arch::MAX_VOUSSOIRS;
 use voussoir::http::quota::Quota;
-use voussoir::http::{self, Hosts, Settings, Tokens};
+use voussoir::http::{self, Hosts, LinkKey, Settings, Tokens};
 use voussoir::jobs;
 use voussoir::wire::request::MAX_SUBBLOCKS;
 
@@ -177,6 +177,10 @@ pub struct Requests {
     /// changes
     #[arg(long, env = "VOUSSOIR_TOKEN_FILE")]
     pub token_file: Option<PathBuf>,
+    /// Secret that links are signed with, at least 32 characters; services with the same one open each other's links [default: one of
+    /// its own at each start]
+    #[arg(long, env = "VOUSSOIR_LINK_SECRET", hide_env_values = true)]
+    pub link_secret: Option<String>,
     /// Name the service goes by, without port, may be given several times or as a list; requests for others are refused. Beside
     /// names of the machine itself, which always hold [default: any, but none for an open service at a loopback address]
     #[arg(long = "host", env = "VOUSSOIR_HOSTS", value_delimiter = ',', value_parser = host)]
@@ -252,18 +256,19 @@ impl Serve {
         jobs::Work { workers, time: Duration::from_secs(job_time), memory: size(memory) }
     }
 
-    /// Says what does not fit together of where jobs are and what is done with them.
-    fn check_store(&self) -> Result<(), &'static str> {
-        let Shared { store, role, .. } = &self.shared;
-        match (store, role) {
-            (Place::Memory, Role::Api) => Err("--role api: jobs in memory have no other workers; name a --store"),
-            (Place::Memory, Role::Worker) => Err("--role worker: nobody could submit to it; name a --store"),
-            (_, Role::Api) if self.work.workers.is_some() => Err("--workers: a process of --role api has none"),
-            (Place::Postgres(_), _) if self.kept.journal.is_some() => {
-                Err("--journal: a store in PostgreSQL keeps what is owed by itself")
-            }
-            _ => Ok(()),
+    /// Where jobs are.
+    ///
+    /// # Errors
+    /// When what is set does not fit together.
+    pub fn place(&self) -> io::Result<Place> {
+        let place = self.shared.place().map_err(io::Error::other)?;
+        if self.shared.role == Role::Api && self.work.workers.is_some() {
+            return Err(io::Error::other("--workers: a process of --role api has none"));
         }
+        if place != Place::Memory && self.kept.journal.is_some() {
+            return Err(io::Error::other("--journal: a store in PostgreSQL keeps what is owed by itself"));
+        }
+        Ok(place)
     }
 
     /// How many connections there may be.
@@ -278,7 +283,6 @@ impl Serve {
     /// When some token cannot be one. Told here and not by the parser of the command line, which quotes what it refuses.
     pub fn settings(&self, address: SocketAddr) -> io::Result<Settings> {
         let requests = &self.requests;
-        self.check_store().map_err(io::Error::other)?;
         if !requests.tokens.iter().all(|token| http::is_token(token)) {
             return Err(io::Error::other(format!("--token or VOUSSOIR_TOKENS: {}", http::NO_TOKEN)));
         }
@@ -286,6 +290,9 @@ impl Serve {
             let detail = "give --token (VOUSSOIR_TOKENS) or --token-file (VOUSSOIR_TOKEN_FILE), not both";
             return Err(io::Error::other(detail));
         }
+        let links = requests.link_secret.as_deref().map_or_else(LinkKey::random, LinkKey::new);
+        let links =
+            links.map_err(|fault| io::Error::other(format!("--link-secret or VOUSSOIR_LINK_SECRET: {fault}")))?;
         let is_private = requests.tokens.is_empty() && address.ip().is_loopback();
         let any = requests.hosts.is_empty() && !is_private;
         Ok(Settings {
@@ -301,6 +308,7 @@ impl Serve {
                 outgoing: size(requests.answer_bytes),
             },
             tokens: Tokens::new(requests.tokens.iter().map(String::as_str)),
+            links,
             hosts: if any { Hosts::default() } else { Hosts::only(requests.hosts.clone()) },
             origins: requests.origins.clone(),
             store: self.job_limits(),

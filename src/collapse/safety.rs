@@ -12,12 +12,16 @@ pub(super) fn curve<'a>(
     points: &'a [CurvePoint],
     built: &mut Discretisation<'a>,
 ) -> Result<Vec<SafetyPoint>, AnalysisError> {
-    let solve = |point: &'a CurvePoint| {
+    let solve = |(done, point): (usize, &'a CurvePoint)| {
+        built.budget.done(done, points.len());
         let report = verdict::run(&point.analysis, built)?;
         let factors = report.safety().copied().unwrap_or(SafetyFactors::UNKNOWN);
         Ok(SafetyPoint { abscissa: point.abscissa, factors, notes: report.notes })
     };
-    points.iter().map(solve).collect()
+    let all = points.iter().enumerate().map(solve).collect::<Result<_, AnalysisError>>()?;
+    built.budget.done(points.len(), points.len());
+    built.budget.ask()?;
+    Ok(all)
 }
 
 /// Reads the safety factors off a finished report, whose path started at the full loads if the arch stands under them.

@@ -21,12 +21,15 @@ const NO_SCOPES: [&str; 0] = [];
 type Refused = (&'static str, &'static str, fn(&str, &str) -> bool);
 
 /// Problems; of two for the same status code the first one holds.
-const PROBLEMS: [Refused; 29] = [
-    ("400", "The query cannot be read", |path, id| of_results(path, id) || id == "list_jobs"),
+const PROBLEMS: [Refused; 31] = [
+    ("400", "The query cannot be read", |path, id| {
+        of_results(path, id) || ["list_jobs", "get_events_of_many"].contains(&id)
+    }),
     ("400", "Not JSON, or a header that cannot be read", |_, id| has_body(id)),
     ("400", "The header `host` is missing, given twice or no host name", |_, _| true),
     ("401", "No token, or another one; only where the service has tokens", |path, _| is_guarded(path)),
     ("403", "The token may not do this; only where the service has tokens", |path, _| is_guarded(path)),
+    ("404", "No such job", |_, id| id == "get_events_of_many"),
     ("404", "No such job, result not ready, or no such part", |path, _| path.contains("{id}")),
     ("406", "Not to be had in this format", of_results),
     ("408", "The body did not arrive in time", |_, id| has_body(id)),
@@ -40,19 +43,22 @@ const PROBLEMS: [Refused; 29] = [
     ("422", "The analysis failed", of_results),
     ("422", FAULTY_OR_TAKEN, |_, id| id == "submit_job"),
     ("422", "Describes no analysis: the faults are listed", |_, id| id == "validate"),
+    ("422", "Describes no link: the faults are listed", |_, id| id == "create_link"),
     (
         "429",
         "As many jobs of this client wait, or as many bytes are kept for it or on their way from it, as may",
         |_, id| id == "submit_job",
     ),
-    ("429", "As many bodies of this client are on their way as may", |_, id| id == "validate"),
+    ("429", "As many bodies of this client are on their way as may", |_, id| ["validate", "create_link"].contains(&id)),
     ("429", "As many answers to this client are on their way as may", of_results),
     ("500", "A defect of the program", |_, _| true),
     ("503", "Too many answers are on their way", of_results),
     ("503", "Queue or memory full, or shutting down", |_, id| id == "submit_job"),
-    ("503", "As many bodies are on their way as there is memory for", |_, id| id == "validate"),
-    ("429", "As many event streams of this client are open as may", |_, id| id == "get_events"),
-    ("503", "Too many streams are open, or shutting down", |_, id| id == "get_events"),
+    ("503", "As many bodies are on their way as there is memory for", |_, id| {
+        ["validate", "create_link"].contains(&id)
+    }),
+    ("429", "As many event streams of this client are open as may", |_, id| is_stream(id)),
+    ("503", "Too many streams are open, or shutting down", |_, id| is_stream(id)),
     ("503", "Shutting down", |_, id| id == "ready"),
     ("304", "As the client knows it already", of_results),
 ];
@@ -97,7 +103,11 @@ fn of_results(path: &str, operation: &str) -> bool {
 }
 
 fn has_body(operation: &str) -> bool {
-    ["submit_job", "validate"].contains(&operation)
+    ["submit_job", "validate", "create_link"].contains(&operation)
+}
+
+fn is_stream(operation: &str) -> bool {
+    ["get_events", "get_events_of_many"].contains(&operation)
 }
 
 fn complete(document: &mut OpenApi) {

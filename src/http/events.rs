@@ -1,29 +1,28 @@
-//! What becomes of a job, as server-sent events.
+//! What becomes of a job, or of many, as server-sent events.
 //!
-//! Nothing is kept for this: an event's id says how the job stood, so whoever comes back with the last id seen is told
-//! what has changed since.
+//! Nothing is kept for this: an event's id says what its client has been told, so whoever comes back with the last id seen is told
+//! the rest.
 
-use super::jobs::Known;
+mod follower;
+
+use super::jobs::{Known, known, query_fault};
 use super::layers::Client;
 use super::problem::{Problem, kinds};
-use super::quota::{Full, Share};
+use super::quota::Full;
 use super::service::{AppState, Service};
-use super::status::JobStatus;
-use crate::jobs::{Job, Status};
-use crate::wire::json::{NotFinite, compact};
+use crate::wire::json::NotFinite;
 use axum::Extension;
-use axum::http::{HeaderMap, HeaderName, StatusCode};
-use axum::response::sse::{Event, KeepAlive, Sse};
+use axum::extract::Query;
+use axum::extract::rejection::QueryRejection;
+use axum::http::{HeaderMap, HeaderName, Method, StatusCode};
+use axum::response::sse::{Event, Sse};
 use axum::response::{IntoResponse, Response};
-use futures_util::stream;
-use std::time::Duration;
+use follower::{Seen, Told, follow};
+use futures_util::{Stream, StreamExt, stream};
 use utoipa::ToSchema;
 
-/// How often a running analysis is looked at.
-const LOOK: Duration = Duration::from_millis(200);
-
-/// How often a quiet stream shows that it is alive, and so learns whether its client is.
-const ALIVE: Duration = Duration::from_secs(2);
+/// Most jobs that one stream follows.
+const MOST_FOLLOWED: usize = 100;
 
 const LAST_EVENT_ID: HeaderName = HeaderName::from_static("last-event-id");
 
@@ -36,8 +35,8 @@ const LAST_EVENT_ID: HeaderName = HeaderName::from_static("last-event-id");
             since is told"),
     ),
     responses(
-        (status = 200, description = "Server-sent events: `status` (data: the status), `step` (data: load factor and \
-            contact events so far), `end` (data: the final status), after which the stream ends",
+        (status = 200, description = "Server-sent events, one every two seconds at least: `status` (data: the status), `step` (data: \
+            `job_id`, `wall_time_s`, and the `progress` of the status), `end` (data: the final status), after which the stream ends",
             body = StreamEvent, content_type = "text/event-stream"),
         (status = 204, description = "The client has seen the end"),
     )
@@ -48,32 +47,94 @@ pub(super) async fn events(
     Known(job): Known,
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
-    let service = state.0;
-    let seen = headers.get(LAST_EVENT_ID).and_then(|id| Seen::read(id.to_str().ok()?));
+    let seen = last_event_id(&headers).and_then(Seen::read);
     let ended = seen.filter(|seen| seen.status.is_final());
     if ended.is_some_and(|seen| seen.status == job.status()) {
         return Ok(StatusCode::NO_CONTENT.into_response());
     }
+    // An end that has not come is that of another job.
+    let told = follow(state.0.clone(), job, seen.filter(|_| ended.is_none()));
+    let events = told.map(|told| told.map(|told| event(&told, &told.seen.write())));
+    streamed(&state, &client, events)
+}
+
+/// What becomes of many jobs, as it happens. It counts as one stream.
+#[utoipa::path(
+    get, path = "/v1/events", tag = "jobs", operation_id = "get_events_of_many",
+    params(
+        ("job" = Vec<String>, Query, min_items = 1, max_items = 100, description = "Ids of jobs, a parameter each"),
+        ("last-event-id" = Option<String>, Header, description = "Id of the last event seen of the same jobs: how all stand is told \
+            but of those whose end was"),
+    ),
+    responses(
+        (status = 200, description = "Server-sent events as of each of these jobs, every one with its `job_id`; after the last `end` \
+            the stream ends", body = StreamEvent, content_type = "text/event-stream"),
+        (status = 204, description = "The client has seen all ends"),
+    )
+)]
+pub(super) async fn events_of_many(
+    state: AppState,
+    Extension(client): Extension<Client>,
+    query: Result<Query<Vec<(String, String)>>, QueryRejection>,
+    headers: HeaderMap,
+) -> Result<Response, Problem> {
+    let Query(query) = query.map_err(|rejection| query_fault(&rejection))?;
+    let count = query.len();
+    if !(1..=MOST_FOLLOWED).contains(&count) || query.iter().any(|(name, _)| name != "job") {
+        let detail = format!("name 1 to {MOST_FOLLOWED} jobs, as in job=ID&job=ID, and nothing else");
+        return Err(Problem::of(kinds::BAD_QUERY, detail));
+    }
+    // Bits of those whose ends were told.
+    let mut ended = last_event_id(&headers).and_then(|id| u128::from_str_radix(id, 16).ok()).unwrap_or(0);
+    let mut all = Vec::with_capacity(count);
+    for (place, (_, id)) in query.iter().enumerate().filter(|(place, _)| ended & (1 << place) == 0) {
+        let job = known(&state, &client, &Method::GET, id).await?;
+        all.push(Box::pin(follow(state.0.clone(), job, None).map(move |told| (place, told))));
+    }
+    if all.is_empty() {
+        return Ok(StatusCode::NO_CONTENT.into_response());
+    }
+    let events = stream::select_all(all).map(move |(place, told)| {
+        let told = told?;
+        ended |= u128::from(told.seen.status.is_final()) << place;
+        Ok(event(&told, &format!("{ended:x}")))
+    });
+    streamed(&state, &client, events)
+}
+
+fn last_event_id(headers: &HeaderMap) -> Option<&str> {
+    headers.get(LAST_EVENT_ID)?.to_str().ok()
+}
+
+fn event(told: &Told, id: &str) -> Event {
+    Event::default().event(told.name).id(id).data(&told.data)
+}
+
+/// The answer that is a stream, which holds its share of all that may be open.
+fn streamed(
+    service: &Service,
+    client: &Client,
+    events: impl Stream<Item = Result<Event, NotFinite>> + Send + 'static,
+) -> Result<Response, Problem> {
     if service.stopping.is_cancelled() {
         return Err(Problem::shutting_down());
     }
-    let full = |full| match full {
+    let share = service.streams.take(&client.name, 1).map_err(full)?;
+    let sse = Sse::new(events.map(move |event| {
+        let _held = &share;
+        event
+    }));
+    // Proxies are asked to pass events on as they come.
+    Ok(([(HeaderName::from_static("x-accel-buffering"), "no")], sse).into_response())
+}
+
+fn full(full: Full) -> Problem {
+    match full {
         Full::OfAll => Problem::of(kinds::STREAMS_FULL, "as many event streams are open as may"),
         Full::OfClient => {
             Problem::of(kinds::CLIENT_STREAMS_FULL, "as many event streams of this client are open as may")
         }
-    };
-    let follower = Follower {
-        _share: service.streams.take(&client.name, 1).map_err(full)?,
-        job,
-        // An end that has not come is that of another job.
-        seen: seen.filter(|_| ended.is_none()),
-        service,
-    };
-    let events = stream::unfold(follower, |mut follower| async { Some((follower.next().await?, follower)) });
-    let sse = Sse::new(events).keep_alive(KeepAlive::new().interval(ALIVE));
-    // Proxies are asked to pass events on as they come.
-    Ok(([(HeaderName::from_static("x-accel-buffering"), "no")], sse).into_response())
+    }
 }
 
 /// One event of the stream.
@@ -82,82 +143,8 @@ pub(super) async fn events(
 struct StreamEvent {
     /// `status`, `step` or `end`.
     event: String,
-    /// How the job stands: what `last-event-id` is to say to go on from here.
+    /// What has been told: what `last-event-id` is to say to go on from here.
     id: String,
-    /// JSON: the status, or of a step load factor and contact events.
+    /// JSON: the status, or of a step the job, its progress and its time.
     data: String,
-}
-
-/// How a job stood when a client was last told.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Seen {
-    status: Status,
-    events: Option<usize>,
-}
-
-impl Seen {
-    /// As an event's id has it: `running-153`.
-    fn write(self) -> String {
-        let events = self.events.map(|events| format!("-{events}")).unwrap_or_default();
-        format!("{}{events}", self.status.word())
-    }
-
-    fn read(id: &str) -> Option<Self> {
-        let (name, events) = id.split_once('-').map_or((id, None), |(name, events)| (name, events.parse().ok()));
-        let status = Status::ALL.into_iter().find(|status| status.word() == name)?;
-        Some(Seen { status, events })
-    }
-}
-
-/// One client that follows one job.
-struct Follower {
-    service: Service,
-    job: Job,
-    seen: Option<Seen>,
-    _share: Share,
-}
-
-impl Follower {
-    /// The next event; none after the end, or when the service stops.
-    async fn next(&mut self) -> Option<Result<Event, NotFinite>> {
-        if self.seen.is_some_and(|seen| seen.status.is_final()) {
-            return None;
-        }
-        loop {
-            let (status, step) = (self.job.status(), self.job.progress);
-            let now = Seen { status, events: step.map(|step| step.events) };
-            let (name, data) = match self.seen {
-                Some(seen) if seen.status == status => {
-                    ("step", step.filter(|_| seen != now).map(|step| compact(&step)))
-                }
-                _ => (if status.is_final() { "end" } else { "status" }, Some(compact(&JobStatus::from(&self.job)))),
-            };
-            if let Some(data) = data {
-                self.seen = Some(now);
-                return Some(data.map(|data| Event::default().event(name).id(now.write()).data(data)));
-            }
-            let (store, id) = (&self.service.store, self.job.id);
-            let now = tokio::select! {
-                () = self.service.stopping.cancelled() => return None,
-                changed = store.wait(id, status) => changed,
-                () = tokio::time::sleep(LOOK), if status == Status::Running => store.job(id).await,
-            };
-            // One that is forgotten, or that nobody can tell of: the client comes back and asks.
-            self.job = now.ok().flatten()?;
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn an_id_says_how_the_job_stood() {
-        for (status, events) in [(Status::Accepted, None), (Status::Running, Some(0)), (Status::Failed, Some(153))] {
-            let seen = Seen { status, events };
-            assert_eq!(Seen::read(&seen.write()), Some(seen));
-        }
-        assert_eq!(Seen::read("something-else"), None);
-    }
 }

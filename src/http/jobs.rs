@@ -12,7 +12,7 @@ use axum::Extension;
 use axum::extract::rejection::QueryRejection;
 use axum::extract::{FromRequestParts, Path, Query};
 use axum::http::request::Parts;
-use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
+use axum::http::{HeaderMap, HeaderValue, Method, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
 use utoipa::IntoParams;
@@ -89,7 +89,9 @@ pub(super) async fn list(
 )]
 pub(super) async fn show(state: AppState, Known(job): Known, headers: HeaderMap) -> Result<Response, Problem> {
     let body = json::line(&JobStatus::from(&job)).map_err(Problem::unwritable)?;
-    let version = Version::of(&body);
+    // Time that passes alone makes no other version of it.
+    let step = job.progress.map(|step| (step.load_factor.to_bits(), step.events));
+    let version = Version::of((job.id, job.status().word(), job.position, step));
     let mut response = version.known(&headers).unwrap_or_else(|| version.mark((JSON, body)));
     if matches!(job.state, JobState::Failed(_)) {
         state.store.seen(job.id).await?;
@@ -164,12 +166,16 @@ impl FromRequestParts<Service> for Known {
         let path = Path::<Vec<(String, String)>>::from_request_parts(parts, service).await;
         let id = path.ok().and_then(|Path(names)| names.into_iter().find(|(name, _)| name == "id"));
         let (_, id) = id.ok_or_else(|| Problem::no_such_path(parts.uri.path()))?;
-        let unknown = || Problem::no_such_job(&id);
-        let job = service.store.job(JobId::try_parse(&id).map_err(|_| unknown())?).await?;
-        // To others it is as if it were not there.
-        let may = |job: &Job| parts.extensions.get::<Client>().is_some_and(|client| client.may(&parts.method, job));
-        job.filter(may).map(Known).ok_or_else(unknown)
+        let client = parts.extensions.get::<Client>().ok_or_else(Problem::internal)?;
+        known(service, client, &parts.method, &id).await.map(Known)
     }
+}
+
+/// The job of this id. To those who may not see it, or do this to it, it is as if it were not there.
+pub(super) async fn known(service: &Service, client: &Client, method: &Method, id: &str) -> Result<Job, Problem> {
+    let unknown = || Problem::no_such_job(id);
+    let job = service.store.job(JobId::try_parse(id).map_err(|_| unknown())?).await?;
+    job.filter(|job| client.may(method, job)).ok_or_else(unknown)
 }
 
 /// What is wrong with a query.

@@ -11,6 +11,7 @@ mod events;
 mod jobs;
 mod layers;
 mod limits;
+mod links;
 mod meta;
 mod metrics;
 mod outgoing;
@@ -23,7 +24,7 @@ pub mod status;
 mod submit;
 
 pub use document::document;
-pub use layers::{Hosts, NO_TOKEN, Tokens, is_token};
+pub use layers::{Hosts, LinkKey, NO_TOKEN, Tokens, is_token};
 pub use limits::ApiLimits;
 pub use service::{Service, Settings, Solver};
 
@@ -52,11 +53,13 @@ fn guarded() -> OpenApiRouter<Service> {
         .routes(routes!(jobs::show, jobs::dismiss))
         .routes(routes!(jobs::request))
         .routes(routes!(events::events))
+        .routes(routes!(events::events_of_many))
         .routes(routes!(results::results, jobs::forget))
         .routes(routes!(results::history))
         .routes(routes!(results::field))
         .routes(routes!(results::figure))
         .routes(routes!(submit::validate))
+        .routes(routes!(links::create))
         .routes(routes!(metrics::metrics))
 }
 
@@ -69,7 +72,7 @@ fn open() -> OpenApiRouter<Service> {
 pub fn router(service: Service) -> Router {
     let (guarded, _) = guarded().split_for_parts();
     let (open, _) = open().split_for_parts();
-    let router = layers::guard(guarded, service.settings.tokens.clone())
+    let router = layers::guard(guarded, service.settings.clone())
         .merge(open)
         .merge(docs::router())
         .route("/", get(Redirect::to("/docs/")));
@@ -80,6 +83,6 @@ pub fn router(service: Service) -> Router {
 pub fn worker_router(service: Service) -> Router {
     let (guarded, _) = OpenApiRouter::new().routes(routes!(metrics::metrics)).split_for_parts();
     let (open, _) = open().split_for_parts();
-    let router = layers::guard(guarded, service.settings.tokens.clone()).merge(open);
+    let router = layers::guard(guarded, service.settings.clone()).merge(open);
     layers::wrap(router.with_state(service.clone()), &service)
 }

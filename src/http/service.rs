@@ -1,7 +1,7 @@
 //! What every handler can reach.
 
 use super::body;
-use super::layers::{Hosts, Tokens};
+use super::layers::{Hosts, LinkKey, Tokens};
 use super::limits::ApiLimits;
 use super::metrics::Metrics;
 use super::outgoing::Outgoing;
@@ -28,6 +28,8 @@ pub struct Settings {
     pub limits: ApiLimits,
     /// Who may ask.
     pub tokens: Tokens,
+    /// What it signs links with.
+    pub links: LinkKey,
     /// The names it goes by.
     pub hosts: Hosts,
     /// Pages of which origins may ask.

@@ -27,7 +27,7 @@ pub struct Links {
 pub struct JobStatus {
     /// Its name, a UUID of version 7.
     #[schema(format = "uuid")]
-    job_id: String,
+    pub(super) job_id: String,
     /// What the request calls itself.
     name: Option<String>,
     /// Always `process`.
@@ -45,8 +45,8 @@ pub struct JobStatus {
     /// When it ended, UTC.
     #[schema(format = "date-time")]
     finished: Option<String>,
-    /// Seconds a worker spent on it, once it has ended.
-    wall_time_s: Option<f64>,
+    /// Seconds that a worker has been at it so far or, once it has ended, in all; null before, and where it was dismissed.
+    pub(super) wall_time_s: Option<f64>,
     /// Place in the queue, 1 for the next; null unless it waits.
     #[schema(minimum = 1)]
     queue_position: Option<usize>,
@@ -83,6 +83,9 @@ pub fn path(id: JobId) -> String {
 impl From<&Job> for JobStatus {
     fn from(job: &Job) -> Self {
         let time = |moment: SystemTime| format_rfc3339_millis(moment).to_string();
+        let runs = job.started.filter(|_| job.status() == Status::Running);
+        // Of another machine whose clock is ahead it has only begun.
+        let so_far = || runs.map(|started| started.elapsed().unwrap_or_default());
         let status = path(job.id);
         let [request, events, results] = ["request", "events", "results"].map(|part| format!("{status}/{part}"));
         JobStatus {
@@ -93,7 +96,7 @@ impl From<&Job> for JobStatus {
             created: time(job.created),
             started: job.started.map(time),
             finished: job.finished.map(time),
-            wall_time_s: job.wall_time.map(|time| time.as_secs_f64()),
+            wall_time_s: job.wall_time.or_else(so_far).map(|time| time.as_secs_f64()),
             queue_position: job.position,
             progress: job.progress,
             problem: if let JobState::Failed(failure) = &job.state { Some(failure.into()) } else { None },

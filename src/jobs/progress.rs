@@ -12,6 +12,8 @@ use std::time::{Duration, Instant};
 #[derive(Debug, Default)]
 pub struct Progress {
     load_factor: AtomicU64,
+    /// NaN where nobody can tell.
+    percent: AtomicU64,
     /// One more than the contact events so far, 0 before the first step.
     events: AtomicUsize,
     stop: AtomicBool,
@@ -21,8 +23,10 @@ impl Progress {
     /// The last step; none before the first.
     pub fn step(&self) -> Option<LoadStep> {
         let events = self.events.load(Ordering::Acquire);
-        let load_factor = f64::from_bits(self.load_factor.load(Ordering::Relaxed));
-        events.checked_sub(1).map(|events| LoadStep { load_factor, events })
+        let [load_factor, percent] =
+            [&self.load_factor, &self.percent].map(|bits| f64::from_bits(bits.load(Ordering::Relaxed)));
+        let percent = Some(percent).filter(|percent| percent.is_finite());
+        events.checked_sub(1).map(|events| LoadStep { load_factor, events, percent })
     }
 
     /// Asks the analysis to stop at its next step.
@@ -66,6 +70,7 @@ impl<'a> Observer<'a> {
         if step.load_factor.is_finite() {
             self.progress.load_factor.store(step.load_factor.to_bits(), Ordering::Relaxed);
         }
+        self.progress.percent.store(step.percent.unwrap_or(f64::NAN).to_bits(), Ordering::Relaxed);
         self.progress.events.store(step.events.saturating_add(1), Ordering::Release);
         self.reason.set(self.reason_to_stop());
         match self.reason.get().is_some() || self.progress.stop.load(Ordering::Relaxed) {
@@ -87,7 +92,7 @@ impl<'a> Observer<'a> {
     }
 
     /// Why it was stopped, where its client did not ask for it.
-    pub(super) fn failure(&self, Stopped(LoadStep { load_factor, events }): Stopped) -> Option<Failure> {
+    pub(super) fn failure(&self, Stopped(LoadStep { load_factor, events, .. }): Stopped) -> Option<Failure> {
         Some(match self.reason.get()? {
             Reason::Overdue => Failure::Overdue { limit: self.limit, load_factor, events },
             Reason::Outgrown(limit) => Failure::Outgrown { limit, load_factor, events },

@@ -1,7 +1,7 @@
 //! A sheet of paper: metres to pixels, and the few marks a figure is made of, written as SVG.
 
 use crate::geometry::Vec2;
-use std::fmt::Write as _;
+use std::fmt::{self, Display, Formatter, Write as _};
 
 /// Width of the sheet, pixels.
 pub const WIDTH: f64 = 960.0;
@@ -22,15 +22,24 @@ pub struct Canvas {
     body: String,
 }
 
-/// Rounded to a hundredth of a pixel, never "-0.00".
-pub fn number(value: f64) -> String {
-    let text = format!("{value:.2}");
-    if text == "-0.00" { "0.00".to_owned() } else { text }
+/// Shown rounded to a hundredth of a pixel, never as "-0.00".
+struct Hundredths(f64);
+
+impl Display for Hundredths {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Hundredths(value) = *self;
+        write!(f, "{:.2}", if value.abs() < 0.005 { 0.0 } else { value })
+    }
 }
 
 /// Places as the value of a `points` attribute.
 fn listed(places: &[Vec2]) -> String {
-    places.iter().map(|p| format!("{},{}", number(p.x), number(p.y))).collect::<Vec<_>>().join(" ")
+    let mut list = String::with_capacity(16 * places.len());
+    for (k, place) in places.iter().enumerate() {
+        let blank = if k == 0 { "" } else { " " };
+        let _ = write!(list, "{blank}{},{}", Hundredths(place.x), Hundredths(place.y));
+    }
+    list
 }
 
 /// Text with the five characters escaped that XML reserves; control characters become spaces.
@@ -107,25 +116,25 @@ impl Canvas {
 
     /// A straight line between places in pixels.
     pub fn line(&mut self, class: &str, from: Vec2, to: Vec2) {
-        let [x1, y1, x2, y2] = [from.x, from.y, to.x, to.y].map(number);
+        let [x1, y1, x2, y2] = [from.x, from.y, to.x, to.y].map(Hundredths);
         let _ = writeln!(self.body, r#"<line class="{class}" x1="{x1}" y1="{y1}" x2="{x2}" y2="{y2}"/>"#);
     }
 
     /// A dot, its place and radius in pixels.
     pub fn dot(&mut self, class: &str, at: Vec2, radius: f64) {
-        let [x, y, r] = [at.x, at.y, radius].map(number);
+        let [x, y, r] = [at.x, at.y, radius].map(Hundredths);
         let _ = writeln!(self.body, r#"<circle class="{class}" cx="{x}" cy="{y}" r="{r}"/>"#);
     }
 
     /// A rectangle, its upper left corner and size in pixels.
     pub fn rectangle(&mut self, class: &str, at: Vec2, size: Vec2) {
-        let [x, y, w, h] = [at.x, at.y, size.x, size.y].map(number);
+        let [x, y, w, h] = [at.x, at.y, size.x, size.y].map(Hundredths);
         let _ = writeln!(self.body, r#"<rect class="{class}" x="{x}" y="{y}" width="{w}" height="{h}"/>"#);
     }
 
     /// Words, their place (baseline) in pixels.
     pub fn text(&mut self, class: &str, at: Vec2, words: &str) {
-        let ([x, y], words) = ([at.x, at.y].map(number), escaped(words));
+        let ([x, y], words) = ([at.x, at.y].map(Hundredths), escaped(words));
         let _ = writeln!(self.body, r#"<text class="{class}" x="{x}" y="{y}">{words}</text>"#);
     }
 
@@ -142,7 +151,7 @@ impl Canvas {
 
     /// The whole document.
     pub fn finish(self, title: &str, style: &str) -> String {
-        let (w, h) = (number(WIDTH), number(self.height));
+        let (w, h) = (Hundredths(WIDTH), Hundredths(self.height));
         let title = escaped(title);
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\" role=\"img\">\n\
@@ -158,7 +167,9 @@ mod tests {
 
     #[test]
     fn small_negative_numbers_have_no_sign() {
-        assert_eq!((number(-0.001), number(-0.006), number(2.5)), ("0.00".into(), "-0.01".into(), "2.50".into()));
+        for (value, text) in [(-0.001, "0.00"), (-0.00499, "0.00"), (0.005, "0.01"), (-0.006, "-0.01"), (2.5, "2.50")] {
+            assert_eq!(Hundredths(value).to_string(), text);
+        }
     }
 
     #[test]

@@ -19,6 +19,8 @@ mod bad_requests;
 mod bad_structures;
 #[cfg(feature = "server")]
 mod bounds;
+#[cfg(feature = "server")]
+mod browsers;
 mod builders;
 #[cfg(feature = "server")]
 mod cases;

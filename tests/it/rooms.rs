@@ -47,8 +47,10 @@ const TABLE: [(&str, &[&str], &[&str]); 13] = [
         &[
             "axum",
             "futures_util",
+            "getrandom",
             "headers",
             "headers_accept",
+            "hmac",
             "humantime",
             "mediatype",
             "prometheus_client",
@@ -69,7 +71,7 @@ const TABLE: [(&str, &[&str], &[&str]); 13] = [
 ];
 
 /// Crates that some room may not use; an outside crate is one of these.
-const CRATES: [&str; 35] = [
+const CRATES: [&str; 37] = [
     "async_trait",
     "axum",
     "axum_server",
@@ -79,8 +81,10 @@ const CRATES: [&str; 35] = [
     "csv",
     "faer",
     "futures_util",
+    "getrandom",
     "headers",
     "headers_accept",
+    "hmac",
     "humantime",
     "hyper_util",
     "mediatype",

@@ -98,9 +98,9 @@ fn stand_in(order: &bytes::Bytes, budget: &Budget) -> Result<Product, Failure> {
 /// Steps on until told to stop.
 #[allow(clippy::disallowed_methods, reason = "stands for an analysis, which runs where it may block")]
 fn endless(budget: &Budget) -> Failure {
-    let mut step = LoadStep { load_factor: 0.0, events: 0 };
+    let mut step = LoadStep::default();
     while budget.step(step.load_factor, step.events).is_continue() {
-        step = LoadStep { load_factor: step.load_factor + 0.5, events: step.events + 1 };
+        step = LoadStep { load_factor: step.load_factor + 0.5, events: step.events + 1, ..step };
         std::thread::sleep(Duration::from_millis(1));
     }
     Failure::Analysis(budget.stopped().to_string())

@@ -2,15 +2,17 @@
 
 mod auth;
 mod host;
+mod links;
 mod tokens;
 
 pub use host::Hosts;
+pub use links::LinkKey;
 pub use tokens::{NO_TOKEN, Tokens, is_token};
 
 pub(super) use auth::Client;
 
-use super::Service;
 use super::problem::Problem;
+use super::{Service, Settings};
 use axum::Router;
 use axum::body::Body;
 use axum::extract::{MatchedPath, State};
@@ -18,6 +20,7 @@ use axum::http::{HeaderName, HeaderValue, Method, Request, StatusCode, Uri, head
 use axum::middleware::{Next, from_fn_with_state};
 use axum::response::{IntoResponse, Response};
 use std::any::Any;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 use tower::util::option_layer;
 use tower_http::catch_panic::CatchPanicLayer;
@@ -41,9 +44,9 @@ const REMEMBERED: Duration = Duration::from_secs(86_400);
 /// Unless an answer says otherwise, whoever keeps it has to ask whether it still holds.
 const ASK_AGAIN: HeaderValue = HeaderValue::from_static("no-cache");
 
-/// Shuts `router` to those without a token.
-pub(super) fn guard(router: Router<Service>, tokens: Tokens) -> Router<Service> {
-    router.route_layer(from_fn_with_state(tokens, auth::admit))
+/// Shuts `router` to those without a token or a link.
+pub(super) fn guard(router: Router<Service>, settings: Arc<Settings>) -> Router<Service> {
+    router.route_layer(from_fn_with_state(settings, auth::admit))
 }
 
 /// Wraps `router`; of the layers the last one sees a request first.

@@ -52,6 +52,8 @@ pub(super) struct Token {
 pub(super) struct Holder {
     pub(super) name: Arc<str>,
     pub(super) roles: Arc<[Role]>,
+    /// Of its token.
+    pub(super) digest: [u8; 32],
 }
 
 /// The bearer tokens that open the service; with none of them it is open to all. Copies change together.
@@ -97,10 +99,14 @@ impl Tokens {
     /// Whose token this is. Takes the same time for every token, known or not.
     pub(super) fn holder(&self, token: &str) -> Option<Holder> {
         let asked: [u8; 32] = Sha256::digest(token).into();
+        self.holder_where(|digest| digest.ct_eq(&asked).into())
+    }
+
+    /// Whose token has a digest of which this is true; all are asked.
+    pub(super) fn holder_where(&self, is: impl Fn(&[u8; 32]) -> bool) -> Option<Holder> {
         let tokens = self.0.read().unwrap_or_else(PoisonError::into_inner);
-        let found =
-            tokens.iter().fold(None, |found, one| if one.digest.ct_eq(&asked).into() { Some(one) } else { found });
-        found.map(|token| Holder { name: token.name.clone(), roles: token.roles.clone() })
+        let found = tokens.iter().fold(None, |found, one| if is(&one.digest) { Some(one) } else { found });
+        found.map(|token| Holder { name: token.name.clone(), roles: token.roles.clone(), digest: token.digest })
     }
 }
 

@@ -47,7 +47,7 @@ pub(super) async fn take(hub: &Arc<Hub>) -> Result<Option<Lease>, Unavailable> {
                 AND NOT EXISTS (SELECT FROM accounts WHERE accounts.client = jobs.client AND accounts.bytes > $5)
                 ORDER BY round, id LIMIT 1 FOR UPDATE SKIP LOCKED),
             taken AS (UPDATE jobs SET status = 1, started = clock_timestamp(), lease = $1, attempts = attempts + 1,
-                leased_until = clock_timestamp() + make_interval(secs => $2), load_factor = NULL, events = NULL
+                leased_until = clock_timestamp() + make_interval(secs => $2), load_factor = NULL, events = NULL, percent = NULL
             FROM first WHERE jobs.id = first.id AND first.memory <= $6
                 AND (SELECT coalesce(sum(bytes), 0) <= $3 AND coalesce(sum(finished), 0) <= $4 FROM accounts)
             RETURNING jobs.id, jobs.memory)
@@ -69,11 +69,12 @@ async fn beat(hub: Arc<Hub>, id: JobId, token: JobId, progress: Arc<Progress>) {
         tokio::time::sleep(BEAT.min(hub.lease / 5)).await;
         let step = progress.step();
         let renewed = query(
-            "UPDATE jobs SET leased_until = clock_timestamp() + make_interval(secs => $3), load_factor = $4, events = $5
-                WHERE id = $1 AND lease = $2 AND status = 1",
+            "UPDATE jobs SET leased_until = clock_timestamp() + make_interval(secs => $3), load_factor = $4, events = $5,
+                percent = $6 WHERE id = $1 AND lease = $2 AND status = 1",
         );
         let renewed = renewed.bind(id).bind(token).bind(hub.lease.as_secs_f64());
         let renewed = renewed.bind(step.map(|step| step.load_factor)).bind(step.map(|step| long(step.events)));
+        let renewed = renewed.bind(step.and_then(|step| step.percent));
         match renewed.execute(&hub.pool).await {
             Ok(renewed) if renewed.rows_affected() == 0 => return progress.cancel(),
             Ok(_) => {}
@@ -122,12 +123,13 @@ async fn write(
     let step = lease.progress.step();
     let ended = query(concat!(
         "UPDATE jobs SET status = $2, finished = clock_timestamp(), wall_time = $3, failure = $4, bytes = bytes + $5,
-            load_factor = $6, events = $7, lease = NULL, leased_until = NULL WHERE id = $1 RETURNING ",
+            load_factor = $6, events = $7, percent = $8, lease = NULL, leased_until = NULL WHERE id = $1 RETURNING ",
         columns!()
     ));
     let ended = ended.bind(lease.id).bind(number(ending.state.status())).bind(ending.wall_time.as_secs_f64());
     let ended = ended.bind(failure).bind(long(bytes));
     let ended = ended.bind(step.map(|step| step.load_factor)).bind(step.map(|step| long(step.events)));
+    let ended = ended.bind(step.and_then(|step| step.percent));
     job_of(&ended.fetch_one(&mut **transaction).await?).map(Some)
 }
 
@@ -153,7 +155,7 @@ fn json(failure: &Failure) -> String {
 /// Lets jobs wait again of which nothing is heard any more; one that has cost several workers their lives has failed.
 pub(super) async fn recover(connection: &mut PgConnection) -> Result<(), Error> {
     let lost = query(
-        "UPDATE jobs SET lease = NULL, leased_until = NULL, load_factor = NULL, events = NULL,
+        "UPDATE jobs SET lease = NULL, leased_until = NULL, load_factor = NULL, events = NULL, percent = NULL,
             status = CASE WHEN attempts < $1 THEN 0 ELSE 3 END,
             finished = CASE WHEN attempts >= $1 THEN clock_timestamp() END,
             failure = CASE WHEN attempts >= $1 THEN $2 END
@@ -173,7 +175,7 @@ pub(super) async fn recover(connection: &mut PgConnection) -> Result<(), Error> 
 pub(super) async fn give_back(hub: &Hub) -> Result<(), Error> {
     let ids: Vec<_> = hub.here().keys().copied().collect();
     let given = query(
-        "UPDATE jobs SET status = 0, started = NULL, lease = NULL, leased_until = NULL, load_factor = NULL, events = NULL,
+        "UPDATE jobs SET status = 0, started = NULL, lease = NULL, leased_until = NULL, load_factor = NULL, events = NULL, percent = NULL,
             attempts = attempts - 1 WHERE id = ANY ($1) AND status = 1 AND lease = ANY ($2)",
     );
     let tokens: Vec<_> = hub.here().values().map(|held| held.token).collect();

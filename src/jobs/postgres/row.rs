@@ -12,7 +12,7 @@ macro_rules! columns {
     () => {
         "id, client, name, status, extract(epoch FROM created)::float8 AS created,
             extract(epoch FROM started)::float8 AS started, extract(epoch FROM finished)::float8 AS finished,
-            wall_time, load_factor, events, failure,
+            wall_time, load_factor, events, percent, failure,
             CASE WHEN status = 0 THEN 1 + (SELECT count(*) FROM jobs other
                 WHERE other.status = 0 AND (other.round, other.id) < (jobs.round, jobs.id)) END AS position"
     };
@@ -60,6 +60,7 @@ pub(super) fn job_of(row: &PgRow) -> Result<Job, Error> {
         None => return Err(Error::Decode(format!("{number} is no status").into())),
     };
     let step = (row.try_get::<Option<f64>, _>("load_factor")?, row.try_get::<Option<i64>, _>("events")?);
+    let percent = row.try_get("percent")?;
     Ok(Job {
         id: row.try_get("id")?,
         name: row.try_get::<Option<String>, _>("name")?.map(Into::into),
@@ -70,7 +71,7 @@ pub(super) fn job_of(row: &PgRow) -> Result<Job, Error> {
         wall_time: row.try_get::<Option<f64>, _>("wall_time")?.and_then(|time| Duration::try_from_secs_f64(time).ok()),
         progress: match step {
             (Some(load_factor), Some(events)) => {
-                Some(LoadStep { load_factor, events: usize::try_from(events).unwrap_or_default() })
+                Some(LoadStep { load_factor, events: usize::try_from(events).unwrap_or_default(), percent })
             }
             _ => None,
         },

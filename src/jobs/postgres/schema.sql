@@ -13,8 +13,10 @@ CREATE TABLE jobs (
     finished timestamptz,
     -- Seconds a worker was at it.
     wall_time double precision,
+    -- How far its analysis has come.
     load_factor double precision,
     events bigint,
+    percent double precision,
     -- JSON; why a failed job has no answer.
     failure text,
     -- What its analysis takes, and what request, answer and record take.

@@ -13,7 +13,7 @@ use tokio::net::TcpListener;
 use tokio::runtime::Runtime;
 use voussoir::budget::{Budget, LoadStep};
 use voussoir::collapse::{self, AnalysisError, Question};
-use voussoir::http::{self, Hosts, Service, Settings, Tokens};
+use voussoir::http::{self, Hosts, LinkKey, Service, Settings, Tokens};
 use voussoir::jobs::{Limits, Memory, Work};
 
 pub const BODY_LIMIT: usize = 64 << 10;
@@ -40,9 +40,9 @@ fn analyse(question: &Question, budget: &Budget) -> Result<collapse::Answer, Ana
 
 /// Steps on until told to stop.
 fn endless(budget: &Budget) -> Result<collapse::Answer, AnalysisError> {
-    let mut step = LoadStep { load_factor: 0.0, events: 0 };
+    let mut step = LoadStep::default();
     while budget.step(step.load_factor, step.events).is_continue() {
-        step = LoadStep { load_factor: step.load_factor + 0.25, events: step.events + 1 };
+        step = LoadStep { load_factor: step.load_factor + 0.25, events: step.events + 1, ..step };
         sleep(Duration::from_millis(1));
     }
     Err(budget.stopped().into())
@@ -119,7 +119,14 @@ pub fn settings() -> Settings {
         incoming: 1 << 20,
         outgoing: 1 << 20,
     };
-    Settings { limits, tokens: Tokens::default(), hosts: Hosts::default(), origins: vec![], store: self::limits(10) }
+    Settings {
+        limits,
+        tokens: Tokens::default(),
+        links: LinkKey::random().unwrap(),
+        hosts: Hosts::default(),
+        origins: vec![],
+        store: self::limits(10),
+    }
 }
 
 pub struct Server {
