@@ -9,7 +9,7 @@ use crate::structure::{Side, Structure};
 
 /// Bytes for every unknown of a kind of body's nodes, and for every subblock of it, besides its matrices.
 const KIND_NODE: usize = 400;
-const KIND_SUBBLOCK: usize = 800;
+const KIND_SUBBLOCK: usize = 1600;
 /// Bytes for every subblock of the kind of body that is condensed, while it is; and copies of its stiffness meanwhile.
 pub(super) const CONDENSING: usize = 6000;
 const COPIES: usize = 5;
@@ -40,11 +40,14 @@ impl Kind {
     }
 }
 
+/// Subblocks across a body up to which its factors are as narrow as that. Those of others are filled up to larger blocks.
+const NARROW: usize = 4;
+
 /// Entries of the factors of a body of so many subblocks: eliminated across its shorter way, or dissected.
 pub(super) fn factors(radial: usize, along: usize) -> usize {
-    let (cells, across) = (radial * along, radial.min(along) as f64);
-    let dissected = 4.0 * (cells as f64).log2();
-    36 * (cells as f64 * (2.0 + across.min(dissected))) as usize
+    let (cells, across) = ((radial * along) as f64, radial.min(along));
+    let filled = if across > NARROW { 6.0 + 2.0 * cells.log2() } else { 0.0 };
+    36 * (cells * (2.0 + filled.max(across as f64).min(4.0 * cells.log2()))) as usize
 }
 
 /// A body as it is compared with others, seen from its first joint.
