@@ -1,5 +1,6 @@
 //! What can be set, by flag or by environment variable; `--help` is the list.
 
+pub mod store;
 mod variables;
 
 pub use variables::strays;
@@ -12,6 +13,7 @@ use std::net::{Ipv6Addr, SocketAddr};
 use std::path::PathBuf;
 use std::thread::available_parallelism;
 use std::time::Duration;
+use store::{Place, Role, Shared};
 use tracing_subscriber::filter::LevelFilter;
 use voussoir::arch::MAX_VOUSSOIRS;
 use voussoir::http::quota::Quota;
@@ -69,6 +71,8 @@ pub struct Serve {
     #[command(flatten)]
     pub kept: Kept,
     #[command(flatten)]
+    pub shared: Shared,
+    #[command(flatten)]
     pub requests: Requests,
     /// Seconds accepted jobs may take to end once told to stop; then they are cancelled
     #[arg(long, env = "VOUSSOIR_GRACE", default_value_t = 10, value_parser = count(0, 3600))]
@@ -85,7 +89,7 @@ pub struct Serve {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Work")]
 pub struct Work {
-    /// Threads that analyse [default: cores less one]
+    /// Jobs analysed at once [default: cores less one; all cores of a worker]
     #[arg(long, env = "VOUSSOIR_WORKERS", value_parser = count(1, 1024))]
     pub workers: Option<u64>,
     /// Jobs that may wait; beyond it a submission is answered with 503
@@ -97,8 +101,11 @@ pub struct Work {
     /// Seconds a worker may be at one job; then it fails
     #[arg(long, env = "VOUSSOIR_JOB_TIME", default_value_t = 600, value_parser = count(1, 1_000_000))]
     pub job_time: u64,
+    /// Bytes of memory that the process keeps to: beyond it the largest analysis is stopped, and its job fails
+    #[arg(long, env = "VOUSSOIR_MEMORY", default_value_t = 1 << 31, value_parser = count(1 << 20, 1 << 40))]
+    pub memory: u64,
     /// Bytes that analyses may take together, as estimated before they are accepted; a request that takes more alone is answered
-    /// with 422, others wait for each other [default: what --kept-bytes and --answer-bytes leave of 2 GiB]
+    /// with 422, others wait for each other [default: what --kept-bytes and --answer-bytes leave of --memory]
     #[arg(long, env = "VOUSSOIR_WORK_MEMORY", value_parser = count(1 << 20, 1 << 40))]
     pub work_memory: Option<u64>,
     /// Most voussoirs of an arch
@@ -207,8 +214,7 @@ pub enum LogFormat {
     Json,
 }
 
-/// What the process keeps to by default, and what of it is neither analyses nor answers, bytes.
-const PROCESS: usize = 2 << 30;
+/// What the process keeps for neither analyses nor answers, bytes.
 const REST: usize = 128 << 20;
 /// Least memory that analyses are allowed by default, bytes.
 const LEAST_WORK_MEMORY: usize = 256 << 20;
@@ -216,7 +222,8 @@ const LEAST_WORK_MEMORY: usize = 256 << 20;
 impl Serve {
     /// Memory of all analyses together, bytes.
     fn work_memory(&self) -> usize {
-        let left = PROCESS.saturating_sub(size(self.kept.kept_bytes) + size(self.requests.answer_bytes) + REST);
+        let left =
+            size(self.work.memory).saturating_sub(size(self.kept.kept_bytes) + size(self.requests.answer_bytes) + REST);
         self.work.work_memory.map_or_else(|| left.max(LEAST_WORK_MEMORY), size)
     }
 
@@ -237,11 +244,30 @@ impl Serve {
         }
     }
 
-    /// How jobs are worked off. One core is left to answer requests.
-    pub fn work(&self) -> http::Work {
-        let spare = || available_parallelism().map_or(1, |cores| cores.get().saturating_sub(1).max(1));
-        let Work { workers, job_time, .. } = self.work;
-        http::Work { workers: workers.map_or_else(spare, size), time: Duration::from_secs(job_time) }
+    /// How jobs are worked off. Where requests are answered, too, one core is left for them.
+    pub fn work(&self) -> jobs::Work {
+        let cores = || available_parallelism().map_or(1, usize::from);
+        let Work { workers, job_time, memory, .. } = self.work;
+        let workers = match self.shared.role {
+            Role::All => workers.map_or_else(|| cores().saturating_sub(1).max(1), size),
+            Role::Worker => workers.map_or_else(cores, size),
+            Role::Api => 0,
+        };
+        jobs::Work { workers, time: Duration::from_secs(job_time), memory: size(memory) }
+    }
+
+    /// Says what does not fit together of where jobs are and what is done with them.
+    fn check_store(&self) -> Result<(), &'static str> {
+        let Shared { store, role, .. } = &self.shared;
+        match (store, role) {
+            (Place::Memory, Role::Api) => Err("--role api: jobs in memory have no other workers; name a --store"),
+            (Place::Memory, Role::Worker) => Err("--role worker: nobody could submit to it; name a --store"),
+            (_, Role::Api) if self.work.workers.is_some() => Err("--workers: a process of --role api has none"),
+            (Place::Postgres(_), _) if self.kept.journal.is_some() => {
+                Err("--journal: a store in PostgreSQL keeps what is owed by itself")
+            }
+            _ => Ok(()),
+        }
     }
 
     /// How many connections there may be.
@@ -256,6 +282,7 @@ impl Serve {
     /// When some token cannot be one. Told here and not by the parser of the command line, which quotes what it refuses.
     pub fn settings(&self, address: SocketAddr) -> io::Result<Settings> {
         let requests = &self.requests;
+        self.check_store().map_err(io::Error::other)?;
         if !requests.tokens.iter().all(|token| http::is_token(token)) {
             return Err(io::Error::other(format!("--token or VOUSSOIR_TOKENS: {}", http::NO_TOKEN)));
         }

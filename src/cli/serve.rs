@@ -2,6 +2,7 @@
 
 use super::connections::{self, Door};
 use super::fail;
+use crate::config::store::{Place, Role};
 use crate::config::{Serve, strays};
 use crate::telemetry;
 use axum_server::Handle;
@@ -17,7 +18,9 @@ use tokio::runtime::Runtime;
 use tokio::time::{sleep, timeout};
 use voussoir::collapse;
 use voussoir::http::{self, Service, Tokens};
-use voussoir::jobs::Memory;
+#[cfg(feature = "postgres")]
+use voussoir::jobs::Postgres;
+use voussoir::jobs::{Limits, Memory, Store};
 
 /// Time for answers that are on their way when everything else has ended.
 const LAST_ANSWERS: Duration = Duration::from_secs(2);
@@ -55,16 +58,14 @@ fn run(options: &Serve) -> io::Result<()> {
     let handle = Handle::new();
     runtime.block_on(async {
         let tokens = settings.tokens.clone();
-        let store = match &options.kept.journal {
-            Some(file) => Memory::with_journal(limits, file).map_err(|error| named("--journal", file, &error))?,
-            None => Memory::new(limits),
-        };
-        let service = Service::start(Arc::new(store), work, settings, collapse::answer);
-        tracing::info!(%address, ?limits, ?work, "listening");
+        let store = open(options, limits).await?;
+        // Before jobs that are owed can end.
+        tracing::info!(%address, ?limits, ?work, role = ?options.shared.role, "listening");
         if tokens.is_open() && !address.ip().is_loopback() {
             tracing::warn!(%address, "open to all who can reach this address; --token or --token-file closes it");
         }
         strays().iter().for_each(|words| tracing::warn!("{words}"));
+        let service = Service::start(store, work, settings, collapse::answer);
         if let Some(file) = options.requests.token_file.clone() {
             tokio::spawn(follow_tokens(tokens, file));
         }
@@ -72,7 +73,8 @@ fn run(options: &Serve) -> io::Result<()> {
         let door = Door { connections: options.connections(), patience: request_time };
         let mut server = axum_server::from_tcp(listener)?.acceptor(door).handle(handle);
         connections::bound(server.http_builder(), request_time);
-        server.serve(http::router(service).into_make_service_with_connect_info::<SocketAddr>()).await?;
+        let router = if options.shared.role == Role::Worker { http::worker_router } else { http::router };
+        server.serve(router(service).into_make_service_with_connect_info::<SocketAddr>()).await?;
         ending.await.map_err(io::Error::other)
     })?;
     // What is still connected is cut off.
@@ -81,9 +83,29 @@ fn run(options: &Serve) -> io::Result<()> {
     Ok(())
 }
 
+/// Opens the store of jobs.
+async fn open(options: &Serve, limits: Limits) -> io::Result<Arc<dyn Store>> {
+    match (&options.shared.store, &options.kept.journal) {
+        (Place::Memory, None) => Ok(Arc::new(Memory::new(limits))),
+        (Place::Memory, Some(file)) => {
+            let store = Memory::with_journal(limits, file).map_err(|error| named("--journal", file, &error))?;
+            Ok(Arc::new(store))
+        }
+        #[cfg(feature = "postgres")]
+        (Place::Postgres(url), _) => {
+            let store = Postgres::connect(url, limits, options.shared.lease()).await;
+            Ok(Arc::new(store.map_err(|error| io::Error::other(format!("--store: {error}")))?))
+        }
+        #[cfg(not(feature = "postgres"))]
+        (Place::Postgres(_), _) => Err(io::Error::other(
+            "--store: this program was built without PostgreSQL; build it with cargo build --release --features postgres",
+        )),
+    }
+}
+
 /// Once told to stop: accepts no more jobs and ends event streams. Within `grace`, and until told a second time, jobs may end
-/// and their results be read; it goes on when there is nothing more to wait for. Then it cancels the rest, and lets the last
-/// answers out.
+/// and, where they go with the process, their results be read; it goes on when there is nothing more to wait for. Then it cancels
+/// the rest or gives it back, and lets the last answers out.
 async fn end(service: Service, handle: Handle<SocketAddr>, grace: Duration) {
     asked_to_stop().await;
     tracing::info!("stopping");
@@ -91,7 +113,9 @@ async fn end(service: Service, handle: Handle<SocketAddr>, grace: Duration) {
     service.stopping.cancel();
     let done = async {
         service.workers.idle().await;
-        all_read(&service).await;
+        if !service.store.outlives_the_process() {
+            all_read(&service).await;
+        }
     };
     tokio::select! {
         _ = timeout(grace, done) => {}

@@ -11,7 +11,9 @@ impl Service {
     /// Seconds in which the jobs that `ahead` counts are worked off, as long as jobs take of late: whole ones, at least one.
     async fn time_of(&self, ahead: impl Fn(&Occupancy) -> usize) -> u64 {
         let occupancy = self.store.occupancy().await.unwrap_or_default();
-        let time = ahead(&occupancy) as f64 * occupancy.seconds / self.work.workers.max(1) as f64;
+        // Other processes may have workers, too: all who are there are at work when somebody waits.
+        let workers = self.work.workers.max(occupancy.running).max(1);
+        let time = ahead(&occupancy) as f64 * occupancy.seconds / workers as f64;
         time.clamp(1.0, LONGEST).ceil() as u64
     }
 

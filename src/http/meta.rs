@@ -42,6 +42,8 @@ pub(super) async fn live() -> Json<Health> {
     responses((status = 200, description = "Ready", body = Health))
 )]
 pub(super) async fn ready(state: axum::extract::State<Service>) -> Result<Json<Health>, Problem> {
+    // The store may be elsewhere, and out of reach.
+    state.store.occupancy().await?;
     if state.store.is_open() { Ok(Health::of("ready")) } else { Err(Problem::shutting_down()) }
 }
 

@@ -3,8 +3,8 @@
 use super::accept;
 use super::problem::Problem;
 use super::problem::kinds::ProblemKind;
-use super::service::{AppState, Settings, Work};
-use crate::jobs::{Job, Occupancy, Status};
+use super::service::{AppState, Settings};
+use crate::jobs::{Job, Occupancy, Status, Work, resident};
 use crate::wire::format::Format;
 use axum::http::{HeaderMap, Method, header};
 use axum::response::{IntoResponse, Response};
@@ -58,7 +58,7 @@ pub struct Metrics {
 }
 
 /// Limits, which do not change.
-fn limits(work: Work, settings: &Settings) -> [(&'static str, &'static str, usize); 12] {
+fn limits(work: Work, settings: &Settings) -> [(&'static str, &'static str, usize); 13] {
     let Settings { limits: api, store, .. } = settings;
     let seconds = usize::try_from(work.time.as_secs()).unwrap_or(usize::MAX);
     [
@@ -69,6 +69,11 @@ fn limits(work: Work, settings: &Settings) -> [(&'static str, &'static str, usiz
         ("held_limit_bytes", "What requests, answers and keys may take", store.bytes),
         ("client_held_limit_bytes", "What those of one client may take", store.bytes_per_client),
         ("work_memory_limit_bytes", "What analyses may take together, as estimated", store.work_memory),
+        (
+            "process_memory_limit_bytes",
+            "Memory of the process beyond which its largest analysis is stopped",
+            work.memory,
+        ),
         ("analysis_limit_seconds", "Time that a worker may be at one job", seconds),
         ("event_streams_limit", "Event streams that may be open", api.streams),
         ("body_limit_bytes", "Longest body", api.body),
@@ -136,14 +141,6 @@ impl Metrics {
     }
 }
 
-/// Memory of this process, bytes; none where the system does not tell it as Linux does.
-fn resident_memory() -> Option<usize> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;
-    let kibibytes: usize = line.split_whitespace().next()?.parse().ok()?;
-    kibibytes.checked_mul(1024)
-}
-
 /// What the service counts.
 #[utoipa::path(
     get, path = "/metrics", tag = "service", operation_id = "metrics",
@@ -155,7 +152,7 @@ pub(super) async fn metrics(state: AppState, headers: HeaderMap) -> Result<impl 
     let format = accept::choose(None, &headers, &[Format::OpenMetrics, Format::Text]).unwrap_or(Format::OpenMetrics);
     let load = state.store.occupancy().await?;
     let Occupancy { waiting, running, finished, unread, bytes, evicted, .. } = load;
-    let memory = resident_memory().unwrap_or_default();
+    let memory = resident().unwrap_or_default();
     let counts = [waiting, running, finished, unread, bytes, state.streams.amount(), memory];
     state.metrics.evictions.inner().store(evicted, Ordering::Relaxed);
     for (gauge, count) in state.metrics.gauges.iter().zip(counts) {

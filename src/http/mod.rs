@@ -26,7 +26,7 @@ mod submit;
 pub use document::document;
 pub use layers::{Hosts, LinkKey, NO_TOKEN, Tokens, is_token};
 pub use limits::ApiLimits;
-pub use service::{Service, Settings, Solver, Work};
+pub use service::{Service, Settings, Solver};
 
 use axum::Router;
 use axum::response::Redirect;
@@ -76,5 +76,13 @@ pub fn router(service: Service) -> Router {
         .merge(open)
         .merge(docs::router())
         .route("/", get(Redirect::to("/docs/")));
+    layers::wrap(router.with_state(service.clone()), &service)
+}
+
+/// What a process answers that only works: whether it lives, and what it counts.
+pub fn worker_router(service: Service) -> Router {
+    let (guarded, _) = OpenApiRouter::new().routes(routes!(metrics::metrics)).split_for_parts();
+    let (open, _) = open().split_for_parts();
+    let router = layers::guard(guarded, service.settings.clone()).merge(open);
     layers::wrap(router.with_state(service.clone()), &service)
 }

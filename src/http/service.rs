@@ -9,13 +9,13 @@ use super::quota::Quota;
 use super::readers::Readers;
 use crate::budget::Budget;
 use crate::collapse::{AnalysisError, Answer, Question};
-use crate::jobs::{Failure, Job, JobState, Limits, Product, Store, Workers};
+use crate::jobs::{Failure, Job, JobState, Limits, Product, Store, Work, Workers};
 use crate::wire::read::read_again;
 use crate::wire::rendering::renderings;
 use axum::body::Bytes;
 use axum::http::HeaderValue;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 use tokio_util::sync::CancellationToken;
 
 /// The mechanics, or what stands in for them in a test.
@@ -46,15 +46,6 @@ fn part(all: usize) -> usize {
 /// How a handler is given the service.
 pub(super) type AppState = axum::extract::State<Service>;
 
-/// How jobs are worked off.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Work {
-    /// Jobs worked on at once.
-    pub workers: usize,
-    /// How long a worker may be at one job.
-    pub time: Duration,
-}
-
 /// What every handler can reach; copies are the same service.
 #[derive(Clone)]
 pub struct Service {
@@ -80,7 +71,7 @@ impl Service {
         let metrics = Metrics::new(work, &settings);
         let counted = metrics.clone();
         let analyse = move |request: &Bytes, budget: &Budget| perform(request, budget, analyse);
-        let workers = Workers::start(store.clone(), work.workers, work.time, analyse, move |job| ended(&counted, job));
+        let workers = Workers::start(store.clone(), work, analyse, move |job| ended(&counted, job));
         let (limits, longest) = (settings.limits, settings.limits.body.max(body::LEAST));
         let incoming = limits.incoming.max(longest);
         Service {

@@ -126,6 +126,29 @@ pub enum Failure {
         /// Contact events it had seen.
         events: usize,
     },
+    /// So many workers were lost while they were at it.
+    #[error(
+        "the analysis was given up: {workers} processes ended while they were at it, perhaps for the memory it takes; a coarser \
+         mesh, fewer voussoirs or fewer abscissae take less"
+    )]
+    Lost {
+        /// How many.
+        workers: u16,
+    },
+    /// The process came to take more memory than it may, and this was the largest of its analyses.
+    #[error(
+        "the service came to take more than the {} MiB of memory it may, and the largest of the analyses that ran, this one, was \
+         stopped at load factor {load_factor} after {events} events; a coarser mesh, fewer stones or fewer stress fields take less",
+        limit >> 20
+    )]
+    Outgrown {
+        /// Memory that the process may take, bytes.
+        limit: usize,
+        /// Load factor it had reached.
+        load_factor: f64,
+        /// Contact events it had seen.
+        events: usize,
+    },
     /// The analysis panicked.
     #[error("the analysis ended in an internal error; it is a defect of the program, not of the request")]
     Defect,

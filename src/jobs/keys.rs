@@ -10,6 +10,16 @@ use std::time::{Duration, Instant};
 /// What a key takes beside its own length, bytes: the entry, its place in the order of age, the digest.
 const ENTRY: usize = 256;
 
+/// What a key takes, bytes.
+pub(super) fn bytes(key: Option<&str>) -> usize {
+    key.map_or(0, |key| ENTRY + key.len())
+}
+
+/// What tells one request from another: SHA-256.
+pub(super) fn digest(request: &Bytes) -> [u8; 32] {
+    Sha256::digest(request).into()
+}
+
 /// The submission that a key names.
 #[derive(Debug)]
 pub(super) struct Known {
@@ -21,7 +31,7 @@ pub(super) struct Known {
 impl Known {
     /// True when it was this request.
     pub(super) fn asked_for(&self, request: &Bytes) -> bool {
-        self.digest == <[u8; 32]>::from(Sha256::digest(request))
+        self.digest == digest(request)
     }
 }
 
@@ -38,13 +48,8 @@ impl Keys {
         self.known.get(key)
     }
 
-    /// What a key takes, bytes.
-    pub(super) fn bytes(key: Option<&String>) -> usize {
-        key.map_or(0, |key| ENTRY + key.len())
-    }
-
     pub(super) fn name(&mut self, key: &str, id: JobId, client: Arc<str>, request: &Bytes) {
-        let (key, digest) = (Arc::from(key), Sha256::digest(request).into());
+        let (key, digest) = (Arc::from(key), digest(request));
         self.ages.push_back((Instant::now(), Arc::clone(&key)));
         self.known.insert(key, Known { id, client, digest });
     }
@@ -58,7 +63,7 @@ impl Keys {
             if self.known.get(&key).is_some_and(|known| kept(known.id)) {
                 self.ages.push_back((Instant::now(), key));
             } else if let Some(known) = self.known.remove(&key) {
-                return Some((known, ENTRY + key.len()));
+                return Some((known, bytes(Some(&key))));
             }
         }
         None

@@ -166,6 +166,10 @@ impl Store for Memory {
         self.books(|table| table.is_open())
     }
 
+    fn outlives_the_process(&self) -> bool {
+        false
+    }
+
     async fn abandon(&self) -> Vec<Job> {
         let ids = self.books(|table| table.active());
         let cancel = |id| match self.books(|table| table.cancel(id)) {

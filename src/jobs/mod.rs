@@ -8,13 +8,19 @@ mod job;
 mod journal;
 mod keys;
 mod memory;
+#[cfg(feature = "postgres")]
+mod postgres;
 mod progress;
+mod resident;
 mod store;
 mod table;
 mod workers;
 
 pub use job::{Failure, Job, JobId, JobState, Part, Product, Rendering, Status};
 pub use memory::{Limits, Memory};
+#[cfg(feature = "postgres")]
+pub use postgres::Postgres;
 pub use progress::Progress;
+pub use resident::resident;
 pub use store::{Cancelled, Ending, Lease, Occupancy, Refusal, Store, Submission, Unavailable, Which};
-pub use workers::{Analyse, Ended, Workers};
+pub use workers::{Analyse, Ended, Work, Workers};

@@ -1,6 +1,8 @@
 //! How far an analysis has come, seen from outside, and how it is told to stop.
 
-use crate::budget::LoadStep;
+use super::job::Failure;
+use super::resident::Place;
+use crate::budget::{LoadStep, Stopped};
 use std::cell::Cell;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
@@ -33,17 +35,34 @@ impl Progress {
     }
 }
 
+/// Time between two looks at the memory of the process.
+const LOOK: Duration = Duration::from_millis(20);
+
 /// What a worker's analysis tells its steps to.
 pub(super) struct Observer<'a> {
     progress: &'a Progress,
-    due: Option<Instant>,
-    overdue: Cell<bool>,
+    limit: Duration,
+    begun: Instant,
+    place: Place<'a>,
+    /// When the memory of the process was looked at last.
+    looked: Cell<Instant>,
+    /// Why the analysis was stopped, where its client did not ask for it.
+    reason: Cell<Option<Reason>>,
+}
+
+/// Why an analysis was stopped.
+#[derive(Clone, Copy)]
+enum Reason {
+    Overdue,
+    /// For the process took more than so many bytes.
+    Outgrown(usize),
 }
 
 impl<'a> Observer<'a> {
-    /// Watches an analysis that may take so long.
-    pub(super) fn new(progress: &'a Progress, limit: Duration) -> Self {
-        Observer { progress, due: Instant::now().checked_add(limit), overdue: Cell::new(false) }
+    /// Watches an analysis that may take so long, at its place among those that run.
+    pub(super) fn new(progress: &'a Progress, limit: Duration, place: Place<'a>) -> Self {
+        let begun = Instant::now();
+        Observer { progress, limit, begun, place, looked: Cell::new(begun), reason: Cell::new(None) }
     }
 
     /// Notes a step; says whether to go on.
@@ -53,15 +72,30 @@ impl<'a> Observer<'a> {
         }
         self.progress.percent.store(step.percent.unwrap_or(f64::NAN).to_bits(), Ordering::Relaxed);
         self.progress.events.store(step.events.saturating_add(1), Ordering::Release);
-        self.overdue.set(self.due.is_some_and(|due| Instant::now() > due));
-        match self.overdue.get() || self.progress.stop.load(Ordering::Relaxed) {
+        self.reason.set(self.reason_to_stop());
+        match self.reason.get().is_some() || self.progress.stop.load(Ordering::Relaxed) {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
         }
     }
 
-    /// True when it was stopped for the time it took.
-    pub(super) fn overdue(&self) -> bool {
-        self.overdue.get()
+    fn reason_to_stop(&self) -> Option<Reason> {
+        let now = Instant::now();
+        if now - self.begun > self.limit {
+            return Some(Reason::Overdue);
+        }
+        if now - self.looked.get() < LOOK {
+            return None;
+        }
+        self.looked.set(now);
+        self.place.outgrown().map(Reason::Outgrown)
+    }
+
+    /// Why it was stopped, where its client did not ask for it.
+    pub(super) fn failure(&self, Stopped(LoadStep { load_factor, events, .. }): Stopped) -> Option<Failure> {
+        Some(match self.reason.get()? {
+            Reason::Overdue => Failure::Overdue { limit: self.limit, load_factor, events },
+            Reason::Outgrown(limit) => Failure::Outgrown { limit, load_factor, events },
+        })
     }
 }

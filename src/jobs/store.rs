@@ -81,12 +81,14 @@ pub enum Cancelled {
     Before(Job),
 }
 
-/// A job in the hands of a worker. It is the worker's until it ends it or drops this.
+/// A job in the hands of a worker.
 pub struct Lease {
     /// Which job.
     pub id: JobId,
     /// Its request.
     pub request: Bytes,
+    /// What its analysis takes at most, as it was estimated, bytes.
+    pub memory: usize,
     /// What the analysis tells of itself, and where it is told to stop.
     pub progress: Arc<Progress>,
 }
@@ -153,7 +155,7 @@ pub trait Store: Send + Sync {
     /// Forgets a job that has ended; false where there is none.
     async fn forget(&self, id: JobId) -> Result<bool, Unavailable>;
 
-    /// Waits for the next job; none once the store is closed and, where this process is alone with it, nothing waits.
+    /// Waits for the next job; none once the store is closed and, where the store ends with this process, nothing waits.
     async fn take(&self) -> Result<Option<Lease>, Unavailable>;
 
     /// Writes down how a job has ended. None where it had ended before, or is not this worker's any more.
@@ -167,6 +169,9 @@ pub trait Store: Send + Sync {
 
     /// True until it is closed.
     fn is_open(&self) -> bool;
+
+    /// True when jobs and answers are kept though this process ends.
+    fn outlives_the_process(&self) -> bool;
 
     /// Stops what this process still has: a store that ends with it dismisses all that waits or runs, one that others share
     /// gives its running jobs back. Those dismissed are returned.

@@ -5,7 +5,7 @@ mod room;
 use super::accounts::{Account, Accounts};
 use super::job::{Job, JobId, JobState, Product, Status};
 use super::journal::Journal;
-use super::keys::Keys;
+use super::keys::{self, Keys};
 use super::memory::Limits;
 use super::progress::Progress;
 use super::store::{Cancelled, Ending, Lease, Occupancy, Refusal, Submission, Unavailable, Which};
@@ -17,7 +17,7 @@ use std::time::{Duration, Instant, SystemTime};
 use tokio::sync::watch;
 
 /// What a job takes beside its request and its answer, bytes: its record, its places in the books, the names of its parts.
-const RECORD: usize = 2048;
+pub(super) const RECORD: usize = 2048;
 
 /// Share of the latest job in the mean of their times.
 const LATEST: f64 = 0.05;
@@ -89,7 +89,7 @@ impl Table {
             let (id, same) = (known.id, known.asked_for(&submission.request));
             return if same { self.get(id).ok_or(Refusal::KeySpent(id)) } else { Err(Refusal::KeyTaken(id)) };
         }
-        self.admit(&submission, RECORD + submission.request.len() + Keys::bytes(submission.key.as_ref()))?;
+        self.admit(&submission, RECORD + submission.request.len() + keys::bytes(submission.key.as_deref()))?;
         let id = JobId::now_v7();
         if let Some(journal) = &mut self.journal {
             journal.accepted(id, &submission).map_err(|error| Unavailable(format!("the journal: {error}")))?;
@@ -104,7 +104,7 @@ impl Table {
         let bytes = RECORD + request.len();
         if let Some(key) = key {
             self.keys.name(&key, id, client.clone(), &request);
-            self.charge(&client, Keys::bytes(Some(&key)));
+            self.charge(&client, keys::bytes(Some(&key)));
         }
         self.accounts.queue(&client, id);
         self.waiting += 1;
@@ -149,7 +149,7 @@ impl Table {
         self.waiting -= 1;
         self.running.insert(id, memory);
         entry.job.send_modify(|job| (job.state, job.started) = (JobState::Running, Some(SystemTime::now())));
-        Some(Lease { id, request: entry.request.clone(), progress: entry.progress.clone() })
+        Some(Lease { id, request: entry.request.clone(), memory, progress: entry.progress.clone() })
     }
 
     /// A worker gives its job back. None where that had ended before.

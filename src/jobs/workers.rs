@@ -1,9 +1,10 @@
 //! Workers: each takes a job, has it analysed, writes down how that ended, and takes the next.
 
 use super::job::{Failure, Job, JobState, Product};
-use super::progress::{Observer, Progress};
+use super::progress::Observer;
+use super::resident::Running;
 use super::store::{Ending, Lease, Store, Unavailable};
-use crate::budget::{Budget, LoadStep, Stopped};
+use crate::budget::Budget;
 use bytes::Bytes;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -23,11 +24,23 @@ pub type Ended = dyn Fn(&Job) + Send + Sync;
 /// Time between two tries to reach a store.
 const AGAIN: Duration = Duration::from_secs(1);
 
+/// How jobs are worked off.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Work {
+    /// Jobs worked on at once.
+    pub workers: usize,
+    /// How long a worker may be at one job.
+    pub time: Duration,
+    /// Memory of the process beyond which the largest analysis is stopped, bytes.
+    pub memory: usize,
+}
+
 /// What all workers share.
 struct Bench {
     store: Arc<dyn Store>,
     /// How long one may be at a job.
     time: Duration,
+    running: Running,
     analyse: Box<Analyse>,
     ended: Box<Ended>,
 }
@@ -40,15 +53,16 @@ pub struct Workers {
 }
 
 impl Workers {
-    /// Starts so many workers, each for so long at a job, in the runtime of the caller.
+    /// Starts them, in the runtime of the caller.
     pub fn start(
         store: Arc<dyn Store>,
-        workers: usize,
-        time: Duration,
+        work: Work,
         analyse: impl Fn(&Bytes, &Budget) -> Result<Product, Failure> + Send + Sync + 'static,
         ended: impl Fn(&Job) + Send + Sync + 'static,
     ) -> Self {
-        let bench = Arc::new(Bench { store, time, analyse: Box::new(analyse), ended: Box::new(ended) });
+        let Work { workers, time, memory } = work;
+        let running = Running::new(memory);
+        let bench = Arc::new(Bench { store, time, running, analyse: Box::new(analyse), ended: Box::new(ended) });
         let mut tasks = JoinSet::new();
         for _ in 0..workers {
             tasks.spawn(employ(bench.clone()));
@@ -77,7 +91,7 @@ async fn employ(bench: Arc<Bench>) {
         tokio::select! {
             biased;
             _ = gone => {}
-            () = work(&bench) => {}
+            () = live(&bench) => {}
         }
     };
     match thread::Builder::new().name("worker".to_owned()).spawn(move || runtime.block_on(life)) {
@@ -87,7 +101,7 @@ async fn employ(bench: Arc<Bench>) {
 }
 
 /// The life of a worker.
-async fn work(bench: &Bench) {
+async fn live(bench: &Bench) {
     loop {
         match bench.store.take().await {
             Ok(Some(lease)) => attend(bench, lease).await,
@@ -105,7 +119,7 @@ async fn attend(bench: &Bench, lease: Lease) {
     let clock = Instant::now();
     // The thread waits for nothing else. A panic ends the analysis and no more: the answer is built from the request alone and is
     // lost with it.
-    let result = catch_unwind(AssertUnwindSafe(|| attempt(bench, &lease.request, &lease.progress)));
+    let result = catch_unwind(AssertUnwindSafe(|| attempt(bench, &lease)));
     let (state, product) = match result.unwrap_or(Err(Failure::Defect)) {
         Ok(product) => (JobState::Successful, product),
         Err(failure) => (JobState::Failed(failure), Product::default()),
@@ -121,16 +135,13 @@ async fn attend(bench: &Bench, lease: Lease) {
 }
 
 /// Answers one request.
-fn attempt(bench: &Bench, request: &Bytes, progress: &Progress) -> Result<Product, Failure> {
-    let limit = bench.time;
-    let observer = Observer::new(progress, limit);
+fn attempt(bench: &Bench, lease: &Lease) -> Result<Product, Failure> {
+    let place = bench.running.enter(lease.memory, lease.id);
+    let observer = Observer::new(&lease.progress, bench.time, place);
     let see = |step| observer.see(step);
     let budget = Budget::new(&see);
-    match (bench.analyse)(request, &budget) {
-        Err(Failure::Analysis(_)) if observer.overdue() => {
-            let Stopped(LoadStep { load_factor, events, .. }) = budget.stopped();
-            Err(Failure::Overdue { limit, load_factor, events })
-        }
+    match (bench.analyse)(&lease.request, &budget) {
+        Err(Failure::Analysis(said)) => Err(observer.failure(budget.stopped()).unwrap_or(Failure::Analysis(said))),
         other => other,
     }
 }
@@ -166,7 +177,7 @@ mod tests {
         };
         tokio::runtime::Runtime::new().unwrap().block_on(async {
             let store: Arc<dyn Store> = Arc::new(Memory::new(limits));
-            let workers = Workers::start(store.clone(), 2, long, analyse, |_| {});
+            let workers = Workers::start(store.clone(), Work { workers: 2, time: long, memory: many }, analyse, |_| {});
             for _ in 0..50 {
                 let (request, client) = (Bytes::new(), "me".into());
                 store.submit(Submission { request, name: None, client, memory: 1, key: None }).await.unwrap();

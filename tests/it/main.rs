@@ -51,6 +51,8 @@ mod falling;
 mod fill;
 #[cfg(feature = "server")]
 mod fixed_steps;
+#[cfg(feature = "postgres")]
+mod fleet;
 #[cfg(feature = "server")]
 mod half;
 #[cfg(feature = "server")]

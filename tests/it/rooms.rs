@@ -20,7 +20,20 @@ const TABLE: [(&str, &[&str], &[&str]); 13] = [
     (
         "jobs",
         &["budget", "collapse"],
-        &["async_trait", "bytes", "serde", "serde_json", "sha2", "thiserror", "tokio", "tracing", "utoipa", "uuid"],
+        &[
+            "async_trait",
+            "bytes",
+            "serde",
+            "serde_json",
+            "sha2",
+            "sqlx",
+            "thiserror",
+            "tokio",
+            "tokio_util",
+            "tracing",
+            "utoipa",
+            "uuid",
+        ],
     ),
     ("render", &["collapse", "structure", "geometry"], &["thiserror"]),
     (
@@ -58,7 +71,7 @@ const TABLE: [(&str, &[&str], &[&str]); 13] = [
 ];
 
 /// Crates that some room may not use; an outside crate is one of these.
-const CRATES: [&str; 36] = [
+const CRATES: [&str; 37] = [
     "async_trait",
     "axum",
     "axum_server",
@@ -82,6 +95,7 @@ const CRATES: [&str; 36] = [
     "serde",
     "serde_json",
     "sha2",
+    "sqlx",
     "strsim",
     "subtle",
     "thiserror",

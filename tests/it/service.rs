@@ -7,8 +7,8 @@ use serde_json::{Value, json};
 use std::thread::{scope, sleep};
 use std::time::{Duration, Instant};
 use voussoir::http::problem::kinds;
-use voussoir::http::{self, Settings, Tokens, Work};
-use voussoir::jobs::Limits;
+use voussoir::http::{self, Settings, Tokens};
+use voussoir::jobs::{Limits, Work};
 
 const JSON: &str = "content-type: application/json\r\n";
 
@@ -436,6 +436,14 @@ fn a_job_may_take_so_long() {
     let body = server.until(&path, &["failed"]);
     assert_eq!(body["problem"]["type"], kinds::ANALYSIS_OVERDUE.uri);
     server.get(&format!("{path}/results")).problem(422);
+}
+
+#[test]
+fn the_process_may_take_so_much() {
+    let server = Server::with(limits(10), Work { memory: 1, ..work(1) }, settings());
+    let path = server.submit(&trouble(ENDLESS));
+    let body = server.until(&path, &["failed"]);
+    assert_eq!(body["problem"]["type"], kinds::ANALYSIS_OUTGROWN.uri);
 }
 
 #[test]

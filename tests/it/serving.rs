@@ -3,15 +3,15 @@
 #![allow(dead_code, reason = "tests/load uses the rest")]
 
 #[path = "../load/client.rs"]
-mod client;
+pub(crate) mod client;
 #[path = "../load/draining.rs"]
 mod draining;
 #[path = "../load/hostile.rs"]
 mod hostile;
 #[path = "../load/process.rs"]
-mod process;
+pub(crate) mod process;
 #[path = "../load/requests.rs"]
-mod requests;
+pub(crate) mod requests;
 
 use client::{connect, request, send};
 use draining::{Drained, Known, drain};

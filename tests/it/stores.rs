@@ -2,6 +2,8 @@
 
 mod kept;
 mod memory;
+#[cfg(feature = "postgres")]
+mod postgresql;
 mod queue;
 mod runs;
 
@@ -10,7 +12,7 @@ use std::time::{Duration, Instant};
 use tokio::runtime::Runtime;
 use voussoir::budget::{Budget, LoadStep};
 use voussoir::jobs::{
-    Failure, Job, JobId, Limits, Memory, Part, Product, Rendering, Status, Store, Submission, Workers,
+    Failure, Job, JobId, Limits, Memory, Part, Product, Rendering, Status, Store, Submission, Work, Workers,
 };
 
 const QUICK: &str = "quick";
@@ -37,6 +39,15 @@ macro_rules! promises {
                 super::within_runtime(super::$module::$name(&new));
             })*
         }
+
+        /// The store in PostgreSQL, every test with a database of its own.
+        #[cfg(feature = "postgres")]
+        mod in_postgresql {
+            $(#[test]
+            fn $name() {
+                super::within_runtime(super::$module::$name(&super::postgresql::open_new));
+            })*
+        }
     };
 }
 
@@ -47,6 +58,7 @@ promises! {
     runs::progress_is_seen_and_cancel_is_heard
     runs::a_cancelled_job_stays_until_it_is_forgotten
     runs::a_job_that_takes_too_long_fails
+    runs::an_analysis_that_outgrows_the_process_is_stopped_and_the_smaller_go_on
     runs::those_who_wait_are_told_of_every_change
     runs::every_end_is_told_once
     runs::jobs_dismissed_at_any_moment_leave_the_workers_whole
@@ -54,7 +66,7 @@ promises! {
     queue::one_client_cannot_fill_the_queue_of_all
     queue::clients_take_turns
     queue::what_takes_much_memory_waits_and_others_behind_it
-    queue::a_closed_store_ends_what_it_accepted
+    queue::a_closed_store_accepts_no_more
     queue::pages_of_the_list_hold_every_job_once
     queue::a_list_may_be_of_one_client
     kept::what_was_not_read_is_kept_and_submissions_are_refused
@@ -124,8 +136,13 @@ fn limits() -> Limits {
     }
 }
 
+/// So many workers, with all the time and memory they need.
+fn work(workers: usize) -> Work {
+    Work { workers, time: Duration::from_secs(1000), memory: usize::MAX }
+}
+
 fn workers(store: &Arc<dyn Store>, count: usize) -> Workers {
-    Workers::start(store.clone(), count, Duration::from_secs(1000), stand_in, |_| {})
+    Workers::start(store.clone(), work(count), stand_in, |_| {})
 }
 
 fn order(request: &str) -> Submission {
@@ -163,6 +180,15 @@ fn ended(job: &Job) -> bool {
 
 fn running(job: &Job) -> bool {
     job.status() == Status::Running
+}
+
+/// Waits until a job is forgotten: some make room only when others have ended.
+async fn gone(store: &Arc<dyn Store>, id: JobId) {
+    let clock = Instant::now();
+    while !forgotten(store, id).await {
+        assert!(clock.elapsed() < PATIENCE, "never forgotten");
+        tokio::time::sleep(Duration::from_millis(5)).await;
+    }
 }
 
 async fn forgotten(store: &Arc<dyn Store>, id: JobId) -> bool {

@@ -7,15 +7,22 @@ mod cancel;
 mod client;
 mod clients;
 mod connections;
+#[cfg(feature = "postgres")]
+#[path = "../it/common/database.rs"]
+mod database;
 #[path = "../it/common/dice.rs"]
 #[allow(dead_code, reason = "others use the rest")]
 mod dice;
 mod draining;
+#[cfg(feature = "postgres")]
+mod fleet;
 mod hostile;
 mod overload;
 mod process;
 mod report;
 mod requests;
+#[cfg(feature = "postgres")]
+mod shared;
 mod sigterm;
 mod soak;
 #[path = "load.rs"]
@@ -29,7 +36,7 @@ use std::time::Instant;
 /// One scenario, with counts and times divided by its first argument.
 type Scenario = fn(usize, &mut Report);
 
-const SCENARIOS: [(&str, Scenario); 7] = [
+const SCENARIOS: &[(&str, Scenario)] = &[
     ("load", throughput::run),
     ("overload", overload::run),
     ("soak", soak::run),
@@ -37,6 +44,8 @@ const SCENARIOS: [(&str, Scenario); 7] = [
     ("workers", workers::run),
     ("connections", connections::run),
     ("sigterm", sigterm::run),
+    #[cfg(feature = "postgres")]
+    ("shared", shared::run),
 ];
 
 fn main() -> ExitCode {
@@ -47,11 +56,14 @@ fn main() -> ExitCode {
     };
     let known = |name: &String| SCENARIOS.iter().any(|(known, _)| known == name);
     let (Some(part), true) = (part, arguments.iter().all(known)) else {
-        println!("load [SCENARIO ...] [--part N]: N-th part of the counts; scenarios {:?}", SCENARIOS.map(|s| s.0));
+        println!(
+            "load [SCENARIO ...] [--part N]: N-th part of the counts; scenarios {:?}",
+            SCENARIOS.iter().map(|s| s.0).collect::<Vec<_>>()
+        );
         return ExitCode::FAILURE;
     };
     let mut broken = 0;
-    for (name, run) in SCENARIOS {
+    for &(name, run) in SCENARIOS {
         if arguments.is_empty() || arguments.iter().any(|argument| argument == name) {
             broken += one(name, run, part);
         }

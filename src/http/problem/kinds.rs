@@ -53,6 +53,10 @@ kinds! {
     ANALYSIS_FAILED: UNPROCESSABLE_ENTITY "urn:voussoir:problem:analysis-failed" "The analysis failed"
     /// The analysis took longer than a job may.
     ANALYSIS_OVERDUE: UNPROCESSABLE_ENTITY "urn:voussoir:problem:analysis-overdue" "The analysis took too long"
+    /// The processes that ran the analysis ended before it did.
+    ANALYSIS_LOST: INTERNAL_SERVER_ERROR "urn:voussoir:problem:analysis-lost" "The analysis was given up"
+    /// The process took more memory than it may, and this was its largest analysis.
+    ANALYSIS_OUTGROWN: UNPROCESSABLE_ENTITY "urn:voussoir:problem:analysis-outgrown" "The analysis took too much memory"
     /// The analysis panicked.
     ANALYSIS_DEFECT: INTERNAL_SERVER_ERROR "urn:voussoir:problem:analysis-defect" "The analysis broke off"
     /// One client has as many jobs waiting as it may.

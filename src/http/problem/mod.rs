@@ -123,7 +123,9 @@ impl From<&Failure> for Problem {
     fn from(failure: &Failure) -> Self {
         let kind = match failure {
             Failure::Overdue { .. } => kinds::ANALYSIS_OVERDUE,
+            Failure::Outgrown { .. } => kinds::ANALYSIS_OUTGROWN,
             Failure::Analysis(_) => kinds::ANALYSIS_FAILED,
+            Failure::Lost { .. } => kinds::ANALYSIS_LOST,
             Failure::Defect => kinds::ANALYSIS_DEFECT,
         };
         Problem::of(kind, failure.to_string())

@@ -3,6 +3,8 @@
 
 #[cfg(feature = "server")]
 pub mod answered;
+#[cfg(feature = "postgres")]
+pub mod database;
 pub mod dice;
 #[cfg(feature = "server")]
 pub mod door;

@@ -1,10 +1,28 @@
 //! What only a store in memory does: it ends with its process.
 
-use super::{ENDLESS, PATIENCE, answer, limits, running, submitted, until, within_runtime, workers};
+use super::{
+    ENDLESS, PATIENCE, QUICK, answer, ended, limits, running, submitted, until, within_runtime, work, workers,
+};
 use std::sync::Arc;
 use std::time::Duration;
 use tokio::time::timeout;
 use voussoir::jobs::{Memory, Status, Store, Workers};
+
+#[test]
+fn what_was_accepted_is_ended_when_it_is_closed() {
+    within_runtime(async {
+        let store = Arc::new(Memory::new(limits())) as Arc<dyn Store>;
+        let mut ids = vec![];
+        for _ in 0..20 {
+            ids.push(submitted(&store, QUICK).await);
+        }
+        store.close();
+        timeout(PATIENCE, workers(&store, 2).idle()).await.unwrap();
+        for id in ids {
+            assert_eq!(until(&store, id, ended).await.status(), Status::Successful);
+        }
+    });
+}
 
 #[test]
 fn what_is_abandoned_is_dismissed() {
@@ -33,7 +51,7 @@ fn an_analysis_that_would_not_stop_is_not_waited_for() {
             std::thread::sleep(Duration::from_secs(2));
             Ok(answer())
         };
-        let workers = Workers::start(store.clone(), 1, PATIENCE, deaf, |_| {});
+        let workers = Workers::start(store.clone(), work(1), deaf, |_| {});
         let id = submitted(&store, "deaf").await;
         until(&store, id, running).await;
         store.close();

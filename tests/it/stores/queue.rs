@@ -1,8 +1,9 @@
 //! Jobs that wait.
 
 use super::{ENDLESS, ERROR, New, PATIENCE, QUICK};
-use super::{answer, ended, limits, of, order, running, submitted, until, workers};
+use super::{answer, ended, limits, of, order, running, submitted, until, work, workers};
 use std::sync::{Arc, Mutex};
+use std::time::Duration;
 use tokio::time::timeout;
 use voussoir::budget::Budget;
 use voussoir::jobs::{Limits, Refusal, Status, Submission, Which, Workers};
@@ -52,26 +53,24 @@ pub(super) async fn clients_take_turns(new: New<'_>) {
         log.lock().unwrap().push(String::from_utf8(order.to_vec()).unwrap());
         Ok(answer())
     };
-    let workers = Workers::start(store.clone(), 1, PATIENCE, note, |_| {});
-    store.close();
-    timeout(PATIENCE, workers.idle()).await.unwrap();
+    let _workers = Workers::start(store.clone(), work(1), note, |_| {});
+    until(&store, ids[5], ended).await;
     let wanted = ["many 0", "few 0", "many 1", "few 1", "many 2", "many 3", "many 4", "many 5"];
     assert_eq!(*seen.lock().unwrap(), wanted);
 }
 
-pub(super) async fn a_closed_store_ends_what_it_accepted(new: New<'_>) {
+pub(super) async fn a_closed_store_accepts_no_more(new: New<'_>) {
     let store = new(limits());
-    let mut ids = vec![];
-    for _ in 0..20 {
-        ids.push(submitted(&store, QUICK).await);
-    }
+    let workers = workers(&store, 2);
+    let id = submitted(&store, ENDLESS).await;
+    until(&store, id, running).await;
     store.close();
     assert!(!store.is_open());
     assert_eq!(store.submit(order(QUICK)).await.unwrap_err(), Refusal::Closed);
-    timeout(PATIENCE, workers(&store, 2).idle()).await.unwrap();
-    for id in ids {
-        assert_eq!(until(&store, id, ended).await.status(), Status::Successful);
-    }
+    assert!(timeout(Duration::from_millis(50), workers.idle()).await.is_err(), "who is at work stays");
+    store.cancel(id).await.unwrap();
+    timeout(PATIENCE, workers.idle()).await.unwrap();
+    assert_eq!(store.job(id).await.unwrap().unwrap().status(), Status::Dismissed);
 }
 
 pub(super) async fn pages_of_the_list_hold_every_job_once(new: New<'_>) {
@@ -111,7 +110,7 @@ pub(super) async fn what_takes_much_memory_waits_and_others_behind_it(new: New<'
     until(&store, first, running).await;
     let large = store.submit(Submission { memory: 2000, ..of("you", ENDLESS) }).await.unwrap().id;
     let small = submitted(&store, QUICK).await;
-    tokio::time::sleep(std::time::Duration::from_millis(300)).await;
+    tokio::time::sleep(Duration::from_millis(300)).await;
     for id in [large, small] {
         assert_eq!(store.job(id).await.unwrap().unwrap().status(), Status::Accepted);
     }

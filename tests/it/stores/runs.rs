@@ -1,13 +1,13 @@
 //! A job in the hands of a worker.
 
 use super::{ANSWER, ENDLESS, ERROR, New, PANIC, PATIENCE, QUICK};
-use super::{answer, ended, failed, limits, order, running, stand_in, submitted, until, workers};
-use std::sync::atomic::{AtomicUsize, Ordering};
+use super::{answer, ended, failed, limits, order, running, stand_in, submitted, until, work, workers};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 use tokio::time::{sleep, timeout};
 use voussoir::budget::Budget;
-use voussoir::jobs::{Cancelled, Failure, Job, JobState, Status, Workers};
+use voussoir::jobs::{Cancelled, Failure, Job, JobState, Product, Status, Submission, Work, Workers, resident};
 
 pub(super) async fn a_job_runs_to_its_answer(new: New<'_>) {
     let store = new(limits());
@@ -71,12 +71,52 @@ pub(super) async fn a_cancelled_job_stays_until_it_is_forgotten(new: New<'_>) {
 
 pub(super) async fn a_job_that_takes_too_long_fails(new: New<'_>) {
     let store = new(limits());
-    let _workers = Workers::start(store.clone(), 1, Duration::from_millis(30), stand_in, |_| {});
+    let _workers = Workers::start(store.clone(), Work { time: Duration::from_millis(30), ..work(1) }, stand_in, |_| {});
     let late = submitted(&store, ENDLESS).await;
     let job = until(&store, late, ended).await;
     assert!(matches!(job.state, JobState::Failed(Failure::Overdue { events, .. }) if events > 0), "{:?}", job.state);
     let next = submitted(&store, QUICK).await;
     assert_eq!(until(&store, next, ended).await.status(), Status::Successful);
+}
+
+/// Takes a mebibyte more at every step, four gibibytes at most.
+fn hungry(budget: &Budget) -> Result<Product, Failure> {
+    let mut taken = vec![];
+    while taken.len() < 4096 {
+        taken.push(vec![1u8; 1 << 20]);
+        if budget.step(0.0, taken.len()).is_break() {
+            return Err(Failure::Analysis(budget.stopped().to_string()));
+        }
+    }
+    Ok(answer())
+}
+
+/// Bytes, beyond what the process of the tests takes now and what others of them may take meanwhile.
+const ROOM: usize = 256 << 20;
+
+pub(super) async fn an_analysis_that_outgrows_the_process_is_stopped_and_the_smaller_go_on(new: New<'_>) {
+    let Some(memory) = resident().map(|now| now + ROOM) else { return };
+    let store = new(limits());
+    let over = AtomicBool::new(false);
+    let analyse = move |order: &bytes::Bytes, budget: &Budget| {
+        if order.as_ref() == b"large" {
+            let result = hungry(budget);
+            over.store(true, Ordering::SeqCst);
+            return result;
+        }
+        // At work as long as the large one is there.
+        while !over.load(Ordering::SeqCst) {
+            budget.ask().map_err(|stopped| Failure::Analysis(stopped.to_string()))?;
+        }
+        Ok(answer())
+    };
+    let large = store.submit(Submission { memory: 1001, ..order("large") }).await.unwrap().id;
+    let small = submitted(&store, "small").await;
+    let _workers = Workers::start(store.clone(), Work { memory, ..work(2) }, analyse, |_| {});
+    let job = until(&store, large, ended).await;
+    let JobState::Failed(Failure::Outgrown { limit, events, .. }) = job.state else { panic!("{:?}", job.state) };
+    assert!(limit == memory && events > 0);
+    assert_eq!(until(&store, small, ended).await.status(), Status::Successful);
 }
 
 pub(super) async fn those_who_wait_are_told_of_every_change(new: New<'_>) {
@@ -99,7 +139,7 @@ pub(super) async fn every_end_is_told_once(new: New<'_>) {
     let told = Arc::new(Mutex::new(Vec::new()));
     let log = told.clone();
     let note = move |job: &Job| log.lock().unwrap().push((job.id, job.status()));
-    let workers = Workers::start(store.clone(), 2, PATIENCE, stand_in, note);
+    let workers = Workers::start(store.clone(), work(2), stand_in, note);
     let mut ids = vec![submitted(&store, ENDLESS).await];
     for round in 0..100 {
         ids.push(submitted(&store, [QUICK, PANIC, ERROR][round % 3]).await);
@@ -110,6 +150,9 @@ pub(super) async fn every_end_is_told_once(new: New<'_>) {
             Some(Cancelled::Now(job)) => Some((job.id, job.status())),
             _ => None,
         });
+    }
+    for id in &ids {
+        until(&store, *id, ended).await;
     }
     store.close();
     timeout(PATIENCE, workers.idle()).await.unwrap();
@@ -132,7 +175,7 @@ pub(super) async fn jobs_dismissed_at_any_moment_leave_the_workers_whole(new: Ne
         counters.1.fetch_add(1, Ordering::SeqCst);
         result
     };
-    let workers = Workers::start(store.clone(), 3, PATIENCE, counted, |_| {});
+    let workers = Workers::start(store.clone(), work(3), counted, |_| {});
     for round in 0..100u64 {
         let id = submitted(&store, ENDLESS).await;
         sleep(Duration::from_micros(137 * (round % 53))).await;

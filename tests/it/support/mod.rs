@@ -13,8 +13,8 @@ use tokio::net::TcpListener;
 use tokio::runtime::Runtime;
 use voussoir::budget::{Budget, LoadStep};
 use voussoir::collapse::{self, AnalysisError, Question};
-use voussoir::http::{self, Hosts, LinkKey, Service, Settings, Tokens, Work};
-use voussoir::jobs::{Limits, Memory};
+use voussoir::http::{self, Hosts, LinkKey, Service, Settings, Tokens};
+use voussoir::jobs::{Limits, Memory, Work};
 
 pub const BODY_LIMIT: usize = 64 << 10;
 
@@ -103,7 +103,7 @@ pub fn limits(queue: usize) -> Limits {
 
 /// So many workers, with all the time they need.
 pub fn work(workers: usize) -> Work {
-    Work { workers, time: Duration::from_secs(1000) }
+    Work { workers, time: Duration::from_secs(1000), memory: usize::MAX }
 }
 
 /// An open service.

@@ -1,0 +1,57 @@
+//! Where jobs are, and what this process does with them.
+
+use clap::{Args, ValueEnum};
+use std::time::Duration;
+
+/// Where jobs are, and what this process does with them.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Several processes")]
+pub struct Shared {
+    /// Where jobs are: in this process, or in a PostgreSQL database that others share (postgres://user:password@host/database)
+    #[arg(long, env = "VOUSSOIR_STORE", default_value = "memory", hide_env_values = true, value_parser = place)]
+    pub store: Place,
+    /// What this process does of what there is to do; all but the first need a store in PostgreSQL
+    #[arg(long, env = "VOUSSOIR_ROLE", value_enum, default_value_t = Role::All)]
+    pub role: Role,
+    /// Seconds after which a job is given to another worker when nothing is heard of its own (PostgreSQL)
+    #[arg(long, env = "VOUSSOIR_LEASE", default_value_t = 15, value_parser = super::count(1, 3600))]
+    pub lease: u64,
+}
+
+/// Where jobs are.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Place {
+    /// In this process, and gone with it.
+    Memory,
+    /// In the database with this address.
+    Postgres(String),
+}
+
+/// What a process does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Role {
+    /// Answer requests and analyse.
+    All,
+    /// Answer requests.
+    Api,
+    /// Analyse; of requests only those for health and metrics are answered.
+    Worker,
+}
+
+impl Shared {
+    /// How long a job is a worker's when nothing is heard of it.
+    pub fn lease(&self) -> Duration {
+        Duration::from_secs(self.lease)
+    }
+}
+
+/// The address of a database holds a password: what is no address is not repeated.
+fn place(text: &str) -> Result<Place, String> {
+    match text {
+        "memory" => Ok(Place::Memory),
+        _ if text.starts_with("postgres://") || text.starts_with("postgresql://") => {
+            Ok(Place::Postgres(text.to_owned()))
+        }
+        _ => Err("give memory, or the address of a database: postgres://user:password@host/database".to_owned()),
+    }
+}
