@@ -1,5 +1,6 @@
 # syntax=docker/dockerfile:1
-# Whoever publishes images pins the two bases by digest, as in rust:1.95-slim-bookworm@sha256:...
+# Whoever publishes images pins the two bases by digest, as in rust:1.95-slim-bookworm@sha256:... Digests are known to registries
+# only: where there is none none can be looked up, so none is written here.
 FROM rust:1.95-slim-bookworm AS build
 WORKDIR /build
 # The same sources give the same program: no time and no path of this machine is in it.
@@ -8,9 +9,8 @@ ENV SOURCE_DATE_EPOCH=0 CARGO_INCREMENTAL=0 \
 # Dependencies first: this layer is built again only when they change. Cargo asks that every target of the manifest is there.
 COPY Cargo.toml Cargo.lock ./
 RUN set -eu; mkdir -p src benches tests/it tests/load; touch src/lib.rs; \
-    for target in src/main tests/it/main tests/load/main tests/load/malformed \
-        $(sed -n '/^\[\[bench\]\]/,/^$/s/^name = "\(.*\)"/benches\/\1/p' Cargo.toml); \
-    do echo 'fn main() {}' > $target.rs; done; \
+    for target in $(sed -n 's/^path = "\(.*\)"/\1/p; /^\[\[bench\]\]/,/^$/s/^name = "\(.*\)"/benches\/\1.rs/p' Cargo.toml); \
+    do echo 'fn main() {}' > $target; done; \
     cargo build --release --locked --features postgres --bin voussoir
 # .dockerignore lets through what a build needs. What was there before is older than it looks to cargo.
 COPY . .

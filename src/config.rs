@@ -256,18 +256,19 @@ impl Serve {
         jobs::Work { workers, time: Duration::from_secs(job_time), memory: size(memory) }
     }
 
-    /// Says what does not fit together of where jobs are and what is done with them.
-    fn check_store(&self) -> Result<(), &'static str> {
-        let Shared { store, role, .. } = &self.shared;
-        match (store, role) {
-            (Place::Memory, Role::Api) => Err("--role api: jobs in memory have no other workers; name a --store"),
-            (Place::Memory, Role::Worker) => Err("--role worker: nobody could submit to it; name a --store"),
-            (_, Role::Api) if self.work.workers.is_some() => Err("--workers: a process of --role api has none"),
-            (Place::Postgres(_), _) if self.kept.journal.is_some() => {
-                Err("--journal: a store in PostgreSQL keeps what is owed by itself")
-            }
-            _ => Ok(()),
+    /// Where jobs are.
+    ///
+    /// # Errors
+    /// When what is set does not fit together.
+    pub fn place(&self) -> io::Result<Place> {
+        let place = self.shared.place().map_err(io::Error::other)?;
+        if self.shared.role == Role::Api && self.work.workers.is_some() {
+            return Err(io::Error::other("--workers: a process of --role api has none"));
         }
+        if place != Place::Memory && self.kept.journal.is_some() {
+            return Err(io::Error::other("--journal: a store in PostgreSQL keeps what is owed by itself"));
+        }
+        Ok(place)
     }
 
     /// How many connections there may be.
@@ -282,7 +283,6 @@ impl Serve {
     /// When some token cannot be one. Told here and not by the parser of the command line, which quotes what it refuses.
     pub fn settings(&self, address: SocketAddr) -> io::Result<Settings> {
         let requests = &self.requests;
-        self.check_store().map_err(io::Error::other)?;
         if !requests.tokens.iter().all(|token| http::is_token(token)) {
             return Err(io::Error::other(format!("--token or VOUSSOIR_TOKENS: {}", http::NO_TOKEN)));
         }

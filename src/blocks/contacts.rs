@@ -1,7 +1,7 @@
 //! Where faces meet.
 
 use super::fault::{BlocksFault, MAX_FAULTS};
-use super::outline::{Edge, Outline};
+use super::outline::{Edge, Outline, near};
 use super::{Blocks, NEAR_MISS, overlap};
 use crate::geometry::{Vec2, cross};
 use crate::structure::{Joint, JointLaw, Side, Structure};
@@ -106,17 +106,14 @@ pub(super) fn found(
 
 /// Where the faces `runs` look at faces of an outline that are near enough to matter.
 pub(super) fn meetings(runs: &[Edge], outline: &Outline, tolerance: f64) -> Vec<Meeting> {
-    let reach = NEAR_MISS * tolerance;
-    let [low, high] = outline.bounds;
-    let near = |run: &&Edge| {
-        let (least, most) = (run.from.inf(&run.to), run.from.sup(&run.to));
-        (0..2).all(|axis| least[axis] <= high[axis] + reach && low[axis] <= most[axis] + reach)
-    };
-    let with_all = |run: &Edge| {
-        let run = *run;
-        outline.runs.iter().filter_map(move |&other| Meeting::of(run, other, tolerance))
-    };
-    runs.iter().filter(near).flat_map(with_all).collect()
+    // Faces that touch or nearly do are no farther apart than that.
+    let reach = 2.0 * NEAR_MISS * tolerance;
+    let mut meetings = Vec::new();
+    for &run in runs.iter().filter(|run| near(run.bounds(), outline.bounds, reach)) {
+        let others = outline.runs.iter().filter(|other| near(run.bounds(), other.bounds(), reach));
+        meetings.extend(others.filter_map(|&other| Meeting::of(run, other, tolerance)));
+    }
+    meetings
 }
 
 /// Pieces of a side with two joints on them.

@@ -19,6 +19,11 @@ impl Edge {
         (self.to - self.from).normalize()
     }
 
+    /// Least and greatest coordinates, m.
+    pub fn bounds(&self) -> [Vec2; 2] {
+        [self.from.inf(&self.to), self.from.sup(&self.to)]
+    }
+
     /// The same piece seen from the other side.
     pub fn reversed(&self) -> Edge {
         Edge { from: self.to, to: self.from }
@@ -115,6 +120,11 @@ pub(super) fn open(polygon: &Polygon) -> Result<&[Vec2], BlocksFault> {
 /// Least and greatest coordinates.
 pub(super) fn bounds(points: &[Vec2]) -> [Vec2; 2] {
     points.iter().fold([points[0]; 2], |[low, high], point| [low.inf(point), high.sup(point)])
+}
+
+/// Whether two boxes, given by their least and greatest coordinates, are no farther apart than `reach` along either axis.
+pub(super) fn near(a: [Vec2; 2], b: [Vec2; 2], reach: f64) -> bool {
+    (0..2).all(|axis| a[0][axis] <= b[1][axis] + reach && b[0][axis] <= a[1][axis] + reach)
 }
 
 /// Two sides with a point in common that they should not have.

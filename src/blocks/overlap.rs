@@ -1,6 +1,6 @@
 //! Which polygons are near each other, and whether they overlap.
 
-use super::outline::Outline;
+use super::outline::{Edge, Outline, near};
 use crate::geometry::{Vec2, cross, distance_from_segment, lies_inside};
 
 /// Rounding of a cross product of differences of points, over the lengths that are in it.
@@ -13,16 +13,15 @@ pub(super) fn near_pairs(outlines: &[Outline], reach: f64) -> Vec<[usize; 2]> {
     let Some(first) = outlines.first() else { return Vec::new() };
     let all = outlines.iter().fold(first.bounds, |[low, high], o| [low.inf(&o.bounds[0]), high.sup(&o.bounds[1])]);
     let size = all[1] - all[0];
-    let (along, across) = if size.x >= size.y { (0, 1) } else { (1, 0) };
+    let along = if size.x >= size.y { 0 } else { 1 };
     let mut order: Vec<usize> = (0..outlines.len()).collect();
     order.sort_by(|&i, &j| outlines[i].bounds[0][along].total_cmp(&outlines[j].bounds[0][along]).then(i.cmp(&j)));
     let mut pairs = Vec::new();
     for (k, &i) in order.iter().enumerate() {
-        let [low, high] = outlines[i].bounds;
-        let begun = order[k + 1..].iter().take_while(|&&j| outlines[j].bounds[0][along] <= high[along] + reach);
+        let end = outlines[i].bounds[1][along] + reach;
+        let begun = order[k + 1..].iter().take_while(|&&j| outlines[j].bounds[0][along] <= end);
         for &j in begun {
-            let other = outlines[j].bounds;
-            if other[0][across] <= high[across] + reach && low[across] <= other[1][across] + reach {
+            if near(outlines[i].bounds, outlines[j].bounds, reach) {
                 pairs.push([i.min(j), i.max(j)]);
             }
         }
@@ -52,11 +51,11 @@ pub(super) fn overlap(a: &Outline, b: &Outline, tolerance: f64) -> Option<(Vec2,
                 points.extend(places(u, v, &within.corners));
             }
         });
-        for point in points.into_iter().filter(|&point| lies_inside(point, &within.corners)) {
-            let depth = depth(point, &within.corners);
-            if depth > tolerance && deepest.is_none_or(|(_, best)| depth > best) {
-                deepest = Some((point, depth));
-            }
+        let mut nearest = 0;
+        for point in points {
+            let more_than = deepest.map_or(tolerance, |(_, best)| best);
+            let depth = depth(point, &within.corners, more_than, &mut nearest);
+            deepest = depth.filter(|_| lies_inside(point, &within.corners)).map(|depth| (point, depth)).or(deepest);
         }
     }
     deepest
@@ -83,7 +82,7 @@ fn for_sides(corners: &[Vec2], mut each: impl FnMut(Vec2, Vec2)) {
 /// Whether a side may have a point in common with the outline: there is none where the boxes of two sides are apart, or both ends of
 /// one lie on the same side of the other's line.
 fn meets(side: [Vec2; 2], corners: &[Vec2]) -> bool {
-    let [low, high] = [side[0].inf(&side[1]), side[0].sup(&side[1])];
+    let bounds = Edge { from: side[0], to: side[1] }.bounds();
     let beyond = |[a, b]: [Vec2; 2], ends: [Vec2; 2]| {
         let [from, to] = ends.map(|p| cross(b - a, p - a));
         // What rounding leaves of zero is not told from it.
@@ -92,9 +91,8 @@ fn meets(side: [Vec2; 2], corners: &[Vec2]) -> bool {
     };
     let mut found = false;
     for_sides(corners, |c, d| {
-        let (least, most) = (c.inf(&d), c.sup(&d));
-        let near = (0..2).all(|axis| least[axis] <= high[axis] && low[axis] <= most[axis]);
-        found = found || (near && !beyond(side, [c, d]) && !beyond([c, d], side));
+        let near = || near(bounds, Edge { from: c, to: d }.bounds(), 0.0);
+        found = found || (near() && !beyond(side, [c, d]) && !beyond([c, d], side));
     });
     found
 }
@@ -117,11 +115,18 @@ fn places(u: Vec2, v: Vec2, corners: &[Vec2]) -> Vec<Vec2> {
     shares.into_iter().chain(middles).map(|share| u + share * along).collect()
 }
 
-/// Distance from the outline, m.
-fn depth(point: Vec2, corners: &[Vec2]) -> f64 {
-    let mut least = f64::INFINITY;
-    for_sides(corners, |c, d| least = least.min(distance_from_segment(point, c, d)));
-    least
+/// Distance from the outline, m, where that is more than `more_than`. Most points are no farther than that from the side that
+/// was found to be so `near` to the one before.
+fn depth(point: Vec2, corners: &[Vec2], more_than: f64, near: &mut usize) -> Option<f64> {
+    let (mut least, first) = (f64::INFINITY, *near);
+    for i in (0..corners.len()).map(|i| (first + i) % corners.len()) {
+        least = least.min(distance_from_segment(point, corners[i], corners[(i + 1) % corners.len()]));
+        if least <= more_than {
+            *near = i;
+            return None;
+        }
+    }
+    Some(least)
 }
 
 /// A point well inside: the middle of the longest piece of the level in the middle of the widest band without corners.

@@ -85,7 +85,7 @@ fn run(options: &Serve) -> io::Result<()> {
 
 /// Opens the store of jobs.
 async fn open(options: &Serve, limits: Limits) -> io::Result<Arc<dyn Store>> {
-    match (&options.shared.store, &options.kept.journal) {
+    match (options.place()?, &options.kept.journal) {
         (Place::Memory, None) => Ok(Arc::new(Memory::new(limits))),
         (Place::Memory, Some(file)) => {
             let store = Memory::with_journal(limits, file).map_err(|error| named("--journal", file, &error))?;
@@ -93,7 +93,7 @@ async fn open(options: &Serve, limits: Limits) -> io::Result<Arc<dyn Store>> {
         }
         #[cfg(feature = "postgres")]
         (Place::Postgres(url), _) => {
-            let store = Postgres::connect(url, limits, options.shared.lease()).await;
+            let store = Postgres::connect(&url, limits, options.shared.lease()).await;
             Ok(Arc::new(store.map_err(|error| io::Error::other(format!("--store: {error}")))?))
         }
         #[cfg(not(feature = "postgres"))]

@@ -6,13 +6,15 @@
 //! counted, with the tree's own order of elimination, and everything else is so many bytes a subblock, body, contact point or
 //! force. These were measured (`tests/load/README.md` has figures) and are on the safe side.
 
-use super::discretise::{contact_points, grids};
-use super::grid::Grid;
+mod kinds;
+
+use super::discretise::{grids, touching};
+use super::strips::MOST_POINTS;
 use super::{Analysis, CurvedBeam, Geometry, Question, Task, plan};
 use crate::budget::{Budget, Stopped};
-use crate::dda::{AssemblySize, Beside};
-use crate::geometry::{Vec2, cross};
+use crate::dda::{AssemblySize, Beside, Touch};
 use crate::structure::{Side, Structure};
+use kinds::{CONDENSING, Kind, factors, kinds};
 use std::cell::Cell;
 use std::ops::ControlFlow;
 
@@ -22,6 +24,9 @@ pub struct Demand {
     /// Most memory at any time, rendering the answer included, bytes: seldom exceeded, and mostly less than three times what is
     /// really used. [`usize::MAX`] where counting would itself take long.
     pub memory: usize,
+    /// The same if no joint crushes on the path. Which ones do is known only when limit analysis is done, and mostly few do, but
+    /// each takes many times as much.
+    pub uncrushed: usize,
     /// Multiplications that condensing and eliminating once take at least; a path takes many times as many.
     pub work: f64,
     /// What takes most of the memory.
@@ -61,29 +66,21 @@ const CONTACT: usize = 1500;
 const UNKNOWN: usize = 40 * NUMBER;
 /// Bytes of the elimination tree, for every face in a front.
 const FACE: usize = 150;
+/// One part in so many more is lost between what is allocated.
+const LOST: usize = 16;
 /// Bytes of limit analysis for every joint, where there are few loops and where there are many.
 const LIMIT: [usize; 2] = [8000, 30_000];
 /// Loops up to which there are few.
 const FEW_LOOPS: usize = 19;
-/// Bytes for every unknown of a kind of body's nodes, and for every subblock of it, besides its matrices.
-const KIND_NODE: usize = 400;
-const KIND_SUBBLOCK: usize = 800;
-/// Bytes for every subblock of the kind of body that is condensed, while it is; and copies of its stiffness meanwhile.
-const CONDENSING: usize = 6000;
-const COPIES: usize = 5;
-/// Entries of stress by nodes beyond which they are not kept.
-const MOST_STRESS: usize = 1 << 22;
+/// Events of a path for every contact point, and more than were seen.
+const EVENTS: f64 = 2.0;
 /// Bytes of a stress field for every subblock, in the answer and in all that is written of it at once.
 const FIELD: usize = 1900;
 /// Bytes of a frame of a motion for every body.
-const FRAME: usize = 1500;
+const FRAME: usize = 2000;
 /// Bytes of a step of a settlement for every joint; steps, and contact points for one more.
 const SETTLED: usize = 150;
 const STEPS: [usize; 2] = [64, 16];
-/// Coordinates of bodies of one kind differ by this share of the farthest from the origin, as [`crate::dda`] has it.
-const ROUNDING: f64 = 256.0 * f64::EPSILON;
-/// Most contact points of a joint that crushes on the path.
-const STRIPS: usize = 13;
 
 /// What the analyses of a question take, one after the other.
 pub fn estimate(question: &Question) -> Demand {
@@ -101,16 +98,17 @@ pub fn estimate(question: &Question) -> Demand {
         }),
         Question::CurvedBeam(beam) => Ok(of_beam(beam)),
     };
-    demand.unwrap_or(Demand { memory: usize::MAX, work: 0.0, largest: Share::Mesh })
+    demand.unwrap_or(Demand { memory: usize::MAX, uncrushed: usize::MAX, work: 0.0, largest: Share::Mesh })
 }
 
 impl Demand {
-    const NOTHING: Demand = Demand { memory: 0, work: 0.0, largest: Share::Stones };
+    const NOTHING: Demand = Demand { memory: 0, uncrushed: 0, work: 0.0, largest: Share::Stones };
 
     /// With so many bytes more, for this.
     fn and(self, more: usize, largest: Share) -> Self {
-        let largest = if more > self.memory { largest } else { self.largest };
-        Demand { memory: self.memory.saturating_add(more), largest, ..self }
+        let largest = if more > self.uncrushed { largest } else { self.largest };
+        let [memory, uncrushed] = [self.memory, self.uncrushed].map(|bytes| bytes.saturating_add(more));
+        Demand { memory, uncrushed, largest, ..self }
     }
 }
 
@@ -134,8 +132,8 @@ fn of(analysis: &Analysis, budget: &Budget) -> Result<Demand, Stopped> {
     });
     let (coarse, fine) = (coarse?, fine?);
     let share = if more > fewer { (most.clamp(fewer, more) - fewer) as f64 / (more - fewer) as f64 } else { 1.0 };
-    let memory = coarse.memory as f64 + share * (fine.memory as f64 - coarse.memory as f64);
-    Ok(Demand { memory: memory as usize, ..coarse }.and(2 * rest, Share::Stones))
+    let memory = (coarse.memory as f64 + share * (fine.memory as f64 - coarse.memory as f64)) as usize;
+    Ok(Demand { memory, uncrushed: memory, ..coarse }.and(2 * rest, Share::Stones))
 }
 
 /// Bytes of limit analysis: with few loops dense, otherwise sparse.
@@ -146,20 +144,25 @@ fn limit_analysis(structure: &Structure) -> usize {
 
 /// Modelling, following and writing an analysis on the mesh it has.
 fn on_mesh(analysis: &Analysis, budget: &Budget) -> Result<Demand, Stopped> {
+    let uncrushed = with_points(analysis, 0, budget)?;
+    if !analysis.task.crushes_on_path() {
+        return Ok(uncrushed);
+    }
+    let memory = with_points(analysis, MOST_POINTS, budget).map_or(usize::MAX, |all_crush| all_crush.memory);
+    Ok(Demand { memory, ..uncrushed })
+}
+
+/// The same with at least so many contact points at every joint.
+fn with_points(analysis: &Analysis, least: usize, budget: &Budget) -> Result<Demand, Stopped> {
     let (structure, grids) = (&analysis.structure, grids(analysis));
-    let crushes = analysis.task.crushes_on_path();
-    let points: Vec<usize> = structure
-        .joints
-        .iter()
-        .map(|joint| contact_points(joint, &grids).max(if crushes { STRIPS } else { 0 }))
-        .collect();
+    let touches: Vec<Vec<Touch>> = (0..structure.joints.len()).map(|k| touching(analysis, k, &grids, None)).collect();
+    let points: Vec<usize> = touches.iter().map(|touches| touches.len().max(least)).collect();
     let subblocks: Vec<usize> = grids.iter().map(|grid| grid.radial * grid.along).collect();
     let moves = analysis.task.geometry() == Geometry::Updated;
     let size = assembled(structure, &subblocks, &points, moves, budget)?;
-    let kinds: Vec<Kind> = kinds(structure, &grids, &points, budget)?
-        .into_iter()
-        .map(|body| Kind::new(&grids[body], size.nodes[body]))
-        .collect();
+    // No two bodies whose joints crush need be alike.
+    let kinds = if least > 0 { (0..grids.len()).collect() } else { kinds(structure, &grids, &touches, budget)? };
+    let kinds: Vec<Kind> = kinds.into_iter().map(|body| Kind::new(&grids[body], size.nodes[body])).collect();
     let (unknowns, contacts): (usize, usize) = (size.nodes.iter().sum(), points.iter().sum());
     let cells: usize = subblocks.iter().sum();
     let rest = SUBBLOCK * cells + BODY * grids.len() + CONTACT * contacts + UNKNOWN * unknowns;
@@ -172,6 +175,7 @@ fn on_mesh(analysis: &Analysis, budget: &Budget) -> Result<Demand, Stopped> {
     // stay with the allocator.
     let modelled = rest + condensed + NUMBER * size.elements + trees;
     let memory = modelled + (following + condensing).max(fields + motion + settled);
+    let memory = memory + memory / LOST;
     let work = kinds.iter().map(|kind| kind.work).sum::<f64>() + size.elimination.work;
     let largest = if cells > grids.len() { Share::Mesh } else { Share::Stones };
     let largest = match (fields.max(motion) > modelled, fields > motion) {
@@ -179,7 +183,7 @@ fn on_mesh(analysis: &Analysis, budget: &Budget) -> Result<Demand, Stopped> {
         (true, false) => Share::Frames,
         (false, _) => largest,
     };
-    Ok(Demand { memory, work, largest })
+    Ok(Demand { memory, uncrushed: memory, work, largest })
 }
 
 /// The size of the assembly of bodies of so many subblocks, with so many contact points at every joint.
@@ -208,8 +212,8 @@ fn following(analysis: &Analysis, size: &AssemblySize, unknowns: usize, contacts
     let ways = if matches!(analysis.task, Task::Collapse(_)) { 2 } else { 1 };
     let moving = if size.plain.is_some() { matrix } else { 0 };
     let matrices = ways * (matrix + all) + (matrix + towards) + moving + 2 * tree.largest;
-    // Points of the path between the share asked for and its end: they crowd before the end.
-    let kept = (1.0 - analysis.task.share()).max(0.0).sqrt() * contacts as f64;
+    // Points of the path between the share asked for and its end: they crowd before the end, and contacts come and go.
+    let kept = (1.0 - analysis.task.share()).max(0.0).sqrt() * EVENTS * contacts as f64;
     NUMBER * (matrices + (kept as usize + 16) * unknowns)
 }
 
@@ -224,67 +228,11 @@ fn reported(analysis: &Analysis, cells: usize, contacts: usize) -> [usize; 3] {
     [FIELD * cells * analysis.task.fields().len(), motion, settled]
 }
 
-/// What a kind of body takes.
-struct Kind {
-    memory: usize,
-    transient: usize,
-    work: f64,
-}
-
-impl Kind {
-    /// Of a body with this grid and so many unknowns of its nodes.
-    fn new(grid: &Grid, nodes: usize) -> Self {
-        let (cells, factors) = (grid.radial * grid.along, factors(grid.radial, grid.along));
-        let stress = Some(3 * cells * nodes).filter(|&entries| entries <= MOST_STRESS).unwrap_or(0);
-        Kind {
-            memory: NUMBER * (nodes * nodes + factors + stress) + KIND_NODE * nodes + KIND_SUBBLOCK * cells,
-            transient: NUMBER * (COPIES * nodes * nodes + factors) + CONDENSING * cells,
-            work: (nodes * factors) as f64,
-        }
-    }
-}
-
-/// Entries of the factors of a body of so many subblocks: eliminated across its shorter way, or dissected.
-fn factors(radial: usize, along: usize) -> usize {
-    let (cells, across) = (radial * along, radial.min(along) as f64);
-    let dissected = 4.0 * (cells as f64).log2();
-    36 * (cells as f64 * (2.0 + across.min(dissected))) as usize
-}
-
-/// A body of every kind: one for those that are alike, seen from their first joints.
-fn kinds(structure: &Structure, grids: &[Grid], points: &[usize], budget: &Budget) -> Result<Vec<usize>, Stopped> {
-    let mut kinds: Vec<(usize, Vec<f64>)> = Vec::new();
-    for (body, joints) in structure.joints_of_bodies().iter().enumerate() {
-        let Some(&first) = joints.first() else { continue };
-        let first = &structure.joints[first];
-        let axis = (first.extrados - first.intrados) / first.length();
-        let seen = |at: Vec2| [(at - first.intrados).dot(&axis), cross(axis, at - first.intrados)];
-        let ends = joints.iter().flat_map(|&k| [structure.joints[k].intrados, structure.joints[k].extrados]);
-        let corners = structure.bodies[body].corners.iter().copied();
-        let mut shape: Vec<f64> = corners.chain(ends).flat_map(seen).collect();
-        let extent = shape.iter().fold(0.0f64, |most, at| most.max(at.abs()));
-        let stones = joints.iter().flat_map(|&k| structure.stones_at(&structure.joints[k]));
-        shape.extend(
-            joints.iter().map(|&k| points[k] as f64).chain([grids[body].radial as f64, grids[body].along as f64]),
-        );
-        shape.extend(stones.map(|stone| stone.youngs_modulus));
-        let rounding = ROUNDING * (first.intrados.amax() + extent);
-        let alike = |(_, other): &(usize, Vec<f64>)| {
-            other.len() == shape.len() && other.iter().zip(&shape).all(|(a, b)| (a - b).abs() <= rounding)
-        };
-        budget.work(kinds.len())?;
-        if !kinds.iter().rev().any(alike) {
-            kinds.push((body, shape));
-        }
-    }
-    Ok(kinds.into_iter().map(|(body, _)| body).collect())
-}
-
 /// The curved beam: one body, of which accuracy may take the finest mesh.
 fn of_beam(beam: &CurvedBeam) -> Demand {
     let [radial, along] = if beam.accuracy.is_some() { [plan::MOST_EACH_WAY; 2] } else { beam.subblocks };
     let (cells, factors) = (radial * along, factors(radial, along));
     let fields = if beam.accuracy.is_some() { 3 } else { 1 };
     let memory = LEAST + 2 * NUMBER * factors + (SUBBLOCK + CONDENSING + fields * FIELD) * cells;
-    Demand { memory, work: factors as f64, largest: Share::Mesh }
+    Demand { memory, uncrushed: memory, work: factors as f64, largest: Share::Mesh }
 }

@@ -5,12 +5,12 @@ mod touches;
 use super::grid::Grid;
 use super::path::Attempt;
 use super::scatter::Scatter;
-use super::strips::Strips;
+use super::strips::{Points, Strips};
 use super::{Analysis, AnalysisError, Geometry, PlaneModel, Seams};
 use crate::budget::Budget;
-use crate::dda::{Assembly, AssemblyBuilder, Beside, Bond, Elasticity, Loads, MeanMotion, Push};
+use crate::dda::{Assembly, AssemblyBuilder, Beside, Bond, Elasticity, Loads, MeanMotion, Push, Touch};
 use crate::geometry::{Region, Vec2};
-use crate::structure::{Joint, PointForce, Side, Stone};
+use crate::structure::{PointForce, Side, Stone};
 use touches::{around, penalties, points, touches};
 
 /// Work of cutting out a subblock with its seams, in multiplications.
@@ -145,14 +145,7 @@ fn assembly(analysis: &Analysis, grids: &[Grid], strips: &Strips, budget: &Budge
             Side::Body(body) => Beside::Body(body),
             Side::Support(support) => Beside::Ground(support),
         });
-        let touches = touches(
-            joint,
-            strips.points(k),
-            structure.strength_at(joint),
-            &around(joint, grids),
-            penalties(analysis, joint),
-        );
-        builder.join(between, touches);
+        builder.join(between, touching(analysis, k, grids, strips.points(k)));
     }
     Ok(builder.finish(budget)?)
 }
@@ -174,9 +167,11 @@ pub(super) fn bond(seams: Seams, penalty: f64) -> Bond {
     }
 }
 
-/// Number of contact points of a joint that does not crush, between bodies cut like this.
-pub(super) fn contact_points(joint: &Joint, grids: &[Grid]) -> usize {
-    points(None, joint.law, &around(joint, grids)).0.len()
+/// The contact points of joint `k` between bodies cut like this; those of its strips, where it crushes.
+pub(super) fn touching(analysis: &Analysis, k: usize, grids: &[Grid], strips: Option<Points>) -> Vec<Touch> {
+    let (structure, joint) = (&analysis.structure, &analysis.structure.joints[k]);
+    let (strength, penalties) = (structure.strength_at(joint), penalties(analysis, joint));
+    touches(joint, strips, strength, &around(joint, grids), penalties).collect()
 }
 
 /// How every body is cut: whole, where the mesh says nothing of it.

@@ -23,6 +23,8 @@ const SAME: f64 = 0.005;
 const SHORTEST_BLOCK: [f64; 2] = [1e-3, 1e-5];
 /// Most blocks in a joint that are expected: both faces, at either end of the limit window.
 const MOST_BLOCKS: usize = 4;
+/// Most contact points of a joint that crushes: one between two ends of strips of the coarse grid, two more for every block.
+pub(super) const MOST_POINTS: usize = 2 * COARSE.len() + 2 * MOST_BLOCKS;
 /// Joints crush that need this share of their pressed length where limit analysis expects it, and where a path ends.
 const ALMOST: f64 = 0.99;
 const CRUSHED: f64 = 1.0 + 1e-6;

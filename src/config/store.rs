@@ -8,8 +8,8 @@ use std::time::Duration;
 #[command(next_help_heading = "Several processes")]
 pub struct Shared {
     /// Where jobs are: in this process, or in a PostgreSQL database that others share (postgres://user:password@host/database)
-    #[arg(long, env = "VOUSSOIR_STORE", default_value = "memory", hide_env_values = true, value_parser = place)]
-    pub store: Place,
+    #[arg(long, env = "VOUSSOIR_STORE", default_value = "memory", hide_env_values = true)]
+    pub store: String,
     /// What this process does of what there is to do; all but the first need a store in PostgreSQL
     #[arg(long, env = "VOUSSOIR_ROLE", value_enum, default_value_t = Role::All)]
     pub role: Role,
@@ -39,19 +39,22 @@ pub enum Role {
 }
 
 impl Shared {
+    /// Where jobs are. Told here and not by the parser of the command line, which quotes what it refuses: it may hold a password.
+    ///
+    /// # Errors
+    /// When it is neither of the two, or does not fit to what this process does.
+    pub fn place(&self) -> Result<Place, &'static str> {
+        let is_address = ["postgres://", "postgresql://"].iter().any(|scheme| self.store.starts_with(scheme));
+        match (&*self.store, self.role) {
+            ("memory", Role::All) => Ok(Place::Memory),
+            ("memory", _) => Err("--role: jobs in memory are nobody else's; name a --store, too"),
+            _ if is_address => Ok(Place::Postgres(self.store.clone())),
+            _ => Err("--store: give memory, or the address of a database: postgres://user:password@host/database"),
+        }
+    }
+
     /// How long a job is a worker's when nothing is heard of it.
     pub fn lease(&self) -> Duration {
         Duration::from_secs(self.lease)
-    }
-}
-
-/// The address of a database holds a password: what is no address is not repeated.
-fn place(text: &str) -> Result<Place, String> {
-    match text {
-        "memory" => Ok(Place::Memory),
-        _ if text.starts_with("postgres://") || text.starts_with("postgresql://") => {
-            Ok(Place::Postgres(text.to_owned()))
-        }
-        _ => Err("give memory, or the address of a database: postgres://user:password@host/database".to_owned()),
     }
 }

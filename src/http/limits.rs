@@ -33,7 +33,8 @@ pub struct ApiLimits {
 const MULTIPLICATIONS: f64 = 2e10;
 
 impl ApiLimits {
-    /// What a question takes.
+    /// What a question takes, no more than all analyses may together: where joints might crush that would take more, it is
+    /// analysed alone.
     ///
     /// # Errors
     /// What of it is more than this service takes.
@@ -63,7 +64,7 @@ impl ApiLimits {
             let demand = estimate(question);
             self.check_demand(&demand, request, &mut faults);
             if faults.is_empty() {
-                return Ok(demand);
+                return Ok(Demand { memory: demand.memory.min(self.job_memory), ..demand });
             }
         }
         Err(faults.into_vec())
@@ -71,13 +72,13 @@ impl ApiLimits {
 
     fn check_demand(&self, demand: &Demand, request: &Request, faults: &mut Faults) {
         let (place, remedy) = remedy(demand.largest, request);
-        let takes = match demand.memory {
+        let takes = match demand.uncrushed {
             usize::MAX => "more than can be counted".to_owned(),
             memory => format!("about {}", shown(memory)),
         };
         let most = shown(self.job_memory);
         let detail = format!("this analysis would take {takes} of memory; this service allows {most}; {remedy}");
-        faults.require(demand.memory <= self.job_memory, place, detail);
+        faults.require(demand.uncrushed <= self.job_memory, place, detail);
         let (seconds, most) = (demand.work / MULTIPLICATIONS, self.job_time.as_secs_f64());
         let detail = format!(
             "this analysis would take more than {seconds:.0} s; this service stops it after {most:.0} s; {remedy}"

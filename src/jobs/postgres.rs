@@ -23,7 +23,7 @@ use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
-use tokio::sync::broadcast;
+use tokio::sync::{Semaphore, broadcast};
 use tokio::time::timeout;
 use tokio_util::task::AbortOnDropHandle;
 
@@ -32,6 +32,9 @@ const CONNECTIONS: u32 = 12;
 
 /// Longest time to wait for one of them.
 const CONNECT: Duration = Duration::from_secs(5);
+
+/// Parts of answers read at once: each may be large, and is in memory before anybody counts it.
+const READS: usize = 4;
 
 /// Changes that may be told before the slowest listener has heard of the first.
 const CHANGES: usize = 1024;
@@ -64,6 +67,8 @@ struct Hub {
     here: Mutex<BTreeMap<JobId, Held>>,
     /// Held while a job is taken.
     turn: tokio::sync::Mutex<()>,
+    /// Held while a part of an answer is read.
+    reads: Semaphore,
     open: AtomicBool,
     evicted: AtomicU64,
 }
@@ -89,6 +94,7 @@ impl Postgres {
             changes: broadcast::Sender::new(CHANGES),
             here: Mutex::default(),
             turn: tokio::sync::Mutex::default(),
+            reads: Semaphore::new(READS),
             open: AtomicBool::new(true),
             evicted: AtomicU64::new(0),
         });
@@ -154,6 +160,8 @@ impl Store for Postgres {
             "SELECT body, missing, packed_from FROM parts WHERE job = $1 AND $2 = ANY (names) AND format = $3
                 ORDER BY place LIMIT 1",
         );
+        // It is never closed.
+        let _permit = self.hub.reads.acquire().await;
         let found = found.bind(id).bind(row::text(name)).bind(format).fetch_optional(&self.hub.pool).await?;
         Ok(found.map(|row| part_of(&row)).transpose()?)
     }

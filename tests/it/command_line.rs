@@ -92,9 +92,19 @@ fn serve_is_healthy_until_told_to_stop() {
 
 #[test]
 fn settings_that_cannot_be_are_refused_without_being_quoted() {
-    let secret = fed(&["serve", "--bind", "127.0.0.1:0", "--token", "s3cr3t value"], "");
-    let told = String::from_utf8(secret.stderr).unwrap();
-    assert!(!secret.status.success() && told.contains("--token") && !told.contains("s3cr3t"), "{told}");
+    let nowhere = "postgres://me:s3cr3t@127.0.0.1:1/nothing";
+    for (flags, named) in [
+        (&["--token", "s3cr3t value"][..], "--token"),
+        (&["--store", "postgre://me:s3cr3t@host/jobs"], "--store: give memory"),
+        (&["--store", nowhere], "--store: "),
+        (&["--store", nowhere, "--journal", "s3cr3t"], "--journal: "),
+        (&["--store", nowhere, "--role", "api", "--workers", "2"], "--workers: "),
+        (&["--role", "worker"], "--role: "),
+    ] {
+        let output = fed(&[&["serve", "--bind", "127.0.0.1:0"], flags].concat(), "");
+        let told = String::from_utf8(output.stderr).unwrap();
+        assert!(!output.status.success() && told.contains(named) && !told.contains("s3cr3t"), "{told}");
+    }
     for log in ["warning", "", "voussoir=loud"] {
         let output = fed(&["serve", "--bind", "127.0.0.1:0", "--log", log], "");
         assert_eq!(output.status.code(), Some(2), "{log}");

@@ -68,14 +68,14 @@ fn wall(columns: usize, courses: usize, more: &Value) -> Value {
 }
 
 /// So many blocks in a row on one slab.
-fn slab(blocks: usize) -> Value {
+fn slab(blocks: usize, more: &Value) -> Value {
     let n = blocks as f64;
     let mut polygons = vec![json!({"name": "slab", "corners_m": [[0.0, 0.0], [n, 0.0], [n, 1.0], [0.0, 1.0]]})];
     polygons.extend((0..blocks).map(|i| {
         let x = i as f64;
         json!({"name": i.to_string(), "corners_m": [[x, 1.0], [x + 1.0, 1.0], [x + 1.0, 2.0], [x, 2.0]]})
     }));
-    let mut request = wall(1, 1, &json!({}));
+    let mut request = wall(1, 1, more);
     request["blocks"]["polygons"] = polygons.into();
     request["blocks"]["supports"][0]["segments_m"] = json!([[[-1.0, 0.0], [n + 1.0, 0.0]]]);
     request
@@ -85,6 +85,7 @@ fn slab(blocks: usize) -> Value {
 #[cfg(target_os = "linux")]
 fn no_analysis_takes_more_than_its_estimate() {
     let fields = json!(["near_collapse", {"load_factor": 1.0}]);
+    let motion = json!({"motion": {"most_frames": 1600, "share_of_span": 1.0}});
     for (name, request) in [
         ("few stones", semicircle(27, &json!({}))),
         ("many stones", semicircle(1000, &json!({"report": {"share_of_collapse": 0.001}}))),
@@ -93,7 +94,9 @@ fn no_analysis_takes_more_than_its_estimate() {
         ("long stones, stress", uneven(60, &json!({"mesh": mesh(1, 48), "report": {"stress_fields": fields}}))),
         ("moving geometry", uneven(31, &json!({"mesh": mesh(3, 3), "geometry": "updated"}))),
         ("wall", wall(10, 10, &json!({}))),
-        ("slab", slab(100)),
+        ("slab", slab(100, &json!({}))),
+        ("slab of subblocks, no two stones alike", slab(9, &json!({"mesh": mesh(27, 16), "analysis": {"safety": {}}}))),
+        ("frames", slab(27, &motion)),
         ("wall of subblocks", wall(4, 6, &json!({"mesh": mesh(6, 6)}))),
     ] {
         let (estimated, taken) = (demand(&request).memory, peak(&request));
@@ -131,5 +134,25 @@ fn an_estimate_grows_with_what_is_asked() {
     assert!(of(&uneven(100, &json!({"mesh": mesh(8, 8)}))) > of(&semicircle(100, &json!({"mesh": mesh(8, 8)}))));
     assert!(of(&wall(20, 20, &json!({}))) > of(&wall(10, 10, &json!({}))));
     // Bodies that many others touch.
-    assert!(of(&slab(1000)) > 3 * of(&slab(400)), "{} {}", of(&slab(1000)), of(&slab(400)));
+    let [large, small] = [1000, 400].map(|blocks| of(&slab(blocks, &json!({}))));
+    assert!(large > 3 * small, "{large} {small}");
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn what_would_run_if_few_joints_crush_is_told_apart() {
+    let stone = json!({"compressive_strength_pa": 2e6});
+    let more = |name: &str, value: Value| {
+        let mut more = json!({"crushing_in_path": true, "stone": stone});
+        more[name] = value;
+        more
+    };
+    let arch = semicircle(1000, &more("name", json!("many stones")));
+    let Demand { memory, uncrushed, .. } = demand(&arch);
+    let taken = peak(&arch);
+    assert!(taken < uncrushed + PROGRAM && uncrushed < 4 * taken + PROGRAM && 8 * uncrushed < memory);
+    // Nothing stands, so that any joint may crush.
+    let wall = wall(6, 6, &more("loads", json!([{"load": {"body_acceleration": {"x_g": 0.3}}, "scaled": true}])));
+    let (Demand { memory, .. }, taken) = (demand(&wall), peak(&wall));
+    assert!(taken < memory + PROGRAM, "{} MiB, estimated {}", taken / MIB, memory / MIB);
 }

@@ -16,11 +16,13 @@ mod dice;
 mod draining;
 #[cfg(feature = "postgres")]
 mod fleet;
+mod heaviest;
 mod hostile;
 mod overload;
 mod process;
 mod report;
 mod requests;
+mod scenes;
 #[cfg(feature = "postgres")]
 mod shared;
 mod sigterm;
@@ -44,6 +46,7 @@ const SCENARIOS: &[(&str, Scenario)] = &[
     ("workers", workers::run),
     ("connections", connections::run),
     ("sigterm", sigterm::run),
+    ("heaviest", heaviest::run),
     #[cfg(feature = "postgres")]
     ("shared", shared::run),
 ];

@@ -13,8 +13,7 @@ use crate::dda::moving::{Placed, quarter};
 use crate::dda::trace::Drive;
 use std::ops::ControlFlow;
 
-/// Longest step between two linearisations, as a share of the assembly's size: joints of slender stones then turn by a
-/// degree at most.
+/// Longest step between two linearisations, as a share of the size: joints of slender stones then turn by a degree at most.
 const LONGEST_STEP: f64 = 2e-3;
 /// Limit points are not looked for in steps shorter than this share of the size.
 const SHORTEST_LOOK: f64 = 2e-5;
