@@ -50,6 +50,9 @@ pub(super) fn factors(radial: usize, along: usize) -> usize {
     36 * (cells * (2.0 + filled.max(across as f64).min(4.0 * cells.log2()))) as usize
 }
 
+/// The stiffness of the links that tie a contact point to the subblocks on either side, and which these are, with their shares.
+type Tie = ([f64; 2], [(usize, f64); 2]);
+
 /// A body as it is compared with others, seen from its first joint.
 struct Seen {
     /// Corners and contact points, which are alike up to rounding.
@@ -57,7 +60,7 @@ struct Seen {
     /// What has to be the same: subblocks, stiffness of the stone, and how contact points are tied to the subblocks.
     grid: [usize; 2],
     modulus: f64,
-    ties: Vec<([f64; 2], [(usize, f64); 2])>,
+    ties: Vec<Tie>,
 }
 
 /// A body of every kind.
