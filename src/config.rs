@@ -222,8 +222,9 @@ const LEAST_WORK_MEMORY: usize = 256 << 20;
 impl Serve {
     /// Memory of all analyses together, bytes.
     fn work_memory(&self) -> usize {
-        let left =
-            size(self.work.memory).saturating_sub(size(self.kept.kept_bytes) + size(self.requests.answer_bytes) + REST);
+        // What a database keeps is not in this process.
+        let kept = if self.shared.is_alone() { size(self.kept.kept_bytes) } else { 0 };
+        let left = size(self.work.memory).saturating_sub(kept + size(self.requests.answer_bytes) + REST);
         self.work.work_memory.map_or_else(|| left.max(LEAST_WORK_MEMORY), size)
     }
 

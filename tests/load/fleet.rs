@@ -52,6 +52,7 @@ pub fn killed(fleet: &mut Fleet, bodies: &[String], count: usize, pause: Duratio
     let alone: Vec<_> = bodies.iter().map(|body| solve(body)).collect();
     let mut client = fleet.front.client();
     let paths: Vec<_> = (0..count).map(|place| client.submit(&bodies[place % bodies.len()])).collect();
+    drop(client);
     let (mut dice, mut outcome, mut reader) = (Dice::new(7), Outcome::default(), fleet.front.client());
     scope(|scope| {
         let first = scope.spawn(|| paths.iter().map(|path| answer(&mut reader, path)).collect::<Vec<_>>());
@@ -60,6 +61,7 @@ pub fn killed(fleet: &mut Fleet, bodies: &[String], count: usize, pause: Duratio
             fleet.replace(dice.below(fleet.workers.len()));
             outcome.kills += 1;
         }
+        let mut client = fleet.front.client();
         for (place, (path, first)) in paths.iter().zip(first.join().unwrap()).enumerate() {
             outcome.lost += usize::from(first.is_none());
             let again = answer(&mut client, path);
