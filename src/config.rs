@@ -74,7 +74,7 @@ pub struct Serve {
     pub shared: Shared,
     #[command(flatten)]
     pub requests: Requests,
-    /// Seconds accepted jobs may take to end once told to stop; then they are cancelled
+    /// Seconds accepted jobs may take to end once told to stop; then they are cancelled, or given back to a database
     #[arg(long, env = "VOUSSOIR_GRACE", default_value_t = 10, value_parser = count(0, 3600))]
     pub grace: u64,
     /// How log lines look

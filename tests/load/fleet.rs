@@ -18,7 +18,8 @@ pub struct Fleet {
 impl Fleet {
     pub fn start(workers: usize) -> Self {
         let store = database();
-        let front = Voussoir::serve(&["--store", &store, "--role", "api", "--lease", "2"]);
+        let flags = ["--store", &store, "--role", "api", "--lease", "2", "--queue-per-client", "1000"];
+        let front = Voussoir::serve(&flags);
         let mut fleet = Fleet { store, front, workers: vec![] };
         (0..workers).for_each(|_| fleet.recruit());
         fleet
