@@ -58,12 +58,14 @@ fn run(options: &Serve) -> io::Result<()> {
     let handle = Handle::new();
     runtime.block_on(async {
         let tokens = settings.tokens.clone();
-        let service = Service::start(open(options, limits).await?, work, settings, collapse::answer);
+        let store = open(options, limits).await?;
+        // Before jobs that are owed can end.
         tracing::info!(%address, ?limits, ?work, role = ?options.shared.role, "listening");
         if tokens.is_open() && !address.ip().is_loopback() {
             tracing::warn!(%address, "open to all who can reach this address; --token or --token-file closes it");
         }
         strays().iter().for_each(|words| tracing::warn!("{words}"));
+        let service = Service::start(store, work, settings, collapse::answer);
         if let Some(file) = options.requests.token_file.clone() {
             tokio::spawn(follow_tokens(tokens, file));
         }

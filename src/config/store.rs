@@ -54,6 +54,7 @@ impl Shared {
     }
 
     /// How long a job is a worker's when nothing is heard of it.
+    #[cfg_attr(not(feature = "postgres"), expect(dead_code, reason = "only a database has leases"))]
     pub fn lease(&self) -> Duration {
         Duration::from_secs(self.lease)
     }

@@ -58,7 +58,7 @@ pub struct Metrics {
 }
 
 /// Limits, which do not change.
-fn limits(work: Work, settings: &Settings) -> [(&'static str, &'static str, usize); 12] {
+fn limits(work: Work, settings: &Settings) -> [(&'static str, &'static str, usize); 13] {
     let Settings { limits: api, store, .. } = settings;
     let seconds = usize::try_from(work.time.as_secs()).unwrap_or(usize::MAX);
     [
@@ -69,6 +69,11 @@ fn limits(work: Work, settings: &Settings) -> [(&'static str, &'static str, usiz
         ("held_limit_bytes", "What requests, answers and keys may take", store.bytes),
         ("client_held_limit_bytes", "What those of one client may take", store.bytes_per_client),
         ("work_memory_limit_bytes", "What analyses may take together, as estimated", store.work_memory),
+        (
+            "process_memory_limit_bytes",
+            "Memory of the process beyond which its largest analysis is stopped",
+            work.memory,
+        ),
         ("analysis_limit_seconds", "Time that a worker may be at one job", seconds),
         ("event_streams_limit", "Event streams that may be open", api.streams),
         ("body_limit_bytes", "Longest body", api.body),

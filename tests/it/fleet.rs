@@ -2,6 +2,7 @@
 
 #[path = "../load/fleet.rs"]
 #[allow(dead_code, reason = "tests/load uses the rest")]
+#[allow(clippy::disallowed_methods, reason = "processes are killed by the clock")]
 mod processes;
 
 use crate::common::{database, dice};

@@ -52,22 +52,6 @@ fn a_submission_may_wait_for_the_end() {
 }
 
 #[test]
-fn those_who_wait_learn_the_end_of_a_job_that_is_forgotten_at_once() {
-    let server = Server::with(Limits { kept: 1, ..limits(1000) }, work(2), settings());
-    scope(|scope| {
-        for _ in 0..8 {
-            scope.spawn(|| {
-                for _ in 0..10 {
-                    let answer = post(&server, "prefer: wait=20\r\n", &request()).json();
-                    assert_eq!(answer["status"], "successful");
-                    assert!(answer["finished"].is_string());
-                }
-            });
-        }
-    });
-}
-
-#[test]
 fn a_status_has_the_name_of_its_request() {
     let server = Server::start(1, 10);
     let mut named = request();

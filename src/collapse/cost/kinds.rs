@@ -9,7 +9,7 @@ use crate::structure::{Side, Structure};
 
 /// Bytes for every unknown of a kind of body's nodes, and for every subblock of it, besides its matrices.
 const KIND_NODE: usize = 400;
-const KIND_SUBBLOCK: usize = 800;
+const KIND_SUBBLOCK: usize = 1600;
 /// Bytes for every subblock of the kind of body that is condensed, while it is; and copies of its stiffness meanwhile.
 pub(super) const CONDENSING: usize = 6000;
 const COPIES: usize = 5;
@@ -40,12 +40,18 @@ impl Kind {
     }
 }
 
+/// Subblocks across a body up to which its factors are as narrow as that. Those of others are filled up to larger blocks.
+const NARROW: usize = 4;
+
 /// Entries of the factors of a body of so many subblocks: eliminated across its shorter way, or dissected.
 pub(super) fn factors(radial: usize, along: usize) -> usize {
-    let (cells, across) = (radial * along, radial.min(along) as f64);
-    let dissected = 4.0 * (cells as f64).log2();
-    36 * (cells as f64 * (2.0 + across.min(dissected))) as usize
+    let (cells, across) = ((radial * along) as f64, radial.min(along));
+    let filled = if across > NARROW { 6.0 + 2.0 * cells.log2() } else { 0.0 };
+    36 * (cells * (2.0 + filled.max(across as f64).min(4.0 * cells.log2()))) as usize
 }
+
+/// The stiffness of the links that tie a contact point to the subblocks on either side, and which these are, with their shares.
+type Tie = ([f64; 2], [(usize, f64); 2]);
 
 /// A body as it is compared with others, seen from its first joint.
 struct Seen {
@@ -54,7 +60,7 @@ struct Seen {
     /// What has to be the same: subblocks, stiffness of the stone, and how contact points are tied to the subblocks.
     grid: [usize; 2],
     modulus: f64,
-    ties: Vec<([f64; 2], [(usize, f64); 2])>,
+    ties: Vec<Tie>,
 }
 
 /// A body of every kind.

@@ -3,12 +3,12 @@
 use super::room::make_room;
 use super::row::{columns, job_of, long, number, text};
 use super::{Hub, Unavailable};
-use crate::jobs::job::{Failure, Job, JobId, JobState, Rendering};
+use crate::jobs::job::{Failure, Job, JobId, JobState, Product, Rendering};
 use crate::jobs::progress::Progress;
 use crate::jobs::store::{Ending, Lease};
 use bytes::Bytes;
-use sqlx::postgres::{PgConnection, Postgres};
-use sqlx::{Error, Row, Transaction, query};
+use sqlx::postgres::PgConnection;
+use sqlx::{Error, Row, query};
 use std::sync::Arc;
 use std::time::Duration;
 use tokio_util::task::AbortOnDropHandle;
@@ -21,6 +21,9 @@ const ATTEMPTS: u16 = 5;
 
 /// Bytes that a value may have in PostgreSQL, with something to spare.
 const LONGEST: usize = 1_000_000_000;
+
+/// Classes of errors that a second try does not mend: values that cannot be, and limits of the database.
+const REFUSED: [&str; 2] = ["22", "54"];
 
 /// A job in the hands of a worker of this process.
 pub(super) struct Held {
@@ -38,6 +41,9 @@ pub(super) struct Held {
 pub(super) async fn take(hub: &Arc<Hub>) -> Result<Option<Lease>, Unavailable> {
     // One worker after the other, since what they take counts together.
     let _turn = hub.turn.lock().await;
+    if !hub.is_open() {
+        return Ok(None);
+    }
     let (token, limits) = (JobId::now_v7(), &hub.limits);
     let held: usize = hub.here().values().map(|held| held.memory).sum();
     let left = if held == 0 { usize::MAX } else { limits.work_memory.saturating_sub(held) };
@@ -89,9 +95,16 @@ pub(super) async fn end(hub: &Hub, lease: &Lease, ending: Ending) -> Result<Opti
     let token =
         hub.here().get(&lease.id).filter(|held| Arc::ptr_eq(&held.progress, &lease.progress)).map(|held| held.token);
     let Some(token) = token else { return Ok(None) };
-    let mut transaction = hub.pool.begin().await?;
-    let ended = write(&mut transaction, lease, token, &ending).await?;
-    transaction.commit().await?;
+    let ended = match write(hub, lease, token, &ending).await {
+        Err(Error::Database(error))
+            if error.code().is_some_and(|code| REFUSED.iter().any(|class| code.starts_with(class))) =>
+        {
+            tracing::error!(job.id = %lease.id, %error, "an answer cannot be written");
+            let state = JobState::Failed(Failure::Defect);
+            write(hub, lease, token, &Ending { state, product: Product::default(), ..ending }).await
+        }
+        other => other,
+    }?;
     hub.here().remove(&lease.id);
     if let Some(job) = &ended
         && let Err(error) = make_room(hub, &job.client).await
@@ -101,19 +114,15 @@ pub(super) async fn end(hub: &Hub, lease: &Lease, ending: Ending) -> Result<Opti
     Ok(ended)
 }
 
-async fn write(
-    transaction: &mut Transaction<'_, Postgres>,
-    lease: &Lease,
-    token: JobId,
-    ending: &Ending,
-) -> Result<Option<Job>, Error> {
+async fn write(hub: &Hub, lease: &Lease, token: JobId, ending: &Ending) -> Result<Option<Job>, Error> {
+    let mut transaction = hub.pool.begin().await?;
     let mine =
         query("SELECT FROM jobs WHERE id = $1 AND lease = $2 AND status = 1 FOR UPDATE").bind(lease.id).bind(token);
-    if mine.fetch_optional(&mut **transaction).await?.is_none() {
+    if mine.fetch_optional(&mut *transaction).await?.is_none() {
         return Ok(None);
     }
     for (place, part) in (0..).zip(ending.product.iter()) {
-        write_part(transaction, lease.id, place, part).await?;
+        write_part(&mut transaction, lease.id, place, part).await?;
     }
     let failure = match &ending.state {
         JobState::Failed(failure) => Some(json(failure)),
@@ -130,7 +139,9 @@ async fn write(
     let ended = ended.bind(failure).bind(long(bytes));
     let ended = ended.bind(step.map(|step| step.load_factor)).bind(step.map(|step| long(step.events)));
     let ended = ended.bind(step.and_then(|step| step.percent));
-    job_of(&ended.fetch_one(&mut **transaction).await?).map(Some)
+    let job = job_of(&ended.fetch_one(&mut *transaction).await?)?;
+    transaction.commit().await?;
+    Ok(Some(job))
 }
 
 async fn write_part(connection: &mut PgConnection, id: JobId, place: i16, part: &Rendering) -> Result<(), Error> {
@@ -173,6 +184,8 @@ pub(super) async fn recover(connection: &mut PgConnection) -> Result<(), Error> 
 
 /// Lets jobs wait again that this process has and will not end.
 pub(super) async fn give_back(hub: &Hub) -> Result<(), Error> {
+    // Whoever is about to take one has it before, or sees that the store is closed.
+    let _turn = hub.turn.lock().await;
     let ids: Vec<_> = hub.here().keys().copied().collect();
     let given = query(
         "UPDATE jobs SET status = 0, started = NULL, lease = NULL, leased_until = NULL, load_factor = NULL, events = NULL, percent = NULL,

@@ -25,6 +25,19 @@ fn what_was_accepted_is_ended_when_it_is_closed() {
 }
 
 #[test]
+fn who_waits_learns_the_end_of_a_job_that_is_forgotten_at_once() {
+    within_runtime(async {
+        let store = Arc::new(Memory::new(limits())) as Arc<dyn Store>;
+        let id = submitted(&store, QUICK).await;
+        let mut end = store.wait(id, Status::Accepted);
+        assert!(timeout(Duration::from_millis(20), &mut end).await.is_err(), "nobody works");
+        store.cancel(id).await.unwrap();
+        assert!(store.forget(id).await.unwrap());
+        assert_eq!(end.await.unwrap().unwrap().status(), Status::Dismissed);
+    });
+}
+
+#[test]
 fn what_is_abandoned_is_dismissed() {
     within_runtime(async {
         let store = Arc::new(Memory::new(limits())) as Arc<dyn Store>;
