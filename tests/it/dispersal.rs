@@ -8,8 +8,8 @@ use serde_json::{Value, json};
 use voussoir::wire::fault::Fault;
 use voussoir::wire::read::read_analysis;
 
-/// Points to a side.
-const POINTS: usize = 4000;
+/// Points to a metre in plan.
+const POINTS: f64 = 40_000.0;
 /// Summing over points that the planes cut off or leave costs so much, relative.
 const SUMMED: f64 = 3e-5;
 /// Two programs that integrated with tens of points agreed to this, relative.
@@ -76,13 +76,14 @@ fn summed(ring: &Ring, x0: f64, reach: f64, stress: &dyn Fn(f64, f64) -> f64, [a
                 && SURFACE - y < z * (u - eye(x)) / (x - eye(x)) - 1e-12
         })
     };
-    (0..POINTS).fold([0.0; 2], |[sum, moment], i| {
-        let share = (i as f64 + 0.5) / POINTS as f64;
+    let points = (POINTS * (b[0] - a[0])).ceil() as usize;
+    (0..points).fold([0.0; 2], |[sum, moment], i| {
+        let share = (i as f64 + 0.5) / points as f64;
         let [x, z] = [a[0] + share * (b[0] - a[0]), SURFACE - a[1] - share * (b[1] - a[1])];
         if (x - eye(x)).abs() > reach * z || hidden([x, z]) {
             return [sum, moment];
         }
-        let part = stress(x - x0, z) * (b[0] - a[0]) / POINTS as f64;
+        let part = stress(x - x0, z) * (b[0] - a[0]) / points as f64;
         [sum + part, moment + x * part]
     })
 }

@@ -50,6 +50,10 @@ pub struct Dispersal {
     pub distribution: Distribution,
 }
 
+/// Which side (`None`: a level line beyond the ends), and integrals over it of the stress of a unit force and of its moment about
+/// x = 0.
+type Landed = (Option<usize>, [f64; 2]);
+
 impl Dispersal {
     /// What bodies take of the force of a patch: the body, where on its side, m, and its share; at most one for each of `sides`.
     /// What is missing to 1 lands on the level lines that continue the sides beyond both ends.
@@ -81,14 +85,8 @@ impl Dispersal {
             .collect())
     }
 
-    /// Which side (`None`: a level line beyond the ends), and integrals of the stress of a unit force and of its moment about
-    /// x = 0 over what sees the strip.
-    fn integrals(
-        &self,
-        patch: &Patch,
-        extent: f64,
-        sides: &[LoadedSide],
-    ) -> Result<Vec<(Option<usize>, [f64; 2])>, LoadFault> {
+    /// What lands on all that sees the strip, before scaling.
+    fn integrals(&self, patch: &Patch, extent: f64, sides: &[LoadedSide]) -> Result<Vec<Landed>, LoadFault> {
         let width = patch.width.max(LEAST_WIDTH * extent);
         let edges = [patch.centre - 0.5 * width, patch.centre + 0.5 * width];
         let strip = Strip { edges, surface: self.surface, reach: self.reach(), near: NEAR * extent };
