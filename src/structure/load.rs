@@ -5,9 +5,13 @@
 //! overhanging side is pushed up.
 
 mod columns;
+mod dispersal;
+mod patch;
 
 use super::{Body, GRAVITY, PointForce, Structure, Surface};
 use crate::geometry::{Vec2, distance_from_segment, lies_inside};
+pub use dispersal::{Dispersal, Distribution};
+pub use patch::Patch;
 
 /// Fill and embankment, eq. (7) of the paper: `q_v = (H - y) g rho_f + h_e g rho_e`, `q_h = K q_v`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,15 +59,8 @@ pub enum Load {
     Lateral(Vec<Band>),
     /// A vertical force, N/m, downwards.
     Point(f64, Place),
-    /// A vertical force, N/m, downwards, spread evenly over a plan width.
-    Patch {
-        /// Total force, N/m.
-        force: f64,
-        /// Middle, m.
-        centre: f64,
-        /// Plan width, m.
-        width: f64,
-    },
+    /// A vertical force on a strip, on the extrados or on the surface of fill.
+    Patch(Patch),
     /// Density times this acceleration, m/s2, on every body.
     BodyAcceleration(Vec2),
     /// A force in any direction.
@@ -93,6 +90,12 @@ pub enum LoadFault {
         from: f64,
         /// Right end, m.
         to: f64,
+    },
+    /// A load on fill stands on the fill.
+    #[error("the extrados reaches {top:.6} m under the load, above the surface on which the load stands")]
+    SurfaceBelowExtrados {
+        /// Highest point under the load, m.
+        top: f64,
     },
     /// There is no such body with a surface.
     #[error("there is no voussoir of this number; they run from 0 to {last}")]
@@ -140,7 +143,7 @@ impl Load {
             Load::Point(force, Place::Abscissa(x)) => point_load(structure, *force, *x)?,
             Load::Point(force, Place::Body(k)) => vec![middle_load(structure, *force, *k)?],
             Load::Force { body, at, force } => vec![force_on(structure, *body, *at, *force)?],
-            Load::Patch { force, centre, width } => patch_load(structure, &sides, *force, *centre, *width)?,
+            Load::Patch(patch) => patch.on(structure, &sides)?,
         };
         for force in &mut forces {
             force.force *= coefficient;
@@ -310,33 +313,6 @@ fn point_load(structure: &Structure, force: f64, x: f64) -> Result<Vec<PointForc
     bearers.sort_unstable();
     let (at, share) = (Vec2::new(x, y), down(force / bearers.len() as f64));
     Ok(bearers.into_iter().map(|i| PointForce { body: surfaces[i].body, at, force: share, spread: false }).collect())
-}
-
-/// A vertical load spread over a plan width; every side takes what lies over it, in the middle of its share.
-fn patch_load(
-    structure: &Structure,
-    sides: &[LoadedSide],
-    force: f64,
-    centre: f64,
-    width: f64,
-) -> Result<Vec<PointForce>, LoadFault> {
-    let (left, right) = (centre - 0.5 * width, centre + 0.5 * width);
-    let mut forces = Vec::new();
-    let mut covered = 0.0;
-    for &(body, a, b) in sides.iter().filter(|(_, a, b)| b.x > a.x) {
-        let (from, to) = (left.max(a.x), right.min(b.x));
-        if to > from {
-            covered += to - from;
-            let x = 0.5 * (from + to);
-            let at = Vec2::new(x, a.y + (b.y - a.y) * ((x - a.x) / (b.x - a.x)));
-            forces.push(PointForce { body, at, force: down(force * (to - from) / width), spread: false });
-        }
-    }
-    if (covered - width).abs() > 1e-9 * width.max(right.abs()) {
-        let (from, to) = plan(structure);
-        return Err(LoadFault::OffTheArch { from, to });
-    }
-    Ok(forces)
 }
 
 #[cfg(test)]

@@ -40,6 +40,8 @@ mod crushing_path;
 #[cfg(feature = "server")]
 mod determinism;
 #[cfg(feature = "server")]
+mod dispersal;
+#[cfg(feature = "server")]
 mod docs;
 #[cfg(feature = "server")]
 mod downstream;

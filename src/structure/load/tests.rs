@@ -31,7 +31,7 @@ pub(super) fn ring(profile: Profile, thickness: f64, n: usize) -> Ring {
     }
 }
 
-fn sum(forces: &[PointForce]) -> Vec2 {
+pub(super) fn sum(forces: &[PointForce]) -> Vec2 {
     forces.iter().map(|force| force.force).sum()
 }
 
@@ -63,7 +63,8 @@ fn gravel_on_the_buried_arch_pushes_as_the_reference_says() {
         let half = left(&Load::Fill(fill(Some(4.65))).on(&arch, 1e-3).unwrap(), joints - 1);
         close(-half.y, vertical, 0.0051);
         close(half.x, 84.85, 0.0051);
-        let jack = Load::Patch { force: 1.675, centre: -1.5, width: 1.5 }.on(&arch, 1.0).unwrap();
+        let jack =
+            Load::Patch(Patch { force: 1.675, centre: -1.5, width: 1.5, dispersal: None }).on(&arch, 1.0).unwrap();
         close(sum(&jack).y, -1.675, 1e-14);
         let mean: f64 = jack.iter().map(|force| force.at.x * force.force.y).sum::<f64>() / sum(&jack).y;
         close(mean, -1.5, 1e-12);
@@ -171,8 +172,8 @@ fn loads_on_an_overhanging_arch_stand_on_its_top() {
 #[test]
 fn a_patch_beyond_the_arch_is_refused() {
     let arch = arch_of(&ring(Profile::circular(2.0, PI), 0.5, 12));
-    assert!(Load::Patch { force: 1.0, centre: 2.0, width: 1.0 }.on(&arch, 1.0).is_err());
-    let whole = Load::Patch { force: 1.0, centre: 0.0, width: 4.5 }.on(&arch, 1.0).unwrap();
+    assert!(Load::Patch(Patch { force: 1.0, centre: 2.0, width: 1.0, dispersal: None }).on(&arch, 1.0).is_err());
+    let whole = Load::Patch(Patch { force: 1.0, centre: 0.0, width: 4.5, dispersal: None }).on(&arch, 1.0).unwrap();
     assert_eq!(whole.len(), 12);
     assert!(is_symmetric(&whole, 12, 0.0));
 }
@@ -256,11 +257,17 @@ fn pieces_of_a_side_carry_together_what_the_side_carries() {
     let arch = arch_of(&ring(Profile::circular(2.0, PI), 0.5, 12));
     let pieces: Vec<usize> = (0..12).map(|k| 1 + k % 5).collect();
     let bands = vec![Band { from: 0.1, to: 0.9, pressure: 3e3 }, Band { from: 0.9, to: 1.7, pressure: 1e3 }];
+    let dispersed = |distribution| {
+        let dispersal = Some(Dispersal { surface: 2.6, distribution });
+        Load::Patch(Patch { force: 5e3, centre: -1.3, width: 1.1, dispersal })
+    };
     for load in [
         Load::Fill(fill(Some(4.65))),
         Load::Fill(fill(Some(1.5))),
         Load::Lateral(bands),
-        Load::Patch { force: 5e3, centre: 0.3, width: 1.1 },
+        Load::Patch(Patch { force: 5e3, centre: 0.3, width: 1.1, dispersal: None }),
+        dispersed(Distribution::Boussinesq { cut_off: PI / 6.0 }),
+        dispersed(Distribution::Uniform { spread: 0.5 }),
     ] {
         let (whole, cut) = (load.on(&arch, 1.0).unwrap(), load.on_pieces(&arch, &pieces, 1.0).unwrap());
         for k in 0..12 {

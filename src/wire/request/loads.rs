@@ -3,6 +3,7 @@
 //! A new load has its fields and an arm of every function here, and its forces in `structure::load`.
 
 mod fill;
+mod patch;
 
 use super::{ForceVector, Point, Text};
 use crate::geometry::Vec2;
@@ -11,6 +12,7 @@ use crate::structure::load::{Band, Load, LoadFault, Place};
 use crate::wire::fault::{Faults, Shown};
 use crate::wire::prose::Digits;
 pub use fill::FillPressure;
+pub use patch::PatchLoad;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -101,21 +103,6 @@ pub struct PointForceLoad {
     pub force_n_per_m: ForceVector,
 }
 
-/// A vertical force spread evenly over a plan width: every voussoir takes the share that lies over it, in the
-/// middle of that share on its extrados side.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
-pub struct PatchLoad {
-    /// Abscissa of the middle, m.
-    #[schema(minimum = -1e5, maximum = 1e5)]
-    pub centre_x_m: f64,
-    /// Plan width, m.
-    #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
-    pub width_m: f64,
-    /// Total force per metre of width, N/m, downwards positive; not 0.
-    #[schema(minimum = -1e15, maximum = 1e15)]
-    pub force_n_per_m: f64,
-}
-
 /// An inertia force on stones and fill, as in an earthquake: their mass times an acceleration. The fields are the direction of
 /// the force, not of the ground: ground that accelerates to the right makes the force act to the left.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
@@ -168,9 +155,7 @@ impl LoadRequest {
             LoadRequest::PointLoad(point) => {
                 Load::Point(point.force_n_per_m, Place::Abscissa(point.x_m.unwrap_or(0.0)))
             }
-            LoadRequest::PatchLoad(patch) => {
-                Load::Patch { force: patch.force_n_per_m, centre: patch.centre_x_m, width: patch.width_m }
-            }
+            LoadRequest::PatchLoad(patch) => Load::Patch(patch.in_si()),
             LoadRequest::PointForce(force) => Load::Force {
                 body: names.iter().position(|name| **name == *force.block)?,
                 at: force.at_m.into(),
@@ -191,6 +176,11 @@ impl LoadRequest {
             | LoadRequest::PointForce(_)
             | LoadRequest::BodyAcceleration(_) => 1,
         }
+    }
+
+    /// Whether it may stand where none of it comes down on the structure.
+    pub fn may_miss(&self) -> bool {
+        matches!(self, LoadRequest::PatchLoad(patch) if patch.dispersal.is_some())
     }
 
     /// What it says against itself. `here` points to its fields.
@@ -224,6 +214,7 @@ impl LoadRequest {
             (LoadRequest::FillPressure(_), _) => Some("fill_height_m"),
             (LoadRequest::PointLoad(_), LoadFault::NoSuchVoussoir { .. }) => Some("voussoir"),
             (LoadRequest::PointLoad(_), _) => Some("x_m"),
+            (LoadRequest::PatchLoad(_), LoadFault::SurfaceBelowExtrados { .. }) => Some("dispersal/surface_height_m"),
             (LoadRequest::PatchLoad(_), _) => Some("centre_x_m"),
             (LoadRequest::PointForce(_), _) => Some("at_m"),
             (LoadRequest::SelfWeight(_) | LoadRequest::LateralPressure(_) | LoadRequest::BodyAcceleration(_), _) => {
@@ -247,11 +238,7 @@ impl LoadRequest {
                 };
                 format!("{} {place}", kn_per_m(point.force_n_per_m))
             }
-            LoadRequest::PatchLoad(patch) => {
-                let [width, centre] = [patch.width_m, patch.centre_x_m].map(Digits);
-                let force = kn_per_m(patch.force_n_per_m);
-                format!("{force}, spread over {width} m about x = {centre} m")
-            }
+            LoadRequest::PatchLoad(patch) => patch.words(),
             LoadRequest::PointForce(force) => {
                 let [fx, fy] = force.force_n_per_m.0.map(|force| Digits(force / 1e3));
                 let [x, y] = force.at_m.0.map(Digits);

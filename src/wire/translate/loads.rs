@@ -65,7 +65,7 @@ pub fn loads(
             continue;
         };
         match load.on_pieces(&layout.structure, pieces, entry.coefficient) {
-            Ok(forces) if forces.is_empty() => {
+            Ok(forces) if forces.is_empty() && !entry.load.may_miss() => {
                 faults.add(here, "this load puts no force on the structure: correct it or leave it out");
             }
             Ok(forces) => {
@@ -80,7 +80,17 @@ pub fn loads(
         }
     }
     inertia::check(entries, faults);
+    check_reach(entries, whole, &all, faults);
     all
+}
+
+/// Loads that stand beyond the structure do not grow on it: without this they would look as if it bore any load.
+fn check_reach(entries: &[LoadEntry], whole: Option<&Layout>, all: &LoadForces, faults: &mut Faults) {
+    let scaled = entries.iter().position(|entry| entry.scaled);
+    if let (Some(i), Some(_), true) = (scaled, whole, faults.is_empty() && all.scaled.is_empty()) {
+        let detail = "no scaled load comes down on the structure: move one towards it or leave them out";
+        faults.add(format!("/loads/{i}/load"), detail);
+    }
 }
 
 /// A coefficient, as the request or an abscissa of a curve has it.

@@ -49,6 +49,10 @@ fn arch() -> Value {
             {"load": {"point_load": {"force_n_per_m": 1000, "x_m": -1}}, "scaled": true},
             {"load": {"point_load": {"force_n_per_m": 1000, "voussoir": 5}}},
             {"load": {"patch_load": {"centre_x_m": 1, "width_m": 1, "force_n_per_m": 1000}}},
+            {"load": {"patch_load": {"centre_x_m": 1, "width_m": 1, "force_n_per_m": 1000, "dispersal": {
+                "surface_height_m": 8.5, "distribution": {"boussinesq": {"cut_off_deg": 40}}}}}},
+            {"load": {"patch_load": {"centre_x_m": 1, "width_m": 1, "force_n_per_m": 1000, "dispersal": {
+                "surface_height_m": 8.5, "distribution": {"uniform": {"spread": 0.4}}}}}},
             {"load": {"lateral_pressure": {"bands": [{"from_m": 0, "to_m": 1, "pressure_pa": 100}]}}},
             {"load": {"body_acceleration": {"x_g": 0.1, "y_g": 0.1}}}
         ],
