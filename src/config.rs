@@ -74,7 +74,7 @@ pub struct Serve {
     pub shared: Shared,
     #[command(flatten)]
     pub requests: Requests,
-    /// Seconds accepted jobs may take to end once told to stop; then they are cancelled
+    /// Seconds accepted jobs may take to end once told to stop; then they are cancelled, or given back to a database
     #[arg(long, env = "VOUSSOIR_GRACE", default_value_t = 10, value_parser = count(0, 3600))]
     pub grace: u64,
     /// How log lines look
@@ -222,8 +222,9 @@ const LEAST_WORK_MEMORY: usize = 256 << 20;
 impl Serve {
     /// Memory of all analyses together, bytes.
     fn work_memory(&self) -> usize {
-        let left =
-            size(self.work.memory).saturating_sub(size(self.kept.kept_bytes) + size(self.requests.answer_bytes) + REST);
+        // What a database keeps is not in this process.
+        let kept = if self.shared.is_alone() { size(self.kept.kept_bytes) } else { 0 };
+        let left = size(self.work.memory).saturating_sub(kept + size(self.requests.answer_bytes) + REST);
         self.work.work_memory.map_or_else(|| left.max(LEAST_WORK_MEMORY), size)
     }
 

@@ -3,12 +3,15 @@
 use clap::{Args, ValueEnum};
 use std::time::Duration;
 
+/// The store that is this process's own.
+const MEMORY: &str = "memory";
+
 /// Where jobs are, and what this process does with them.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Several processes")]
 pub struct Shared {
     /// Where jobs are: in this process, or in a PostgreSQL database that others share (postgres://user:password@host/database)
-    #[arg(long, env = "VOUSSOIR_STORE", default_value = "memory", hide_env_values = true)]
+    #[arg(long, env = "VOUSSOIR_STORE", default_value = MEMORY, hide_env_values = true)]
     pub store: String,
     /// What this process does of what there is to do; all but the first need a store in PostgreSQL
     #[arg(long, env = "VOUSSOIR_ROLE", value_enum, default_value_t = Role::All)]
@@ -46,11 +49,16 @@ impl Shared {
     pub fn place(&self) -> Result<Place, &'static str> {
         let is_address = ["postgres://", "postgresql://"].iter().any(|scheme| self.store.starts_with(scheme));
         match (&*self.store, self.role) {
-            ("memory", Role::All) => Ok(Place::Memory),
-            ("memory", _) => Err("--role: jobs in memory are nobody else's; name a --store, too"),
+            (MEMORY, Role::All) => Ok(Place::Memory),
+            (MEMORY, _) => Err("--role: jobs in memory are nobody else's; name a --store, too"),
             _ if is_address => Ok(Place::Postgres(self.store.clone())),
             _ => Err("--store: give memory, or the address of a database: postgres://user:password@host/database"),
         }
+    }
+
+    /// True when jobs are in this process.
+    pub fn is_alone(&self) -> bool {
+        self.store == MEMORY
     }
 
     /// How long a job is a worker's when nothing is heard of it.

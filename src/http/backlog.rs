@@ -28,6 +28,9 @@ impl Service {
 
     /// A refused submission, and when there may be room for it.
     pub(super) async fn refused(&self, refusal: Refusal) -> Problem {
+        if matches!(refusal, Refusal::Unavailable(_)) {
+            return Problem::from(refusal).after(1);
+        }
         let seconds = self.time_of(|occupancy| occupancy.waiting).await;
         Problem::from(refusal).after(seconds)
     }

@@ -19,6 +19,7 @@ use axum::response::sse::{Event, Sse};
 use axum::response::{IntoResponse, Response};
 use follower::{Seen, Told, follow};
 use futures_util::{Stream, StreamExt, stream};
+use std::collections::BTreeSet;
 use utoipa::ToSchema;
 
 /// Most jobs that one stream follows.
@@ -80,8 +81,9 @@ pub(super) async fn events_of_many(
 ) -> Result<Response, Problem> {
     let Query(query) = query.map_err(|rejection| query_fault(&rejection))?;
     let count = query.len();
-    if !(1..=MOST_FOLLOWED).contains(&count) || query.iter().any(|(name, _)| name != "job") {
-        let detail = format!("name 1 to {MOST_FOLLOWED} jobs, as in job=ID&job=ID, and nothing else");
+    let once = query.iter().collect::<BTreeSet<_>>().len() == count;
+    if !(1..=MOST_FOLLOWED).contains(&count) || query.iter().any(|(name, _)| name != "job") || !once {
+        let detail = format!("name 1 to {MOST_FOLLOWED} jobs, each once, as in job=ID&job=ID, and nothing else");
         return Err(Problem::of(kinds::BAD_QUERY, detail));
     }
     // Bits of those whose ends were told.

@@ -27,8 +27,16 @@ use tokio::sync::{Semaphore, broadcast};
 use tokio::time::timeout;
 use tokio_util::task::AbortOnDropHandle;
 
-/// Connections of one process at once.
-const CONNECTIONS: u32 = 12;
+/// Connections of one process at once: for requests, and for its workers, whose leases must not wait for requests.
+const CONNECTIONS: [u32; 2] = [8, 6];
+
+/// What the database ends by itself, so that a process that hangs or has lost its network holds up no other.
+const TIMEOUTS: [(&str, &str); 4] = [
+    ("statement_timeout", "60s"),
+    ("lock_timeout", "20s"),
+    ("idle_in_transaction_session_timeout", "20s"),
+    ("tcp_user_timeout", "20s"),
+];
 
 /// Longest time to wait for one of them.
 const CONNECT: Duration = Duration::from_secs(5);
@@ -59,8 +67,12 @@ pub struct Postgres {
 
 /// What the store shares with its keeper and its leases.
 struct Hub {
+    /// Connections for requests.
     pool: PgPool,
+    /// Connections for workers and the keeper.
+    work: PgPool,
     limits: Limits,
+    /// How long a job is a worker's when nothing is heard of it.
     lease: Duration,
     changes: broadcast::Sender<(JobId, Status)>,
     /// Jobs in the hands of workers of this process.
@@ -81,14 +93,16 @@ impl Postgres {
     /// When the database cannot be reached, or has tables of a later version.
     pub async fn connect(url: &str, limits: Limits, lease: Duration) -> Result<Self, Unavailable> {
         // The database tells what it finds remarkable, too: its own log is the place for that.
-        let options = url.parse::<PgConnectOptions>()?.options([("client_min_messages", "warning")]);
-        let pool = PgPoolOptions::new().max_connections(CONNECTIONS).acquire_timeout(CONNECT).connect_with(options);
-        let pool = pool.await?;
+        let options = url.parse::<PgConnectOptions>()?.options([("client_min_messages", "warning")]).options(TIMEOUTS);
+        let [pool, work] = CONNECTIONS.map(|most| {
+            PgPoolOptions::new().max_connections(most).acquire_timeout(CONNECT).connect_lazy_with(options.clone())
+        });
         let schema = include_str!("postgres/schema.sql").into_sql_str();
         let first = Migration::new(1, "jobs".into(), MigrationType::Simple, schema, false);
         Migrator::with_migrations(vec![first]).run(&pool).await?;
         let hub = Arc::new(Hub {
             pool,
+            work,
             limits,
             lease,
             changes: broadcast::Sender::new(CHANGES),
@@ -155,7 +169,6 @@ impl Store for Postgres {
     }
 
     async fn part(&self, id: JobId, name: &str, format: &str) -> Result<Option<Part>, Unavailable> {
-        self.seen(id).await?;
         let found = query(
             "SELECT body, missing, packed_from FROM parts WHERE job = $1 AND $2 = ANY (names) AND format = $3
                 ORDER BY place LIMIT 1",
@@ -163,6 +176,8 @@ impl Store for Postgres {
         // It is never closed.
         let _permit = self.hub.reads.acquire().await;
         let found = found.bind(id).bind(row::text(name)).bind(format).fetch_optional(&self.hub.pool).await?;
+        // From here on it may have to make room.
+        self.seen(id).await?;
         Ok(found.map(|row| part_of(&row)).transpose()?)
     }
 
@@ -236,11 +251,12 @@ impl Store for Postgres {
     }
 
     async fn abandon(&self) -> Vec<Job> {
-        if let Err(error) = lease::give_back(&self.hub).await {
-            tracing::warn!(%error, "jobs wait again when their leases have run out");
-        }
-        self.hub.here().values().for_each(|held| held.progress.cancel());
         // Others will end them.
+        match timeout(CONNECT, lease::give_back(&self.hub)).await {
+            Ok(Ok(())) => {}
+            Ok(Err(error)) => tracing::warn!(%error, "jobs wait again when their leases have run out"),
+            Err(_) => tracing::warn!("the database is silent: jobs wait again when their leases have run out"),
+        }
         Vec::new()
     }
 }

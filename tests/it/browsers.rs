@@ -172,10 +172,13 @@ fn one_stream_tells_of_many_jobs_and_no_end_twice() {
 
 #[test]
 fn a_stream_follows_so_many_jobs_and_counts_as_one() {
-    let server = Server::start(1, 10);
-    let job = server.submit(&trouble(ENDLESS));
-    let many = |count: usize| format!("/v1/events?{}", vec![format!("job={}", id(&job)); count].join("&"));
-    for path in ["/v1/events", &many(101), &format!("{}&limit=3", many(1))] {
+    let server = Server::start(1, 101);
+    let jobs: Vec<_> = (0..101).map(|_| server.submit(&trouble(ENDLESS))).collect();
+    let named = |jobs: &[String]| jobs.iter().map(|job| format!("job={}", id(job))).collect::<Vec<_>>().join("&");
+    let many = |count: usize| format!("/v1/events?{}", named(&jobs[..count]));
+    for path in
+        ["/v1/events", &many(101), &format!("{}&limit=3", many(1)), &format!("{}&{}", many(1), named(&jobs[..1]))]
+    {
         assert_eq!(server.get(path).problem(400)["type"], kinds::BAD_QUERY.uri, "{path}");
     }
     server.get("/v1/events?job=nobody").problem(404);
@@ -184,7 +187,7 @@ fn a_stream_follows_so_many_jobs_and_counts_as_one() {
         while !server.get("/metrics").text().contains("voussoir_event_streams 1\n") {}
         // Three streams are all there may be, and one client's part of them is one.
         assert_eq!(server.get(&many(1)).problem(429)["type"], kinds::CLIENT_STREAMS_FULL.uri);
-        server.delete(&job);
+        jobs.iter().for_each(|job| drop(server.delete(job)));
         let ends = stream.join().unwrap().into_iter().filter(|(name, ..)| name == "end").count();
         assert_eq!(ends, 100);
     });

@@ -18,7 +18,8 @@ pub struct Fleet {
 impl Fleet {
     pub fn start(workers: usize) -> Self {
         let store = database();
-        let front = Voussoir::serve(&["--store", &store, "--role", "api", "--lease", "2"]);
+        let flags = ["--store", &store, "--role", "api", "--lease", "2", "--queue-per-client", "1000"];
+        let front = Voussoir::serve(&flags);
         let mut fleet = Fleet { store, front, workers: vec![] };
         (0..workers).for_each(|_| fleet.recruit());
         fleet
@@ -52,6 +53,7 @@ pub fn killed(fleet: &mut Fleet, bodies: &[String], count: usize, pause: Duratio
     let alone: Vec<_> = bodies.iter().map(|body| solve(body)).collect();
     let mut client = fleet.front.client();
     let paths: Vec<_> = (0..count).map(|place| client.submit(&bodies[place % bodies.len()])).collect();
+    drop(client);
     let (mut dice, mut outcome, mut reader) = (Dice::new(7), Outcome::default(), fleet.front.client());
     scope(|scope| {
         let first = scope.spawn(|| paths.iter().map(|path| answer(&mut reader, path)).collect::<Vec<_>>());
@@ -60,6 +62,7 @@ pub fn killed(fleet: &mut Fleet, bodies: &[String], count: usize, pause: Duratio
             fleet.replace(dice.below(fleet.workers.len()));
             outcome.kills += 1;
         }
+        let mut client = fleet.front.client();
         for (place, (path, first)) in paths.iter().zip(first.join().unwrap()).enumerate() {
             outcome.lost += usize::from(first.is_none());
             let again = answer(&mut client, path);

@@ -22,6 +22,7 @@ mod overload;
 mod process;
 mod report;
 mod requests;
+#[allow(dead_code, reason = "the search uses the rest")]
 mod scenes;
 #[cfg(feature = "postgres")]
 mod shared;

@@ -53,11 +53,17 @@ impl Voussoir {
         command.args(["serve", "--bind", "127.0.0.1:0", "--log-format", "json"]).args(flags);
         let mut child = command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
         let mut lines = BufReader::new(child.stderr.take().unwrap());
-        let mut first = String::new();
-        lines.read_line(&mut first).unwrap();
-        let entry: Value = serde_json::from_str(&first).unwrap_or_else(|_| panic!("{first}"));
-        let address = entry["address"].as_str().unwrap().parse().unwrap();
-        let log = Arc::new(Mutex::new(Log::default()));
+        let mut log = Log::default();
+        let address = loop {
+            let mut line = String::new();
+            assert!(lines.read_line(&mut line).unwrap() > 0, "it ended: {:?}", log.troubles);
+            let entry = serde_json::from_str::<Value>(&line).unwrap_or_default();
+            if entry["message"] == "listening" {
+                break entry["address"].as_str().unwrap().parse().unwrap();
+            }
+            log.take(&line);
+        };
+        let log = Arc::new(Mutex::new(log));
         let shared = log.clone();
         let reader = Some(thread::spawn(move || drain(lines, &shared)));
         Voussoir { child, address, log, reader }

@@ -10,8 +10,9 @@ use serde::Serialize;
 use std::time::Duration;
 use tokio::time::{Instant, sleep_until};
 
-/// How often a running analysis is looked at.
+/// How often a running analysis is looked at: in this process, and where others tell of it, once a second.
 const LOOK: Duration = Duration::from_millis(200);
+const LOOK_ELSEWHERE: Duration = Duration::from_secs(1);
 
 /// Longest silence: then it is told again how the job stands, and so it is learnt whether the client is still there.
 const SILENCE: Duration = Duration::from_secs(2);
@@ -86,7 +87,8 @@ impl Follower {
                 return Some(told);
             }
             let (store, id) = (&self.service.store, self.job.id);
-            let look = if now.status == Status::Running { silent.min(Instant::now() + LOOK) } else { silent };
+            let look = if store.outlives_the_process() { LOOK_ELSEWHERE } else { LOOK };
+            let look = if now.status == Status::Running { silent.min(Instant::now() + look) } else { silent };
             let now = tokio::select! {
                 () = self.service.stopping.cancelled() => return None,
                 changed = store.wait(id, now.status) => changed,

@@ -27,7 +27,12 @@ pub(super) async fn submit(hub: &Hub, submission: Submission) -> Result<Job, Ref
         return Err(Refusal::Closed);
     }
     let bytes = RECORD + submission.request.len();
-    admit(hub, &mut transaction, &submission.client, bytes + keys::bytes(submission.key.as_deref())).await?;
+    let room = admit(hub, &mut transaction, &submission.client, bytes + keys::bytes(submission.key.as_deref())).await;
+    if let Err(refusal) = room {
+        // What made room is gone all the same.
+        transaction.commit().await?;
+        return Err(refusal);
+    }
     let job = enter(&mut transaction, &submission, bytes).await?;
     transaction.commit().await?;
     Ok(job)

@@ -1,6 +1,6 @@
 //! Jobs in the hands of workers.
 
-use super::room::make_room;
+use super::room::{self, make_room};
 use super::row::{columns, job_of, long, number, text};
 use super::{Hub, Unavailable};
 use crate::jobs::job::{Failure, Job, JobId, JobState, Product, Rendering};
@@ -60,12 +60,14 @@ pub(super) async fn take(hub: &Arc<Hub>) -> Result<Option<Lease>, Unavailable> {
         SELECT id, memory, body FROM taken JOIN requests ON job = id",
     );
     let taken = taken.bind(token).bind(hub.lease.as_secs_f64()).bind(long(limits.bytes)).bind(long(limits.kept));
-    let taken = taken.bind(long(limits.bytes_per_client)).bind(long(left)).fetch_optional(&hub.pool).await?;
+    let taken = taken.bind(long(limits.bytes_per_client)).bind(long(left)).fetch_optional(&hub.work).await?;
     let Some(row) = taken else { return Ok(None) };
     let (id, progress) = (row.try_get("id")?, Arc::<Progress>::default());
     let memory = usize::try_from(row.try_get::<i64, _>("memory")?).unwrap_or(usize::MAX);
     let beat = AbortOnDropHandle::new(tokio::spawn(beat(hub.clone(), id, token, progress.clone())));
-    hub.here().insert(id, Held { progress: progress.clone(), memory, token, _beat: beat });
+    let before = hub.here().insert(id, Held { progress: progress.clone(), memory, token, _beat: beat });
+    // It was here before, and lost for the time that nothing was heard of it.
+    before.iter().for_each(|held| held.progress.cancel());
     Ok(Some(Lease { id, request: row.try_get::<Vec<u8>, _>("body")?.into(), memory, progress }))
 }
 
@@ -81,7 +83,7 @@ async fn beat(hub: Arc<Hub>, id: JobId, token: JobId, progress: Arc<Progress>) {
         let renewed = renewed.bind(id).bind(token).bind(hub.lease.as_secs_f64());
         let renewed = renewed.bind(step.map(|step| step.load_factor)).bind(step.map(|step| long(step.events)));
         let renewed = renewed.bind(step.and_then(|step| step.percent));
-        match renewed.execute(&hub.pool).await {
+        match renewed.execute(&hub.work).await {
             Ok(renewed) if renewed.rows_affected() == 0 => return progress.cancel(),
             Ok(_) => {}
             Err(error) => tracing::warn!(job.id = %id, %error, "a lease is not renewed"),
@@ -92,9 +94,11 @@ async fn beat(hub: Arc<Hub>, id: JobId, token: JobId, progress: Arc<Progress>) {
 /// Writes down how a job has ended, with its answer, if the lease still holds.
 pub(super) async fn end(hub: &Hub, lease: &Lease, ending: Ending) -> Result<Option<Job>, Unavailable> {
     // The same job may have come here once more when the first lease had run out: that one is another worker's.
-    let token =
-        hub.here().get(&lease.id).filter(|held| Arc::ptr_eq(&held.progress, &lease.progress)).map(|held| held.token);
-    let Some(token) = token else { return Ok(None) };
+    let mine = |hub: &Hub| {
+        let here = hub.here();
+        here.get(&lease.id).filter(|held| Arc::ptr_eq(&held.progress, &lease.progress)).map(|held| held.token)
+    };
+    let Some(token) = mine(hub) else { return Ok(None) };
     let ended = match write(hub, lease, token, &ending).await {
         Err(Error::Database(error))
             if error.code().is_some_and(|code| REFUSED.iter().any(|class| code.starts_with(class))) =>
@@ -105,7 +109,9 @@ pub(super) async fn end(hub: &Hub, lease: &Lease, ending: Ending) -> Result<Opti
         }
         other => other,
     }?;
-    hub.here().remove(&lease.id);
+    if mine(hub) == Some(token) {
+        hub.here().remove(&lease.id);
+    }
     if let Some(job) = &ended
         && let Err(error) = make_room(hub, &job.client).await
     {
@@ -115,7 +121,7 @@ pub(super) async fn end(hub: &Hub, lease: &Lease, ending: Ending) -> Result<Opti
 }
 
 async fn write(hub: &Hub, lease: &Lease, token: JobId, ending: &Ending) -> Result<Option<Job>, Error> {
-    let mut transaction = hub.pool.begin().await?;
+    let mut transaction = hub.work.begin().await?;
     let mine =
         query("SELECT FROM jobs WHERE id = $1 AND lease = $2 AND status = 1 FOR UPDATE").bind(lease.id).bind(token);
     if mine.fetch_optional(&mut *transaction).await?.is_none() {
@@ -185,12 +191,18 @@ pub(super) async fn recover(connection: &mut PgConnection) -> Result<(), Error> 
 /// Lets jobs wait again that this process has and will not end.
 pub(super) async fn give_back(hub: &Hub) -> Result<(), Error> {
     // Whoever is about to take one has it before, or sees that the store is closed.
-    let _turn = hub.turn.lock().await;
-    let ids: Vec<_> = hub.here().keys().copied().collect();
+    let turn = hub.turn.lock().await;
+    // What their workers still say is not written from here on, whether the database hears of this or not.
+    let held = std::mem::take(&mut *hub.here());
+    drop(turn);
+    held.values().for_each(|held| held.progress.cancel());
+    let (ids, tokens): (Vec<_>, Vec<_>) = held.iter().map(|(id, held)| (*id, held.token)).unzip();
+    let mut transaction = hub.work.begin().await?;
+    room::lock(&mut transaction).await?;
     let given = query(
-        "UPDATE jobs SET status = 0, started = NULL, lease = NULL, leased_until = NULL, load_factor = NULL, events = NULL, percent = NULL,
-            attempts = attempts - 1 WHERE id = ANY ($1) AND status = 1 AND lease = ANY ($2)",
+        "UPDATE jobs SET status = 0, started = NULL, lease = NULL, leased_until = NULL, load_factor = NULL, events = NULL,
+            percent = NULL, attempts = attempts - 1 WHERE id = ANY ($1) AND status = 1 AND lease = ANY ($2)",
     );
-    let tokens: Vec<_> = hub.here().values().map(|held| held.token).collect();
-    given.bind(ids).bind(tokens).execute(&hub.pool).await.map(drop)
+    given.bind(ids).bind(tokens).execute(&mut *transaction).await?;
+    transaction.commit().await
 }

@@ -1,7 +1,7 @@
 //! How full the tables are, and what has to make room.
 
 use super::Hub;
-use super::row::{count, text};
+use super::row::{count, long, text};
 use crate::jobs::job::JobId;
 use crate::jobs::memory::Limits;
 use crate::jobs::store::Occupancy;
@@ -64,7 +64,7 @@ impl Load {
 
 /// Forgets finished jobs of this client, and then of all, until what is there is within the limits, or promised.
 pub(super) async fn make_room(hub: &Hub, client: &str) -> Result<(), Error> {
-    let mut transaction = hub.pool.begin().await?;
+    let mut transaction = hub.work.begin().await?;
     // Most of the time there is room, and nobody needs to wait for it.
     if Load::of(&mut transaction, client).await?.over(&hub.limits, 0).is_none() {
         return Ok(());
@@ -81,9 +81,8 @@ pub(super) async fn make_room(hub: &Hub, client: &str) -> Result<(), Error> {
 
 /// Clients who have more bytes than one may.
 pub(super) async fn clients_over(hub: &Hub) -> Result<Vec<String>, Error> {
-    let over =
-        query("SELECT client FROM accounts WHERE bytes > $1").bind(super::row::long(hub.limits.bytes_per_client));
-    over.fetch_all(&hub.pool).await?.iter().map(|row| row.try_get(0)).collect()
+    let over = query("SELECT client FROM accounts WHERE bytes > $1").bind(long(hub.limits.bytes_per_client));
+    over.fetch_all(&hub.work).await?.iter().map(|row| row.try_get(0)).collect()
 }
 
 /// Forgets one job: of whoever has most, or of this client, the one read that ended first, then the one unread that did, if it
@@ -91,11 +90,13 @@ pub(super) async fn clients_over(hub: &Hub) -> Result<Vec<String>, Error> {
 pub(super) async fn evict(hub: &Hub, connection: &mut PgConnection, client: Option<&str>) -> Result<bool, Error> {
     let gone = query(
         "DELETE FROM jobs WHERE id = (
-            SELECT job.id FROM accounts CROSS JOIN LATERAL (
-                SELECT id FROM jobs WHERE jobs.client = accounts.client AND status > 1
+            SELECT job.id FROM (SELECT client FROM accounts WHERE finished > 0 AND ($2::text IS NULL OR client = $2)
+                ORDER BY bytes DESC) holder
+            CROSS JOIN LATERAL (
+                SELECT id FROM jobs WHERE jobs.client = holder.client AND status > 1
                     AND (read OR finished <= clock_timestamp() - make_interval(secs => $1))
                 ORDER BY read DESC, finished, id LIMIT 1) job
-            WHERE $2::text IS NULL OR client = $2 ORDER BY bytes DESC LIMIT 1)",
+            LIMIT 1)",
     );
     let gone = gone.bind(hub.limits.promised.as_secs_f64()).bind(client.map(text)).execute(connection).await?;
     hub.evicted.fetch_add(gone.rows_affected(), Ordering::Relaxed);

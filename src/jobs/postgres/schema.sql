@@ -37,6 +37,7 @@ CREATE INDEX jobs_running ON jobs (leased_until) WHERE status = 1;
 CREATE INDEX jobs_finished ON jobs (finished) WHERE status > 1;
 CREATE INDEX jobs_to_go ON jobs (client, read DESC, finished, id) WHERE status > 1;
 CREATE INDEX jobs_of_client ON jobs (client, id);
+CREATE INDEX jobs_of_status ON jobs (status, id);
 
 -- Apart from the rest, which is looked through often.
 CREATE TABLE requests (
@@ -114,5 +115,5 @@ BEGIN
 END
 $$;
 
-CREATE TRIGGER key_changed AFTER INSERT OR DELETE OR UPDATE ON keys
+CREATE TRIGGER key_changed AFTER INSERT OR DELETE OR UPDATE OF client, bytes ON keys
     FOR EACH ROW EXECUTE FUNCTION key_changed();

@@ -16,11 +16,12 @@ if [ "$(id -u)" = 0 ]; then
     chown 65534:65534 "$1"
 fi
 cd "$1"
-"${plain[@]}" "$2/initdb" -D data -U voussoir --auth=trust --no-sync >initdb.log
+"${plain[@]}" "$2/initdb" -D data -U voussoir --auth=trust --no-sync --no-locale -E UTF8 >initdb.log
 "${plain[@]}" "$2/postgres" -D data -k "$1" -c listen_addresses= -c fsync=off -c max_connections=300 >postgres.log 2>&1 </dev/null &
 server=$!
 trap 'kill -QUIT $server; wait $server || true; cd /; rm -rf "$1"' EXIT
 until "$2/pg_isready" -q -h "$1" -U voussoir -d postgres; do kill -0 $server; sleep 0.05; done
+trap exit TERM INT HUP
 echo ready
 cat >/dev/null
 "#;

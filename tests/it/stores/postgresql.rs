@@ -4,18 +4,24 @@ use super::{ANSWER, ENDLESS, PATIENCE, QUICK, answer, limits, order, submitted, 
 use super::{ended, running, stand_in, until, within_runtime, work};
 use crate::common::database::database;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::time::Duration;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
 use tokio::time::{sleep, timeout};
 use voussoir::budget::Budget;
 use voussoir::jobs::{Cancelled, Ending, Failure, JobState, Limits, Postgres, Status, Store, Submission, Workers};
 
-/// How long a worker has its job when nothing is heard of it.
-const LEASE: Duration = Duration::from_millis(500);
+/// How long a worker has its job when nothing is heard of it: longer than any test, and shorter.
+const LONG: Duration = Duration::from_secs(1000);
+const BRIEF: Duration = Duration::from_millis(500);
+
+/// A store with the tables of this database, where nobody is held for lost.
+fn open(url: &str, limits: Limits) -> Arc<dyn Store> {
+    open_for(LONG, url, limits)
+}
 
 /// A store with the tables of this database.
-fn open(url: &str, limits: Limits) -> Arc<dyn Store> {
-    let connect = Postgres::connect(url, limits, LEASE);
+fn open_for(lease: Duration, url: &str, limits: Limits) -> Arc<dyn Store> {
+    let connect = Postgres::connect(url, limits, lease);
     let store = tokio::task::block_in_place(|| tokio::runtime::Handle::current().block_on(connect));
     Arc::new(store.unwrap())
 }
@@ -100,15 +106,15 @@ fn a_lost_worker_s_job_is_run_again_and_its_answer_comes_too_late() {
     within_runtime(async {
         let url = database();
         // This process takes a job, and from then on nothing is heard of it.
-        let lost = open(&url, limits());
+        let lost = open_for(BRIEF, &url, limits());
         let id = submitted(&lost, QUICK).await;
         let lease = lost.take().await.unwrap().unwrap();
         tokio::task::block_in_place(|| stop_the_beat(&url));
-        let store = open(&url, limits());
+        let store = open_for(BRIEF, &url, limits());
         let workers = workers(&store, 1);
         let job = until(&store, id, ended).await;
         assert_eq!(job.status(), Status::Successful);
-        assert!(job.finished.unwrap().duration_since(job.created).unwrap() > LEASE / 2, "the lease had to run out");
+        assert!(job.finished.unwrap().duration_since(job.created).unwrap() > BRIEF / 2, "the lease had to run out");
         let failed = Ending { state: JobState::Failed(Failure::Defect), ..success() };
         assert!(lost.end(&lease, failed).await.unwrap().is_none(), "it is not this worker's any more");
         assert_eq!(store.job(id).await.unwrap().unwrap().state, JobState::Successful);
@@ -128,7 +134,7 @@ fn stop_the_beat(url: &str) {
 fn a_job_that_costs_every_worker_its_life_fails() {
     within_runtime(async {
         let url = database();
-        let store = open(&url, limits());
+        let store = open_for(BRIEF, &url, limits());
         let id = submitted(&store, QUICK).await;
         for _ in 0..5 {
             let lease = timeout(PATIENCE, store.take()).await.unwrap().unwrap().unwrap();
@@ -199,6 +205,54 @@ fn what_postgresql_cannot_write_is_written_otherwise() {
     });
 }
 
+/// Has the database refuse everybody for so long.
+fn shut_out(url: &str, time: Duration) {
+    let name = url.split(['/', '?']).nth(3).unwrap();
+    let psql = |sql: &str| {
+        let other = url.replace(name, "postgres");
+        let done = std::process::Command::new("psql").args(["-q", "-o", "/dev/null", "-c", sql, &other]).status();
+        assert!(done.unwrap().success());
+    };
+    psql(&format!("ALTER DATABASE {name} ALLOW_CONNECTIONS false"));
+    psql(&format!("SELECT pg_terminate_backend(pid) FROM pg_stat_activity WHERE datname = '{name}'"));
+    std::thread::sleep(time);
+    psql(&format!("ALTER DATABASE {name} ALLOW_CONNECTIONS true"));
+}
+
+#[test]
+#[allow(clippy::disallowed_methods, reason = "stands for an analysis, which runs where it may block")]
+fn an_outage_longer_than_a_lease_costs_no_job_its_worker() {
+    within_runtime(async {
+        let url = database();
+        let stores = [(); 2].map(|()| open_for(BRIEF, &url, limits()));
+        let (runs, over) = (Arc::new(AtomicUsize::new(0)), Arc::new(AtomicBool::new(false)));
+        let counters = (runs.clone(), over.clone());
+        let analyse = move |_: &bytes::Bytes, budget: &Budget| {
+            counters.0.fetch_add(1, Ordering::SeqCst);
+            while !counters.1.load(Ordering::SeqCst) {
+                if budget.step(0.0, 1).is_break() {
+                    return Err(Failure::Analysis(budget.stopped().to_string()));
+                }
+                std::thread::sleep(Duration::from_millis(1));
+            }
+            Ok(answer())
+        };
+        let _workers = stores.each_ref().map(|store| Workers::start(store.clone(), work(1), analyse.clone(), |_| {}));
+        let id = submitted(&stores[0], QUICK).await;
+        until(&stores[0], id, running).await;
+        tokio::task::block_in_place(|| shut_out(&url, 3 * BRIEF));
+        let clock = Instant::now();
+        while stores[0].job(id).await.is_err() {
+            assert!(clock.elapsed() < PATIENCE, "the database is back");
+        }
+        // Time enough for whoever would hold the worker for lost.
+        sleep(4 * BRIEF).await;
+        over.store(true, Ordering::SeqCst);
+        assert_eq!(until(&stores[1], id, ended).await.status(), Status::Successful);
+        assert_eq!(runs.load(Ordering::SeqCst), 1, "nobody else had to begin again");
+    });
+}
+
 #[test]
 fn without_its_database_a_store_says_so_and_comes_back() {
     within_runtime(async {
@@ -221,7 +275,7 @@ fn without_its_database_a_store_says_so_and_comes_back() {
         let _ = store.job(id).await;
         let _workers = workers(&store, 1);
         assert_eq!(until(&store, id, ended).await.status(), Status::Successful);
-        let nowhere = Postgres::connect("postgres://nobody@127.0.0.1:1/nothing", limits(), LEASE).await;
+        let nowhere = Postgres::connect("postgres://nobody@127.0.0.1:1/nothing", limits(), LONG).await;
         assert!(nowhere.is_err());
     });
 }
