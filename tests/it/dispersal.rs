@@ -93,7 +93,7 @@ fn expected(x0: f64, reach: f64, stress: &dyn Fn(f64, f64) -> f64) -> [f64; 2] {
     let ring = ring();
     let ends: Vec<Point> = ring.joints.iter().map(|joint| joint.1).collect();
     let (first, last) = (ends[0], ends[STONES]);
-    let beyond = [[[first[0] - 6.0, first[1]], first], [last, [last[0] + 6.0, last[1]]]];
+    let beyond = [[[first[0] - 12.0, first[1]], first], [last, [last[0] + 12.0, last[1]]]];
     let sides: Vec<Point> = ends.windows(2).map(|side| summed(&ring, x0, reach, stress, [side[0], side[1]])).collect();
     let lost: f64 = beyond.iter().map(|line| summed(&ring, x0, reach, stress, *line)[0]).sum();
     let whole = lost + sides.iter().map(|side| side[0]).sum::<f64>();
