@@ -123,7 +123,7 @@ fn landed(corners: &[[f64; 2]], load: &Patch, steps: u32) -> Vec<[f64; 2]> {
     };
     let line = |a: [f64; 2], b: [f64; 2]| {
         let below = |[x, y]: [f64; 2]| [x - load.centre, surface - y];
-        let [share, moment] = summed(distribution, load.width, below(a), below(b), steps, &sees);
+        let [share, moment] = summed(distribution, load.width, below(a), below(b), steps, sees);
         [share, moment + load.centre * share]
     };
     let (first, last) = (corners[0], corners[corners.len() - 1]);
