@@ -206,6 +206,7 @@ fn what_postgresql_cannot_write_is_written_otherwise() {
 }
 
 /// Has the database refuse everybody for so long.
+#[allow(clippy::disallowed_methods, reason = "an outage lasts a while")]
 fn shut_out(url: &str, time: Duration) {
     let name = url.split(['/', '?']).nth(3).unwrap();
     let psql = |sql: &str| {
