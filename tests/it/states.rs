@@ -11,9 +11,9 @@ use serde_json::{Value, json};
 use voussoir::budget::Budget;
 use voussoir::collapse::{Analysis, CollapseReport, Note, OtherStates, run};
 
-/// A state may break the law by this share of the loads (issue 13: 1e-6).
+/// A state may break the law by this share of the loads.
 const LAWFUL: f64 = 1e-8;
-/// Mirror images differ by this share of the largest value (issue 13: 1e-9).
+/// Mirror images differ by this share of the largest value.
 const SYMMETRIC: f64 = 1e-9;
 /// Random arches, symmetric or not, from seed 0.
 const ARCHES: u64 = 300;
