@@ -38,7 +38,7 @@ const TIMEOUTS: [(&str, &str); 4] = [
     ("tcp_user_timeout", "20s"),
 ];
 
-/// Longest time to wait for one of them.
+/// Longest time to wait for a connection.
 const CONNECT: Duration = Duration::from_secs(5);
 
 /// Parts of answers read at once: each may be large, and is in memory before anybody counts it.
