@@ -65,8 +65,8 @@ fn facts(result: &AnalysisResult, wall_time: Duration) -> Table {
     for (name, value) in result.plan.iter().flat_map(plan::facts) {
         fact(name, value);
     }
-    fact("fixed loads", given::loads(&result.request.loads, false));
-    fact("scaled loads", given::loads(&result.request.loads, true));
+    fact("fixed loads", given::loads(&result.request, false));
+    fact("scaled loads", given::loads(&result.request, true));
     if result.request.loads.iter().any(|load| load.scaled) {
         let one = Digits(result.request.load_factor.intensity_per_unit);
         fact("", format!("(at load factor 1, which is intensity {one} {})", wording::unit(result)));

@@ -3,6 +3,7 @@
 
 mod accuracy;
 mod arch;
+mod backfill;
 mod beam;
 mod blocks;
 mod bridge;
@@ -17,6 +18,7 @@ use crate::collapse::{DEFAULT_PENALTY_RATIO, Direction, Geometry, PlaneModel};
 use crate::structure::Stone;
 pub use accuracy::*;
 pub use arch::*;
+pub use backfill::*;
 pub use beam::*;
 pub use blocks::*;
 pub use bridge::*;
@@ -93,6 +95,8 @@ pub struct AnalysisRequest {
     #[serde(default)]
     #[schema(max_items = 100)]
     pub stones: Vec<NamedStone>,
+    /// Fill over an arch or a bridge: a fixed load, and what loads on its surface are dispersed by. Left out: none.
+    pub backfill: Option<BackfillRequest>,
     /// Joints that differ from the rest.
     #[serde(default)]
     #[schema(max_items = 8000)]

@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod arch;
+mod backfill;
 mod beam;
 mod blocks;
 mod bridge;
@@ -23,6 +24,7 @@ use super::request::{AimRequest, AnalysisRequest, Request};
 use crate::collapse::{Analysis, Question};
 use site::Unloaded;
 
+pub use loads::arriving;
 pub use structure::Layout;
 
 /// Translates a request.

@@ -1,0 +1,33 @@
+//! The backfill of a request: what is wrong with it, and its weight.
+
+use super::structure::Layout;
+use crate::structure::load::Load;
+use crate::structure::{PointForce, is_symmetric};
+use crate::wire::fault::Faults;
+use crate::wire::request::AnalysisRequest;
+
+const HERE: &str = "/backfill";
+
+/// The weight of the backfill, where there is one, on the whole structure with the sides of its bodies cut into `pieces` each.
+pub fn weight(
+    request: &AnalysisRequest,
+    whole: Option<&Layout>,
+    pieces: &[usize],
+    faults: &mut Faults,
+) -> Vec<PointForce> {
+    let Some(backfill) = &request.backfill else { return Vec::new() };
+    let detail = "blocks have no extrados for fill to lie on: leave this out, and give a point_force on each block that carries it";
+    let lies = faults.require(request.blocks.is_none(), HERE, detail);
+    backfill.check(HERE, faults);
+    let (Some(fill), Some(layout), true) = (backfill.in_si(), whole, lies) else { return Vec::new() };
+    let forces = Load::Fill(fill).on_pieces(&layout.structure, pieces, 1.0).unwrap_or_default();
+    let detail = "no part of it lies on the structure: raise its surface, give it a density, or leave it out";
+    faults.require(!forces.is_empty(), HERE, detail);
+    let structure = &layout.structure;
+    if request.half() && !is_symmetric(&forces, structure.voussoirs().len(), structure.axis()) {
+        let detail = "half an arch needs a symmetric surface, and this one is not its own mirror image about the axis of the \
+                      arch: correct it, or set half to false";
+        faults.add(format!("{HERE}/surface_m"), detail);
+    }
+    forces
+}
