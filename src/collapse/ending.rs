@@ -122,8 +122,7 @@ pub(super) fn at_criterion(
     let mechanism = from_direction(model, &analysis.structure, displacements);
     let forces = model.assembly.contact_forces(model.assembly.contacts(), displacements);
     let carried = resultants(model, |p| [forces[p].normal, forces[p].tangential]);
-    let (thrust_line, soil) =
-        (thrust_line(&analysis.structure, &carried), pressing(model, |p| forces[p].normal));
+    let (thrust_line, soil) = (thrust_line(&analysis.structure, &carried), pressing(model, |p| forces[p].normal));
     PathEnd { load_factor, range: None, residual, mechanism, thrust_line, soil, crushed: Vec::new() }
 }
 

@@ -7,12 +7,14 @@
 mod columns;
 mod dispersal;
 mod fill;
+mod passive;
 mod patch;
 
 use super::{Body, GRAVITY, PointForce, Structure, Surface};
 use crate::geometry::{Vec2, distance_from_segment, lies_inside};
 pub use dispersal::{Dispersal, Distribution};
 pub use fill::{Fill, FillBacking, Layer, SurfaceLine};
+pub use passive::Passive;
 pub use patch::Patch;
 
 /// A horizontal pressure between two heights.

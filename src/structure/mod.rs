@@ -12,7 +12,7 @@ mod soil;
 pub use half::is_symmetric;
 pub use loops::{Loops, Unconnected};
 pub use ring::Abutment;
-pub use soil::{Overburden, Passive, PassiveElement};
+pub use soil::PassiveElement;
 
 use crate::geometry::{Region, Vec2, cross};
 use std::ops::Range;

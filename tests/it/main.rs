@@ -74,6 +74,8 @@ mod outcomes;
 #[cfg(feature = "server")]
 mod paper;
 #[cfg(feature = "server")]
+mod passive;
+#[cfg(feature = "server")]
 mod properties;
 #[cfg(feature = "server")]
 mod questions;

@@ -108,7 +108,8 @@ impl Setup<'_> {
         // What the soil presses at the end of the path stays; other mechanisms have to agree with it.
         let held = soil_held(self.analysis, &end.soil);
         let theorem = match &held {
-            Some(held) => &StaticTheorem::new(&held.structure, &held.fixed, &held.scaled).map_err(|bodies| AnalysisError::Unconnected(bodies[0]))?,
+            Some(held) => &StaticTheorem::new(&held.structure, &held.fixed, &held.scaled)
+                .map_err(|bodies| AnalysisError::Unconnected(bodies[0]))?,
             None => &self.certificate.theorem,
         };
         let analysis = held.as_ref().unwrap_or(self.analysis);

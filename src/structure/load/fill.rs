@@ -94,6 +94,11 @@ impl Fill {
         GRAVITY * self.mass(at)
     }
 
+    /// Depth of a point below the line, m; 0 without one.
+    pub(super) fn depth(&self, at: Vec2) -> f64 {
+        self.line.as_ref().map_or(0.0, |line| line.height(at.x) - at.y)
+    }
+
     /// Mass of the column over a point, kg/m2 of plan.
     pub(super) fn mass(&self, at: Vec2) -> f64 {
         self.column(at).map(|[from, to, density]| density * (to - from)).sum()

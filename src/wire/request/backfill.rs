@@ -1,8 +1,8 @@
 //! Fill over a structure: surface, layers, backing, and how it disperses loads.
 
-use super::{Boussinesq, DistributionRequest, Point};
+use super::{Boussinesq, DistributionRequest, PassiveRequest, Point};
 use crate::geometry::Vec2;
-use crate::structure::load::{Fill, FillBacking, Layer, SurfaceLine};
+use crate::structure::load::{Fill, FillBacking, Layer, Passive, SurfaceLine};
 use crate::wire::fault::{Faults, Shown};
 use crate::wire::prose::Digits;
 use serde::{Deserialize, Serialize};
@@ -33,6 +33,8 @@ pub struct BackfillRequest {
     /// Ratio K of horizontal to vertical pressure, a pure number: pressure at rest, on the vertical projection of the extrados.
     #[schema(minimum = 0.0, exclusive_maximum = 1e12)]
     pub lateral_ratio: f64,
+    /// How it resists stones that move into it. Left out: it does not. Not with `lateral_ratio`.
+    pub passive: Option<PassiveRequest>,
     /// How loads on the surface spread, of which `dispersal` does not say it.
     pub dispersal: DistributionRequest,
 }
@@ -57,6 +59,10 @@ pub struct FillBackingRequest {
     /// Density, kg/m3.
     #[schema(minimum = 0.0, exclusive_maximum = 1e5)]
     pub density_kg_m3: f64,
+    /// Largest horizontal pressure with which it resists stones that move into it, in place of that of `passive`, Pa. Left out: as
+    /// the fill.
+    #[schema(minimum = 0.0, maximum = 1e15)]
+    pub resistance_pa: Option<f64>,
 }
 
 impl Default for BackfillRequest {
@@ -69,6 +75,7 @@ impl Default for BackfillRequest {
             layers: Vec::new(),
             backing: None,
             lateral_ratio: 0.0,
+            passive: None,
             dispersal: DistributionRequest::Boussinesq(Boussinesq { cut_off_deg: 30.0 }),
         }
     }
@@ -98,15 +105,29 @@ impl BackfillRequest {
         Some(Fill { line: Some(self.surface()?), layers, backing, lateral_ratio: self.lateral_ratio })
     }
 
+    /// What it resists with in SI, where it does.
+    pub fn resists(&self) -> Option<Passive> {
+        let backing = self.backing.as_ref().and_then(|backing| backing.resistance_pa);
+        self.passive.as_ref().map(|passive| passive.in_si(backing))
+    }
+
     /// Most forces that it puts on one side of a body.
     pub fn forces_per_side(&self) -> usize {
-        1 + self.layers.len() + usize::from(self.backing.is_some())
+        let always = usize::from(self.passive.is_some());
+        1 + self.layers.len() + usize::from(self.backing.is_some()) + always
     }
 
     /// What it says against itself. `here` points to it.
     pub fn check(&self, here: &str, faults: &mut Faults) {
         let one = self.surface_height_m.is_some() != self.surface_m.is_some();
         faults.require(one, here, "give either surface_height_m or surface_m, not both and not neither");
+        let detail = "fill that resists presses between bounds: leave this out, and set passive/least to active for the pressure \
+                      that acts always";
+        let both = self.passive.is_some() && self.lateral_ratio != 0.0;
+        faults.require(!both, format!("{here}/lateral_ratio"), detail);
+        let resists = self.backing.as_ref().is_some_and(|backing| backing.resistance_pa.is_some());
+        let detail = "backing resists where fill does: give backfill/passive too, or leave this out";
+        faults.require(!resists || self.passive.is_some(), format!("{here}/backing/resistance_pa"), detail);
         for (i, pair) in self.surface_m.iter().flat_map(|points| points.windows(2)).enumerate() {
             let [before, after] = [pair[0].0[0], pair[1].0[0]];
             let detail = format!(
@@ -136,10 +157,17 @@ impl BackfillRequest {
         let backing = self.backing.as_ref().map_or(String::new(), |backing| {
             format!("; backing of {} up to y = {} m", density(backing.density_kg_m3), Digits(backing.height_m))
         });
-        let horizontal = match self.lateral_ratio {
-            0.0 => "no horizontal pressure".to_owned(),
-            ratio => format!("horizontal pressure {} of the vertical", Digits(ratio)),
+        let horizontal = match (&self.passive, self.lateral_ratio) {
+            (Some(passive), _) => passive.words(),
+            (None, 0.0) => "no horizontal pressure, and no resistance to stones that move into it".to_owned(),
+            (None, ratio) => format!(
+                "horizontal pressure {} of the vertical, and no resistance to stones that move into it",
+                Digits(ratio)
+            ),
         };
-        format!("backfill of {} up to {surface}{layers}{backing}; {horizontal}", density(self.density_kg_m3))
+        let strength = self.backing.as_ref().and_then(|backing| backing.resistance_pa);
+        let strength =
+            strength.map_or(String::new(), |pressure| format!("; backing with at most {} kPa", Digits(pressure / 1e3)));
+        format!("backfill of {} up to {surface}{layers}{backing}; {horizontal}{strength}", density(self.density_kg_m3))
     }
 }

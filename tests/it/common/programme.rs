@@ -36,8 +36,7 @@ pub struct Programme {
 impl Programme {
     pub fn build(problem: &Problem, aim: Aim, scale: &Scale) -> Programme {
         let joints = problem.seams.len();
-        let unknowns =
-            3 * joints + usize::from(scale.with_factor) + problem.soil.len() + usize::from(scale.with_give);
+        let unknowns = 3 * joints + usize::from(scale.with_factor) + problem.soil.len() + usize::from(scale.with_give);
         let mut programme = Programme { cost: vec![0.0; unknowns], ..Programme::default() };
         programme.equilibrium(problem, scale);
         programme.limits(problem, scale);
