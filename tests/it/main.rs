@@ -14,6 +14,8 @@ mod answers;
 #[cfg(feature = "server")]
 mod atlas;
 #[cfg(feature = "server")]
+mod backfill;
+#[cfg(feature = "server")]
 mod bad_requests;
 #[cfg(feature = "server")]
 mod bad_structures;

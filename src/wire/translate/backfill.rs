@@ -25,7 +25,10 @@ pub fn weight(
     let detail = "no part of it lies on the structure: raise its surface, give it a density, or leave it out";
     faults.require(!forces.is_empty(), HERE, detail);
     let structure = &layout.structure;
-    if request.half() && !is_symmetric(&forces, structure.voussoirs().len(), structure.axis()) {
+    // An arch that is not symmetric itself has a fault of its own.
+    let symmetric =
+        || structure.asymmetry().is_some() || is_symmetric(&forces, structure.voussoirs().len(), structure.axis());
+    if request.half() && !symmetric() {
         let detail = "half an arch needs a symmetric surface, and this one is not its own mirror image about the axis of the \
                       arch: correct it, or set half to false";
         faults.add(format!("{HERE}/surface_m"), detail);

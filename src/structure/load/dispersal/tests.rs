@@ -275,3 +275,22 @@ fn the_surface_has_to_cover_what_is_under_the_load() {
         }
     }
 }
+
+#[test]
+fn on_a_road_that_is_not_level_a_strip_stands_at_the_height_under_its_middle() {
+    let arch = prestwood(60);
+    let road = [[-4.0, 1.2], [-1.0, 1.9], [2.5, 1.6]].map(Vec2::from).to_vec();
+    for distribution in ALL {
+        for (centre, height) in [(-6.0, 1.2), (-2.5, 1.55), (-1.0, 1.9), (0.75, 1.75), (3.4, 1.6)] {
+            let surface = SurfaceLine::through(road.clone()).unwrap();
+            let sloping =
+                Patch { dispersal: Some(Dispersal { surface, distribution }), ..patch(centre, 0.0, distribution) };
+            let [on_road, level] =
+                [sloping, patch(centre, height, distribution)].map(|patch| Load::Patch(patch).on(&arch, 1.0).unwrap());
+            assert_eq!(on_road.len(), level.len());
+            for (a, b) in on_road.iter().zip(&level) {
+                assert!(a.body == b.body && (a.at - b.at).norm() < 1e-12 && (a.force - b.force).norm() < 1e-12);
+            }
+        }
+    }
+}
