@@ -242,12 +242,15 @@ fn a_mirrored_bridge_falls_at_the_same_load_and_its_soil_presses_on_the_other_si
         answered(&request).1.end.unwrap()
     });
     close(left.load_factor, right.load_factor, 1e-9, "mirrored");
-    assert!(left.soil.iter().zip(right.soil.iter().rev()).all(|(a, b)| (a - b).abs() < 1e-3), "{left:?} {right:?}");
+    // What holds a stone that does not move depends on the scatter of the contacts' stiffness.
+    let most = left.soil.iter().copied().fold(0.0, f64::max);
+    let apart = left.soil.iter().zip(right.soil.iter().rev()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    assert!(apart < 1e-6 * most, "{apart} of {most}");
 }
 
 #[test]
 fn how_soon_soil_is_mobilised_does_not_matter_at_first_order_and_does_on_moving_geometry() {
-    let ends = [1e-3, 0.03, 0.3].map(|share| {
+    let ends = [1e-4, 1e-3, 0.03].map(|share| {
         let mut request = bridge(20, &json!({"mobilisation_share_of_depth": share}), false);
         request["geometry"] = json!("updated");
         request["stone"]["youngs_modulus_pa"] = json!(1e11);
@@ -257,7 +260,7 @@ fn how_soon_soil_is_mobilised_does_not_matter_at_first_order_and_does_on_moving_
     });
     ends.iter().for_each(|(first, _)| close(*first, ends[0].0, 1e-7, "first order"));
     assert!(ends[0].1 > ends[1].1 && ends[1].1 > ends[2].1, "softer soil bears more: {ends:?}");
-    close(ends[0].1, 1.0, 0.02, "stiff soil, stiff stone");
+    close(ends[0].1, 1.0, 0.01, "stiff soil, stiff stone");
 }
 
 #[test]
