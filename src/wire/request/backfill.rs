@@ -33,7 +33,7 @@ pub struct BackfillRequest {
     /// Ratio K of horizontal to vertical pressure, a pure number: pressure at rest, on the vertical projection of the extrados.
     #[schema(minimum = 0.0, exclusive_maximum = 1e12)]
     pub lateral_ratio: f64,
-    /// How a load on the surface spreads whose own `dispersal` does not say how.
+    /// How loads on the surface spread, of which `dispersal` does not say it.
     pub dispersal: DistributionRequest,
 }
 
