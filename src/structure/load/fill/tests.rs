@@ -6,8 +6,8 @@ use crate::arch::{assemble, straight_voussoirs};
 use crate::geometry::cross;
 use std::f64::consts::PI;
 
-/// A surface line with two bends and a gradient, over a valley at its left.
-const ROAD: [[f64; 2]; 5] = [[-3.0, 0.8], [-1.3, 3.1], [-0.2, 3.6], [0.9, 3.3], [2.2, 2.5]];
+/// A surface line over a hump and through a dip.
+const ROAD: [[f64; 2]; 6] = [[-3.0, 0.8], [-1.3, 3.1], [-0.2, 3.6], [0.9, 3.3], [2.2, 2.5], [3.4, 3.9]];
 
 fn line(points: &[[f64; 2]]) -> SurfaceLine {
     SurfaceLine::through(points.iter().map(|&point| point.into()).collect()).unwrap()
@@ -58,7 +58,7 @@ fn density(points: &[[f64; 2]], [x, y]: [f64; 2]) -> f64 {
 /// Wrench about the origin of what lies over a straight side: its weight, with 0.4 of it pressing sideways, or its mass in an
 /// `acceleration`; summed over small cells of every column.
 fn summed(points: &[[f64; 2]], a: [f64; 2], b: [f64; 2], acceleration: Option<Vec2>) -> [f64; 3] {
-    let (columns, cells, top) = (3000, 3000, 3.7);
+    let (columns, cells, top) = (3000, 3000, 4.0);
     let mut total = [0.0; 3];
     for i in 0..columns {
         let share = (f64::from(i) + 0.5) / f64::from(columns);
@@ -85,11 +85,13 @@ fn same(found: [f64; 3], expected: [f64; 3], tolerance: f64) {
 
 #[test]
 fn a_layered_road_presses_and_shakes_like_its_cells() {
-    // Inclined sides through backing, fill and both layers of surfacing; one out of the ground and in again; one overhangs.
+    // Inclined sides through backing, fill and both layers of surfacing; one stands out of the ground at its
+    // ends and one in its middle; one overhangs.
     for (a, b) in [
         ([-2.8, 0.2], [1.9, 2.6]),
         ([-2.4, 0.9], [-0.9, 3.45]),
         ([-2.9, 2.0], [2.1, 2.7]),
+        ([0.4, 2.9], [3.3, 3.0]),
         ([0.4, 3.1], [2.9, 0.3]),
         ([-0.6, 1.0], [-1.1, 1.6]),
     ] {
@@ -145,7 +147,7 @@ fn a_layer_in_two_and_a_point_on_a_line_change_nothing() {
         bent.insert(i, [0, 1].map(|k| 0.3 * ROAD[i - 1][k] + 0.7 * ROAD[i][k]));
     }
     bent.insert(0, [-9.0, ROAD[0][1]]);
-    bent.push([9.0, ROAD[4][1]]);
+    bent.push([9.0, ROAD[5][1]]);
     for other in [split, Fill { line: Some(line(&bent)), ..plain.clone() }] {
         for (found, expected) in on_arch(&other).into_iter().zip(on_arch(&plain)) {
             same(found, expected, 1e-12);
@@ -204,7 +206,7 @@ fn an_embankment_on_a_road_needs_a_road_over_the_whole_arch() {
 #[test]
 fn a_line_is_level_beyond_its_ends() {
     let road = line(&ROAD);
-    for (x, y) in [(-8.0, 0.8), (-3.0, 0.8), (-1.3, 3.1), (-0.75, 3.35), (2.2, 2.5), (7.0, 2.5)] {
+    for (x, y) in [(-8.0, 0.8), (-3.0, 0.8), (-1.3, 3.1), (-0.75, 3.35), (2.2, 2.5), (7.0, 3.9)] {
         close(road.height(x), y, 1e-15);
     }
     assert_eq!(road.bends(2.0, -1.3).collect::<Vec<_>>(), [-0.2, 0.9]);
