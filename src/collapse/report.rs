@@ -2,6 +2,7 @@
 
 mod end;
 mod falling;
+mod geometric;
 mod mechanism;
 mod note;
 mod plan;
@@ -14,6 +15,7 @@ pub use crate::limit::{Resultant, Window, WindowEnd};
 pub use crate::structure::Face;
 pub use end::*;
 pub use falling::*;
+pub use geometric::*;
 pub use mechanism::*;
 pub use note::*;
 pub use plan::*;
@@ -215,6 +217,8 @@ pub struct CollapseReport {
     pub proof: Option<Window>,
     /// Thrust range under the fixed loads, where they stand.
     pub thrust_range: Option<ThrustRange>,
+    /// Resultants per joint at the least and at the greatest thrust, where there is one.
+    pub thrust_range_lines: [Option<Vec<Thrust>>; 2],
     /// The end of the path in the asked direction: collapse, or the mechanism of an arch that falls or slides as built. What
     /// governs, which may be crushing, [`CollapseReport::ends`] says.
     pub end: Option<PathEnd>,
@@ -263,6 +267,8 @@ pub enum TaskReport {
     Safety(SafetyFactors),
     /// What the movement of supports does; none where the structure does not stand.
     Settlement(Option<Box<SettlementReport>>),
+    /// The geometric safety factors; none where the structure does not stand.
+    GeometricSafety(Option<Box<GeometricSafety>>),
 }
 
 impl CollapseReport {
@@ -274,5 +280,10 @@ impl CollapseReport {
     /// What the movement of supports does, where it was asked and the structure stands.
     pub fn settlement(&self) -> Option<&SettlementReport> {
         if let TaskReport::Settlement(settlement) = &self.task { settlement.as_deref() } else { None }
+    }
+
+    /// The geometric safety factors, where they were asked for and the structure stands.
+    pub fn geometric_safety(&self) -> Option<&GeometricSafety> {
+        if let TaskReport::GeometricSafety(safety) = &self.task { safety.as_deref() } else { None }
     }
 }

@@ -143,6 +143,31 @@ pub enum ThicknessRequest {
     ExtradosCircle(ExtradosCircle),
 }
 
+impl ThicknessRequest {
+    /// Its numbers, those at the crown and at the springings, m; none of an extrados circle.
+    pub fn at_crown_and_springings(&self) -> Option<[f64; 2]> {
+        match self {
+            ThicknessRequest::ConstantM(Length(thickness)) => Some([*thickness; 2]),
+            ThicknessRequest::Linear(linear) => Some([linear.crown_m, linear.springing_m]),
+            ThicknessRequest::ExtradosCircle(_) => None,
+        }
+    }
+
+    /// So many times as thick; none of an extrados circle.
+    pub fn times(&self, share: f64) -> Option<Self> {
+        match self {
+            ThicknessRequest::ConstantM(Length(thickness)) => {
+                Some(ThicknessRequest::ConstantM(Length(share * thickness)))
+            }
+            ThicknessRequest::Linear(LinearThickness { crown_m, springing_m }) => {
+                let [crown_m, springing_m] = [crown_m, springing_m].map(|thickness| share * thickness);
+                Some(ThicknessRequest::Linear(LinearThickness { crown_m, springing_m }))
+            }
+            ThicknessRequest::ExtradosCircle(_) => None,
+        }
+    }
+}
+
 /// Linear in the length along the profile, from crown to springing.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct LinearThickness {

@@ -38,7 +38,9 @@ fn arch() -> Value {
             "cohesion_pa": 10, "compressive_strength_pa": 2e7, "plane": "strain", "penalty_ratio": 5,
             "shear_penalty_ratio": 2
         },
-        "joint_overrides": [{"joint": 6, "friction_angle_deg": 20, "cohesion_pa": 5}],
+        "joint_overrides": [{
+            "joint": 6, "friction_angle_deg": 20, "cohesion_pa": 5, "lost_at_intrados_m": 0.02, "lost_at_extrados_m": 0.03
+        }],
         "mesh": {"subblocks": {"uniform": {"radial": 2, "along": 3}}, "seams": "split"},
         "loads": [
             {"load": {"self_weight": {}}, "scaled": false, "coefficient": 1.5, "per_abscissa": false},
@@ -84,6 +86,10 @@ fn settlement() -> Value {
     let request = with(arch(), "/analysis", json!({"settlement": {"left": movement, "right": movement}}));
     let request = ["/report", "/motion", "/method", "/load_factor"].into_iter().fold(request, without);
     with(request, "/loads/2/scaled", json!(false))
+}
+
+fn geometric_safety() -> Value {
+    with(settlement(), "/analysis", json!({"geometric_safety": {}}))
 }
 
 fn surveyed() -> Value {
@@ -220,6 +226,7 @@ pub fn bodies() -> Vec<Value> {
         safety(),
         accurate(),
         settlement(),
+        geometric_safety(),
         surveyed(),
         blocks(),
         sinking(),
