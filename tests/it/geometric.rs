@@ -1,4 +1,5 @@
-//! Geometric safety factors, the lines of least and greatest thrust, and joints that have lost mortar, against references and the oracle.
+//! Geometric safety factors, the lines of least and greatest thrust, joints that have lost mortar, and surveyed rings of a
+//! thickness, against references and the oracle.
 
 use crate::common::answered::solved;
 use crate::common::door::{analysis, problem, solve};
@@ -281,4 +282,31 @@ fn half_an_arch_may_have_lost_mortar() {
     half["arch"]["half"] = json!(true);
     let [whole, half] = [whole, half].map(|request| solve(&request).end.unwrap().load_factor);
     close(half, whole, 1e-7, "half");
+}
+
+/// Points of a circle and a thickness are the ring itself.
+#[test]
+fn a_survey_of_the_intrados_and_a_thickness() {
+    let ring = Ring::circular(70.0, 0.2, 13);
+    let problem = Problem { fixed: ring.weight(GAMMA), scaled: ring.point_load(3), ..ring.problem(0.7) };
+    let expected = problem.solve(Aim::Highest).value(Aim::Highest).unwrap();
+    let intrados: Vec<_> = ring.joints.iter().map(|joint| joint.0).collect();
+    let survey = |rest: Value| {
+        let mut survey = json!({"intrados_m": intrados});
+        survey.as_object_mut().unwrap().extend(rest.as_object().unwrap().clone());
+        let point = json!({"point_load": {"force_n_per_m": 1, "voussoir": 3}});
+        let mut request = ask(json!({"profile": {"surveyed": survey}}), 0.7f64.atan().to_degrees(), &[point]);
+        request["stone"]["compressive_strength_pa"] = json!(1e30);
+        request
+    };
+    close(solve(&survey(json!({"thickness_m": 0.2}))).end.unwrap().load_factor, expected, 1e-6, "surveyed");
+    let refused = |request: &Value, start: &str| {
+        let faults = analysis(request).unwrap_err();
+        assert!(faults.starts_with(start), "{faults}");
+    };
+    refused(&survey(json!({})), "/arch/profile/surveyed: give either");
+    refused(&survey(json!({"thickness_m": 0.2, "extrados_m": intrados})), "/arch/profile/surveyed: give either");
+    let mut twice = survey(json!({"thickness_m": 0.2}));
+    twice["arch"]["profile"]["surveyed"]["intrados_m"][4] = json!(intrados[3]);
+    refused(&twice, "/arch/profile/surveyed/intrados_m: points");
 }

@@ -101,6 +101,10 @@ fn surveyed() -> Value {
     })
 }
 
+fn surveyed_intrados() -> Value {
+    with(without(surveyed(), "/arch/profile/surveyed/extrados_m"), "/arch/profile/surveyed/thickness_m", json!(0.5))
+}
+
 fn blocks() -> Value {
     let corners = |y: f64| json!([[0, y], [1, y], [1, y + 1.0], [0, y + 1.0]]);
     json!({
@@ -228,6 +232,7 @@ pub fn bodies() -> Vec<Value> {
         settlement(),
         geometric_safety(),
         surveyed(),
+        surveyed_intrados(),
         blocks(),
         sinking(),
         given(),
