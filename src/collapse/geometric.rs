@@ -16,6 +16,8 @@ const LEAST: f64 = 0.01;
 const STEP: f64 = 0.95;
 /// The least thickness is known to this much of it.
 const KNOWN: f64 = 1e-9;
+/// Where rounding keeps limit analysis from an answer next to the least thickness, to this much.
+const PUT_UP_WITH: f64 = 1e-6;
 
 /// Adds both factors to the report of a structure that stands under its fixed loads, those of `theorem`.
 pub(super) fn judge(
@@ -49,25 +51,22 @@ fn held(analysis: &Analysis, theorem: &StaticTheorem, budget: &Budget) -> Result
 fn recomputed(thinner: &Thinner, budget: &Budget) -> Result<Option<GeometricLimit>, Unsolved> {
     let Some(thrust_line) = standing(thinner, 1.0, budget)? else { return Ok(None) };
     let mut stands = GeometricLimit { share: 1.0, is_least_tried: false, thrust_line };
-    let falls = loop {
-        let share = (STEP * stands.share).max(LEAST);
-        match standing(thinner, share, budget)? {
-            Some(thrust_line) => stands = GeometricLimit { share, is_least_tried: share <= LEAST, thrust_line },
-            None => break share,
-        }
-        if stands.is_least_tried {
-            return Ok(Some(stands));
-        }
-    };
-    let mut falls = falls;
-    while stands.share - falls > KNOWN * stands.share {
-        let share = 0.5 * (stands.share + falls);
-        match standing(thinner, share, budget)? {
-            Some(thrust_line) => stands = GeometricLimit { share, is_least_tried: false, thrust_line },
-            None => falls = share,
+    let (mut below, mut falls) = (None, 0.0);
+    while below.is_none_or(|below| stands.share - below > KNOWN * stands.share) {
+        let share = below.map_or((STEP * stands.share).max(LEAST), |below| 0.5 * (stands.share + below));
+        match standing(thinner, share, budget) {
+            Ok(Some(thrust_line)) => {
+                stands = GeometricLimit { share, is_least_tried: share <= LEAST, thrust_line };
+                if stands.is_least_tried {
+                    return Ok(Some(stands));
+                }
+            }
+            Ok(None) => (below, falls) = (Some(share), share),
+            // Next to the least thickness rounding may decide.
+            Err(Unsolved) => below = Some(share),
         }
     }
-    Ok(Some(stands))
+    if stands.share - falls <= PUT_UP_WITH * stands.share { Ok(Some(stands)) } else { Err(Unsolved) }
 }
 
 /// The line of thrust of some equilibrium of the arch with this share of its thickness; none where it falls.

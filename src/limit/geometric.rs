@@ -9,6 +9,8 @@ use crate::budget::Budget;
 const SHARE_KNOWN: f64 = 1e-9;
 /// Where rounding keeps programmes next to the least share from an answer it may be known to this much only.
 const SHARE_PUT_UP_WITH: f64 = 1e-6;
+/// By so much, in units of the loads, forces may violate a limit.
+const VIOLATED: f64 = 1e-8;
 
 /// The least share of their lengths to which joints can be shortened about their middles.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,20 +41,20 @@ impl StaticTheorem {
     pub fn shortened_joints(&self, at: f64, least: f64, budget: &Budget) -> Result<Option<ShortenedJoints>, Unsolved> {
         let Some(forces) = self.forces_at(at, budget)? else { return Ok(None) };
         let mut stands = ShortenedJoints { share: 1.0, forces };
-        if let Some(forces) = self.on_shortened(at, least, budget)? {
-            return Ok(Some(ShortenedJoints { share: least, forces }));
-        }
-        let mut falls = least;
-        while stands.share - falls > SHARE_KNOWN * stands.share {
-            let share = 0.5 * (stands.share + falls);
+        let (mut below, mut falls, mut share) = (0.0, 0.0, least);
+        while stands.share - below > SHARE_KNOWN * stands.share {
             match self.on_shortened(at, share, budget) {
                 Ok(Some(forces)) => stands = ShortenedJoints { share, forces },
-                Ok(None) => falls = share,
-                Err(unsolved) if stands.share - falls > SHARE_PUT_UP_WITH * stands.share => return Err(unsolved),
-                Err(_) => break,
+                Ok(None) => (below, falls) = (share, share),
+                // Next to joints of no length at all, and next to the least share, rounding may decide.
+                Err(Unsolved) => below = share,
             }
+            if stands.share <= least {
+                return Ok(Some(stands));
+            }
+            share = 0.5 * (stands.share + below);
         }
-        Ok(Some(stands))
+        if stands.share - falls <= SHARE_PUT_UP_WITH * stands.share { Ok(Some(stands)) } else { Err(Unsolved) }
     }
 
     /// Forces in equilibrium at load factor `at` on joints of this share of their lengths; none where there are none.
@@ -63,11 +65,13 @@ impl StaticTheorem {
             programme.limits = (0..self.joints()).flat_map(|k| self.within(k, share)).collect();
         }
         match programme.maximise(&Objective::load_factor(0.0), budget) {
-            ProgrammeOutcome::At(equilibrium, _) | ProgrammeOutcome::Unbounded(equilibrium) => {
-                Ok(Some(self.resultants(&equilibrium)))
+            ProgrammeOutcome::At(equilibrium, _) => {
+                let slack = |limit: &Limit| limit.slack(&equilibrium.forces);
+                let least = self.limits.iter().chain(&programme.limits).map(slack).fold(f64::INFINITY, f64::min);
+                if least > -VIOLATED { Ok(Some(self.resultants(&equilibrium))) } else { Err(Unsolved) }
             }
             ProgrammeOutcome::Infeasible(_) => Ok(None),
-            ProgrammeOutcome::Lost => Err(Unsolved),
+            ProgrammeOutcome::Unbounded(_) | ProgrammeOutcome::Lost => Err(Unsolved),
         }
     }
 
