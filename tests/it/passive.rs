@@ -3,6 +3,7 @@
 use crate::common::answered::{end, solved, text};
 use crate::common::dice::Dice;
 use crate::common::door;
+use crate::common::folders;
 use crate::common::oracle::{Aim, Element, Problem};
 use serde_json::{Value, json};
 use voussoir::budget::Budget;
@@ -176,6 +177,26 @@ fn answered(request: &Value) -> (Analysis, CollapseReport) {
 fn problem(analysis: &Analysis) -> Problem {
     let element = |e: &PassiveElement| Element { block: e.body, at: e.at.into(), way: e.way, most: e.most };
     Problem { soil: analysis.structure.passive.iter().map(element).collect(), ..door::problem(analysis) }
+}
+
+#[test]
+fn the_documents_have_the_loads_of_prestwood_bridge() {
+    let documents = std::fs::read_to_string(folders::cases().join("../docs/verification.md")).unwrap();
+    let soils = [json!({"factor": 0}), json!({}), json!({"cohesion_pa": 5000, "factor": 1, "cohesion_factor": 1})];
+    for soil in soils {
+        let mut request = bridge(60, &soil, true);
+        request["stone"]["density_kg_m3"] = json!(1800);
+        let (analysis, report) = answered(&request);
+        let mut problem = problem(&analysis);
+        let ours = [report.limit_window, report.crushing.plastic_section.unwrap().window].map(|of| of.unwrap().highest);
+        let theirs = [None, Some(4.5e6)].map(|strength| {
+            problem.strength = strength;
+            problem.solve(Aim::Highest).value(Aim::Highest).unwrap()
+        });
+        (0..2).for_each(|i| close(ours[i], theirs[i], 1e-7, &soil.to_string()));
+        let row = ours.map(|load| format!("{:.1}", 3.8 * load));
+        assert!(documents.contains(&format!("| {} | {} |", row[0], row[1])), "{row:?} is not in the documents");
+    }
 }
 
 #[test]
