@@ -281,7 +281,9 @@ fn how_soon_soil_is_mobilised_does_not_matter_at_first_order_and_does_on_moving_
     });
     ends.iter().for_each(|(first, _)| close(*first, ends[0].0, 1e-7, "first order"));
     assert!(ends[0].1 > ends[1].1 && ends[1].1 > ends[2].1, "softer soil bears more: {ends:?}");
-    close(ends[0].1, 1.0, 0.01, "stiff soil, stiff stone");
+    // It tends to the load at first order, about with the square root of the movement.
+    let missing = ends.map(|(_, share)| 1.0 - share);
+    assert!(missing[0] > 0.0 && missing[0] < 0.025 && missing[0] < 0.4 * missing[1], "{missing:?}");
 }
 
 #[test]
