@@ -17,6 +17,7 @@ mod window;
 
 pub use crushing::CrushingWindow;
 pub use non_dilating::{Release, releases};
+pub use passive::SoilEnd;
 pub use resultant::{Condition, Resultant};
 pub use static_theorem::{Equilibrium, StaticTheorem, Unsolved};
 pub use window::{Window, WindowEnd};

@@ -37,6 +37,8 @@ pub enum Note {
     CrushesAndDilates,
     /// Joints slide, and no other load was found at which the arch falls.
     SoleSlidingLoad(LoadRange),
+    /// Joints slide beside passive elements: the load path, and with it the mechanisms tried, depends on how soon they are mobilised.
+    SlidesBesideSoil,
     /// Joints slide, and the arch may fall at any load of a range.
     ManySlidingLoads(LoadRange),
     /// The collapse load was read at whole steps.

@@ -94,6 +94,14 @@ impl Fill {
         self.column(at).map(|[from, to, density]| (to - from) * GRAVITY * density).sum()
     }
 
+    /// Lowest height of the line between two abscissae, m; infinite without one.
+    pub(super) fn lowest(&self, [a, b]: [f64; 2]) -> f64 {
+        self.line.as_ref().map_or(f64::INFINITY, |line| {
+            let xs = line.bends(a, b).chain([a, b]);
+            xs.map(|x| line.height(x)).fold(f64::INFINITY, f64::min)
+        })
+    }
+
     /// Depth of a point below the line, m; 0 without one.
     pub(super) fn depth(&self, at: Vec2) -> f64 {
         self.line.as_ref().map_or(0.0, |line| line.height(at.x) - at.y)

@@ -22,6 +22,7 @@ impl fmt::Display for Note {
             Note::Doubt(doubt) => doubted(doubt),
             Note::StandsOnlyWithin { window, why } => stands_only(window, *why),
             Note::SoleSlidingLoad(range) => sole_load(range),
+            Note::SlidesBesideSoil => SLIDES_BESIDE_SOIL.into(),
             Note::ManySlidingLoads(range) => many_loads(range),
             Note::CrushesAtStart { strength, start, window } => crushes([*strength, *start].map(Digits), *window),
             Note::SeveralStates { given, load_factors, joints } => several(*given, load_factors, joints),
@@ -60,6 +61,9 @@ impl fmt::Display for Note {
         })
     }
 }
+
+const SLIDES_BESIDE_SOIL: &str = "Joints slide beside backfill that resists. The least load is then that of the mechanisms found from this load \
+     path, and other values of mobilisation_share_of_depth may find a lower one: try 0.001 and 1 too, and take the lowest.";
 
 const FALLS_FROM_ZERO: &str = "The arch stands at load factor 0 and at none beyond it in the direction asked. Hinges, slides \
      and velocities are those in which it falls as soon as the load factor leaves 0.";
