@@ -7,11 +7,13 @@
 mod columns;
 mod dispersal;
 mod patch;
+mod vehicle;
 
 use super::{Body, GRAVITY, PointForce, Structure, Surface};
 use crate::geometry::{Vec2, distance_from_segment, lies_inside};
 pub use dispersal::{Dispersal, Distribution};
 pub use patch::Patch;
+pub use vehicle::{Axle, Vehicle};
 
 /// Fill and embankment, eq. (7) of the paper: `q_v = (H - y) g rho_f + h_e g rho_e`, `q_h = K q_v`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -61,6 +63,8 @@ pub enum Load {
     Point(f64, Place),
     /// A vertical force on a strip, on the extrados or on the surface of fill.
     Patch(Patch),
+    /// Axles, each a force on a strip.
+    Vehicle(Vehicle),
     /// Density times this acceleration, m/s2, on every body.
     BodyAcceleration(Vec2),
     /// A force in any direction.
@@ -144,6 +148,7 @@ impl Load {
             Load::Point(force, Place::Body(k)) => vec![middle_load(structure, *force, *k)?],
             Load::Force { body, at, force } => vec![force_on(structure, *body, *at, *force)?],
             Load::Patch(patch) => patch.on(structure, &sides)?,
+            Load::Vehicle(vehicle) => vehicle.on(structure, &sides)?,
         };
         for force in &mut forces {
             force.force *= coefficient;

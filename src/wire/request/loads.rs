@@ -2,8 +2,10 @@
 //!
 //! A new load has its fields and an arm of every function here, and its forces in `structure::load`.
 
+mod axle_groups;
 mod fill;
 mod patch;
+mod vehicle;
 
 use super::{ForceVector, Point, Text};
 use crate::geometry::Vec2;
@@ -12,9 +14,11 @@ use crate::structure::load::{Band, Load, LoadFault, Place};
 use crate::wire::fault::{Faults, Shown};
 use crate::wire::prose::Digits;
 pub use fill::FillPressure;
+use patch::DispersalRequest;
 pub use patch::PatchLoad;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
+pub use vehicle::VehicleLoad;
 
 /// A load, and whether the load factor multiplies it. Forces are per metre of width.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
@@ -48,6 +52,8 @@ pub enum LoadRequest {
     PointForce(PointForceLoad),
     /// A vertical force spread over a plan width.
     PatchLoad(PatchLoad),
+    /// A vehicle: axles at fixed distances.
+    Vehicle(VehicleLoad),
     /// An inertia force on stones and fill: their mass times an acceleration.
     BodyAcceleration(BodyAcceleration),
 }
@@ -135,6 +141,7 @@ impl LoadRequest {
             LoadRequest::LateralPressure(_) => ("lateral_pressure", Bearer::Extrados),
             LoadRequest::PointLoad(_) => ("point_load", Bearer::Extrados),
             LoadRequest::PatchLoad(_) => ("patch_load", Bearer::Extrados),
+            LoadRequest::Vehicle(_) => ("vehicle", Bearer::Extrados),
             LoadRequest::PointForce(_) => ("point_force", Bearer::NamedBody),
             LoadRequest::BodyAcceleration(_) => ("body_acceleration", Bearer::AllBodies),
         }
@@ -156,6 +163,7 @@ impl LoadRequest {
                 Load::Point(point.force_n_per_m, Place::Abscissa(point.x_m.unwrap_or(0.0)))
             }
             LoadRequest::PatchLoad(patch) => Load::Patch(patch.in_si()),
+            LoadRequest::Vehicle(vehicle) => Load::Vehicle(vehicle.in_si()),
             LoadRequest::PointForce(force) => Load::Force {
                 body: names.iter().position(|name| **name == *force.block)?,
                 at: force.at_m.into(),
@@ -169,6 +177,7 @@ impl LoadRequest {
     pub fn forces_per_side(&self) -> usize {
         match self {
             LoadRequest::LateralPressure(lateral) => lateral.bands.len(),
+            LoadRequest::Vehicle(vehicle) => vehicle.count(),
             LoadRequest::SelfWeight(_)
             | LoadRequest::FillPressure(_)
             | LoadRequest::PointLoad(_)
@@ -180,7 +189,11 @@ impl LoadRequest {
 
     /// Whether it may stand where none of it comes down on the structure.
     pub fn may_miss(&self) -> bool {
-        matches!(self, LoadRequest::PatchLoad(patch) if patch.dispersal.is_some())
+        match self {
+            LoadRequest::PatchLoad(patch) => patch.dispersal.is_some(),
+            LoadRequest::Vehicle(_) => true,
+            _ => false,
+        }
     }
 
     /// What it says against itself. `here` points to its fields.
@@ -201,6 +214,7 @@ impl LoadRequest {
                 faults.require(one, here, "give either x_m or voussoir, not both and not neither");
             }
             LoadRequest::PatchLoad(patch) => faults.not_zero(&format!("{here}/force_n_per_m"), patch.force_n_per_m),
+            LoadRequest::Vehicle(vehicle) => vehicle.check(here, faults),
             LoadRequest::PointForce(force) => {
                 let detail = "0 both ways makes this load vanish: give another force or leave the load out";
                 faults.require(force.force_n_per_m.0 != [0.0; 2], format!("{here}/force_n_per_m"), detail);
@@ -214,8 +228,11 @@ impl LoadRequest {
             (LoadRequest::FillPressure(_), _) => Some("fill_height_m"),
             (LoadRequest::PointLoad(_), LoadFault::NoSuchVoussoir { .. }) => Some("voussoir"),
             (LoadRequest::PointLoad(_), _) => Some("x_m"),
-            (LoadRequest::PatchLoad(_), LoadFault::SurfaceBelowExtrados { .. }) => Some("dispersal/surface_height_m"),
+            (LoadRequest::PatchLoad(_) | LoadRequest::Vehicle(_), LoadFault::SurfaceBelowExtrados { .. }) => {
+                Some("dispersal/surface_height_m")
+            }
             (LoadRequest::PatchLoad(_), _) => Some("centre_x_m"),
+            (LoadRequest::Vehicle(_), _) => Some("x_m"),
             (LoadRequest::PointForce(_), _) => Some("at_m"),
             (LoadRequest::SelfWeight(_) | LoadRequest::LateralPressure(_) | LoadRequest::BodyAcceleration(_), _) => {
                 None
@@ -239,6 +256,7 @@ impl LoadRequest {
                 format!("{} {place}", kn_per_m(point.force_n_per_m))
             }
             LoadRequest::PatchLoad(patch) => patch.words(),
+            LoadRequest::Vehicle(vehicle) => vehicle.words(),
             LoadRequest::PointForce(force) => {
                 let [fx, fy] = force.force_n_per_m.0.map(|force| Digits(force / 1e3));
                 let [x, y] = force.at_m.0.map(Digits);

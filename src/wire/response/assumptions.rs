@@ -25,6 +25,9 @@ const MASSLESS_IS_SHAKEN: &str = "A lateral pressure has no mass: in the acceler
 const DENSITIES: [f64; 2] = [500.0, 5000.0];
 const LENGTHS: [f64; 2] = [0.02, 1000.0];
 
+/// A share of a load that is missing to all of it by less is rounding.
+const ALL: f64 = 1e-9;
+
 /// Most bodies that are named in a note.
 const BODIES_NAMED: usize = 6;
 
@@ -43,7 +46,16 @@ pub(super) fn assumptions(request: &AnalysisRequest, structure: &StructureBody) 
         (shaken && massless, MASSLESS_IS_SHAKEN),
     ];
     let notes = notes.into_iter().filter(|(holds, _)| *holds).map(|(_, note)| note.to_owned());
-    notes.chain(uncut(request, structure)).chain(units(request, structure)).collect()
+    notes.chain(uncut(request, structure)).chain(units(request, structure)).chain(beyond(structure)).collect()
+}
+
+/// How much of vehicles stands on the ground.
+fn beyond(structure: &StructureBody) -> impl Iterator<Item = String> {
+    let lost = structure.arriving.iter().filter(|(_, share)| *share < 1.0 - ALL);
+    lost.map(|(i, share)| {
+        let share = Digits(100.0 * share);
+        format!("Of the vehicle of loads[{i}] {share} % of the force comes down on the structure; the rest goes to the ground.")
+    })
 }
 
 /// Which numbers look as if they were in other units.

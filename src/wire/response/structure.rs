@@ -5,7 +5,7 @@ use crate::collapse::{Analysis, subblocks_of};
 use crate::geometry::cross;
 use crate::structure::{Body, Joint, JointLaw, PointForce, Side, Sides, Structure};
 use crate::wire::request::AnalysisRequest;
-use crate::wire::translate::analysed;
+use crate::wire::translate::{analysed, arriving};
 use serde::Serialize;
 use utoipa::ToSchema;
 
@@ -23,6 +23,9 @@ pub struct StructureBody {
     /// Bodies that no mesh cuts.
     #[serde(skip)]
     pub(super) whole: Vec<usize>,
+    /// Numbers of the loads that are vehicles, each with the share of its force that comes down on the structure.
+    #[serde(skip)]
+    pub(super) arriving: Vec<(usize, f64)>,
 }
 
 /// A body: a stone, or a block of a pier or an abutment. Forces are per metre of width.
@@ -90,6 +93,7 @@ impl StructureBody {
     pub(super) fn new(request: &AnalysisRequest) -> Option<Self> {
         let (analysis, layout) = analysed(request)?;
         let structure = &analysis.structure;
+        let arriving = arriving(request, &layout.structure);
         let (bodies, supports) = match request.arch {
             Some(_) => arch_names(structure),
             None => (layout.bodies, layout.supports),
@@ -102,7 +106,7 @@ impl StructureBody {
         let uncut = |body: &Body| body.sides == Sides::Straight && subblocks_of(body, [2, 2]).is_none();
         let whole = structure.bodies.iter().enumerate().filter(|(_, body)| uncut(body));
         let whole = whole.map(|(k, _)| k).collect();
-        Some(StructureBody { joints, whole, bodies: bodies_of(&analysis, &bodies), supports })
+        Some(StructureBody { joints, whole, arriving, bodies: bodies_of(&analysis, &bodies), supports })
     }
 }
 

@@ -17,6 +17,7 @@ mod settlement;
 mod site;
 mod stone;
 mod structure;
+mod vehicle;
 
 use super::fault::{Fault, Faults};
 use super::request::{AimRequest, AnalysisRequest, Request};
@@ -24,6 +25,7 @@ use crate::collapse::{Analysis, Question};
 use site::Unloaded;
 
 pub use structure::Layout;
+pub use vehicle::arriving;
 
 /// Translates a request.
 ///
@@ -63,6 +65,7 @@ fn structure_question(request: &AnalysisRequest, faults: &mut Faults) -> Option<
         }
     };
     safety::check_flags(request, curve, faults);
+    vehicle::check(request, faults);
     match curve {
         Some(curve) => safety::points(&site, curve, faults).map(Question::Curve),
         None => site.analysis(&request.loads, faults).map(|analysis| Question::One(Box::new(analysis))),

@@ -85,7 +85,7 @@ impl PatchLoad {
 }
 
 impl DispersalRequest {
-    fn in_si(&self) -> Dispersal {
+    pub(super) fn in_si(&self) -> Dispersal {
         let distribution = match self.distribution {
             DistributionRequest::Boussinesq(Boussinesq { cut_off_deg }) => {
                 Distribution::Boussinesq { cut_off: cut_off_deg.to_radians() }
@@ -96,7 +96,7 @@ impl DispersalRequest {
     }
 
     /// With all that is assumed of it.
-    fn words(&self) -> String {
+    pub(super) fn words(&self) -> String {
         let how = match self.distribution {
             DistributionRequest::Boussinesq(Boussinesq { cut_off_deg }) => {
                 format!("as Boussinesq has it up to {} deg from the vertical", Digits(cut_off_deg))
