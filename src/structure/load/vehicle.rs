@@ -36,6 +36,11 @@ impl Vehicle {
         Vehicle { x, reversed, ..self.clone() }
     }
 
+    /// Force of all axles, N/m, downwards.
+    pub fn force(&self) -> f64 {
+        self.axles.iter().map(|axle| axle.force).sum()
+    }
+
     /// Its axles as strips.
     pub fn patches(&self) -> impl Iterator<Item = Patch> {
         let sense = if self.reversed { -1.0 } else { 1.0 };
@@ -60,8 +65,7 @@ impl Vehicle {
     /// When it does not fit the structure.
     pub fn arriving(&self, structure: &Structure) -> Result<f64, LoadFault> {
         let forces = self.on(structure, &cut_sides(structure, &[]))?;
-        let whole: f64 = self.axles.iter().map(|axle| axle.force).sum();
-        Ok(-forces.iter().map(|force| force.force.y).sum::<f64>() / whole)
+        Ok(-forces.iter().map(|force| force.force.y).sum::<f64>() / self.force())
     }
 
     /// From where to where its reference has to stand for any of its force to come down on a structure, m: at most so far.

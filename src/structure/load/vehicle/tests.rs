@@ -1,5 +1,5 @@
 use super::super::dispersal::Distribution;
-use super::super::tests::{arch_of, close, ring, sum};
+use super::super::tests::{arch_of, close, ring};
 use super::super::{Load, LoadFault};
 use super::*;
 use crate::arch::profile::Profile;
