@@ -36,6 +36,18 @@ impl Vehicle {
         Vehicle { x, reversed, ..self.clone() }
     }
 
+    /// Whether it is the same seen from the other side: then standing the other way round is standing elsewhere.
+    pub fn is_symmetric(&self) -> bool {
+        let mut axles = self.axles.clone();
+        axles.sort_by(|a, b| a.offset.total_cmp(&b.offset));
+        let ends = axles.first().zip(axles.last()).map_or(0.0, |(first, last)| first.offset + last.offset);
+        let near = 1e-9 * axles.iter().map(|axle| axle.offset.abs()).fold(0.0, f64::max);
+        axles
+            .iter()
+            .zip(axles.iter().rev())
+            .all(|(a, b)| (a.offset + b.offset - ends).abs() <= near && (a.force, a.length) == (b.force, b.length))
+    }
+
     /// Force of all axles, N/m, downwards.
     pub fn force(&self) -> f64 {
         self.axles.iter().map(|axle| axle.force).sum()

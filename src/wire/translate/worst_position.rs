@@ -86,7 +86,8 @@ fn check(request: &AnalysisRequest, asked: &WorstPositionRequest, faults: &mut F
 /// From where to where, in every direction asked for; a vehicle that is its own mirror image has one direction.
 fn sweeps(structure: &Structure, vehicles: &[MovingVehicle], asked: &WorstPositionRequest) -> Vec<Sweep> {
     let given = vehicles[0].vehicle.reversed;
-    let both = asked.directions == DrivingRequest::Both && vehicles.iter().any(|moving| moving.vehicle.axles.len() > 1);
+    let turned_is_elsewhere = vehicles.len() == 1 && vehicles[0].vehicle.is_symmetric();
+    let both = asked.directions == DrivingRequest::Both && !turned_is_elsewhere;
     let reach = |reversed: bool| {
         let of = |moving: &MovingVehicle| Vehicle { reversed, ..moving.vehicle.clone() }.reach(structure);
         let widest = |[a, b]: [f64; 2], [from, to]: [f64; 2]| [a.min(from), b.max(to)];
@@ -94,6 +95,8 @@ fn sweeps(structure: &Structure, vehicles: &[MovingVehicle], asked: &WorstPositi
     };
     let sweep = |reversed: bool| {
         let [from, to] = reach(reversed);
+        // Whole steps: positions that are easily read.
+        let [from, to] = [(from / asked.step_m).floor(), (to / asked.step_m).ceil()].map(|steps| steps * asked.step_m);
         Sweep { from: asked.from_m.unwrap_or(from), to: asked.to_m.unwrap_or(to), step: asked.step_m, reversed }
     };
     [given].into_iter().chain(both.then_some(!given)).map(sweep).collect()

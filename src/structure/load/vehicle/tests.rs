@@ -4,6 +4,8 @@ use super::super::{Load, LoadFault};
 use super::*;
 use crate::arch::profile::Profile;
 use crate::arch::ring::{Line, Ring};
+use crate::geometry::Vec2;
+use crate::structure::resultants;
 use std::f64::consts::PI;
 
 const BOUSSINESQ: Dispersal =
@@ -91,4 +93,25 @@ fn beyond_its_reach_nothing_of_a_vehicle_arrives() {
             assert!([from + 1e-3, to - 1e-3].into_iter().all(|x| share(x) > 0.0));
         }
     }
+}
+
+#[test]
+fn a_symmetric_vehicle_turned_round_stands_elsewhere() {
+    let of = |axles: &[(f64, f64)]| {
+        let axle = |&(offset, force): &(f64, f64)| Axle { offset, force, length: 0.3 };
+        Vehicle { axles: axles.iter().map(axle).collect(), ..bogie(0.4, false, None) }
+    };
+    for (axles, symmetric) in [
+        (&[(0.7, 1.0)][..], true),
+        (&[(1.3, 1.0), (0.0, 1.0)], true),
+        (&[(0.0, 2.0), (2.6, 2.0), (1.3, 1.0)], true),
+        (&[(0.0, 1.5), (1.3, 0.5)], false),
+        (&[(0.0, 1.0), (1.3, 1.0), (2.7, 1.0)], false),
+    ] {
+        assert_eq!(of(axles).is_symmetric(), symmetric, "{axles:?}");
+    }
+    let (bridge, bogie) = (bridge(), of(&[(0.0, 1.0), (1.25, 1.0)]));
+    let [one, other] = [bogie.at(-0.5, false), bogie.at(0.75, true)]
+        .map(|vehicle| resultants(60, &on(Load::Vehicle(vehicle), &bridge), Vec2::zeros()));
+    assert!(one.as_flattened().iter().zip(other.as_flattened()).all(|(a, b)| (a - b).abs() < 1e-12));
 }

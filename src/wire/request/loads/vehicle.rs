@@ -100,7 +100,7 @@ impl VehicleLoad {
         let vehicle = self.in_si();
         let axle = |axle: &Axle| {
             let force = Digits(axle.force * self.effective_width_m / 1e3);
-            format!("{force} kN at {} m on {} m", Digits(axle.offset), Digits(axle.length))
+            format!("{force} kN at {} m ({} m long)", Digits(axle.offset), Digits(axle.length))
         };
         let axles = vehicle.axles.iter().map(axle).collect::<Vec<_>>().join(", ");
         let place = match (self.x_m, self.reversed) {
