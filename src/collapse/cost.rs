@@ -10,7 +10,7 @@ mod kinds;
 
 use super::discretise::{grids, touching};
 use super::strips::MOST_POINTS;
-use super::{Analysis, CurvedBeam, Geometry, PositionQuestion, Question, Sweep, Task, plan};
+use super::{Analysis, CurvedBeam, Geometry, PositionQuestion, Question, Task, plan, worst_position};
 use crate::budget::{Budget, Stopped};
 use crate::dda::{AssemblySize, Beside, Touch};
 use crate::structure::{Side, Structure};
@@ -72,10 +72,10 @@ const LOST: usize = 16;
 const LIMIT: [usize; 2] = [8000, 30_000];
 /// Loops up to which there are few.
 const FEW_LOOPS: usize = 19;
-/// Places for every position of vehicles, bytes of the mechanisms found at one for every joint, and multiplications of limit analysis
-/// there for every joint, at least.
-const MOST_PLACES: usize = 6;
-const MOTION: usize = 50;
+/// Bytes of the places between two positions of vehicles, for every force, and of the mechanisms found at one, for every joint; and
+/// multiplications of limit analysis there for every joint, at least.
+const PLACE: usize = 400;
+const MOTION: usize = 60;
 const SOLVED: usize = 1000;
 /// Events of a path for every contact point, and more than were seen.
 const EVENTS: f64 = 2.0;
@@ -118,16 +118,13 @@ impl Demand {
     }
 }
 
-/// One analysis, and limit analysis at every position, whose loads are kept with those between.
+/// One analysis, and limit analysis at every position of the grid, whose loads are kept with those between.
 fn of_positions(question: &PositionQuestion, budget: &Budget) -> Result<Demand, Stopped> {
-    let analysis = &question.analysis;
-    let positions: usize = question.sweeps.iter().map(|sweep: &Sweep| sweep.parts() + 1).sum();
-    let axles: usize = question.vehicles.iter().map(|moving| moving.vehicle.axles.len()).sum();
-    let forces = axles * question.pieces.iter().sum::<usize>();
-    let joints = analysis.structure.joints.len();
-    let kept = positions * (MOST_PLACES * TRANSLATED[1] * forces + MOTION * joints);
-    let demand = of(analysis, budget)?.and(kept, Share::Points);
-    Ok(Demand { work: demand.work + (positions * joints * SOLVED) as f64, ..demand })
+    let (grid, forces) = worst_position::size(question);
+    let joints = question.analysis.structure.joints.len();
+    let kept = grid * (PLACE * forces + MOTION * joints);
+    let demand = of(&question.analysis, budget)?.and(kept, Share::Points);
+    Ok(Demand { work: demand.work + (grid * joints * SOLVED) as f64, ..demand })
 }
 
 /// Bytes of the analysis itself.

@@ -11,7 +11,8 @@ mod places;
 use super::discretise::Discretisation;
 use super::tolerances::SAME_FAILURE;
 use super::{
-    Analysis, AnalysisError, CollapseReport, Governs, Note, PositionQuestion, PositionReport, TaskReport, verdict,
+    Analysis, AnalysisError, CollapseReport, Governs, Note, PositionQuestion, PositionReport, Sweep, TaskReport,
+    verdict,
 };
 use crate::budget::Budget;
 use crate::limit::{StaticTheorem, Window, WindowEnd};
@@ -27,6 +28,8 @@ const MAY_DIP: f64 = 0.02;
 const NARROWED: usize = 14;
 /// Most positions besides the grid; seen: ten.
 const MOST_REFINED: usize = 500;
+/// Multiplications of a force's work.
+const WORK: usize = 8;
 /// Load factors that differ by this share are the same: of equal ones the leftmost counts.
 const SAME: f64 = 1e-9;
 
@@ -38,11 +41,19 @@ pub(super) fn find(question: &PositionQuestion, budget: &Budget) -> Result<Colla
     let (worst, report) = search.report();
     let analysis = search.loaded(&search.places[worst]);
     let mut answer = verdict::run(&analysis, &mut Discretisation::new(budget))?;
-    let unknown = report.curve.iter().filter(|point| point.load_factor().is_none()).count();
+    let unknown = report.curve.iter().filter(|point| point.instability.is_none() || point.crushing.is_none()).count();
     answer.notes.push(Note::PositionsBetween { solved: report.curve.len(), tolerance: question.tolerance });
     answer.notes.extend((unknown > 0).then_some(Note::PositionsUnknown(unknown)));
     answer.task = TaskReport::WorstPosition(Box::new(report));
     Ok(answer)
+}
+
+/// Positions on the grid, and about how many forces there are at most at one.
+pub(super) fn size(question: &PositionQuestion) -> (usize, usize) {
+    let coarse = question.sweeps.iter().map(|sweep| Sweep { step: (sweep.to - sweep.from) / 8.0, ..*sweep }).collect();
+    let few = PositionQuestion { sweeps: coarse, ..question.clone() };
+    let forces = places(&few, 0).iter().map(|place| place.fixed.len() + place.scaled.len()).max();
+    (question.sweeps.iter().map(|sweep| sweep.parts() + 1).sum(), forces.unwrap_or(0))
 }
 
 struct Search<'q> {
@@ -145,6 +156,7 @@ impl<'q> Search<'q> {
             let Some(motion) = motion else { continue };
             let bound = Bound::new(self.structure(), &self.question.analysis, &self.places[place], load_factor, motion);
             let number = self.bounds.len();
+            self.budget.work(self.places.iter().map(|place| WORK * (place.scaled.len() + place.fixed.len())).sum())?;
             self.places.iter_mut().for_each(|place| place.lower(number, bound.at(place)));
             self.bounds.push(bound);
         }
@@ -218,8 +230,8 @@ impl<'q> Search<'q> {
         let governed_by = match (point.instability, point.crushing) {
             _ if finite.is_none() => Governs::Nothing,
             (Some(falls), Some(crushes)) if crushes < falls - SAME_FAILURE * falls.abs() => Governs::Crushing,
-            (None, Some(_)) => Governs::Unknown,
-            _ => Governs::Instability,
+            (Some(_), Some(_)) => Governs::Instability,
+            _ => Governs::Unknown,
         };
         let curve = self.places.iter().filter(|place| place.found.is_some()).map(Place::point).collect();
         (worst, PositionReport { worst: point, governed_by, curve })

@@ -51,8 +51,9 @@ fn the_worst_position_of_an_axle_is_that_of_another_program() {
     let curve = |name: &str| worst["curve"][name].as_array().unwrap().iter().map(Value::as_f64).collect::<Vec<_>>();
     let (x, instability, crushing) = (curve("x_m"), curve("instability"), curve("crushing"));
     // By a separate linear programme, integrated with tens of points: 31.2074 at -1.782 for stone that does not crush.
-    let least =
-        (0..x.len()).filter(|&i| instability[i].is_some()).min_by(|&a, &b| instability[a].total_cmp(&instability[b]));
+    let least = (0..x.len())
+        .filter(|&i| instability[i].is_some())
+        .min_by(|&a, &b| instability[a].partial_cmp(&instability[b]).unwrap());
     let least = least.unwrap();
     close(instability[least].unwrap(), 31.2074, 5e-4);
     close(x[least].unwrap().abs(), 1.782, 0.03);

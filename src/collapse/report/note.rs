@@ -111,7 +111,7 @@ pub enum Note {
         /// How much lower the least load factor may be in the mechanisms found, as a share of it.
         tolerance: f64,
     },
-    /// At so many positions rounding kept limit analysis from an answer.
+    /// At so many positions rounding kept limit analysis from one of its two answers, or from both.
     PositionsUnknown(usize),
     /// In some steps of the motion friction is beyond its bound, by at most this share of the loads.
     MotionBeyondFriction(f64),

@@ -11,7 +11,7 @@ use crate::wire::request::{
 };
 
 /// Most positions of the grid.
-const MOST_POSITIONS: usize = 4000;
+const MOST_POSITIONS: usize = 2000;
 
 const HERE: &str = "/analysis/worst_position";
 
