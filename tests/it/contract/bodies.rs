@@ -93,7 +93,8 @@ fn settlement() -> Value {
 fn driven() -> Value {
     let asked = json!({"from_m": -2, "to_m": 2, "step_m": 0.5, "tolerance": 1e-3, "directions": "both"});
     let vehicle = json!({"vehicle": {
-        "standard": "cs454_bogie_8t", "length_m": 0.3, "effective_width_m": 2, "effective_width_rule": "a lane"
+        "standard": "cs454_bogie_8t", "length_m": 0.3, "effective_width_m": 2, "effective_width_rule": "a lane",
+        "dispersal": {"surface_height_m": 8.5, "distribution": {"uniform": {"spread": 0.4}}}
     }});
     let request = with(arch(), "/analysis", json!({"worst_position": asked}));
     with(request, "/loads/2", json!({"load": vehicle, "scaled": true}))
