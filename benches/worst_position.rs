@@ -11,7 +11,7 @@ use voussoir::arch::ring::{JointLines, Line, Ring, Thickness, stations};
 use voussoir::arch::{assemble, straight_voussoirs};
 use voussoir::budget::Budget;
 use voussoir::collapse::{Analysis, Answer, MovingVehicle, PositionQuestion, Question, Sweep, answer};
-use voussoir::structure::load::{Axle, Dispersal, Distribution, Fill, Load, Vehicle};
+use voussoir::structure::load::{Axle, Dispersal, Distribution, Fill, Layer, Load, SurfaceLine, Vehicle};
 use voussoir::structure::{JointLaw, PointForce, Stone, Structure};
 
 const STONES: usize = 61;
@@ -39,8 +39,9 @@ fn bridge() -> (Structure, Vec<PointForce>) {
     };
     let law = JointLaw::Dry { friction: 40f64.to_radians().tan(), cohesion: 0.0 };
     let structure = assemble(&ends, straight_voussoirs(&ends).unwrap(), stone, law);
-    let fill =
-        Fill { height: Some(1.813), density: 2040.0, embankment: 0.0, embankment_density: 0.0, lateral_ratio: 0.0 };
+    let layer = Layer { bottom: f64::NEG_INFINITY, top: 0.0, density: 2040.0 };
+    let line = Some(SurfaceLine::level(1.813));
+    let fill = Fill { line, layers: vec![layer], backing: None, lateral_ratio: 0.0 };
     let fixed = [Load::SelfWeight, Load::Fill(fill)].map(|load| load.on(&structure, 1.0).unwrap()).concat();
     (structure, fixed)
 }
@@ -62,8 +63,10 @@ fn main() {
         [("axle", &[0.0][..], &[false][..]), ("bogie, both ways", &[0.0, 1.3], &[false, true])]
     {
         let (structure, fixed) = bridge();
-        let dispersal =
-            Dispersal { surface: 1.813, distribution: Distribution::Boussinesq { cut_off: 30f64.to_radians() } };
+        let dispersal = Dispersal {
+            surface: SurfaceLine::level(1.813),
+            distribution: Distribution::Boussinesq { cut_off: 30f64.to_radians() },
+        };
         let axle = |(i, &offset): (usize, &f64)| Axle { offset, force: 1000.0 / (1.0 + i as f64), length: 0.3 };
         let axles = offsets.iter().enumerate().map(axle).collect();
         let vehicle = Vehicle { axles, x: -1.8, reversed: false, dispersal: Some(dispersal) };

@@ -2,8 +2,8 @@
 """Proves answers anew from their JSON alone: python3 check.py ANSWER.json ...; exit code 1 where a proof fails or is none.
 
 A load factor is borne if some joint forces balance every body and break no joint's law (static theorem). None is borne whose loads
-do more work than the joints take, in some motion that no joint hinders (kinematic theorem; joints that slide dilate in it, and what
-closes in an end that crushes does so against the strength)."""
+do more work than the joints take, in some motion that no joint hinders (kinematic theorem; joints that slide dilate in it, soil resists
+what moves into it, and what closes in an end that crushes does so against the strength)."""
 import json, math, sys
 
 NEAR = {"instability": 1e-6, "sliding": 1e-6, "crushing": 1e-6, "crushing on the path": 1e-3}  # of largest force, work or velocity
@@ -14,6 +14,8 @@ class Structure:
     def __init__(self, told):
         self.loads = [[list(body[of].values()) for of in ("fixed_load", "scaled_load")] for body in told["bodies"]]
         place = {body["name"]: (k, complex(*body["centroid_m"])) for k, body in enumerate(told["bodies"])}
+        self.soil = [(place[e["body"]][0], e["direction"], (complex(*e["at_m"]) - place[e["body"]][1]).imag, e["most_n_per_m"])
+                     for e in told["passive_elements"]]  # body, way, height over its centroid, largest force
         self.joints = []  # law, and what forces of 1 (normal at the first end, at the second, shear) do: (body, [F_x, F_y, M]), ...
         for joint in told["joints"]:
             a, b = (complex(*end) for end in joint["ends_m"])
@@ -23,10 +25,13 @@ class Structure:
             self.joints.append((*(joint[of] or 0 for of in LAW), abs(b - a), effects))
 
     # Whether forces balance these factors of the two loads and break no law; bodies with unknown ones are left out.
-    def borne(self, factors, forces, why="instability"):
+    def borne(self, factors, forces, soil, why="instability"):
         parts = [[[factor * x for x in load] for factor, load in zip(factors, loads)] for loads in self.loads]
         size, broken = max(abs(x) for of in (*sum(parts, []), *filter(None, forces)) for x in of), []
         sums = [[f + s for f, s in zip(*both)] for both in parts]
+        for (k, way, height, most), force in zip(self.soil, soil):
+            sums[k] = [of + x for of, x in zip(sums[k], (way * force, 0, -height * way * force))]
+            broken += [-force, force - abs(factors[0]) * most]
         unknown = {k for joint, force in zip(self.joints, forces) if not force for k, _ in joint[5][0]}
         for (law, friction, cohesion, strength, length, effects), force in zip(self.joints, forces):
             i, e, t = force or (0, 0, 0)
@@ -46,6 +51,8 @@ class Structure:
             taken, closes = taken + cohesion * abs(slip), crushes and law == "dry" and low < 0
             taken += closes and strength * length * (-(low + high) / 2 if high <= 0 else low ** 2 / 2 / (high - low))
             hindered += [-low * (not closes)] if law in ("dry", "wall") else [abs(a), abs(b), abs(slip) * (law == "bonded")]
+        for k, way, height, most in self.soil:
+            taken += most * max(0, -way * (motion[k][0] - motion[k][2] * height))
         near = 1e-6 * fastest * sum(abs(by) * math.hypot(*load[:2]) for loads in self.loads for by, load in zip((1, at), loads))
         drives = abs(at * gained - taken) <= near and sign * gained > 0 if sign else -taken > 1e6 * abs(gained)
         return drives and max(hindered) <= 1e-6 * fastest
@@ -56,8 +63,8 @@ def check(answer):
     if window is None: return structure.falls(rows(proof["falls"]), 0, 0), "no load factor is borne"
     same, good, said = lambda a, b: math.isclose(a, b, rel_tol=1e-6, abs_tol=1e-9), [], f"borne from {window[0]} to {window[1]}"
     for end, value, sign in zip((proof["lowest"], proof["highest"]), window, (-1, 1)):
-        good += [structure.borne((1, end["load_factor"]), rows(end["forces"])),
-                 end["ray"] and structure.borne((0, sign), rows(end["ray"])) if value is None else
+        good += [structure.borne((1, end["load_factor"]), rows(end["forces"]), end["passive_n_per_m"]),
+                 end["ray"] and structure.borne((0, sign), rows(end["ray"]), [0] * len(structure.soil)) if value is None else
                  same(value, end["load_factor"]) and structure.falls(rows(end["motion"]), value, sign)]
     for end in answer["ends"] if answer["outcome"] in ("collapse", "stands_in_window") else []:
         at, which = end["load_factor"], ("lowest", "highest").index(end["which"])
@@ -65,7 +72,7 @@ def check(answer):
         exact = window[which] is not None and same(at, window[which]) or why == "crushing"
         line = {k: (n * (0.5 - off / structure.joints[k][4]), n * (0.5 + off / structure.joints[k][4]), t)
                 for k, n, t, off, *_ in rows(end["thrust_line"])}
-        good += [structure.borne((1, at), [line.get(k) for k in range(len(structure.joints))], why), exact or why != "instability",
+        good += [structure.borne((1, at), [line.get(k) for k in range(len(structure.joints))], end["passive_n_per_m"], why), exact or why != "instability",
                  why != "crushing" or structure.falls(rows(end["velocities"]) + [(0, 0, 0)] * 2, at, 2 * which - 1, True)]
         said += f"; falls at {at} by {why}" + ("" if exact else ": borne there, but an upper bound is not claimed")
     return all(good), said

@@ -81,6 +81,7 @@ pub fn assemble(ends: &[[Vec2; 2]], voussoirs: Vec<Body>, stone: Stone, law: Joi
         joints: ends.iter().enumerate().map(joint).collect(),
         spans: vec![Span { bodies: 0..n, joints: 0..n + 1 }],
         surfaces: ends.windows(2).enumerate().map(surface).collect(),
+        passive: Vec::new(),
         supports: 2,
     }
 }

@@ -154,6 +154,7 @@ impl Blocks {
             joints,
             spans: Vec::new(),
             surfaces: Vec::new(),
+            passive: Vec::new(),
             supports: self.supports.len(),
         }
     }

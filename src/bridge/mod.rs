@@ -148,6 +148,7 @@ impl Bridge {
             joints: Vec::new(),
             spans: Vec::new(),
             surfaces: Vec::new(),
+            passive: Vec::new(),
             supports: self.piers.len() + 2,
         };
         let mut works = Works { bridge: self, spans, numbers: Numbers::new(self), structure };

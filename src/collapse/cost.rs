@@ -154,7 +154,8 @@ fn of(analysis: &Analysis, budget: &Budget) -> Result<Demand, Stopped> {
 /// Bytes of limit analysis: with few loops dense, otherwise sparse.
 fn limit_analysis(structure: &Structure) -> usize {
     let loops = structure.joints.len().saturating_sub(structure.bodies.len());
-    structure.joints.len() * LIMIT[usize::from(loops > FEW_LOOPS)]
+    let sparse = loops > FEW_LOOPS || !structure.passive.is_empty();
+    (structure.joints.len() + structure.passive.len()) * LIMIT[usize::from(sparse)]
 }
 
 /// Modelling, following and writing an analysis on the mesh it has.
@@ -175,10 +176,15 @@ fn with_points(analysis: &Analysis, least: usize, budget: &Budget) -> Result<Dem
     let subblocks: Vec<usize> = grids.iter().map(|grid| grid.radial * grid.along).collect();
     let moves = analysis.task.geometry() == Geometry::Updated;
     let size = assembled(structure, &subblocks, &points, moves, budget)?;
-    // No two bodies whose joints crush need be alike.
-    let kinds = if least > 0 { (0..grids.len()).collect() } else { kinds(structure, &grids, &touches, budget)? };
+    // No two bodies whose joints crush, or on which soil presses, need be alike.
+    let kinds = if least > 0 || !structure.passive.is_empty() {
+        (0..grids.len()).collect()
+    } else {
+        kinds(structure, &grids, &touches, budget)?
+    };
     let kinds: Vec<Kind> = kinds.into_iter().map(|body| Kind::new(&grids[body], size.nodes[body])).collect();
-    let (unknowns, contacts): (usize, usize) = (size.nodes.iter().sum(), points.iter().sum());
+    let contacts = points.iter().sum::<usize>() + structure.passive.len();
+    let unknowns: usize = size.nodes.iter().sum();
     let cells: usize = subblocks.iter().sum();
     let rest = SUBBLOCK * cells + BODY * grids.len() + CONTACT * contacts + UNKNOWN * unknowns;
     let condensed: usize = kinds.iter().map(|kind| kind.memory).sum();
@@ -214,7 +220,9 @@ fn assembled(
         Side::Support(support) => Beside::Ground(support),
     };
     let between = structure.joints.iter().map(|joint| joint.between.map(beside));
-    let interfaces: Vec<_> = between.zip(points.iter().copied()).collect();
+    let soil =
+        structure.passive.iter().map(|element| ([Beside::Ground(structure.supports), Beside::Body(element.body)], 1));
+    let interfaces: Vec<_> = between.zip(points.iter().copied()).chain(soil).collect();
     AssemblySize::new(subblocks, &interfaces, moves, MOST_ENTRIES, budget)
 }
 

@@ -10,8 +10,8 @@ use super::{Analysis, AnalysisError, Geometry, PlaneModel, Seams};
 use crate::budget::Budget;
 use crate::dda::{Assembly, AssemblyBuilder, Beside, Bond, Elasticity, Loads, MeanMotion, Push, Touch};
 use crate::geometry::{Region, Vec2};
-use crate::structure::{PointForce, Side, Stone};
-use touches::{around, penalties, points, touches};
+use crate::structure::{PointForce, Side, Stone, Structure};
+use touches::{around, passive, penalties, points, touches};
 
 /// Work of cutting out a subblock with its seams, in multiplications.
 const CUT: usize = 2000;
@@ -26,6 +26,8 @@ pub(super) struct Model<'p> {
     /// Bodies and joints that are told of: all but abutment blocks.
     pub bodies: usize,
     pub joints: usize,
+    /// Contacts of the passive elements, one each.
+    pub soil: std::ops::Range<usize>,
     /// The subblocks of all bodies, those first that are told of.
     pub grids: Vec<Grid>,
     /// Places of every joint's contact points: 0 at its first end, 1 at its second.
@@ -119,6 +121,7 @@ fn discretise<'p>(analysis: &Analysis, strips: &Strips, budget: &'p Budget<'p>) 
         budget,
         bodies: structure.voussoirs().len(),
         joints: structure.ring().len(),
+        soil: elements(&assembly, structure),
         size: extent(structure.ring().iter().flat_map(|j| [j.intrados, j.extrados])),
         softest: f64::INFINITY,
         positions,
@@ -147,7 +150,20 @@ fn assembly(analysis: &Analysis, grids: &[Grid], strips: &Strips, budget: &Budge
         });
         builder.join(between, touching(analysis, k, grids, strips.points(k)));
     }
+    // Soil stands still, as no support does of which a movement may be asked.
+    for element in &structure.passive {
+        let penalty = analysis.penalty_ratio * structure.stone_of(element.body).youngs_modulus;
+        let between = [Beside::Ground(structure.supports), Beside::Body(element.body)];
+        builder.join(between, [passive(element, &grids[element.body], penalty)]);
+    }
     Ok(builder.finish(budget)?)
+}
+
+/// Contacts of the passive elements, whose interfaces are behind those of the joints.
+fn elements(assembly: &Assembly, structure: &Structure) -> std::ops::Range<usize> {
+    let count = structure.passive.len();
+    let first = (count > 0).then(|| assembly.at_interface(structure.joints.len()).start).unwrap_or(0);
+    first..first + count
 }
 
 /// Material of the stones.

@@ -6,10 +6,11 @@ use super::mechanism::{self, Released};
 use super::motion::{Motion, motion_at};
 use super::path::{Fall, total};
 use super::tolerances;
-use super::{Analysis, Mode, PathEnd, Thrust};
+use super::{Analysis, Mechanism, Mode, PathEnd, Thrust};
 use crate::dda::{Peak, State, Tracer, Zone};
 use crate::limit::{Condition, Resultant, StaticTheorem};
-use crate::structure::{JointLaw, PointForce, Structure};
+use crate::structure::{JointLaw, PassiveElement, PointForce, Structure};
+use std::borrow::Cow;
 
 /// The end of a path, and what is at its limits there.
 pub(super) struct Ending {
@@ -33,14 +34,18 @@ pub(super) fn at_peak(
 ) -> Ending {
     let structure = &analysis.structure;
     let conditions = conditions(model, structure, peak);
-    let polished = theorem.solve(&conditions).filter(|e| {
+    let forces = model.assembly.contact_forces(model.assembly.contacts(), &peak.displacements);
+    let soil = pressing(model, |p| forces[p].normal);
+    let held = held_by_soil(structure, &soil);
+    let structure: &Structure = &held;
+    let polished = theorem.solve(&conditions, &soil).filter(|e| {
         let scale = peak.parameter.abs().max(theorem.load_factor_scale());
         (e.load_factor - peak.parameter).abs() <= tolerances::POLISH * scale
             && theorem.slack(e) >= -tolerances::ADMISSIBLE
     });
     let forces = match &polished {
         Some(equilibrium) => theorem.resultants(equilibrium),
-        None => carried(model, &peak.displacements),
+        None => resultants(model, |p| [forces[p].normal, forces[p].tangential]),
     };
     let driving = driving(analysis, peak.parameter, sign);
     let slipping: Vec<Option<f64>> = (0..structure.ring().len()).map(|k| sliding_shear(model, k, peak)).collect();
@@ -48,6 +53,7 @@ pub(super) fn at_peak(
     let (turning, acting) = crushing.as_ref().map_or((structure, &forces), |(structure, forces)| (structure, forces));
     let found =
         mechanism::from_statics(turning, acting, &slipping, &driving, tolerances::CORNER_POLISHED, model.budget);
+    let found = found.filter(|mechanism| soil_allows(&analysis.structure, &soil, mechanism));
     let later = found.is_none();
     let mut mechanism = found.unwrap_or_else(|| {
         from_direction(model, turning, if fall.turned_back { &peak.direction } else { &fall.direction })
@@ -69,7 +75,7 @@ pub(super) fn at_peak(
     ];
     let load_factor = polished.map_or(peak.parameter, |e| e.load_factor);
     let thrust_line = thrust_line(structure, &forces);
-    let end = PathEnd { load_factor, range: None, residual, mechanism, thrust_line, crushed };
+    let end = PathEnd { load_factor, range: None, residual, mechanism, thrust_line, soil, crushed };
     Ending { end, later, at_limits }
 }
 
@@ -89,17 +95,20 @@ fn driving(analysis: &Analysis, load_factor: f64, sign: f64) -> Vec<PointForce> 
 /// The path ends before all of them act, in joints that are at their limits already; without sliding, the smallest
 /// motion of those in which the loads do work is as symmetric as the arch.
 pub(super) fn at_fall(analysis: &Analysis, model: &Model, tracer: &Tracer, start: f64, load_factor: f64) -> PathEnd {
-    let structure = &analysis.structure;
     let scaled = analysis.scaled.iter().map(|f| PointForce { force: f.force * start, ..*f });
     let driving: Vec<PointForce> = analysis.fixed.iter().copied().chain(scaled).collect();
     let forces = tracer.contact_forces();
+    let soil = pressing(model, |p| forces[p][0]);
+    let held = held_by_soil(&analysis.structure, &soil);
+    let structure: &Structure = &held;
     let along_path = from_direction(model, structure, tracer.direction());
     let none = vec![None; structure.ring().len()];
     let (carried, budget) = (resultants(model, |p| forces[p]), model.budget);
     let smallest = mechanism::from_statics(structure, &carried, &none, &driving, tolerances::CORNER_ON_PATH, budget);
-    let mechanism = smallest.filter(|m| !along_path.slips() && !m.slips()).unwrap_or(along_path);
+    let allowed = |m: &Mechanism| !m.slips() && soil_allows(&analysis.structure, &soil, m);
+    let mechanism = smallest.filter(|m| !along_path.slips() && allowed(m)).unwrap_or(along_path);
     let (residual, crushed) = (tracer.worst_residual(), crushed::crushed(model, structure, |p| forces[p][0]));
-    PathEnd { load_factor, range: None, residual, mechanism, thrust_line: Vec::new(), crushed }
+    PathEnd { load_factor, range: None, residual, mechanism, thrust_line: Vec::new(), soil, crushed }
 }
 
 /// The motion at a load at which the fixed-steps criterion was met: the displacements themselves.
@@ -111,8 +120,10 @@ pub(super) fn at_criterion(
     residual: f64,
 ) -> PathEnd {
     let mechanism = from_direction(model, &analysis.structure, displacements);
-    let thrust_line = thrust_line(&analysis.structure, &carried(model, displacements));
-    PathEnd { load_factor, range: None, residual, mechanism, thrust_line, crushed: Vec::new() }
+    let forces = model.assembly.contact_forces(model.assembly.contacts(), displacements);
+    let carried = resultants(model, |p| [forces[p].normal, forces[p].tangential]);
+    let (thrust_line, soil) = (thrust_line(&analysis.structure, &carried), pressing(model, |p| forces[p].normal));
+    PathEnd { load_factor, range: None, residual, mechanism, thrust_line, soil, crushed: Vec::new() }
 }
 
 /// Whether a stone has slid, under pressure, by more than the joint is long: it lies beside its neighbour no more, although small
@@ -130,7 +141,7 @@ pub(super) fn slid_out(model: &Model, structure: &Structure, displacements: &[f6
 
 /// How an arch goes on in the direction of its path: joints that are open at one end turn about the other, be it further
 /// open or back, and slide as their contact points do.
-pub(super) fn at_rates(analysis: &Analysis, model: &Model, tracer: &Tracer) -> super::Mechanism {
+pub(super) fn at_rates(analysis: &Analysis, model: &Model, tracer: &Tracer) -> Mechanism {
     let structure = &analysis.structure;
     let forces = tracer.contact_forces();
     let rates = |joint: usize| {
@@ -158,7 +169,7 @@ pub(super) fn carried_by(analysis: &Analysis, model: &Model, tracer: &Tracer) ->
     thrust_line(&analysis.structure, &resultants(model, |p| forces[p]))
 }
 
-pub(super) fn from_direction(model: &Model, structure: &Structure, direction: &[f64]) -> super::Mechanism {
+pub(super) fn from_direction(model: &Model, structure: &Structure, direction: &[f64]) -> Mechanism {
     mechanism::from_velocities(structure, &motions(model, structure, direction))
 }
 
@@ -237,10 +248,35 @@ fn sliding_shear(model: &Model, joint: usize, peak: &Peak) -> Option<f64> {
     })
 }
 
-/// Joint forces that the contact points carry.
-fn carried(model: &Model, displacements: &[f64]) -> Vec<Resultant> {
-    let forces = model.assembly.contact_forces(model.assembly.contacts(), displacements);
-    resultants(model, |p| [forces[p].normal, forces[p].tangential])
+/// Forces of the passive elements, N/m, from the normal force of every contact.
+fn pressing(model: &Model, normal: impl Fn(usize) -> f64) -> Vec<f64> {
+    model.soil.clone().map(normal).collect()
+}
+
+/// The structure with those of its passive elements that are between their limits: they hold it.
+fn held_by_soil<'s>(structure: &'s Structure, soil: &[f64]) -> Cow<'s, Structure> {
+    let mut held = Cow::Borrowed(structure);
+    if !structure.passive.is_empty() {
+        let between = |(element, force): &(&PassiveElement, &f64)| {
+            let share = *force / element.most;
+            tolerances::SOIL < share && share < 1.0 - tolerances::SOIL
+        };
+        let elements = structure.passive.iter().zip(soil).filter(between).map(|(element, _)| *element);
+        held.to_mut().passive = elements.collect();
+    }
+    held
+}
+
+/// Whether passive elements that press like this let a mechanism move: into those that press as hard as they can, away from
+/// those that do not press, and otherwise so slowly that the work missing is none.
+pub(super) fn soil_allows(structure: &Structure, soil: &[f64], mechanism: &Mechanism) -> bool {
+    let fastest = mechanism.velocities.iter().map(|[u, v, _]| u.hypot(*v)).fold(0.0, f64::max);
+    structure.passive.iter().zip(soil).all(|(element, &force)| {
+        let velocity = mechanism.velocities[element.body];
+        let approach = element.approach(structure.bodies[element.body].region.centroid, velocity) / fastest;
+        let missing = if approach > 0.0 { element.most - force } else { force };
+        missing / element.most * approach.abs() <= tolerances::SOIL
+    })
 }
 
 /// Joint forces from the normal and tangential force of every contact.

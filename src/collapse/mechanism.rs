@@ -7,7 +7,7 @@ use super::{Face, Hinge, LiftOff, Mechanism, Mode, Slide};
 use crate::budget::Budget;
 use crate::geometry::{Vec2, mirrored};
 use crate::limit::{Release, Resultant, releases};
-use crate::structure::{Joint, JointLaw, Loops, PointForce, Side, Structure, resultants};
+use crate::structure::{Joint, JointLaw, Loops, PassiveElement, PointForce, Side, Structure, resultants};
 use std::ops::Range;
 
 /// Releases slower than this share of the fastest do not move.
@@ -32,7 +32,8 @@ pub(super) type Released = (usize, Release);
 /// symmetric loads falls symmetrically). None when the joints at their limits do not make a mechanism.
 ///
 /// `slipping` holds the sign of the shear where a joint is known to slide (a hinge that slides has only half of the
-/// joint's cohesion left, which the resultant alone does not tell). `at_limit` is the share of a joint's force below which
+/// joint's cohesion left, which the resultant alone does not tell). The structure's passive elements hold whom they press on: it
+/// has those alone that are between their limits. `at_limit` is the share of a joint's force below which
 /// a corner's is none, and within which its shear is at capacity; a joint that carries next to nothing of what others do
 /// carries none. None, too, where the budget is spent.
 pub(super) fn from_statics(
@@ -47,7 +48,7 @@ pub(super) fn from_statics(
     let parts = RigidParts::new(structure, &releases)?;
     let loops = Loops::new(&parts.structure).ok()?;
     let columns = columns(&parts.structure, &loops, &parts.released, &parts.loads(driving));
-    let rates = smallest_motion(&columns, 3 * loops.len() + 1, budget)?;
+    let rates = smallest_motion(&columns, unknowns(&parts.structure, &loops), budget)?;
     Some(describe(structure, &Loops::new(structure).ok()?, &releases, &parts.of_all(&rates, releases.len())))
 }
 
@@ -83,8 +84,14 @@ pub(super) fn released(mechanism: &Mechanism) -> Vec<Released> {
     hinges.chain(slides).chain(lift_offs).collect()
 }
 
-/// What each release does to the closure of every loop (two velocities over the size of the structure, and a spin), and its power
-/// under the `driving` loads: what the joint carries of them down the tree does no work but in its own motion.
+/// Closures of all loops, the velocity of every passive element, and the power: what [`columns`] has entries for.
+pub(super) fn unknowns(structure: &Structure, loops: &Loops) -> usize {
+    3 * loops.len() + structure.passive.len() + 1
+}
+
+/// What each release does to the closure of every loop (two velocities over the size of the structure, and a spin), to the velocity
+/// of every passive element over that size, and its power under the `driving` loads: what the joint carries of them down the tree
+/// does no work but in its own motion.
 pub(super) fn columns(
     structure: &Structure,
     loops: &Loops,
@@ -94,13 +101,24 @@ pub(super) fn columns(
     let carried = loops.carried(&resultants(structure.bodies.len(), driving, Vec2::zeros()));
     let total = driving.iter().map(|f| f.force.norm()).sum::<f64>();
     let size = structure.joints.iter().map(|j| j.middle().norm()).fold(0.0, f64::max);
+    let last = unknowns(structure, loops) - 1;
+    let mut soil = vec![Vec::new(); structure.joints.len()];
+    for (e, element) in structure.passive.iter().enumerate() {
+        let down = loops.way_down(element.body);
+        down.for_each(|(k, sign)| soil[k].push((3 * loops.len() + e, sign, element)));
+    }
     let column = |&(k, release): &Released| {
         let motion = relative_motion(structure, k, release);
         let ([fx, fy, moment], closure) = (carried[k], motion.velocity / size);
         let power = -(fx * motion.velocity.x + fy * motion.velocity.y + moment * motion.spin) / (total * size);
         let parts = [closure.x, closure.y, motion.spin];
         let round = |&(number, sign): &(usize, f64)| [0, 1, 2].map(|i| (3 * number + i, sign * parts[i]));
-        loops.through(k).iter().flat_map(round).chain([(3 * loops.len(), power)]).collect()
+        // A release moves all that hangs on its joint.
+        let approach = |&(row, sign, element): &(usize, f64, &PassiveElement)| {
+            (row, sign * element.way * motion.at(element.at).x / size)
+        };
+        let soil = soil[k].iter().map(approach);
+        loops.through(k).iter().flat_map(round).chain(soil).chain([(last, power)]).collect()
     };
     releases.iter().map(column).collect()
 }

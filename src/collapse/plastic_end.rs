@@ -20,22 +20,22 @@ pub(super) fn at(
     load_factor: f64,
 ) -> Option<PathEnd> {
     let structure = &analysis.structure;
-    let mut state = (window.forces[end].clone(), window.motions[end].clone());
-    if !window.ends[end].is_finite() || state.1.is_empty() {
+    let mut state = (window.forces[end].clone(), window.soil[end].clone(), window.motions[end].clone());
+    if !window.ends[end].is_finite() || state.2.is_empty() {
         return None;
     }
     if evenly(analysis) {
         state = evened(&state);
     }
-    let (forces, motion) = state;
-    let residual = theorem.unbalanced(window.ends[end], &forces);
+    let (forces, soil, motion) = state;
+    let residual = theorem.unbalanced(window.ends[end], &forces, &soil);
     let crushed: Vec<_> = window.joints[end].iter().map(|&k| block(structure, k, &forces[k])).collect();
     let mut mechanism = turning(structure, &motion);
     if !crushed.is_empty() && mechanism::released(&mechanism).is_empty() {
         mechanism.mode = Mode::Crushing;
     }
     let thrust_line = thrust_line(structure, &forces);
-    Some(PathEnd { load_factor, range: None, residual, mechanism, thrust_line, crushed })
+    Some(PathEnd { load_factor, range: None, residual, mechanism, thrust_line, soil, crushed })
 }
 
 /// The block that bears the force of a joint at its strength.
@@ -85,12 +85,13 @@ fn evenly(analysis: &Analysis) -> bool {
         && (0..n).all(|k| strength(k) == strength(n - 1 - k))
         && symmetric(&analysis.fixed)
         && symmetric(&analysis.scaled)
+        && symmetric(&structure.passive.iter().map(|element| element.force(element.most)).collect::<Vec<_>>())
 }
 
-type State = (Vec<Resultant>, Vec<[f64; 3]>);
+type State = (Vec<Resultant>, Vec<f64>, Vec<[f64; 3]>);
 
-/// The mean of forces and motion of a ring and of their mirror images.
-fn evened((forces, motion): &State) -> State {
+/// The mean of forces and motion of a ring, and of what its passive elements press, and of their mirror images.
+fn evened((forces, soil, motion): &State) -> State {
     let mean = |a: f64, b: f64| 0.5 * (a + b);
     let of_joint = |(a, b): (&Resultant, &Resultant)| Resultant {
         intrados: mean(a.intrados, b.intrados),
@@ -100,5 +101,6 @@ fn evened((forces, motion): &State) -> State {
     let of_body =
         |([u, v, spin], [x, y, turn]): (&[f64; 3], &[f64; 3])| [mean(*u, -x), mean(*v, *y), mean(*spin, -turn)];
     let forces = forces.iter().zip(forces.iter().rev()).map(of_joint).collect();
-    (forces, motion.iter().zip(motion.iter().rev()).map(of_body).collect())
+    let soil = soil.iter().zip(soil.iter().rev()).map(|(a, b)| mean(*a, *b)).collect();
+    (forces, soil, motion.iter().zip(motion.iter().rev()).map(of_body).collect())
 }

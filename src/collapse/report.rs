@@ -153,6 +153,8 @@ pub struct PathEnd {
     pub mechanism: Mechanism,
     /// Resultants per joint at collapse.
     pub thrust_line: Vec<Thrust>,
+    /// Force of every passive element there, N/m; none where the path was left before.
+    pub soil: Vec<f64>,
     /// Joints that crush there, where crushing is in the path.
     pub crushed: Vec<CrushedJoint>,
 }

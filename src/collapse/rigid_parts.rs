@@ -3,7 +3,7 @@
 //! Motions of the parts are all motions that the released joints allow, in far fewer unknowns.
 
 use super::mechanism::Released;
-use crate::structure::{Joint, PointForce, Side, Structure, joined};
+use crate::structure::{Joint, PassiveElement, PointForce, Side, Structure, joined};
 
 /// The parts, each as one body, and the released joints between them.
 pub(super) struct RigidParts {
@@ -45,7 +45,9 @@ impl RigidParts {
             |(place, &(joint, release)): (usize, &Released)| Some(((new_number[joint]?, release), place));
         let (released, places) = released.iter().enumerate().filter_map(between_parts).unzip();
         let (stones, spans, surfaces) = (Vec::new(), Vec::new(), Vec::new());
-        let structure = Structure { stones, bodies, joints, spans, surfaces, supports: 1 };
+        let on_part = |element: &PassiveElement| Some(PassiveElement { body: part_of[element.body]?, ..*element });
+        let passive = structure.passive.iter().filter_map(on_part).collect();
+        let structure = Structure { stones, bodies, joints, spans, surfaces, passive, supports: 1 };
         (!structure.bodies.is_empty()).then_some(RigidParts { structure, released, places, part_of })
     }
 

@@ -5,7 +5,7 @@
 //! is a linear programme (see [`crate::limit`]). At its optimum more joints are at their limits, so that other mechanisms can
 //! move there, each with a programme of its own: mechanisms are exchanged until none is found that gives less.
 
-use super::mechanism::{Released, all_releases, columns, describe};
+use super::mechanism::{Released, all_releases, columns, describe, unknowns};
 use super::rigid_parts::RigidParts;
 use super::scatter::Scatter;
 use super::smallest_motion::nearest_motion;
@@ -106,7 +106,7 @@ impl Search<'_> {
         let (structure, loops) = (&self.analysis.structure, self.theorem.loops());
         let driving: Vec<PointForce> =
             self.analysis.scaled.iter().map(|load| PointForce { force: load.force * self.sign, ..*load }).collect();
-        nearest_motion(&columns(structure, loops, moving, &driving), 3 * loops.len() + 1, rates)
+        nearest_motion(&columns(structure, loops, moving, &driving), unknowns(structure, loops), rates)
     }
 
     /// Beyond all load factors.

@@ -39,3 +39,6 @@ pub(super) const ADMISSIBLE: f64 = 1e-8;
 pub(super) const CORNER_POLISHED: f64 = 1e-8;
 /// The same where forces carry the disturbance of an attempt.
 pub(super) const CORNER_ON_PATH: f64 = 1e-6;
+/// Work that a passive element away from its limit may miss in a mechanism, as a share of its largest force times the velocity of the
+/// fastest body.
+pub(super) const SOIL: f64 = 1e-6;

@@ -12,7 +12,7 @@ use super::static_theorem::{Equilibrium, Limit};
 use super::{StaticTheorem, Unsolved};
 use crate::budget::Budget;
 use crate::geometry::{Vec2, cross};
-use crate::structure::Joint;
+use crate::structure::{Joint, PointForce};
 
 /// A parabola may be violated by this, relative to the loads and to the size of the point: ten times what the linear
 /// programme grants its own rows, so that every cut moves the point.
@@ -40,6 +40,8 @@ pub struct CrushingWindow {
     pub joints: [Vec<usize>; 2],
     /// Forces of all joints at either end; none where it is infinite.
     pub forces: [Vec<Resultant>; 2],
+    /// The same of all passive elements, N/m.
+    pub soil: [Vec<f64>; 2],
     /// Motion of all bodies in which the loads of any load factor beyond either end do more work than cohesion and the strength
     /// take (see [`super::WindowEnd`]): on the part of a joint that closes its strength works, and nothing where it opens. None
     /// where the end is infinite.
@@ -110,7 +112,7 @@ impl StaticTheorem {
                     window.ends[end] = equilibrium.load_factor;
                     window.motions[end] = self.motion(&dual, &cut.limits);
                     window.joints[end] = self.crushed(&sections, &equilibrium);
-                    window.forces[end] = equilibrium.forces;
+                    (window.forces[end], window.soil[end]) = self.apart(&equilibrium.forces);
                 }
                 ProgrammeOutcome::Unbounded(_) => window.ends[end] = sign * f64::INFINITY,
                 ProgrammeOutcome::Infeasible(_) => return Ok(None),
@@ -135,9 +137,9 @@ impl StaticTheorem {
         strengths.iter().enumerate().filter_map(dry).collect()
     }
 
-    /// What forces of all joints leave of the loads on any body at a load factor, the moment over the size of the structure, as a
+    /// What forces of all joints and elements leave of the loads on any body at a load factor, the moment over the size of the structure, as a
     /// share of all loads that stay.
-    pub fn unbalanced(&self, load_factor: f64, forces: &[Resultant]) -> f64 {
+    pub fn unbalanced(&self, load_factor: f64, forces: &[Resultant], soil: &[f64]) -> f64 {
         let [fixed, scaled] = &self.loads;
         let mut left: Vec<[f64; 3]> =
             fixed.iter().zip(scaled).map(|(f, s)| [0, 1, 2].map(|i| f[i] + load_factor * s[i])).collect();
@@ -151,6 +153,11 @@ impl StaticTheorem {
                 let Some(body) = side.body() else { continue };
                 parts.iter().for_each(|part| (0..3).for_each(|i| left[body][i] += sign * part[i]));
             }
+        }
+        for (element, &size) in self.soil.elements.iter().zip(soil) {
+            let PointForce { at, force, .. } = element.force(size);
+            let on = [force.x, force.y, cross(at - self.frame.origin, force)];
+            (0..3).for_each(|i| left[element.body][i] += on[i]);
         }
         let size = self.joints.iter().map(Joint::length).fold(self.frame.length, f64::max);
         let share = |of: [f64; 3]| [of[0], of[1], of[2] / size].map(|part| part.abs() / self.force);

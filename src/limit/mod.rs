@@ -8,6 +8,7 @@ mod crushing;
 mod interior_point;
 mod linear_program;
 mod non_dilating;
+mod passive;
 mod programme;
 mod resultant;
 mod sparse;

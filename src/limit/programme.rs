@@ -11,7 +11,7 @@ const NO_ROW: f64 = 1e-12;
 /// A limit that the unknowns do not reach may be violated by this, in units of the loads: rounding of the loads themselves.
 const UNREACHED_LIMIT: f64 = 1e-10;
 /// Most unknowns for which the dense simplex method is tried where the sparse one fails.
-const MOST_DENSE: usize = 200;
+pub(super) const MOST_DENSE: usize = 200;
 /// Errors of a certificate.
 const CERTAIN: [f64; 2] = [1e-12, 1e-9];
 

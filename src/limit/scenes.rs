@@ -12,7 +12,15 @@ pub fn structure(polygons: &[Vec<Vec2>], joints: Vec<Joint>, supports: usize) ->
         stone: 0,
     };
     let bodies = polygons.iter().map(body).collect();
-    Structure { stones: Vec::new(), bodies, joints, spans: Vec::new(), surfaces: Vec::new(), supports }
+    Structure {
+        stones: Vec::new(),
+        bodies,
+        joints,
+        spans: Vec::new(),
+        surfaces: Vec::new(),
+        passive: Vec::new(),
+        supports,
+    }
 }
 
 /// A ring between two supports, from the ends (intrados, extrados) of its joints.

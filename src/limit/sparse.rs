@@ -7,7 +7,7 @@ use super::resultant::{Resultant, dot};
 use super::static_theorem::{Equilibrium, Limit, StaticTheorem};
 use crate::budget::Budget;
 use crate::geometry::{Vec2, cross};
-use crate::structure::Joint;
+use crate::structure::{Joint, PassiveElement};
 
 /// Limits of one joint whose normals and constants differ by less than this are opposite.
 const OPPOSITE: f64 = 1e-13;
@@ -30,14 +30,17 @@ impl Programme<'_> {
         // Without loads that grow the load factor is any.
         let grows = theorem.loads[1].iter().flatten().any(|load| *load != 0.0);
         let pinned = if !grows { Some(0.0) } else { Some(self.bounds[0]).filter(|at| *at == self.bounds[1]) };
-        let mut limits: Vec<Vec<(Limit, usize)>> = vec![Vec::new(); theorem.joints.len()];
+        let mut limits: Vec<Vec<(Limit, usize)>> = vec![Vec::new(); theorem.joints.len() + theorem.elements()];
         let laws: &[Limit] = if self.complete { &theorem.limits } else { &[] };
         for (place, limit) in laws.iter().chain(&self.limits).enumerate() {
             let weights = limit.weights.map(|w| w * unit);
             limits[limit.joint].push((Limit { weights, constant: limit.constant + self.slack, ..*limit }, place));
         }
         let given = laws.len() + self.limits.len();
-        let forces: Vec<Forces> = limits.iter().map(|limits| held(limits)).collect();
+        let (joints, elements) = limits.split_at(theorem.joints.len());
+        let mut forces: Vec<Forces> = joints.iter().chain(elements).map(|limits| held(limits)).collect();
+        // Of the three forces of an element there is only the first.
+        forces[joints.len()..].iter_mut().for_each(|of| of.basis.retain(|basis| basis[0] != 0.0));
         let (mut rows, places) = match self.rows(&limits, &forces, pinned) {
             Ok(rows) => rows,
             Err(limit) => return ProgrammeOutcome::Infeasible(Dual::of_one(limit, given)),
@@ -127,18 +130,10 @@ impl Programme<'_> {
             }
         }
         let mut blocks = Vec::new();
-        for (joint, forces) in theorem.joints.iter().zip(forces) {
-            let (normal, tangent) = (joint.normal(), joint.tangent());
+        for (number, forces) in forces.iter().enumerate() {
             let mut block = Vec::new();
-            for (side, sign) in joint.between.iter().zip([-1.0, 1.0]) {
-                let Some(body) = side.body() else { continue };
-                let (reference, length) = frames[body];
-                let column = |at: Vec2, force: Vec2| [force.x, force.y, cross(at - reference, force) / length];
-                let columns =
-                    [column(joint.intrados, normal), column(joint.extrados, normal), column(joint.intrados, tangent)];
-                let effect = |f: [f64; 3]| -> [f64; 3] {
-                    std::array::from_fn(|i| sign * (0..3).map(|c| columns[c][i] * f[c]).sum::<f64>())
-                };
+            for (body, columns) in theorem.effects(number, &frames) {
+                let effect = |f: [f64; 3]| [0, 1, 2].map(|i| (0..3).map(|c| columns[c][i] * f[c]).sum::<f64>());
                 effect(forces.origin).iter().enumerate().for_each(|(i, value)| right[3 * body + i] -= value);
                 let mut square: Square = [[0.0; 3]; 3];
                 for (j, basis) in forces.basis.iter().enumerate() {
@@ -177,7 +172,30 @@ impl StaticTheorem {
     /// How bodies hang together through joints, for the interior point method.
     pub(super) fn find_pattern(&self) -> Option<NewtonPattern> {
         let bodies = |joint: &Joint| joint.between.iter().filter_map(|side| side.body()).collect();
-        NewtonPattern::new(self.loads[0].len(), &self.joints.iter().map(bodies).collect::<Vec<_>>())
+        let alone = |element: &PassiveElement| vec![element.body];
+        let blocks = self.joints.iter().map(bodies).chain(self.soil.elements.iter().map(alone));
+        NewtonPattern::new(self.loads[0].len(), &blocks.collect::<Vec<_>>())
+    }
+
+    /// What each of the three forces of a joint, or of the element behind the joints, does to the equilibrium of every body beside
+    /// it.
+    fn effects(&self, number: usize, frames: &[(Vec2, f64)]) -> Vec<(usize, [[f64; 3]; 3])> {
+        let on = |body: usize, at: Vec2, force: Vec2| {
+            let (reference, length) = frames[body];
+            [force.x, force.y, cross(at - reference, force) / length]
+        };
+        if let Some(element) = self.element(number) {
+            let push = element.force(1.0);
+            return vec![(push.body, [on(push.body, push.at, push.force), [0.0; 3], [0.0; 3]])];
+        }
+        let joint = &self.joints[number];
+        let (normal, tangent) = (joint.normal(), joint.tangent());
+        let beside = joint.between.iter().zip([-1.0, 1.0]).filter_map(|(side, sign)| Some((side.body()?, sign)));
+        let of = |(body, sign): (usize, f64)| {
+            let ends = [(joint.intrados, normal), (joint.extrados, normal), (joint.intrados, tangent)];
+            (body, ends.map(|(at, force)| on(body, at, sign * force)))
+        };
+        beside.map(of).collect()
     }
 
     /// Reference point and length of every body: the middle of its joints and their reach.

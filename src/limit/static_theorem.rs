@@ -2,7 +2,8 @@
 
 use super::interior_point::NewtonPattern;
 use super::linear_program::norm;
-use super::programme::{Objective, Programme, ProgrammeOutcome, Rows};
+use super::passive::Soil;
+use super::programme::{MOST_DENSE, Objective, Programme, ProgrammeOutcome, Rows};
 use super::resultant::{Condition, Resultant, dot, joint_functionals};
 use crate::budget::Budget;
 use crate::geometry::Vec2;
@@ -17,12 +18,13 @@ pub(super) const FEW_UNKNOWNS: usize = 60;
 /// Equilibrium of the whole structure with the redundants and the load factor left open.
 ///
 /// Unknowns are, for every loop, (F_x, F_y, M) of the force that goes round it through its closing joint, in units of `force`
-/// and `force * length` about the loop's middle, and the load factor in units of `factor`. Of a single ring that is the force of
-/// the left springing.
+/// and `force * length` about the loop's middle; the force of every passive element, in units of `force`; and the load factor in
+/// units of `factor`. The force round the loop of a single ring is that of the left springing.
 #[derive(Debug, Clone)]
 pub struct StaticTheorem {
     pub(super) joints: Vec<Joint>,
     pub(super) loops: Loops,
+    pub(super) soil: Soil,
     /// Of every loop.
     frames: Vec<Units>,
     /// Of all joints.
@@ -78,7 +80,7 @@ pub struct Unsolved;
 /// A point of the static theorem.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Equilibrium {
-    /// Forces of every joint.
+    /// Forces of every joint, and behind them those of the passive elements.
     pub(super) forces: Vec<Resultant>,
     /// Load factor.
     pub load_factor: f64,
@@ -94,6 +96,8 @@ impl StaticTheorem {
     pub fn new(structure: &Structure, fixed: &[PointForce], scaled: &[PointForce]) -> Result<Self, Vec<Unconnected>> {
         let loops = Loops::new(structure)?;
         let joints = structure.joints.clone();
+        let dense = 3 * loops.len() + structure.passive.len() < MOST_DENSE;
+        let soil = Soil::new(&structure.passive, joints.len(), &loops, dense);
         let frame = Units::of(joints.iter());
         let frames = loops.joints().iter().map(|of| Units::of(of.iter().map(|&k| &joints[k]))).collect();
         let total = |loads: &[PointForce]| loads.iter().map(|l| l.force.norm()).sum::<f64>();
@@ -111,6 +115,7 @@ impl StaticTheorem {
         let mut theorem = StaticTheorem {
             joints,
             loops,
+            soil,
             frames,
             frame,
             carried,
@@ -122,7 +127,8 @@ impl StaticTheorem {
             force,
             factor,
         };
-        theorem.limits = (0..theorem.joints.len()).flat_map(|k| theorem.limits_of(k)).collect();
+        let bounds = (0..theorem.elements()).flat_map(|e| theorem.bounds_of(e));
+        theorem.limits = (0..theorem.joints.len()).flat_map(|k| theorem.limits_of(k)).chain(bounds).collect();
         if theorem.has_few_unknowns() {
             theorem.rows = Some(Rows::of_laws(&theorem));
         } else {
@@ -146,9 +152,9 @@ impl StaticTheorem {
         self.joints.len()
     }
 
-    /// Three for every loop, and the load factor.
+    /// Three for every loop, one for every passive element, and the load factor.
     pub fn unknowns(&self) -> usize {
-        3 * self.loops.len() + 1
+        3 * self.loops.len() + self.elements() + 1
     }
 
     /// Whether there is more than the one loop of a single ring.
@@ -188,6 +194,14 @@ impl StaticTheorem {
 
     /// `weights . (intrados, extrados, shear)` of a joint over (unknowns; 1), added to `row`.
     pub(super) fn add_row(&self, joint: usize, weights: [f64; 3], row: &mut [f64]) {
+        let soil = 3 * self.loops.len();
+        if joint >= self.joints.len() {
+            row[soil + joint - self.joints.len()] += weights[0] * self.force;
+            return;
+        }
+        for (e, forces) in self.from_soil(joint) {
+            row[soil + e] += dot(weights, forces) * self.force;
+        }
         for &(number, sign) in self.loops.through(joint) {
             let Units { origin, length } = self.frames[number];
             let functionals = joint_functionals(&self.joints[joint], origin);
@@ -222,7 +236,8 @@ impl StaticTheorem {
     /// Whether anything does is not looked into where this support is the only one: it bears what the loads push.
     pub fn thrust_range_of(&self, support: usize, at: f64, budget: &Budget) -> Option<[f64; 2]> {
         let sides = || self.joints.iter().flat_map(|joint| joint.between);
-        if sides().all(|side| side.body().is_some() || side == Side::Support(support)) {
+        let alone = self.elements() == 0;
+        if alone && sides().all(|side| side.body().is_some() || side == Side::Support(support)) {
             let push = |loads: &[[f64; 3]]| loads.iter().map(|load| load[0]).sum::<f64>();
             return Some([0.0 - push(&self.loads[0]) - at * push(&self.loads[1]); 2]);
         }
@@ -249,35 +264,46 @@ impl StaticTheorem {
         Some([end(-1.0)?, end(1.0)?])
     }
 
-    /// The equilibrium that satisfies all `conditions` (least squares); None unless they fix all unknowns.
-    pub fn solve(&self, conditions: &[Condition]) -> Option<Equilibrium> {
-        let n = self.unknowns();
-        if conditions.len() < n {
+    /// The equilibrium that satisfies all `conditions` (least squares) where every passive element presses as `soil` says, N/m; None
+    /// unless they fix all that is left unknown.
+    pub fn solve(&self, conditions: &[Condition], soil: &[f64]) -> Option<Equilibrium> {
+        let (n, known) = (self.unknowns(), 3 * self.loops.len()..self.unknowns() - 1);
+        let left = n - known.len();
+        if conditions.len() < left || soil.len() != known.len() {
             return None;
         }
-        let mut rows = vec![0.0; conditions.len() * (n + 1)];
-        for (row, condition) in rows.chunks_exact_mut(n + 1).zip(conditions) {
-            self.add_row(condition.joint, condition.weights, row);
-            row[n] += condition.constant;
-            let size = norm(&row[..n]);
+        let carried = self.carried_from(soil);
+        let mut rows = vec![0.0; conditions.len() * (left + 1)];
+        let mut full = vec![0.0; n + 1];
+        for (row, condition) in rows.chunks_exact_mut(left + 1).zip(conditions) {
+            full.fill(0.0);
+            self.add_row(condition.joint, condition.weights, &mut full);
+            full[n] += condition.constant + dot(condition.weights, carried[condition.joint]);
+            let others = full[..known.start].iter().chain(&full[known.end..]);
+            row.iter_mut().zip(others).for_each(|(x, other)| *x = *other);
+            let size = norm(&row[..left]);
             row.iter_mut().for_each(|x| *x /= size);
         }
         if !rows.iter().all(|x| x.is_finite()) {
             return None;
         }
-        let a = DMatrix::from_fn(conditions.len(), n, |i, j| rows[i * (n + 1) + j]);
-        let b = DVector::from_fn(conditions.len(), |i, _| -rows[i * (n + 1) + n]);
+        let a = DMatrix::from_fn(conditions.len(), left, |i, j| rows[i * (left + 1) + j]);
+        let b = DVector::from_fn(conditions.len(), |i, _| -rows[i * (left + 1) + left]);
         let svd = a.try_svd(true, true, f64::EPSILON, MOST_SWEEPS)?;
-        if svd.rank(1e-9) < n {
+        if svd.rank(1e-9) < left {
             return None;
         }
         let x = svd.solve(&b, 0.0).ok()?;
-        Some(self.equilibrium(x.as_slice(), true))
+        let (round, grown) = x.as_slice().split_at(known.start);
+        let pressed: Vec<f64> = soil.iter().map(|force| force / self.force).collect();
+        Some(self.equilibrium(&[round, &pressed, grown].concat(), true))
     }
 
     /// The equilibrium of these unknowns, `complete` under the fixed loads too.
     pub(super) fn equilibrium(&self, unknowns: &[f64], complete: bool) -> Equilibrium {
         let n = unknowns.len() - 1;
+        let pressed: Vec<f64> = unknowns[3 * self.loops.len()..n].iter().map(|x| self.force * x).collect();
+        let from_soil = self.carried_from(&pressed);
         let force = |k: usize| {
             let [fixed, scaled] = [&self.carried[0][k], &self.carried[1][k]];
             let factor = unknowns[n] * self.factor;
@@ -289,10 +315,12 @@ impl StaticTheorem {
                 let functionals = joint_functionals(&self.joints[k], origin);
                 forces = std::array::from_fn(|c| forces[c] + dot(functionals[c], wrench));
             }
+            forces = std::array::from_fn(|c| forces[c] + from_soil[k][c]);
             Resultant { intrados: forces[0], extrados: forces[1], shear: forces[2] }
         };
+        let element = |&size: &f64| Resultant { intrados: size, ..Resultant::default() };
         Equilibrium {
-            forces: (0..self.joints.len()).map(force).collect(),
+            forces: (0..self.joints.len()).map(force).chain(pressed.iter().map(element)).collect(),
             load_factor: unknowns[n] * self.factor,
             unknowns: unknowns.to_vec(),
         }
@@ -305,7 +333,7 @@ impl StaticTheorem {
 
     /// Forces of every joint in an equilibrium.
     pub fn resultants(&self, equilibrium: &Equilibrium) -> Vec<Resultant> {
-        equilibrium.forces.clone()
+        self.apart(&equilibrium.forces).0
     }
 
     /// Smallest slack of any inequality in an equilibrium, in units of the loads' scale (negative: violated).

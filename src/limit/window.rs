@@ -23,12 +23,14 @@ pub enum Window {
 #[derive(Debug, Clone, PartialEq)]
 pub enum WindowEnd {
     /// Forces of every joint in equilibrium at this load factor. In the motion, which no joint hinders, the loads of any load factor
-    /// beyond do more work than cohesion takes.
+    /// beyond do more work than cohesion and soil take.
     Bounded {
         /// The end.
         load_factor: f64,
         /// Lower bound, by the static theorem.
         forces: Vec<Resultant>,
+        /// Forces of the passive elements there, N/m.
+        soil: Vec<f64>,
         /// Upper bound, by the kinematic theorem; sliding joints dilate.
         motion: Vec<[f64; 3]>,
     },
@@ -38,6 +40,8 @@ pub enum WindowEnd {
         load_factor: f64,
         /// Forces there.
         forces: Vec<Resultant>,
+        /// Forces of the passive elements there, N/m.
+        soil: Vec<f64>,
         /// What a unit adds; None where rounding kept the linear programme from an answer.
         ray: Option<Vec<Resultant>>,
     },
@@ -69,10 +73,9 @@ impl StaticTheorem {
                 ProgrammeOutcome::Lost => return Err(Unsolved),
             });
         }
-        let bounded = |(at, motion): (Equilibrium, Vec<[f64; 3]>)| WindowEnd::Bounded {
-            load_factor: at.load_factor,
-            forces: at.forces,
-            motion,
+        let bounded = |(at, motion): (Equilibrium, Vec<[f64; 3]>)| {
+            let (forces, soil) = self.apart(&at.forces);
+            WindowEnd::Bounded { load_factor: at.load_factor, forces, soil, motion }
         };
         let (high, low) = (found.pop().flatten(), found.pop().flatten());
         Ok(Window::Stands(match (low, high) {
@@ -97,7 +100,7 @@ impl StaticTheorem {
         let ray = match programme.maximise(&Objective::load_factor(sign), budget) {
             ProgrammeOutcome::At(ray, _) if ray.load_factor != 0.0 => {
                 let per_unit = 1.0 / ray.load_factor.abs();
-                Some(ray.forces.iter().map(|of| of.times(per_unit)).collect())
+                Some(self.apart(&ray.forces).0.iter().map(|of| of.times(per_unit)).collect())
             }
             // Without loads that grow nothing is added.
             ProgrammeOutcome::At(..) | ProgrammeOutcome::Unbounded(_) => {
@@ -105,7 +108,8 @@ impl StaticTheorem {
             }
             ProgrammeOutcome::Infeasible(_) | ProgrammeOutcome::Lost => None,
         };
-        WindowEnd::Unbounded { load_factor: at.load_factor, forces: at.forces, ray }
+        let (forces, soil) = self.apart(&at.forces);
+        WindowEnd::Unbounded { load_factor: at.load_factor, forces, soil, ray }
     }
 
     /// The motion of every body that no limit hinders: joints yield as the multipliers of their limits, and of those that a
@@ -127,7 +131,8 @@ impl StaticTheorem {
     /// Motion about the middle of all joints: down the tree every joint adds what its limits yield.
     fn motion_of_limits(&self, multipliers: &[f64], besides: &[Limit]) -> Vec<[f64; 3]> {
         let mut relative = vec![[0.0; 3]; self.joints()];
-        for (limit, y) in self.limits.iter().chain(besides).zip(multipliers).filter(|(_, y)| **y != 0.0) {
+        let of_joint = |(limit, y): &(&Limit, &f64)| limit.joint < self.joints() && **y != 0.0;
+        for (limit, y) in self.limits.iter().chain(besides).zip(multipliers).filter(of_joint) {
             let functionals = joint_functionals(&self.joints[limit.joint], self.frame.origin);
             for (weight, functional) in limit.weights.iter().zip(functionals) {
                 (0..3).for_each(|i| relative[limit.joint][i] += y * weight * functional[i]);

@@ -58,6 +58,7 @@ fn example(n: usize, hinges: [usize; 4], mirror: bool) -> (Structure, PathEnd) {
         residual: 0.0,
         mechanism,
         thrust_line: (0..=n).map(thrust).collect(),
+        soil: Vec::new(),
         crushed: Vec::new(),
     };
     if mirror { mirrored(structure, end) } else { (structure, end) }
@@ -192,7 +193,15 @@ fn wall() -> (Structure, PathEnd) {
     let thrust =
         |k: usize| Thrust { joint: k, normal: 1.0, shear: 0.0, eccentricity: 0.0, at: structure.joints[k].middle() };
     let thrust_line = (0..3).map(thrust).collect();
-    let end = PathEnd { load_factor: 1.0, range: None, residual: 0.0, mechanism, thrust_line, crushed: Vec::new() };
+    let end = PathEnd {
+        load_factor: 1.0,
+        range: None,
+        residual: 0.0,
+        mechanism,
+        thrust_line,
+        soil: Vec::new(),
+        crushed: Vec::new(),
+    };
     (structure, end)
 }
 

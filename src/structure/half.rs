@@ -57,7 +57,8 @@ impl Structure {
             joints.push(Joint { between: [Side::Support(0), block], ..self.joints[abutment.base] });
             bodies.push(self.bodies[abutment.body].clone());
         }
-        Structure { stones: self.stones.clone(), bodies, joints, spans, surfaces, supports: self.supports }
+        let passive = self.passive.iter().copied().filter(|element| element.body < n).collect();
+        Structure { stones: self.stones.clone(), bodies, joints, spans, surfaces, passive, supports: self.supports }
     }
 
     /// Left half of a stone on the axis whose sides are straight or arcs about a point of the axis, and the ends of the cut.

@@ -6,29 +6,18 @@
 
 mod columns;
 mod dispersal;
+mod fill;
+mod passive;
 mod patch;
 mod vehicle;
 
 use super::{Body, GRAVITY, PointForce, Structure, Surface};
 use crate::geometry::{Vec2, distance_from_segment, lies_inside};
 pub use dispersal::{Dispersal, Distribution};
+pub use fill::{Fill, FillBacking, Layer, SurfaceLine};
+pub use passive::Passive;
 pub use patch::Patch;
 pub use vehicle::{Axle, Vehicle};
-
-/// Fill and embankment, eq. (7) of the paper: `q_v = (H - y) g rho_f + h_e g rho_e`, `q_h = K q_v`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Fill {
-    /// Height H of the top of the fill above y = 0, m; without one there is an embankment only.
-    pub height: Option<f64>,
-    /// Density of the fill, kg/m3.
-    pub density: f64,
-    /// Thickness h_e of the embankment on top, m.
-    pub embankment: f64,
-    /// Density of the embankment, kg/m3.
-    pub embankment_density: f64,
-    /// Ratio K of horizontal to vertical pressure.
-    pub lateral_ratio: f64,
-}
 
 /// A horizontal pressure between two heights.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,7 +44,7 @@ pub enum Place {
 pub enum Load {
     /// Weight of the bodies.
     SelfWeight,
-    /// Pressure of fill and embankment.
+    /// Pressure of fill.
     Fill(Fill),
     /// Horizontal pressure in bands of height.
     Lateral(Vec<Band>),
@@ -193,48 +182,9 @@ fn body_force(structure: &Structure, acceleration: Vec2) -> Vec<PointForce> {
     structure.bodies.iter().enumerate().map(force).collect()
 }
 
-impl Fill {
-    /// Whether the embankment has fill, or a level, under it everywhere.
-    fn fits(&self, structure: &Structure) -> Result<(), LoadFault> {
-        let top = ends(structure).map(|end| end.y).fold(f64::NEG_INFINITY, f64::max);
-        match self.height {
-            Some(level) if self.embankment > 0.0 && top > level => Err(LoadFault::ArchAboveFill { top }),
-            _ => Ok(()),
-        }
-    }
-
-    fn on(&self, structure: &Structure, sides: &[LoadedSide]) -> Result<Vec<PointForce>, LoadFault> {
-        self.fits(structure)?;
-        let level = self.height.unwrap_or(f64::NEG_INFINITY);
-        let above = self.embankment * self.embankment_density * GRAVITY;
-        let mut forces = Vec::new();
-        for &(k, a, b) in sides {
-            if above != 0.0 && self.height.is_none() {
-                forces.extend(self.push(k, a, b, |_| above));
-            }
-            if let Some((a, b)) = clip(a, b, f64::NEG_INFINITY, level) {
-                forces.extend(self.push(k, a, b, |y| (level - y) * GRAVITY * self.density + above));
-            }
-        }
-        Ok(forces)
-    }
-
-    /// Forces of a pressure that is linear in height on the stretch `a`-`b` of the surface of a body.
-    fn push(&self, body: usize, a: Vec2, b: Vec2, pressure: impl Fn(f64) -> f64) -> [PointForce; 2] {
-        GAUSS_2.map(|share| {
-            let at = a + share * (b - a);
-            let vertical = 0.5 * pressure(at.y);
-            let force = Vec2::new(self.lateral_ratio * vertical * (b.y - a.y), -vertical * (b.x - a.x));
-            PointForce { body, at, force, spread: false }
-        })
-    }
-}
-
 /// The part of `a`-`b` between two heights, in the same sense; `None` when there is none.
 fn clip(a: Vec2, b: Vec2, low: f64, high: f64) -> Option<(Vec2, Vec2)> {
-    // A level side counts as long as it lies between them: an embankment presses on one at the top of the fill.
-    let level = a.y == b.y && (low..=high).contains(&a.y);
-    if !level && (a.y.max(b.y) <= low || a.y.min(b.y) >= high) {
+    if a.y.max(b.y) <= low || a.y.min(b.y) >= high {
         return None;
     }
     let inside = |p: Vec2| {

@@ -145,6 +145,13 @@ impl Loops {
         carried
     }
 
+    /// The joints through which what acts on a body goes down the tree to the ground, with the sign that [`Loops::carried`]
+    /// gives it.
+    pub fn way_down(&self, body: usize) -> impl Iterator<Item = (usize, f64)> {
+        let bodies = std::iter::successors(Some(body), |&body| self.below[body]);
+        bodies.map(|body| self.towards_ground[body])
+    }
+
     /// Motion of every body from the `relative` motion of what lies after every joint against what lies before it (any three
     /// components that add up, as the velocity of one point and a spin): the sum along its way to the ground.
     pub fn motions(&self, relative: &[[f64; 3]]) -> Vec<[f64; 3]> {

@@ -7,10 +7,12 @@ mod half;
 pub mod load;
 mod loops;
 mod ring;
+mod soil;
 
 pub use half::is_symmetric;
 pub use loops::{Loops, Unconnected};
 pub use ring::Abutment;
+pub use soil::PassiveElement;
 
 use crate::geometry::{Region, Vec2, cross};
 use std::ops::Range;
@@ -268,6 +270,8 @@ pub struct Structure {
     pub spans: Vec<Span>,
     /// Sides on which loads and soil stand, from left to right: the extrados of the outer rings; none in a wall.
     pub surfaces: Vec<Surface>,
+    /// Passive resistance of soil beside it.
+    pub passive: Vec<PassiveElement>,
     /// Number of supports: pieces of ground that move on their own.
     pub supports: usize,
 }

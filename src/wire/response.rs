@@ -33,7 +33,7 @@ pub use stress::{
     CrushedSubblock, CrushingBody, ElasticCrushingBody, PlasticCrushingBody, StressFieldBody, SubblockColumns,
     mesh_in_words,
 };
-pub use structure::{BodyBody, JointBody, LawWord, LoadOnBody, StructureBody};
+pub use structure::{BodyBody, JointBody, LawWord, LoadOnBody, PassiveElementBody, StructureBody};
 pub use updated::UpdatedBody;
 pub use width::{ScaledLoadBody, ThrustRangeBody};
 pub use words::MethodWord;

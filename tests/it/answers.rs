@@ -210,6 +210,7 @@ fn full() -> CollapseReport {
         residual: 1e-12,
         mechanism: mechanism.clone(),
         thrust_line: thrust_line.clone(),
+        soil: Vec::new(),
         crushed: vec![CrushedJoint { joint: 4, face: Face::Extrados, at, length: 0.1 }],
     };
     let contact = MotionContact {

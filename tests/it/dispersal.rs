@@ -11,7 +11,7 @@ use voussoir::wire::read::read_analysis;
 /// Points to a metre in plan.
 const POINTS: f64 = 40_000.0;
 /// Summing over points that the planes cut off or leave costs so much, relative.
-const SUMMED: f64 = 3e-5;
+pub const SUMMED: f64 = 3e-5;
 /// Two programs that integrated with tens of points agreed to this, relative.
 const FEW_POINTS: f64 = 5e-4;
 
@@ -21,8 +21,8 @@ const RISE: f64 = 1.428;
 const THICKNESS: f64 = 0.22;
 const SURFACE: f64 = 1.813;
 const WIDTH: f64 = 0.3;
-const STRENGTH: f64 = 4.5e6;
-const UNIT_WEIGHT: f64 = 2040.0 * 9.81;
+pub const STRENGTH: f64 = 4.5e6;
+pub const UNIT_WEIGHT: f64 = 2040.0 * 9.81;
 
 fn request(x: f64, distribution: Option<&Value>) -> Value {
     let mut patch = json!({"centre_x_m": x, "width_m": WIDTH, "force_n_per_m": 1000});
@@ -44,18 +44,18 @@ fn request(x: f64, distribution: Option<&Value>) -> Value {
 }
 
 /// Instability and crushing of the upper end.
-fn found(request: &Value) -> [f64; 2] {
+pub fn found(request: &Value) -> [f64; 2] {
     let answer = solved(request);
     ["instability", "crushing"].map(|figure| end(&answer, "highest")[figure]["intensity"].as_f64().unwrap())
 }
 
-fn close([got, expected]: [f64; 2], tolerance: f64, what: &str) {
+pub fn close([got, expected]: [f64; 2], tolerance: f64, what: &str) {
     println!("{what}: {got}, expected {expected}, {:.1e}", got / expected - 1.0);
     assert!((got / expected - 1.0).abs() <= tolerance, "{what}: {got} is not {expected}");
 }
 
 /// The ring written down a second time.
-fn ring() -> Ring {
+pub fn ring() -> Ring {
     let radius = (SPAN * SPAN / 4.0 + RISE * RISE) / (2.0 * RISE);
     let half = (SPAN / 2.0 / radius).asin();
     let joint = |k: usize| {
@@ -66,20 +66,32 @@ fn ring() -> Ring {
     Ring::straight((0..=STONES).map(joint).collect())
 }
 
-/// What points from `a` to `b` take of 1 kN before scaling, and its moment about x = 0.
-fn summed(ring: &Ring, x0: f64, reach: f64, stress: &dyn Fn(f64, f64) -> f64, [a, b]: [Point; 2]) -> [f64; 2] {
+/// A strip of 1 kN.
+pub struct Strip<'a> {
+    /// Abscissa of its middle, m.
+    pub x0: f64,
+    /// Height of the surface that it stands on, m.
+    pub surface: f64,
+    /// Slope of the planes that cut off its stress.
+    pub reach: f64,
+    /// Stress at a distance and a depth.
+    pub stress: &'a dyn Fn(f64, f64) -> f64,
+}
+
+/// What points from `a` to `b` take of a strip before scaling, and its moment about x = 0.
+fn summed(ring: &Ring, &Strip { x0, surface, reach, stress }: &Strip, [a, b]: [Point; 2]) -> [f64; 2] {
     let eye = |x: f64| x.clamp(x0 - WIDTH / 2.0, x0 + WIDTH / 2.0);
     let hidden = |[x, z]: Point| {
         ring.joints.iter().any(|&(_, [u, y])| {
             (u - x) * (u - eye(x)) < 0.0
                 && (u - x).abs() > 1e-9
-                && SURFACE - y < z * (u - eye(x)) / (x - eye(x)) - 1e-12
+                && surface - y < z * (u - eye(x)) / (x - eye(x)) - 1e-12
         })
     };
     let points = (POINTS * (b[0] - a[0])).ceil() as usize;
     (0..points).fold([0.0; 2], |[sum, moment], i| {
         let share = (i as f64 + 0.5) / points as f64;
-        let [x, z] = [a[0] + share * (b[0] - a[0]), SURFACE - a[1] - share * (b[1] - a[1])];
+        let [x, z] = [a[0] + share * (b[0] - a[0]), surface - a[1] - share * (b[1] - a[1])];
         if (x - eye(x)).abs() > reach * z || hidden([x, z]) {
             return [sum, moment];
         }
@@ -88,23 +100,26 @@ fn summed(ring: &Ring, x0: f64, reach: f64, stress: &dyn Fn(f64, f64) -> f64, [a
     })
 }
 
-/// What the oracle makes of the load: the collapse load of stone that does not crush, and of stone that does.
-fn expected(x0: f64, reach: f64, stress: &dyn Fn(f64, f64) -> f64) -> [f64; 2] {
-    let ring = ring();
+/// What every stone takes of a strip.
+pub fn landed(ring: &Ring, strip: &Strip) -> Vec<Push> {
     let ends: Vec<Point> = ring.joints.iter().map(|joint| joint.1).collect();
-    let (first, last) = (ends[0], ends[STONES]);
+    let (first, last) = (ends[0], ends[ends.len() - 1]);
     let beyond = [[[first[0] - 12.0, first[1]], first], [last, [last[0] + 12.0, last[1]]]];
-    let sides: Vec<Point> = ends.windows(2).map(|side| summed(&ring, x0, reach, stress, [side[0], side[1]])).collect();
-    let lost: f64 = beyond.iter().map(|line| summed(&ring, x0, reach, stress, *line)[0]).sum();
+    let sides: Vec<Point> = ends.windows(2).map(|side| summed(ring, strip, [side[0], side[1]])).collect();
+    let lost: f64 = beyond.iter().map(|line| summed(ring, strip, *line)[0]).sum();
     let whole = lost + sides.iter().map(|side| side[0]).sum::<f64>();
     let push = |(block, [sum, moment]): (usize, Point)| Push {
         block,
         at: [moment / sum, ends[block][1]],
         force: [0.0, -sum / whole],
     };
-    let scaled = sides.into_iter().enumerate().filter(|(_, [sum, _])| *sum > 0.0).map(push).collect();
-    let mut fixed = ring.weight(UNIT_WEIGHT / 1e3);
-    fixed.extend(ring.fill(SURFACE, UNIT_WEIGHT / 1e3, 0.0));
+    sides.into_iter().enumerate().filter(|(_, [sum, _])| *sum > 0.0).map(push).collect()
+}
+
+/// What the oracle makes of a ring under its weight, `fill` and a load of 1 kN: the collapse load of stone that does not crush, and
+/// of stone that does.
+pub fn expected(ring: &Ring, fill: Vec<Push>, scaled: Vec<Push>) -> [f64; 2] {
+    let fixed = [ring.weight(UNIT_WEIGHT / 1e3), fill].concat();
     let mut problem = ring.problem(40f64.to_radians().tan());
     (problem.fixed, problem.scaled) = (fixed, scaled);
     [None, Some(STRENGTH / 1e3)].map(|strength| {
@@ -113,7 +128,7 @@ fn expected(x0: f64, reach: f64, stress: &dyn Fn(f64, f64) -> f64) -> [f64; 2] {
     })
 }
 
-fn boussinesq(x: f64, z: f64) -> f64 {
+pub fn boussinesq(x: f64, z: f64) -> f64 {
     let [b1, b2] = [0.5, -0.5].map(|half| ((x + half * WIDTH) / z).atan());
     (b1 - b2 + b1.sin() * b1.cos() - b2.sin() * b2.cos()) / (std::f64::consts::PI * WIDTH)
 }
@@ -139,7 +154,9 @@ fn a_bridge_under_a_dispersed_load_falls_at_the_load_of_other_programs() {
         (-3.3, cut(45.0), slope(45.0), &boussinesq),
         (1.1, cut(80.0), slope(80.0), &boussinesq),
     ] {
-        let (got, by_oracle) = (found(&request(x, Some(&given))), expected(x, reach, stress));
+        let strip = Strip { x0: x, surface: SURFACE, reach, stress };
+        let (ring, got) = (ring(), found(&request(x, Some(&given))));
+        let by_oracle = expected(&ring, ring.fill(SURFACE, UNIT_WEIGHT / 1e3, 0.0), landed(&ring, &strip));
         close([got[0], by_oracle[0]], SUMMED, &format!("x = {x}, {given}"));
         close([got[1], by_oracle[1]], SUMMED, &format!("x = {x}, {given}, crushing"));
     }

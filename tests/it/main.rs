@@ -14,6 +14,8 @@ mod answers;
 #[cfg(feature = "server")]
 mod atlas;
 #[cfg(feature = "server")]
+mod backfill;
+#[cfg(feature = "server")]
 mod bad_requests;
 #[cfg(feature = "server")]
 mod bad_structures;
@@ -73,6 +75,8 @@ mod oracle;
 mod outcomes;
 #[cfg(feature = "server")]
 mod paper;
+#[cfg(feature = "server")]
+mod passive;
 #[cfg(feature = "server")]
 mod properties;
 #[cfg(feature = "server")]

@@ -78,7 +78,11 @@ def scene(seed):
     if reach:
         grows.append({"point_load": {"force_n_per_m": 1000, "x_m": dice.uniform(-0.6, 0.6) * reach}})
         grows.append({"patch_load": {"force_n_per_m": 1000, "centre_x_m": dice.uniform(-0.4, 0.4) * reach, "width_m": 0.1 * reach}})
-        stays += [{"fill_pressure": {"fill_height_m": dice.uniform(0.2, 2) * reach}}] if dice.random() < 0.3 else []
+        fill = dice.random()
+        stays += [{"fill_pressure": {"fill_height_m": dice.uniform(0.2, 2) * reach}}] if fill < 0.3 else []
+        if fill > 0.6:
+            passive = {"factor": dice.uniform(0, 1), "least": dice.choice(["none", "active"])}
+            request["backfill"] = {"surface_height_m": dice.uniform(0.2, 2) * reach, "passive": passive}
     loads = [(load, False) for load in stays] + [(dice.choice(grows), True)]
     request["loads"] = [{"load": load, "scaled": scaled} for load, scaled in loads]
     return request
@@ -108,7 +112,17 @@ def forgeries(answer):
         "hinges of stone that does not crush": changed(lambda of: of["ends"][0].update(of["ends"][0]["without_crushing"])),
         "joints that do not crush": changed(lambda of: of["ends"][0].update(governed_by="instability")),
     } if answer["ends"][0]["governed_by"] == "crushing" else {}
-    return crushing | {
+    pressing = answer["proof"]["highest"]["passive_n_per_m"]
+    most = max(range(len(pressing)), key=pressing.__getitem__, default=None)
+    soil = {
+        "soil that resists less": changed(lambda of: [e.update(most_n_per_m=0.9 * e["most_n_per_m"]) for e in of["structure"]["passive_elements"]]),
+        "soil that resists more": changed(lambda of: [e.update(most_n_per_m=1.1 * e["most_n_per_m"]) for e in of["structure"]["passive_elements"]]),
+        "soil that does not press": changed(lambda of: of["proof"]["highest"].update(passive_n_per_m=[0] * len(pressing))),
+        "soil that pulls": changed(lambda of: of["proof"]["highest"]["passive_n_per_m"].__setitem__(most, -pressing[most])),
+        "an end whose soil does not press": changed(lambda of: of["ends"][0].update(passive_n_per_m=[])),
+        "soil elsewhere": changed(lambda of: [e["at_m"].__setitem__(1, e["at_m"][1] + 0.1) for e in of["structure"]["passive_elements"]]),
+    } if pressing else {}
+    return crushing | soil | {
         "a higher end": changed(lambda of: load(of, 1.01 * end)),
         "a lower end": changed(lambda of: load(of, 0.99 * end)),
         "a window wider than its proof": changed(lambda of: of["limit_window_load_factor"].__setitem__(1, 1.01 * end)),
@@ -131,7 +145,7 @@ def main():
     scenes = {f"random {seed}": solve(voussoir, scene(seed)) for seed in range(count)}
     refused = [name for name, answer in (answers | scenes).items() if answer is None]
     whole = {name: answer for name, answer in (answers | scenes).items() if answer and answer.get("proof")}
-    forged = {f"{name}: {how}": answer for name in ("first-arch", "wall") for how, answer in forgeries(answers[name]).items()}
+    forged = {f"{name}: {how}": answer for name in ("first-arch", "wall", "resisting-backfill") for how, answer in forgeries(answers[name]).items()}
     with tempfile.TemporaryDirectory() as folder:
         unproved, said = checked(pathlib.Path(folder), whole)
         refuted, _ = checked(pathlib.Path(folder), {str(k): answer for k, answer in enumerate(forged.values())})

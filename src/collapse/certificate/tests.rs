@@ -32,6 +32,7 @@ fn slid(shear: f64, load_factor: f64) -> PathEnd {
         residual: 0.0,
         mechanism,
         thrust_line: vec![thrust(0), thrust(1)],
+        soil: Vec::new(),
         crushed: Vec::new(),
     }
 }

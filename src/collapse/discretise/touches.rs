@@ -4,7 +4,8 @@ use super::super::grid::{Grid, ON_LINE, OnSide};
 use super::super::strips::{Points, nearest};
 use super::Analysis;
 use crate::dda::{Law, Touch};
-use crate::structure::{Joint, JointLaw};
+use crate::geometry::Vec2;
+use crate::structure::{Joint, JointLaw, PassiveElement};
 
 /// Stiffness of the link between a contact point and a stone, over that of the joint there. In series, contact and
 /// links (one towards the ground, two between stones) make up the joint's own.
@@ -69,6 +70,26 @@ pub(super) fn touches<'a>(
             after: after.map_or(nobody, |(grid, on)| grid.on_joint(on, eta, sides)),
         }
     })
+}
+
+/// The contact point of a passive element on a body cut like this, with that of its stone's joints for a `penalty`.
+pub(super) fn passive(element: &PassiveElement, grid: &Grid, penalty: f64) -> Touch {
+    let (link, stiffness) = (LINK * penalty, element.most / element.mobilised_at);
+    // In series with the link it is as stiff as the soil.
+    let contact = stiffness * link / (link - stiffness);
+    let mut after = [(0, 0.0); 2];
+    let shares = grid.at(element.at);
+    let all: f64 = shares.iter().take(2).map(|(_, share)| share).sum();
+    after.iter_mut().zip(shares).for_each(|(held, (subblock, share))| *held = (subblock, share / all));
+    Touch {
+        at: element.at,
+        normal: Vec2::new(element.way, 0.0),
+        stiffness: [contact; 2],
+        link: [link; 2],
+        law: Law::Coulomb { friction: 0.0, cohesion: 0.0, cap: element.most },
+        before: [(0, 0.0); 2],
+        after,
+    }
 }
 
 /// A joint's contact points: those of its strips, where it has any; else each of [`places`], with what is nearest to it.

@@ -8,8 +8,11 @@ use crate::collapse::record::{MOST_FIXED_STEPS, Recorder, snapshot};
 use crate::collapse::sliding::Search;
 use crate::collapse::state::States;
 use crate::collapse::tolerances;
-use crate::collapse::{AnalysisError, CollapseReport, Cost, Doubt, LoadRange, Method, Note, Outcome};
+use crate::collapse::{
+    Analysis, AnalysisError, CollapseReport, Cost, Doubt, LoadRange, Mechanism, Method, Note, Outcome,
+};
 use crate::dda::Tracer;
+use crate::limit::StaticTheorem;
 
 impl Setup<'_> {
     /// Follows the path one way and writes down what was seen; returns a doubt where path and certificate disagree.
@@ -101,14 +104,22 @@ impl Setup<'_> {
 
     /// Where joints slide, takes the least load at which they let the arch fall for the end.
     fn take_least(&self, ending: &mut Ending, sign: f64) -> Result<(), AnalysisError> {
-        let (analysis, theorem) = (self.analysis, &self.certificate.theorem);
         let Ending { end, later, at_limits } = ending;
+        // What the soil presses at the end of the path stays; other mechanisms have to agree with it.
+        let held = soil_held(self.analysis, &end.soil);
+        let theorem = match &held {
+            Some(held) => &StaticTheorem::new(&held.structure, &held.fixed, &held.scaled)
+                .map_err(|bodies| AnalysisError::Unconnected(bodies[0]))?,
+            None => &self.certificate.theorem,
+        };
+        let analysis = held.as_ref().unwrap_or(self.analysis);
         let (mut path, greatest) = (end.load_factor, self.certificate.end(sign).unwrap_or(0.0));
         let search = Search { analysis, theorem, budget: self.budget, start: self.start, sign };
         at_limits.extend(search.at_window_end(greatest));
         let (found, mechanisms_tried) = search.least(at_limits);
         self.budget.check()?;
-        let slides = found.filter(|found| found.mechanism.slips());
+        let allowed = |mechanism: &Mechanism| ending::soil_allows(&self.analysis.structure, &end.soil, mechanism);
+        let slides = found.filter(|found| found.mechanism.slips() && allowed(&found.mechanism));
         if let Some(found) = slides.filter(|found| !search.is_beyond(found.load_factor, path, tolerances::POLISH)) {
             // A path that nothing polished carries the disturbance of its attempt: what is as near is the same load.
             if !search.is_beyond(path, found.load_factor, tolerances::POLISH) {
@@ -138,4 +149,16 @@ impl Setup<'_> {
             }
         }
     }
+}
+
+/// The analysis of the same structure without passive elements, on which what they press, N/m, acts as loads that stay; none where
+/// there are none.
+fn soil_held(analysis: &Analysis, soil: &[f64]) -> Option<Analysis> {
+    let elements = &analysis.structure.passive;
+    (!elements.is_empty()).then(|| {
+        let mut held = analysis.clone();
+        held.structure.passive.clear();
+        held.fixed.extend(elements.iter().zip(soil).map(|(element, &size)| element.force(size)));
+        held
+    })
 }

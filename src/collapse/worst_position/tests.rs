@@ -3,7 +3,7 @@ use crate::arch::profile::Profile;
 use crate::arch::ring::{JointLines, Line, Ring, Thickness, stations};
 use crate::arch::{assemble, straight_voussoirs};
 use crate::collapse::{MovingVehicle, Sweep};
-use crate::structure::load::{Axle, Dispersal, Distribution, Fill, Load, Vehicle};
+use crate::structure::load::{Axle, Dispersal, Distribution, Fill, Layer, Load, SurfaceLine, Vehicle};
 use crate::structure::{JointLaw, Stone};
 
 /// Numbers in [0, 1) from a seed.
@@ -44,8 +44,8 @@ fn bridge(
     let law = JointLaw::Dry { friction: 40f64.to_radians().tan(), cohesion: 0.0 };
     let structure = assemble(&ends, straight_voussoirs(&ends).unwrap(), stone, law);
     let surface = rise + thickness + cover;
-    let fill =
-        Fill { height: Some(surface), density: 2040.0, embankment: 0.0, embankment_density: 0.0, lateral_ratio: 0.0 };
+    let layer = Layer { bottom: f64::NEG_INFINITY, top: 0.0, density: 2040.0 };
+    let fill = Fill { line: Some(SurfaceLine::level(surface)), layers: vec![layer], backing: None, lateral_ratio: 0.0 };
     let fixed = [Load::SelfWeight, Load::Fill(fill)].map(|load| load.on(&structure, 1.0).unwrap()).concat();
     (structure, fixed, surface)
 }
@@ -118,7 +118,7 @@ fn the_worst_position_is_that_of_a_fine_scan() {
             1 => Some(Distribution::Boussinesq { cut_off: dice.between(0.4, 0.8) }),
             _ => Some(Distribution::Uniform { spread: 0.5 }),
         };
-        let dispersal = dispersal.map(|distribution| Dispersal { surface, distribution });
+        let dispersal = dispersal.map(|distribution| Dispersal { surface: SurfaceLine::level(surface), distribution });
         let mut vehicle = axles(
             &[[0.0, 1e4], [dice.between(1.0, 2.0), dice.between(3e3, 1e4)], [dice.between(2.2, 4.0), 5e3]],
             dispersal,
@@ -148,7 +148,8 @@ fn the_worst_position_is_that_of_a_fine_scan() {
 #[test]
 fn mechanisms_bound_all_other_positions() {
     let (structure, fixed, surface) = bridge([6.55, 1.428, 0.22], 30, 4.5e6, 0.165);
-    let dispersal = Dispersal { surface, distribution: Distribution::Boussinesq { cut_off: 0.5236 } };
+    let dispersal =
+        Dispersal { surface: SurfaceLine::level(surface), distribution: Distribution::Boussinesq { cut_off: 0.5236 } };
     let question = question(structure, fixed, axles(&[[0.0, 1e4], [1.3, 5e3]], Some(dispersal)), 0.25, &[false]);
     let budget = Budget::unlimited();
     let mut search = Search::new(&question, &budget);

@@ -51,7 +51,7 @@ fn every_stone_is_in_equilibrium_whatever_the_unknowns() {
         weights: std::array::from_fn(|i| if i == face { 1.0 } else { 0.0 }),
         constant: 0.0,
     };
-    let equilibrium = theorem.solve(&[free(0, 0), free(1, 1), free(3, 0), free(4, 1)]).unwrap();
+    let equilibrium = theorem.solve(&[free(0, 0), free(1, 1), free(3, 0), free(4, 1)], &[]).unwrap();
     let resultants = theorem.resultants(&equilibrium);
     assert!(resultants[0].intrados.abs() < 1e-12 && resultants[3].intrados.abs() < 1e-12);
     for i in 0..4 {

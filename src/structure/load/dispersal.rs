@@ -14,7 +14,7 @@
 mod sight;
 
 use super::patch::Patch;
-use super::{LoadFault, LoadedSide};
+use super::{LoadFault, LoadedSide, SurfaceLine};
 use crate::geometry::Vec2;
 use sight::{Part, Strip};
 use std::f64::consts::PI;
@@ -42,10 +42,10 @@ pub enum Distribution {
 }
 
 /// How the fill below a load spreads it.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Dispersal {
-    /// Height of the surface on which the load stands, m.
-    pub surface: f64,
+    /// The surface on which the load stands: a strip is level, at the height under its middle.
+    pub surface: SurfaceLine,
     /// How stress spreads.
     pub distribution: Distribution,
 }
@@ -89,10 +89,11 @@ impl Dispersal {
     fn integrals(&self, patch: &Patch, extent: f64, sides: &[LoadedSide]) -> Result<Vec<Landed>, LoadFault> {
         let width = patch.width.max(LEAST_WIDTH * extent);
         let edges = [patch.centre - 0.5 * width, patch.centre + 0.5 * width];
-        let strip = Strip { edges, surface: self.surface, reach: self.reach(), near: NEAR * extent };
+        let surface = self.surface.height(patch.centre);
+        let strip = Strip { edges, surface, reach: self.reach(), near: NEAR * extent };
         let mut integrals = Vec::new();
         for part in strip.sees(sides)? {
-            let depths = [part.a, part.b].map(|end| (self.surface - end.y).max(0.0));
+            let depths = [part.a, part.b].map(|end| (surface - end.y).max(0.0));
             let [share, moment] = match self.distribution {
                 Distribution::Boussinesq { .. } => boussinesq(edges, [part.a.x, part.b.x], depths),
                 Distribution::Uniform { spread } => uniform(depths.map(|z| width + 2.0 * spread * z), part.width()),
@@ -102,9 +103,9 @@ impl Dispersal {
         Ok(integrals)
     }
 
-    /// How far beyond the edges of a strip it spreads down to a height, m.
+    /// How far beyond the edges of a strip it spreads down to a height at most, wherever the strip stands, m.
     pub(super) fn spread_at(&self, height: f64) -> f64 {
-        self.reach() * (self.surface - height).max(0.0)
+        self.reach() * (self.surface.top() - height).max(0.0)
     }
 
     /// Slope of the planes to which it spreads: horizontal over vertical.

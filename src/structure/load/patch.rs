@@ -6,7 +6,7 @@ use super::{LoadFault, LoadedSide, down, plan};
 use crate::geometry::Vec2;
 
 /// A vertical force spread evenly over a strip.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Patch {
     /// Total force, N/m, downwards.
     pub force: f64,

@@ -39,8 +39,23 @@ fn left(forces: &[PointForce], n: usize) -> Vec2 {
     forces.iter().filter(|force| force.body < n / 2).map(|force| force.force).sum()
 }
 
+/// A layer that goes down to the structure.
+pub(super) fn down_from(top: f64, density: f64) -> Layer {
+    Layer { bottom: f64::NEG_INFINITY, top, density }
+}
+
+/// Fill up to a height; without one there is none, and heights are counted from the extrados.
 pub(super) fn fill(height: Option<f64>) -> Fill {
-    Fill { height, density: 1600.0, embankment: 0.0, embankment_density: 1600.0, lateral_ratio: 0.5 }
+    let line = height.map(SurfaceLine::level);
+    Fill { line, layers: vec![down_from(0.0, 1600.0)], backing: None, lateral_ratio: 0.5 }
+}
+
+impl Fill {
+    /// The same with so much embankment on it, m and kg/m3.
+    pub(super) fn under(mut self, thickness: f64, density: f64) -> Fill {
+        self.layers.push(Layer { bottom: 0.0, top: thickness, density });
+        self
+    }
 }
 
 pub(super) fn close(a: f64, b: f64, tolerance: f64) {
@@ -77,7 +92,8 @@ fn fill_on_a_quarter_circle_has_its_closed_form() {
     let density = 16_000.0 / GRAVITY;
     for (n, vertical) in [(20, 11.48524), (200, 11.43415)] {
         let arch = arch_of(&ring(Profile::circular(0.9, PI), 0.2, n));
-        let forces = Load::Fill(Fill { density, ..fill(Some(1.5)) }).on(&arch, 1e-3).unwrap();
+        let forces =
+            Load::Fill(Fill { layers: vec![down_from(0.0, density)], ..fill(Some(1.5)) }).on(&arch, 1e-3).unwrap();
         let half = left(&forces, n);
         close(half.x, 8.0, 1e-12);
         close(-half.y, vertical, 6e-6);
@@ -90,7 +106,7 @@ fn fill_on_a_quarter_circle_has_its_closed_form() {
 fn pressure_of_deep_fill_is_even_on_an_overhanging_arch() {
     // An even pressure p = q_v = q_h on a polyline from A to B pushes like one on the chord.
     let arch = arch_of(&ring(Profile::circular(2.0, 4.2), 0.5, 9));
-    let even = Fill { height: None, embankment: 2.0, lateral_ratio: 1.0, ..fill(None) };
+    let even = Fill { lateral_ratio: 1.0, ..fill(None).under(2.0, 1600.0) };
     let forces = Load::Fill(even).on(&arch, 1.0).unwrap();
     let (a, b) = (arch.joints[0].extrados, arch.joints[9].extrados);
     let p = 2.0 * 1600.0 * GRAVITY;
@@ -125,7 +141,7 @@ fn fill_ends_at_its_top() {
     assert!(forces.iter().all(|force| force.at.y < 1.0));
     // K gamma H^2 / 2 from the springing to the top.
     close(left(&forces, 12).x, 0.25 * 1600.0 * GRAVITY, 1e-9);
-    let above = Load::Fill(Fill { embankment: 0.1, ..fill(Some(1.0)) }).on(&arch, 1.0);
+    let above = Load::Fill(fill(Some(1.0)).under(0.1, 1600.0)).on(&arch, 1.0);
     assert!(matches!(above, Err(LoadFault::ArchAboveFill { top }) if (top - 2.25).abs() < 1e-12));
 }
 
@@ -258,7 +274,7 @@ fn pieces_of_a_side_carry_together_what_the_side_carries() {
     let pieces: Vec<usize> = (0..12).map(|k| 1 + k % 5).collect();
     let bands = vec![Band { from: 0.1, to: 0.9, pressure: 3e3 }, Band { from: 0.9, to: 1.7, pressure: 1e3 }];
     let dispersed = |distribution| {
-        let dispersal = Some(Dispersal { surface: 2.6, distribution });
+        let dispersal = Some(Dispersal { surface: SurfaceLine::level(2.6), distribution });
         Load::Patch(Patch { force: 5e3, centre: -1.3, width: 1.1, dispersal })
     };
     for load in [
@@ -293,7 +309,6 @@ fn a_triangular_pressure_on_a_piece_has_its_own_resultant() {
 fn an_embankment_presses_on_a_level_side_at_the_top_of_the_fill() {
     let ends = [[Vec2::new(0.0, 0.0), Vec2::new(0.0, 1.0)], [Vec2::new(2.0, 0.0), Vec2::new(2.0, 1.0)]];
     let arch = assemble(&ends, straight_voussoirs(&ends).unwrap(), STONE, LAW);
-    let load = Fill { embankment: 0.5, embankment_density: 1000.0, ..fill(Some(1.0)) };
-    let forces = Load::Fill(load).on(&arch, 1.0).unwrap();
+    let forces = Load::Fill(fill(Some(1.0)).under(0.5, 1000.0)).on(&arch, 1.0).unwrap();
     close(sum(&forces).y, -0.5 * 1000.0 * GRAVITY * 2.0, 1e-9);
 }

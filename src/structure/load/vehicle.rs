@@ -60,7 +60,7 @@ impl Vehicle {
             force: axle.force,
             centre: self.x + sense * axle.offset,
             width: axle.length,
-            dispersal: self.dispersal,
+            dispersal: self.dispersal.clone(),
         };
         self.axles.iter().map(patch)
     }
@@ -84,7 +84,7 @@ impl Vehicle {
     pub fn reach(&self, structure: &Structure) -> [f64; 2] {
         let (from, to) = plan(structure);
         let lowest = super::ends(structure).map(|end| end.y).fold(f64::INFINITY, f64::min);
-        let spread = self.dispersal.map_or(0.0, |dispersal| dispersal.spread_at(lowest));
+        let spread = self.dispersal.as_ref().map_or(0.0, |dispersal| dispersal.spread_at(lowest));
         let mut reach = [f64::INFINITY, f64::NEG_INFINITY];
         for patch in self.at(0.0, self.reversed).patches() {
             let half = 0.5 * patch.width + spread;

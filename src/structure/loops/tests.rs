@@ -19,6 +19,7 @@ fn graph(bodies: usize, joints: &[[Side; 2]]) -> Structure {
         joints: joints.iter().map(joint).collect(),
         spans: Vec::new(),
         surfaces: Vec::new(),
+        passive: Vec::new(),
         supports: 2,
     }
 }

@@ -68,8 +68,8 @@ fn facts(result: &SafetyCurveResult, wall_time: Duration) -> Table {
     if let Some(mesh) = mesh(&request.mesh) {
         fact("mesh", mesh);
     }
-    fact("fixed loads", given::loads(&request.loads, false));
-    fact("scaled loads", given::loads(&request.loads, true));
+    fact("fixed loads", given::loads(request, false));
+    fact("scaled loads", given::loads(request, true));
     fact("strength", format!("{} MPa", Digits(request.stone.compressive_strength_pa / 1e6)));
     fact("crushing by", word(&result.crushing));
     fact("time", format!("{:.3} ms", wall_time.as_secs_f64() * 1e3));

@@ -46,9 +46,10 @@ fn arch(arch: &ArchRequest) -> String {
 /// Most loads listed, beside fill, which always is.
 const LOADS_LISTED: usize = 6;
 
-/// The fixed or the scaled loads, a line each.
-pub fn loads(entries: &[LoadEntry], scaled: bool) -> String {
-    let entries: Vec<&LoadEntry> = entries.iter().filter(|entry| entry.scaled == scaled).collect();
+/// The fixed or the scaled loads, a line each; the backfill is among the fixed ones.
+pub fn loads(request: &AnalysisRequest, scaled: bool) -> String {
+    let backfill = request.backfill.as_ref();
+    let entries: Vec<&LoadEntry> = request.loads.iter().filter(|entry| entry.scaled == scaled).collect();
     let listed =
         |(i, entry): &(usize, &&LoadEntry)| *i < LOADS_LISTED || matches!(entry.load, LoadRequest::FillPressure(_));
     let mut lines: Vec<String> = entries
@@ -56,15 +57,20 @@ pub fn loads(entries: &[LoadEntry], scaled: bool) -> String {
         .enumerate()
         .filter(listed)
         .map(|(_, entry)| match (entry.coefficient == 1.0, entry.per_abscissa) {
-            (true, false) => entry.load.words(),
-            (false, false) => format!("{} times: {}", Digits(entry.coefficient), entry.load.words()),
-            (true, true) => format!("abscissa times: {}", entry.load.words()),
-            (false, true) => format!("{} times abscissa times: {}", Digits(entry.coefficient), entry.load.words()),
+            (true, false) => entry.load.words(backfill),
+            (false, false) => format!("{} times: {}", Digits(entry.coefficient), entry.load.words(backfill)),
+            (true, true) => format!("abscissa times: {}", entry.load.words(backfill)),
+            (false, true) => {
+                format!("{} times abscissa times: {}", Digits(entry.coefficient), entry.load.words(backfill))
+            }
         })
         .collect();
     let more = entries.len() - lines.len();
     if more > 0 {
         lines.push(format!("and {more} more"));
+    }
+    if let Some(backfill) = backfill.filter(|_| !scaled) {
+        lines.insert(0, backfill.words());
     }
     if lines.is_empty() { "none".to_owned() } else { lines.join("\n") }
 }

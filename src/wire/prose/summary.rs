@@ -5,10 +5,13 @@ use super::wording::{self, word};
 use super::{given, joints, moving, plan, safety};
 use crate::collapse::{GovernedBy, Outcome};
 use crate::wire::prose::Digits;
-use crate::wire::response::{AnalysisResult, EndBody, WorstPositionBody};
+use crate::wire::response::{AnalysisResult, EndBody, PassiveElementBody, WorstPositionBody};
 use comfy_table::{Table, presets};
 use std::fmt::Write;
 use std::time::Duration;
+
+/// An element within this share of its largest force is at it; so little is none.
+const FULL: f64 = 1e-6;
 
 /// Everything but the rows of numbers per stone and joint.
 pub fn summary(result: &AnalysisResult, wall_time: Duration) -> String {
@@ -65,8 +68,8 @@ fn facts(result: &AnalysisResult, wall_time: Duration) -> Table {
     for (name, value) in result.plan.iter().flat_map(plan::facts) {
         fact(name, value);
     }
-    fact("fixed loads", given::loads(&result.request.loads, false));
-    fact("scaled loads", given::loads(&result.request.loads, true));
+    fact("fixed loads", given::loads(&result.request, false));
+    fact("scaled loads", given::loads(&result.request, true));
     if result.request.loads.iter().any(|load| load.scaled) {
         let one = Digits(result.request.load_factor.intensity_per_unit);
         fact("", format!("(at load factor 1, which is intensity {one} {})", wording::unit(result)));
@@ -149,8 +152,24 @@ fn end_facts(result: &AnalysisResult, end: &EndBody) -> Vec<(&'static str, Strin
     if !end.crushed_joints.is_empty() {
         lines.push(("joints that crush", joints::crushed(&end.crushed_joints)));
     }
+    lines.extend(soil(end, result).map(|soil| ("soil presses", soil)));
     lines.push(("residual", in_its_words(&result.request, &format!("{:.1e} of the arch's weight", end.residual))));
     lines
+}
+
+/// What passive elements press on either side.
+fn soil(end: &EndBody, result: &AnalysisResult) -> Option<String> {
+    let (elements, forces) = (&result.structure.passive_elements, &end.fall.passive_n_per_m);
+    let side = |direction: f64| {
+        let pressing = |(element, force): &(&PassiveElementBody, &f64)| {
+            element.direction == direction && **force > FULL * element.most_n_per_m
+        };
+        Digits(elements.iter().zip(forces).filter(pressing).map(|(_, force)| force / 1e3).sum())
+    };
+    let [right, left] = [1.0, -1.0].map(side);
+    let full = elements.iter().zip(forces).filter(|(element, force)| **force >= (1.0 - FULL) * element.most_n_per_m);
+    let full = format!("{} of {} elements with all they have", full.count(), elements.len());
+    (!forces.is_empty()).then(|| format!("{right} kN/m to the right, {left} kN/m to the left; {full}"))
 }
 
 fn explanation(result: &AnalysisResult) -> &'static str {

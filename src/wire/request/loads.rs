@@ -7,15 +7,14 @@ mod fill;
 mod patch;
 mod vehicle;
 
-use super::{ForceVector, Point, Text};
+use super::{BackfillRequest, ForceVector, Point, Text};
 use crate::geometry::Vec2;
 use crate::structure::GRAVITY;
 use crate::structure::load::{Band, Load, LoadFault, Place};
 use crate::wire::fault::{Faults, Shown};
 use crate::wire::prose::Digits;
 pub use fill::FillPressure;
-use patch::DispersalRequest;
-pub use patch::PatchLoad;
+pub use patch::{Boussinesq, DispersalRequest, DistributionRequest, PatchLoad, Uniform};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 pub use vehicle::VehicleLoad;
@@ -147,11 +146,12 @@ impl LoadRequest {
         }
     }
 
-    /// In SI, on bodies of these names; of a point load with two places, the abscissa counts. None of a body that nobody knows.
-    pub fn in_si(&self, names: &[String]) -> Option<Load> {
+    /// In SI, on bodies of these names, over a backfill where there is one; of a point load with two places, the abscissa
+    /// counts. None of a body that nobody knows, or on a surface that has faults.
+    pub fn in_si(&self, names: &[String], backfill: Option<&BackfillRequest>) -> Option<Load> {
         Some(match self {
             LoadRequest::SelfWeight(_) => Load::SelfWeight,
-            LoadRequest::FillPressure(fill) => Load::Fill(fill.in_si()),
+            LoadRequest::FillPressure(fill) => Load::Fill(fill.in_si(backfill)),
             LoadRequest::LateralPressure(lateral) => {
                 let band = |band: &PressureBand| Band { from: band.from_m, to: band.to_m, pressure: band.pressure_pa };
                 Load::Lateral(lateral.bands.iter().map(band).collect())
@@ -162,8 +162,8 @@ impl LoadRequest {
             LoadRequest::PointLoad(point) => {
                 Load::Point(point.force_n_per_m, Place::Abscissa(point.x_m.unwrap_or(0.0)))
             }
-            LoadRequest::PatchLoad(patch) => Load::Patch(patch.in_si()),
-            LoadRequest::Vehicle(vehicle) => Load::Vehicle(vehicle.in_si()),
+            LoadRequest::PatchLoad(patch) => Load::Patch(patch.in_si(backfill)?),
+            LoadRequest::Vehicle(vehicle) => Load::Vehicle(vehicle.in_si(backfill)?),
             LoadRequest::PointForce(force) => Load::Force {
                 body: names.iter().position(|name| **name == *force.block)?,
                 at: force.at_m.into(),
@@ -187,20 +187,20 @@ impl LoadRequest {
         }
     }
 
-    /// Whether it may stand where none of it comes down on the structure.
-    pub fn may_miss(&self) -> bool {
+    /// Its downward force, N/m, where some or all of it may come down beside the structure.
+    pub fn dispersed_force(&self) -> Option<f64> {
         match self {
-            LoadRequest::PatchLoad(patch) => patch.dispersal.is_some(),
-            LoadRequest::Vehicle(_) => true,
-            _ => false,
+            LoadRequest::PatchLoad(patch) if patch.dispersal.is_some() => Some(patch.force_n_per_m),
+            LoadRequest::Vehicle(vehicle) => Some(vehicle.force()),
+            _ => None,
         }
     }
 
-    /// What it says against itself. `here` points to its fields.
-    pub fn check(&self, here: &str, faults: &mut Faults) {
+    /// What it says against itself, over a backfill where there is one. `here` points to its fields.
+    pub fn check(&self, here: &str, backfill: Option<&BackfillRequest>, faults: &mut Faults) {
         match self {
             LoadRequest::SelfWeight(_) | LoadRequest::BodyAcceleration(_) => {}
-            LoadRequest::FillPressure(fill) => fill.check(here, faults),
+            LoadRequest::FillPressure(fill) => fill.check(here, backfill, faults),
             LoadRequest::LateralPressure(lateral) => {
                 for (i, band) in lateral.bands.iter().enumerate() {
                     let from = Shown(band.from_m);
@@ -213,8 +213,8 @@ impl LoadRequest {
                 let one = point.x_m.is_some() != point.voussoir.is_some();
                 faults.require(one, here, "give either x_m or voussoir, not both and not neither");
             }
-            LoadRequest::PatchLoad(patch) => faults.not_zero(&format!("{here}/force_n_per_m"), patch.force_n_per_m),
-            LoadRequest::Vehicle(vehicle) => vehicle.check(here, faults),
+            LoadRequest::PatchLoad(patch) => patch.check(here, backfill, faults),
+            LoadRequest::Vehicle(vehicle) => vehicle.check(here, backfill, faults),
             LoadRequest::PointForce(force) => {
                 let detail = "0 both ways makes this load vanish: give another force or leave the load out";
                 faults.require(force.force_n_per_m.0 != [0.0; 2], format!("{here}/force_n_per_m"), detail);
@@ -225,12 +225,15 @@ impl LoadRequest {
     /// The field in which it is best mended where it does not fit the structure; none: the load as a whole.
     pub fn field_of(&self, fault: LoadFault) -> Option<&'static str> {
         match (self, fault) {
+            (LoadRequest::FillPressure(FillPressure { fill_height_m: None, .. }), _) => Some("embankment_thickness_m"),
             (LoadRequest::FillPressure(_), _) => Some("fill_height_m"),
             (LoadRequest::PointLoad(_), LoadFault::NoSuchVoussoir { .. }) => Some("voussoir"),
             (LoadRequest::PointLoad(_), _) => Some("x_m"),
-            (LoadRequest::PatchLoad(_) | LoadRequest::Vehicle(_), LoadFault::SurfaceBelowExtrados { .. }) => {
-                Some("dispersal/surface_height_m")
-            }
+            (
+                LoadRequest::PatchLoad(PatchLoad { dispersal: Some(dispersal), .. })
+                | LoadRequest::Vehicle(VehicleLoad { dispersal: Some(dispersal), .. }),
+                LoadFault::SurfaceBelowExtrados { .. },
+            ) => Some(dispersal.field_of_surface()),
             (LoadRequest::PatchLoad(_), _) => Some("centre_x_m"),
             (LoadRequest::Vehicle(_), _) => Some("x_m"),
             (LoadRequest::PointForce(_), _) => Some("at_m"),
@@ -240,11 +243,11 @@ impl LoadRequest {
         }
     }
 
-    /// As a person says it.
-    pub fn words(&self) -> String {
+    /// As a person says it, over a backfill where there is one.
+    pub fn words(&self, backfill: Option<&BackfillRequest>) -> String {
         match self {
             LoadRequest::SelfWeight(_) => "self weight".to_owned(),
-            LoadRequest::FillPressure(fill) => fill.words(),
+            LoadRequest::FillPressure(fill) => fill.words(backfill),
             LoadRequest::LateralPressure(lateral) => {
                 format!("lateral pressure, bands of height: {}", lateral.bands.len())
             }
@@ -255,8 +258,8 @@ impl LoadRequest {
                 };
                 format!("{} {place}", kn_per_m(point.force_n_per_m))
             }
-            LoadRequest::PatchLoad(patch) => patch.words(),
-            LoadRequest::Vehicle(vehicle) => vehicle.words(),
+            LoadRequest::PatchLoad(patch) => patch.words(backfill),
+            LoadRequest::Vehicle(vehicle) => vehicle.words(backfill),
             LoadRequest::PointForce(force) => {
                 let [fx, fy] = force.force_n_per_m.0.map(|force| Digits(force / 1e3));
                 let [x, y] = force.at_m.0.map(Digits);

@@ -3,12 +3,14 @@
 
 mod accuracy;
 mod arch;
+mod backfill;
 mod beam;
 mod blocks;
 mod bridge;
 mod loads;
 mod mesh;
 mod motion;
+mod passive;
 mod question;
 mod stones;
 mod values;
@@ -18,12 +20,14 @@ use crate::collapse::{DEFAULT_PENALTY_RATIO, Direction, Geometry, PlaneModel};
 use crate::structure::Stone;
 pub use accuracy::*;
 pub use arch::*;
+pub use backfill::*;
 pub use beam::*;
 pub use blocks::*;
 pub use bridge::*;
 pub use loads::*;
 pub use mesh::*;
 pub use motion::*;
+pub use passive::*;
 pub use question::*;
 use serde::ser::Error;
 use serde::{Deserialize, Serialize, Serializer};
@@ -95,6 +99,8 @@ pub struct AnalysisRequest {
     #[serde(default)]
     #[schema(max_items = 100)]
     pub stones: Vec<NamedStone>,
+    /// Fill over an arch or a bridge: a fixed load, and what loads on its surface are dispersed by. Left out: none.
+    pub backfill: Option<BackfillRequest>,
     /// Joints that differ from the rest.
     #[serde(default)]
     #[schema(max_items = 8000)]

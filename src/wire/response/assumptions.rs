@@ -6,7 +6,7 @@ use crate::wire::request::{AnalysisRequest, LoadEntry, LoadRequest, Subblocks, S
 
 /// Note on fill and acceleration together.
 const FILL_IS_SHAKEN: &str = "Fill has mass: in the acceleration the column of fill and embankment over every part of the \
-     extrados that looks up pushes with its mass, each of the two at half its height, and the stone below carries it. \
+     extrados that looks up pushes with its mass, at its centre of mass, and the stone below carries it. \
      What lies beside the arch does not push.";
 
 /// Note on contacts stiffer than the default, where joints slide.
@@ -42,19 +42,24 @@ pub(super) fn assumptions(request: &AnalysisRequest, structure: &StructureBody) 
     let notes = [
         (stiff, STIFF_CONTACTS),
         (!weight, NO_WEIGHT),
-        (shaken && fill, FILL_IS_SHAKEN),
+        (shaken && (fill || request.backfill.is_some()), FILL_IS_SHAKEN),
         (shaken && massless, MASSLESS_IS_SHAKEN),
     ];
     let notes = notes.into_iter().filter(|(holds, _)| *holds).map(|(_, note)| note.to_owned());
     notes.chain(uncut(request, structure)).chain(units(request, structure)).chain(beyond(structure)).collect()
 }
 
-/// How much of vehicles stands on the ground.
+/// How much of the loads goes to the ground.
 fn beyond(structure: &StructureBody) -> impl Iterator<Item = String> {
     let lost = structure.arriving.iter().filter(|(_, share)| *share < 1.0 - ALL);
-    lost.map(|(i, share)| {
-        let share = Digits(100.0 * share);
-        format!("Of the vehicle of loads[{i}] {share} % of the force comes down on the structure; the rest goes to the ground.")
+    lost.map(|(i, share)| match *share > 0.0 {
+        true => format!(
+            "Of the force of loads[{i}] {} % comes down on the structure; the rest goes to the ground beyond its ends.",
+            Digits(100.0 * share)
+        ),
+        false => {
+            format!("Nothing of loads[{i}] comes down on the structure: all of it goes to the ground beyond its ends.")
+        }
     })
 }
 

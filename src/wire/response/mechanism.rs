@@ -67,6 +67,8 @@ pub struct FallBody {
     pub mechanism: MechanismBody,
     /// Resultant of every joint.
     pub thrust_line: ThrustColumns,
+    /// Force of every one of `structure.passive_elements`, N/m; empty where the load path was left before.
+    pub passive_n_per_m: Vec<f64>,
     /// Velocity of every body.
     pub velocities: VelocityColumns,
 }
@@ -200,6 +202,7 @@ impl From<&PathEnd> for FallBody {
         FallBody {
             mechanism: (&end.mechanism).into(),
             thrust_line: ThrustColumns::new(&end.thrust_line),
+            passive_n_per_m: end.soil.clone(),
             velocities: VelocityColumns::new(&end.mechanism.velocities),
         }
     }

@@ -7,15 +7,15 @@ use utoipa::ToSchema;
 
 /// Why the limit window ends where it does. By the static theorem of limit analysis a load factor at which some forces are in
 /// equilibrium and break no joint's law is borne; by the kinematic theorem none is borne whose loads do more work, in some motion
-/// that no joint hinders, than cohesion takes. Joints that slide dilate here (associated friction).
+/// that no joint hinders, than cohesion and soil take. Joints that slide dilate here (associated friction).
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct ProofBody {
     /// Lowest load factor; null where nothing stands.
     pub lowest: Option<ProofEndBody>,
     /// Highest load factor; null where nothing stands.
     pub highest: Option<ProofEndBody>,
-    /// Where nothing stands: a motion that no joint hinders, in which the fixed loads do more work than cohesion takes and the scaled
-    /// loads none. Else null.
+    /// Where nothing stands: a motion that no joint hinders, in which the fixed loads do more work than cohesion and soil take and
+    /// the scaled loads none. Else null.
     pub falls: Option<MotionColumns>,
 }
 
@@ -26,8 +26,10 @@ pub struct ProofEndBody {
     pub load_factor: f64,
     /// Forces in equilibrium there.
     pub forces: JointForceColumns,
-    /// A motion that no joint hinders, in which the loads of any load factor beyond do more work than cohesion takes; null where
-    /// the window has no end.
+    /// Force of every one of `structure.passive_elements` there.
+    pub passive_n_per_m: Vec<f64>,
+    /// A motion that no joint hinders, in which the loads of any load factor beyond do more work than cohesion and soil take; null
+    /// where the window has no end.
     pub motion: Option<MotionColumns>,
     /// Where the window has no end: forces in equilibrium with the scaled loads alone, times -1 at the lowest. Any multiple may be
     /// added to `forces`. Else null, and where rounding kept the linear programme from them.
@@ -70,16 +72,17 @@ impl ProofBody {
 
 impl ProofEndBody {
     fn new(end: &WindowEnd) -> Self {
-        let (load_factor, forces) = match end {
-            WindowEnd::Bounded { load_factor, forces, .. } | WindowEnd::Unbounded { load_factor, forces, .. } => {
-                (*load_factor, JointForceColumns::new(forces))
+        let (load_factor, forces, soil) = match end {
+            WindowEnd::Bounded { load_factor, forces, soil, .. }
+            | WindowEnd::Unbounded { load_factor, forces, soil, .. } => {
+                (*load_factor, JointForceColumns::new(forces), soil.clone())
             }
         };
         let (motion, ray) = match end {
             WindowEnd::Bounded { motion, .. } => (Some(MotionColumns::new(motion)), None),
             WindowEnd::Unbounded { ray, .. } => (None, ray.as_deref().map(JointForceColumns::new)),
         };
-        ProofEndBody { load_factor, forces, motion, ray }
+        ProofEndBody { load_factor, forces, passive_n_per_m: soil, motion, ray }
     }
 }
 

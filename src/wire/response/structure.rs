@@ -3,7 +3,7 @@
 use super::columns::column;
 use crate::collapse::{Analysis, subblocks_of};
 use crate::geometry::cross;
-use crate::structure::{Body, Joint, JointLaw, PointForce, Side, Sides, Structure};
+use crate::structure::{Body, Joint, JointLaw, PassiveElement, PointForce, Side, Sides, Structure};
 use crate::wire::request::AnalysisRequest;
 use crate::wire::translate::{analysed, arriving};
 use serde::Serialize;
@@ -18,12 +18,14 @@ pub struct StructureBody {
     pub bodies: Vec<BodyBody>,
     /// All joints; joint numbers count these from 0.
     pub joints: Vec<JointBody>,
+    /// Passive resistance of fill, where `backfill.passive` asks for it.
+    pub passive_elements: Vec<PassiveElementBody>,
     /// Names of all pieces of ground.
     pub supports: Vec<String>,
     /// Bodies that no mesh cuts.
     #[serde(skip)]
     pub(super) whole: Vec<usize>,
-    /// Numbers of the loads that are vehicles, each with the share of its force that comes down on the structure.
+    /// Numbers of the loads that may come down beside it, each with the share of its force that comes down on it.
     #[serde(skip)]
     pub(super) arriving: Vec<(usize, f64)>,
 }
@@ -74,6 +76,22 @@ pub struct JointBody {
     pub compressive_strength_pa: f64,
 }
 
+/// A horizontal force on a body, between 0 and a limit, that fill takes up: all of it where the body moves into the fill.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+#[schema(as = PassiveElement)]
+pub struct PassiveElementBody {
+    /// Name of the body.
+    pub body: String,
+    /// Where it acts [x, y], m.
+    pub at_m: [f64; 2],
+    /// Direction of the force: +1 to the right, -1 to the left.
+    pub direction: f64,
+    /// Largest force.
+    pub most_n_per_m: f64,
+    /// Movement of the body into the fill at which that is reached on the load path.
+    pub mobilised_at_m: f64,
+}
+
 /// What a joint can carry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
@@ -106,7 +124,15 @@ impl StructureBody {
         let uncut = |body: &Body| body.sides == Sides::Straight && subblocks_of(body, [2, 2]).is_none();
         let whole = structure.bodies.iter().enumerate().filter(|(_, body)| uncut(body));
         let whole = whole.map(|(k, _)| k).collect();
-        Some(StructureBody { joints, whole, arriving, bodies: bodies_of(&analysis, &bodies), supports })
+        let passive_elements = structure.passive.iter().map(|e| PassiveElementBody::new(e, name)).collect();
+        Some(StructureBody {
+            joints,
+            passive_elements,
+            whole,
+            arriving,
+            bodies: bodies_of(&analysis, &bodies),
+            supports,
+        })
     }
 }
 
@@ -144,6 +170,18 @@ impl LoadOnBody {
         self.x_n_per_m += force.force.x;
         self.y_n_per_m += force.force.y;
         self.moment_n += cross(force.at - on.region.centroid, force.force);
+    }
+}
+
+impl PassiveElementBody {
+    fn new(element: &PassiveElement, name: impl Fn(Side) -> String) -> Self {
+        PassiveElementBody {
+            body: name(Side::Body(element.body)),
+            at_m: element.at.into(),
+            direction: element.way,
+            most_n_per_m: element.most,
+            mobilised_at_m: element.mobilised_at,
+        }
     }
 }
 

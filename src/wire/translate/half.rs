@@ -3,7 +3,7 @@
 use super::arch;
 use crate::structure::{PointForce, Structure, is_symmetric};
 use crate::wire::fault::Faults;
-use crate::wire::request::{ArchRequest, LoadEntry};
+use crate::wire::request::{ArchRequest, BackfillRequest, LoadEntry};
 
 /// The left half of the arch of `request`.
 pub fn halved(whole: &Structure, request: &ArchRequest, faults: &mut Faults) -> Structure {
@@ -21,8 +21,8 @@ pub fn halved(whole: &Structure, request: &ArchRequest, faults: &mut Faults) -> 
 }
 
 /// Whether the fixed loads together, and the scaled loads together, are symmetric.
-pub fn check_loads(entries: &[LoadEntry], whole: &Structure, faults: &mut Faults) {
-    let mut lopsided = [false, true].map(|scaled| without_mirror_image(entries, whole, scaled)).concat();
+pub fn check_loads(entries: &[LoadEntry], backfill: Option<&BackfillRequest>, whole: &Structure, faults: &mut Faults) {
+    let mut lopsided = [false, true].map(|scaled| without_mirror_image(entries, backfill, whole, scaled)).concat();
     lopsided.sort_unstable();
     for i in lopsided {
         let which = if entries[i].scaled { "scaled" } else { "fixed" };
@@ -35,12 +35,17 @@ pub fn check_loads(entries: &[LoadEntry], whole: &Structure, faults: &mut Faults
 }
 
 /// Of the fixed, or of the scaled, loads those that lean to one side; none where together they do not.
-fn without_mirror_image(entries: &[LoadEntry], whole: &Structure, scaled: bool) -> Vec<usize> {
+fn without_mirror_image(
+    entries: &[LoadEntry],
+    backfill: Option<&BackfillRequest>,
+    whole: &Structure,
+    scaled: bool,
+) -> Vec<usize> {
     let symmetric = |forces: &[PointForce]| is_symmetric(forces, whole.voussoirs().len(), whole.axis());
     let (mut all, mut lopsided) = (Vec::new(), Vec::new());
     for (i, entry) in entries.iter().enumerate().filter(|(_, entry)| entry.scaled == scaled) {
         // A load that does not fit the arch has a fault of its own.
-        let Some(Ok(forces)) = entry.load.in_si(&[]).map(|load| load.on(whole, entry.coefficient)) else {
+        let Some(Ok(forces)) = entry.load.in_si(&[], backfill).map(|load| load.on(whole, entry.coefficient)) else {
             return Vec::new();
         };
         if !symmetric(&forces) {

@@ -4,23 +4,32 @@ use super::loads::LoadForces;
 use crate::structure::Structure;
 use crate::structure::load::Fill;
 use crate::wire::fault::Faults;
-use crate::wire::request::{LoadEntry, LoadRequest};
+use crate::wire::request::{BackfillRequest, LoadEntry, LoadRequest};
 
-/// Adds what all fill among `entries` does in the acceleration `entry`. The force has the coefficients of both, and is scaled
+/// Fill that has mass: a load of it, or the backfill.
+pub struct Mass {
+    fill: Fill,
+    coefficient: f64,
+    scaled: bool,
+}
+
+/// Adds what fill of these masses does in the acceleration `entry`. The force has the coefficients of both, and is scaled
 /// where one of the two is. A fill that does not fit the arch has a fault of its own.
-pub fn add(entries: &[LoadEntry], entry: &LoadEntry, structure: &Structure, pieces: &[usize], forces: &mut LoadForces) {
+pub fn add(masses: &[Mass], entry: &LoadEntry, structure: &Structure, pieces: &[usize], forces: &mut LoadForces) {
     let LoadRequest::BodyAcceleration(body) = &entry.load else { return };
-    for (other, fill) in fills(entries) {
-        let acceleration = entry.coefficient * other.coefficient * body.in_si();
+    for Mass { fill, coefficient, scaled } in masses {
+        let acceleration = entry.coefficient * coefficient * body.in_si();
         let carried = fill.inertia(structure, pieces, acceleration).unwrap_or_default();
-        forces.of(entry.scaled || other.scaled).extend(carried);
+        forces.of(entry.scaled || *scaled).extend(carried);
     }
 }
 
 /// How many forces the mass of fill puts on each voussoir.
-pub fn forces_per_voussoir(entries: &[LoadEntry]) -> usize {
-    let accelerations = entries.iter().filter(|entry| matches!(entry.load, LoadRequest::BodyAcceleration(_)));
-    accelerations.count() * fills(entries).count()
+pub fn forces_per_voussoir(entries: &[LoadEntry], backfill: Option<&BackfillRequest>) -> usize {
+    let count = |fits: fn(&LoadRequest) -> bool| entries.iter().filter(|entry| fits(&entry.load)).count();
+    let fills = count(|load| matches!(load, LoadRequest::FillPressure(_)));
+    let accelerations = count(|load| matches!(load, LoadRequest::BodyAcceleration(_)));
+    accelerations * (fills + backfill.map_or(0, BackfillRequest::forces_per_side))
 }
 
 /// Whether the forces are in proportion to the load factor: those of scaled fill in a scaled acceleration are not.
@@ -36,9 +45,14 @@ pub fn check(entries: &[LoadEntry], faults: &mut Faults) {
     faults.add(format!("/loads/{acceleration}/scaled"), detail);
 }
 
-fn fills(entries: &[LoadEntry]) -> impl Iterator<Item = (&LoadEntry, Fill)> {
-    entries.iter().filter_map(|entry| match &entry.load {
-        LoadRequest::FillPressure(fill) => Some((entry, fill.in_si())),
+/// All fill of a request.
+pub fn masses(entries: &[LoadEntry], backfill: Option<&BackfillRequest>) -> Vec<Mass> {
+    let loads = entries.iter().filter_map(|entry| match &entry.load {
+        LoadRequest::FillPressure(fill) => {
+            Some(Mass { fill: fill.in_si(backfill), coefficient: entry.coefficient, scaled: entry.scaled })
+        }
         _ => None,
-    })
+    });
+    let below = backfill.and_then(BackfillRequest::in_si);
+    loads.chain(below.map(|fill| Mass { fill, coefficient: 1.0, scaled: false })).collect()
 }

@@ -1,10 +1,10 @@
 //! The loads of a request as forces on bodies.
 
-use super::inertia;
 use super::structure::Layout;
-use crate::structure::PointForce;
+use super::{backfill, inertia};
+use crate::structure::{PointForce, Structure};
 use crate::wire::fault::{Faults, Shown};
-use crate::wire::request::{AnalysisRequest, Bearer, LoadEntry, LoadRequest, PointLoad};
+use crate::wire::request::{AnalysisRequest, BackfillRequest, Bearer, LoadEntry, LoadRequest, PointLoad};
 
 /// Most forces that the loads of one request may put on its voussoirs: loads (a pressure counts once per band) times
 /// voussoirs times subblocks along each. Each is kept until the job has run.
@@ -13,9 +13,10 @@ const MAX_FORCES: usize = 200_000;
 /// Largest coefficient, abscissa included.
 const MOST_COEFFICIENT: f64 = 1e12;
 
-/// How many forces these loads may put on each voussoir together.
-pub fn forces_per_voussoir_of(entries: &[LoadEntry]) -> usize {
-    entries.iter().map(|entry| entry.load.forces_per_side()).sum::<usize>() + inertia::forces_per_voussoir(entries)
+/// How many forces these loads and the backfill may put on each voussoir together.
+pub fn forces_per_voussoir_of(entries: &[LoadEntry], backfill: Option<&BackfillRequest>) -> usize {
+    let loads = entries.iter().map(|entry| entry.load.forces_per_side()).sum::<usize>();
+    loads + backfill.map_or(0, BackfillRequest::forces_per_side) + inertia::forces_per_voussoir(entries, backfill)
 }
 
 /// Forces on voussoirs.
@@ -42,8 +43,8 @@ pub fn loads(
     pieces: &[usize],
     faults: &mut Faults,
 ) -> LoadForces {
-    let mut all = LoadForces::default();
-    let forces = forces_per_voussoir_of(entries) * pieces.iter().sum::<usize>();
+    let (mut all, below) = (LoadForces::default(), request.backfill.as_ref());
+    let forces = forces_per_voussoir_of(entries, below) * pieces.iter().sum::<usize>();
     if forces > MAX_FORCES {
         let detail = format!(
             "loads and bands times voussoirs (times subblocks along each) come to {forces}: keep to {MAX_FORCES} by joining \
@@ -52,25 +53,30 @@ pub fn loads(
         faults.add("/loads", detail);
         return all;
     }
+    all.fixed.extend(backfill::weight(request, whole, pieces, faults));
+    let masses = inertia::masses(entries, below);
     for (i, entry) in entries.iter().enumerate() {
         let before = faults.len();
         let here = format!("/loads/{i}");
         check_coefficient(&format!("{here}/coefficient"), entry.coefficient, faults);
         let fields = format!("{here}/load/{}", entry.load.kind().0);
-        entry.load.check(&fields, faults);
+        entry.load.check(&fields, below, faults);
         check_fits(&fields, &entry.load, request, faults);
         let Some(layout) = whole.filter(|_| faults.len() == before) else { continue };
-        let Some(load) = entry.load.in_si(&layout.bodies) else {
-            faults.add(format!("{fields}/block"), "there is no block of this name: correct the name");
+        let Some(load) = entry.load.in_si(&layout.bodies, below) else {
+            // A surface with faults has its own.
+            if let LoadRequest::PointForce(_) = entry.load {
+                faults.add(format!("{fields}/block"), "there is no block of this name: correct the name");
+            }
             continue;
         };
         match load.on_pieces(&layout.structure, pieces, entry.coefficient) {
-            Ok(forces) if forces.is_empty() && !entry.load.may_miss() => {
+            Ok(forces) if forces.is_empty() && entry.load.dispersed_force().is_none() => {
                 faults.add(here, "this load puts no force on the structure: correct it or leave it out");
             }
             Ok(forces) => {
                 all.of(entry.scaled).extend(forces);
-                inertia::add(entries, entry, &layout.structure, pieces, &mut all);
+                inertia::add(&masses, entry, &layout.structure, pieces, &mut all);
             }
             Err(fault) => {
                 let place = entry.load.field_of(fault).map(|field| format!("{fields}/{field}"));
@@ -82,6 +88,16 @@ pub fn loads(
     inertia::check(entries, faults);
     check_reach(entries, whole, &all, faults);
     all
+}
+
+/// Of every load that may come down beside the structure, its number and the share of its force that comes down on it.
+pub fn arriving(request: &AnalysisRequest, whole: &Structure) -> Vec<(usize, f64)> {
+    let share = |(i, entry): (usize, &LoadEntry)| {
+        let force = entry.load.dispersed_force()?;
+        let forces = entry.load.in_si(&[], request.backfill.as_ref())?.on(whole, 1.0).ok()?;
+        Some((i, -forces.iter().map(|part| part.force.y).sum::<f64>() / force))
+    };
+    request.loads.iter().enumerate().filter_map(share).collect()
 }
 
 /// Loads that stand beyond the structure do not grow on it: without this they would look as if it bore any load.

@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod arch;
+mod backfill;
 mod beam;
 mod blocks;
 mod bridge;
@@ -25,8 +26,8 @@ use super::request::{AimRequest, AnalysisRequest, Request};
 use crate::collapse::{Analysis, Question};
 use site::Unloaded;
 
+pub use loads::arriving;
 pub use structure::Layout;
-pub use vehicle::arriving;
 pub use worst_position::placed;
 
 /// Translates a request.

@@ -15,6 +15,9 @@ pub fn motion(request: &AnalysisRequest, structure: Option<&Structure>, faults: 
     let asked = request.motion.as_ref()?;
     let detail = "only an analysis of collapse shows a motion: leave it out, or set analysis to `collapse`";
     faults.require(request.analysis.is_collapse(), "/motion", detail);
+    let resists = request.backfill.as_ref().is_some_and(|backfill| backfill.passive.is_some());
+    let detail = "a motion knows no soil that resists: leave it out, or backfill/passive";
+    faults.require(!resists, "/motion", detail);
     let frames = asked.most_frames;
     let places = frames * structure.map_or(0, |structure| structure.voussoirs().len());
     let detail = format!("frames times stones come to {places}: keep to {MAX_PLACES} by fewer frames");

@@ -114,8 +114,8 @@ fn check_size(site: &Unloaded<'_>, abscissae: usize, faults: &mut Faults) -> boo
         "abscissae times subblocks come to {subblocks}: keep to {MAX_CURVE_SUBBLOCKS} by fewer abscissae or a \
          coarser mesh"
     );
-    let forces =
-        abscissae * loads::forces_per_voussoir_of(&site.request.loads) * site.pieces().iter().sum::<usize>().max(1);
+    let forces_per_voussoir = loads::forces_per_voussoir_of(&site.request.loads, site.request.backfill.as_ref());
+    let forces = abscissae * forces_per_voussoir * site.pieces().iter().sum::<usize>().max(1);
     faults.require(subblocks <= MAX_CURVE_SUBBLOCKS, ABSCISSAE, detail) && {
         let detail = format!(
             "abscissae times loads and bands times subblocks along the arch come to {forces}: keep to \

@@ -2,7 +2,7 @@
 
 use super::stone::{Stones, check_overrides, override_joints};
 use super::structure::{self, Layout};
-use super::{accuracy, crushing, half, loads, mesh, motion, settlement};
+use super::{accuracy, backfill, crushing, half, loads, mesh, motion, settlement};
 use crate::collapse::{
     Accuracy, Analysis, CollapseTask, FieldAt, Geometry, LOAD_PIECES, Mesh, Method, MotionAsked, Path, SafetyTask,
     SettlementTask, StatesAsked, Task,
@@ -40,6 +40,7 @@ impl<'a> Unloaded<'a> {
         check_overrides(request, layout.as_ref().map(|layout| &layout.structure), faults);
         if let Some(layout) = &mut layout {
             override_joints(request, &mut layout.structure);
+            layout.structure.passive = backfill::resistance(request, &layout.structure);
         }
         let whole = layout.as_ref().map(|layout| &layout.structure);
         let structure = match request.arch.as_ref().filter(|arch| arch.half) {
@@ -98,7 +99,7 @@ impl<'a> Unloaded<'a> {
         let request = self.request;
         let forces = loads::loads(request, entries, self.whole.as_ref(), &self.pieces(), faults);
         if let Some(whole) = self.whole.as_ref().filter(|_| request.half()) {
-            half::check_loads(entries, &whole.structure, faults);
+            half::check_loads(entries, request.backfill.as_ref(), &whole.structure, faults);
         }
         let structure = self.structure.as_ref()?;
         let halve = |forces: Vec<PointForce>| match self.whole.as_ref().filter(|_| request.half()) {

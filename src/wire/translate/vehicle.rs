@@ -1,9 +1,7 @@
-//! Vehicles: where they stand, and how much of them comes down on the structure.
+//! Vehicles: where they stand.
 
-use crate::structure::Structure;
-use crate::structure::load::Load;
 use crate::wire::fault::Faults;
-use crate::wire::request::{AimRequest, AnalysisRequest, LoadEntry, LoadRequest, VehicleLoad};
+use crate::wire::request::{AimRequest, AnalysisRequest, LoadRequest, VehicleLoad};
 
 /// Whether every vehicle stands somewhere.
 pub fn check(request: &AnalysisRequest, faults: &mut Faults) {
@@ -22,13 +20,4 @@ pub fn vehicles(request: &AnalysisRequest) -> impl Iterator<Item = (usize, &Vehi
         LoadRequest::Vehicle(vehicle) => Some((i, vehicle)),
         _ => None,
     })
-}
-
-/// The share of every vehicle's force that comes down on the structure, with the number of its load.
-pub fn arriving(request: &AnalysisRequest, structure: &Structure) -> Vec<(usize, f64)> {
-    let share = |(i, entry): (usize, &LoadEntry)| match entry.load.in_si(&[])? {
-        Load::Vehicle(vehicle) => Some((i, vehicle.arriving(structure).ok()?)),
-        _ => None,
-    };
-    request.loads.iter().enumerate().filter_map(share).collect()
 }

@@ -22,7 +22,7 @@ pub fn question(site: &Unloaded<'_>, asked: &WorstPositionRequest, faults: &mut 
     let (moving, standing): (Vec<LoadEntry>, Vec<LoadEntry>) = request.loads.iter().cloned().partition(moves);
     let structure = &site.layout()?.structure;
     // All loads, with the vehicles over the middle, so that their faults have their own places.
-    let vehicles: Vec<MovingVehicle> = moving.iter().filter_map(vehicle).collect();
+    let vehicles: Vec<MovingVehicle> = moving.iter().filter_map(|entry| vehicle(request, entry)).collect();
     let middle = structure.surfaces.get(structure.surfaces.len() / 2).map_or(0.0, |surface| surface.ends[0].x);
     let ahead = vehicles.first().and_then(|moving| moving.vehicle.patches().next()).map_or(0.0, |axle| axle.centre);
     site.analysis(&placed(request, middle - ahead, None).loads, faults);
@@ -53,8 +53,8 @@ fn moves(entry: &LoadEntry) -> bool {
     matches!(&entry.load, LoadRequest::Vehicle(vehicle) if vehicle.x_m.is_none())
 }
 
-fn vehicle(entry: &LoadEntry) -> Option<MovingVehicle> {
-    let Some(Load::Vehicle(vehicle)) = entry.load.in_si(&[]) else { return None };
+fn vehicle(request: &AnalysisRequest, entry: &LoadEntry) -> Option<MovingVehicle> {
+    let Some(Load::Vehicle(vehicle)) = entry.load.in_si(&[], request.backfill.as_ref()) else { return None };
     Some(MovingVehicle { vehicle, coefficient: entry.coefficient, scaled: entry.scaled })
 }
 

@@ -52,6 +52,15 @@ pub struct Push {
     pub force: Point,
 }
 
+/// A horizontal force on one block at a place, to the right (+1) or to the left (-1), between 0 and the most it can be.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Element {
+    pub block: usize,
+    pub at: Point,
+    pub way: f64,
+    pub most: f64,
+}
+
 /// A chain of blocks, block `k` between joints `k` and `k + 1`, held at its first and last joint.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Problem {
@@ -64,6 +73,8 @@ pub struct Problem {
     pub limits: Vec<(usize, Limit)>,
     /// Joints that bear on points alone: each point's place (0 at the intrados, 1 at the extrados) and the most it carries.
     pub points: Vec<(usize, Vec<Point>)>,
+    /// Soil that resists.
+    pub soil: Vec<Element>,
 }
 
 /// What a joint that moves without dilating is held to.
@@ -192,8 +203,8 @@ impl Problem {
         let forces: Vec<_> = (0..joints).map(|j| [0, 1, 2].map(|k| x[3 * j + k] * scale.force)).collect();
         let value = match x.get(3 * joints) {
             _ if scale.with_give => x[x.len() - 1],
-            Some(factor) => factor * scale.factor,
-            None => {
+            Some(factor) if scale.with_factor => factor * scale.factor,
+            _ => {
                 let (normal, along) = unit_vectors(&self.seams[0]);
                 (forces[0][0] + forces[0][1]) * normal[0] + forces[0][2] * along[0]
             }

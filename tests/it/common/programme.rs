@@ -36,7 +36,7 @@ pub struct Programme {
 impl Programme {
     pub fn build(problem: &Problem, aim: Aim, scale: &Scale) -> Programme {
         let joints = problem.seams.len();
-        let unknowns = 3 * joints + usize::from(scale.with_factor) + usize::from(scale.with_give);
+        let unknowns = 3 * joints + usize::from(scale.with_factor) + problem.soil.len() + usize::from(scale.with_give);
         let mut programme = Programme { cost: vec![0.0; unknowns], ..Programme::default() };
         programme.equilibrium(problem, scale);
         programme.limits(problem, scale);
@@ -91,6 +91,9 @@ impl Programme {
                 }
                 if scale.with_factor {
                     self.entry(3 * problem.seams.len(), scaled[row] * scale.factor / scale.force);
+                }
+                for (e, element) in problem.soil.iter().enumerate().filter(|(_, element)| element.block == block) {
+                    self.entry(soil(problem, scale, e), wrench(element.at, [element.way, 0.0])[row]);
                 }
                 self.right.push(-fixed[row] / scale.force);
             }
@@ -152,6 +155,12 @@ impl Programme {
             }
         }
         self.points(problem, scale);
+        for (e, element) in problem.soil.iter().enumerate() {
+            for (sign, bound) in [(-1.0, 0.0), (1.0, element.most / scale.force)] {
+                self.entry(soil(problem, scale, e), sign);
+                self.right.push(bound);
+            }
+        }
         for &(joint, limit) in &problem.limits {
             if let Limit::Shear(sign) = limit
                 && problem.opens(joint)
@@ -207,4 +216,9 @@ impl Programme {
             self.entry(self.cost.len() - 1, -1.0);
         }
     }
+}
+
+/// Column of element `e` of the soil.
+fn soil(problem: &Problem, scale: &Scale, e: usize) -> usize {
+    3 * problem.seams.len() + usize::from(scale.with_factor) + e
 }

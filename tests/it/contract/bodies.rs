@@ -179,11 +179,22 @@ fn bridge() -> Value {
             "backing": {"level_m": 1, "stone": "rubble"}, "ring_friction_angle_deg": 30
         },
         "stones": [{"name": "rubble"}],
+        "backfill": {
+            "surface_m": [[-20, 3], [0, 4], [20, 3]], "density_kg_m3": 1800, "lateral_ratio": 0.3,
+            "layers": [{"thickness_m": 0.1, "density_kg_m3": 2300}], "backing": {"height_m": 1.5, "density_kg_m3": 2000},
+            "dispersal": {"boussinesq": {"cut_off_deg": 40}}
+        },
         "loads": [
             {"load": {"self_weight": {}}},
             {"load": {"point_load": {"force_n_per_m": 1000, "x_m": -5}}, "scaled": true}
         ]
     })
+}
+
+/// A level road.
+fn level() -> Value {
+    let uniform = json!({"surface_height_m": 4, "dispersal": {"uniform": {"spread": 0.4}}});
+    with(bridge(), "/backfill", uniform)
 }
 
 fn beam() -> Value {
@@ -230,6 +241,7 @@ pub fn bodies() -> Vec<Value> {
         given(),
         on_a_line(),
         bridge(),
+        level(),
         beam(),
         accurate_beam(),
     ]

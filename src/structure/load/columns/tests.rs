@@ -53,7 +53,7 @@ fn columns_on_many_sides_tend_to_those_on_a_semicircle() {
 fn fill_and_embankment_each_push_at_half_their_own_height() {
     // A level side of 2 m at y = 1, 1 m of fill on it and 0.5 m of embankment above that.
     let arch = straight_side(Vec2::new(0.0, 1.0), Vec2::new(2.0, 1.0));
-    let both = Fill { embankment: 0.5, embankment_density: 900.0, ..fill(Some(2.0)) };
+    let both = fill(Some(2.0)).under(0.5, 900.0);
     let found = whole_wrench(&both.inertia(&arch, &[3], Vec2::new(2.0, 0.0)).unwrap());
     close(found[0], 2.0 * (3200.0 + 900.0), 1e-9);
     close(found[2], -2.0 * (3200.0 * 1.5 + 900.0 * 2.25), 1e-9);
@@ -62,7 +62,7 @@ fn fill_and_embankment_each_push_at_half_their_own_height() {
 #[test]
 fn an_embankment_alone_stands_on_the_extrados() {
     let arch = straight_side(Vec2::zeros(), Vec2::new(3.0, 4.0));
-    let embankment = Fill { embankment: 0.8, ..fill(None) };
+    let embankment = fill(None).under(0.8, 1600.0);
     let found = whole_wrench(&embankment.inertia(&arch, &[1], Vec2::new(1.0, 0.0)).unwrap());
     close(found[0], 3.0 * 0.8 * 1600.0, 1e-9);
     close(found[2], -3.0 * 0.8 * 1600.0 * (2.0 + 0.4), 1e-9);
@@ -86,7 +86,7 @@ fn pieces_of_a_side_carry_together_the_columns_of_the_side() {
     let arch = arch_of(&ring(Profile::circular(2.0, PI), 0.5, 12));
     let pieces: Vec<usize> = (0..12).map(|k| 1 + k % 5).collect();
     let acceleration = Vec2::new(0.3, -1.1);
-    for load in [fill(Some(4.65)), fill(Some(1.5)), Fill { embankment: 0.7, ..fill(None) }] {
+    for load in [fill(Some(4.65)), fill(Some(1.5)), fill(None).under(0.7, 1600.0)] {
         let [whole, cut] = [&[1; 12], &pieces[..]].map(|pieces| load.inertia(&arch, pieces, acceleration).unwrap());
         // On the side, so that a mesh takes them where they stand.
         assert!(cut.iter().all(|force| {
@@ -104,6 +104,6 @@ fn pieces_of_a_side_carry_together_the_columns_of_the_side() {
 #[test]
 fn an_embankment_through_the_arch_is_no_column_either() {
     let arch = arch_of(&ring(Profile::circular(2.0, PI), 0.5, 12));
-    let above = Fill { embankment: 0.1, ..fill(Some(1.0)) }.inertia(&arch, &[1; 12], Vec2::new(1.0, 0.0));
+    let above = fill(Some(1.0)).under(0.1, 1600.0).inertia(&arch, &[1; 12], Vec2::new(1.0, 0.0));
     assert!(matches!(above, Err(LoadFault::ArchAboveFill { .. })));
 }

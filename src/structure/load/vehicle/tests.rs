@@ -1,3 +1,4 @@
+use super::super::SurfaceLine;
 use super::super::dispersal::Distribution;
 use super::super::tests::{arch_of, close, ring};
 use super::super::{Load, LoadFault};
@@ -8,8 +9,7 @@ use crate::geometry::Vec2;
 use crate::structure::resultants;
 use std::f64::consts::PI;
 
-const BOUSSINESQ: Dispersal =
-    Dispersal { surface: 1.813, distribution: Distribution::Boussinesq { cut_off: PI / 6.0 } };
+const CUT_OFF_30: Distribution = Distribution::Boussinesq { cut_off: PI / 6.0 };
 
 /// Circular intrados of 6.55 m span and 1.428 m rise, 0.22 m thick, 60 stones.
 fn bridge() -> Structure {
@@ -18,9 +18,13 @@ fn bridge() -> Structure {
     arch_of(&Ring { line: Line::Intrados, ..ring(profile, 0.22, 60) })
 }
 
-fn bogie(x: f64, reversed: bool, dispersal: Option<Dispersal>) -> Vehicle {
+fn dispersed(distribution: Distribution) -> Option<Dispersal> {
+    Some(Dispersal { surface: SurfaceLine::level(1.813), distribution })
+}
+
+fn bogie(x: f64, reversed: bool, dispersal: &Option<Dispersal>) -> Vehicle {
     let axle = |(offset, force): (f64, f64)| Axle { offset, force, length: 0.3 };
-    Vehicle { axles: [(0.0, 1.5), (1.25, 0.5)].map(axle).to_vec(), x, reversed, dispersal }
+    Vehicle { axles: [(0.0, 1.5), (1.25, 0.5)].map(axle).to_vec(), x, reversed, dispersal: dispersal.clone() }
 }
 
 fn on(load: Load, structure: &Structure) -> Vec<PointForce> {
@@ -30,12 +34,12 @@ fn on(load: Load, structure: &Structure) -> Vec<PointForce> {
 #[test]
 fn a_vehicle_is_the_strips_of_its_axles() {
     let bridge = bridge();
-    for dispersal in [None, Some(BOUSSINESQ)] {
+    for dispersal in [None, dispersed(CUT_OFF_30)] {
         for (reversed, centres) in [(false, [-1.5, -0.25]), (true, [-1.5, -2.75])] {
-            let strip = |(centre, force): (f64, f64)| Patch { force, centre, width: 0.3, dispersal };
+            let strip = |(centre, force): (f64, f64)| Patch { force, centre, width: 0.3, dispersal: dispersal.clone() };
             let strips = centres.into_iter().zip([1.5, 0.5]).map(strip);
             let expected: Vec<_> = strips.flat_map(|strip| on(Load::Patch(strip), &bridge)).collect();
-            assert_eq!(on(Load::Vehicle(bogie(-1.5, reversed, dispersal)), &bridge), expected);
+            assert_eq!(on(Load::Vehicle(bogie(-1.5, reversed, &dispersal)), &bridge), expected);
         }
     }
 }
@@ -43,10 +47,10 @@ fn a_vehicle_is_the_strips_of_its_axles() {
 #[test]
 fn what_drives_the_other_way_is_the_mirror_image() {
     let bridge = bridge();
-    for dispersal in [None, Some(BOUSSINESQ)] {
+    for dispersal in [None, dispersed(CUT_OFF_30)] {
         for x in [-3.5, -2.0, 0.4, 2.9] {
-            let [one, mut other] =
-                [(x, false), (-x, true)].map(|(x, reversed)| on(Load::Vehicle(bogie(x, reversed, dispersal)), &bridge));
+            let [one, mut other] = [(x, false), (-x, true)]
+                .map(|(x, reversed)| on(Load::Vehicle(bogie(x, reversed, &dispersal)), &bridge));
             assert_eq!(one.len(), other.len());
             other.sort_by(|a, b| b.at.x.total_cmp(&a.at.x));
             let mut one = one;
@@ -63,18 +67,18 @@ fn what_drives_the_other_way_is_the_mirror_image() {
 #[test]
 fn a_vehicle_drives_on_and_off() {
     let bridge = bridge();
-    let axle = |x: f64, dispersal| Vehicle {
+    let axle = |x: f64, dispersal: &Option<Dispersal>| Vehicle {
         axles: vec![Axle { offset: 0.0, force: 2.0, length: 0.3 }],
         ..bogie(x, false, dispersal)
     };
     // Shares of an axle that leaves the arch by a separate programme, which sums the stress over tens of points a side.
     for (x, share) in [(-3.0, 0.7339), (-3.3, 0.5478), (-3.6, 0.3562)] {
-        close(axle(x, Some(BOUSSINESQ)).arriving(&bridge).unwrap(), share, 5e-4);
+        close(axle(x, &dispersed(CUT_OFF_30)).arriving(&bridge).unwrap(), share, 5e-4);
     }
     // Straight on the extrados, so much of it as stands there.
     let (from, to) = plan(&bridge);
-    close(axle(to + 0.05, None).arriving(&bridge).unwrap(), 1.0 / 3.0, 1e-12);
-    close(axle(from + 1.0, None).arriving(&bridge).unwrap(), 1.0, 1e-12);
+    close(axle(to + 0.05, &None).arriving(&bridge).unwrap(), 1.0 / 3.0, 1e-12);
+    close(axle(from + 1.0, &None).arriving(&bridge).unwrap(), 1.0, 1e-12);
     let patch = Patch { force: 1.0, centre: to + 0.05, width: 0.3, dispersal: None };
     assert_eq!(Load::Patch(patch).on(&bridge, 1.0), Err(LoadFault::OffTheArch { from, to }));
 }
@@ -82,11 +86,9 @@ fn a_vehicle_drives_on_and_off() {
 #[test]
 fn beyond_its_reach_nothing_of_a_vehicle_arrives() {
     let bridge = bridge();
-    for dispersal in
-        [None, Some(BOUSSINESQ), Some(Dispersal { distribution: Distribution::Uniform { spread: 0.5 }, ..BOUSSINESQ })]
-    {
+    for dispersal in [None, dispersed(CUT_OFF_30), dispersed(Distribution::Uniform { spread: 0.5 })] {
         for reversed in [false, true] {
-            let vehicle = bogie(0.0, reversed, dispersal);
+            let vehicle = bogie(0.0, reversed, &dispersal);
             let [from, to] = vehicle.reach(&bridge);
             let share = |x: f64| vehicle.at(x, reversed).arriving(&bridge).unwrap();
             assert!([from - 1e-6, to + 1e-6, from - 1.0, to + 1.0].into_iter().all(|x| share(x) == 0.0));
@@ -99,7 +101,7 @@ fn beyond_its_reach_nothing_of_a_vehicle_arrives() {
 fn a_symmetric_vehicle_turned_round_stands_elsewhere() {
     let of = |axles: &[(f64, f64)]| {
         let axle = |&(offset, force): &(f64, f64)| Axle { offset, force, length: 0.3 };
-        Vehicle { axles: axles.iter().map(axle).collect(), ..bogie(0.4, false, None) }
+        Vehicle { axles: axles.iter().map(axle).collect(), ..bogie(0.4, false, &None) }
     };
     for (axles, symmetric) in [
         (&[(0.7, 1.0)][..], true),

@@ -1,22 +1,24 @@
 //! Fill and embankment.
 
-use crate::structure::load::Fill;
+use crate::structure::load::{Fill, Layer, SurfaceLine};
 use crate::wire::fault::{Faults, Shown};
 use crate::wire::prose::Digits;
+use crate::wire::request::BackfillRequest;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
 /// A `lateral_ratio` this close to that of the friction angle given with it is the same.
 const SAME_RATIO: f64 = 1e-3;
 
-/// Fill and embankment on the extrados. They press, eq. (7) of the paper: `q_v = (H - y) g rho_f + h_e g rho_e` on the plan
-/// projection of the extrados and `q_h = K q_v` on its vertical projection. In a `body_acceleration` they push with their mass as
-/// well: the column over every part of the extrados that looks up, fill and embankment each at half its own height, carried by
-/// the stone below; what lies beside the arch does not push. Scaled fill in a scaled acceleration is refused.
+/// Fill and embankment on the extrados; beside a `backfill` an embankment only, which stands on that. They press, eq. (7) of the
+/// paper: `q_v = (H - y) g rho_f + h_e g rho_e` on the plan projection of the extrados and `q_h = K q_v` on its vertical
+/// projection. In a `body_acceleration` they push with their mass as well: the column over every part of the extrados that looks
+/// up, fill and embankment each at half its own height, carried by the stone below; what lies beside the arch does not push.
+/// Scaled fill in a scaled acceleration is refused.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(default)]
 pub struct FillPressure {
-    /// Height H of the top of the fill above y = 0, m. Left out: an embankment only.
+    /// Height H of the top of the fill above y = 0, m. Left out: an embankment only. Not beside a `backfill`.
     #[schema(minimum = -1e5, maximum = 1e5)]
     pub fill_height_m: Option<f64>,
     /// Density of the fill, kg/m3.
@@ -62,18 +64,21 @@ impl FillPressure {
         self.lateral_ratio.or(self.at_rest()).unwrap_or(0.0)
     }
 
-    /// Fill in SI.
-    pub fn in_si(&self) -> Fill {
-        Fill {
-            height: self.fill_height_m,
-            density: self.fill_density_kg_m3,
-            embankment: self.embankment_thickness_m,
-            embankment_density: self.embankment_density_kg_m3,
-            lateral_ratio: self.ratio(),
+    /// Fill in SI, over a backfill where there is one.
+    pub fn in_si(&self, backfill: Option<&BackfillRequest>) -> Fill {
+        let line = self.fill_height_m.map(SurfaceLine::level).or_else(|| backfill?.surface());
+        let (top, density) = (self.embankment_thickness_m, self.embankment_density_kg_m3);
+        let mut layers = vec![Layer { bottom: 0.0, top, density }];
+        if self.fill_height_m.is_some() {
+            layers.push(Layer { bottom: f64::NEG_INFINITY, top: 0.0, density: self.fill_density_kg_m3 });
         }
+        Fill { line, layers, backing: None, lateral_ratio: self.ratio() }
     }
 
-    pub(super) fn check(&self, here: &str, faults: &mut Faults) {
+    pub(super) fn check(&self, here: &str, backfill: Option<&BackfillRequest>, faults: &mut Faults) {
+        let twice = "there is a `backfill`, which is fill already: leave this out for an embankment on it, or leave out backfill";
+        let once = backfill.is_none() || self.fill_height_m.is_none();
+        faults.require(once, format!("{here}/fill_height_m"), twice);
         let some = self.fill_height_m.is_some() || self.embankment_thickness_m > 0.0;
         faults.require(some, here, "neither fill nor embankment: give fill_height_m, embankment_thickness_m or both");
         let (Some(ratio), Some(at_rest)) = (self.lateral_ratio, self.at_rest()) else { return };
@@ -85,14 +90,18 @@ impl FillPressure {
         faults.require((ratio - at_rest).abs() <= SAME_RATIO, format!("{here}/lateral_ratio"), detail);
     }
 
-    /// Fill with all that is assumed of it.
-    pub(super) fn words(&self) -> String {
+    /// Fill with all that is assumed of it, over a backfill where there is one.
+    pub(super) fn words(&self, backfill: Option<&BackfillRequest>) -> String {
         let density = |density: f64| format!("{} kg/m3", Digits(density));
         let level = self
             .fill_height_m
             .map(|height| format!("fill of {} up to y = {} m", density(self.fill_density_kg_m3), Digits(height)));
         let above = (self.embankment_thickness_m > 0.0).then(|| {
-            let bare = if level.is_none() { " on the extrados" } else { "" };
+            let bare = match (&level, backfill) {
+                (Some(_), _) => "",
+                (None, Some(_)) => " on the backfill",
+                (None, None) => " on the extrados",
+            };
             let (thickness, density) = (Digits(self.embankment_thickness_m), density(self.embankment_density_kg_m3));
             format!("{thickness} m of embankment of {density}{bare}")
         });

@@ -1,8 +1,10 @@
 //! A load on a strip, and how fill disperses it.
 
 use super::kn_per_m;
-use crate::structure::load::{Dispersal, Distribution, Patch};
+use crate::structure::load::{Dispersal, Distribution, Patch, SurfaceLine};
+use crate::wire::fault::Faults;
 use crate::wire::prose::Digits;
+use crate::wire::request::BackfillRequest;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -28,14 +30,16 @@ pub struct PatchLoad {
 /// the structure. That stress presses down on the plan width of the surface. The extrados is continued by level lines
 /// beyond both ends; one factor makes the whole force arrive on both together, and what lands on the lines goes to the
 /// ground and not to the structure. So the load may stand partly or wholly beyond the ends. Forces keep their
-/// place in plan. Fill itself, its weight and pressure, is a `fill_pressure`.
+/// place in plan. Fill itself, its weight and pressure, is the `backfill` or a `fill_pressure`. A strip is level: of a surface
+/// that is not, it stands at the height under its middle, and what of the surface is higher or lower elsewhere does not matter.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct DispersalRequest {
-    /// Height of the surface above y = 0 where the load stands, m; not below the extrados under the load.
+    /// Height of the surface above y = 0 where the load stands, m; not below the extrados under the load. Left out: that of the
+    /// `backfill` under the middle of the load. Required without one.
     #[schema(minimum = -1e5, maximum = 1e5)]
-    pub surface_height_m: f64,
-    /// How the stress spreads.
-    pub distribution: DistributionRequest,
+    pub surface_height_m: Option<f64>,
+    /// How the stress spreads. Left out: as `backfill` says. Required without one.
+    pub distribution: Option<DistributionRequest>,
 }
 
 /// How the stress below a strip spreads.
@@ -67,44 +71,81 @@ pub struct Uniform {
 }
 
 impl PatchLoad {
-    pub(super) fn in_si(&self) -> Patch {
-        Patch {
-            force: self.force_n_per_m,
-            centre: self.centre_x_m,
-            width: self.width_m,
-            dispersal: self.dispersal.as_ref().map(DispersalRequest::in_si),
+    /// In SI; none where it stands on a surface that has faults.
+    pub(super) fn in_si(&self, backfill: Option<&BackfillRequest>) -> Option<Patch> {
+        let dispersal = match &self.dispersal {
+            Some(dispersal) => Some(dispersal.in_si(backfill)?),
+            None => None,
+        };
+        Some(Patch { force: self.force_n_per_m, centre: self.centre_x_m, width: self.width_m, dispersal })
+    }
+
+    pub(super) fn check(&self, here: &str, backfill: Option<&BackfillRequest>, faults: &mut Faults) {
+        faults.not_zero(&format!("{here}/force_n_per_m"), self.force_n_per_m);
+        if let Some(dispersal) = &self.dispersal {
+            dispersal.check(&format!("{here}/dispersal"), backfill, faults);
         }
     }
 
-    pub(super) fn words(&self) -> String {
+    pub(super) fn words(&self, backfill: Option<&BackfillRequest>) -> String {
         let [width, centre] = [self.width_m, self.centre_x_m].map(Digits);
         let force = kn_per_m(self.force_n_per_m);
-        let down = self.dispersal.as_ref().map_or(String::new(), DispersalRequest::words);
+        let dispersal = self.dispersal.as_ref();
+        let down = dispersal.map_or(String::new(), |dispersal| dispersal.words(backfill, Some(self.centre_x_m)));
         format!("{force}, spread over {width} m about x = {centre} m{down}")
     }
 }
 
 impl DispersalRequest {
-    pub(super) fn in_si(&self) -> Dispersal {
-        let distribution = match self.distribution {
+    /// In SI, by a backfill where there is one; none where that has faults or something is missing.
+    pub(super) fn in_si(&self, backfill: Option<&BackfillRequest>) -> Option<Dispersal> {
+        let surface = self.surface_height_m.map(SurfaceLine::level).or_else(|| backfill?.surface())?;
+        let distribution = match self.distribution(backfill)? {
             DistributionRequest::Boussinesq(Boussinesq { cut_off_deg }) => {
                 Distribution::Boussinesq { cut_off: cut_off_deg.to_radians() }
             }
-            DistributionRequest::Uniform(Uniform { spread }) => Distribution::Uniform { spread },
+            DistributionRequest::Uniform(Uniform { spread }) => Distribution::Uniform { spread: *spread },
         };
-        Dispersal { surface: self.surface_height_m, distribution }
+        Some(Dispersal { surface, distribution })
     }
 
-    /// With all that is assumed of it.
-    pub(super) fn words(&self) -> String {
-        let how = match self.distribution {
+    fn distribution<'a>(&'a self, backfill: Option<&'a BackfillRequest>) -> Option<&'a DistributionRequest> {
+        self.distribution.as_ref().or(backfill.map(|backfill| &backfill.dispersal))
+    }
+
+    /// What is missing. `here` points to it.
+    pub(super) fn check(&self, here: &str, backfill: Option<&BackfillRequest>, faults: &mut Faults) {
+        let known = backfill.is_some();
+        let missing = |what: &str| format!("{what} is missing: add it, or give the `backfill` that the load stands on");
+        let (height, distribution) = (missing("the height of the surface"), missing("how the stress spreads"));
+        faults.require(known || self.surface_height_m.is_some(), format!("{here}/surface_height_m"), height);
+        faults.require(known || self.distribution.is_some(), format!("{here}/distribution"), distribution);
+    }
+
+    /// The field, from that of the load on, which says how high the surface is.
+    pub(super) fn field_of_surface(&self) -> &'static str {
+        if self.surface_height_m.is_some() { "dispersal/surface_height_m" } else { "dispersal" }
+    }
+
+    /// With all that is assumed of it, of a load at an abscissa where it has one.
+    pub(super) fn words(&self, backfill: Option<&BackfillRequest>, x: Option<f64>) -> String {
+        let surface = || Some(backfill?.surface()?.height(x?));
+        let height =
+            self.surface_height_m.or_else(surface).map_or(String::new(), |y| format!(" at y = {} m", Digits(y)));
+        let how = self.distribution(backfill).map_or(String::new(), DistributionRequest::words);
+        format!(" on the surface{height}, dispersed by the fill {how}")
+    }
+}
+
+impl DistributionRequest {
+    fn words(&self) -> String {
+        match self {
             DistributionRequest::Boussinesq(Boussinesq { cut_off_deg }) => {
-                format!("as Boussinesq has it up to {} deg from the vertical", Digits(cut_off_deg))
+                format!("as Boussinesq has it up to {} deg from the vertical", Digits(*cut_off_deg))
             }
             DistributionRequest::Uniform(Uniform { spread }) => {
-                format!("uniformly, {} m to either side for each metre of depth", Digits(spread))
+                format!("uniformly, {} m to either side for each metre of depth", Digits(*spread))
             }
-        };
-        format!(" on the surface at y = {} m, dispersed by the fill {how}", Digits(self.surface_height_m))
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! Vehicles: axles on one effective width.
 
-use super::super::Text;
+use super::super::{BackfillRequest, Text};
 use super::DispersalRequest;
 use super::axle_groups::AxleGroup;
 use crate::structure::load::{Axle, Vehicle};
@@ -55,7 +55,17 @@ pub struct AxleRequest {
 }
 
 impl VehicleLoad {
-    pub(super) fn in_si(&self) -> Vehicle {
+    /// In SI; none where it stands on a surface that has faults.
+    pub fn in_si(&self, backfill: Option<&BackfillRequest>) -> Option<Vehicle> {
+        let dispersal = match &self.dispersal {
+            Some(dispersal) => Some(dispersal.in_si(backfill)?),
+            None => None,
+        };
+        Some(Vehicle { axles: self.axles(), x: self.x_m.unwrap_or(0.0), reversed: self.reversed, dispersal })
+    }
+
+    /// Its axles, given or of a standard.
+    fn axles(&self) -> Vec<Axle> {
         let per_metre = |force: f64| force / self.effective_width_m;
         let given = self.axles.iter().flatten().map(|axle| Axle {
             offset: axle.offset_m,
@@ -65,12 +75,12 @@ impl VehicleLoad {
         let standard = self.standard.map_or(Vec::new(), AxleGroup::axles);
         let length = self.length_m.unwrap_or(0.0);
         let standard = standard.iter().map(|&[offset, force]| Axle { offset, force: per_metre(force), length });
-        Vehicle {
-            axles: given.chain(standard).collect(),
-            x: self.x_m.unwrap_or(0.0),
-            reversed: self.reversed,
-            dispersal: self.dispersal.as_ref().map(DispersalRequest::in_si),
-        }
+        given.chain(standard).collect()
+    }
+
+    /// Its force, N/m, downwards.
+    pub(super) fn force(&self) -> f64 {
+        self.axles().iter().map(|axle| axle.force).sum()
     }
 
     /// How many axles it has.
@@ -79,7 +89,7 @@ impl VehicleLoad {
     }
 
     /// What it says against itself; where it stands is checked with what is asked.
-    pub(super) fn check(&self, here: &str, faults: &mut Faults) {
+    pub(super) fn check(&self, here: &str, backfill: Option<&BackfillRequest>, faults: &mut Faults) {
         let one = self.axles.is_some() != self.standard.is_some();
         faults.require(one, here, "give either axles or standard, not both and not neither");
         let (detail, fits) = match self.standard {
@@ -94,22 +104,25 @@ impl VehicleLoad {
             let detail = "another axle has this offset: correct it, or join the two";
             faults.require(!earlier, format!("{here}/axles/{i}/offset_m"), detail);
         }
+        if let Some(dispersal) = &self.dispersal {
+            dispersal.check(&format!("{here}/dispersal"), backfill, faults);
+        }
     }
 
-    pub(super) fn words(&self) -> String {
-        let vehicle = self.in_si();
+    pub(super) fn words(&self, backfill: Option<&BackfillRequest>) -> String {
         let axle = |axle: &Axle| {
             let force = Digits(axle.force * self.effective_width_m / 1e3);
             format!("{force} kN at {} m ({} m long)", Digits(axle.offset), Digits(axle.length))
         };
-        let axles = vehicle.axles.iter().map(axle).collect::<Vec<_>>().join(", ");
+        let axles = self.axles().iter().map(axle).collect::<Vec<_>>().join(", ");
         let place = match (self.x_m, self.reversed) {
             (None, _) => String::new(),
             (Some(x), false) => format!(", offsets to the right from x = {} m", Digits(x)),
             (Some(x), true) => format!(", offsets to the left from x = {} m", Digits(x)),
         };
         let (width, rule) = (Digits(self.effective_width_m), &self.effective_width_rule);
-        let down = self.dispersal.as_ref().map_or(String::new(), DispersalRequest::words);
+        let dispersal = self.dispersal.as_ref();
+        let down = dispersal.map_or(String::new(), |dispersal| dispersal.words(backfill, self.x_m));
         format!("vehicle, axles of {axles}{place}{down}; effective width {width} m ({rule})")
     }
 }
