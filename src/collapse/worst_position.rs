@@ -15,7 +15,7 @@ use super::{
     verdict,
 };
 use crate::budget::Budget;
-use crate::limit::{StaticTheorem, Window, WindowEnd};
+use crate::limit::{StaticTheorem, UpperEnd};
 use crate::structure::{PointForce, Structure};
 use bound::Bound;
 use places::{Place, places};
@@ -64,9 +64,6 @@ struct Search<'q> {
     places: Vec<Place>,
     bounds: Vec<Bound>,
 }
-
-/// A load factor beyond which nothing is in equilibrium, and the motion that proves it; minus infinity where nothing is anyway.
-type End = (f64, Option<Vec<[f64; 3]>>);
 
 impl<'q> Search<'q> {
     fn new(question: &'q PositionQuestion, budget: &'q Budget<'q>) -> Self {
@@ -150,7 +147,7 @@ impl<'q> Search<'q> {
     /// Finds the load factors of a place, and bounds of all others.
     fn solve(&mut self, place: usize) -> Result<(), AnalysisError> {
         let [instability, crushing] = self.ends(&self.places[place])?;
-        let value = |end: &Option<End>| end.as_ref().map(|(load_factor, _)| *load_factor);
+        let value = |end: &Option<UpperEnd>| end.as_ref().map(|(load_factor, _)| *load_factor);
         self.places[place].found = Some([value(&instability), value(&crushing)]);
         for (load_factor, motion) in [instability, crushing].into_iter().flatten() {
             let Some(motion) = motion else { continue };
@@ -170,7 +167,7 @@ impl<'q> Search<'q> {
 
     /// Upper ends of the limit windows of stone that does not crush, and of stone that does; none where rounding kept the
     /// programme from an answer.
-    fn ends(&self, place: &Place) -> Result<[Option<End>; 2], AnalysisError> {
+    fn ends(&self, place: &Place) -> Result<[Option<UpperEnd>; 2], AnalysisError> {
         let analysis = &self.question.analysis;
         if place.scaled.is_empty() && analysis.scaled.is_empty() {
             return Ok([(); 2].map(|()| Some((f64::INFINITY, None))));
@@ -178,19 +175,10 @@ impl<'q> Search<'q> {
         let [fixed, scaled] = self.forces(place);
         let theorem = StaticTheorem::new(self.structure(), &fixed, &scaled);
         let theorem = theorem.map_err(|bodies| AnalysisError::Unconnected(bodies[0]))?;
-        let instability = theorem.window(self.budget).ok().map(|window| match window {
-            Window::Stands([_, WindowEnd::Bounded { load_factor, motion, .. }]) => (load_factor, Some(motion)),
-            Window::Stands([_, WindowEnd::Unbounded { .. }]) => (f64::INFINITY, None),
-            Window::Falls(_) => (f64::NEG_INFINITY, None),
-        });
-        let crushing = if theorem.crushes(&self.strengths) {
-            let window = theorem.crushing_window(&self.strengths, self.budget).ok();
-            window.map(|window| match window {
-                Some(window) => (window.ends[1], Some(window.motions[1].clone()).filter(|motion| !motion.is_empty())),
-                None => (f64::NEG_INFINITY, None),
-            })
-        } else {
-            instability.as_ref().map(|(load_factor, _)| (*load_factor, None))
+        let instability = theorem.upper_end(self.budget).ok();
+        let crushing = match theorem.crushes(&self.strengths) {
+            true => theorem.crushing_upper_end(&self.strengths, self.budget).ok(),
+            false => instability.as_ref().map(|(load_factor, _)| (*load_factor, None)),
         };
         self.budget.check()?;
         Ok([instability, crushing])

@@ -76,6 +76,35 @@ fn the_worst_position_of_an_axle_is_that_of_another_program() {
     assert!(text(&request).contains("worst position x = "));
 }
 
+/// Rows of another program, which integrated the stress with tens of points: mobilised share of the passive resistance,
+/// strength, offsets and shares of 1 kN, worst position of the first axle and load.
+#[test]
+fn worst_positions_on_fill_that_resists_are_those_of_another_program() {
+    let (single, bogie) = ([[0.0, 1.0]], [[0.0, 0.5], [1.3, 0.5]]);
+    for (factor, strength, axles, at, load) in [
+        (0.5, 1e12, &single[..], -1.905, 43.6721),
+        (1.0, 1e12, &single, -1.932, 50.8056),
+        (0.5, 4.5e6, &single, -1.905, 37.6598),
+        (0.5, 1e12, &bogie, -3.008, 73.450),
+        (0.5, 1e12, &[[0.0, 0.25], [1.3, 0.75]], -3.178, 55.262),
+    ] {
+        let axle =
+            |&[offset, share]: &[f64; 2]| json!({"offset_m": offset, "force_n": 2500.0 * share, "length_m": 0.3});
+        let mut vehicle = vehicle(&axles.iter().map(axle).collect());
+        vehicle["vehicle"]["dispersal"] = json!({});
+        let mut request = bridge(&[vehicle], strength);
+        request["loads"].as_array_mut().unwrap().remove(1);
+        request["backfill"] = json!({
+            "surface_height_m": 1.813, "density_kg_m3": 2040, "passive": {"friction_angle_deg": 30, "factor": factor}
+        });
+        request["analysis"] = json!({"worst_position": {"to_m": 0}});
+        let worst = solved(&request)["worst_position"].take();
+        println!("{factor} {strength} {axles:?}: {} at {}, expected {load} at {at}", worst["intensity"], worst["x_m"]);
+        close(number(&worst["intensity"]), load, 5e-4);
+        assert!((number(&worst["x_m"]) - at).abs() < 0.02, "{} is not {at}", worst["x_m"]);
+    }
+}
+
 #[test]
 fn a_vehicle_is_the_patch_loads_of_its_axles() {
     let mut axles = vehicle(&json!([
@@ -123,7 +152,7 @@ fn what_stands_beyond_the_springings_is_told() {
     axle["vehicle"]["x_m"] = json!(-3.3);
     let words = text(&bridge(&[axle], 1e7));
     assert!(
-        words.contains("Of the vehicle of loads[2] 54.7") || words.contains("Of the vehicle of loads[2] 54.8"),
+        words.contains("Of the force of loads[2] 54.7") || words.contains("Of the force of loads[2] 54.8"),
         "{words}"
     );
     assert!(words.contains("effective width 2.5 m (as measured)"), "{words}");
