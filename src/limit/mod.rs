@@ -13,6 +13,7 @@ mod programme;
 mod resultant;
 mod sparse;
 mod static_theorem;
+mod upper_end;
 mod window;
 
 pub use crushing::CrushingWindow;
@@ -20,6 +21,7 @@ pub use non_dilating::{Release, releases};
 pub use passive::SoilEnd;
 pub use resultant::{Condition, Resultant};
 pub use static_theorem::{Equilibrium, StaticTheorem, Unsolved};
+pub use upper_end::UpperEnd;
 pub use window::{Window, WindowEnd};
 
 #[cfg(test)]
