@@ -14,7 +14,7 @@ class Structure:
     def __init__(self, told):
         self.loads = [[list(body[of].values()) for of in ("fixed_load", "scaled_load")] for body in told["bodies"]]
         place = {body["name"]: (k, complex(*body["centroid_m"])) for k, body in enumerate(told["bodies"])}
-        self.soil = [(place[e["body"]][0], e["direction"], (complex(*e["at_m"]) - place[e["body"]][1]).imag, e["most_n_per_m"])
+        self.soil = [(place[e["body"]][0], math.copysign(1, e["direction"]), (complex(*e["at_m"]) - place[e["body"]][1]).imag, e["most_n_per_m"])
                      for e in told["passive_elements"]]  # body, way, height over its centroid, largest force
         self.joints = []  # law, and what forces of 1 (normal at the first end, at the second, shear) do: (body, [F_x, F_y, M]), ...
         for joint in told["joints"]:
@@ -37,7 +37,7 @@ class Structure:
             i, e, t = force or (0, 0, 0)
             for k, x, unit in ((k, x, unit) for x, effect in zip((i, e, t), effects) for k, unit in effect):
                 sums[k] = [of + x * u for of, u in zip(sums[k], unit)]
-            crushed, beyond = (law == "dry" and "crushing" in why) * (i + e) ** 2 / (2 * strength * length), abs(t) - friction * (i + e)
+            crushed, beyond = (law in ("dry", "wall") and "crushing" in why) * (i + e) ** 2 / (2 * strength * length), abs(t) - friction * (i + e)
             broken += [crushed - i, crushed - e] * (law in ("dry", "wall")) + [beyond - abs(factors[0]) * cohesion] * (law != "bonded")
         return max([abs(x) for k, of in enumerate(sums) for x in of if k not in unknown] + broken) <= NEAR[why] * size
 
@@ -48,7 +48,7 @@ class Structure:
         for law, friction, cohesion, strength, length, effects in self.joints:
             a, b, slip = (sum(f * v for k, unit in effect for f, v in zip(unit, motion[k])) for effect in effects)
             low, high = min(a, b) - friction * abs(slip), max(a, b) - friction * abs(slip)
-            taken, closes = taken + cohesion * abs(slip), crushes and law == "dry" and low < 0
+            taken, closes = taken + cohesion * abs(slip), crushes and law in ("dry", "wall") and low < 0
             taken += closes and strength * length * (-(low + high) / 2 if high <= 0 else low ** 2 / 2 / (high - low))
             hindered += [-low * (not closes)] if law in ("dry", "wall") else [abs(a), abs(b), abs(slip) * (law == "bonded")]
         for k, way, height, most in self.soil:
@@ -77,6 +77,8 @@ def check(answer):
         said += f"; falls at {at} by {why}" + ("" if exact else ": borne there, but an upper bound is not claimed")
     return all(good), said
 
-results = [(name, *check(json.load(open(name)))) for name in sys.argv[1:]]
+def no_number(word): raise ValueError(f"{word} is no number")
+
+results = [(name, *check(json.load(open(name), parse_constant=no_number))) for name in sys.argv[1:]]
 print(*(f"{name}: {'' if proved else 'NOT PROVED: '}load factors {said}".replace("None", "no end") for name, proved, said in results), sep="\n")
 sys.exit(not all(proved for _, proved, _ in results))

@@ -138,10 +138,8 @@ fn relative_motion(structure: &Structure, k: usize, release: Release) -> Motion 
 pub(super) fn describe(structure: &Structure, loops: &Loops, releases: &[Released], rates: &[f64]) -> Mechanism {
     let fastest = rates.iter().copied().fold(0.0, f64::max);
     let joints = structure.joints.len();
-    let (mut relative, mut openings, mut slid) =
-        (vec![Motion::STILL; joints], vec![[0.0; 2]; joints], vec![0.0; joints]);
+    let (mut openings, mut slid) = (vec![[0.0; 2]; joints], vec![0.0; joints]);
     for (&(k, release), &rate) in releases.iter().zip(rates) {
-        relative[k] = relative[k].plus(relative_motion(structure, k, release), rate);
         match release {
             _ if rate <= SLOWEST * fastest => {}
             Release::Rotation(Face::Intrados) => openings[k][1] += rate,
@@ -149,11 +147,19 @@ pub(super) fn describe(structure: &Structure, loops: &Loops, releases: &[Release
             Release::Sliding(sign) => slid[k] += sign * rate,
         }
     }
+    let motions = motions(structure, loops, releases, rates);
+    assemble(structure, &motions[..structure.voussoirs().len()], &openings, &slid, &vec![false; joints])
+}
+
+/// Motions of all bodies in which joints are released at these rates.
+pub(super) fn motions(structure: &Structure, loops: &Loops, releases: &[Released], rates: &[f64]) -> Vec<Motion> {
+    let mut relative = vec![Motion::STILL; structure.joints.len()];
+    for (&(k, release), &rate) in releases.iter().zip(rates) {
+        relative[k] = relative[k].plus(relative_motion(structure, k, release), rate);
+    }
     let relative: Vec<_> = relative.iter().map(|m| [m.velocity.x, m.velocity.y, m.spin]).collect();
-    let motions = loops.motions(&relative);
-    let motion = |&[x, y, spin]: &[f64; 3]| Motion { velocity: Vec2::new(x, y), spin };
-    let motions: Vec<_> = motions[..structure.voussoirs().len()].iter().map(motion).collect();
-    assemble(structure, &motions, &openings, &slid, &vec![false; joints])
+    let motion = |[x, y, spin]: [f64; 3]| Motion { velocity: Vec2::new(x, y), spin };
+    loops.motions(&relative).into_iter().map(motion).collect()
 }
 
 /// Reads a mechanism off velocities of the stones; for paths whose peak is not a mechanism of the joints at their limits.

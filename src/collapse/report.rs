@@ -24,7 +24,7 @@ pub use strength::*;
 pub use unfollowed::*;
 pub use updated::*;
 
-use super::{Direction, FieldAt};
+use super::{Direction, FieldAt, PositionReport};
 use crate::geometry::Vec2;
 
 /// What happened.
@@ -104,6 +104,8 @@ pub struct Snapshot {
     pub blocks: Vec<BlockState>,
     /// Every contact point, joint by joint, intrados first.
     pub contacts: Vec<ContactPoint>,
+    /// Force of every passive element, N/m.
+    pub soil: Vec<f64>,
 }
 
 /// One point of the load-displacement history.
@@ -269,6 +271,8 @@ pub enum TaskReport {
     Settlement(Option<Box<SettlementReport>>),
     /// The geometric safety factors; none where the structure does not stand.
     GeometricSafety(Option<Box<GeometricSafety>>),
+    /// The worst position, at which the collapse is told.
+    WorstPosition(Box<PositionReport>),
 }
 
 impl CollapseReport {
@@ -285,5 +289,10 @@ impl CollapseReport {
     /// The geometric safety factors, where they were asked for and the structure stands.
     pub fn geometric_safety(&self) -> Option<&GeometricSafety> {
         if let TaskReport::GeometricSafety(safety) = &self.task { safety.as_deref() } else { None }
+    }
+
+    /// The worst position, where it was asked for.
+    pub fn worst_position(&self) -> Option<&PositionReport> {
+        if let TaskReport::WorstPosition(report) = &self.task { Some(report) } else { None }
     }
 }

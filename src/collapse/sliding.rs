@@ -5,15 +5,15 @@
 //! is a linear programme (see [`crate::limit`]). At its optimum more joints are at their limits, so that other mechanisms can
 //! move there, each with a programme of its own: mechanisms are exchanged until none is found that gives less.
 
-use super::mechanism::{Released, all_releases, columns, describe, unknowns};
+use super::mechanism::{Released, all_releases, columns, describe, motions, unknowns};
 use super::rigid_parts::RigidParts;
 use super::scatter::Scatter;
 use super::smallest_motion::nearest_motion;
 use super::tolerances;
 use super::{Analysis, Mechanism};
 use crate::budget::Budget;
-use crate::limit::{Equilibrium, Release, Resultant, StaticTheorem};
-use crate::structure::{Face, PointForce};
+use crate::limit::{Equilibrium, Release, Resultant, SoilEnd, StaticTheorem};
+use crate::structure::{Face, PassiveElement, PointForce};
 use std::collections::BTreeSet;
 
 /// So many motions in turn that give nothing lower end the search.
@@ -35,13 +35,21 @@ const COSTS: f64 = 2.0;
 const QUIET_CORNERS: usize = 6;
 const MOST_CORNERS: usize = 48;
 
+/// A passive element that moves by less than this share of the fastest body is not run into, and not left behind.
+const STILL: f64 = 1e-7;
+
 /// Where there are many loops, a load that is lower by less than this share is not worth having.
 const WORTH: f64 = 1e-6;
 
 /// What the search starts from, and which way.
 pub(super) struct Search<'a> {
+    /// Without the passive elements of its structure: they hinder no motion, but press as it says.
     pub analysis: &'a Analysis,
+    /// The passive elements.
+    pub soil: &'a [PassiveElement],
+    /// With them, and without.
     pub theorem: &'a StaticTheorem,
+    pub free: &'a StaticTheorem,
     pub budget: &'a Budget<'a>,
     /// Load factor from which the path goes, and +1 or -1 for its direction.
     pub start: f64,
@@ -52,6 +60,8 @@ pub(super) struct Search<'a> {
 pub(super) struct FullSolution {
     pub load_factor: f64,
     pub forces: Vec<Resultant>,
+    /// Forces of the passive elements, N/m.
+    pub soil: Vec<f64>,
     pub mechanism: Mechanism,
 }
 
@@ -66,9 +76,10 @@ impl Search<'_> {
         } else {
             at_limits.iter().for_each(|released| hunt.exchange(released));
         }
-        let solution = hunt.best.map(|Candidate { equilibrium, moving, rates }| FullSolution {
+        let solution = hunt.best.map(|Candidate { equilibrium, moving, rates, .. }| FullSolution {
             load_factor: equilibrium.load_factor,
             forces: self.theorem.resultants(&equilibrium),
+            soil: self.theorem.soil(&equilibrium),
             mechanism: describe(&self.analysis.structure, self.theorem.loops(), &moving, &rates),
         });
         (solution, hunt.seen.len())
@@ -76,7 +87,7 @@ impl Search<'_> {
 
     /// What is at its limits in an equilibrium at the end of the limit window.
     pub(super) fn at_window_end(&self, greatest: f64) -> Option<Vec<Released>> {
-        let found = self.theorem.least_load(&[], [greatest, self.far()], self.sign, &[], self.budget);
+        let found = self.theorem.least_load(&[], &[], [greatest, self.far()], self.sign, &[], self.budget);
         found.ok().flatten().filter(|_| greatest.is_finite()).map(|equilibrium| self.at_limits(&equilibrium))
     }
 
@@ -86,7 +97,7 @@ impl Search<'_> {
         let cost = |random: f64| if loops { 10f64.powf(COSTS * (random - 1.0)) } else { 1.0 + 0.99 * random };
         let costs: Vec<f64> = released.iter().map(|_| cost(costs.next())).collect();
         if !loops {
-            let rates = self.theorem.cheapest_motion(released, &costs, self.sign, self.budget)?;
+            let rates = self.free.cheapest_motion(released, &costs, self.sign, self.budget)?;
             return Some(moving(released, rates));
         }
         let parts = RigidParts::new(&self.analysis.structure, released)?;
@@ -99,6 +110,21 @@ impl Search<'_> {
         let forces = self.theorem.resultants(equilibrium);
         let share = if self.theorem.has_loops() { NEAR_LIMIT } else { AT_LIMIT };
         all_releases(&self.analysis.structure, &forces, &vec![None; forces.len()], share)
+    }
+
+    /// At which ends of their ranges passive elements press where the joints move like this: those that are run into, and those
+    /// that are left behind. Others may press as they can.
+    fn pinned(&self, moving: &[Released], rates: &[f64]) -> Vec<(usize, SoilEnd)> {
+        let structure = &self.analysis.structure;
+        let motions = motions(structure, self.theorem.loops(), moving, rates);
+        let fastest = motions.iter().zip(&structure.bodies).map(|(m, body)| m.at(body.region.centroid).norm());
+        let still = STILL * fastest.fold(0.0, f64::max);
+        let end = |(e, element): (usize, &PassiveElement)| match -element.way * motions[element.body].at(element.at).x {
+            approach if approach > still => Some((e, SoilEnd::Most)),
+            approach if approach < -still => Some((e, SoilEnd::Nothing)),
+            _ => None,
+        };
+        self.soil.iter().enumerate().filter_map(end).collect()
     }
 
     /// The motion of these releases next to rough `rates` that closes to rounding; None where there is none.
@@ -139,6 +165,7 @@ struct Hunt<'s> {
 struct Candidate {
     equilibrium: Equilibrium,
     moving: Vec<Released>,
+    pinned: Vec<(usize, SoilEnd)>,
     rates: Vec<f64>,
 }
 
@@ -164,13 +191,14 @@ impl Hunt<'_> {
             return Some(vain);
         }
         let end = self.best.as_ref().map_or(search.far(), |best| search.worth(best.equilibrium.load_factor));
-        let found = search.theorem.least_load(&moving, [search.start, end], search.sign, &[], search.budget);
+        let pinned = search.pinned(&moving, &rates);
+        let found = search.theorem.least_load(&moving, &pinned, [search.start, end], search.sign, &[], search.budget);
         let Ok(Some(equilibrium)) = found else { return Some(vain) };
         if search.theorem.has_loops() {
             let Some(closed) = search.closed(&moving, &rates) else { return Some(vain) };
             rates = closed;
         }
-        self.best = Some(Candidate { equilibrium, moving, rates });
+        self.best = Some(Candidate { equilibrium, moving, pinned, rates });
         Some(Tried::Lower)
     }
 
@@ -195,12 +223,12 @@ impl Hunt<'_> {
         let mut quiet = 0;
         for round in 0..MOST_CORNERS {
             let Some(best) = &self.best else { return };
-            let (search, moving) = (self.search, best.moving.clone());
+            let (search, moving, pinned) = (self.search, best.moving.clone(), best.pinned.clone());
             let tilt = TILTS[round % TILTS.len()];
             let tilts: Vec<[f64; 3]> =
                 (0..search.theorem.joints()).map(|_| [(); 3].map(|()| tilt * self.scatter.next())).collect();
             let range = [search.start, search.far()];
-            let corner = search.theorem.least_load(&moving, range, search.sign, &tilts, search.budget);
+            let corner = search.theorem.least_load(&moving, &pinned, range, search.sign, &tilts, search.budget);
             let Ok(Some(corner)) = corner else { continue };
             let mut released = search.at_limits(&corner);
             let missing: Vec<Released> = moving.into_iter().filter(|release| !released.contains(release)).collect();

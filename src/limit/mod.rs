@@ -15,14 +15,17 @@ mod resultant;
 mod sparse;
 mod static_theorem;
 mod thrust;
+mod upper_end;
 mod window;
 
 pub use crushing::CrushingWindow;
 pub use geometric::ShortenedJoints;
 pub use non_dilating::{Release, releases};
+pub use passive::SoilEnd;
 pub use resultant::{Condition, Resultant};
 pub use static_theorem::{Equilibrium, StaticTheorem, Unsolved};
 pub use thrust::ThrustEnd;
+pub use upper_end::UpperEnd;
 pub use window::{Window, WindowEnd};
 
 #[cfg(test)]

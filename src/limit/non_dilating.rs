@@ -5,6 +5,7 @@
 //! the end that opens, shear at its bound against the motion. These are linear conditions on the unknowns of the static
 //! theorem, and what they leave open is a whole range of load factors. Its least value is a linear programme.
 
+use super::passive::SoilEnd;
 use super::programme::{Objective, Programme, ProgrammeOutcome};
 use super::resultant::Resultant;
 use super::static_theorem::{Equilibrium, Limit, StaticTheorem, Unsolved};
@@ -52,7 +53,7 @@ pub fn releases(joint: &Joint, forces: &Resultant, none: f64) -> Vec<Release> {
 
 impl StaticTheorem {
     /// The equilibrium of the smallest load factor, in the direction of `sign`, at which the joints that `moving` names are at
-    /// those limits and every other is admissible; None where there is none between `start` and `end`.
+    /// those limits, the passive elements that `pinned` names at those of theirs, and every other is admissible; None where there is none between `start` and `end`.
     ///
     /// An end that opens carries nothing. How much of its cohesion a joint that opens has left depends on where along it the
     /// cohesion sits, so where it slides too, anything from none to all is admitted.
@@ -68,12 +69,14 @@ impl StaticTheorem {
     pub fn least_load(
         &self,
         moving: &[(usize, Release)],
+        pinned: &[(usize, SoilEnd)],
         [start, end]: [f64; 2],
         sign: f64,
         tilts: &[[f64; 3]],
         budget: &Budget,
     ) -> Result<Option<Equilibrium>, Unsolved> {
         let mut programme = Programme::new(self);
+        programme.limits.extend(pinned.iter().map(|&(element, end)| self.pin(element, end)));
         for &(joint, release) in moving {
             let turns =
                 |&(other, release): &(usize, Release)| other == joint && matches!(release, Release::Rotation(_));

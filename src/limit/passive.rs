@@ -1,12 +1,21 @@
 //! Passive resistance of soil in the static theorem: one more unknown for every element, its force, between 0 and a limit.
 //!
-//! Behind the joints the elements go on being numbered: the first of the three forces of "joint" `joints + e` is that of
-//! element e, pressing.
+//! Limits and forces of all joints and elements are in one list, the elements behind the joints: of the three forces of entry
+//! `joints + e` the first is that with which element e presses, and the others are none.
 
 use super::resultant::{Resultant, dot, joint_functionals};
 use super::static_theorem::{Limit, StaticTheorem};
 use crate::geometry::cross;
 use crate::structure::{Loops, PassiveElement, PointForce, resultants};
+
+/// The end of its range at which an element presses.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SoilEnd {
+    /// Not at all: the body moves away.
+    Nothing,
+    /// As hard as it can: the body moves into the soil.
+    Most,
+}
 
 /// The elements, and what each does to the joints.
 #[derive(Debug, Clone)]
@@ -49,6 +58,16 @@ impl StaticTheorem {
             Limit { joint: self.joints.len() + e, weights, constant: constant / self.force }
         };
         [bound(1.0, 0.0), bound(-1.0, self.soil.elements[e].most)]
+    }
+
+    /// What holds the force of element `e` at an end of its range; that it is within it is among the limits already.
+    pub(super) fn pin(&self, e: usize, end: SoilEnd) -> Limit {
+        let [nothing, most] = self.bounds_of(e);
+        let other_way = |limit: Limit| Limit { weights: limit.weights.map(|w| -w), constant: -limit.constant, ..limit };
+        other_way(match end {
+            SoilEnd::Nothing => nothing,
+            SoilEnd::Most => most,
+        })
     }
 
     /// Forces at joint `k` for a unit force of each element that goes through it, N/m.

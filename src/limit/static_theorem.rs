@@ -299,6 +299,11 @@ impl StaticTheorem {
         self.apart(&equilibrium.forces).0
     }
 
+    /// Forces of every passive element in an equilibrium, N/m.
+    pub fn soil(&self, equilibrium: &Equilibrium) -> Vec<f64> {
+        self.apart(&equilibrium.forces).1
+    }
+
     /// Smallest slack of any inequality in an equilibrium, in units of the loads' scale (negative: violated).
     pub fn slack(&self, equilibrium: &Equilibrium) -> f64 {
         self.limits.iter().map(|limit| limit.slack(&equilibrium.forces)).fold(f64::INFINITY, f64::min)

@@ -17,6 +17,7 @@ mod structure;
 mod updated;
 mod width;
 mod words;
+mod worst_position;
 
 pub use beam::BeamResult;
 pub use columns::{BlockColumns, ContactColumns, HistoryColumns, SnapshotBody, ThrustColumns, VelocityColumns};
@@ -38,10 +39,12 @@ pub use structure::{BodyBody, JointBody, LawWord, LoadOnBody, PassiveElementBody
 pub use updated::UpdatedBody;
 pub use width::{ScaledLoadBody, ThrustRangeBody};
 pub use words::MethodWord;
+pub use worst_position::{PositionColumns, WorstPositionBody};
 
 use super::json::{NotFinite, line};
 use super::prose::in_its_words;
 use super::request::AnalysisRequest;
+use super::translate::placed;
 use crate::collapse::{CollapseReport, Cost, LimitWindow, Note, Outcome};
 use columns::column;
 use serde::Serialize;
@@ -98,6 +101,8 @@ pub struct AnalysisResult {
     pub safety: Option<SafetyBody>,
     /// Geometric safety factors, where `analysis` asks for them and the structure stands.
     pub geometric_safety: Option<GeometricSafetyBody>,
+    /// The worst position of vehicles, where `analysis` asks for it.
+    pub worst_position: Option<WorstPositionBody>,
     /// The load path, event by event.
     pub history: HistoryColumns,
     /// What was modelled, and how accurate it is, where `accuracy` is asked for.
@@ -139,6 +144,9 @@ impl Scale<'_> {
 impl AnalysisResult {
     /// Puts the report in the request's words; none where it is no answer to this request.
     pub fn new(request: &AnalysisRequest, report: &CollapseReport) -> Option<Self> {
+        let worst = report.worst_position().map(|position| position.worst);
+        let with_vehicles = worst.map(|worst| placed(request, worst.x, Some(worst.reversed)));
+        let (asked, request) = (request, with_vehicles.as_ref().unwrap_or(request));
         let scale = Scale { per_unit: request.load_factor.intensity_per_unit, unit: &request.load_factor.unit };
         let window = report.limit_window;
         let snapshot = |snapshot| SnapshotBody::new(snapshot, &scale);
@@ -180,6 +188,7 @@ impl AnalysisResult {
             geometric_safety: report.geometric_safety().map(|safety| {
                 GeometricSafetyBody::new(safety, request.arch.as_ref().and_then(|arch| arch.thickness.as_ref()))
             }),
+            worst_position: report.worst_position().map(|position| WorstPositionBody::new(position, &scale)),
             history: HistoryColumns::new(&report.history, &scale),
             plan,
             cost: report.cost,
@@ -187,7 +196,7 @@ impl AnalysisResult {
                 .chain(assumptions)
                 .map(|note| in_its_words(request, &note))
                 .collect(),
-            request: request.clone(),
+            request: asked.clone(),
             remedy: report.notes.iter().find_map(Note::remedy),
         })
     }

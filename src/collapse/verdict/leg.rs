@@ -8,9 +8,7 @@ use crate::collapse::record::{MOST_FIXED_STEPS, Recorder, snapshot};
 use crate::collapse::sliding::Search;
 use crate::collapse::state::States;
 use crate::collapse::tolerances;
-use crate::collapse::{
-    Analysis, AnalysisError, CollapseReport, Cost, Doubt, LoadRange, Mechanism, Method, Note, Outcome,
-};
+use crate::collapse::{Analysis, AnalysisError, CollapseReport, Cost, Doubt, LoadRange, Method, Note, Outcome};
 use crate::dda::Tracer;
 use crate::limit::StaticTheorem;
 
@@ -95,6 +93,8 @@ impl Setup<'_> {
         };
         report.notes.extend(ending.later.then_some(Note::LaterMechanism));
         report.notes.extend(ending.end.range.as_ref().map(range_note));
+        let beside_soil = ending.end.range.is_some() && !self.analysis.structure.passive.is_empty();
+        report.notes.extend(beside_soil.then_some(Note::SlidesBesideSoil));
         let slides = self.analysis.task.crushes_on_path() && ending.end.mechanism.slips();
         report.notes.extend(slides.then_some(Note::CrushesAndSlides));
         report.outcome = Outcome::Collapse;
@@ -105,21 +105,16 @@ impl Setup<'_> {
     /// Where joints slide, takes the least load at which they let the arch fall for the end.
     fn take_least(&self, ending: &mut Ending, sign: f64) -> Result<(), AnalysisError> {
         let Ending { end, later, at_limits } = ending;
-        // What the soil presses at the end of the path stays; other mechanisms have to agree with it.
-        let held = soil_held(self.analysis, &end.soil);
-        let theorem = match &held {
-            Some(held) => &StaticTheorem::new(&held.structure, &held.fixed, &held.scaled)
-                .map_err(|bodies| AnalysisError::Unconnected(bodies[0]))?,
-            None => &self.certificate.theorem,
-        };
-        let analysis = held.as_ref().unwrap_or(self.analysis);
+        let theorem = &self.certificate.theorem;
+        let free = without_soil(self.analysis)?;
+        let (analysis, free) = free.as_ref().map_or((self.analysis, theorem), |(analysis, free)| (analysis, free));
         let (mut path, greatest) = (end.load_factor, self.certificate.end(sign).unwrap_or(0.0));
-        let search = Search { analysis, theorem, budget: self.budget, start: self.start, sign };
+        let soil = &self.analysis.structure.passive[..];
+        let search = Search { analysis, soil, theorem, free, budget: self.budget, start: self.start, sign };
         at_limits.extend(search.at_window_end(greatest));
         let (found, mechanisms_tried) = search.least(at_limits);
         self.budget.check()?;
-        let allowed = |mechanism: &Mechanism| ending::soil_allows(&self.analysis.structure, &end.soil, mechanism);
-        let slides = found.filter(|found| found.mechanism.slips() && allowed(&found.mechanism));
+        let slides = found.filter(|found| found.mechanism.slips());
         if let Some(found) = slides.filter(|found| !search.is_beyond(found.load_factor, path, tolerances::POLISH)) {
             // A path that nothing polished carries the disturbance of its attempt: what is as near is the same load.
             if !search.is_beyond(path, found.load_factor, tolerances::POLISH) {
@@ -129,6 +124,7 @@ impl Setup<'_> {
             if search.is_beyond(path, found.load_factor, tolerances::SAME_LOAD) || *later {
                 end.mechanism = found.mechanism;
                 end.thrust_line = ending::thrust_line(&analysis.structure, &found.forces);
+                end.soil = found.soil;
                 *later = false;
             }
             end.load_factor = found.load_factor;
@@ -151,14 +147,14 @@ impl Setup<'_> {
     }
 }
 
-/// The analysis of the same structure without passive elements, on which what they press, N/m, acts as loads that stay; none where
-/// there are none.
-fn soil_held(analysis: &Analysis, soil: &[f64]) -> Option<Analysis> {
-    let elements = &analysis.structure.passive;
-    (!elements.is_empty()).then(|| {
-        let mut held = analysis.clone();
-        held.structure.passive.clear();
-        held.fixed.extend(elements.iter().zip(soil).map(|(element, &size)| element.force(size)));
-        held
-    })
+/// The analysis of the same structure without its passive elements, and its static theorem; none where it has none.
+fn without_soil(analysis: &Analysis) -> Result<Option<(Analysis, StaticTheorem)>, AnalysisError> {
+    if analysis.structure.passive.is_empty() {
+        return Ok(None);
+    }
+    let mut free = analysis.clone();
+    free.structure.passive.clear();
+    let theorem = StaticTheorem::new(&free.structure, &free.fixed, &free.scaled);
+    let theorem = theorem.map_err(|bodies| AnalysisError::Unconnected(bodies[0]))?;
+    Ok(Some((free, theorem)))
 }

@@ -31,6 +31,11 @@ impl SurfaceLine {
         (rises && !points.is_empty()).then_some(SurfaceLine(points))
     }
 
+    /// Its highest point, m.
+    pub fn top(&self) -> f64 {
+        self.0.iter().map(|point| point.y).fold(f64::NEG_INFINITY, f64::max)
+    }
+
     /// Its height at abscissa `x`, m.
     pub fn height(&self, x: f64) -> f64 {
         let points = &self.0;
@@ -91,7 +96,15 @@ pub(super) type Stretch = [Vec2; 2];
 impl Fill {
     /// Vertical pressure at a point: the weight of the column over it, Pa.
     pub fn pressure(&self, at: Vec2) -> f64 {
-        GRAVITY * self.mass(at)
+        self.column(at).map(|[from, to, density]| (to - from) * GRAVITY * density).sum()
+    }
+
+    /// Lowest height of the line between two abscissae, m; infinite without one.
+    pub(super) fn lowest(&self, [a, b]: [f64; 2]) -> f64 {
+        self.line.as_ref().map_or(f64::INFINITY, |line| {
+            let xs = line.bends(a, b).chain([a, b]);
+            xs.map(|x| line.height(x)).fold(f64::INFINITY, f64::min)
+        })
     }
 
     /// Depth of a point below the line, m; 0 without one.

@@ -22,6 +22,7 @@ impl fmt::Display for Note {
             Note::Doubt(doubt) => doubted(doubt),
             Note::StandsOnlyWithin { window, why } => stands_only(window, *why),
             Note::SoleSlidingLoad(range) => sole_load(range),
+            Note::SlidesBesideSoil => SLIDES_BESIDE_SOIL.into(),
             Note::ManySlidingLoads(range) => many_loads(range),
             Note::CrushesAtStart { strength, start, window } => crushes([*strength, *start].map(Digits), *window),
             Note::SeveralStates { given, load_factors, joints } => several(*given, load_factors, joints),
@@ -45,6 +46,11 @@ impl fmt::Display for Note {
             Note::SofterContacts { asked, taken, turned_back } => {
                 softer([*asked, *taken].map(Digits), turned_back.map(Digits))
             }
+            Note::PositionsBetween { solved, tolerance } => positions(*solved, Digits(*tolerance)),
+            Note::PositionsUnknown(count) => format!(
+                "At {count} positions rounding kept limit analysis from a part of its answer: the worst position is that of \
+                 what is known."
+            ),
             Note::FallsFromZero => FALLS_FROM_ZERO.into(),
             Note::NothingGrows => "Nothing grows with the load factor: the answer says only that the arch stands.".into(),
             Note::LaterMechanism => LATER_MECHANISM.into(),
@@ -61,6 +67,17 @@ impl fmt::Display for Note {
         })
     }
 }
+
+fn positions(solved: usize, tolerance: Digits) -> String {
+    format!(
+        "The worst position is that of {solved} solved by limit analysis, in which sliding joints dilate. In none of their mechanisms \
+         does the structure fall at a load lower by more than {tolerance} of it, wherever the vehicle stands. A mechanism that \
+         governs between two neighbouring positions only is not seen: take a smaller step_m to look closer."
+    )
+}
+
+const SLIDES_BESIDE_SOIL: &str = "Joints slide beside backfill that resists. The least load is then that of the mechanisms found from this load \
+     path, and other values of mobilisation_share_of_depth may find a lower one: try 0.001 and 1 too, and take the lowest.";
 
 const FALLS_FROM_ZERO: &str = "The arch stands at load factor 0 and at none beyond it in the direction asked. Hinges, slides \
      and velocities are those in which it falls as soon as the load factor leaves 0.";

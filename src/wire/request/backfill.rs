@@ -35,7 +35,7 @@ pub struct BackfillRequest {
     pub lateral_ratio: f64,
     /// How it resists stones that move into it. Left out: it does not. Not with `lateral_ratio`.
     pub passive: Option<PassiveRequest>,
-    /// How loads on the surface spread, of which `dispersal` does not say it.
+    /// How a load on the surface spreads whose own `dispersal` does not say it.
     pub dispersal: DistributionRequest,
 }
 
@@ -125,6 +125,10 @@ impl BackfillRequest {
                       that acts always";
         let both = self.passive.is_some() && self.lateral_ratio != 0.0;
         faults.require(!both, format!("{here}/lateral_ratio"), detail);
+        let detail =
+            "the active pressure is more than this share of the passive one: raise factor, or set least to none";
+        let ranged = self.passive.as_ref().is_none_or(PassiveRequest::is_range);
+        faults.require(ranged, format!("{here}/passive/factor"), detail);
         let resists = self.backing.as_ref().is_some_and(|backing| backing.resistance_pa.is_some());
         let detail = "backing resists where fill does: give backfill/passive too, or leave this out";
         faults.require(!resists || self.passive.is_some(), format!("{here}/backing/resistance_pa"), detail);

@@ -9,8 +9,8 @@ use utoipa::ToSchema;
 /// horizontally, towards the structure, between `least` and `(factor Kp q_v + cohesion_factor 2 c sqrt Kp)` times the side's height,
 /// as hard as it can where the stone moves into it and as little as it may where the stone moves away; `Kp = (1 + sin phi) /
 /// (1 - sin phi)` after Rankine, and q_v the vertical pressure of the fill's own weight in the middle of the side, where the force
-/// acts. Loads on the surface add nothing to it. Fill behind it stands still; between two spans, where it would move along, there
-/// is none.
+/// acts. Loads on the surface add nothing to it. Fill behind it stands still. There is none towards another span, where the fill would
+/// move along, and none where the surface falls below the side within the wedge that would resist, `sqrt Kp` times the depth wide.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(default)]
 pub struct PassiveRequest {
@@ -28,8 +28,8 @@ pub struct PassiveRequest {
     pub cohesion_factor: f64,
     /// What it presses with in any case.
     pub least: LeastPressure,
-    /// Movement of a stone into the fill at which all of this is mobilised, over the depth of the side below the surface. The collapse
-    /// load at first order does not depend on it; displacements do.
+    /// Movement of a stone into the fill at which all of this is mobilised, over the depth of the side below the surface. Where no
+    /// joint slides the collapse load at first order does not depend on it; displacements and the load on updated geometry do.
     #[schema(minimum = 1e-4, maximum = 1.0)]
     pub mobilisation_share_of_depth: f64,
 }
@@ -41,7 +41,7 @@ pub enum LeastPressure {
     /// None.
     #[default]
     None,
-    /// Rankine's active pressure, the vertical one over Kp; not less than that of cohesionless fill.
+    /// Rankine's active pressure, the vertical one over Kp; cohesion does not lower it.
     Active,
 }
 
@@ -74,8 +74,15 @@ impl PassiveRequest {
             cohesion: self.cohesion_factor * 2.0 * self.cohesion_pa * coefficient.sqrt(),
             least: if self.least == LeastPressure::Active { 1.0 / coefficient } else { 0.0 },
             backing,
+            wedge: coefficient.sqrt(),
             mobilised_at: self.mobilisation_share_of_depth,
         }
+    }
+
+    /// Whether what it presses with in any case is no more than it can resist with.
+    pub(super) fn is_range(&self) -> bool {
+        let Passive { most, least, .. } = self.in_si(None);
+        least <= most
     }
 
     /// With all that is assumed of it.

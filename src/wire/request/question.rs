@@ -1,6 +1,6 @@
 //! What is asked of an arch, and what the answer shows.
 
-use super::{Abscissa, LoadFactor, Point, Text};
+use super::{Abscissa, LoadFactor, Point, Text, WorstPositionRequest};
 use crate::collapse::CrushingKind;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
@@ -18,6 +18,15 @@ pub enum AimRequest {
     Settlement(SettlementRequest),
     /// How much thinner a structure that stands could be: its geometric safety factors.
     GeometricSafety(GeometricSafetyRequest),
+    /// Where vehicles stand worst, and the load factor at which the structure falls there.
+    WorstPosition(WorstPositionRequest),
+}
+
+impl AimRequest {
+    /// Whether the load factor at which the structure falls is asked for, at a position given or the worst.
+    pub fn is_collapse(&self) -> bool {
+        matches!(self, AimRequest::Collapse | AimRequest::WorstPosition(_))
+    }
 }
 
 /// How much thinner a structure that stands could be: its geometric safety factors. No load may be scaled; `geometry`,

@@ -1,13 +1,22 @@
 //! Notes on what a request means without saying it.
 
 use super::structure::StructureBody;
+use crate::collapse::Geometry;
 use crate::wire::prose::Digits;
-use crate::wire::request::{AnalysisRequest, LoadEntry, LoadRequest, Subblocks, SubblocksRequest};
+use crate::wire::request::{AimRequest, AnalysisRequest, LoadEntry, LoadRequest, Subblocks, SubblocksRequest};
 
 /// Note on fill and acceleration together.
 const FILL_IS_SHAKEN: &str = "Fill has mass: in the acceleration the column of fill and embankment over every part of the \
      extrados that looks up pushes with its mass, at its centre of mass, and the stone below carries it. \
-     What lies beside the arch does not push.";
+     The mass of what lies beside the arch does not push.";
+
+/// Note on fill that resists as it is shaken.
+const SOIL_IS_SHAKEN: &str = "The backfill resists in the acceleration as it does at rest. In an earthquake it resists less: give \
+     backfill.passive a lower factor.";
+
+/// Note on fill that resists as supports move.
+const SOIL_IS_NOT_TOLD: &str = "What the backfill presses as the supports move is not listed: the forces of the supports alone need \
+     not balance the loads.";
 
 /// Note on contacts stiffer than the default, where joints slide.
 const STIFF_CONTACTS: &str = "Contacts are stiffer than the default of a bridge and of blocks. Where joints slide, such as those \
@@ -38,15 +47,34 @@ pub(super) fn assumptions(request: &AnalysisRequest, structure: &StructureBody) 
     let shaken = any(|load| matches!(load, LoadRequest::BodyAcceleration(_)));
     let fill = any(|load| matches!(load, LoadRequest::FillPressure(_)));
     let massless = any(|load| matches!(load, LoadRequest::LateralPressure(_)));
+    let resists = !structure.passive_elements.is_empty();
+    let settles = matches!(request.analysis, AimRequest::Settlement(_));
     let stiff = request.arch.is_none() && request.stone.penalty_ratio.is_some_and(|ratio| ratio > 1.0);
     let notes = [
         (stiff, STIFF_CONTACTS),
         (!weight, NO_WEIGHT),
         (shaken && (fill || request.backfill.is_some()), FILL_IS_SHAKEN),
         (shaken && massless, MASSLESS_IS_SHAKEN),
+        (shaken && resists, SOIL_IS_SHAKEN),
+        (settles && resists, SOIL_IS_NOT_TOLD),
     ];
     let notes = notes.into_iter().filter(|(holds, _)| *holds).map(|(_, note)| note.to_owned());
-    notes.chain(uncut(request, structure)).chain(units(request, structure)).chain(beyond(structure)).collect()
+    let others = uncut(request, structure).into_iter().chain(units(request, structure)).chain(beyond(structure));
+    notes.chain(others).chain(mobilised(request, structure)).collect()
+}
+
+/// How far stones have to move into fill until all of its resistance is there.
+fn mobilised(request: &AnalysisRequest, structure: &StructureBody) -> Option<String> {
+    let farthest = structure.passive_elements.iter().map(|element| element.mobilised_at_m).reduce(f64::max)?;
+    let what = match request.geometry {
+        Geometry::FirstOrder => "At first order that is not seen: geometry updated shows what it costs.",
+        Geometry::Updated => "At first order that is not seen, in updated_geometry it is.",
+    };
+    Some(format!(
+        "The backfill resists in full where stones have moved into it by {} % of the depth, up to {} m. {what}",
+        Digits(100.0 * request.backfill.as_ref()?.passive.as_ref()?.mobilisation_share_of_depth),
+        Digits(farthest)
+    ))
 }
 
 /// How much of the loads goes to the ground.

@@ -22,7 +22,7 @@ pub fn weight(
     let (Some(fill), Some(layout), true) = (backfill.in_si(), whole, lies) else { return Vec::new() };
     let passive = backfill.resists().map(|passive| passive.of(&fill, &layout.structure));
     let mut forces = Load::Fill(fill).on_pieces(&layout.structure, pieces, 1.0).unwrap_or_default();
-    let detail = "no part of it lies on the structure: raise its surface, give it a density, or leave it out";
+    let detail = "none of its weight lies on the structure: raise its surface, give it a density, or leave it out";
     faults.require(!forces.is_empty(), HERE, detail);
     let structure = &layout.structure;
     // An arch that is not symmetric itself has a fault of its own.

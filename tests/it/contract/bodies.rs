@@ -55,6 +55,10 @@ fn arch() -> Value {
                 "surface_height_m": 8.5, "distribution": {"boussinesq": {"cut_off_deg": 40}}}}}},
             {"load": {"patch_load": {"centre_x_m": 1, "width_m": 1, "force_n_per_m": 1000, "dispersal": {
                 "surface_height_m": 8.5, "distribution": {"uniform": {"spread": 0.4}}}}}},
+            {"load": {"vehicle": {
+                "axles": [{"offset_m": -1, "force_n": 1000, "length_m": 0.3, "factor": 1.5}], "x_m": 1, "reversed": true,
+                "effective_width_m": 2, "effective_width_rule": "a lane",
+                "dispersal": {"surface_height_m": 8.5, "distribution": {"boussinesq": {}}}}}},
             {"load": {"lateral_pressure": {"bands": [{"from_m": 0, "to_m": 1, "pressure_pa": 100}]}}},
             {"load": {"body_acceleration": {"x_g": 0.1, "y_g": 0.1}}}
         ],
@@ -90,6 +94,16 @@ fn settlement() -> Value {
 
 fn geometric_safety() -> Value {
     with(settlement(), "/analysis", json!({"geometric_safety": {}}))
+}
+
+fn driven() -> Value {
+    let asked = json!({"from_m": -2, "to_m": 2, "step_m": 0.5, "tolerance": 1e-3, "directions": "both"});
+    let vehicle = json!({"vehicle": {
+        "standard": "cs454_bogie_8t", "length_m": 0.3, "effective_width_m": 2, "effective_width_rule": "a lane",
+        "dispersal": {"surface_height_m": 8.5, "distribution": {"uniform": {"spread": 0.4}}}
+    }});
+    let request = with(arch(), "/analysis", json!({"worst_position": asked}));
+    with(request, "/loads/2", json!({"load": vehicle, "scaled": true}))
 }
 
 fn surveyed() -> Value {
@@ -187,10 +201,17 @@ fn bridge() -> Value {
     })
 }
 
-/// A level road.
+/// A level road over fill that resists.
 fn level() -> Value {
-    let uniform = json!({"surface_height_m": 4, "dispersal": {"uniform": {"spread": 0.4}}});
-    with(bridge(), "/backfill", uniform)
+    let resisting = json!({
+        "surface_height_m": 4, "backing": {"height_m": 1.5, "density_kg_m3": 2000, "resistance_pa": 5e4},
+        "passive": {
+            "friction_angle_deg": 35, "cohesion_pa": 2000, "factor": 0.6, "cohesion_factor": 0.4, "least": "active",
+            "mobilisation_share_of_depth": 0.02
+        },
+        "dispersal": {"uniform": {"spread": 0.4}}
+    });
+    with(bridge(), "/backfill", resisting)
 }
 
 fn beam() -> Value {
@@ -231,6 +252,7 @@ pub fn bodies() -> Vec<Value> {
         accurate(),
         settlement(),
         geometric_safety(),
+        driven(),
         surveyed(),
         surveyed_intrados(),
         blocks(),

@@ -6,8 +6,14 @@ use crate::structure::GRAVITY;
 use std::f64::consts::PI;
 
 /// Kp of 30 degrees is 3; half of it, and half of what 2 kPa of cohesion add, mobilised at 3 % of the depth.
-const PASSIVE: Passive =
-    Passive { most: 1.5, cohesion: 1e3 * 1.732_050_807_568_877_2 * 2.0, least: 0.0, backing: None, mobilised_at: 0.03 };
+const PASSIVE: Passive = Passive {
+    most: 1.5,
+    cohesion: 1e3 * 1.732_050_807_568_877_2 * 2.0,
+    least: 0.0,
+    backing: None,
+    wedge: 1.732_050_807_568_877_2,
+    mobilised_at: 0.03,
+};
 
 fn semicircle(n: usize) -> Structure {
     arch_of(&ring(Profile::circular(2.0, PI), 0.5, n))
@@ -81,10 +87,25 @@ fn between_spans_there_is_none() {
     structure.surfaces.extend(shifted);
     let (elements, _) = PASSIVE.of(&fill(Some(3.0)), &structure);
     assert_eq!(elements.iter().map(|element| element.body).collect::<Vec<_>>(), [0, 1, 2, 9, 10, 11]);
-    // Beside one that ends below the haunch there is.
+    // Nor towards one that ends below the haunch.
     structure.surfaces.truncate(8);
     let (elements, _) = PASSIVE.of(&fill(Some(3.0)), &structure);
-    assert!(elements.iter().any(|element| element.body == 3));
-    let humped = Fill { line: SurfaceLine::through(vec![Vec2::new(0.0, 3.0), Vec2::new(1.0, 2.0)]), ..fill(Some(3.0)) };
-    assert!(PASSIVE.of(&humped, &semicircle(6)).0[5].most < PASSIVE.of(&humped, &semicircle(6)).0[0].most);
+    assert_eq!(elements.iter().map(|element| element.body).collect::<Vec<_>>(), [0, 1, 2]);
+}
+
+#[test]
+fn where_the_surface_falls_below_a_side_nothing_resists() {
+    let line = |points: &[[f64; 2]]| SurfaceLine::through(points.iter().map(|&point| point.into()).collect());
+    let of = |points: &[[f64; 2]]| PASSIVE.of(&Fill { line: line(points), ..fill(Some(3.0)) }, &semicircle(6)).0;
+    // A cliff just beside the arch, and one as far away as the wedge of the lowest side is wide: sqrt 3 of its depth.
+    assert_eq!(of(&[[-2.4, -1.0], [-2.3, 3.0]]).iter().filter(|e| e.way > 0.0).count(), 0);
+    let lowest = of(&[[-9.0, 3.0], [9.0, 3.0]])[0];
+    let away = lowest.at.x - 3f64.sqrt() * (3.0 - lowest.at.y);
+    for (x, count) in [(away - 1e-6, 3), (away + 1e-6, 2)] {
+        assert_eq!(of(&[[x - 0.01, -1.0], [x, 3.0]]).iter().filter(|e| e.way > 0.0).count(), count);
+    }
+    // A gentle gradient costs depth.
+    let humped = Fill { line: line(&[[0.0, 3.0], [1.0, 2.5]]), ..fill(Some(3.0)) };
+    let elements = PASSIVE.of(&humped, &semicircle(6)).0;
+    assert!(elements[5].most < elements[0].most);
 }
