@@ -9,5 +9,7 @@ mod build;
 mod ellipse;
 pub mod profile;
 pub mod ring;
+mod survey;
 
 pub use build::{ArchFault, MAX_VOUSSOIRS, assemble, stand_on_abutments, straight_voussoirs};
+pub use survey::joints_on_intrados;

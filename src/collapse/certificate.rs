@@ -1,16 +1,21 @@
 //! The exact limit window of an arch, and what to make of a load path that differs from it.
 
+use super::ending::thrust_line;
 use super::path::total;
 use super::plastic_end;
 use super::tolerances;
 use super::{
-    Analysis, AnalysisError, Crushing, Doubt, LimitWindow, LoadRange, Note, PathEnd, PlasticCrushing, Unreached,
+    Analysis, AnalysisError, Crushing, Doubt, LimitWindow, LoadRange, Note, PathEnd, PlasticCrushing, Thrust,
+    ThrustRange, Unreached,
 };
 use crate::budget::Budget;
-use crate::limit::{Resultant, StaticTheorem, Window};
+use crate::limit::{Resultant, StaticTheorem, ThrustEnd, Window};
 
 /// Share of the load factor at which scaled and fixed loads are equal at which an arch that falls beyond 0 is seen to fall.
 const SOON: f64 = 1e-3;
+
+/// Resultants per joint at the least and at the greatest thrust.
+pub(super) type ThrustLines = [Option<Vec<Thrust>>; 2];
 
 /// Limit window and the static theorem it comes from.
 #[derive(Debug)]
@@ -133,6 +138,17 @@ impl Certificate {
         let limit = self.window.map_or(at, |window| window[end]);
         let scale = at.abs().max(tolerances::SMALL_FACTOR * self.theorem.load_factor_scale());
         [-1.0, 1.0][end] * (limit - at) > tolerances::SAME_FAILURE * scale
+    }
+
+    /// The range of thrusts under the fixed loads, where these stand, with the lines of thrust at its ends.
+    pub(super) fn thrust_range(&self, analysis: &Analysis, budget: &Budget) -> (Option<ThrustRange>, ThrustLines) {
+        let stands = self.any_fixed && self.stands_at(0.0);
+        let Some(ends) = stands.then(|| self.theorem.thrust_range(0.0, budget)).flatten() else {
+            return (None, [None, None]);
+        };
+        let [lowest, highest] = [ends[0].thrust, ends[1].thrust];
+        let line = |end: ThrustEnd| end.forces.map(|forces| thrust_line(&analysis.structure, &forces));
+        (Some(ThrustRange { lowest, highest }), ends.map(line))
     }
 
     /// The path is held against the window of plastic sections from now on: its joints crush.

@@ -7,6 +7,7 @@ mod crushed;
 mod discretise;
 mod ending;
 mod falling;
+mod geometric;
 mod grid;
 mod mechanism;
 mod mirror;

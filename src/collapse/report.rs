@@ -2,6 +2,7 @@
 
 mod end;
 mod falling;
+mod geometric;
 mod mechanism;
 mod note;
 mod plan;
@@ -14,6 +15,7 @@ pub use crate::limit::{Resultant, Window, WindowEnd};
 pub use crate::structure::Face;
 pub use end::*;
 pub use falling::*;
+pub use geometric::*;
 pub use mechanism::*;
 pub use note::*;
 pub use plan::*;
@@ -217,6 +219,8 @@ pub struct CollapseReport {
     pub proof: Option<Window>,
     /// Thrust range under the fixed loads, where they stand.
     pub thrust_range: Option<ThrustRange>,
+    /// Resultants per joint at the least and at the greatest thrust, where there is one.
+    pub thrust_range_lines: [Option<Vec<Thrust>>; 2],
     /// The end of the path in the asked direction: collapse, or the mechanism of an arch that falls or slides as built. What
     /// governs, which may be crushing, [`CollapseReport::ends`] says.
     pub end: Option<PathEnd>,
@@ -265,6 +269,8 @@ pub enum TaskReport {
     Safety(SafetyFactors),
     /// What the movement of supports does; none where the structure does not stand.
     Settlement(Option<Box<SettlementReport>>),
+    /// The geometric safety factors; none where the structure does not stand.
+    GeometricSafety(Option<Box<GeometricSafety>>),
     /// The worst position, at which the collapse is told.
     WorstPosition(Box<PositionReport>),
 }
@@ -278,6 +284,11 @@ impl CollapseReport {
     /// What the movement of supports does, where it was asked and the structure stands.
     pub fn settlement(&self) -> Option<&SettlementReport> {
         if let TaskReport::Settlement(settlement) = &self.task { settlement.as_deref() } else { None }
+    }
+
+    /// The geometric safety factors, where they were asked for and the structure stands.
+    pub fn geometric_safety(&self) -> Option<&GeometricSafety> {
+        if let TaskReport::GeometricSafety(safety) = &self.task { safety.as_deref() } else { None }
     }
 
     /// The worst position, where it was asked for.

@@ -1,6 +1,8 @@
 //! What is asked of a structure: each task with the options that mean something for it, and no others.
 
 use super::{Accuracy, CrushingKind, Direction, FieldAt, Geometry, MotionAsked, SupportMovement};
+use crate::structure::{PointForce, Structure};
+use std::sync::Arc;
 
 /// What an analysis is after.
 #[derive(Debug, Clone, PartialEq)]
@@ -11,6 +13,8 @@ pub enum Task {
     Safety(SafetyTask),
     /// What becomes of it as supports move, its loads staying as they are.
     Settlement(SettlementTask),
+    /// How much thinner it could be under its fixed loads; no load grows.
+    GeometricSafety(GeometricSafetyTask),
 }
 
 /// The load factor at which a structure falls.
@@ -48,6 +52,54 @@ pub struct SettlementTask {
     pub movements: Vec<SupportMovement>,
     /// Whether the path on the moving structure is followed too.
     pub geometry: Geometry,
+}
+
+/// How much thinner a structure could be.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct GeometricSafetyTask {
+    /// The same arch, thinner; none of a structure that has no one thickness.
+    pub thinner: Option<Thinner>,
+}
+
+/// An arch that is thinner, under its fixed loads computed anew.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Thinned {
+    /// The arch.
+    pub structure: Structure,
+    /// Loads that stay.
+    pub fixed: Vec<PointForce>,
+}
+
+/// The same arch with its thickness multiplied everywhere by one factor.
+#[derive(Clone)]
+pub struct Thinner(Arc<SetOut>);
+
+/// Sets an arch out with this share of its thickness; none where that cannot be.
+type SetOut = dyn Fn(f64) -> Option<Thinned> + Send + Sync;
+
+impl Thinner {
+    /// From what sets it out.
+    pub fn new(set_out: impl Fn(f64) -> Option<Thinned> + Send + Sync + 'static) -> Self {
+        Thinner(Arc::new(set_out))
+    }
+
+    /// With this share of its thickness; none where it cannot be set out.
+    pub fn at(&self, share: f64) -> Option<Thinned> {
+        (self.0)(share)
+    }
+}
+
+impl std::fmt::Debug for Thinner {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("Thinner")
+    }
+}
+
+/// Whether both set out the same arches: those of thickness as given.
+impl PartialEq for Thinner {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0) || self.at(1.0) == other.at(1.0)
+    }
 }
 
 /// How the load path is read.
@@ -124,7 +176,9 @@ impl Task {
         match self {
             Task::Collapse(task) => task.method,
             Task::Safety(task) => Method::EventPath(task.path),
-            Task::Settlement(SettlementTask { geometry: Geometry::FirstOrder, .. }) => Method::default(),
+            Task::GeometricSafety(_) | Task::Settlement(SettlementTask { geometry: Geometry::FirstOrder, .. }) => {
+                Method::default()
+            }
             Task::Settlement(SettlementTask { geometry: Geometry::Updated, .. }) => Method::EventPath(Path::Updated),
         }
     }
@@ -149,12 +203,17 @@ impl Task {
         if let Task::Collapse(task) = self { task.motion.filter(|_| !self.crushes_on_path()) } else { None }
     }
 
+    /// Whether the answer is about loads that grow.
+    pub fn grows(&self) -> bool {
+        self.states().is_some()
+    }
+
     /// What is reported of the states on a load path; none where no load grows.
     fn states(&self) -> Option<&StatesAsked> {
         match self {
             Task::Collapse(task) => Some(&task.states),
             Task::Safety(task) => Some(&task.states),
-            Task::Settlement(_) => None,
+            Task::Settlement(_) | Task::GeometricSafety(_) => None,
         }
     }
 

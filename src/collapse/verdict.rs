@@ -4,7 +4,7 @@ mod fallen;
 mod leg;
 mod softer;
 
-use super::certificate::{Certificate, any_fixed, loaded, mesh_notes};
+use super::certificate::{Certificate, ThrustLines, loaded, mesh_notes};
 use super::discretise::{Discretisation, Model};
 use super::path::{ATTEMPTS, Attempt, disturbed, nothing_grows, stand, total};
 use super::record::snapshot;
@@ -14,7 +14,7 @@ use super::updated::{self, Course};
 use super::{
     Analysis, AnalysisError, CollapseReport, Cost, Crushing, Doubt, End, Geometry, GovernedBy, LimitWindow, Method,
     Note, Outcome, SafetyFactors, SettlementEnd, SupportMovement, Task, TaskReport, ThrustRange, UpdatedGeometry,
-    falling, plan, rounding, safety, settlement,
+    falling, geometric, plan, rounding, safety, settlement,
 };
 use crate::budget::Budget;
 use crate::dda::{self, Tracer};
@@ -36,7 +36,8 @@ struct Setup<'a> {
     cap: f64,
     /// Sum of all loads at the start, N/m.
     weight: f64,
-    thrust_range: Option<ThrustRange>,
+    /// Thrusts under the fixed loads, and the lines of thrust at either end.
+    thrust: (Option<ThrustRange>, ThrustLines),
     /// What limit analysis says of crushing.
     crushing: Crushing,
     /// Limit window of rigid stones.
@@ -97,16 +98,14 @@ impl<'a> Setup<'a> {
         let cap = match &analysis.task {
             Task::Collapse(task) => task.cap.unwrap_or(DEFAULT_CAP * balance),
             Task::Safety(task) => task.cap.unwrap_or(DEFAULT_CAP * balance.max(1.0)),
-            Task::Settlement(_) => DEFAULT_CAP * balance,
+            Task::Settlement(_) | Task::GeometricSafety(_) => DEFAULT_CAP * balance,
         };
         let start = match &analysis.task {
-            Task::Collapse(_) | Task::Settlement(_) => certificate.start(settled, sign, cap),
             Task::Safety(_) => certificate.full_load(settled, cap),
+            _ => certificate.start(settled, sign, cap),
         };
-        let stands = any_fixed(analysis) && certificate.stands_at(0.0);
-        let thrust = stands.then(|| certificate.theorem.thrust_range(0.0, budget)).flatten();
+        let thrust = certificate.thrust_range(analysis, budget);
         budget.check()?;
-        let thrust_range = thrust.map(|[lowest, highest]| ThrustRange { lowest, highest });
         let weight = fixed + scaled * start.abs();
         let mut strips = Strips::default();
         if analysis.task.crushes_on_path() {
@@ -114,7 +113,7 @@ impl<'a> Setup<'a> {
             let ends = forces.iter().zip([-1.0, 1.0]).filter(|(_, end)| *end == sign || !certificate.stands_at(0.0));
             ends.for_each(|(forces, _)| strips.expect(forces));
         }
-        Ok(Setup { analysis, budget, certificate, thrust_range, crushing, rigid, strips, sign, start, cap, weight })
+        Ok(Setup { analysis, budget, certificate, thrust, crushing, rigid, strips, sign, start, cap, weight })
     }
 
     /// Limit window, load path and all that follows from them.
@@ -134,6 +133,9 @@ impl<'a> Setup<'a> {
             Task::Collapse(_) => safety::crushed(&mut report, analysis.task.crushes_on_path()),
             Task::Safety(task) => safety::judge(&mut report, task.crushing),
             Task::Settlement(task) => self.settle(&mut report, &task.movements, built)?,
+            Task::GeometricSafety(task) => {
+                geometric::judge(&mut report, analysis, &self.certificate.theorem, task, budget)
+            }
         }
         let slides = |end: &End| end.governed_by == GovernedBy::Crushing && end.state.mechanism.slips();
         let dilates = !analysis.task.crushes_on_path() && report.ends().iter().any(slides);
@@ -239,7 +241,7 @@ impl<'a> Setup<'a> {
         if nothing_grows(model, total(&analysis.scaled)) {
             report.outcome = Outcome::Stands;
             at_start.map(|state| report.fields_at_rest(analysis, model, &state)).transpose()?;
-            if !matches!(analysis.task, Task::Settlement(_)) {
+            if analysis.task.grows() {
                 report.notes.push(Note::NothingGrows);
             }
             let doubt = states.tell(&mut report);
@@ -315,7 +317,8 @@ impl<'a> Setup<'a> {
             direction: self.analysis.task.direction(),
             limit_window: window.map(|[lowest, highest]| LimitWindow { lowest, highest }),
             proof: self.certificate.proof.clone(),
-            thrust_range: self.thrust_range,
+            thrust_range: self.thrust.0,
+            thrust_range_lines: self.thrust.1.clone(),
             end: None,
             other_end: None,
             start: self.start,
@@ -331,6 +334,7 @@ impl<'a> Setup<'a> {
                 Task::Collapse(_) => TaskReport::Collapse,
                 Task::Safety(_) => TaskReport::Safety(SafetyFactors::UNKNOWN),
                 Task::Settlement(_) => TaskReport::Settlement(None),
+                Task::GeometricSafety(_) => TaskReport::GeometricSafety(None),
             },
             history: Vec::new(),
             motion: None,

@@ -5,6 +5,7 @@
 //! four unknowns for a single arch. Joints of finite strength add parabolas, cut off by planes.
 
 mod crushing;
+mod geometric;
 mod interior_point;
 mod linear_program;
 mod non_dilating;
@@ -13,14 +14,17 @@ mod programme;
 mod resultant;
 mod sparse;
 mod static_theorem;
+mod thrust;
 mod upper_end;
 mod window;
 
 pub use crushing::CrushingWindow;
+pub use geometric::ShortenedJoints;
 pub use non_dilating::{Release, releases};
 pub use passive::SoilEnd;
 pub use resultant::{Condition, Resultant};
 pub use static_theorem::{Equilibrium, StaticTheorem, Unsolved};
+pub use thrust::ThrustEnd;
 pub use upper_end::UpperEnd;
 pub use window::{Window, WindowEnd};
 

@@ -7,7 +7,7 @@ use super::programme::{MOST_DENSE, Objective, Programme, ProgrammeOutcome, Rows}
 use super::resultant::{Condition, Resultant, dot, joint_functionals};
 use crate::budget::Budget;
 use crate::geometry::Vec2;
-use crate::structure::{Joint, JointLaw, Loops, PointForce, Side, Structure, Unconnected, resultants};
+use crate::structure::{Joint, JointLaw, Loops, PointForce, Structure, Unconnected, resultants};
 use nalgebra::{DMatrix, DVector};
 
 /// Iterations after which a singular value decomposition has failed (it needs about ten an unknown at most).
@@ -225,43 +225,6 @@ impl StaticTheorem {
             programme.maximise(&Objective::load_factor(1.0), budget),
             ProgrammeOutcome::At(..) | ProgrammeOutcome::Unbounded(_)
         )
-    }
-
-    /// Least and greatest horizontal thrust of the first support at load factor `at`, N/m; None when nothing stands.
-    pub fn thrust_range(&self, at: f64, budget: &Budget) -> Option<[f64; 2]> {
-        self.thrust_range_of(0, at, budget)
-    }
-
-    /// Least and greatest horizontal force of a support on the structure at load factor `at`, N/m; None when nothing stands.
-    /// Whether anything does is not looked into where this support is the only one: it bears what the loads push.
-    pub fn thrust_range_of(&self, support: usize, at: f64, budget: &Budget) -> Option<[f64; 2]> {
-        let sides = || self.joints.iter().flat_map(|joint| joint.between);
-        let alone = self.elements() == 0;
-        if alone && sides().all(|side| side.body().is_some() || side == Side::Support(support)) {
-            let push = |loads: &[[f64; 3]]| loads.iter().map(|load| load[0]).sum::<f64>();
-            return Some([0.0 - push(&self.loads[0]) - at * push(&self.loads[1]); 2]);
-        }
-        let mut programme = Programme::new(self);
-        programme.bounds = [at; 2];
-        let thrust = |sign: f64| {
-            let on_support = |(k, joint): (usize, &Joint)| {
-                let way = sign
-                    * joint
-                        .between
-                        .iter()
-                        .position(|side| *side == Side::Support(support))
-                        .map(|at| 1.0 - 2.0 * at as f64)?;
-                let (n, t) = (joint.normal(), joint.tangent());
-                Some((k, [way * n.x, way * n.x, way * t.x]))
-            };
-            Objective { load_factor: 0.0, forces: self.joints.iter().enumerate().filter_map(on_support).collect() }
-        };
-        let end = |sign: f64| match programme.maximise(&thrust(sign), budget) {
-            ProgrammeOutcome::At(equilibrium, _) => Some(sign * thrust(sign).value(&equilibrium)),
-            ProgrammeOutcome::Unbounded(_) => Some(sign * f64::INFINITY),
-            ProgrammeOutcome::Infeasible(_) | ProgrammeOutcome::Lost => None,
-        };
-        Some([end(-1.0)?, end(1.0)?])
     }
 
     /// The equilibrium that satisfies all `conditions` (least squares) where every passive element presses as `soil` says, N/m; None

@@ -84,8 +84,8 @@ fn is_arch(structure: &Structure) -> bool {
 }
 
 fn corners(structure: &Structure, k: usize) -> [Vec2; 4] {
-    let (a, b) = (&structure.joints[k], &structure.joints[k + 1]);
-    [a.intrados, a.extrados, b.extrados, b.intrados]
+    let corners = &structure.bodies[k].corners;
+    [0, 3, 2, 1].map(|corner| corners[corner])
 }
 
 /// Extent of the arch in plan, m.

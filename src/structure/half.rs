@@ -63,9 +63,9 @@ impl Structure {
 
     /// Left half of a stone on the axis whose sides are straight or arcs about a point of the axis, and the ends of the cut.
     fn half_of(&self, k: usize) -> (Body, [Vec2; 2]) {
-        let [left, right] = [&self.joints[k], &self.joints[k + 1]];
-        let ([a, b, c, d], sides) =
-            ([left.intrados, right.intrados, right.extrados, left.extrados], self.bodies[k].sides);
+        // Not the ends of its joints, which may be shorter than its sides.
+        let (corners, sides) = (&self.bodies[k].corners, self.bodies[k].sides);
+        let [a, b, c, d] = std::array::from_fn(|corner| corners[corner]);
         let on_axis = |y: f64| Vec2::new(self.axis(), y);
         let body = |cut: [Vec2; 2], region: Region| {
             let corners = vec![a, cut[0], cut[1], d];

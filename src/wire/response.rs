@@ -5,6 +5,7 @@ mod assumptions;
 mod beam;
 mod columns;
 mod falling;
+mod geometric;
 mod mechanism;
 mod plan;
 mod proof;
@@ -21,6 +22,7 @@ mod worst_position;
 pub use beam::BeamResult;
 pub use columns::{BlockColumns, ContactColumns, HistoryColumns, SnapshotBody, ThrustColumns, VelocityColumns};
 pub use falling::{FrameColumns, MotionBody, MotionContactColumns, OpenHingeColumns, PlaceColumns, SlidColumns};
+pub use geometric::{GeometricLimitBody, GeometricSafetyBody};
 pub use mechanism::{
     CrushedJointBody, EndBody, FallBody, FigureBody, HingeBody, LiftOffBody, MechanismBody, RangeBody, SlideBody,
 };
@@ -97,6 +99,8 @@ pub struct AnalysisResult {
     pub settlement: Option<SettlementBody>,
     /// Safety factors, where `analysis` asks for them.
     pub safety: Option<SafetyBody>,
+    /// Geometric safety factors, where `analysis` asks for them and the structure stands.
+    pub geometric_safety: Option<GeometricSafetyBody>,
     /// The worst position of vehicles, where `analysis` asks for it.
     pub worst_position: Option<WorstPositionBody>,
     /// The load path, event by event.
@@ -168,7 +172,7 @@ impl AnalysisResult {
             thrust_range: report
                 .thrust_range
                 .filter(|_| request.blocks.is_none())
-                .map(|range| ThrustRangeBody::new(range, request.width_m)),
+                .map(|range| ThrustRangeBody::new(range, &report.thrust_range_lines, request.width_m)),
             structure,
             start_load_factor: report.start,
             cap: report.cap,
@@ -181,6 +185,9 @@ impl AnalysisResult {
             updated_geometry: report.updated.as_ref().map(|updated| UpdatedBody::new(updated, report, &scale)),
             settlement,
             safety: report.safety().map(|factors| SafetyBody::new(factors, &[])),
+            geometric_safety: report.geometric_safety().map(|safety| {
+                GeometricSafetyBody::new(safety, request.arch.as_ref().and_then(|arch| arch.thickness.as_ref()))
+            }),
             worst_position: report.worst_position().map(|position| WorstPositionBody::new(position, &scale)),
             history: HistoryColumns::new(&report.history, &scale),
             plan,

@@ -65,6 +65,7 @@ fn report() -> CollapseReport {
         proof: None,
         limit_window: Some(window),
         thrust_range: None,
+        thrust_range_lines: [None, None],
         end: None,
         other_end: None,
         start: 1.0,

@@ -505,6 +505,22 @@ fn what_a_settlement_makes_no_use_of_is_refused() {
     set(&mut request, "/loads/3/scaled", json!(false));
     let unused = ["/load_factor/direction", "/load_factor/cap", "/report/share_of_collapse"];
     assert_eq!(pointers(&faults(&request)), unused);
+    let settles = request["analysis"].clone();
+    set(&mut request, "/analysis", json!({"geometric_safety": {}}));
+    assert_eq!(pointers(&faults(&request)), unused);
+    for (pointer, value) in [
+        ("/geometry", json!("updated")),
+        ("/loads/2/scaled", json!(true)),
+        ("/accuracy", json!({"collapse_intensity": 1e-6})),
+        ("/crushing_in_path", json!(true)),
+        ("/motion", json!({})),
+    ] {
+        let mut request = request.clone();
+        set(&mut request, pointer, value);
+        let found = faults(&request);
+        assert!(found.iter().any(|fault| fault.pointer == pointer || pointer == "/crushing_in_path"), "{found:?}");
+    }
+    set(&mut request, "/analysis", settles);
     // An answer repeats its request with all defaults, and what it repeats can be sent again.
     set(&mut request, "/load_factor", json!({"direction": "increase"}));
     set(&mut request, "/report", json!({"share_of_collapse": 0.999}));

@@ -100,6 +100,12 @@ impl Case {
                 self.number(key, &value[0], "/thrust_range/lowest_kn_per_m");
                 return self.number(key, &value[1], "/thrust_range/highest_kn_per_m");
             }
+            "geometric_safety" => {
+                for (name, factor) in value.as_object().unwrap() {
+                    self.number(key, factor, &format!("/geometric_safety/{name}/factor"));
+                }
+                return;
+            }
             "highest" | "lowest" => return self.load(key, value, &end(&self.answer, key).clone()),
             "hinges" => return self.same_hinges(key, value, &self.answer["ends"][0].clone()),
             "highest_hinges" | "lowest_hinges" => {

@@ -58,6 +58,7 @@ mod fixed_steps;
 #[cfg(feature = "postgres")]
 mod fleet;
 #[cfg(feature = "server")]
+mod geometric;
 mod half;
 #[cfg(feature = "server")]
 mod http;

@@ -80,7 +80,7 @@ fn analysis_is_finite(analysis: &Analysis) -> bool {
     let cap = match &analysis.task {
         Task::Collapse(task) => task.cap,
         Task::Safety(task) => task.cap,
-        Task::Settlement(_) => None,
+        Task::Settlement(_) | Task::GeometricSafety(_) => None,
     };
     let share = analysis.task.share();
     let numbers = [analysis.penalty_ratio, analysis.shear_penalty_ratio, cap.unwrap_or(0.0), share];

@@ -68,6 +68,8 @@ pub enum Note {
     NoPlasticSections,
     /// First yield comes after plastic collapse: the mesh is too coarse.
     YieldTooLate,
+    /// A geometric safety factor could not be computed.
+    NoGeometricSafety,
     /// Plastic sections never fail, so first yield counts.
     SectionsNeverFail,
     /// With plastic sections the arch does not stand at the start of the load path.

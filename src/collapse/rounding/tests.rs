@@ -10,6 +10,7 @@ fn blank() -> CollapseReport {
         proof: None,
         limit_window: Some(LimitWindow { lowest: -1.0, highest: f64::INFINITY }),
         thrust_range: None,
+        thrust_range_lines: [None, None],
         end: None,
         other_end: None,
         start: 0.0,

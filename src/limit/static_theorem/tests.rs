@@ -203,8 +203,9 @@ fn the_ground_takes_what_the_arches_push() {
     let bridge = bridge(2, 7, 1.5, DRY);
     let fixed = per_area(&bridge, Vec2::new(0.0, -20.0));
     let theorem = theorem(&bridge, &fixed, &[]);
-    let thrusts = [0, 1, 2].map(|support| theorem.thrust_range_of(support, 0.0, &Budget::unlimited()).unwrap());
-    assert_eq!(theorem.thrust_range(0.0, &Budget::unlimited()), Some(thrusts[0]));
+    let thrusts = [0, 1, 2]
+        .map(|support| theorem.thrust_range_of(support, 0.0, &Budget::unlimited()).unwrap().map(|end| end.thrust));
+    assert_eq!(theorem.thrust_range(0.0, &Budget::unlimited()).unwrap().map(|end| end.thrust), thrusts[0]);
     // The left springing pushes to the right, the right one as much to the left, and the pier either way.
     assert!(thrusts[0][0] > 0.0 && thrusts[0][1] > thrusts[0][0]);
     assert!((0..2).all(|end| (thrusts[0][end] + thrusts[1][1 - end]).abs() < 1e-9 * thrusts[0][1]));

@@ -4,6 +4,7 @@ mod beam;
 mod curve;
 mod digits;
 mod figure;
+mod geometric;
 mod given;
 mod joints;
 mod moving;

@@ -58,6 +58,7 @@ impl fmt::Display for Note {
             Note::CrushesAndDilates => CRUSHES_AND_DILATES.into(),
             Note::CohesionByPoint => COHESION_BY_POINT.into(),
             Note::UnbentStones => UNBENT_STONES.into(),
+            Note::NoGeometricSafety => NO_GEOMETRIC_SAFETY.into(),
             Note::NoPlasticSections => NO_PLASTIC_SECTIONS.into(),
             Note::YieldTooLate => YIELD_TOO_LATE.into(),
             Note::SectionsNeverFail => SECTIONS_NEVER_FAIL.into(),
@@ -91,6 +92,8 @@ const COHESION_BY_POINT: &str = "Cohesion is shared out to a joint's contact poi
      however far it opens.";
 const UNBENT_STONES: &str = "On moving geometry stones that are one subblock thick do not bend; only their joints give. With \
      soft stone the arch then seems stronger than it is: compare a mesh of at least 2 x 2.";
+const NO_GEOMETRIC_SAFETY: &str = "A geometric safety factor is left out: rounding kept limit analysis from an answer, or an arch so \
+     thin could not be set out.";
 const NO_PLASTIC_SECTIONS: &str = "Rounding kept the limit window with plastic sections from being computed.";
 const YIELD_TOO_LATE: &str = "First yield comes after collapse with plastic sections, which cannot be: the mesh is too \
      coarse to see the highest stress, so its first yield means nothing.";

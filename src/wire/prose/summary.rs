@@ -2,7 +2,7 @@
 
 use super::noun::in_its_words;
 use super::wording::{self, word};
-use super::{given, joints, moving, plan, safety};
+use super::{geometric, given, joints, moving, plan, safety};
 use crate::collapse::{GovernedBy, Outcome};
 use crate::wire::prose::Digits;
 use crate::wire::response::{AnalysisResult, EndBody, PassiveElementBody, WorstPositionBody};
@@ -49,6 +49,9 @@ pub fn summary(result: &AnalysisResult, wall_time: Duration) -> String {
         paragraph(&mut text, &format!("Note: {note}"));
     }
     paragraph(&mut text, &in_its_words(&result.request, explanation(result)));
+    if result.geometric_safety.is_some() {
+        paragraph(&mut text, &in_its_words(&result.request, geometric::EXPLANATION));
+    }
     if result.crushing.is_some() {
         paragraph(&mut text, safety::EXPLANATION);
     }
@@ -93,6 +96,9 @@ fn facts(result: &AnalysisResult, wall_time: Duration) -> Table {
     for (name, value) in moving::facts(result).into_iter().chain(safety::facts(result)) {
         fact(name, value);
     }
+    for (name, value) in result.geometric_safety.iter().flat_map(geometric::facts) {
+        fact(name, value);
+    }
     let cost = &result.cost;
     let counts = (cost.events, cost.factorisations, cost.unknowns);
     fact("cost", format!("{} events, {} factorisations, {} unknowns", counts.0, counts.1, counts.2));
@@ -114,8 +120,10 @@ fn over_width(result: &AnalysisResult, width: f64) -> String {
         let at = if result.outcome == Outcome::StandsInWindow { wording::name(end) } else { "collapse" };
         Some(format!("; scaled loads at {at} ({x}, {y}) kN"))
     };
-    let thrust =
-        result.thrust_range.map(|range| format!("; thrust {} kN", from_to([range.lowest_kn, range.highest_kn])));
+    let thrust = result
+        .thrust_range
+        .as_ref()
+        .map(|range| format!("; thrust {} kN", from_to([range.lowest_kn, range.highest_kn])));
     let loads: String = result.ends.iter().filter(|_| falls).filter_map(scaled).collect();
     format!("{} m{loads}{}", Digits(width), thrust.unwrap_or_default())
 }
@@ -173,7 +181,7 @@ fn soil(end: &EndBody, result: &AnalysisResult) -> Option<String> {
 }
 
 fn explanation(result: &AnalysisResult) -> &'static str {
-    match result.thrust_range {
+    match &result.thrust_range {
         Some(_) => {
             "Limit window: what rigid-block limit analysis allows. Thrust range: horizontal force with which the left \
              springing pushes the arch to the right under the fixed loads alone; negative means to the left."

@@ -2,7 +2,7 @@
 
 use super::noun::in_its_words;
 use super::summary::paragraph;
-use super::{moving, safety};
+use super::{geometric, moving, safety};
 use crate::collapse::{Direction, GovernedBy, Mode, Outcome, SafetyZone, WhichEnd};
 use crate::wire::prose::{Digits, Rounded};
 use crate::wire::request::AnalysisRequest;
@@ -49,6 +49,9 @@ fn of_an_arch(result: &AnalysisResult) -> String {
     }
     if let Some(settlement) = result.settlement.as_ref().filter(|_| result.outcome != Outcome::Crushes) {
         return moving::headline(settlement);
+    }
+    if let Some(safety) = &result.geometric_safety {
+        return geometric::headline(safety);
     }
     let sentence = match (result.outcome, result.ends.first()) {
         (Outcome::Collapse, Some(end)) if end.load_factor == 0.0 => at_once(result),

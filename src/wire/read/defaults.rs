@@ -32,7 +32,7 @@ fn with_defaults(mut request: AnalysisRequest) -> AnalysisRequest {
     let one_path = match &request.analysis {
         AimRequest::Collapse | AimRequest::WorstPosition(_) => true,
         AimRequest::Safety(safety) => safety.curve.is_none(),
-        AimRequest::Settlement(_) => false,
+        AimRequest::Settlement(_) | AimRequest::GeometricSafety(_) => false,
     };
     if stress && one_path && request.report.stress_fields.is_empty() {
         request.report.stress_fields.push(StressFieldRequest::UnitLoad);

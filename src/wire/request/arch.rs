@@ -120,15 +120,20 @@ pub struct ArcRequest {
     pub angle_deg: f64,
 }
 
-/// Ends of every joint, as surveyed, from left to right. With no `thickness`, `line`, `joints` or `voussoirs`.
+/// Ends of every joint, as surveyed, from left to right; or those on the intrados and a thickness. With no `thickness`, `line`,
+/// `joints` or `voussoirs`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Surveyed {
     /// Intrados end [x, y] of every joint, m.
     #[schema(min_items = 3, max_items = 2002)]
     pub intrados_m: Vec<Point>,
-    /// Extrados end [x, y] of every joint, m.
+    /// Extrados end [x, y] of every joint, m. Required without `thickness_m`.
     #[schema(min_items = 3, max_items = 2002)]
-    pub extrados_m: Vec<Point>,
+    pub extrados_m: Option<Vec<Point>>,
+    /// Thickness, m, in place of `extrados_m`: every joint is normal to the circle through its intrados end and those of both
+    /// neighbours, at a springing through the three points at that end.
+    #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
+    pub thickness_m: Option<f64>,
 }
 
 /// Thickness, normal to the profile.
@@ -141,6 +146,31 @@ pub enum ThicknessRequest {
     Linear(LinearThickness),
     /// As the extrados makes it, a circle of its own.
     ExtradosCircle(ExtradosCircle),
+}
+
+impl ThicknessRequest {
+    /// Its numbers, those at the crown and at the springings, m; none of an extrados circle.
+    pub fn at_crown_and_springings(&self) -> Option<[f64; 2]> {
+        match self {
+            ThicknessRequest::ConstantM(Length(thickness)) => Some([*thickness; 2]),
+            ThicknessRequest::Linear(linear) => Some([linear.crown_m, linear.springing_m]),
+            ThicknessRequest::ExtradosCircle(_) => None,
+        }
+    }
+
+    /// So many times as thick; none of an extrados circle.
+    pub fn times(&self, share: f64) -> Option<Self> {
+        match self {
+            ThicknessRequest::ConstantM(Length(thickness)) => {
+                Some(ThicknessRequest::ConstantM(Length(share * thickness)))
+            }
+            ThicknessRequest::Linear(LinearThickness { crown_m, springing_m }) => {
+                let [crown_m, springing_m] = [crown_m, springing_m].map(|thickness| share * thickness);
+                Some(ThicknessRequest::Linear(LinearThickness { crown_m, springing_m }))
+            }
+            ThicknessRequest::ExtradosCircle(_) => None,
+        }
+    }
 }
 
 /// Linear in the length along the profile, from crown to springing.

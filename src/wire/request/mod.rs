@@ -214,7 +214,7 @@ impl Default for StoneRequest {
     }
 }
 
-/// A joint with a law of its own; what is left out is that of the stone.
+/// A joint with a law of its own, or of which mortar is lost; what is left out is that of the stone.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct JointOverride {
     /// Which joint, from 0; of an arch from the left springing, else as `structure.joints` of the answer has them.
@@ -226,6 +226,13 @@ pub struct JointOverride {
     /// Cohesion, Pa.
     #[schema(minimum = 0.0, exclusive_maximum = 1e15)]
     pub cohesion_pa: Option<f64>,
+    /// Depth from the intrados (of a bridge or blocks from the first end of the joint) over which it is open, its mortar lost, m. It
+    /// carries nothing there, and its cohesion acts on what is left. With `lost_at_extrados_m` at most 0.999 of the joint.
+    #[schema(minimum = 0.0, maximum = 1e5)]
+    pub lost_at_intrados_m: Option<f64>,
+    /// The same from the extrados, or from the second end of the joint, m.
+    #[schema(minimum = 0.0, maximum = 1e5)]
+    pub lost_at_extrados_m: Option<f64>,
 }
 
 /// How the load factor grows, and what it means to an engineer: intensity = load factor * `intensity_per_unit`.

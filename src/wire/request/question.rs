@@ -16,6 +16,8 @@ pub enum AimRequest {
     Safety(SafetyRequest),
     /// What becomes of the structure as its supports move, its loads staying as they are.
     Settlement(SettlementRequest),
+    /// How much thinner a structure that stands could be: its geometric safety factors.
+    GeometricSafety(GeometricSafetyRequest),
     /// Where vehicles stand worst, and the load factor at which the structure falls there.
     WorstPosition(WorstPositionRequest),
 }
@@ -26,6 +28,11 @@ impl AimRequest {
         matches!(self, AimRequest::Collapse | AimRequest::WorstPosition(_))
     }
 }
+
+/// How much thinner a structure that stands could be: its geometric safety factors. No load may be scaled; `geometry`,
+/// `load_factor.direction`, `load_factor.cap` and `report` keep their defaults.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct GeometricSafetyRequest {}
 
 /// What becomes of the structure as its supports move, its loads staying as they are. The supports move in proportion to where
 /// these fields say. No load may be scaled; `load_factor.direction`, `load_factor.cap` and `report.share_of_collapse` keep their

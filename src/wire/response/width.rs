@@ -1,7 +1,8 @@
 //! Forces per metre of width, and over the whole width where the request gives it.
 
+use super::ThrustColumns;
 use super::structure::StructureBody;
-use crate::collapse::ThrustRange;
+use crate::collapse::{Thrust, ThrustRange};
 use crate::wire::request::AnalysisRequest;
 use serde::Serialize;
 use utoipa::ToSchema;
@@ -41,7 +42,7 @@ impl ScaledLoadBody {
 
 /// Horizontal thrust under the fixed loads, by the static theorem, with which the left springing pushes to the right; negative:
 /// to the left.
-#[derive(Debug, Clone, Copy, Serialize, ToSchema)]
+#[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct ThrustRangeBody {
     /// Least, kN per metre of width; null: as far the other way as one likes.
     pub lowest_kn_per_m: Option<f64>,
@@ -51,13 +52,18 @@ pub struct ThrustRangeBody {
     pub lowest_kn: Option<f64>,
     /// Greatest, kN over the whole width; null where it is unbounded or the request gives no `width_m`.
     pub highest_kn: Option<f64>,
+    /// The line of thrust at the least thrust: the resultant of every joint; null where the range has no end there.
+    pub lowest_line: Option<ThrustColumns>,
+    /// The line of thrust at the greatest thrust; null where the range has no end there.
+    pub highest_line: Option<ThrustColumns>,
 }
 
 impl ThrustRangeBody {
-    pub(super) fn new(range: ThrustRange, width: Option<f64>) -> Self {
+    pub(super) fn new(range: ThrustRange, lines: &[Option<Vec<Thrust>>; 2], width: Option<f64>) -> Self {
         let ends = [range.lowest, range.highest];
         let [lowest_kn_per_m, highest_kn_per_m] = ends.map(|end| (!end.is_infinite()).then_some(end / 1e3));
         let [lowest_kn, highest_kn] = [lowest_kn_per_m, highest_kn_per_m].map(|end| Some(end? * width?));
-        ThrustRangeBody { lowest_kn_per_m, highest_kn_per_m, lowest_kn, highest_kn }
+        let [lowest_line, highest_line] = [0, 1].map(|end| lines[end].as_deref().map(ThrustColumns::new));
+        ThrustRangeBody { lowest_kn_per_m, highest_kn_per_m, lowest_kn, highest_kn, lowest_line, highest_line }
     }
 }

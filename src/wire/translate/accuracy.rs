@@ -19,6 +19,8 @@ pub fn accuracy(request: &AnalysisRequest, layout: Option<&Layout>, faults: &mut
     faults.require(!curve, "/accuracy", "a curve does not tell how accurate its points are: leave accuracy out");
     let settles = matches!(request.analysis, AimRequest::Settlement(_));
     faults.require(!settles, "/accuracy", "the error of a settlement is not estimated: leave accuracy out");
+    let stands = matches!(request.analysis, AimRequest::GeometricSafety(_));
+    faults.require(!stands, "/accuracy", "geometric safety factors do not depend on a mesh: leave accuracy out");
     if asked.stress.is_some() {
         let own = request.mesh.subblocks == SubblocksRequest::default();
         let detail = "accuracy.stress finds the mesh itself: leave the subblocks out, or accuracy.stress";

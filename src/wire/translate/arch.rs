@@ -4,7 +4,7 @@ use super::profile::profile;
 use super::stone::joint_law;
 use crate::arch::profile::Profile;
 use crate::arch::ring::{JointEnds, JointLines, Line, Ring, Thickness, stations};
-use crate::arch::{ArchFault, assemble, stand_on_abutments, straight_voussoirs};
+use crate::arch::{ArchFault, assemble, joints_on_intrados, stand_on_abutments, straight_voussoirs};
 use crate::geometry::Vec2;
 use crate::structure::{Joint, JointLaw, Stone, Structure};
 use crate::wire::fault::{Faults, Shown};
@@ -106,12 +106,28 @@ fn surveyed_ends(request: &ArchRequest, surveyed: &Surveyed, faults: &mut Faults
         "a surveyed arch has straight sides: set this to false",
     );
     let here = "/arch/profile/surveyed";
-    let (intrados, extrados) = (&surveyed.intrados_m, &surveyed.extrados_m);
-    let detail =
-        format!("{} intrados points but {} extrados points: give one pair per joint", intrados.len(), extrados.len());
-    faults.require(intrados.len() == extrados.len(), format!("{here}/extrados_m"), detail);
-    let pair = |(a, b): (&Point, &Point)| [Vec2::from(*a), Vec2::from(*b)];
-    (faults.len() == before).then(|| intrados.iter().zip(extrados).map(pair).collect())
+    let intrados = &surveyed.intrados_m;
+    let ends = match (&surveyed.extrados_m, surveyed.thickness_m) {
+        (Some(extrados), None) => {
+            let (inner, outer) = (intrados.len(), extrados.len());
+            let detail = format!("{inner} intrados points but {outer} extrados points: give one pair per joint");
+            faults.require(inner == outer, format!("{here}/extrados_m"), detail);
+            let pair = |(a, b): (&Point, &Point)| [Vec2::from(*a), Vec2::from(*b)];
+            Some(intrados.iter().zip(extrados).map(pair).collect())
+        }
+        (None, Some(thickness)) => {
+            let points: Vec<Vec2> = intrados.iter().map(|point| Vec2::from(*point)).collect();
+            let ends = joints_on_intrados(&points, thickness);
+            let detail = "points that follow on each other coincide: list every one once, from left to right";
+            faults.require(ends.is_some(), format!("{here}/intrados_m"), detail);
+            ends
+        }
+        _ => {
+            faults.add(here, "give either extrados_m or thickness_m");
+            None
+        }
+    };
+    ends.filter(|_| faults.len() == before)
 }
 
 /// The ring of an arch that is not surveyed, or faults.

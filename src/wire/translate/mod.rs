@@ -7,6 +7,7 @@ mod beam;
 mod blocks;
 mod bridge;
 mod crushing;
+mod geometric;
 mod half;
 mod inertia;
 mod loads;
@@ -64,6 +65,10 @@ fn structure_question(request: &AnalysisRequest, faults: &mut Faults) -> Option<
         }
         AimRequest::Settlement(settlement) => {
             settlement::check(request, settlement, &site, faults);
+            None
+        }
+        AimRequest::GeometricSafety(_) => {
+            geometric::check(request, faults);
             None
         }
     };

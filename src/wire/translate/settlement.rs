@@ -23,13 +23,7 @@ pub fn check(request: &AnalysisRequest, settlement: &SettlementRequest, site: &U
         Some(_) => check_springings(request, settlement, site.size(), faults),
         None => check_supports(settlement, site, faults),
     }
-    for (i, _) in request.loads.iter().enumerate().filter(|(_, entry)| entry.scaled) {
-        let detail = "while supports move no load grows: set scaled to false, or leave the load out";
-        faults.add(format!("/loads/{i}/scaled"), detail);
-    }
-    check_idle(request, faults);
-    let detail = "a movement shows no stress fields: leave them out";
-    faults.require(request.report.stress_fields.is_empty(), "/report/stress_fields", detail);
+    check_idle(request, "while supports move", "a movement of supports", faults);
 }
 
 fn check_springings(request: &AnalysisRequest, settlement: &SettlementRequest, size: Option<f64>, faults: &mut Faults) {
@@ -76,12 +70,18 @@ fn still(movement: MovementRequest) -> bool {
 }
 
 /// What means something only where loads grow keeps its default.
-fn check_idle(request: &AnalysisRequest, faults: &mut Faults) {
+pub fn check_idle(request: &AnalysisRequest, then: &str, what: &str, faults: &mut Faults) {
+    for (i, _) in request.loads.iter().enumerate().filter(|(_, entry)| entry.scaled) {
+        let detail = format!("{then} no load grows: set scaled to false, or leave the load out");
+        faults.add(format!("/loads/{i}/scaled"), detail);
+    }
     let (factor, usual) = (&request.load_factor, ReportRequest::default());
-    let detail = "while supports move no load grows: leave this out";
-    faults.require(factor.direction == Direction::Increase, "/load_factor/direction", detail);
+    let detail = format!("{then} no load grows: leave this out");
+    faults.require(factor.direction == Direction::Increase, "/load_factor/direction", detail.clone());
     faults.require(factor.cap.is_none(), "/load_factor/cap", detail);
-    let detail = "a movement of supports shows nothing on the way to collapse: leave this out";
+    let detail = format!("{what} shows no stress fields: leave them out");
+    faults.require(request.report.stress_fields.is_empty(), "/report/stress_fields", detail);
+    let detail = format!("{what} shows nothing on the way to collapse: leave this out");
     let same = request.report.share_of_collapse == usual.share_of_collapse;
     faults.require(same, "/report/share_of_collapse", detail);
 }

@@ -2,7 +2,7 @@
 
 use super::stone::{Stones, check_overrides, override_joints};
 use super::structure::{self, Layout};
-use super::{accuracy, backfill, crushing, half, loads, mesh, motion, settlement};
+use super::{accuracy, backfill, crushing, geometric, half, loads, mesh, motion, settlement};
 use crate::collapse::{
     Accuracy, Analysis, CollapseTask, FieldAt, Geometry, LOAD_PIECES, Mesh, Method, MotionAsked, Path, SafetyTask,
     SettlementTask, StatesAsked, Task,
@@ -144,6 +144,7 @@ impl<'a> Unloaded<'a> {
                 movements: settlement::movements(moved, self.layout()?),
                 geometry: request.geometry,
             }),
+            AimRequest::GeometricSafety(_) => Task::GeometricSafety(geometric::task(request)),
         })
     }
 }
@@ -153,6 +154,7 @@ fn check_method(request: &AnalysisRequest, faults: &mut Faults) {
     let what = match (&request.analysis, request.geometry) {
         (AimRequest::Safety(_), _) => "a safety analysis",
         (AimRequest::Settlement(_), _) => "a movement of supports",
+        (AimRequest::GeometricSafety(_), _) => "a structure that stands",
         (_, Geometry::Updated) => "a path on moving geometry",
         (AimRequest::Collapse | AimRequest::WorstPosition(_), Geometry::FirstOrder) => return,
     };

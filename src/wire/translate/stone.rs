@@ -1,8 +1,9 @@
 //! Stone and joints of a request.
 
 use crate::structure::{JointLaw, Stone, Structure};
-use crate::wire::fault::{Faults, child};
-use crate::wire::request::{AnalysisRequest, NamedStone, StoneRequest};
+use crate::wire::fault::{Faults, Shown, child};
+use crate::wire::prose::Digits;
+use crate::wire::request::{AnalysisRequest, JointOverride, NamedStone, StoneRequest};
 use std::collections::BTreeMap;
 
 /// All stones of a request in SI, `stone` first.
@@ -67,6 +68,9 @@ pub fn joint_law(stone: &Stone) -> JointLaw {
     JointLaw::Dry { friction: stone.friction_angle.tan(), cohesion: stone.cohesion }
 }
 
+/// Most of its length that a joint can lose.
+const MOST_LOST: f64 = 0.999;
+
 /// Whether the overrides fit the structure.
 pub fn check_overrides(request: &AnalysisRequest, structure: Option<&Structure>, faults: &mut Faults) {
     let mut seen = std::collections::BTreeSet::new();
@@ -84,15 +88,35 @@ pub fn check_overrides(request: &AnalysisRequest, structure: Option<&Structure>,
             let detail = format!("this joint is bonded and has no friction: {remedy} or leave this out");
             faults.require(!glued, &joint, detail);
         }
-        let changes = item.friction_angle_deg.is_some() || item.cohesion_pa.is_some();
-        faults.require(changes, here, "this override changes nothing: give friction_angle_deg, cohesion_pa or both");
+        let lost = lost(item);
+        if let Some(joint) = structure.and_then(|structure| structure.ring().get(item.joint)) {
+            let (length, most) = (Digits(joint.length()), MOST_LOST * joint.length());
+            let detail = format!(
+                "{} m lost leave nothing of this joint, which is {length} m long: keep both depths together to {} m",
+                Shown(lost[0] + lost[1]),
+                Digits(most)
+            );
+            let field = if lost[0] > 0.0 { "lost_at_intrados_m" } else { "lost_at_extrados_m" };
+            faults.require(lost[0] + lost[1] <= most, format!("{here}/{field}"), detail);
+        }
+        let changes = item.friction_angle_deg.is_some() || item.cohesion_pa.is_some() || lost != [0.0; 2];
+        let detail = "this override changes nothing: give friction_angle_deg, cohesion_pa, lost_at_intrados_m or lost_at_extrados_m";
+        faults.require(changes, here, detail);
     }
 }
 
-/// Gives joints their own law.
+/// Depths lost at intrados and extrados, m.
+fn lost(item: &JointOverride) -> [f64; 2] {
+    [item.lost_at_intrados_m, item.lost_at_extrados_m].map(Option::unwrap_or_default)
+}
+
+/// Gives joints their own law, and moves their ends in where mortar is lost.
 pub fn override_joints(request: &AnalysisRequest, structure: &mut Structure) {
     for item in &request.joint_overrides {
         let Some(joint) = structure.joints.get_mut(item.joint) else { continue };
+        let (along, [intrados, extrados]) = (joint.tangent(), lost(item));
+        joint.intrados += intrados * along;
+        joint.extrados -= extrados * along;
         if let JointLaw::Dry { friction, cohesion } = &mut joint.law {
             *friction = item.friction_angle_deg.map_or(*friction, |angle| angle.to_radians().tan());
             *cohesion = item.cohesion_pa.unwrap_or(*cohesion);

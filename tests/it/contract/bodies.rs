@@ -38,7 +38,9 @@ fn arch() -> Value {
             "cohesion_pa": 10, "compressive_strength_pa": 2e7, "plane": "strain", "penalty_ratio": 5,
             "shear_penalty_ratio": 2
         },
-        "joint_overrides": [{"joint": 6, "friction_angle_deg": 20, "cohesion_pa": 5}],
+        "joint_overrides": [{
+            "joint": 6, "friction_angle_deg": 20, "cohesion_pa": 5, "lost_at_intrados_m": 0.02, "lost_at_extrados_m": 0.03
+        }],
         "mesh": {"subblocks": {"uniform": {"radial": 2, "along": 3}}, "seams": "split"},
         "loads": [
             {"load": {"self_weight": {}}, "scaled": false, "coefficient": 1.5, "per_abscissa": false},
@@ -90,6 +92,10 @@ fn settlement() -> Value {
     with(request, "/loads/2/scaled", json!(false))
 }
 
+fn geometric_safety() -> Value {
+    with(settlement(), "/analysis", json!({"geometric_safety": {}}))
+}
+
 fn driven() -> Value {
     let asked = json!({"from_m": -2, "to_m": 2, "step_m": 0.5, "tolerance": 1e-3, "directions": "both"});
     let vehicle = json!({"vehicle": {
@@ -107,6 +113,10 @@ fn surveyed() -> Value {
         "arch": {"profile": {"surveyed": {"intrados_m": intrados, "extrados_m": extrados}}},
         "loads": [{"load": {"self_weight": {}}}]
     })
+}
+
+fn surveyed_intrados() -> Value {
+    with(without(surveyed(), "/arch/profile/surveyed/extrados_m"), "/arch/profile/surveyed/thickness_m", json!(0.5))
 }
 
 fn blocks() -> Value {
@@ -241,8 +251,10 @@ pub fn bodies() -> Vec<Value> {
         safety(),
         accurate(),
         settlement(),
+        geometric_safety(),
         driven(),
         surveyed(),
+        surveyed_intrados(),
         blocks(),
         sinking(),
         given(),
