@@ -10,4 +10,4 @@ mod ellipse;
 pub mod profile;
 pub mod ring;
 
-pub use build::{ArchFault, MAX_VOUSSOIRS, assemble, stand_on_abutments, straight_voussoirs};
+pub use build::{ArchFault, MAX_VOUSSOIRS, assemble, make_of, stand_on_abutments, straight_voussoirs};

@@ -107,6 +107,8 @@ mod sliding;
 #[cfg(feature = "server")]
 mod states;
 #[cfg(feature = "server")]
+mod stones;
+#[cfg(feature = "server")]
 mod stopping;
 #[cfg(feature = "server")]
 mod stores;

@@ -2,7 +2,9 @@
 
 use super::noun::noun;
 use crate::wire::prose::Digits;
-use crate::wire::request::{AnalysisRequest, ArchRequest, BridgeRequest, LoadEntry, LoadRequest, ProfileRequest};
+use crate::wire::request::{
+    AnalysisRequest, ArchRequest, BridgeRequest, LoadEntry, LoadRequest, NamedStone, ProfileRequest, StoneOf,
+};
 
 /// What the structure is called, and the structure in a few words.
 pub fn structure(request: &AnalysisRequest) -> (&'static str, String) {
@@ -40,7 +42,30 @@ fn arch(arch: &ArchRequest) -> String {
         (true, true) => ", the left half of it against a frictionless wall",
         (true, false) => ", the left half of it, the keystone cut on the axis",
     };
-    format!("{shape}, {count} voussoirs, {} joints{half}", count + 1)
+    let part = |part: &StoneOf| match part.from == part.to {
+        true => format!("; voussoir {} of {}", part.from, part.stone),
+        false => format!("; voussoirs {} to {} of {}", part.from, part.to, part.stone),
+    };
+    let parts: String = arch.stone_of.iter().take(STONES_LISTED).map(part).collect();
+    let more = if arch.stone_of.len() > STONES_LISTED { "; and so on" } else { "" };
+    format!("{shape}, {count} voussoirs, {} joints{half}{parts}{more}", count + 1)
+}
+
+/// Most runs of voussoirs of other stones that are listed.
+const STONES_LISTED: usize = 6;
+
+/// Strength beyond that of any matter, Pa: the request means none.
+const NO_LIMIT_PA: f64 = 1e15;
+
+/// Compressive strength of the stone, and of others that have one of their own.
+pub fn strengths(request: &AnalysisRequest) -> String {
+    let words = |strength: f64| match strength < NO_LIMIT_PA {
+        true => format!("{} MPa", Digits(strength / 1e6)),
+        false => "not limited".to_owned(),
+    };
+    let other = |stone: &NamedStone| Some(format!("; {}: {}", stone.name, words(stone.compressive_strength_pa?)));
+    let others: String = request.stones.iter().filter_map(other).collect();
+    format!("{}{others}", words(request.stone.compressive_strength_pa))
 }
 
 /// Most loads listed, beside fill, which always is.

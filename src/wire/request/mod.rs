@@ -93,7 +93,7 @@ pub struct AnalysisRequest {
     /// The stone.
     #[serde(default)]
     pub stone: StoneRequest,
-    /// Other stones, which parts of a bridge and blocks name. Not with `arch`.
+    /// Other stones, which parts of an arch, of a bridge and blocks name.
     #[serde(default)]
     #[schema(max_items = 100)]
     pub stones: Vec<NamedStone>,

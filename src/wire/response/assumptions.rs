@@ -65,7 +65,8 @@ fn beyond(structure: &StructureBody) -> impl Iterator<Item = String> {
 
 /// Which numbers look as if they were in other units.
 fn units(request: &AnalysisRequest, structure: &StructureBody) -> Vec<String> {
-    let stones = std::iter::once(&request.stone.density_kg_m3);
+    let others = request.stones.iter().filter_map(|stone| stone.density_kg_m3.as_ref());
+    let stones = std::iter::once(&request.stone.density_kg_m3).chain(others);
     let densities = stones.filter(|density| !(DENSITIES[0]..=DENSITIES[1]).contains(*density));
     let densities = densities.map(|density| {
         format!("Is the unit right? No stone has a density of {} kg/m3; most have 1500 to 3000.", Digits(*density))

@@ -66,7 +66,13 @@ pub fn loads(
         let Some(load) = entry.load.in_si(&layout.bodies, below) else {
             // A surface with faults has its own.
             if let LoadRequest::PointForce(_) = entry.load {
-                faults.add(format!("{fields}/block"), "there is no block of this name: correct the name");
+                let detail = match &request.arch {
+                    Some(_) => {
+                        "an arch has no block of this name: give that of a voussoir, as `voussoir 0` for the leftmost"
+                    }
+                    None => "there is no block of this name: correct the name",
+                };
+                faults.add(format!("{fields}/block"), detail);
             }
             continue;
         };
@@ -120,10 +126,6 @@ fn check_coefficient(pointer: &str, value: f64, faults: &mut Faults) {
 fn check_fits(fields: &str, load: &LoadRequest, request: &AnalysisRequest, faults: &mut Faults) {
     match load.kind().1 {
         Bearer::AllBodies => {}
-        Bearer::NamedBody => {
-            let detail = "the stones of an arch have no names: give a point_load instead";
-            faults.require(request.arch.is_none(), fields, detail);
-        }
         Bearer::Extrados => {
             let detail =
                 "blocks have no extrados for this to stand on: give a point_force on each block that carries it";

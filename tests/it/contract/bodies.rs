@@ -31,8 +31,10 @@ fn arch() -> Value {
             "profile": {"circular": {"radius_m": 4.0, "opening_angle_deg": 150}},
             "line": "axis", "thickness": {"constant_m": 0.6}, "voussoirs": 12, "joints": "normal",
             "relative_lengths": [1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1], "curved_sides": false,
-            "abutments": {"height_m": 1.0}, "springing_joints": "dry", "half": false
+            "abutments": {"height_m": 1.0}, "springing_joints": "dry", "half": false,
+            "stone_of": [{"from": 0, "to": 3, "stone": "brick"}]
         },
+        "stones": [{"name": "brick", "density_kg_m3": 1800}],
         "stone": {
             "density_kg_m3": 2000, "youngs_modulus_pa": 2e9, "poissons_ratio": 0.2, "friction_angle_deg": 35,
             "cohesion_pa": 10, "compressive_strength_pa": 2e7, "plane": "strain", "penalty_ratio": 5,
@@ -47,13 +49,13 @@ fn arch() -> Value {
                 "embankment_density_kg_m3": 1700, "lateral_ratio": 0.5, "fill_friction_angle_deg": 30
             }}},
             {"load": {"point_load": {"force_n_per_m": 1000, "x_m": -1}}, "scaled": true},
-            {"load": {"point_load": {"force_n_per_m": 1000, "voussoir": 5}}},
+            {"load": {"point_load": {"force_n_per_m": 1000, "voussoir": 5, "inclination_deg": 10}}},
             {"load": {"patch_load": {"centre_x_m": 1, "width_m": 1, "force_n_per_m": 1000}}},
             {"load": {"patch_load": {"centre_x_m": 1, "width_m": 1, "force_n_per_m": 1000, "dispersal": {
                 "surface_height_m": 8.5, "distribution": {"boussinesq": {"cut_off_deg": 40}}}}}},
             {"load": {"patch_load": {"centre_x_m": 1, "width_m": 1, "force_n_per_m": 1000, "dispersal": {
                 "surface_height_m": 8.5, "distribution": {"uniform": {"spread": 0.4}}}}}},
-            {"load": {"lateral_pressure": {"bands": [{"from_m": 0, "to_m": 1, "pressure_pa": 100}]}}},
+            {"load": {"lateral_pressure": {"bands": [{"from_m": 0, "to_m": 1, "pressure_pa": 100}], "side": "right"}}},
             {"load": {"body_acceleration": {"x_g": 0.1, "y_g": 0.1}}}
         ],
         "analysis": "collapse",
