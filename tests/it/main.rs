@@ -50,6 +50,8 @@ mod downstream;
 #[cfg(feature = "server")]
 mod ends;
 #[cfg(feature = "server")]
+mod factors;
+#[cfg(feature = "server")]
 mod falling;
 #[cfg(feature = "server")]
 mod fill;

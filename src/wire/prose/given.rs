@@ -59,8 +59,12 @@ const NO_LIMIT_PA: f64 = 1e15;
 
 /// Compressive strength of the stone, and of others that have one of their own.
 pub fn strengths(request: &AnalysisRequest) -> String {
+    let over = match request.factors().stone_strength {
+        1.0 => String::new(),
+        factor => format!(" / {}", Digits(factor)),
+    };
     let words = |strength: f64| match strength < NO_LIMIT_PA {
-        true => format!("{} MPa", Digits(strength / 1e6)),
+        true => format!("{} MPa{over}", Digits(strength / 1e6)),
         false => "not limited".to_owned(),
     };
     let other = |stone: &NamedStone| Some(format!("; {}: {}", stone.name, words(stone.compressive_strength_pa?)));
@@ -71,9 +75,14 @@ pub fn strengths(request: &AnalysisRequest) -> String {
 /// Most loads listed, beside fill, which always is.
 const LOADS_LISTED: usize = 6;
 
+/// What multiplies a load, in words.
+fn factored(factor: f64) -> String {
+    if factor == 1.0 { String::new() } else { format!("partial factor {} times: ", Digits(factor)) }
+}
+
 /// The fixed or the scaled loads, a line each; the backfill is among the fixed ones.
 pub fn loads(request: &AnalysisRequest, scaled: bool) -> String {
-    let backfill = request.backfill.as_ref();
+    let (backfill, factors) = (request.backfill.as_ref(), request.factors());
     let entries: Vec<&LoadEntry> = request.loads.iter().filter(|entry| entry.scaled == scaled).collect();
     let listed =
         |(i, entry): &(usize, &&LoadEntry)| *i < LOADS_LISTED || matches!(entry.load, LoadRequest::FillPressure(_));
@@ -81,13 +90,14 @@ pub fn loads(request: &AnalysisRequest, scaled: bool) -> String {
         .iter()
         .enumerate()
         .filter(listed)
-        .map(|(_, entry)| match (entry.coefficient == 1.0, entry.per_abscissa) {
-            (true, false) => entry.load.words(backfill),
-            (false, false) => format!("{} times: {}", Digits(entry.coefficient), entry.load.words(backfill)),
-            (true, true) => format!("abscissa times: {}", entry.load.words(backfill)),
-            (false, true) => {
-                format!("{} times abscissa times: {}", Digits(entry.coefficient), entry.load.words(backfill))
-            }
+        .map(|(_, entry)| {
+            let times = match (entry.coefficient == 1.0, entry.per_abscissa) {
+                (true, false) => String::new(),
+                (false, false) => format!("{} times: ", Digits(entry.coefficient)),
+                (true, true) => "abscissa times: ".to_owned(),
+                (false, true) => format!("{} times abscissa times: ", Digits(entry.coefficient)),
+            };
+            format!("{}{times}{}", factored(factors.of(entry)), entry.load.words(backfill))
         })
         .collect();
     let more = entries.len() - lines.len();
@@ -95,7 +105,11 @@ pub fn loads(request: &AnalysisRequest, scaled: bool) -> String {
         lines.push(format!("and {more} more"));
     }
     if let Some(backfill) = backfill.filter(|_| !scaled) {
-        lines.insert(0, backfill.words());
+        let over = match factors.soil_resistance {
+            1.0 => String::new(),
+            factor => format!("; what it resists with is over the partial factor {}", Digits(factor)),
+        };
+        lines.insert(0, format!("{}{}{over}", factored(factors.fill), backfill.words()));
     }
     if lines.is_empty() { "none".to_owned() } else { lines.join("\n") }
 }

@@ -46,7 +46,36 @@ pub(super) fn assumptions(request: &AnalysisRequest, structure: &StructureBody) 
         (shaken && massless, MASSLESS_IS_SHAKEN),
     ];
     let notes = notes.into_iter().filter(|(holds, _)| *holds).map(|(_, note)| note.to_owned());
-    notes.chain(uncut(request, structure)).chain(units(request, structure)).chain(beyond(structure)).collect()
+    notes
+        .chain(factored(request))
+        .chain(uncut(request, structure))
+        .chain(units(request, structure))
+        .chain(beyond(structure))
+        .collect()
+}
+
+/// What partial factors have done, and to what not.
+fn factored(request: &AnalysisRequest) -> Option<String> {
+    let factors = request.partial_factors?;
+    let any = |fits: fn(&LoadEntry) -> bool| request.loads.iter().any(fits);
+    let weight = |load: &LoadRequest| matches!(load, LoadRequest::SelfWeight(_) | LoadRequest::FillPressure(_));
+    let other = request.loads.iter().any(|entry| !entry.scaled && !weight(&entry.load));
+    let shaken = any(|entry| matches!(entry.load, LoadRequest::BodyAcceleration(_)));
+    let intensities = format!(
+        " Load factors and intensities are of the scaled loads as given: at load factor 1 the arch bears {} times them.",
+        Digits(factors.live)
+    );
+    let sentences = [
+        (any(|entry| entry.scaled), intensities.as_str()),
+        (other, " Fixed loads that are neither self weight nor fill have no factor."),
+        (shaken, " Masses in an acceleration have no factor."),
+    ];
+    let more: String = sentences.into_iter().filter(|(holds, _)| *holds).map(|(_, sentence)| sentence).collect();
+    let words = factors.words();
+    Some(format!(
+        "Partial factors: {words}. Forces, stresses and thrusts are those of the factored loads.{more} Friction and cohesion of \
+         joints are as given."
+    ))
 }
 
 /// How much of the loads goes to the ground.

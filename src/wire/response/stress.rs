@@ -85,7 +85,7 @@ impl SubblockColumns {
 /// When the stone crushes: both answers, neither of which changes the load path.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct CrushingBody {
-    /// Compressive strength of the weakest stone.
+    /// Compressive strength of the weakest stone, over its partial factor.
     pub strength_pa: f64,
     /// First yield of a subblock, as in the paper; null where no path was followed.
     pub elastic: Option<ElasticCrushingBody>,

@@ -35,7 +35,7 @@ impl LoadForces {
     }
 }
 
-/// The forces on the whole structure where there is one, with the sides of its bodies cut into `pieces` each.
+/// The forces on the whole structure where there is one, with partial factors, and with the sides of its bodies cut into `pieces` each.
 pub fn loads(
     request: &AnalysisRequest,
     entries: &[LoadEntry],
@@ -43,7 +43,7 @@ pub fn loads(
     pieces: &[usize],
     faults: &mut Faults,
 ) -> LoadForces {
-    let (mut all, below) = (LoadForces::default(), request.backfill.as_ref());
+    let (mut all, below, factors) = (LoadForces::default(), request.backfill.as_ref(), request.factors());
     let forces = forces_per_voussoir_of(entries, below) * pieces.iter().sum::<usize>();
     if forces > MAX_FORCES {
         let detail = format!(
@@ -76,13 +76,13 @@ pub fn loads(
             }
             continue;
         };
-        match load.on_pieces(&layout.structure, pieces, entry.coefficient) {
+        match load.on_pieces(&layout.structure, pieces, factors.of(entry) * entry.coefficient) {
             Ok(forces) if forces.is_empty() && entry.load.dispersed_force().is_none() => {
                 faults.add(here, "this load puts no force on the structure: correct it or leave it out");
             }
             Ok(forces) => {
                 all.of(entry.scaled).extend(forces);
-                inertia::add(&masses, entry, &layout.structure, pieces, &mut all);
+                inertia::add(&masses, entry, factors.live, &layout.structure, pieces, &mut all);
             }
             Err(fault) => {
                 let place = entry.load.field_of(fault).map(|field| format!("{fields}/{field}"));

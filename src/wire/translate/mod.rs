@@ -7,6 +7,7 @@ mod beam;
 mod blocks;
 mod bridge;
 mod crushing;
+mod factors;
 mod half;
 mod inertia;
 mod loads;
@@ -64,6 +65,7 @@ fn structure_question(request: &AnalysisRequest, faults: &mut Faults) -> Option<
             None
         }
     };
+    factors::check(request, faults);
     safety::check_flags(request, curve, faults);
     match curve {
         Some(curve) => safety::points(&site, curve, faults).map(Question::Curve),

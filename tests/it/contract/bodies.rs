@@ -172,6 +172,7 @@ fn bridge() -> Value {
             "layers": [{"thickness_m": 0.1, "density_kg_m3": 2300}], "backing": {"height_m": 1.5, "density_kg_m3": 2000},
             "dispersal": {"boussinesq": {"cut_off_deg": 40}}
         },
+        "partial_factors": {"dead": 1.2, "fill": 1.3, "live": 1.5, "stone_strength": 2, "soil_resistance": 1},
         "loads": [
             {"load": {"self_weight": {}}},
             {"load": {"point_load": {"force_n_per_m": 1000, "x_m": -5}}, "scaled": true}
