@@ -218,7 +218,7 @@ fn an_adequacy_factor_is_never_more_than_what_else_was_found() {
     let safety = |crushing: &str| {
         let mut request = with(factored(bridge()), "/analysis", json!({"safety": {"crushing": crushing}}));
         request["loads"][3]["load"]["patch_load"]["force_n_per_m"] = json!(3000);
-        request["mesh"] = json!({"subblocks": {"uniform": {"radial": 2, "along": 1}}});
+        request["mesh"] = json!({"subblocks": {"uniform": {"radial": 4, "along": 2}}});
         let answer = solved(&request);
         let found = &end(&answer, "highest")["adequacy_factor"];
         assert_eq!(*found, answer["safety"]["governing"]["load_factor"]);
@@ -263,7 +263,7 @@ fn factors_that_act_on_nothing_are_refused() {
         let here = format!("/partial_factors/{name}");
         refused(&bare(name, 1.3), &here, "for this to act on: leave it out");
         assert!(read_question(bare(name, 1.0).to_string().as_bytes()).is_ok());
-        refused(&with(factored(bridge()), &here, json!(0)), &here, "at least 0.01");
+        refused(&with(factored(bridge()), &here, json!(0)), &here, "from 0.01 to 100");
     }
     let down = with(factored(bridge()), "/load_factor/direction", json!("decrease"));
     refused(&down, "/load_factor/direction", "set direction to `increase`");

@@ -22,9 +22,9 @@ pub struct EndBody {
     pub unit: String,
     /// `intensity` as a load factor.
     pub load_factor: f64,
-    /// With `partial_factors`, of a structure that stands without its scaled loads: by how much these may be multiplied beside their
-    /// partial factor. 1 and more is enough. It is `load_factor` or, where that is lower, the load factor on moving geometry; in a
-    /// safety analysis the governing one. Left out where there is none.
+    /// With `partial_factors`: by how much the factored scaled loads may be multiplied. 1 and more is enough. It is `load_factor` or,
+    /// where that is lower, the load factor on moving geometry; in a safety analysis the governing one. Left out without
+    /// `partial_factors`, where it cannot be told, and of a structure that needs its scaled loads to stand.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub adequacy_factor: Option<f64>,
     /// What governs. All that follows but the two figures is of that state.
