@@ -130,14 +130,14 @@ fn why_load(report: &CollapseReport) -> PlanReason {
     }
 }
 
-/// The left half, where the arch, its loads and the mechanism found are symmetric and no joint slides in it.
+/// The left half, where the arch, its loads and the mechanism found are symmetric, no joint slides in it and no soil resists.
 fn half_of(analysis: &Analysis, rigid: &CollapseReport) -> Option<Analysis> {
     let (structure, axis) = (&analysis.structure, analysis.structure.axis());
     let symmetric = |forces: &[_]| is_symmetric(forces, structure.voussoirs().len(), axis);
     let ends = rigid.end.iter().chain(&rigid.other_end);
     // Of other structures joints and bodies are not numbered from left to right.
     let arch = structure.spans.len() == 1 && structure.spans[0].joints.len() == structure.ring().len();
-    let whole = arch && !structure.is_half() && structure.asymmetry().is_none();
+    let whole = arch && !structure.is_half() && structure.passive.is_empty() && structure.asymmetry().is_none();
     if !(whole && symmetric(&analysis.fixed) && symmetric(&analysis.scaled) && { ends }.all(falls_evenly)) {
         return None;
     }

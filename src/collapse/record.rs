@@ -232,7 +232,8 @@ pub(super) fn snapshot(model: &Model, state: &Standing) -> Result<Snapshot, Anal
     };
     let contacts =
         (0..model.joints).flat_map(|joint| model.contacts(joint).map(move |p| (joint, p))).map(|(j, p)| contact(j, p));
-    Ok(Snapshot { load_factor, blocks, contacts: contacts.collect() })
+    let soil = model.soil.clone().map(|p| forces[p].normal).collect();
+    Ok(Snapshot { load_factor, blocks, contacts: contacts.collect(), soil })
 }
 
 /// Stress in every subblock in a state, under the loads at `load_factor`.

@@ -102,6 +102,8 @@ pub struct Snapshot {
     pub blocks: Vec<BlockState>,
     /// Every contact point, joint by joint, intrados first.
     pub contacts: Vec<ContactPoint>,
+    /// Force of every passive element, N/m.
+    pub soil: Vec<f64>,
 }
 
 /// One point of the load-displacement history.

@@ -70,7 +70,9 @@ fn compare(seed: u64) -> Result<Found, String> {
         let same = ours.is_none() && oracle.is_none();
         return if same { Ok(Found::Empty) } else { Err(format!("{ours:?}, oracle {oracle:?}, give {give:e}")) };
     };
-    let floor = SMALL * theorem.load_factor_scale();
+    // An end at 0 is held against the other one: both come from one programme.
+    let size = [low, high].into_iter().filter(|end| end.is_finite()).fold(0.0, |size: f64, end| size.max(end.abs()));
+    let floor = SMALL * theorem.load_factor_scale().max(size);
     let error = larger(relative(low, oracle.0, floor), relative(high, oracle.1, floor));
     if error > EQUAL {
         return Err(format!("[{low}, {high}], oracle {oracle:?}, {error:e}, give {give:e}"));

@@ -3,6 +3,7 @@
 use crate::common::answered::{end, solved, text};
 use crate::common::dice::Dice;
 use crate::common::door;
+use crate::common::folders;
 use crate::common::oracle::{Aim, Element, Problem};
 use serde_json::{Value, json};
 use voussoir::budget::Budget;
@@ -179,6 +180,26 @@ fn problem(analysis: &Analysis) -> Problem {
 }
 
 #[test]
+fn the_documents_have_the_loads_of_prestwood_bridge() {
+    let documents = std::fs::read_to_string(folders::cases().join("../docs/verification.md")).unwrap();
+    let soils = [json!({"factor": 0}), json!({}), json!({"cohesion_pa": 5000, "factor": 1, "cohesion_factor": 1})];
+    for soil in soils {
+        let mut request = bridge(60, &soil, true);
+        request["stone"]["density_kg_m3"] = json!(1800);
+        let (analysis, report) = answered(&request);
+        let mut problem = problem(&analysis);
+        let ours = [report.limit_window, report.crushing.plastic_section.unwrap().window].map(|of| of.unwrap().highest);
+        let theirs = [None, Some(4.5e6)].map(|strength| {
+            problem.strength = strength;
+            problem.solve(Aim::Highest).value(Aim::Highest).unwrap()
+        });
+        (0..2).for_each(|i| close(ours[i], theirs[i], 1e-7, &soil.to_string()));
+        let row = ours.map(|load| format!("{:.1}", 3.8 * load));
+        assert!(documents.contains(&format!("| {} | {} |", row[0], row[1])), "{row:?} is not in the documents");
+    }
+}
+
+#[test]
 fn paths_of_filled_bridges_end_where_the_oracle_says() {
     let (mut ended, mut worst) = (0, [0.0f64; 2]);
     for seed in 0..300 {
@@ -260,7 +281,9 @@ fn how_soon_soil_is_mobilised_does_not_matter_at_first_order_and_does_on_moving_
     });
     ends.iter().for_each(|(first, _)| close(*first, ends[0].0, 1e-7, "first order"));
     assert!(ends[0].1 > ends[1].1 && ends[1].1 > ends[2].1, "softer soil bears more: {ends:?}");
-    close(ends[0].1, 1.0, 0.01, "stiff soil, stiff stone");
+    // It tends to the load at first order, about with the square root of the movement.
+    let missing = ends.map(|(_, share)| 1.0 - share);
+    assert!(missing[0] > 0.0 && missing[0] < 0.025 && missing[0] < 0.4 * missing[1], "{missing:?}");
 }
 
 #[test]

@@ -74,8 +74,8 @@ pub(super) fn touches<'a>(
 
 /// The contact point of a passive element on a body cut like this, with that of its stone's joints for a `penalty`.
 pub(super) fn passive(element: &PassiveElement, grid: &Grid, penalty: f64) -> Touch {
-    let (link, stiffness) = (LINK * penalty, element.most / element.mobilised_at);
-    // In series with the link it is as stiff as the soil.
+    // No stiffer than a joint; in series with the link it is as stiff as the soil.
+    let (link, stiffness) = (LINK * penalty, (element.most / element.mobilised_at).min(penalty));
     let contact = stiffness * link / (link - stiffness);
     let mut after = [(0, 0.0); 2];
     let shares = grid.at(element.at);

@@ -58,7 +58,9 @@ fn unfolded(structure: &Structure, left: &Snapshot) -> Snapshot {
         _ => *contact,
     };
     let contacts = (0..=n).flat_map(|k| joint(k.min(n - k)).map(move |c| contact(k, c)));
-    Snapshot { load_factor: left.load_factor, blocks: (0..n).map(block).collect(), contacts: contacts.collect() }
+    let (blocks, contacts) = ((0..n).map(block).collect(), contacts.collect());
+    // Beside soil an arch is not halved.
+    Snapshot { load_factor: left.load_factor, blocks, contacts, soil: Vec::new() }
 }
 
 /// Of a stone on the axis whose left half is in this state.

@@ -91,7 +91,7 @@ pub(super) type Stretch = [Vec2; 2];
 impl Fill {
     /// Vertical pressure at a point: the weight of the column over it, Pa.
     pub fn pressure(&self, at: Vec2) -> f64 {
-        GRAVITY * self.mass(at)
+        self.column(at).map(|[from, to, density]| (to - from) * GRAVITY * density).sum()
     }
 
     /// Depth of a point below the line, m; 0 without one.

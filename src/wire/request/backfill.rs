@@ -35,7 +35,7 @@ pub struct BackfillRequest {
     pub lateral_ratio: f64,
     /// How it resists stones that move into it. Left out: it does not. Not with `lateral_ratio`.
     pub passive: Option<PassiveRequest>,
-    /// How loads on the surface spread, of which `dispersal` does not say it.
+    /// How a load on the surface spreads whose own `dispersal` does not say it.
     pub dispersal: DistributionRequest,
 }
 

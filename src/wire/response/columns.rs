@@ -68,6 +68,8 @@ pub struct SnapshotBody {
     pub blocks: BlockColumns,
     /// Every contact point, joint by joint, from the intrados.
     pub contacts: ContactColumns,
+    /// Force of every one of `structure.passive_elements`.
+    pub passive_n_per_m: Vec<f64>,
 }
 
 impl SnapshotBody {
@@ -77,6 +79,7 @@ impl SnapshotBody {
             intensity: scale.intensity(snapshot.load_factor),
             blocks: BlockColumns::new(&snapshot.blocks),
             contacts: ContactColumns::new(&snapshot.contacts),
+            passive_n_per_m: snapshot.soil.clone(),
         }
     }
 }

@@ -88,6 +88,10 @@ pub fn weight(analysis: &Analysis, factor: f64) -> f64 {
 pub fn broken(analysis: &Analysis, state: &Snapshot) -> Broken {
     let stones = stones(analysis, state);
     let mut all = Broken { balance: stones[0], stress: stones[1], ..Broken::default() };
+    for (element, force) in analysis.structure.passive.iter().zip(&state.soil) {
+        all = all.join(Broken { tension: -force, friction: force - element.most, ..Broken::default() });
+    }
+    assert_eq!(state.soil.len(), analysis.structure.passive.len());
     for (k, joint) in analysis.structure.ring().iter().enumerate() {
         let places: Vec<f64> = at_joint(state, k).map(|contact| contact.position).collect();
         for (j, contact) in at_joint(state, k).enumerate() {
@@ -151,7 +155,8 @@ fn stones(analysis: &Analysis, state: &Snapshot) -> [f64; 2] {
             (at, (joint.normal() * contact.normal + joint.tangent() * contact.tangential) * sign)
         });
         let (length, about) = (arch.joints[k].length(), stone.region.centroid);
-        let (sum, first) = moments(pushed.chain(loads_on(analysis, k, state.load_factor)), about);
+        let loads = loads_on(analysis, k, state.load_factor).chain(soil_on(analysis, k, &state.soil));
+        let (sum, first) = moments(pushed.chain(loads), about);
         let moment = first[1][0] - first[0][1];
         worst[0] = [sum.x, sum.y, moment / length].into_iter().map(f64::abs).fold(worst[0], larger);
         let [x, y, tau] = state.blocks[k].stress.map(|stress| stress * stone.region.area);
@@ -179,12 +184,19 @@ pub fn broken_line(analysis: &Analysis, end: &PathEnd) -> Broken {
             let (joint, thrust) = (&arch.joints[k], &end.thrust_line[k]);
             (thrust.at, (joint.normal() * thrust.normal + joint.tangent() * thrust.shear) * sign)
         };
-        let forces = [joint(k, 1.0), joint(k + 1, -1.0)].into_iter().chain(loads_on(analysis, k, end.load_factor));
+        let loads = loads_on(analysis, k, end.load_factor).chain(soil_on(analysis, k, &end.soil));
+        let forces = [joint(k, 1.0), joint(k + 1, -1.0)].into_iter().chain(loads);
         let (sum, first) = moments(forces, arch.bodies[k].region.centroid);
         let moment = (first[1][0] - first[0][1]) / arch.joints[k].length();
         all.balance = [sum.x, sum.y, moment].into_iter().map(f64::abs).fold(all.balance, larger);
     }
     all.over(weight(analysis, end.load_factor))
+}
+
+/// What passive elements press on a stone, each with its place.
+fn soil_on(analysis: &Analysis, stone: usize, soil: &[f64]) -> impl Iterator<Item = (Vec2, Vec2)> {
+    let elements = analysis.structure.passive.iter().zip(soil).filter(move |(element, _)| element.body == stone);
+    elements.map(|(element, &force)| (element.at, Vec2::new(element.way * force, 0.0)))
 }
 
 /// Loads on a stone, each with its place.

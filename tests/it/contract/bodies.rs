@@ -180,10 +180,17 @@ fn bridge() -> Value {
     })
 }
 
-/// A level road.
+/// A level road over fill that resists.
 fn level() -> Value {
-    let uniform = json!({"surface_height_m": 4, "dispersal": {"uniform": {"spread": 0.4}}});
-    with(bridge(), "/backfill", uniform)
+    let resisting = json!({
+        "surface_height_m": 4, "backing": {"height_m": 1.5, "density_kg_m3": 2000, "resistance_pa": 5e4},
+        "passive": {
+            "friction_angle_deg": 35, "cohesion_pa": 2000, "factor": 0.6, "cohesion_factor": 0.4, "least": "active",
+            "mobilisation_share_of_depth": 0.02
+        },
+        "dispersal": {"uniform": {"spread": 0.4}}
+    });
+    with(bridge(), "/backfill", resisting)
 }
 
 fn beam() -> Value {
