@@ -122,7 +122,11 @@ fn first_yield(result: &AnalysisResult, elastic: &ElasticCrushingBody) -> String
         (false, None) => match &elastic.subblock {
             Some(largest) => {
                 let stress = Digits(largest.tresca_pa / 1e6);
-                format!("not reached; largest equivalent stress {stress} MPa, in {}", place(result, largest))
+                let which = match result.request.stones.is_empty() {
+                    true => "largest equivalent stress",
+                    false => "equivalent stress nearest to it",
+                };
+                format!("not reached; {which} {stress} MPa, in {}", place(result, largest))
             }
             None => "not reached".to_owned(),
         },
