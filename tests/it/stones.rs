@@ -19,7 +19,7 @@ const GRANITE: Material = [2700.0, 45.0, 0.0, 3e7];
 const PARTS: [(usize, usize, &str, Material); 3] =
     [(0, 9, "granite", GRANITE), (14, 20, "brick", BRICK), (43, 43, "brick", BRICK)];
 /// Two solvers agree to this.
-const EQUAL: f64 = 1e-6;
+const EQUAL: f64 = 1e-8;
 
 fn material([density, friction, cohesion, strength]: Material) -> Value {
     json!({
