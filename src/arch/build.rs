@@ -86,17 +86,29 @@ pub fn assemble(ends: &[[Vec2; 2]], voussoirs: Vec<Body>, stone: Stone, law: Joi
     }
 }
 
+/// Makes every voussoir of a ring of the one of `stones` that `of` gives it, and the joints those of the stones beside them.
+pub fn make_of(ring: &mut Structure, stones: Vec<Stone>, of: &[usize]) {
+    ring.bodies.iter_mut().zip(of).for_each(|(voussoir, &stone)| voussoir.stone = stone);
+    for joint in &mut ring.joints {
+        let [before, after] = joint.between.map(|side| side.body().map(|body| &stones[ring.bodies[body].stone]));
+        // The ground is as good as the stone on it.
+        if let Some((a, b)) = before.or(after).zip(after.or(before)) {
+            joint.law = a.dry_joint_with(b);
+        }
+    }
+    ring.stones = stones;
+}
+
 /// Puts rectangles of height `height`, m, on the outer sides of the springing joints of a ring, bonded to the ground.
 ///
-/// They follow the voussoirs, and their bases the joints of the ring: the left one first. They have no weight.
+/// They follow the voussoirs, and their bases the joints of the ring: the left one first. Each is of the stone of the voussoir on
+/// it, but has no weight.
 pub fn stand_on_abutments(ring: &mut Structure, height: f64) {
     let (first_block, last_joint) = (ring.bodies.len(), ring.joints.len() - 1);
-    let weightless = Stone { density: 0.0, ..ring.stones[0] };
-    let stone = ring.stones.len();
-    ring.stones.push(weightless);
     for side in 0..2 {
         let (springing, shift) = [(0, -height), (last_joint, height)][side];
         let (top, block) = (ring.joints[springing], Side::Body(first_block + side));
+        let springer = ring.stones[ring.bodies[[0, first_block - 1][side]].stone];
         let shift = shift * top.normal();
         let [intrados, extrados] = [top.intrados + shift, top.extrados + shift];
         let ground = Side::Support(side);
@@ -106,6 +118,8 @@ pub fn stand_on_abutments(ring: &mut Structure, height: f64) {
         };
         let mut region = Region::polygon(&[top.intrados, top.extrados, extrados, intrados]);
         region.area = region.area.abs();
+        let stone = ring.stones.len();
+        ring.stones.push(Stone { density: 0.0, ..springer });
         ring.bodies.push(Body { corners: corners.to_vec(), sides: Sides::Straight, region, stone });
         ring.joints[springing].between[side] = block;
         ring.joints.push(Joint { between, intrados, extrados, law: JointLaw::Bonded });

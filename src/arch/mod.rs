@@ -11,5 +11,5 @@ pub mod profile;
 pub mod ring;
 mod survey;
 
-pub use build::{ArchFault, MAX_VOUSSOIRS, assemble, stand_on_abutments, straight_voussoirs};
+pub use build::{ArchFault, MAX_VOUSSOIRS, assemble, make_of, stand_on_abutments, straight_voussoirs};
 pub use survey::joints_on_intrados;

@@ -162,7 +162,7 @@ fn assembly(analysis: &Analysis, grids: &[Grid], strips: &Strips, budget: &Budge
 /// Contacts of the passive elements, whose interfaces are behind those of the joints.
 fn elements(assembly: &Assembly, structure: &Structure) -> std::ops::Range<usize> {
     let count = structure.passive.len();
-    let first = (count > 0).then(|| assembly.at_interface(structure.joints.len()).start).unwrap_or(0);
+    let first = if count > 0 { assembly.at_interface(structure.joints.len()).start } else { 0 };
     first..first + count
 }
 

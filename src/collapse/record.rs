@@ -64,7 +64,7 @@ impl<'a> Recorder<'a> {
             steps_done: 0,
             history: Vec::new(),
             asked: std::iter::once(1.0).chain(fields).map(|load_factor| (load_factor, None)).collect(),
-            yielding: Yielding::new(model, analysis.structure.least_strength()),
+            yielding: Yielding::new(model, analysis.structure.strengths()),
         }
     }
 

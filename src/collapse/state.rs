@@ -76,18 +76,18 @@ impl<'m> States<'m> {
     }
 
     /// First yield of the arch as it is described, next to where the path has it; `at`: the path where a subblock first reaches
-    /// the strength. The secant method on the largest equivalent stress, which is nearly linear.
+    /// the strength. The secant method on the largest equivalent stress over its body's strength, which is nearly linear.
     pub(super) fn first_yield(
         &mut self,
         on_path: ElasticCrushing,
         at: Option<&PathPoint>,
-        strength: f64,
+        strengths: &[f64],
     ) -> Result<ElasticCrushing, AnalysisError> {
         let Some((first, displacements)) = at.filter(|_| !on_path.at_start) else { return Ok(on_path) };
         let (mut factor, mut last) = (*first, None);
         for _ in 0..SECANTS {
-            let Some((stress, subblock)) = self.largest_stress(factor, displacements)? else { break };
-            let excess = stress / strength - 1.0;
+            let Some((share, subblock)) = self.largest_share(factor, displacements, strengths)? else { break };
+            let excess = share - 1.0;
             if excess.abs() <= YIELDS {
                 return Ok(ElasticCrushing { load_factor: Some(factor), where_largest: Some(subblock), ..on_path });
             }
@@ -102,8 +102,13 @@ impl<'m> States<'m> {
         Ok(on_path)
     }
 
-    /// The largest equivalent stress at a load factor, Pa, and its subblock; none where no state is found.
-    fn largest_stress(&mut self, factor: f64, near: &[f64]) -> Result<Option<(f64, SubblockStress)>, AnalysisError> {
+    /// The largest equivalent stress over its body's strength at a load factor, and its subblock; none where no state is found.
+    fn largest_share(
+        &mut self,
+        factor: f64,
+        near: &[f64],
+        strengths: &[f64],
+    ) -> Result<Option<(f64, SubblockStress)>, AnalysisError> {
         let (model, said) = (self.model, self.others.len());
         let found = self.balanced(factor, &model.loads_on_nodes(factor), near)?;
         self.others.truncate(said);
@@ -111,8 +116,8 @@ impl<'m> States<'m> {
         let symmetric = model.symmetric && model.assembly.mirrored(&displacements) == displacements;
         let state = Standing { load_factor: factor, displacements, forces: Vec::new(), symmetric };
         let field = stress_field(model, factor, &state)?;
-        let stresses = field.subblocks.into_iter().map(|subblock| (subblock.tresca(), subblock));
-        Ok(stresses.reduce(|most, next| if next.0 > most.0 { next } else { most }))
+        let share = |subblock: SubblockStress| (subblock.tresca() / strengths[subblock.voussoir], subblock);
+        Ok(field.subblocks.into_iter().map(share).reduce(|most, next| if next.0 > most.0 { next } else { most }))
     }
 
     /// Displacements in equilibrium of the arch as it is described: symmetric ones where there are any.

@@ -1,4 +1,4 @@
-//! First yield: where on the path the equivalent stress of some subblock reaches the strength.
+//! First yield: where on the path the equivalent stress of some subblock reaches the strength of its stone.
 
 use super::discretise::Model;
 use super::record::PathPoint;
@@ -21,7 +21,7 @@ struct SoFar {
     first: Option<YieldPoint>,
     /// True where that was at the start.
     at_start: bool,
-    /// The largest equivalent stress, Pa.
+    /// The largest equivalent stress over its strength.
     largest: Option<(f64, YieldPoint)>,
 }
 
@@ -31,7 +31,8 @@ struct SoFar {
 /// so it is largest at one of the two, and passes the strength at most once on the way up.
 pub(super) struct Yielding<'a> {
     model: &'a Model<'a>,
-    strength: f64,
+    /// Strength of every body, Pa.
+    strengths: Vec<f64>,
     /// Stress of every subblock at the last point, three numbers each, voussoir by voussoir; and at this one.
     before: Vec<Vec<f64>>,
     now: Vec<Vec<f64>>,
@@ -41,10 +42,10 @@ pub(super) struct Yielding<'a> {
 }
 
 impl<'a> Yielding<'a> {
-    pub(super) fn new(model: &'a Model<'a>, strength: f64) -> Self {
+    pub(super) fn new(model: &'a Model<'a>, strengths: Vec<f64>) -> Self {
         let empty = vec![Vec::new(); model.bodies];
         let (seen, answer) = (SoFar::default(), SoFar::default());
-        Yielding { model, strength, before: empty.clone(), now: empty, seen, answer }
+        Yielding { model, strengths, before: empty.clone(), now: empty, seen, answer }
     }
 
     /// Takes in the next point of the path; `highest`: no point before had a higher load.
@@ -83,16 +84,16 @@ impl<'a> Yielding<'a> {
             if model.budget.work(model.work_of_stresses(voussoir)).is_err() {
                 return;
             }
-            let here = &mut self.now[voussoir];
+            let (here, strength) = (&mut self.now[voussoir], self.strengths[voussoir]);
             model.assembly.stresses_in_frame(voussoir, &now.1, &loads, here);
             for (subblock, stress) in here.chunks_exact(3).enumerate() {
                 let equivalent = tresca([stress[0], stress[1], stress[2]]);
-                if equivalent > largest.0 {
-                    largest = (equivalent, voussoir, subblock);
+                if equivalent / strength > largest.0 {
+                    largest = (equivalent / strength, voussoir, subblock);
                 }
-                if equivalent >= self.strength {
+                if equivalent >= strength {
                     let start = self.before[voussoir].get(3 * subblock..3 * subblock + 3);
-                    let share = start.map_or(0.0, |start| reaches(start, stress, self.strength));
+                    let share = start.map_or(0.0, |start| reaches(start, stress, strength));
                     crossing = if share < crossing.0 { (share, voussoir, subblock) } else { crossing };
                 }
             }

@@ -71,7 +71,7 @@ impl StaticTheorem {
     }
 
     /// Forces at joint `k` for a unit force of each element that goes through it, N/m.
-    pub(super) fn from_soil(&self, k: usize) -> impl Iterator<Item = (usize, [f64; 3])> {
+    pub(super) fn soil_at(&self, k: usize) -> impl Iterator<Item = (usize, [f64; 3])> {
         let functionals = joint_functionals(&self.joints[k], self.frame.origin);
         self.soil.through[k].iter().map(move |&(e, sign)| {
             let PointForce { at, force, .. } = self.soil.elements[e].force(sign);

@@ -199,7 +199,7 @@ impl StaticTheorem {
             row[soil + joint - self.joints.len()] += weights[0] * self.force;
             return;
         }
-        for (e, forces) in self.from_soil(joint) {
+        for (e, forces) in self.soil_at(joint) {
             row[soil + e] += dot(weights, forces) * self.force;
         }
         for &(number, sign) in self.loops.through(joint) {

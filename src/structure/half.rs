@@ -18,6 +18,12 @@ impl Structure {
         })
     }
 
+    /// The first voussoir whose stone is not that of its mirror image; `None` where the stones are symmetric.
+    pub fn asymmetric_stone(&self) -> Option<usize> {
+        let n = self.voussoirs().len();
+        (0..n / 2).find(|&k| self.stone_of(k) != self.stone_of(n - 1 - k))
+    }
+
     /// Abscissa of the vertical through the middle between the springings, m.
     pub fn axis(&self) -> f64 {
         0.5 * (self.joints[0].middle().x + self.joints[self.ring().len() - 1].middle().x)
@@ -46,7 +52,7 @@ impl Structure {
                 law: JointLaw::Mirror,
             });
             surfaces.push(Surface { body: n, ends: [stone.corners[3], stone.corners[2]] });
-            bodies.push(stone);
+            bodies.push(Body { stone: self.bodies[n].stone, ..stone });
         } else {
             joints[n] = Joint { between: [joints[n].between[0], Side::Support(1)], law: JointLaw::Wall, ..joints[n] };
         }

@@ -30,7 +30,21 @@ pub struct Band {
     pub pressure: f64,
 }
 
-/// Where a vertical point load stands.
+/// Flanks of a structure on which something presses from beside.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "server", derive(serde::Serialize, serde::Deserialize, utoipa::ToSchema))]
+#[cfg_attr(feature = "server", serde(rename_all = "snake_case"))]
+pub enum Flanks {
+    /// Both.
+    #[default]
+    Both,
+    /// What looks to the left, and is pushed to the right.
+    Left,
+    /// What looks to the right, and is pushed to the left.
+    Right,
+}
+
+/// Where a point load stands.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Place {
     /// On the topmost surface at this abscissa, m.
@@ -46,10 +60,10 @@ pub enum Load {
     SelfWeight,
     /// Pressure of fill.
     Fill(Fill),
-    /// Horizontal pressure in bands of height.
-    Lateral(Vec<Band>),
-    /// A vertical force, N/m, downwards.
-    Point(f64, Place),
+    /// Horizontal pressure in bands of height, on these flanks.
+    Lateral(Vec<Band>, Flanks),
+    /// A force, N/m, on the extrados.
+    Point(Vec2, Place),
     /// A vertical force on a strip, on the extrados or on the surface of fill.
     Patch(Patch),
     /// Axles, each a force on a strip.
@@ -132,7 +146,7 @@ impl Load {
             Load::SelfWeight => body_force(structure, Vec2::new(0.0, -GRAVITY)),
             Load::BodyAcceleration(acceleration) => body_force(structure, *acceleration),
             Load::Fill(fill) => fill.on(structure, &sides)?,
-            Load::Lateral(bands) => lateral(&sides, bands),
+            Load::Lateral(bands, flanks) => lateral(&sides, bands, *flanks),
             Load::Point(force, Place::Abscissa(x)) => point_load(structure, *force, *x)?,
             Load::Point(force, Place::Body(k)) => vec![middle_load(structure, *force, *k)?],
             Load::Force { body, at, force } => vec![force_on(structure, *body, *at, *force)?],
@@ -197,9 +211,14 @@ fn clip(a: Vec2, b: Vec2, low: f64, high: f64) -> Option<(Vec2, Vec2)> {
     Some((inside(a), inside(b)))
 }
 
-fn lateral(sides: &[LoadedSide], bands: &[Band]) -> Vec<PointForce> {
+fn lateral(sides: &[LoadedSide], bands: &[Band], flanks: Flanks) -> Vec<PointForce> {
     let mut forces = Vec::new();
-    for &(body, a, b) in sides {
+    let pressed = |&&(_, a, b): &&LoadedSide| match flanks {
+        Flanks::Both => true,
+        Flanks::Left => b.y > a.y,
+        Flanks::Right => b.y < a.y,
+    };
+    for &(body, a, b) in sides.iter().filter(pressed) {
         for band in bands {
             if let Some((a, b)) = clip(a, b, band.from, band.to) {
                 let force = Vec2::new(band.pressure * (b.y - a.y), 0.0);
@@ -214,13 +233,13 @@ fn down(force: f64) -> Vec2 {
     Vec2::new(0.0, -force)
 }
 
-fn middle_load(structure: &Structure, force: f64, body: usize) -> Result<PointForce, LoadFault> {
+fn middle_load(structure: &Structure, force: Vec2, body: usize) -> Result<PointForce, LoadFault> {
     let Some(surface) = structure.surfaces.iter().find(|surface| surface.body == body) else {
         let last = structure.surfaces.iter().map(|surface| surface.body).max().unwrap_or(0);
         return Err(LoadFault::NoSuchVoussoir { last });
     };
     let [a, b] = surface.ends;
-    Ok(PointForce { body, at: 0.5 * (a + b), force: down(force), spread: false })
+    Ok(PointForce { body, at: 0.5 * (a + b), force, spread: false })
 }
 
 fn force_on(structure: &Structure, body: usize, at: Vec2, force: Vec2) -> Result<PointForce, LoadFault> {
@@ -246,9 +265,9 @@ fn plan(structure: &Structure) -> (f64, f64) {
     (xs().fold(f64::INFINITY, f64::min), xs().fold(f64::NEG_INFINITY, f64::max))
 }
 
-/// A vertical load at abscissa `x`, on the topmost surface that runs to the right; over an end that it shares with its
+/// A load at abscissa `x`, on the topmost surface that runs to the right; over an end that it shares with its
 /// neighbour, each takes half.
-fn point_load(structure: &Structure, force: f64, x: f64) -> Result<Vec<PointForce>, LoadFault> {
+fn point_load(structure: &Structure, force: Vec2, x: f64) -> Result<Vec<PointForce>, LoadFault> {
     let (from, to) = plan(structure);
     let near = 1e-9 * (to - from);
     let surfaces = &structure.surfaces;
@@ -266,7 +285,7 @@ fn point_load(structure: &Structure, force: f64, x: f64) -> Result<Vec<PointForc
     let mut bearers = vec![top];
     bearers.extend(under.iter().filter(stands_too).map(|&(i, _)| i));
     bearers.sort_unstable();
-    let (at, share) = (Vec2::new(x, y), down(force / bearers.len() as f64));
+    let (at, share) = (Vec2::new(x, y), force / bearers.len() as f64);
     Ok(bearers.into_iter().map(|i| PointForce { body: surfaces[i].body, at, force: share, spread: false }).collect())
 }
 

@@ -45,9 +45,14 @@ impl Structure {
         &self.stones[self.bodies[body].stone]
     }
 
-    /// Compressive strength of the weakest stone, Pa.
+    /// Compressive strength of every body, Pa.
+    pub fn strengths(&self) -> Vec<f64> {
+        (0..self.bodies.len()).map(|body| self.stone_of(body).compressive_strength).collect()
+    }
+
+    /// Compressive strength of the weakest stone that a body is made of, Pa.
     pub fn least_strength(&self) -> f64 {
-        self.stones.iter().map(|stone| stone.compressive_strength).fold(f64::INFINITY, f64::min)
+        self.strengths().into_iter().fold(f64::INFINITY, f64::min)
     }
 
     /// Compressive strength of the weaker stone beside a joint, Pa.

@@ -26,8 +26,13 @@ const EXAMPLES: [(&str, &str); 9] = [
 ];
 
 /// Fields of answers that are left out where they have nothing to say; all others are always there, be it as null.
-const LEFT_OUT: [(&str, &str); 4] =
-    [("EndBody", "without_crushing"), ("EndBody", "motion"), ("Problem", "errors"), ("ListLinks", "next")];
+const LEFT_OUT: [(&str, &str); 5] = [
+    ("EndBody", "adequacy_factor"),
+    ("EndBody", "without_crushing"),
+    ("EndBody", "motion"),
+    ("Problem", "errors"),
+    ("ListLinks", "next"),
+];
 
 /// The document as it was derived, completed.
 pub fn complete(mut document: OpenApi) -> OpenApi {

@@ -45,7 +45,7 @@ use super::json::{NotFinite, line};
 use super::prose::in_its_words;
 use super::request::AnalysisRequest;
 use super::translate::placed;
-use crate::collapse::{CollapseReport, Cost, LimitWindow, Note, Outcome};
+use crate::collapse::{CollapseReport, Cost, End, LimitWindow, Note, Outcome, Reach};
 use columns::column;
 use serde::Serialize;
 use settlement::Grounds;
@@ -141,6 +141,18 @@ impl Scale<'_> {
     }
 }
 
+/// By how much factored scaled loads may be multiplied at an end; none of a structure that needs them to stand.
+fn adequacy(report: &CollapseReport, end: &End<'_>) -> Option<f64> {
+    match (report.safety().map(|factors| factors.governing), report.outcome) {
+        (Some(Reach::At(load_factor)), _) => Some(load_factor),
+        (None, Outcome::Collapse) => match &report.updated {
+            Some(updated) => Some(updated.load_factor?.min(end.state.load_factor)),
+            None => Some(end.state.load_factor),
+        },
+        _ => None,
+    }
+}
+
 impl AnalysisResult {
     /// Puts the report in the request's words; none where it is no answer to this request.
     pub fn new(request: &AnalysisRequest, report: &CollapseReport) -> Option<Self> {
@@ -165,7 +177,10 @@ impl AnalysisResult {
             outcome: report.outcome,
             method: (&request.method).into(),
             unit: scale.unit.to_owned(),
-            ends: column(&report.ends(), |end| EndBody::new(end, scaled_load, &scale)),
+            ends: column(&report.ends(), |end| EndBody {
+                adequacy_factor: request.partial_factors.and_then(|_| adequacy(report, end)),
+                ..EndBody::new(end, scaled_load, &scale)
+            }),
             limit_window: window.map(|window| scale.window(window)),
             limit_window_load_factor: window.map(|window| Scale::LOAD_FACTOR.window(window)),
             proof: report.proof.as_ref().map(ProofBody::new),

@@ -232,7 +232,16 @@ fn loads_stand_on_what_can_carry_them() {
     let arch =
         json!({"profile": {"circular": {"span_m": 6, "rise_m": 2}}, "thickness": {"constant_m": 0.5}, "voussoirs": 9});
     let on_arch = json!({"arch": arch, "loads": [{"load": {"self_weight": {}}}, {"load": named}]});
-    refused(&on_arch, &l("point_force"), "give a point_load");
+    refused(&on_arch, &force("block"), "`voussoir 0` for the leftmost");
+    for (block, at, pointer) in [
+        ("voussoir 9", [0.0, 2.0], force("block")),
+        ("left abutment", [0.0, 2.0], force("block")),
+        ("voussoir 4", [1.0, 2.0], force("at_m")),
+    ] {
+        let on_abutments = with(on_arch.clone(), "/arch/abutments", json!({"height_m": 1}));
+        let named = json!({"block": block, "at_m": at, "force_n_per_m": [1, 0]});
+        refused(&with(on_abutments, &l("point_force"), named), &pointer, "");
+    }
 }
 
 #[test]

@@ -60,7 +60,7 @@ fn compare(seed: u64) -> Result<Found, String> {
         .crushing_window(&vec![strength; theorem.joints()], &Budget::unlimited())
         .map_err(|_| "unsolved")?
         .map(|window| window.ends);
-    let problem = crate::common::oracle::Problem { strength: Some(strength), ..door::problem(&analysis) };
+    let problem = door::problem(&analysis).of_strength(strength);
     let give = problem.give();
     if give.abs() < BALANCE {
         return Ok(Found::Undecided);
@@ -207,7 +207,7 @@ fn hold(title: &str, rows: &[[f64; 3]], request: impl Fn(f64) -> Value) {
             .crushing_window(&vec![STRENGTH; theorem.joints()], &Budget::unlimited())
             .unwrap()
             .map(|window| window.ends);
-        let problem = crate::common::oracle::Problem { strength: Some(STRENGTH), ..door::problem(&analysis) };
+        let problem = door::problem(&analysis).of_strength(STRENGTH);
         let cones = if problem.give() < 0.0 { problem.window() } else { None };
         let same = match (crushing, cones) {
             (Some([low, high]), Some(cones)) => relative(low, cones.0, 0.0).max(relative(high, cones.1, 0.0)) < EQUAL,

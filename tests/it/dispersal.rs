@@ -122,10 +122,8 @@ pub fn expected(ring: &Ring, fill: Vec<Push>, scaled: Vec<Push>) -> [f64; 2] {
     let fixed = [ring.weight(UNIT_WEIGHT / 1e3), fill].concat();
     let mut problem = ring.problem(40f64.to_radians().tan());
     (problem.fixed, problem.scaled) = (fixed, scaled);
-    [None, Some(STRENGTH / 1e3)].map(|strength| {
-        problem.strength = strength;
-        problem.solve(Aim::Highest).value(Aim::Highest).unwrap()
-    })
+    [problem.clone(), problem.of_strength(STRENGTH / 1e3)]
+        .map(|problem| problem.solve(Aim::Highest).value(Aim::Highest).unwrap())
 }
 
 pub fn boussinesq(x: f64, z: f64) -> f64 {

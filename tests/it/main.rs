@@ -50,6 +50,8 @@ mod downstream;
 #[cfg(feature = "server")]
 mod ends;
 #[cfg(feature = "server")]
+mod factors;
+#[cfg(feature = "server")]
 mod falling;
 #[cfg(feature = "server")]
 mod fill;
@@ -107,6 +109,8 @@ mod settlement;
 mod sliding;
 #[cfg(feature = "server")]
 mod states;
+#[cfg(feature = "server")]
+mod stones;
 #[cfg(feature = "server")]
 mod stopping;
 #[cfg(feature = "server")]

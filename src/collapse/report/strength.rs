@@ -60,7 +60,7 @@ pub struct ElasticCrushing {
     pub load_factor: Option<f64>,
     /// True where it has already at the start of the path.
     pub at_start: bool,
-    /// The subblock where it does, or that with the largest equivalent stress on the path, at the load factor it has it.
+    /// The subblock where it does, or that with the largest equivalent stress over its strength on the path, at the load factor it has it.
     pub where_largest: Option<SubblockStress>,
 }
 

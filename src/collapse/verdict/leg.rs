@@ -31,7 +31,7 @@ impl Setup<'_> {
         let at_unit_load = recorder.at(1.0).map(|d| states.find(1.0, d)).transpose()?.flatten();
         report.at_unit_load = at_unit_load.map(|state| snapshot(model, &state)).transpose()?;
         let (first_yield, at) = (recorder.first_yield(), recorder.yields_at());
-        report.crushing.elastic = Some(states.first_yield(first_yield, at, report.crushing.strength)?);
+        report.crushing.elastic = Some(states.first_yield(first_yield, at, &self.analysis.structure.strengths())?);
         let residual = tracer.worst_residual();
         let mut peak_load = None;
         let (ending, turned_back) = match leg {

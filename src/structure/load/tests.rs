@@ -149,18 +149,24 @@ fn fill_ends_at_its_top() {
 fn lateral_bands_push_by_their_height() {
     let arch = arch_of(&ring(Profile::circular(2.0, PI), 0.5, 11));
     let bands = vec![Band { from: 0.3, to: 0.9, pressure: 700.0 }, Band { from: 0.9, to: 50.0, pressure: 10.0 }];
-    let forces = Load::Lateral(bands).on(&arch, 2.0).unwrap();
+    let forces = Load::Lateral(bands.clone(), Flanks::Both).on(&arch, 2.0).unwrap();
     let inwards: f64 = forces.iter().map(|force| force.force.x.abs()).sum();
     let top = arch.joints[5].extrados.y;
     close(inwards, 2.0 * 2.0 * (700.0 * 0.6 + 10.0 * (top - 0.9)), 1e-9);
     close(sum(&forces).x, 0.0, 1e-9);
     assert!(is_symmetric(&forces, 11, 0.0));
+    // On one flank alone each of these forces is there, and no other.
+    let [left, right] =
+        [Flanks::Left, Flanks::Right].map(|side| Load::Lateral(bands.clone(), side).on(&arch, 2.0).unwrap());
+    close(sum(&left).x, 0.5 * inwards, 1e-9);
+    assert!(left.iter().all(|force| force.force.x > 0.0) && right.iter().all(|force| force.force.x < 0.0));
+    assert_eq!([left, right].concat(), forces);
 }
 
 #[test]
 fn a_point_load_over_a_joint_is_shared() {
     let arch = arch_of(&ring(Profile::circular(2.0, PI), 0.5, 12));
-    let at = |x: f64| Load::Point(100.0, Place::Abscissa(x)).on(&arch, 1.0).unwrap();
+    let at = |x: f64| Load::Point(down(100.0), Place::Abscissa(x)).on(&arch, 1.0).unwrap();
     let crown = at(0.0);
     assert_eq!(crown.iter().map(|force| (force.body, force.force.y)).collect::<Vec<_>>(), [(5, -50.0), (6, -50.0)]);
     assert!(is_symmetric(&crown, 12, arch.axis()));
@@ -168,9 +174,9 @@ fn a_point_load_over_a_joint_is_shared() {
     assert_eq!((beside.len(), beside[0].body, beside[0].force.y), (1, 6, -100.0));
     assert_eq!(at(-2.25)[0].body, 0);
     assert!(!is_symmetric(&beside, 12, 0.0));
-    assert!(Load::Point(1.0, Place::Abscissa(2.3)).on(&arch, 1.0).is_err());
-    assert!(Load::Point(1.0, Place::Body(12)).on(&arch, 1.0).is_err());
-    let middle = Load::Point(1.0, Place::Body(3)).on(&arch, -2.0).unwrap();
+    assert!(Load::Point(down(1.0), Place::Abscissa(2.3)).on(&arch, 1.0).is_err());
+    assert!(Load::Point(down(1.0), Place::Body(12)).on(&arch, 1.0).is_err());
+    let middle = Load::Point(down(1.0), Place::Body(3)).on(&arch, -2.0).unwrap();
     assert_eq!((middle[0].force.y, middle[0].at), (2.0, 0.5 * (arch.surfaces[3].ends[0] + arch.surfaces[3].ends[1])));
 }
 
@@ -179,7 +185,7 @@ fn loads_on_an_overhanging_arch_stand_on_its_top() {
     let arch = arch_of(&ring(Profile::circular(2.0, 4.4), 0.5, 20));
     let widest = arch.ring().iter().map(|joint| joint.extrados.x).fold(f64::INFINITY, f64::min);
     for x in [widest, widest + 1e-3, widest + 0.1] {
-        let forces = Load::Point(1.0, Place::Abscissa(x)).on(&arch, 1.0).unwrap();
+        let forces = Load::Point(down(1.0), Place::Abscissa(x)).on(&arch, 1.0).unwrap();
         assert!(forces.iter().all(|force| force.at.y > 0.5 && force.at.y > arch.joints[0].extrados.y));
         close(sum(&forces).y, -1.0, 1e-15);
     }
@@ -254,7 +260,7 @@ fn surfaces_that_do_not_touch_share_no_load() {
     let mut structure = arch_of(&ring(Profile::circular(2.0, 2.4), 0.5, 2));
     for (heights, bearers) in [([1.0, 2.0], vec![1]), ([2.0, 1.0], vec![0]), ([1.0, 1.0], vec![0, 1])] {
         structure.surfaces = vec![level(0, 0.0, heights[0]), level(1, 1.0, heights[1])];
-        let forces = Load::Point(3.0, Place::Abscissa(1.0)).on(&structure, 1.0).unwrap();
+        let forces = Load::Point(down(3.0), Place::Abscissa(1.0)).on(&structure, 1.0).unwrap();
         assert_eq!(forces.iter().map(|force| force.body).collect::<Vec<_>>(), bearers);
         close(sum(&forces).y, -3.0, 1e-15);
     }
@@ -280,7 +286,7 @@ fn pieces_of_a_side_carry_together_what_the_side_carries() {
     for load in [
         Load::Fill(fill(Some(4.65))),
         Load::Fill(fill(Some(1.5))),
-        Load::Lateral(bands),
+        Load::Lateral(bands, Flanks::Left),
         Load::Patch(Patch { force: 5e3, centre: 0.3, width: 1.1, dispersal: None }),
         dispersed(Distribution::Boussinesq { cut_off: PI / 6.0 }),
         dispersed(Distribution::Uniform { spread: 0.5 }),

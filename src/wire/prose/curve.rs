@@ -70,7 +70,10 @@ fn facts(result: &SafetyCurveResult, wall_time: Duration) -> Table {
     }
     fact("fixed loads", given::loads(request, false));
     fact("scaled loads", given::loads(request, true));
-    fact("strength", format!("{} MPa", Digits(request.stone.compressive_strength_pa / 1e6)));
+    if let Some(factors) = &request.partial_factors {
+        fact("partial factors", factors.words());
+    }
+    fact("strength", given::strengths(request));
     fact("crushing by", word(&result.crushing));
     fact("time", format!("{:.3} ms", wall_time.as_secs_f64() * 1e3));
     table

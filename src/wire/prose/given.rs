@@ -2,7 +2,9 @@
 
 use super::noun::noun;
 use crate::wire::prose::Digits;
-use crate::wire::request::{AnalysisRequest, ArchRequest, BridgeRequest, LoadEntry, LoadRequest, ProfileRequest};
+use crate::wire::request::{
+    AnalysisRequest, ArchRequest, BridgeRequest, LoadEntry, LoadRequest, NamedStone, ProfileRequest, StoneOf,
+};
 
 /// What the structure is called, and the structure in a few words.
 pub fn structure(request: &AnalysisRequest) -> (&'static str, String) {
@@ -40,15 +42,47 @@ fn arch(arch: &ArchRequest) -> String {
         (true, true) => ", the left half of it against a frictionless wall",
         (true, false) => ", the left half of it, the keystone cut on the axis",
     };
-    format!("{shape}, {count} voussoirs, {} joints{half}", count + 1)
+    let part = |part: &StoneOf| match part.from == part.to {
+        true => format!("; voussoir {} of {}", part.from, part.stone),
+        false => format!("; voussoirs {} to {} of {}", part.from, part.to, part.stone),
+    };
+    let parts: String = arch.stone_of.iter().take(STONES_LISTED).map(part).collect();
+    let more = if arch.stone_of.len() > STONES_LISTED { "; and so on" } else { "" };
+    format!("{shape}, {count} voussoirs, {} joints{half}{parts}{more}", count + 1)
+}
+
+/// Most runs of voussoirs of other stones that are listed.
+const STONES_LISTED: usize = 6;
+
+/// Strength beyond that of any matter, Pa: the request means none.
+const NO_LIMIT_PA: f64 = 1e15;
+
+/// Compressive strength of the stone, and of others that have one of their own.
+pub fn strengths(request: &AnalysisRequest) -> String {
+    let over = match request.factors().stone_strength {
+        1.0 => String::new(),
+        factor => format!(" / {}", Digits(factor)),
+    };
+    let words = |strength: f64| match strength < NO_LIMIT_PA {
+        true => format!("{} MPa{over}", Digits(strength / 1e6)),
+        false => "not limited".to_owned(),
+    };
+    let other = |stone: &NamedStone| Some(format!("; {}: {}", stone.name, words(stone.compressive_strength_pa?)));
+    let others: String = request.stones.iter().filter_map(other).collect();
+    format!("{}{others}", words(request.stone.compressive_strength_pa))
 }
 
 /// Most loads listed, beside fill, which always is.
 const LOADS_LISTED: usize = 6;
 
+/// What multiplies a load, in words.
+fn factored(factor: f64) -> String {
+    if factor == 1.0 { String::new() } else { format!("partial factor {} times: ", Digits(factor)) }
+}
+
 /// The fixed or the scaled loads, a line each; the backfill is among the fixed ones.
 pub fn loads(request: &AnalysisRequest, scaled: bool) -> String {
-    let backfill = request.backfill.as_ref();
+    let (backfill, factors) = (request.backfill.as_ref(), request.factors());
     let entries: Vec<&LoadEntry> = request.loads.iter().filter(|entry| entry.scaled == scaled).collect();
     let listed =
         |(i, entry): &(usize, &&LoadEntry)| *i < LOADS_LISTED || matches!(entry.load, LoadRequest::FillPressure(_));
@@ -56,13 +90,14 @@ pub fn loads(request: &AnalysisRequest, scaled: bool) -> String {
         .iter()
         .enumerate()
         .filter(listed)
-        .map(|(_, entry)| match (entry.coefficient == 1.0, entry.per_abscissa) {
-            (true, false) => entry.load.words(backfill),
-            (false, false) => format!("{} times: {}", Digits(entry.coefficient), entry.load.words(backfill)),
-            (true, true) => format!("abscissa times: {}", entry.load.words(backfill)),
-            (false, true) => {
-                format!("{} times abscissa times: {}", Digits(entry.coefficient), entry.load.words(backfill))
-            }
+        .map(|(_, entry)| {
+            let times = match (entry.coefficient == 1.0, entry.per_abscissa) {
+                (true, false) => String::new(),
+                (false, false) => format!("{} times: ", Digits(entry.coefficient)),
+                (true, true) => "abscissa times: ".to_owned(),
+                (false, true) => format!("{} times abscissa times: ", Digits(entry.coefficient)),
+            };
+            format!("{}{times}{}", factored(factors.of(entry)), entry.load.words(backfill))
         })
         .collect();
     let more = entries.len() - lines.len();
@@ -70,7 +105,11 @@ pub fn loads(request: &AnalysisRequest, scaled: bool) -> String {
         lines.push(format!("and {more} more"));
     }
     if let Some(backfill) = backfill.filter(|_| !scaled) {
-        lines.insert(0, backfill.words());
+        let over = match factors.soil_resistance {
+            1.0 => String::new(),
+            factor => format!("; what it resists with is over the partial factor {}", Digits(factor)),
+        };
+        lines.insert(0, format!("{}{}{over}", factored(factors.fill), backfill.words()));
     }
     if lines.is_empty() { "none".to_owned() } else { lines.join("\n") }
 }

@@ -1,5 +1,6 @@
 //! Crushing and safety in words.
 
+use super::given;
 use super::wording::{self, word};
 use crate::collapse::{CrushingKind, Governs, SafetyZone, Seams};
 use crate::wire::prose::{Digits, Rounded};
@@ -100,10 +101,7 @@ fn factors(safety: &SafetyBody) -> String {
 }
 
 fn crushing_facts(lines: &mut Vec<(&'static str, String)>, result: &AnalysisResult, crushing: &CrushingBody) {
-    let limited = crushing.strength_pa < NO_LIMIT_PA;
-    let strength =
-        if limited { format!("{} MPa", Digits(crushing.strength_pa / 1e6)) } else { "not limited".to_owned() };
-    lines.push(("strength", strength));
+    lines.push(("strength", given::strengths(&result.request)));
     if let Some(elastic) = &crushing.elastic {
         lines.push(("first yield", first_yield(result, elastic)));
     }
@@ -111,9 +109,6 @@ fn crushing_facts(lines: &mut Vec<(&'static str, String)>, result: &AnalysisResu
         lines.push(("plastic section", plastic_section(result, plastic)));
     }
 }
-
-/// Strength beyond that of any matter, Pa: the request means none.
-const NO_LIMIT_PA: f64 = 1e15;
 
 /// What the two answers about crushing mean.
 pub const EXPLANATION: &str = "First yield: the equivalent stress of Tresca reaches the strength in some subblock; it \
@@ -127,7 +122,11 @@ fn first_yield(result: &AnalysisResult, elastic: &ElasticCrushingBody) -> String
         (false, None) => match &elastic.subblock {
             Some(largest) => {
                 let stress = Digits(largest.tresca_pa / 1e6);
-                format!("not reached; largest equivalent stress {stress} MPa, in {}", place(result, largest))
+                let which = match result.request.stones.is_empty() {
+                    true => "largest equivalent stress",
+                    false => "equivalent stress nearest to it",
+                };
+                format!("not reached; {which} {stress} MPa, in {}", place(result, largest))
             }
             None => "not reached".to_owned(),
         },

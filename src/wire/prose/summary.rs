@@ -77,6 +77,9 @@ fn facts(result: &AnalysisResult, wall_time: Duration) -> Table {
         let one = Digits(result.request.load_factor.intensity_per_unit);
         fact("", format!("(at load factor 1, which is intensity {one} {})", wording::unit(result)));
     }
+    if let Some(factors) = &result.request.partial_factors {
+        fact("partial factors", factors.words());
+    }
     fact("outcome", word(&result.outcome));
     fact("method", word(&result.method));
     if let Some(worst) = &result.worst_position {
@@ -118,7 +121,8 @@ fn over_width(result: &AnalysisResult, width: f64) -> String {
     let scaled = |end: &EndBody| {
         let [x, y] = [end.scaled_load.x_kn?, end.scaled_load.y_kn?].map(Digits);
         let at = if result.outcome == Outcome::StandsInWindow { wording::name(end) } else { "collapse" };
-        Some(format!("; scaled loads at {at} ({x}, {y}) kN"))
+        let factored = if result.request.partial_factors.is_some() { "factored " } else { "" };
+        Some(format!("; {factored}scaled loads at {at} ({x}, {y}) kN"))
     };
     let thrust = result
         .thrust_range
@@ -148,6 +152,9 @@ fn end_facts(result: &AnalysisResult, end: &EndBody) -> Vec<(&'static str, Strin
     // An arch that falls as built has no load to fall at.
     if window || matches!(result.outcome, Outcome::Collapse | Outcome::CannotTell | Outcome::Crushes) {
         lines.push((name, at(end.intensity, end.load_factor)));
+        lines.extend(
+            end.adequacy_factor.map(|factor| ("adequacy factor", format!("{} (1 and more is enough)", Digits(factor)))),
+        );
         lines.extend(wording::sliding_range(end, unit).map(|range| ("range", range)));
         let other = end.instability.as_ref().filter(|_| end.governed_by == GovernedBy::Crushing);
         lines.extend(other.map(|other| ("without crushing", at(other.intensity, other.load_factor))));

@@ -39,7 +39,13 @@ pub fn motion(from: &str, motion: &MotionBody, unit: &str) -> String {
 
 /// One sentence, or a few.
 pub fn headline(result: &AnalysisResult) -> String {
-    in_its_words(&result.request, &of_an_arch(result))
+    let adequacy = result.ends.iter().find_map(|end| end.adequacy_factor);
+    let factored = match (&result.request.partial_factors, adequacy) {
+        (None, _) => String::new(),
+        (Some(_), None) => " That is with partial factors.".to_owned(),
+        (Some(_), Some(factor)) => format!(" With partial factors its adequacy factor is {}.", Rounded(factor)),
+    };
+    in_its_words(&result.request, &format!("{}{factored}", of_an_arch(result)))
 }
 
 /// The same, said of an arch.

@@ -1,6 +1,6 @@
 //! The arch in a request.
 
-use super::{Length, Point};
+use super::{Length, Point, Text};
 use crate::arch::ring::Line;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
@@ -27,6 +27,10 @@ pub struct ArchRequest {
     /// constant thickness with normal joints. Pressures still act on the straight sides.
     #[schema(required = false, default = false)]
     pub curved_sides: bool,
+    /// Voussoirs that are not of `stone`. The others are.
+    #[serde(default)]
+    #[schema(max_items = 2001)]
+    pub stone_of: Vec<StoneOf>,
     /// Rectangular blocks below the springing joints, bonded to the ground. Left out: none.
     pub abutments: Option<AbutmentsRequest>,
     /// How the springing joints hold. `dry`: like all others. `bonded`: they neither open nor slide.
@@ -213,7 +217,22 @@ pub struct Rays {
     pub centre_m: Point,
 }
 
-/// Rectangular blocks below the springing joints, bonded to the ground.
+/// Voussoirs in a row and the stone that they are of. A joint of two stones has the lower friction, the lower cohesion and the
+/// lower strength of both.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct StoneOf {
+    /// The first of them, from 0 on the left.
+    #[schema(maximum = 2000)]
+    pub from: usize,
+    /// The last of them.
+    #[schema(maximum = 2000)]
+    pub to: usize,
+    /// The name of one of `stones`.
+    pub stone: Text,
+}
+
+/// Rectangular blocks below the springing joints, bonded to the ground. Each is of the stone of the voussoir on it, but weighs
+/// nothing.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct AbutmentsRequest {
     /// Height, normal to the springing joint, m.

@@ -10,7 +10,7 @@ mod vehicle;
 use super::{BackfillRequest, ForceVector, Point, Text};
 use crate::geometry::Vec2;
 use crate::structure::GRAVITY;
-use crate::structure::load::{Band, Load, LoadFault, Place};
+use crate::structure::load::{Band, Flanks, Load, LoadFault, Place};
 use crate::wire::fault::{Faults, Shown};
 use crate::wire::prose::Digits;
 pub use fill::FillPressure;
@@ -45,9 +45,9 @@ pub enum LoadRequest {
     FillPressure(FillPressure),
     /// Horizontal pressure in bands of height.
     LateralPressure(LateralPressure),
-    /// A vertical force at one point of the extrados.
+    /// A force at one point of the extrados.
     PointLoad(PointLoad),
-    /// A force in any direction at a point of a block; of a bridge or blocks.
+    /// A force in any direction at a point of a block.
     PointForce(PointForceLoad),
     /// A vertical force spread over a plan width.
     PatchLoad(PatchLoad),
@@ -67,6 +67,9 @@ pub struct LateralPressure {
     /// Bands of height; where bands overlap they add up.
     #[schema(min_items = 1, max_items = 1000)]
     pub bands: Vec<PressureBand>,
+    /// Where they press. `left` and `right`: only on what of the extrados looks to that side, as earth on one side of an arch does.
+    #[schema(required = false, default = "both")]
+    pub side: Flanks,
 }
 
 /// A horizontal pressure between two heights.
@@ -83,12 +86,15 @@ pub struct PressureBand {
     pub pressure_pa: f64,
 }
 
-/// A vertical force at one point of the extrados: at an abscissa, or in the middle of a voussoir.
+/// A force at one point of the extrados: at an abscissa, or in the middle of a voussoir.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct PointLoad {
     /// Force per metre of width, N/m, downwards positive; not 0.
     #[schema(minimum = -1e15, maximum = 1e15)]
     pub force_n_per_m: f64,
+    /// Angle from the vertical, degrees; positive: a downward force also pushes to the right.
+    #[schema(required = false, default = 0.0, minimum = -180.0, maximum = 180.0)]
+    pub inclination_deg: f64,
     /// Abscissa, m; over a joint, its two voussoirs take half each. Either this or `voussoir` is given.
     #[schema(minimum = -1e5, maximum = 1e5)]
     pub x_m: Option<f64>,
@@ -97,12 +103,13 @@ pub struct PointLoad {
     pub voussoir: Option<usize>,
 }
 
-/// A force in any direction at a point of a block; of a bridge or blocks, which take no load that stands on an extrados.
+/// A force in any direction at a point of a block, such as a tie's on an arch.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct PointForceLoad {
-    /// The block's name: that of `blocks.polygons`, or of a body of the bridge as `structure.bodies` of an answer lists them.
+    /// The block's name: that of `blocks.polygons`, or of a body of the bridge or a voussoir of the arch as `structure.bodies` of an
+    /// answer lists them, such as `voussoir 3`.
     pub block: Text,
-    /// Where it acts, [x, y], m; inside the block or on its sides.
+    /// Where it acts, [x, y], m; inside the block or on its sides, which count as straight.
     pub at_m: Point,
     /// Force per metre of width to the right and upwards, N/m; not both 0.
     pub force_n_per_m: ForceVector,
@@ -127,8 +134,6 @@ pub enum Bearer {
     AllBodies,
     /// The extrados of an arch or a bridge.
     Extrados,
-    /// A body that has a name, which those of an arch have not.
-    NamedBody,
 }
 
 impl LoadRequest {
@@ -141,7 +146,7 @@ impl LoadRequest {
             LoadRequest::PointLoad(_) => ("point_load", Bearer::Extrados),
             LoadRequest::PatchLoad(_) => ("patch_load", Bearer::Extrados),
             LoadRequest::Vehicle(_) => ("vehicle", Bearer::Extrados),
-            LoadRequest::PointForce(_) => ("point_force", Bearer::NamedBody),
+            LoadRequest::PointForce(_) => ("point_force", Bearer::AllBodies),
             LoadRequest::BodyAcceleration(_) => ("body_acceleration", Bearer::AllBodies),
         }
     }
@@ -154,14 +159,9 @@ impl LoadRequest {
             LoadRequest::FillPressure(fill) => Load::Fill(fill.in_si(backfill)),
             LoadRequest::LateralPressure(lateral) => {
                 let band = |band: &PressureBand| Band { from: band.from_m, to: band.to_m, pressure: band.pressure_pa };
-                Load::Lateral(lateral.bands.iter().map(band).collect())
+                Load::Lateral(lateral.bands.iter().map(band).collect(), lateral.side)
             }
-            LoadRequest::PointLoad(PointLoad { force_n_per_m, x_m: None, voussoir: Some(voussoir) }) => {
-                Load::Point(*force_n_per_m, Place::Body(*voussoir))
-            }
-            LoadRequest::PointLoad(point) => {
-                Load::Point(point.force_n_per_m, Place::Abscissa(point.x_m.unwrap_or(0.0)))
-            }
+            LoadRequest::PointLoad(point) => Load::Point(point.force(), point.place()),
             LoadRequest::PatchLoad(patch) => Load::Patch(patch.in_si(backfill)?),
             LoadRequest::Vehicle(vehicle) => Load::Vehicle(vehicle.in_si(backfill)?),
             LoadRequest::PointForce(force) => Load::Force {
@@ -249,15 +249,14 @@ impl LoadRequest {
             LoadRequest::SelfWeight(_) => "self weight".to_owned(),
             LoadRequest::FillPressure(fill) => fill.words(backfill),
             LoadRequest::LateralPressure(lateral) => {
-                format!("lateral pressure, bands of height: {}", lateral.bands.len())
-            }
-            LoadRequest::PointLoad(point) => {
-                let place = match (point.x_m, point.voussoir) {
-                    (None, Some(voussoir)) => format!("on voussoir {voussoir}"),
-                    (x, _) => format!("at x = {} m", Digits(x.unwrap_or(0.0))),
+                let flanks = match lateral.side {
+                    Flanks::Both => "",
+                    Flanks::Left => " on the left flank",
+                    Flanks::Right => " on the right flank",
                 };
-                format!("{} {place}", kn_per_m(point.force_n_per_m))
+                format!("lateral pressure{flanks}, bands of height: {}", lateral.bands.len())
             }
+            LoadRequest::PointLoad(point) => point.words(),
             LoadRequest::PatchLoad(patch) => patch.words(backfill),
             LoadRequest::Vehicle(vehicle) => vehicle.words(backfill),
             LoadRequest::PointForce(force) => {
@@ -275,6 +274,34 @@ impl LoadRequest {
 
 fn kn_per_m(force: f64) -> String {
     format!("{} kN/m", Digits(force / 1e3))
+}
+
+impl PointLoad {
+    /// The force, N/m.
+    fn force(&self) -> Vec2 {
+        let (sin, cos) = self.inclination_deg.to_radians().sin_cos();
+        self.force_n_per_m * Vec2::new(sin, -cos)
+    }
+
+    /// Of two places the abscissa counts.
+    fn place(&self) -> Place {
+        match (self.x_m, self.voussoir) {
+            (None, Some(voussoir)) => Place::Body(voussoir),
+            (x, _) => Place::Abscissa(x.unwrap_or(0.0)),
+        }
+    }
+
+    fn words(&self) -> String {
+        let place = match self.place() {
+            Place::Body(voussoir) => format!("on voussoir {voussoir}"),
+            Place::Abscissa(x) => format!("at x = {} m", Digits(x)),
+        };
+        let inclined = match self.inclination_deg {
+            0.0 => String::new(),
+            angle => format!(", inclined by {} deg to the right", Digits(angle)),
+        };
+        format!("{} {place}{inclined}", kn_per_m(self.force_n_per_m))
+    }
 }
 
 impl BodyAcceleration {

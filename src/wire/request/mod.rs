@@ -7,6 +7,7 @@ mod backfill;
 mod beam;
 mod blocks;
 mod bridge;
+mod factors;
 mod loads;
 mod mesh;
 mod motion;
@@ -24,6 +25,7 @@ pub use backfill::*;
 pub use beam::*;
 pub use blocks::*;
 pub use bridge::*;
+pub use factors::*;
 pub use loads::*;
 pub use mesh::*;
 pub use motion::*;
@@ -95,7 +97,7 @@ pub struct AnalysisRequest {
     /// The stone.
     #[serde(default)]
     pub stone: StoneRequest,
-    /// Other stones, which parts of a bridge and blocks name. Not with `arch`.
+    /// Other stones, which parts of an arch, of a bridge and blocks name.
     #[serde(default)]
     #[schema(max_items = 100)]
     pub stones: Vec<NamedStone>,
@@ -113,6 +115,9 @@ pub struct AnalysisRequest {
     /// Loads, fixed and scaled by the load factor. Without a scaled one, only whether the structure stands is asked.
     #[schema(min_items = 1, max_items = 1000)]
     pub loads: Vec<LoadEntry>,
+    /// Partial factors on loads and resistances. Left out: none, and the answer has no adequacy factor. Not with fixed steps, nor with
+    /// a load factor that decreases.
+    pub partial_factors: Option<PartialFactors>,
     /// What is asked.
     #[serde(default)]
     pub analysis: AimRequest,
@@ -140,6 +145,11 @@ pub struct AnalysisRequest {
 }
 
 impl AnalysisRequest {
+    /// The partial factors; all 1 where there are none.
+    pub fn factors(&self) -> PartialFactors {
+        self.partial_factors.unwrap_or_default()
+    }
+
     /// True where only the left half of an arch is asked about.
     pub fn half(&self) -> bool {
         self.arch.as_ref().is_some_and(|arch| arch.half)

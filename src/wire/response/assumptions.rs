@@ -60,7 +60,7 @@ pub(super) fn assumptions(request: &AnalysisRequest, structure: &StructureBody) 
     ];
     let notes = notes.into_iter().filter(|(holds, _)| *holds).map(|(_, note)| note.to_owned());
     let others = uncut(request, structure).into_iter().chain(units(request, structure)).chain(beyond(structure));
-    notes.chain(others).chain(mobilised(request, structure)).collect()
+    notes.chain(factored(request)).chain(others).chain(mobilised(request, structure)).collect()
 }
 
 /// How far stones have to move into fill until all of its resistance is there.
@@ -74,6 +74,30 @@ fn mobilised(request: &AnalysisRequest, structure: &StructureBody) -> Option<Str
         "The backfill resists in full where stones have moved into it by {} % of the depth, up to {} m. {what}",
         Digits(100.0 * request.backfill.as_ref()?.passive.as_ref()?.mobilisation_share_of_depth),
         Digits(farthest)
+    ))
+}
+
+/// What partial factors have done, and to what not.
+fn factored(request: &AnalysisRequest) -> Option<String> {
+    let factors = request.partial_factors?;
+    let any = |fits: fn(&LoadEntry) -> bool| request.loads.iter().any(fits);
+    let weight = |load: &LoadRequest| matches!(load, LoadRequest::SelfWeight(_) | LoadRequest::FillPressure(_));
+    let other = request.loads.iter().any(|entry| !entry.scaled && !weight(&entry.load));
+    let shaken = any(|entry| matches!(entry.load, LoadRequest::BodyAcceleration(_)));
+    let intensities = format!(
+        " Load factors and intensities are of the scaled loads as given: at load factor 1 the arch bears {} times them.",
+        Digits(factors.live)
+    );
+    let sentences = [
+        (any(|entry| entry.scaled), intensities.as_str()),
+        (other, " Fixed loads that are neither self weight nor fill have no factor."),
+        (shaken, " Masses in an acceleration have no factor."),
+    ];
+    let more: String = sentences.into_iter().filter(|(holds, _)| *holds).map(|(_, sentence)| sentence).collect();
+    let words = factors.words();
+    Some(format!(
+        "Partial factors: {words}. Forces, stresses and thrusts are those of the factored loads.{more} Friction and cohesion of \
+         joints are as given."
     ))
 }
 
@@ -93,7 +117,8 @@ fn beyond(structure: &StructureBody) -> impl Iterator<Item = String> {
 
 /// Which numbers look as if they were in other units.
 fn units(request: &AnalysisRequest, structure: &StructureBody) -> Vec<String> {
-    let stones = std::iter::once(&request.stone.density_kg_m3);
+    let others = request.stones.iter().filter_map(|stone| stone.density_kg_m3.as_ref());
+    let stones = std::iter::once(&request.stone.density_kg_m3).chain(others);
     let densities = stones.filter(|density| !(DENSITIES[0]..=DENSITIES[1]).contains(*density));
     let densities = densities.map(|density| {
         format!("Is the unit right? No stone has a density of {} kg/m3; most have 1500 to 3000.", Digits(*density))

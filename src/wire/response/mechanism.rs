@@ -22,6 +22,11 @@ pub struct EndBody {
     pub unit: String,
     /// `intensity` as a load factor.
     pub load_factor: f64,
+    /// With `partial_factors`: by how much the factored scaled loads may be multiplied. 1 and more is enough. It is `load_factor` or,
+    /// where that is lower, the load factor on moving geometry; in a safety analysis the governing one. Left out without
+    /// `partial_factors`, where it cannot be told, and of a structure that needs its scaled loads to stand.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub adequacy_factor: Option<f64>,
     /// What governs. All that follows but the two figures is of that state.
     pub governed_by: GovernedBy,
     /// Where stone that does not crush falls; null where it does not up to `cap`, and where `crushing_in_path` is set and joints
@@ -35,7 +40,7 @@ pub struct EndBody {
     /// Largest equilibrium residual of any body, at any event of the load path, as a share of the structure's weight, or of the
     /// largest load at a point where that is more; where crushing governs, at its forces and as a share of the loads that stay.
     pub residual: f64,
-    /// What the scaled loads come to there.
+    /// What the scaled loads come to there, with their partial factor.
     pub scaled_load: ScaledLoadBody,
     /// How it falls.
     #[serde(flatten)]
@@ -183,6 +188,7 @@ impl EndBody {
             intensity: scale.intensity(state.load_factor),
             unit: scale.unit.to_owned(),
             load_factor: state.load_factor,
+            adequacy_factor: None,
             governed_by: end.governed_by,
             instability: end.uncrushed.map(|path| figure(path.load_factor)),
             crushing: end.crushing.map(figure),

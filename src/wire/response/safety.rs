@@ -47,7 +47,8 @@ pub struct SafetyBody {
     pub elastic: ReachBody,
     /// Until joints of finite strength can no longer be in equilibrium; does not depend on the mesh.
     pub plastic_section: ReachBody,
-    /// The first of instability, on moving geometry too where asked, and the kind of crushing that counts.
+    /// The first of instability, on moving geometry too where asked, and the kind of crushing that counts; with `partial_factors` the
+    /// adequacy factor.
     pub governing: ReachBody,
     /// Which of them that is.
     pub governed_by: Governs,

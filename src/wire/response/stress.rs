@@ -85,7 +85,7 @@ impl SubblockColumns {
 /// When the stone crushes: both answers, neither of which changes the load path.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct CrushingBody {
-    /// Compressive strength of the stone.
+    /// Compressive strength of the weakest stone, over its partial factor.
     pub strength_pa: f64,
     /// First yield of a subblock, as in the paper; null where no path was followed.
     pub elastic: Option<ElasticCrushingBody>,
@@ -113,7 +113,7 @@ pub struct ElasticCrushingBody {
     pub intensity: Option<f64>,
     /// True where it has at the start of the path already.
     pub at_start: bool,
-    /// The subblock where it does, or that with the largest equivalent stress on the path.
+    /// The subblock where it does, or that with the largest equivalent stress over its stone's strength on the path.
     pub subblock: Option<CrushedSubblock>,
     /// How this depends on the mesh.
     pub note: String,

@@ -48,7 +48,7 @@ pub struct BodyBody {
     pub scaled_load: LoadOnBody,
 }
 
-/// Resultant of loads on one body.
+/// Resultant of loads on one body, with their partial factors.
 #[derive(Debug, Clone, Copy, Serialize, ToSchema)]
 pub struct LoadOnBody {
     /// Force to the right.
@@ -72,7 +72,7 @@ pub struct JointBody {
     pub friction_coefficient: Option<f64>,
     /// Cohesion times length: what it resists besides friction; null of a joint that is not dry.
     pub cohesion_n_per_m: Option<f64>,
-    /// Compressive strength of the weaker stone beside it, Pa.
+    /// Compressive strength of the weaker stone beside it, over its partial factor, Pa.
     pub compressive_strength_pa: f64,
 }
 
@@ -86,7 +86,7 @@ pub struct PassiveElementBody {
     pub at_m: [f64; 2],
     /// Direction of the force: +1 to the right, -1 to the left.
     pub direction: f64,
-    /// Largest force.
+    /// Largest force, over its partial factor.
     pub most_n_per_m: f64,
     /// Movement of the body into the fill at which that is reached on the load path.
     pub mobilised_at_m: f64,

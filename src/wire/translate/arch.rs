@@ -1,12 +1,12 @@
 //! The arch of a request, set out.
 
 use super::profile::profile;
-use super::stone::joint_law;
+use super::stone::{Stones, joint_law};
 use crate::arch::profile::Profile;
 use crate::arch::ring::{JointEnds, JointLines, Line, Ring, Thickness, stations};
-use crate::arch::{ArchFault, assemble, joints_on_intrados, stand_on_abutments, straight_voussoirs};
+use crate::arch::{ArchFault, assemble, joints_on_intrados, make_of, stand_on_abutments, straight_voussoirs};
 use crate::geometry::Vec2;
-use crate::structure::{Joint, JointLaw, Stone, Structure};
+use crate::structure::{Joint, JointLaw, Structure};
 use crate::wire::fault::{Faults, Shown};
 use crate::wire::prose::Digits;
 use crate::wire::request::{
@@ -21,7 +21,7 @@ const LEAST_ABUTMENT: f64 = 1e-6;
 const MAX_STONE_FAULTS: usize = 20;
 
 /// The whole arch (never halved here), or faults.
-pub fn arch(request: &ArchRequest, stone: Stone, faults: &mut Faults) -> Option<Structure> {
+pub fn arch(request: &ArchRequest, stones: &Stones<'_>, faults: &mut Faults) -> Option<Structure> {
     let (ends, ring) = if let ProfileRequest::Surveyed(surveyed) = &request.profile {
         (surveyed_ends(request, surveyed, faults)?, None)
     } else {
@@ -32,7 +32,9 @@ pub fn arch(request: &ArchRequest, stone: Stone, faults: &mut Faults) -> Option<
     if let Some(ring) = ring.filter(|_| request.curved_sides) {
         voussoirs = ring.curved_voussoirs(&ends)?;
     }
-    let mut arch = assemble(&ends, voussoirs, stone, joint_law(&stone));
+    let mut arch = assemble(&ends, voussoirs, stones.all[0], joint_law(&stones.all[0]));
+    let of = stone_of(request, stones, arch.bodies.len(), faults);
+    make_of(&mut arch, stones.all.clone(), &of);
     if request.springing_joints == SpringingJoints::Bonded {
         let last = arch.joints.len() - 1;
         arch.joints[0].law = JointLaw::Bonded;
@@ -53,6 +55,24 @@ pub fn arch(request: &ArchRequest, stone: Stone, faults: &mut Faults) -> Option<
         stand_on_abutments(&mut arch, height);
     }
     Some(arch)
+}
+
+/// The number of the stone of every voussoir.
+fn stone_of(request: &ArchRequest, stones: &Stones<'_>, voussoirs: usize, faults: &mut Faults) -> Vec<usize> {
+    let mut of = vec![None; voussoirs];
+    for (i, part) in request.stone_of.iter().enumerate() {
+        let here = format!("/arch/stone_of/{i}");
+        let stone = stones.named(Some(&part.stone), &format!("{here}/stone"), faults);
+        let detail = format!("there is no voussoir {}; they run from 0 to {}", part.to, voussoirs - 1);
+        let exists = faults.require(part.to < voussoirs, format!("{here}/to"), detail);
+        let detail = format!("from left to right: give {} or more", part.from);
+        if exists && faults.require(part.from <= part.to, format!("{here}/to"), detail) {
+            let detail = "a voussoir of these has its stone already: name each voussoir once";
+            faults.require(of[part.from..=part.to].iter().all(Option::is_none), &here, detail);
+            of[part.from..=part.to].fill(Some(stone));
+        }
+    }
+    of.into_iter().map(Option::unwrap_or_default).collect()
 }
 
 /// Where in a request a fault of the setting out is best mended.

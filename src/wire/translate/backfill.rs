@@ -20,8 +20,9 @@ pub fn weight(
     let lies = faults.require(request.blocks.is_none(), HERE, detail);
     backfill.check(HERE, faults);
     let (Some(fill), Some(layout), true) = (backfill.in_si(), whole, lies) else { return Vec::new() };
-    let passive = backfill.resists().map(|passive| passive.of(&fill, &layout.structure));
-    let mut forces = Load::Fill(fill).on_pieces(&layout.structure, pieces, 1.0).unwrap_or_default();
+    let factors = request.factors();
+    let passive = backfill.resists().map(|passive| factors.on_passive(passive).of(&fill, &layout.structure));
+    let mut forces = Load::Fill(fill).on_pieces(&layout.structure, pieces, factors.fill).unwrap_or_default();
     let detail = "none of its weight lies on the structure: raise its surface, give it a density, or leave it out";
     faults.require(!forces.is_empty(), HERE, detail);
     let structure = &layout.structure;
@@ -40,5 +41,5 @@ pub fn weight(
 /// The passive elements of the backfill on a structure.
 pub fn resistance(request: &AnalysisRequest, structure: &Structure) -> Vec<PassiveElement> {
     let fill = request.backfill.as_ref().and_then(|backfill| Some((backfill.resists()?, backfill.in_si()?)));
-    fill.map_or(Vec::new(), |(passive, fill)| passive.of(&fill, structure).0)
+    fill.map_or(Vec::new(), |(passive, fill)| request.factors().on_passive(passive).of(&fill, structure).0)
 }

@@ -14,13 +14,22 @@ pub struct Mass {
 }
 
 /// Adds what fill of these masses does in the acceleration `entry`. The force has the coefficients of both, and is scaled
-/// where one of the two is. A fill that does not fit the arch has a fault of its own.
-pub fn add(masses: &[Mass], entry: &LoadEntry, structure: &Structure, pieces: &[usize], forces: &mut LoadForces) {
+/// where one of the two is, then with the partial factor `live`; masses have none. A fill that does not fit the arch has a fault of its own.
+pub fn add(
+    masses: &[Mass],
+    entry: &LoadEntry,
+    live: f64,
+    structure: &Structure,
+    pieces: &[usize],
+    forces: &mut LoadForces,
+) {
     let LoadRequest::BodyAcceleration(body) = &entry.load else { return };
     for Mass { fill, coefficient, scaled } in masses {
-        let acceleration = entry.coefficient * coefficient * body.in_si();
+        let scaled = entry.scaled || *scaled;
+        let factor = if scaled { live } else { 1.0 };
+        let acceleration = factor * entry.coefficient * coefficient * body.in_si();
         let carried = fill.inertia(structure, pieces, acceleration).unwrap_or_default();
-        forces.of(entry.scaled || *scaled).extend(carried);
+        forces.of(scaled).extend(carried);
     }
 }
 

@@ -35,7 +35,7 @@ impl LoadForces {
     }
 }
 
-/// The forces on the whole structure where there is one, with the sides of its bodies cut into `pieces` each.
+/// The forces on the whole structure where there is one, with partial factors, and with the sides of its bodies cut into `pieces` each.
 pub fn loads(
     request: &AnalysisRequest,
     entries: &[LoadEntry],
@@ -43,7 +43,7 @@ pub fn loads(
     pieces: &[usize],
     faults: &mut Faults,
 ) -> LoadForces {
-    let (mut all, below) = (LoadForces::default(), request.backfill.as_ref());
+    let (mut all, below, factors) = (LoadForces::default(), request.backfill.as_ref(), request.factors());
     let forces = forces_per_voussoir_of(entries, below) * pieces.iter().sum::<usize>();
     if forces > MAX_FORCES {
         let detail = format!(
@@ -66,17 +66,23 @@ pub fn loads(
         let Some(load) = entry.load.in_si(&layout.bodies, below) else {
             // A surface with faults has its own.
             if let LoadRequest::PointForce(_) = entry.load {
-                faults.add(format!("{fields}/block"), "there is no block of this name: correct the name");
+                let detail = match &request.arch {
+                    Some(_) => {
+                        "an arch has no block of this name: give that of a voussoir, as `voussoir 0` for the leftmost"
+                    }
+                    None => "there is no block of this name: correct the name",
+                };
+                faults.add(format!("{fields}/block"), detail);
             }
             continue;
         };
-        match load.on_pieces(&layout.structure, pieces, entry.coefficient) {
+        match load.on_pieces(&layout.structure, pieces, factors.of(entry) * entry.coefficient) {
             Ok(forces) if forces.is_empty() && entry.load.dispersed_force().is_none() => {
                 faults.add(here, "this load puts no force on the structure: correct it or leave it out");
             }
             Ok(forces) => {
                 all.of(entry.scaled).extend(forces);
-                inertia::add(&masses, entry, &layout.structure, pieces, &mut all);
+                inertia::add(&masses, entry, factors.live, &layout.structure, pieces, &mut all);
             }
             Err(fault) => {
                 let place = entry.load.field_of(fault).map(|field| format!("{fields}/{field}"));
@@ -120,10 +126,6 @@ fn check_coefficient(pointer: &str, value: f64, faults: &mut Faults) {
 fn check_fits(fields: &str, load: &LoadRequest, request: &AnalysisRequest, faults: &mut Faults) {
     match load.kind().1 {
         Bearer::AllBodies => {}
-        Bearer::NamedBody => {
-            let detail = "the stones of an arch have no names: give a point_load instead";
-            faults.require(request.arch.is_none(), fields, detail);
-        }
         Bearer::Extrados => {
             let detail =
                 "blocks have no extrados for this to stand on: give a point_force on each block that carries it";

@@ -7,6 +7,7 @@ mod beam;
 mod blocks;
 mod bridge;
 mod crushing;
+mod factors;
 mod geometric;
 mod half;
 mod inertia;
@@ -72,6 +73,7 @@ fn structure_question(request: &AnalysisRequest, faults: &mut Faults) -> Option<
             None
         }
     };
+    factors::check(request, faults);
     safety::check_flags(request, curve, faults);
     vehicle::check(request, faults);
     match (curve, &request.analysis) {

@@ -99,7 +99,7 @@ impl<'a> Unloaded<'a> {
         let request = self.request;
         let forces = loads::loads(request, entries, self.whole.as_ref(), &self.pieces(), faults);
         if let Some(whole) = self.whole.as_ref().filter(|_| request.half()) {
-            half::check_loads(entries, request.backfill.as_ref(), &whole.structure, faults);
+            half::check_loads(request, entries, whole, faults);
         }
         let structure = self.structure.as_ref()?;
         let halve = |forces: Vec<PointForce>| match self.whole.as_ref().filter(|_| request.half()) {

@@ -6,7 +6,7 @@ use crate::wire::prose::Digits;
 use crate::wire::request::{AnalysisRequest, JointOverride, NamedStone, StoneRequest};
 use std::collections::BTreeMap;
 
-/// All stones of a request in SI, `stone` first.
+/// All stones of a request in SI, `stone` first, with partial factors.
 pub struct Stones<'a> {
     /// The first is `stone`, the others `stones` in order.
     pub all: Vec<Stone>,
@@ -16,13 +16,14 @@ pub struct Stones<'a> {
 impl<'a> Stones<'a> {
     /// Checks and translates them.
     pub fn new(request: &'a AnalysisRequest, faults: &mut Faults) -> Self {
-        let mut stones = Stones { all: vec![stone(&request.stone)], names: BTreeMap::new() };
+        let factors = request.factors();
+        let mut stones = Stones { all: vec![factors.on_stone(stone(&request.stone))], names: BTreeMap::new() };
         for (i, named) in request.stones.iter().enumerate() {
             if stones.names.insert(&named.name, i + 1).is_some() {
                 let detail = format!("{:?} is the name of a stone before it: give this one another", &*named.name);
                 faults.add(format!("/stones/{i}/name"), detail);
             }
-            stones.all.push(stone(&completed(named, &request.stone)));
+            stones.all.push(factors.on_stone(stone(&completed(named, &request.stone))));
         }
         stones
     }

@@ -55,7 +55,8 @@ fn moves(entry: &LoadEntry) -> bool {
 
 fn vehicle(request: &AnalysisRequest, entry: &LoadEntry) -> Option<MovingVehicle> {
     let Some(Load::Vehicle(vehicle)) = entry.load.in_si(&[], request.backfill.as_ref()) else { return None };
-    Some(MovingVehicle { vehicle, coefficient: entry.coefficient, scaled: entry.scaled })
+    let coefficient = request.factors().of(entry) * entry.coefficient;
+    Some(MovingVehicle { vehicle, coefficient, scaled: entry.scaled })
 }
 
 fn check(request: &AnalysisRequest, asked: &WorstPositionRequest, faults: &mut Faults) {

@@ -67,8 +67,8 @@ pub struct Problem {
     pub seams: Vec<Seam>,
     pub fixed: Vec<Push>,
     pub scaled: Vec<Push>,
-    /// Compressive strength of every dry joint as a plastic section, none if it never crushes.
-    pub strength: Option<f64>,
+    /// Compressive strength of every joint as a plastic section; of those beyond the list none crushes, nor do bonded ones.
+    pub strengths: Vec<f64>,
     /// Joints that are held to their limits.
     pub limits: Vec<(usize, Limit)>,
     /// Joints that bear on points alone: each point's place (0 at the intrados, 1 at the extrados) and the most it carries.
@@ -128,6 +128,11 @@ impl Answer {
 }
 
 impl Problem {
+    /// The same with one strength of all joints.
+    pub fn of_strength(self, strength: f64) -> Problem {
+        Problem { strengths: vec![strength; self.seams.len()], ..self }
+    }
+
     /// Whether an end of a joint is held to carry nothing.
     fn opens(&self, joint: usize) -> bool {
         self.limits.iter().any(|(k, limit)| *k == joint && matches!(limit, Limit::NoForce(_)))

@@ -192,9 +192,8 @@ impl Programme {
     /// A joint of length t and strength f leaves N / f of its length about the normal force: 2 f t F >= N^2 for the
     /// force F at either corner. With c = f t this is |(F - 1/2, N / sqrt c)| <= F + 1/2.
     fn strengths(&mut self, problem: &Problem, scale: &Scale) {
-        let Some(strength) = problem.strength else { return };
-        for (joint, seam) in problem.seams.iter().enumerate().filter(|(_, seam)| matches!(seam.bond, Bond::Dry { .. }))
-        {
+        let dry = problem.seams.iter().enumerate().filter(|(_, seam)| matches!(seam.bond, Bond::Dry { .. }));
+        for ((joint, seam), strength) in dry.filter_map(|joint| Some((joint, problem.strengths.get(joint.0)?))) {
             let capacity = strength * distance(seam.intrados, seam.extrados) / scale.force;
             for corner in 0..2 {
                 for half in [0.5, -0.5] {

@@ -31,8 +31,10 @@ fn arch() -> Value {
             "profile": {"circular": {"radius_m": 4.0, "opening_angle_deg": 150}},
             "line": "axis", "thickness": {"constant_m": 0.6}, "voussoirs": 12, "joints": "normal",
             "relative_lengths": [1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1], "curved_sides": false,
-            "abutments": {"height_m": 1.0}, "springing_joints": "dry", "half": false
+            "abutments": {"height_m": 1.0}, "springing_joints": "dry", "half": false,
+            "stone_of": [{"from": 0, "to": 3, "stone": "brick"}]
         },
+        "stones": [{"name": "brick", "density_kg_m3": 1800}],
         "stone": {
             "density_kg_m3": 2000, "youngs_modulus_pa": 2e9, "poissons_ratio": 0.2, "friction_angle_deg": 35,
             "cohesion_pa": 10, "compressive_strength_pa": 2e7, "plane": "strain", "penalty_ratio": 5,
@@ -49,7 +51,7 @@ fn arch() -> Value {
                 "embankment_density_kg_m3": 1700, "lateral_ratio": 0.5, "fill_friction_angle_deg": 30
             }}},
             {"load": {"point_load": {"force_n_per_m": 1000, "x_m": -1}}, "scaled": true},
-            {"load": {"point_load": {"force_n_per_m": 1000, "voussoir": 5}}},
+            {"load": {"point_load": {"force_n_per_m": 1000, "voussoir": 5, "inclination_deg": 10}}},
             {"load": {"patch_load": {"centre_x_m": 1, "width_m": 1, "force_n_per_m": 1000}}},
             {"load": {"patch_load": {"centre_x_m": 1, "width_m": 1, "force_n_per_m": 1000, "dispersal": {
                 "surface_height_m": 8.5, "distribution": {"boussinesq": {"cut_off_deg": 40}}}}}},
@@ -59,7 +61,7 @@ fn arch() -> Value {
                 "axles": [{"offset_m": -1, "force_n": 1000, "length_m": 0.3, "factor": 1.5}], "x_m": 1, "reversed": true,
                 "effective_width_m": 2, "effective_width_rule": "a lane",
                 "dispersal": {"surface_height_m": 8.5, "distribution": {"boussinesq": {}}}}}},
-            {"load": {"lateral_pressure": {"bands": [{"from_m": 0, "to_m": 1, "pressure_pa": 100}]}}},
+            {"load": {"lateral_pressure": {"bands": [{"from_m": 0, "to_m": 1, "pressure_pa": 100}], "side": "right"}}},
             {"load": {"body_acceleration": {"x_g": 0.1, "y_g": 0.1}}}
         ],
         "analysis": "collapse",
@@ -194,6 +196,7 @@ fn bridge() -> Value {
             "layers": [{"thickness_m": 0.1, "density_kg_m3": 2300}], "backing": {"height_m": 1.5, "density_kg_m3": 2000},
             "dispersal": {"boussinesq": {"cut_off_deg": 40}}
         },
+        "partial_factors": {"dead": 1.2, "fill": 1.3, "live": 1.5, "stone_strength": 2, "soil_resistance": 1},
         "loads": [
             {"load": {"self_weight": {}}},
             {"load": {"point_load": {"force_n_per_m": 1000, "x_m": -5}}, "scaled": true}
