@@ -285,8 +285,11 @@ fn what_leaves_no_joint_is_refused() {
 /// Half an arch with a keystone: the half stone is that of whole stones, whatever its joint has lost.
 #[test]
 fn half_an_arch_may_have_lost_mortar() {
-    let mut whole =
-        ask(circular(75.0, 0.2, 17), 60.0, &[json!({"patch_load": {"centre_x_m": 0, "width_m": 0.3, "force_n_per_m": 100}})]);
+    let mut whole = ask(
+        circular(75.0, 0.2, 17),
+        60.0,
+        &[json!({"patch_load": {"centre_x_m": 0, "width_m": 0.3, "force_n_per_m": 100}})],
+    );
     whole["stone"]["compressive_strength_pa"] = json!(1e30);
     whole["joint_overrides"] = [5, 8, 9, 12].map(|k| json!({"joint": k, "lost_at_intrados_m": 0.04})).to_vec().into();
     let mut half = whole.clone();
