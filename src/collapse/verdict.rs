@@ -267,8 +267,7 @@ impl<'a> Setup<'a> {
         built: &mut Discretisation<'a>,
     ) -> Result<Option<UpdatedGeometry>, AnalysisError> {
         let stands = report.at_start.is_some() && report.outcome != Outcome::CannotTell;
-        let settles = matches!(self.analysis.task, Task::Settlement(_));
-        if self.analysis.task.geometry() == Geometry::FirstOrder || !stands || settles {
+        if self.analysis.task.geometry() == Geometry::FirstOrder || !stands || !self.analysis.task.grows() {
             return Ok(None);
         }
         let (start, sign, cap, weight) = (self.start, self.sign, self.cap, self.weight);
@@ -289,8 +288,7 @@ impl<'a> Setup<'a> {
         if report.at_start.is_none() || report.outcome == Outcome::CannotTell {
             return Ok(());
         }
-        let cost = &mut report.cost;
-        let settlement = settlement::follow(self.analysis, movements, self.weight, cost, built)?;
+        let settlement = settlement::follow(self.analysis, movements, self.weight, &mut report.cost, built)?;
         if report.outcome != Outcome::Crushes {
             report.outcome = match settlement.as_ref().map(|s| s.updated.as_ref().unwrap_or(&s.first_order).end) {
                 Some(SettlementEnd::Follows) => Outcome::FollowsMovement,
