@@ -11,6 +11,8 @@ use voussoir::collapse::{Analysis, GeometricSafety, Outcome, Thrust};
 
 /// Shares found by halving twice, once against a solver whose answers end at 1e-8 or so.
 const HALVED: f64 = 1e-6;
+/// What the programs of the tables agree to, and a digit cut off.
+const TABLES: f64 = 6e-7;
 
 fn asked(arch: Value) -> Value {
     let mut request = ask(arch, ROUGH, &[]);
@@ -47,21 +49,27 @@ fn filled() -> Value {
     })
 }
 
-/// The values of `voussoir_count_min_thickness.json` and `elliptical_min_thickness.json`, found by other programs.
+/// Even numbers of voussoirs: equilibrium of half the ring in two unknowns at the crown, by nested halving in a program of its own.
+/// The others: `voussoir_count_min_thickness.json` and `elliptical_min_thickness.json`, where two programs agree to 5e-7.
 #[test]
 fn the_least_thickness_is_that_of_the_tables() {
-    for (count, least) in
-        [(10, 0.1070109), (16, 0.1070758), (17, 0.1054621), (27, 0.1067205), (28, 0.106708), (60, 0.1074472)]
-    {
+    for (count, least, known) in [
+        (10, 0.10701140081766647, 1e-8),
+        (16, 0.10707620314309074, 1e-8),
+        (28, 0.10670834990388689, 1e-8),
+        (60, 0.10744761863815656, 1e-8),
+        (17, 0.1054621, TABLES / 0.1),
+        (27, 0.1067205, TABLES / 0.1),
+    ] {
         for thick in [1.1, 2.0] {
             let limit = safety(&asked(circular(90.0, thick * least, count))).weights_recomputed.unwrap();
-            close(limit.share * thick * least, least, 2e-6, &format!("{count} voussoirs, {thick} times"));
-            close(limit.factor().unwrap(), thick, 2e-6, "factor");
+            close(limit.share * thick * least, least, known, &format!("{count} voussoirs, {thick} times"));
+            close(limit.factor().unwrap(), thick, known, "factor");
         }
     }
     for (rise, least) in [(0.5, 0.0976314), (1.25, 0.1038955), (2.0, 0.0874767)] {
         let limit = safety(&asked(elliptical(rise, 1.3 * least, 40))).weights_recomputed.unwrap();
-        close(limit.share * 1.3 * least, least, 2e-6, &format!("ellipse of rise {rise}"));
+        close(limit.share * 1.3 * least, least, TABLES / least, &format!("ellipse of rise {rise}"));
     }
     // Continuous joints: `segmental_min_thickness.json`.
     for (half, least) in [(75.0, 0.0536896), (60.0, 0.02284891)] {
@@ -113,7 +121,10 @@ fn joints_are_shortened_as_far_as_the_oracle_shortens_them() {
         ("filled", bare),
         ("resisting", filled()),
     ] {
-        let whole = with_soil(&analysis(&request).unwrap());
+        // The oracle knows whole arches: a frictionless wall would leave it no room to be seen to stand in.
+        let mut of_all = request.clone();
+        of_all["arch"]["half"] = json!(false);
+        let whole = with_soil(&analysis(&of_all).unwrap());
         let expected = least_share(|share| shortened(&whole, share).stands());
         let limit = safety(&request).loads_held.unwrap();
         close(limit.share, expected, HALVED, what);
@@ -274,8 +285,11 @@ fn what_leaves_no_joint_is_refused() {
 /// Half an arch with a keystone: the half stone is that of whole stones, whatever its joint has lost.
 #[test]
 fn half_an_arch_may_have_lost_mortar() {
-    let mut whole =
-        ask(circular(75.0, 0.2, 17), 60.0, &[json!({"patch_load": {"width_m": 0.3, "force_n_per_m": 100}})]);
+    let mut whole = ask(
+        circular(75.0, 0.2, 17),
+        60.0,
+        &[json!({"patch_load": {"centre_x_m": 0, "width_m": 0.3, "force_n_per_m": 100}})],
+    );
     whole["stone"]["compressive_strength_pa"] = json!(1e30);
     whole["joint_overrides"] = [5, 8, 9, 12].map(|k| json!({"joint": k, "lost_at_intrados_m": 0.04})).to_vec().into();
     let mut half = whole.clone();

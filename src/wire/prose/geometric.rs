@@ -10,6 +10,10 @@ pub const EXPLANATION: &str = "Geometric safety factor, loads held: one over the
     Weights recomputed: the thickness over the least one of the same arch at which it stands under its loads computed anew. \
     Crushing counts in neither.";
 
+/// What is said where a factor is missing.
+pub const MISSING: &str = "A geometric safety factor is left out: rounding kept limit analysis from an answer, or an arch so \
+    thin could not be set out.";
+
 /// One sentence on a structure that stands.
 pub fn headline(safety: &GeometricSafetyBody) -> String {
     let said = [(&safety.loads_held, "with loads held"), (&safety.weights_recomputed, "with weights recomputed")];

@@ -11,6 +11,7 @@ mod moving;
 mod notes;
 mod noun;
 mod plan;
+mod positions;
 mod safety;
 mod summary;
 mod wording;

@@ -1,6 +1,6 @@
 //! What the mechanics have to say of an answer, in sentences.
 
-use super::Digits;
+use super::{Digits, geometric, positions};
 use crate::collapse::{Doubt, FieldAt, LimitWindow, LoadRange, Note, OtherStates, Unfollowed, Unreached};
 use std::fmt;
 
@@ -46,11 +46,8 @@ impl fmt::Display for Note {
             Note::SofterContacts { asked, taken, turned_back } => {
                 softer([*asked, *taken].map(Digits), turned_back.map(Digits))
             }
-            Note::PositionsBetween { solved, tolerance } => positions(*solved, Digits(*tolerance)),
-            Note::PositionsUnknown(count) => format!(
-                "At {count} positions rounding kept limit analysis from a part of its answer: the worst position is that of \
-                 what is known."
-            ),
+            Note::PositionsBetween { solved, tolerance } => positions::between(*solved, Digits(*tolerance)),
+            Note::PositionsUnknown(count) => positions::unknown(*count),
             Note::FallsFromZero => FALLS_FROM_ZERO.into(),
             Note::NothingGrows => "Nothing grows with the load factor: the answer says only that the arch stands.".into(),
             Note::LaterMechanism => LATER_MECHANISM.into(),
@@ -58,7 +55,7 @@ impl fmt::Display for Note {
             Note::CrushesAndDilates => CRUSHES_AND_DILATES.into(),
             Note::CohesionByPoint => COHESION_BY_POINT.into(),
             Note::UnbentStones => UNBENT_STONES.into(),
-            Note::NoGeometricSafety => NO_GEOMETRIC_SAFETY.into(),
+            Note::NoGeometricSafety => geometric::MISSING.into(),
             Note::NoPlasticSections => NO_PLASTIC_SECTIONS.into(),
             Note::YieldTooLate => YIELD_TOO_LATE.into(),
             Note::SectionsNeverFail => SECTIONS_NEVER_FAIL.into(),
@@ -66,14 +63,6 @@ impl fmt::Display for Note {
             Note::MotionRestsBeyond { load_factor, limit, bodies } => rests_beyond([*load_factor, *limit], bodies),
         })
     }
-}
-
-fn positions(solved: usize, tolerance: Digits) -> String {
-    format!(
-        "The worst position is that of {solved} solved by limit analysis, in which sliding joints dilate. In none of their mechanisms \
-         does the structure fall at a load lower by more than {tolerance} of it, wherever the vehicle stands. A mechanism that \
-         governs between two neighbouring positions only is not seen: take a smaller step_m to look closer."
-    )
 }
 
 const SLIDES_BESIDE_SOIL: &str = "Joints slide beside backfill that resists. The least load is then that of the mechanisms found from this load \
@@ -92,8 +81,6 @@ const COHESION_BY_POINT: &str = "Cohesion is shared out to a joint's contact poi
      however far it opens.";
 const UNBENT_STONES: &str = "On moving geometry stones that are one subblock thick do not bend; only their joints give. With \
      soft stone the arch then seems stronger than it is: compare a mesh of at least 2 x 2.";
-const NO_GEOMETRIC_SAFETY: &str = "A geometric safety factor is left out: rounding kept limit analysis from an answer, or an arch so \
-     thin could not be set out.";
 const NO_PLASTIC_SECTIONS: &str = "Rounding kept the limit window with plastic sections from being computed.";
 const YIELD_TOO_LATE: &str = "First yield comes after collapse with plastic sections, which cannot be: the mesh is too \
      coarse to see the highest stress, so its first yield means nothing.";

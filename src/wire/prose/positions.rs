@@ -1,0 +1,19 @@
+//! Notes on the positions of a vehicle.
+
+use super::Digits;
+
+/// What was looked at between positions solved.
+pub fn between(solved: usize, tolerance: Digits) -> String {
+    format!(
+        "The worst position is that of {solved} solved by limit analysis, in which sliding joints dilate. In none of their mechanisms \
+         does the structure fall at a load lower by more than {tolerance} of it, wherever the vehicle stands. A mechanism that \
+         governs between two neighbouring positions only is not seen: take a smaller step_m to look closer."
+    )
+}
+
+/// What is not known of some of them.
+pub fn unknown(count: usize) -> String {
+    format!(
+        "At {count} positions rounding kept limit analysis from a part of its answer: the worst position is that of what is known."
+    )
+}
