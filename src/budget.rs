@@ -15,8 +15,8 @@ pub struct LoadStep {
     pub load_factor: f64,
     /// Contact events so far, on all paths of the analysis together.
     pub events: usize,
-    /// How much of the analysis is done, percent: of a curve, of its points. Null of everything else: nobody can tell how many
-    /// events a load path has before it ends.
+    /// How much of the analysis is done, percent: of a curve, of its points; of a worst position, of those of its grid. Null of
+    /// everything else: nobody can tell how many events a load path has before it ends.
     pub percent: Option<f64>,
 }
 

@@ -10,7 +10,7 @@ mod kinds;
 
 use super::discretise::{grids, touching};
 use super::strips::MOST_POINTS;
-use super::{Analysis, CurvedBeam, Geometry, Question, Task, plan};
+use super::{Analysis, CurvedBeam, Geometry, PositionQuestion, Question, Task, plan, worst_position};
 use crate::budget::{Budget, Stopped};
 use crate::dda::{AssemblySize, Beside, Touch};
 use crate::structure::{Side, Structure};
@@ -72,6 +72,11 @@ const LOST: usize = 16;
 const LIMIT: [usize; 2] = [8000, 30_000];
 /// Loops up to which there are few.
 const FEW_LOOPS: usize = 19;
+/// Bytes of the places between two positions of vehicles, for every force, and of the mechanisms found at one, for every joint; and
+/// multiplications of limit analysis there for every joint, at least.
+const PLACE: usize = 400;
+const MOTION: usize = 60;
+const SOLVED: usize = 1000;
 /// Events of a path for every contact point, and more than were seen.
 const EVENTS: f64 = 2.0;
 /// Bytes of a stress field for every subblock, in the answer and in all that is written of it at once.
@@ -96,6 +101,7 @@ pub fn estimate(question: &Question) -> Demand {
             let points = points[1..].iter().map(|point| translated(&point.analysis)).sum();
             Ok(of(&first.analysis, &budget)?.and(points, Share::Points))
         }),
+        Question::WorstPosition(question) => of_positions(question, &budget),
         Question::CurvedBeam(beam) => Ok(of_beam(beam)),
     };
     demand.unwrap_or(Demand { memory: usize::MAX, uncrushed: usize::MAX, work: 0.0, largest: Share::Mesh })
@@ -110,6 +116,15 @@ impl Demand {
         let [memory, uncrushed] = [self.memory, self.uncrushed].map(|bytes| bytes.saturating_add(more));
         Demand { memory, uncrushed, largest, ..self }
     }
+}
+
+/// One analysis, and limit analysis at every position of the grid, whose loads are kept with those between.
+fn of_positions(question: &PositionQuestion, budget: &Budget) -> Result<Demand, Stopped> {
+    let (grid, forces) = worst_position::size(question);
+    let joints = question.analysis.structure.joints.len();
+    let kept = grid * (PLACE * forces + MOTION * joints);
+    let demand = of(&question.analysis, budget)?.and(kept, Share::Points);
+    Ok(Demand { work: demand.work + (grid * joints * SOLVED) as f64, ..demand })
 }
 
 /// Bytes of the analysis itself.

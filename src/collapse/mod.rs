@@ -14,6 +14,7 @@ mod motion;
 mod path;
 mod plan;
 mod plastic_end;
+mod position;
 mod record;
 pub mod report;
 mod rigid_parts;
@@ -30,10 +31,12 @@ mod task;
 mod tolerances;
 mod updated;
 mod verdict;
+mod worst_position;
 mod yielding;
 
 pub use grid::{can_be_cut, subblocks_of};
 pub use plan::{LOAD_PIECES, can_be_refined};
+pub use position::*;
 pub use report::*;
 pub use task::*;
 
@@ -178,6 +181,8 @@ pub enum Question {
     One(Box<Analysis>),
     /// Safety factors over a list of abscissae.
     Curve(Vec<CurvePoint>),
+    /// The worst position of vehicles, and an analysis there.
+    WorstPosition(Box<PositionQuestion>),
     /// The curved beam of section 3.3 of the paper.
     CurvedBeam(CurvedBeam),
 }
@@ -185,7 +190,7 @@ pub enum Question {
 /// What the mechanics say.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Answer {
-    /// Of one analysis.
+    /// Of one analysis, such as that at the worst position.
     One(Box<CollapseReport>),
     /// Safety factors, one per abscissa.
     Curve(Vec<SafetyPoint>),
@@ -299,6 +304,9 @@ pub fn answer(question: &Question, budget: &Budget) -> Result<Answer, AnalysisEr
     let answer = match question {
         Question::One(analysis) => verdict::run(analysis, built).map(|report| Answer::One(Box::new(report))),
         Question::Curve(points) => safety::curve(points, built).map(Answer::Curve),
+        Question::WorstPosition(question) => {
+            worst_position::find(question, budget).map(|report| Answer::One(Box::new(report)))
+        }
         Question::CurvedBeam(beam) => plan::beam(beam, budget).map(Answer::CurvedBeam),
     }?;
     // Where it is spent there is no answer, whatever was computed.

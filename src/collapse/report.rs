@@ -22,7 +22,7 @@ pub use strength::*;
 pub use unfollowed::*;
 pub use updated::*;
 
-use super::{Direction, FieldAt};
+use super::{Direction, FieldAt, PositionReport};
 use crate::geometry::Vec2;
 
 /// What happened.
@@ -265,6 +265,8 @@ pub enum TaskReport {
     Safety(SafetyFactors),
     /// What the movement of supports does; none where the structure does not stand.
     Settlement(Option<Box<SettlementReport>>),
+    /// The worst position, at which the collapse is told.
+    WorstPosition(Box<PositionReport>),
 }
 
 impl CollapseReport {
@@ -276,5 +278,10 @@ impl CollapseReport {
     /// What the movement of supports does, where it was asked and the structure stands.
     pub fn settlement(&self) -> Option<&SettlementReport> {
         if let TaskReport::Settlement(settlement) = &self.task { settlement.as_deref() } else { None }
+    }
+
+    /// The worst position, where it was asked for.
+    pub fn worst_position(&self) -> Option<&PositionReport> {
+        if let TaskReport::WorstPosition(report) = &self.task { Some(report) } else { None }
     }
 }

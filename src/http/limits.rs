@@ -3,7 +3,7 @@
 use crate::collapse::cost::{Demand, Share, estimate};
 use crate::collapse::{Analysis, Question};
 use crate::wire::fault::{Fault, Faults};
-use crate::wire::request::{AnalysisRequest, MAX_SUBBLOCKS_EACH_WAY, ProfileRequest, Request};
+use crate::wire::request::{AimRequest, AnalysisRequest, MAX_SUBBLOCKS_EACH_WAY, ProfileRequest, Request};
 use std::time::Duration;
 
 /// How much one request may ask for, beside what the validator allows at most.
@@ -94,6 +94,9 @@ fn remedy(largest: Share, request: &Request) -> (&'static str, &'static str) {
             ("/accuracy", "leave accuracy out and name a mesh")
         }
         (Request::CurvedBeam(_), _) => ("/mesh/subblocks", "use a coarser mesh"),
+        (Request::Structure(request), Share::Points) if matches!(request.analysis, AimRequest::WorstPosition(_)) => {
+            ("/analysis/worst_position/step_m", "use a larger step")
+        }
         (_, Share::Points) => ("/analysis/safety/curve/abscissae", "use fewer"),
         (_, Share::Fields) => ("/report/stress_fields", "ask for fewer, or use a coarser mesh"),
         (_, Share::Frames) => ("/motion/most_frames", "use fewer"),
@@ -131,6 +134,7 @@ fn size(question: &Question) -> (usize, usize) {
     match question {
         Question::One(analysis) => of(analysis),
         Question::Curve(points) => points.first().map_or((0, 0), |point| of(&point.analysis)),
+        Question::WorstPosition(question) => of(&question.analysis),
         Question::CurvedBeam(beam) if beam.accuracy.is_some() => (1, MAX_SUBBLOCKS_EACH_WAY.pow(2)),
         Question::CurvedBeam(beam) => (1, beam.subblocks.iter().product()),
     }

@@ -90,6 +90,16 @@ impl StaticTheorem {
     /// # Errors
     /// When rounding, or `budget`, kept the cutting planes from an answer, or a strength is not positive.
     pub fn crushing_window(&self, strengths: &[f64], budget: &Budget) -> Result<Option<CrushingWindow>, Unsolved> {
+        self.crushing_ends(strengths, [true; 2], budget)
+    }
+
+    /// The same with nothing looked for at an end that is not `wanted`: that is infinite.
+    pub(super) fn crushing_ends(
+        &self,
+        strengths: &[f64],
+        wanted: [bool; 2],
+        budget: &Budget,
+    ) -> Result<Option<CrushingWindow>, Unsolved> {
         if strengths.len() != self.joints.len() || !strengths.iter().all(|&strength| strength > 0.0) {
             return Err(Unsolved);
         }
@@ -99,8 +109,9 @@ impl StaticTheorem {
         cut.limits = sections.iter().flat_map(first).flatten().collect();
         conic.sections = sections.clone();
         conic.errors[1] = NEARLY_SOLVED;
-        let mut window = CrushingWindow { ends: [0.0; 2], ..CrushingWindow::default() };
-        for (end, sign) in [-1.0, 1.0].into_iter().enumerate() {
+        let ends = [f64::NEG_INFINITY, f64::INFINITY];
+        let mut window = CrushingWindow { ends, ..CrushingWindow::default() };
+        for (end, sign) in [-1.0, 1.0].into_iter().enumerate().filter(|(end, _)| wanted[*end]) {
             let objective = Objective::load_factor(sign);
             let few = self.has_few_unknowns();
             let outcome =
@@ -114,7 +125,7 @@ impl StaticTheorem {
                     window.joints[end] = self.crushed(&sections, &equilibrium);
                     (window.forces[end], window.soil[end]) = self.apart(&equilibrium.forces);
                 }
-                ProgrammeOutcome::Unbounded(_) => window.ends[end] = sign * f64::INFINITY,
+                ProgrammeOutcome::Unbounded(_) => {}
                 ProgrammeOutcome::Infeasible(_) => return Ok(None),
                 ProgrammeOutcome::Lost => return Err(Unsolved),
             }

@@ -13,12 +13,14 @@ mod programme;
 mod resultant;
 mod sparse;
 mod static_theorem;
+mod upper_end;
 mod window;
 
 pub use crushing::CrushingWindow;
 pub use non_dilating::{Release, releases};
 pub use resultant::{Condition, Resultant};
 pub use static_theorem::{Equilibrium, StaticTheorem, Unsolved};
+pub use upper_end::UpperEnd;
 pub use window::{Window, WindowEnd};
 
 #[cfg(test)]

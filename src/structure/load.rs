@@ -9,6 +9,7 @@ mod dispersal;
 mod fill;
 mod passive;
 mod patch;
+mod vehicle;
 
 use super::{Body, GRAVITY, PointForce, Structure, Surface};
 use crate::geometry::{Vec2, distance_from_segment, lies_inside};
@@ -16,6 +17,7 @@ pub use dispersal::{Dispersal, Distribution};
 pub use fill::{Fill, FillBacking, Layer, SurfaceLine};
 pub use passive::Passive;
 pub use patch::Patch;
+pub use vehicle::{Axle, Vehicle};
 
 /// A horizontal pressure between two heights.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -64,6 +66,8 @@ pub enum Load {
     Point(Vec2, Place),
     /// A vertical force on a strip, on the extrados or on the surface of fill.
     Patch(Patch),
+    /// Axles, each a force on a strip.
+    Vehicle(Vehicle),
     /// Density times this acceleration, m/s2, on every body.
     BodyAcceleration(Vec2),
     /// A force in any direction.
@@ -147,6 +151,7 @@ impl Load {
             Load::Point(force, Place::Body(k)) => vec![middle_load(structure, *force, *k)?],
             Load::Force { body, at, force } => vec![force_on(structure, *body, *at, *force)?],
             Load::Patch(patch) => patch.on(structure, &sides)?,
+            Load::Vehicle(vehicle) => vehicle.on(structure, &sides)?,
         };
         for force in &mut forces {
             force.force *= coefficient;

@@ -16,6 +16,7 @@ mod structure;
 mod updated;
 mod width;
 mod words;
+mod worst_position;
 
 pub use beam::BeamResult;
 pub use columns::{BlockColumns, ContactColumns, HistoryColumns, SnapshotBody, ThrustColumns, VelocityColumns};
@@ -36,10 +37,12 @@ pub use structure::{BodyBody, JointBody, LawWord, LoadOnBody, PassiveElementBody
 pub use updated::UpdatedBody;
 pub use width::{ScaledLoadBody, ThrustRangeBody};
 pub use words::MethodWord;
+pub use worst_position::{PositionColumns, WorstPositionBody};
 
 use super::json::{NotFinite, line};
 use super::prose::in_its_words;
 use super::request::AnalysisRequest;
+use super::translate::placed;
 use crate::collapse::{CollapseReport, Cost, End, LimitWindow, Note, Outcome, Reach};
 use columns::column;
 use serde::Serialize;
@@ -94,6 +97,8 @@ pub struct AnalysisResult {
     pub settlement: Option<SettlementBody>,
     /// Safety factors, where `analysis` asks for them.
     pub safety: Option<SafetyBody>,
+    /// The worst position of vehicles, where `analysis` asks for it.
+    pub worst_position: Option<WorstPositionBody>,
     /// The load path, event by event.
     pub history: HistoryColumns,
     /// What was modelled, and how accurate it is, where `accuracy` is asked for.
@@ -147,6 +152,9 @@ fn adequacy(report: &CollapseReport, end: &End<'_>) -> Option<f64> {
 impl AnalysisResult {
     /// Puts the report in the request's words; none where it is no answer to this request.
     pub fn new(request: &AnalysisRequest, report: &CollapseReport) -> Option<Self> {
+        let worst = report.worst_position().map(|position| position.worst);
+        let with_vehicles = worst.map(|worst| placed(request, worst.x, Some(worst.reversed)));
+        let (asked, request) = (request, with_vehicles.as_ref().unwrap_or(request));
         let scale = Scale { per_unit: request.load_factor.intensity_per_unit, unit: &request.load_factor.unit };
         let window = report.limit_window;
         let snapshot = |snapshot| SnapshotBody::new(snapshot, &scale);
@@ -188,6 +196,7 @@ impl AnalysisResult {
             updated_geometry: report.updated.as_ref().map(|updated| UpdatedBody::new(updated, report, &scale)),
             settlement,
             safety: report.safety().map(|factors| SafetyBody::new(factors, &[])),
+            worst_position: report.worst_position().map(|position| WorstPositionBody::new(position, &scale)),
             history: HistoryColumns::new(&report.history, &scale),
             plan,
             cost: report.cost,
@@ -195,7 +204,7 @@ impl AnalysisResult {
                 .chain(assumptions)
                 .map(|note| in_its_words(request, &note))
                 .collect(),
-            request: request.clone(),
+            request: asked.clone(),
             remedy: report.notes.iter().find_map(Note::remedy),
         })
     }

@@ -81,6 +81,16 @@ fn slab(blocks: usize, more: &Value) -> Value {
     request
 }
 
+/// An axle at positions so far apart on fill, of which it loads many stones at a time.
+fn driven(voussoirs: usize, step: f64) -> Value {
+    let vehicle = json!({"vehicle": {
+        "axles": [{"offset_m": 0, "force_n": 1000, "length_m": 0.3}], "effective_width_m": 1, "effective_width_rule": "one metre",
+        "dispersal": {"surface_height_m": 15, "distribution": {"uniform": {}}}
+    }});
+    let loads = json!([{"load": {"self_weight": {}}}, {"load": vehicle, "scaled": true}]);
+    semicircle(voussoirs, &json!({"loads": loads, "analysis": {"worst_position": {"step_m": step}}}))
+}
+
 #[test]
 #[cfg(target_os = "linux")]
 fn no_analysis_takes_more_than_its_estimate() {
@@ -97,6 +107,7 @@ fn no_analysis_takes_more_than_its_estimate() {
         ("slab", slab(100, &json!({}))),
         ("slab of subblocks, no two stones alike", slab(9, &json!({"mesh": mesh(27, 16), "analysis": {"safety": {}}}))),
         ("frames", slab(27, &motion)),
+        ("positions", driven(100, 0.05)),
         ("wall of subblocks", wall(4, 6, &json!({"mesh": mesh(6, 6)}))),
     ] {
         let (estimated, taken) = (demand(&request).memory, peak(&request));
@@ -120,6 +131,7 @@ fn what_takes_most_is_told() {
         (semicircle(1000, &json!({"mesh": mesh(1, 48), "report": {"stress_fields": fields}})), Share::Fields),
         (semicircle(20, &json!({"motion": {"most_frames": 3000, "share_of_span": 1.0}})), Share::Frames),
         (semicircle(2000, &curve), Share::Points),
+        (driven(1000, 0.02), Share::Points),
     ] {
         assert_eq!(demand(&request).largest, largest, "{request}");
     }

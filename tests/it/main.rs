@@ -120,3 +120,5 @@ mod structure_cases;
 mod structures;
 #[cfg(feature = "server")]
 mod support;
+#[cfg(feature = "server")]
+mod worst_position;

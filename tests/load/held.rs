@@ -51,6 +51,12 @@ fn is_finite(question: &Question) -> bool {
         Question::Curve(points) => {
             points.iter().all(|point| point.abscissa.is_finite() && analysis_is_finite(&point.analysis))
         }
+        Question::WorstPosition(question) => {
+            let sweeps = question.sweeps.iter().flat_map(|sweep| [sweep.from, sweep.to, sweep.step]);
+            let axles = question.vehicles.iter().flat_map(|moving| &moving.vehicle.axles);
+            analysis_is_finite(&question.analysis)
+                && sweeps.chain(axles.flat_map(|axle| [axle.offset, axle.force, axle.length])).all(f64::is_finite)
+        }
         Question::CurvedBeam(beam) => {
             let stone = &beam.stone;
             let numbers =
@@ -116,6 +122,9 @@ pub fn is_small(question: &Question) -> bool {
     match question {
         Question::One(analysis) => small(analysis),
         Question::Curve(points) => points.len() <= 5 && points.iter().all(|point| small(&point.analysis)),
+        Question::WorstPosition(question) => {
+            small(&question.analysis) && question.sweeps.iter().map(|sweep| sweep.parts()).sum::<usize>() <= 100
+        }
         Question::CurvedBeam(beam) => beam.subblocks[0] * beam.subblocks[1] <= 200,
     }
 }

@@ -104,6 +104,15 @@ pub enum Note {
         /// Bodies that press there on what they have no joint with, or across the end of a joint.
         bodies: Vec<usize>,
     },
+    /// The worst position is looked for on a grid, and by mechanisms between.
+    PositionsBetween {
+        /// Positions solved.
+        solved: usize,
+        /// How much lower the least load factor may be in the mechanisms found, as a share of it.
+        tolerance: f64,
+    },
+    /// At so many positions rounding kept limit analysis from one of its two answers, or from both.
+    PositionsUnknown(usize),
     /// In some steps of the motion friction is beyond its bound, by at most this share of the loads.
     MotionBeyondFriction(f64),
 }

@@ -103,6 +103,11 @@ impl Dispersal {
         Ok(integrals)
     }
 
+    /// How far beyond the edges of a strip it spreads down to a height at most, wherever the strip stands, m.
+    pub(super) fn spread_at(&self, height: f64) -> f64 {
+        self.reach() * (self.surface.top() - height).max(0.0)
+    }
+
     /// Slope of the planes to which it spreads: horizontal over vertical.
     fn reach(&self) -> f64 {
         match self.distribution {

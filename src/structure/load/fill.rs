@@ -31,6 +31,11 @@ impl SurfaceLine {
         (rises && !points.is_empty()).then_some(SurfaceLine(points))
     }
 
+    /// Its highest point, m.
+    pub fn top(&self) -> f64 {
+        self.0.iter().map(|point| point.y).fold(f64::NEG_INFINITY, f64::max)
+    }
+
     /// Its height at abscissa `x`, m.
     pub fn height(&self, x: f64) -> f64 {
         let points = &self.0;

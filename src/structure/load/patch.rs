@@ -19,20 +19,36 @@ pub struct Patch {
 }
 
 impl Patch {
+    /// What does not stand over the surfaces itself, without a dispersal, is an error.
     pub(super) fn on(&self, structure: &Structure, sides: &[LoadedSide]) -> Result<Vec<PointForce>, LoadFault> {
-        let plan = plan(structure);
+        self.forces(structure, sides, false)
+    }
+
+    /// The same where what lies beyond the surfaces goes to the ground.
+    pub(super) fn partly_on(&self, structure: &Structure, sides: &[LoadedSide]) -> Result<Vec<PointForce>, LoadFault> {
+        self.forces(structure, sides, true)
+    }
+
+    fn forces(&self, structure: &Structure, sides: &[LoadedSide], partly: bool) -> Result<Vec<PointForce>, LoadFault> {
+        let (from, to) = plan(structure);
         match &self.dispersal {
-            None => self.directly_on(plan, sides),
+            None => {
+                let (forces, covered) = self.directly_on(sides);
+                let beyond = self.width - covered;
+                let rounding = 1e-9 * self.width.max(self.edges()[1].abs());
+                let fits = beyond.abs() <= rounding || (partly && beyond > 0.0);
+                if fits { Ok(forces) } else { Err(LoadFault::OffTheArch { from, to }) }
+            }
             Some(dispersal) => Ok(dispersal
-                .shares(self, plan, sides)?
+                .shares(self, (from, to), sides)?
                 .into_iter()
                 .map(|(body, at, share)| PointForce { body, at, force: down(share * self.force), spread: false })
                 .collect()),
         }
     }
 
-    /// Every side takes what lies over it, in the middle of its share.
-    fn directly_on(&self, (from, to): (f64, f64), sides: &[LoadedSide]) -> Result<Vec<PointForce>, LoadFault> {
+    /// Every side takes what lies over it, in the middle of its share; and how much of the width that is.
+    fn directly_on(&self, sides: &[LoadedSide]) -> (Vec<PointForce>, f64) {
         let [left, right] = self.edges();
         let mut forces = Vec::new();
         let mut covered = 0.0;
@@ -46,10 +62,7 @@ impl Patch {
                 forces.push(PointForce { body, at, force, spread: false });
             }
         }
-        if (covered - self.width).abs() > 1e-9 * self.width.max(right.abs()) {
-            return Err(LoadFault::OffTheArch { from, to });
-        }
-        Ok(forces)
+        (forces, covered)
     }
 
     fn edges(&self) -> [f64; 2] {

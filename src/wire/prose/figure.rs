@@ -11,7 +11,12 @@ use crate::wire::response::JobResult;
 /// # Errors
 /// Why there is no picture.
 pub fn figure(question: &Question, answer: &Answer, result: &JobResult) -> Result<String, String> {
-    let (Question::One(analysis), Answer::One(report), JobResult::Analysis(result)) = (question, answer, result) else {
+    let analysis = match question {
+        Question::One(analysis) => Some(&**analysis),
+        Question::WorstPosition(question) => Some(&question.analysis),
+        Question::Curve(_) | Question::CurvedBeam(_) => None,
+    };
+    let (Some(analysis), Answer::One(report), JobResult::Analysis(result)) = (analysis, answer, result) else {
         return Err("no figure: only one structure that falls is drawn, no curve and no curved beam".to_owned());
     };
     let (ends, words) = (report.ends(), result.ends.first());

@@ -45,6 +45,11 @@ impl fmt::Display for Note {
             Note::SofterContacts { asked, taken, turned_back } => {
                 softer([*asked, *taken].map(Digits), turned_back.map(Digits))
             }
+            Note::PositionsBetween { solved, tolerance } => positions(*solved, Digits(*tolerance)),
+            Note::PositionsUnknown(count) => format!(
+                "At {count} positions rounding kept limit analysis from a part of its answer: the worst position is that of \
+                 what is known."
+            ),
             Note::FallsFromZero => FALLS_FROM_ZERO.into(),
             Note::NothingGrows => "Nothing grows with the load factor: the answer says only that the arch stands.".into(),
             Note::LaterMechanism => LATER_MECHANISM.into(),
@@ -59,6 +64,14 @@ impl fmt::Display for Note {
             Note::MotionRestsBeyond { load_factor, limit, bodies } => rests_beyond([*load_factor, *limit], bodies),
         })
     }
+}
+
+fn positions(solved: usize, tolerance: Digits) -> String {
+    format!(
+        "The worst position is that of {solved} solved by limit analysis, in which sliding joints dilate. In none of their mechanisms \
+         does the structure fall at a load lower by more than {tolerance} of it, wherever the vehicle stands. A mechanism that \
+         governs between two neighbouring positions only is not seen: take a smaller step_m to look closer."
+    )
 }
 
 const FALLS_FROM_ZERO: &str = "The arch stands at load factor 0 and at none beyond it in the direction asked. Hinges, slides \

@@ -5,7 +5,7 @@ use super::wording::{self, word};
 use super::{given, joints, moving, plan, safety};
 use crate::collapse::{GovernedBy, Outcome};
 use crate::wire::prose::Digits;
-use crate::wire::response::{AnalysisResult, EndBody, PassiveElementBody};
+use crate::wire::response::{AnalysisResult, EndBody, PassiveElementBody, WorstPositionBody};
 use comfy_table::{Table, presets};
 use std::fmt::Write;
 use std::time::Duration;
@@ -79,6 +79,9 @@ fn facts(result: &AnalysisResult, wall_time: Duration) -> Table {
     }
     fact("outcome", word(&result.outcome));
     fact("method", word(&result.method));
+    if let Some(worst) = &result.worst_position {
+        fact("worst position", worst_position(worst));
+    }
     for (name, value) in result.ends.iter().flat_map(|end| end_facts(result, end)) {
         fact(name, value);
     }
@@ -98,6 +101,11 @@ fn facts(result: &AnalysisResult, wall_time: Duration) -> Table {
     fact("cost", format!("{} events, {} factorisations, {} unknowns", counts.0, counts.1, counts.2));
     fact("time", format!("{:.3} ms", wall_time.as_secs_f64() * 1e3));
     table
+}
+
+fn worst_position(worst: &WorstPositionBody) -> String {
+    let way = if worst.reversed { "offsets to the left" } else { "offsets to the right" };
+    format!("x = {} m, {way}; of {} positions", Digits(worst.x_m), worst.curve.x_m.len())
 }
 
 /// Forces over the whole width.

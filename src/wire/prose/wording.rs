@@ -75,6 +75,9 @@ fn of_an_arch(result: &AnalysisResult) -> String {
         }
         (outcome, _) => format!("Outcome: {}.", word(&outcome)),
     };
+    let worst = result.worst_position.as_ref();
+    let worst = worst.map(|worst| format!(" The vehicle stands worst at x = {} m.", Rounded(worst.x_m)));
+    let sentence = sentence + &worst.unwrap_or_default();
     match result.method {
         MethodWord::EventPath => sentence,
         MethodWord::FixedSteps => {

@@ -2,8 +2,10 @@
 //!
 //! A new load has its fields and an arm of every function here, and its forces in `structure::load`.
 
+mod axle_groups;
 mod fill;
 mod patch;
+mod vehicle;
 
 use super::{BackfillRequest, ForceVector, Point, Text};
 use crate::geometry::Vec2;
@@ -15,6 +17,7 @@ pub use fill::FillPressure;
 pub use patch::{Boussinesq, DispersalRequest, DistributionRequest, PatchLoad, Uniform};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
+pub use vehicle::VehicleLoad;
 
 /// A load, and whether the load factor multiplies it. Forces are per metre of width.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
@@ -48,6 +51,8 @@ pub enum LoadRequest {
     PointForce(PointForceLoad),
     /// A vertical force spread over a plan width.
     PatchLoad(PatchLoad),
+    /// A vehicle: axles at fixed distances.
+    Vehicle(VehicleLoad),
     /// An inertia force on stones and fill: their mass times an acceleration.
     BodyAcceleration(BodyAcceleration),
 }
@@ -140,6 +145,7 @@ impl LoadRequest {
             LoadRequest::LateralPressure(_) => ("lateral_pressure", Bearer::Extrados),
             LoadRequest::PointLoad(_) => ("point_load", Bearer::Extrados),
             LoadRequest::PatchLoad(_) => ("patch_load", Bearer::Extrados),
+            LoadRequest::Vehicle(_) => ("vehicle", Bearer::Extrados),
             LoadRequest::PointForce(_) => ("point_force", Bearer::AllBodies),
             LoadRequest::BodyAcceleration(_) => ("body_acceleration", Bearer::AllBodies),
         }
@@ -157,6 +163,7 @@ impl LoadRequest {
             }
             LoadRequest::PointLoad(point) => Load::Point(point.force(), point.place()),
             LoadRequest::PatchLoad(patch) => Load::Patch(patch.in_si(backfill)?),
+            LoadRequest::Vehicle(vehicle) => Load::Vehicle(vehicle.in_si(backfill)?),
             LoadRequest::PointForce(force) => Load::Force {
                 body: names.iter().position(|name| **name == *force.block)?,
                 at: force.at_m.into(),
@@ -170,6 +177,7 @@ impl LoadRequest {
     pub fn forces_per_side(&self) -> usize {
         match self {
             LoadRequest::LateralPressure(lateral) => lateral.bands.len(),
+            LoadRequest::Vehicle(vehicle) => vehicle.count(),
             LoadRequest::SelfWeight(_)
             | LoadRequest::FillPressure(_)
             | LoadRequest::PointLoad(_)
@@ -183,6 +191,7 @@ impl LoadRequest {
     pub fn dispersed_force(&self) -> Option<f64> {
         match self {
             LoadRequest::PatchLoad(patch) if patch.dispersal.is_some() => Some(patch.force_n_per_m),
+            LoadRequest::Vehicle(vehicle) => Some(vehicle.force()),
             _ => None,
         }
     }
@@ -205,6 +214,7 @@ impl LoadRequest {
                 faults.require(one, here, "give either x_m or voussoir, not both and not neither");
             }
             LoadRequest::PatchLoad(patch) => patch.check(here, backfill, faults),
+            LoadRequest::Vehicle(vehicle) => vehicle.check(here, backfill, faults),
             LoadRequest::PointForce(force) => {
                 let detail = "0 both ways makes this load vanish: give another force or leave the load out";
                 faults.require(force.force_n_per_m.0 != [0.0; 2], format!("{here}/force_n_per_m"), detail);
@@ -220,10 +230,12 @@ impl LoadRequest {
             (LoadRequest::PointLoad(_), LoadFault::NoSuchVoussoir { .. }) => Some("voussoir"),
             (LoadRequest::PointLoad(_), _) => Some("x_m"),
             (
-                LoadRequest::PatchLoad(PatchLoad { dispersal: Some(dispersal), .. }),
+                LoadRequest::PatchLoad(PatchLoad { dispersal: Some(dispersal), .. })
+                | LoadRequest::Vehicle(VehicleLoad { dispersal: Some(dispersal), .. }),
                 LoadFault::SurfaceBelowExtrados { .. },
             ) => Some(dispersal.field_of_surface()),
             (LoadRequest::PatchLoad(_), _) => Some("centre_x_m"),
+            (LoadRequest::Vehicle(_), _) => Some("x_m"),
             (LoadRequest::PointForce(_), _) => Some("at_m"),
             (LoadRequest::SelfWeight(_) | LoadRequest::LateralPressure(_) | LoadRequest::BodyAcceleration(_), _) => {
                 None
@@ -246,6 +258,7 @@ impl LoadRequest {
             }
             LoadRequest::PointLoad(point) => point.words(),
             LoadRequest::PatchLoad(patch) => patch.words(backfill),
+            LoadRequest::Vehicle(vehicle) => vehicle.words(backfill),
             LoadRequest::PointForce(force) => {
                 let [fx, fy] = force.force_n_per_m.0.map(|force| Digits(force / 1e3));
                 let [x, y] = force.at_m.0.map(Digits);

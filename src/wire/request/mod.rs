@@ -15,6 +15,7 @@ mod passive;
 mod question;
 mod stones;
 mod values;
+mod worst_position;
 
 use crate::collapse::{DEFAULT_PENALTY_RATIO, Direction, Geometry, PlaneModel};
 use crate::structure::Stone;
@@ -36,6 +37,7 @@ use serde_json::Value;
 pub use stones::*;
 use utoipa::ToSchema;
 pub use values::*;
+pub use worst_position::*;
 
 /// A body: a structure (an arch, a bridge or blocks), or a curved beam where it has `curved_beam`.
 #[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]

@@ -1,6 +1,6 @@
 //! What is asked of an arch, and what the answer shows.
 
-use super::{Abscissa, LoadFactor, Point, Text};
+use super::{Abscissa, LoadFactor, Point, Text, WorstPositionRequest};
 use crate::collapse::CrushingKind;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
@@ -16,6 +16,15 @@ pub enum AimRequest {
     Safety(SafetyRequest),
     /// What becomes of the structure as its supports move, its loads staying as they are.
     Settlement(SettlementRequest),
+    /// Where vehicles stand worst, and the load factor at which the structure falls there.
+    WorstPosition(WorstPositionRequest),
+}
+
+impl AimRequest {
+    /// Whether the load factor at which the structure falls is asked for, at a position given or the worst.
+    pub fn is_collapse(&self) -> bool {
+        matches!(self, AimRequest::Collapse | AimRequest::WorstPosition(_))
+    }
 }
 
 /// What becomes of the structure as its supports move, its loads staying as they are. The supports move in proportion to where

@@ -2,7 +2,7 @@
 
 use crate::collapse::Geometry;
 use crate::wire::fault::Faults;
-use crate::wire::request::{AimRequest, AnalysisRequest, MethodRequest};
+use crate::wire::request::{AnalysisRequest, MethodRequest};
 
 /// What crushing in the path does not go with.
 pub fn check(request: &AnalysisRequest, subblocks: &[[usize; 2]], faults: &mut Faults) {
@@ -13,7 +13,7 @@ pub fn check(request: &AnalysisRequest, subblocks: &[[usize; 2]], faults: &mut F
     for (pointer, holds, detail) in [
         (
             "/analysis",
-            request.analysis == AimRequest::Collapse,
+            request.analysis.is_collapse(),
             "joints crush on the path to a collapse only: set analysis to `collapse`",
         ),
         (

@@ -19,6 +19,8 @@ mod settlement;
 mod site;
 mod stone;
 mod structure;
+mod vehicle;
+mod worst_position;
 
 use super::fault::{Fault, Faults};
 use super::request::{AimRequest, AnalysisRequest, Request};
@@ -27,6 +29,7 @@ use site::Unloaded;
 
 pub use loads::arriving;
 pub use structure::Layout;
+pub use worst_position::placed;
 
 /// Translates a request.
 ///
@@ -55,7 +58,7 @@ pub fn analysed(request: &AnalysisRequest) -> Option<(Analysis, Layout)> {
 fn structure_question(request: &AnalysisRequest, faults: &mut Faults) -> Option<Question> {
     let site = Unloaded::new(request, faults);
     let curve = match &request.analysis {
-        AimRequest::Collapse => None,
+        AimRequest::Collapse | AimRequest::WorstPosition(_) => None,
         AimRequest::Safety(safety) => {
             safety::check(request, faults);
             safety.curve.as_ref()
@@ -67,8 +70,12 @@ fn structure_question(request: &AnalysisRequest, faults: &mut Faults) -> Option<
     };
     factors::check(request, faults);
     safety::check_flags(request, curve, faults);
-    match curve {
-        Some(curve) => safety::points(&site, curve, faults).map(Question::Curve),
-        None => site.analysis(&request.loads, faults).map(|analysis| Question::One(Box::new(analysis))),
+    vehicle::check(request, faults);
+    match (curve, &request.analysis) {
+        (Some(curve), _) => safety::points(&site, curve, faults).map(Question::Curve),
+        (None, AimRequest::WorstPosition(asked)) => {
+            worst_position::question(&site, asked, faults).map(|question| Question::WorstPosition(Box::new(question)))
+        }
+        (None, _) => site.analysis(&request.loads, faults).map(|analysis| Question::One(Box::new(analysis))),
     }
 }

@@ -3,7 +3,7 @@
 use crate::collapse::MotionAsked;
 use crate::structure::Structure;
 use crate::wire::fault::{Faults, Shown};
-use crate::wire::request::{AimRequest, AnalysisRequest};
+use crate::wire::request::AnalysisRequest;
 
 /// Most frames times stones of one motion: about 15 MB of answer.
 const MAX_PLACES: usize = 60_000;
@@ -14,7 +14,7 @@ const LEVEL_ROUND_OFF: f64 = 1e-9;
 pub fn motion(request: &AnalysisRequest, structure: Option<&Structure>, faults: &mut Faults) -> Option<MotionAsked> {
     let asked = request.motion.as_ref()?;
     let detail = "only an analysis of collapse shows a motion: leave it out, or set analysis to `collapse`";
-    faults.require(request.analysis == AimRequest::Collapse, "/motion", detail);
+    faults.require(request.analysis.is_collapse(), "/motion", detail);
     let resists = request.backfill.as_ref().is_some_and(|backfill| backfill.passive.is_some());
     let detail = "a motion knows no soil that resists: leave it out, or backfill/passive";
     faults.require(!resists, "/motion", detail);

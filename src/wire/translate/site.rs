@@ -128,7 +128,7 @@ impl<'a> Unloaded<'a> {
         };
         let states = StatesAsked { share: request.report.share_of_collapse, fields: self.fields.clone() };
         Some(match &request.analysis {
-            AimRequest::Collapse => Task::Collapse(CollapseTask {
+            AimRequest::Collapse | AimRequest::WorstPosition(_) => Task::Collapse(CollapseTask {
                 direction: request.load_factor.direction,
                 cap,
                 method: match self.steps {
@@ -153,8 +153,8 @@ fn check_method(request: &AnalysisRequest, faults: &mut Faults) {
     let what = match (&request.analysis, request.geometry) {
         (AimRequest::Safety(_), _) => "a safety analysis",
         (AimRequest::Settlement(_), _) => "a movement of supports",
-        (AimRequest::Collapse, Geometry::Updated) => "a path on moving geometry",
-        (AimRequest::Collapse, Geometry::FirstOrder) => return,
+        (_, Geometry::Updated) => "a path on moving geometry",
+        (AimRequest::Collapse | AimRequest::WorstPosition(_), Geometry::FirstOrder) => return,
     };
     let detail = format!("{what} is followed exactly: set method to `event_path`");
     faults.require(request.method == MethodRequest::EventPath, "/method", detail);

@@ -55,6 +55,10 @@ fn arch() -> Value {
                 "surface_height_m": 8.5, "distribution": {"boussinesq": {"cut_off_deg": 40}}}}}},
             {"load": {"patch_load": {"centre_x_m": 1, "width_m": 1, "force_n_per_m": 1000, "dispersal": {
                 "surface_height_m": 8.5, "distribution": {"uniform": {"spread": 0.4}}}}}},
+            {"load": {"vehicle": {
+                "axles": [{"offset_m": -1, "force_n": 1000, "length_m": 0.3, "factor": 1.5}], "x_m": 1, "reversed": true,
+                "effective_width_m": 2, "effective_width_rule": "a lane",
+                "dispersal": {"surface_height_m": 8.5, "distribution": {"boussinesq": {}}}}}},
             {"load": {"lateral_pressure": {"bands": [{"from_m": 0, "to_m": 1, "pressure_pa": 100}], "side": "right"}}},
             {"load": {"body_acceleration": {"x_g": 0.1, "y_g": 0.1}}}
         ],
@@ -86,6 +90,16 @@ fn settlement() -> Value {
     let request = with(arch(), "/analysis", json!({"settlement": {"left": movement, "right": movement}}));
     let request = ["/report", "/motion", "/method", "/load_factor"].into_iter().fold(request, without);
     with(request, "/loads/2/scaled", json!(false))
+}
+
+fn driven() -> Value {
+    let asked = json!({"from_m": -2, "to_m": 2, "step_m": 0.5, "tolerance": 1e-3, "directions": "both"});
+    let vehicle = json!({"vehicle": {
+        "standard": "cs454_bogie_8t", "length_m": 0.3, "effective_width_m": 2, "effective_width_rule": "a lane",
+        "dispersal": {"surface_height_m": 8.5, "distribution": {"uniform": {"spread": 0.4}}}
+    }});
+    let request = with(arch(), "/analysis", json!({"worst_position": asked}));
+    with(request, "/loads/2", json!({"load": vehicle, "scaled": true}))
 }
 
 fn surveyed() -> Value {
@@ -230,6 +244,7 @@ pub fn bodies() -> Vec<Value> {
         safety(),
         accurate(),
         settlement(),
+        driven(),
         surveyed(),
         blocks(),
         sinking(),

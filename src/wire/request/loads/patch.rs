@@ -91,7 +91,7 @@ impl PatchLoad {
         let [width, centre] = [self.width_m, self.centre_x_m].map(Digits);
         let force = kn_per_m(self.force_n_per_m);
         let dispersal = self.dispersal.as_ref();
-        let down = dispersal.map_or(String::new(), |dispersal| dispersal.words(backfill, self.centre_x_m));
+        let down = dispersal.map_or(String::new(), |dispersal| dispersal.words(backfill, Some(self.centre_x_m)));
         format!("{force}, spread over {width} m about x = {centre} m{down}")
     }
 }
@@ -127,9 +127,9 @@ impl DispersalRequest {
         if self.surface_height_m.is_some() { "dispersal/surface_height_m" } else { "dispersal" }
     }
 
-    /// With all that is assumed of it, of a load at an abscissa.
-    pub(super) fn words(&self, backfill: Option<&BackfillRequest>, x: f64) -> String {
-        let surface = || Some(backfill?.surface()?.height(x));
+    /// With all that is assumed of it, of a load at an abscissa where it has one.
+    pub(super) fn words(&self, backfill: Option<&BackfillRequest>, x: Option<f64>) -> String {
+        let surface = || Some(backfill?.surface()?.height(x?));
         let height =
             self.surface_height_m.or_else(surface).map_or(String::new(), |y| format!(" at y = {} m", Digits(y)));
         let how = self.distribution(backfill).map_or(String::new(), DistributionRequest::words);

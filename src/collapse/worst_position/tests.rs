@@ -1,0 +1,199 @@
+use super::*;
+use crate::arch::profile::Profile;
+use crate::arch::ring::{JointLines, Line, Ring, Thickness, stations};
+use crate::arch::{assemble, straight_voussoirs};
+use crate::collapse::{MovingVehicle, Sweep};
+use crate::structure::load::{Axle, Dispersal, Distribution, Fill, Layer, Load, SurfaceLine, Vehicle};
+use crate::structure::{JointLaw, Stone};
+
+/// Numbers in [0, 1) from a seed.
+struct Dice(u64);
+
+impl Dice {
+    fn between(&mut self, from: f64, to: f64) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        from + (to - from) * ((self.0 >> 11) as f64 / (1u64 << 53) as f64)
+    }
+}
+
+/// A segmental arch under fill: span, rise, thickness, stones, strength, and the height of the fill above its crown.
+fn bridge(
+    [span, rise, thickness]: [f64; 3],
+    stones: usize,
+    strength: f64,
+    cover: f64,
+) -> (Structure, Vec<PointForce>, f64) {
+    let radius = (0.25 * span * span + rise * rise) / (2.0 * rise);
+    let profile = Profile::circular(radius, 2.0 * (0.5 * span / radius).asin());
+    let ring = Ring {
+        stations: stations(profile.length(), &vec![1.0; stones]),
+        profile,
+        line: Line::Intrados,
+        thickness: Thickness::Linear { crown: thickness, springing: thickness },
+        joints: JointLines::Normal,
+    };
+    let ends = ring.set_out().unwrap();
+    let stone = Stone {
+        density: 2040.0,
+        youngs_modulus: 1e9,
+        poissons_ratio: 0.2,
+        friction_angle: 40f64.to_radians(),
+        cohesion: 0.0,
+        compressive_strength: strength,
+    };
+    let law = JointLaw::Dry { friction: 40f64.to_radians().tan(), cohesion: 0.0 };
+    let structure = assemble(&ends, straight_voussoirs(&ends).unwrap(), stone, law);
+    let surface = rise + thickness + cover;
+    let layer = Layer { bottom: f64::NEG_INFINITY, top: 0.0, density: 2040.0 };
+    let fill = Fill { line: Some(SurfaceLine::level(surface)), layers: vec![layer], backing: None, lateral_ratio: 0.0 };
+    let fixed = [Load::SelfWeight, Load::Fill(fill)].map(|load| load.on(&structure, 1.0).unwrap()).concat();
+    (structure, fixed, surface)
+}
+
+fn question(
+    structure: Structure,
+    fixed: Vec<PointForce>,
+    vehicle: Vehicle,
+    step: f64,
+    directions: &[bool],
+) -> PositionQuestion {
+    let sweep = |&reversed: &bool| {
+        let [from, to] = vehicle.at(0.0, reversed).reach(&structure);
+        Sweep { from, to, step, reversed }
+    };
+    PositionQuestion {
+        sweeps: directions.iter().map(sweep).collect(),
+        pieces: vec![1; structure.bodies.len()],
+        analysis: Analysis::new(structure, fixed, Vec::new()),
+        vehicles: vec![MovingVehicle { vehicle, coefficient: 1.0, scaled: true }],
+        tolerance: 1e-4,
+    }
+}
+
+fn axles(axles: &[[f64; 2]], dispersal: Option<Dispersal>) -> Vehicle {
+    let axle = |&[offset, force]: &[f64; 2]| Axle { offset, force, length: 0.3 };
+    Vehicle { axles: axles.iter().map(axle).collect(), x: 0.0, reversed: false, dispersal }
+}
+
+fn found(question: &PositionQuestion) -> PositionReport {
+    let report = find(question, &Budget::unlimited()).unwrap();
+    report.worst_position().unwrap().clone()
+}
+
+/// The least load factor of a scan: every two centimetres, and every millimetre around all that is within 2 % of the least.
+fn scanned(question: &PositionQuestion) -> f64 {
+    let mut coarse = Vec::new();
+    for sweep in &question.sweeps {
+        let at = |x: f64| (x, sweep.reversed, value(question, x, sweep.reversed));
+        coarse.extend((Sweep { step: 0.02, ..*sweep }).positions().map(at));
+    }
+    let least = coarse.iter().map(|(.., value)| *value).fold(f64::INFINITY, f64::min);
+    let near = coarse.into_iter().filter(|(.., value)| *value < 1.02 * least);
+    let fine = near.flat_map(|(x, reversed, _)| (-9..=9).map(move |i| (x + 1e-3 * f64::from(i), reversed)));
+    fine.map(|(x, reversed)| value(question, x, reversed)).fold(least, f64::min)
+}
+
+fn value(question: &PositionQuestion, x: f64, reversed: bool) -> f64 {
+    let Analysis { structure, fixed, .. } = &question.analysis;
+    let vehicle = question.vehicles[0].vehicle.at(x, reversed);
+    let scaled = Load::Vehicle(vehicle).on(structure, 1.0).unwrap();
+    if scaled.is_empty() {
+        return f64::INFINITY;
+    }
+    let theorem = StaticTheorem::new(structure, fixed, &scaled).unwrap();
+    let strengths: Vec<f64> = structure.joints.iter().map(|joint| structure.strength_at(joint)).collect();
+    theorem.crushing_window(&strengths, &Budget::unlimited()).unwrap().unwrap().ends[1]
+}
+
+#[test]
+fn the_worst_position_is_that_of_a_fine_scan() {
+    let dice = &mut Dice(17);
+    for number in 0..50 {
+        let span = dice.between(3.0, 12.0);
+        let shape = [span, span * dice.between(0.15, 0.45), span * dice.between(0.04, 0.09)];
+        let (structure, fixed, surface) =
+            bridge(shape, dice.between(12.0, 30.0) as usize, dice.between(3e6, 2e7), dice.between(0.1, 1.0));
+        let dispersal = match number % 3 {
+            0 => None,
+            1 => Some(Distribution::Boussinesq { cut_off: dice.between(0.4, 0.8) }),
+            _ => Some(Distribution::Uniform { spread: 0.5 }),
+        };
+        let dispersal = dispersal.map(|distribution| Dispersal { surface: SurfaceLine::level(surface), distribution });
+        let mut vehicle = axles(
+            &[[0.0, 1e4], [dice.between(1.0, 2.0), dice.between(3e3, 1e4)], [dice.between(2.2, 4.0), 5e3]],
+            dispersal,
+        );
+        vehicle.axles.truncate(dice.between(1.0, 4.0) as usize);
+        let question = question(structure, fixed, vehicle, 0.1, &[false, true]);
+        let report = found(&question);
+        let (ours, scanned) = (report.worst.load_factor().unwrap(), scanned(&question));
+        assert!(ours <= scanned * (1.0 + 1e-4), "bridge {number}: {ours}, scan {scanned}");
+        // It is reached; between two millimetres it may be a little lower than at either.
+        let attained = value(&question, report.worst.x, report.worst.reversed);
+        assert!(
+            (ours / attained - 1.0).abs() < 1e-9 && ours > scanned * (1.0 - 1e-3),
+            "bridge {number}: {ours}, {attained}"
+        );
+        // Bounds leave little to solve beside the grid, whose positions are a hundred times as far apart as those of the scan.
+        let grid: usize = question.sweeps.iter().map(|sweep| sweep.parts() + 1).sum();
+        assert!(
+            report.curve.len() <= grid + 5,
+            "bridge {number}: {} positions solved, {grid} on the grid",
+            report.curve.len()
+        );
+    }
+}
+
+/// At a position other than its own a mechanism gives an upper bound, and its own load factor at its own.
+#[test]
+fn mechanisms_bound_all_other_positions() {
+    let (structure, fixed, surface) = bridge([6.55, 1.428, 0.22], 30, 4.5e6, 0.165);
+    let dispersal =
+        Dispersal { surface: SurfaceLine::level(surface), distribution: Distribution::Boussinesq { cut_off: 0.5236 } };
+    let question = question(structure, fixed, axles(&[[0.0, 1e4], [1.3, 5e3]], Some(dispersal)), 0.25, &[false]);
+    let budget = Budget::unlimited();
+    let mut search = Search::new(&question, &budget);
+    search.scan().unwrap();
+    let mut tight = 0;
+    for place in search.places.iter().filter(|place| place.on_grid) {
+        let load_factor = place.load_factor().unwrap();
+        for bound in search.bounds.iter().map(|bound| bound.at(place)) {
+            assert!(bound >= load_factor * (1.0 - 1e-9), "{bound} is below {load_factor} at {}", place.x);
+            tight += usize::from(bound < load_factor * (1.0 + 1e-9));
+        }
+    }
+    assert!(tight >= 20, "{tight}");
+}
+
+#[test]
+fn every_direction_is_looked_at_and_a_fixed_axle_drives_along() {
+    let (structure, fixed, _) = bridge([5.0, 1.2, 0.3], 15, 1e7, 0.2);
+    let vehicle = axles(&[[0.0, 2e4], [1.5, 5e3]], None);
+    let [both, one, other] = [&[false, true][..], &[false], &[true]]
+        .map(|directions| question(structure.clone(), fixed.clone(), vehicle.clone(), 0.1, directions));
+    // The arch is symmetric, so that the vehicle drives as badly either way.
+    let [least, expected, mirrored] =
+        [&both, &one, &other].map(|question| found(question).worst.load_factor().unwrap());
+    assert!(
+        (least / expected - 1.0).abs() < 2e-4 && (least / mirrored - 1.0).abs() < 2e-4,
+        "{least} {expected} {mirrored}"
+    );
+    let reversed = found(&both).curve.iter().filter(|point| point.reversed).count();
+    assert!(2 * reversed >= found(&both).curve.len() - 10);
+    // A second vehicle with the same reference that does not grow: the loads of the two at the position found.
+    let mut two = both.clone();
+    let follower = axles(&[[-1.0, 3e3]], None);
+    two.vehicles.push(MovingVehicle { vehicle: follower.clone(), coefficient: 2.0, scaled: false });
+    let report = found(&two);
+    let worst = report.worst;
+    let at = |vehicle: &Vehicle, coefficient| {
+        Load::Vehicle(vehicle.at(worst.x, worst.reversed)).on(&structure, coefficient).unwrap()
+    };
+    let fixed = [fixed, at(&follower, 2.0)].concat();
+    let theorem = StaticTheorem::new(&structure, &fixed, &at(&both.vehicles[0].vehicle, 1.0)).unwrap();
+    let [_, highest] = theorem.window(&Budget::unlimited()).unwrap().ends().unwrap();
+    assert!((highest / worst.instability.unwrap() - 1.0).abs() < 1e-9);
+    assert!(
+        report.curve.iter().all(|point| point.load_factor().unwrap() >= worst.load_factor().unwrap() * (1.0 - 1e-8))
+    );
+}

@@ -1,0 +1,23 @@
+//! Vehicles: where they stand.
+
+use crate::wire::fault::Faults;
+use crate::wire::request::{AimRequest, AnalysisRequest, LoadRequest, VehicleLoad};
+
+/// Whether every vehicle stands somewhere.
+pub fn check(request: &AnalysisRequest, faults: &mut Faults) {
+    if matches!(request.analysis, AimRequest::WorstPosition(_)) {
+        return;
+    }
+    for (i, vehicle) in vehicles(request) {
+        let detail = "the abscissa of the vehicle's reference is missing: add it, or set analysis to `worst_position`";
+        faults.require(vehicle.x_m.is_some(), format!("/loads/{i}/load/vehicle/x_m"), detail);
+    }
+}
+
+/// The loads that are vehicles, with their numbers.
+pub fn vehicles(request: &AnalysisRequest) -> impl Iterator<Item = (usize, &VehicleLoad)> {
+    request.loads.iter().enumerate().filter_map(|(i, entry)| match &entry.load {
+        LoadRequest::Vehicle(vehicle) => Some((i, vehicle)),
+        _ => None,
+    })
+}
