@@ -74,6 +74,7 @@ fn mirrored(mut structure: Structure, mut end: PathEnd) -> (Structure, PathEnd) 
     }
     for stone in &mut structure.bodies {
         stone.region.centroid = flip(stone.region.centroid);
+        stone.corners = [1, 0, 3, 2].map(|corner: usize| flip(stone.corners[corner])).to_vec();
     }
     end.mechanism.velocities.reverse();
     end.mechanism.velocities.iter_mut().for_each(|v| *v = [-v[0], v[1], -v[2]]);

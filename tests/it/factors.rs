@@ -270,3 +270,16 @@ fn factors_that_act_on_nothing_are_refused() {
     let steps = with(factored(bridge()), "/method", json!({"fixed_steps": {"step": 1.0}}));
     refused(&steps, "/method", "set method to `event_path`");
 }
+
+#[test]
+fn the_worst_position_is_that_of_factored_loads() {
+    let file = folders::cases().join("worst-position/request.json");
+    let request: Value = serde_json::from_slice(&std::fs::read(file).unwrap()).unwrap();
+    let [plain, factored] =
+        [json!({}), json!({"live": 2.0})].map(|factors| solved(&with(request.clone(), "/partial_factors", factors)));
+    let worst = |answer: &Value, field: &str| answer["worst_position"][field].as_f64().unwrap();
+    close([worst(&factored, "x_m"), worst(&plain, "x_m")], 1e-9, "where");
+    close([2.0 * worst(&factored, "load_factor"), worst(&plain, "load_factor")], 1e-9, "load factor");
+    let adequacy = end(&factored, "highest")["adequacy_factor"].as_f64().unwrap();
+    close([adequacy, worst(&factored, "load_factor")], 1e-7, "adequacy factor");
+}

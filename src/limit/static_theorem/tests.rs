@@ -2,6 +2,7 @@ use super::super::scenes::{self, bridge, mirrored, per_area, ring, seismic, wall
 use super::*;
 use crate::budget::Budget;
 use crate::geometry::cross;
+use crate::structure::Side;
 
 const DRY: JointLaw = JointLaw::Dry { friction: 0.7, cohesion: 0.0 };
 

@@ -49,7 +49,8 @@ pub struct AxleRequest {
     /// Contact length along the span, m.
     #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub length_m: f64,
-    /// Multiplies the force, such as a partial factor or that of axle lift-off.
+    /// Multiplies the force, such as that of axle lift-off or a partial factor of this axle; `partial_factors.live` multiplies it
+    /// besides.
     #[schema(required = false, default = 1.0, exclusive_minimum = 0.0, maximum = 1e6)]
     pub factor: f64,
 }
