@@ -148,8 +148,10 @@ fn the_worst_position_is_that_of_a_fine_scan() {
 #[test]
 fn mechanisms_bound_all_other_positions() {
     let (structure, fixed, surface) = bridge([6.55, 1.428, 0.22], 30, 4.5e6, 0.165);
-    let dispersal =
-        Dispersal { surface: SurfaceLine::level(surface), distribution: Distribution::Boussinesq { cut_off: 0.5236 } };
+    let dispersal = Dispersal {
+        surface: SurfaceLine::level(surface),
+        distribution: Distribution::Boussinesq { cut_off: std::f64::consts::FRAC_PI_6 },
+    };
     let question = question(structure, fixed, axles(&[[0.0, 1e4], [1.3, 5e3]], Some(dispersal)), 0.25, &[false]);
     let budget = Budget::unlimited();
     let mut search = Search::new(&question, &budget);
