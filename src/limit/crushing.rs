@@ -148,8 +148,8 @@ impl StaticTheorem {
         strengths.iter().enumerate().filter_map(dry).collect()
     }
 
-    /// What forces of all joints and elements leave of the loads on any body at a load factor, the moment over the size of the structure, as a
-    /// share of all loads that stay.
+    /// What forces of all joints and elements leave of the loads on any body at a load factor, the moment over the size of the
+    /// structure, as a share of all loads that stay.
     pub fn unbalanced(&self, load_factor: f64, forces: &[Resultant], soil: &[f64]) -> f64 {
         let [fixed, scaled] = &self.loads;
         let mut left: Vec<[f64; 3]> =

@@ -53,7 +53,8 @@ pub fn releases(joint: &Joint, forces: &Resultant, none: f64) -> Vec<Release> {
 
 impl StaticTheorem {
     /// The equilibrium of the smallest load factor, in the direction of `sign`, at which the joints that `moving` names are at
-    /// those limits, the passive elements that `pinned` names at those of theirs, and every other is admissible; None where there is none between `start` and `end`.
+    /// those limits, the passive elements that `pinned` names at those of theirs, and every other is admissible; None where
+    /// there is none between `start` and `end`.
     ///
     /// An end that opens carries nothing. How much of its cohesion a joint that opens has left depends on where along it the
     /// cohesion sits, so where it slides too, anything from none to all is admitted.

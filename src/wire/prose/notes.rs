@@ -65,8 +65,9 @@ impl fmt::Display for Note {
     }
 }
 
-const SLIDES_BESIDE_SOIL: &str = "Joints slide beside backfill that resists. The least load is then that of the mechanisms found from this load \
-     path, and other values of mobilisation_share_of_depth may find a lower one: try 0.001 and 1 too, and take the lowest.";
+const SLIDES_BESIDE_SOIL: &str = "Joints slide beside backfill that resists. The least load is then that of the mechanisms \
+     found from this load path, and other values of mobilisation_share_of_depth may find a lower one: try 0.001 and 1 too, \
+     and take the lowest.";
 
 const FALLS_FROM_ZERO: &str = "The arch stands at load factor 0 and at none beyond it in the direction asked. Hinges, slides \
      and velocities are those in which it falls as soon as the load factor leaves 0.";

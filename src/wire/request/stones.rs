@@ -4,7 +4,8 @@ use super::Text;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-/// A stone with a name, for voussoirs of an arch, blocks, rings, piers, abutments and backing to be made of. What is left out is as in `stone`.
+/// A stone with a name, for voussoirs of an arch, blocks, rings, piers, abutments and backing to be made of. What is left out
+/// is as in `stone`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct NamedStone {
     /// Its name, up to 200 characters.

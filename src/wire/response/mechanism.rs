@@ -91,8 +91,8 @@ pub struct MechanismBody {
     pub lift_offs: Vec<LiftOffBody>,
 }
 
-/// It is seen from the start of the load path. Joints that slide without dilating have many loads at which a mechanism is in equilibrium; stiffness of the joints and
-/// order of loading pick one.
+/// It is seen from the start of the load path. Joints that slide without dilating have many loads at which a mechanism is in
+/// equilibrium; stiffness of the joints and order of loading pick one.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct RangeBody {
     /// Least intensity found at which a mechanism without dilation is in equilibrium. It governs.

@@ -8,7 +8,8 @@ use crate::wire::request::AnalysisRequest;
 
 const HERE: &str = "/backfill";
 
-/// The weight of the backfill and what it presses in any case, where there is one, on the whole structure with the sides of its bodies cut into `pieces` each.
+/// The weight of the backfill and what it presses in any case, where there is one, on the whole structure with the sides of its
+/// bodies cut into `pieces` each.
 pub fn weight(
     request: &AnalysisRequest,
     whole: Option<&Layout>,

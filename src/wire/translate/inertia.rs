@@ -13,8 +13,9 @@ pub struct Mass {
     scaled: bool,
 }
 
-/// Adds what fill of these masses does in the acceleration `entry`. The force has the coefficients of both, and is scaled
-/// where one of the two is, then with the partial factor `live`; masses have none. A fill that does not fit the arch has a fault of its own.
+/// Adds what fill of these masses does in the acceleration `entry`. The force has the coefficients of both, and is scaled where
+/// one of the two is, then with the partial factor `live`; masses have none. A fill that does not fit the arch has a fault of
+/// its own.
 pub fn add(
     masses: &[Mass],
     entry: &LoadEntry,
