@@ -41,7 +41,8 @@ pub fn facts(safety: &GeometricSafetyBody) -> Vec<(&'static str, String)> {
             }
             _ => format!("{} of it", Digits(limit.least_share)),
         };
-        ("weights recomputed", format!("factor {}; least thickness {least}", factor(limit, Digits)))
+        let most = if limit.factor.is_none() { " at most" } else { "" };
+        ("weights recomputed", format!("factor {}; least thickness{most} {least}", factor(limit, Digits)))
     });
     held.into_iter().chain(recomputed).collect()
 }

@@ -3,8 +3,10 @@
 use super::noun::noun;
 use crate::wire::prose::Digits;
 use crate::wire::request::{
-    AnalysisRequest, ArchRequest, BridgeRequest, LoadEntry, LoadRequest, NamedStone, ProfileRequest, StoneOf,
+    AnalysisRequest, ArchRequest, BridgeRequest, JointOverride, LoadEntry, LoadRequest, NamedStone, ProfileRequest,
+    StoneOf,
 };
+use crate::wire::response::{AnalysisResult, JointBody};
 
 /// What the structure is called, and the structure in a few words.
 pub fn structure(request: &AnalysisRequest) -> (&'static str, String) {
@@ -70,6 +72,49 @@ pub fn strengths(request: &AnalysisRequest) -> String {
     let other = |stone: &NamedStone| Some(format!("; {}: {}", stone.name, words(stone.compressive_strength_pa?)));
     let others: String = request.stones.iter().filter_map(other).collect();
     format!("{}{others}", words(request.stone.compressive_strength_pa))
+}
+
+/// Span, rise and joints of a whole arch, as they were set out.
+pub fn shape(result: &AnalysisResult) -> Option<String> {
+    result.request.arch.as_ref().filter(|arch| !arch.half)?;
+    let voussoirs = result.structure.bodies.iter().filter(|body| body.name.starts_with("voussoir")).count();
+    let ring = result.structure.joints.get(..=voussoirs)?;
+    let end = |joint: &JointBody| joint.ends_m[0];
+    let length = |joint: &JointBody| {
+        let [[a, b], [c, d]] = joint.ends_m;
+        Digits((c - a).hypot(d - b))
+    };
+    let ([a, b], [c, d]) = (end(ring.first()?), end(ring.last()?));
+    let top = ring.iter().map(|joint| end(joint)[1]).fold(f64::NEG_INFINITY, f64::max);
+    Some(format!(
+        "clear span {} m, rise {} m to the highest joint; joints {} m long at the springing, {} m at the crown",
+        Digits((c - a).hypot(d - b)),
+        Digits(top - 0.5 * (b + d)),
+        length(ring.first()?),
+        length(&ring[voussoirs / 2])
+    ))
+}
+
+/// Most joints that are listed.
+const JOINTS_LISTED: usize = 6;
+
+/// The joints that differ from the rest.
+pub fn altered_joints(overrides: &[JointOverride]) -> Option<String> {
+    let part =
+        |name: &str, value: Option<f64>, unit: &str| value.map(|value| format!("{name} {}{unit}", Digits(value)));
+    let joint = |of: &JointOverride| {
+        let parts = [
+            part("friction", of.friction_angle_deg, " deg"),
+            part("cohesion", of.cohesion_pa, " Pa"),
+            part("lost at the intrados", of.lost_at_intrados_m, " m"),
+            part("lost at the extrados", of.lost_at_extrados_m, " m"),
+        ];
+        format!("{}: {}", of.joint, parts.into_iter().flatten().collect::<Vec<_>>().join(", "))
+    };
+    let more = overrides.len().saturating_sub(JOINTS_LISTED);
+    let more = if more > 0 { format!("; and {more} more") } else { String::new() };
+    let listed = overrides.iter().take(JOINTS_LISTED).map(joint).collect::<Vec<_>>().join("; ");
+    (!overrides.is_empty()).then(|| format!("{listed}{more}"))
 }
 
 /// Most loads listed, beside fill, which always is.

@@ -254,7 +254,7 @@ impl LoadRequest {
                     Flanks::Left => " on the left flank",
                     Flanks::Right => " on the right flank",
                 };
-                format!("lateral pressure{flanks}, bands of height: {}", lateral.bands.len())
+                format!("lateral pressure{flanks}: {}", bands(&lateral.bands))
             }
             LoadRequest::PointLoad(point) => point.words(),
             LoadRequest::PatchLoad(patch) => patch.words(backfill),
@@ -270,6 +270,20 @@ impl LoadRequest {
             }
         }
     }
+}
+
+/// Most bands of pressure that are listed.
+const BANDS_LISTED: usize = 3;
+
+/// Bands of pressure in words.
+fn bands(bands: &[PressureBand]) -> String {
+    let band = |band: &PressureBand| {
+        let [pressure, from, to] = [band.pressure_pa / 1e3, band.from_m, band.to_m].map(Digits);
+        format!("{pressure} kPa from y = {from} to {to} m")
+    };
+    let more = bands.len().saturating_sub(BANDS_LISTED);
+    let more = if more > 0 { format!(" and {more} more bands") } else { String::new() };
+    format!("{}{more}", bands.iter().take(BANDS_LISTED).map(band).collect::<Vec<_>>().join(", "))
 }
 
 fn kn_per_m(force: f64) -> String {

@@ -18,7 +18,9 @@ pub fn check(request: &AnalysisRequest, faults: &mut Faults) {
         ("live", factors.live, any(|entry| entry.scaled), "scaled load"),
         ("soil_resistance", factors.soil_resistance, resists, "soil that resists (backfill/passive)"),
     ] {
-        let detail = format!("there is no {what} for this to act on: leave it out");
+        let detail = format!(
+            "there is no {what} for this to act on: leave it out, and give a fixed load that needs a factor a coefficient"
+        );
         faults.require(acts || factor == 1.0, format!("/partial_factors/{name}"), detail);
     }
     let detail = "an adequacy factor is of loads that grow: set direction to `increase`, or leave partial_factors out";

@@ -123,7 +123,8 @@ impl VehicleLoad {
         };
         let (width, rule) = (Digits(self.effective_width_m), &self.effective_width_rule);
         let dispersal = self.dispersal.as_ref();
-        let down = dispersal.map_or(String::new(), |dispersal| dispersal.words(backfill, self.x_m));
+        let directly = || " directly on the extrados".to_owned();
+        let down = dispersal.map_or_else(directly, |dispersal| dispersal.words(backfill, self.x_m));
         format!("vehicle, axles of {axles}{place}{down}; effective width {width} m ({rule})")
     }
 }
