@@ -97,9 +97,10 @@ fn between_spans_there_is_none() {
 fn where_the_surface_falls_below_a_side_nothing_resists() {
     let line = |points: &[[f64; 2]]| SurfaceLine::through(points.iter().map(|&point| point.into()).collect());
     let of = |points: &[[f64; 2]]| PASSIVE.of(&Fill { line: line(points), ..fill(Some(3.0)) }, &semicircle(6)).0;
-    // A cliff just beside the arch leaves the highest side, whose wedge is narrow. And one as far away as the wedge of the lowest side is wide: sqrt 3 of its depth.
+    // A cliff just beside the arch leaves the highest side, whose wedge is narrow.
     let left = of(&[[-2.4, -1.0], [-2.3, 3.0]]);
     assert_eq!(left.iter().filter(|e| e.way > 0.0).map(|e| e.body).collect::<Vec<_>>(), [2]);
+    // And one as far away as the wedge of the lowest side is wide: sqrt 3 of its depth.
     let lowest = of(&[[-9.0, 3.0], [9.0, 3.0]])[0];
     let away = lowest.at.x - 3f64.sqrt() * (3.0 - lowest.at.y);
     for (x, count) in [(away - 0.02, 3), (away + 0.02, 2)] {
