@@ -269,7 +269,7 @@ fn held_by_soil<'s>(structure: &'s Structure, soil: &[f64]) -> Cow<'s, Structure
 
 /// Whether passive elements that press like this let a mechanism move: into those that press as hard as they can, away from
 /// those that do not press, and otherwise so slowly that the work missing is none.
-pub(super) fn soil_allows(structure: &Structure, soil: &[f64], mechanism: &Mechanism) -> bool {
+fn soil_allows(structure: &Structure, soil: &[f64], mechanism: &Mechanism) -> bool {
     let fastest = mechanism.velocities.iter().map(|[u, v, _]| u.hypot(*v)).fold(0.0, f64::max);
     structure.passive.iter().zip(soil).all(|(element, &force)| {
         let velocity = mechanism.velocities[element.body];

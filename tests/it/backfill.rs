@@ -1,7 +1,7 @@
 //! Backfill: layers under a road over an arch or a bridge, their weight and mass, and loads on the road.
 
 use crate::common::answered::text;
-use crate::common::door;
+use crate::common::door::{self, faults};
 use crate::common::folders;
 use crate::common::masonry::Ring;
 use crate::common::oracle::{Point, Push};
@@ -11,9 +11,8 @@ use serde_json::{Value, json};
 use voussoir::collapse::Analysis;
 use voussoir::geometry::Vec2;
 use voussoir::structure::{PointForce, resultants};
-use voussoir::wire::fault::Fault;
 use voussoir::wire::prose::Digits;
-use voussoir::wire::read::{read, read_question};
+use voussoir::wire::read::read;
 
 /// Columns to a stone.
 const COLUMNS: usize = 1000;
@@ -257,10 +256,6 @@ fn half_an_arch_bears_half_of_a_symmetric_road() {
     request["arch"]["half"] = json!(true);
     request["backfill"]["surface_m"][2][1] = json!(1.6);
     refused(&request, &[("/backfill/surface_m", "set half to false")]);
-}
-
-fn faults(request: &Value) -> Vec<Fault> {
-    read_question(request.to_string().as_bytes()).err().unwrap_or_default()
 }
 
 fn refused(request: &Value, expected: &[(&str, &str)]) {

@@ -1,9 +1,9 @@
 //! Requests on bridges and blocks that cannot be: each is refused where it is best mended, with what to do.
 
+use crate::common::door::{faults, refused};
 use crate::contract::bodies::{with, without};
 use serde_json::{Value, json};
-use voussoir::wire::fault::Fault;
-use voussoir::wire::read::{read, read_question};
+use voussoir::wire::read::read;
 
 fn wall() -> Value {
     let block = |k: usize| {
@@ -33,17 +33,6 @@ fn bridge() -> Value {
             {"load": {"point_load": {"force_n_per_m": 1000, "x_m": -3}}, "scaled": true}
         ]
     })
-}
-
-fn faults(request: &Value) -> Vec<Fault> {
-    read_question(request.to_string().as_bytes()).err().unwrap_or_default()
-}
-
-/// Fails unless the one fault is at `pointer` and its words contain `remedy`.
-fn refused(request: &Value, pointer: &str, remedy: &str) {
-    let found = faults(request);
-    assert!(found.len() == 1 && found[0].pointer == pointer, "{pointer}: {found:?}");
-    assert!(found[0].detail.contains(remedy), "{pointer}: {found:?}");
 }
 
 #[test]

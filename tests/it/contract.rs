@@ -1,6 +1,7 @@
 //! The written contract and the reader are the same thing: what the schema of a body refuses the reader refuses, and the
 //! other way round. The oracle is `openapi/voussoir.json` on disk; nothing of the code is asked for a bound.
 
+use crate::common::door::faults;
 use crate::common::folders;
 use crate::common::places::places;
 use bodies::{bodies, with, without};
@@ -8,14 +9,10 @@ use schema::{Leaf, document, is, leaves, validator};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use voussoir::wire::fault::Fault;
-use voussoir::wire::read::{read, read_question};
+use voussoir::wire::read::read;
 
 pub mod bodies;
 mod schema;
-
-fn faults(request: &Value) -> Vec<Fault> {
-    read_question(request.to_string().as_bytes()).err().unwrap_or_default()
-}
 
 /// True for a fault of a value alone, which the schema has to know.
 fn of_range(fault: &Fault) -> bool {

@@ -1,14 +1,12 @@
 //! Arches of several stones, and forces on them from any side: collapse against the linear programme of `common`.
 
 use crate::common::answered::text;
-use crate::common::door;
+use crate::common::door::{self, faults, refused};
 use crate::common::masonry::Ring;
 use crate::common::oracle::{Aim, Bond, Problem, Push};
 use crate::contract::bodies::with;
 use crate::dispersal::{close, found, ring};
 use serde_json::{Value, json};
-use voussoir::wire::fault::Fault;
-use voussoir::wire::read::read_question;
 
 /// Density, kg/m3, friction angle, degrees, cohesion and strength, Pa.
 type Material = [f64; 4];
@@ -212,16 +210,6 @@ fn the_answer_says_which_stones_and_which_way() {
     ] {
         assert!(words.contains(part), "{part}: {words}");
     }
-}
-
-fn faults(request: &Value) -> Vec<Fault> {
-    read_question(request.to_string().as_bytes()).err().unwrap_or_default()
-}
-
-fn refused(request: &Value, pointer: &str, remedy: &str) {
-    let found = faults(request);
-    assert!(found.len() == 1 && found[0].pointer == pointer, "{pointer}: {found:?}");
-    assert!(found[0].detail.contains(remedy), "{pointer}: {found:?}");
 }
 
 #[test]

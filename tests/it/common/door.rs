@@ -5,6 +5,8 @@ use serde_json::Value;
 use voussoir::budget::Budget;
 use voussoir::collapse::{Analysis, CollapseReport, run};
 use voussoir::structure::{JointLaw, PointForce};
+use voussoir::wire::fault::Fault;
+use voussoir::wire::read::read_question;
 
 /// Reads a request as the service does.
 ///
@@ -15,6 +17,18 @@ pub fn analysis(request: &Value) -> Result<Analysis, String> {
         Ok((_, analysis)) => Ok(analysis),
         Err(faults) => Err(faults.iter().map(|f| format!("{}: {}\n", f.pointer, f.detail)).collect()),
     }
+}
+
+/// What is wrong with a request for whatever may be asked; nothing with a good one.
+pub fn faults(request: &Value) -> Vec<Fault> {
+    read_question(request.to_string().as_bytes()).err().unwrap_or_default()
+}
+
+/// Fails unless the one fault is at `pointer` and its words contain `remedy`.
+pub fn refused(request: &Value, pointer: &str, remedy: &str) {
+    let found = faults(request);
+    assert!(found.len() == 1 && found[0].pointer == pointer, "{pointer}: {found:?}");
+    assert!(found[0].detail.contains(remedy), "{pointer}: {found:?}");
 }
 
 /// Runs a request that has to be a good one.
