@@ -249,7 +249,7 @@ fn sliding_shear(model: &Model, joint: usize, peak: &Peak) -> Option<f64> {
 }
 
 /// Forces of the passive elements, N/m, from the normal force of every contact.
-fn pressing(model: &Model, normal: impl Fn(usize) -> f64) -> Vec<f64> {
+pub(super) fn pressing(model: &Model, normal: impl Fn(usize) -> f64) -> Vec<f64> {
     model.soil.clone().map(normal).collect()
 }
 

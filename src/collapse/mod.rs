@@ -3,6 +3,7 @@
 mod beam;
 mod certificate;
 pub mod cost;
+mod cracks;
 mod crushed;
 mod discretise;
 mod ending;

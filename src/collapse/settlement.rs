@@ -4,6 +4,7 @@
 //! there: the arch has become a three-hinge arch, which follows any movement. On moving geometry its thrust goes on changing
 //! until it no longer finds room in the stones.
 
+use super::cracks::open_joints;
 use super::discretise::{Discretisation, Model};
 use super::path::{Attempt, Moved, disturbed, first_that_tells, lost, stand, stand_moved};
 use super::tolerances;
@@ -150,7 +151,7 @@ fn describe(analysis: &Analysis, model: &Model, geometry: Geometry, followed: Fo
         (_, End::Reached) => SettlementEnd::Follows,
         _ => SettlementEnd::Collapse,
     };
-    let snap = snap.map(|at| at / target);
+    let (snap, forces) = (snap.map(|at| at / target), tracer.contact_forces());
     SettlementPath {
         end,
         why,
@@ -159,6 +160,8 @@ fn describe(analysis: &Analysis, model: &Model, geometry: Geometry, followed: Fo
         points,
         mechanism: ending::at_rates(analysis, model, &tracer),
         thrust_line: ending::carried_by(analysis, model, &tracer),
+        open_joints: open_joints(&analysis.structure, model, &tracer),
+        soil: ending::pressing(model, |p| forces[p][0]),
         displacements: displacements(model, &tracer, geometry),
         snap,
         residual: tracer.worst_residual(),

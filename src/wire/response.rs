@@ -30,7 +30,9 @@ pub use plan::{BeamPlanBody, PlanBody, SubblockCounts};
 pub use proof::{JointForceColumns, MotionColumns, ProofBody, ProofEndBody};
 pub use result::JobResult;
 pub use safety::{CurvePointBody, ReachBody, SafetyBody, SafetyCurveResult};
-pub use settlement::{DisplacementColumns, SettlementBody, SettlementColumns, SettlementPathBody, SupportForces};
+pub use settlement::{
+    DisplacementColumns, OpenJointBody, SettlementBody, SettlementColumns, SettlementPathBody, SupportForces,
+};
 pub use stress::{
     CrushedSubblock, CrushingBody, ElasticCrushingBody, PlasticCrushingBody, StressFieldBody, SubblockColumns,
     mesh_in_words,

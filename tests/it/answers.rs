@@ -252,6 +252,8 @@ fn full() -> CollapseReport {
         points: vec![SettlementPoint { share: 0.5, forces: vec![at; 2] }],
         mechanism,
         thrust_line,
+        open_joints: Vec::new(),
+        soil: Vec::new(),
         displacements: vec![[1.0; 3]; 9],
         snap: Some(0.5),
         residual: 1e-12,

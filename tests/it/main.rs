@@ -36,6 +36,8 @@ mod contract;
 #[cfg(feature = "server")]
 mod cost;
 #[cfg(feature = "server")]
+mod cracks;
+#[cfg(feature = "server")]
 mod crushing;
 #[cfg(feature = "server")]
 mod crushing_path;

@@ -1,6 +1,6 @@
 //! What the movement of supports does.
 
-use super::{Mechanism, Thrust, Unfollowed};
+use super::{Face, Mechanism, Thrust, Unfollowed};
 use crate::geometry::Vec2;
 
 /// How a movement ended.
@@ -27,6 +27,23 @@ pub struct SettlementPoint {
     pub forces: Vec<Vec2>,
 }
 
+/// A joint that is open.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OpenJoint {
+    /// Joint number.
+    pub joint: usize,
+    /// The face at which it is open, or open more.
+    pub face: Face,
+    /// The joint's end there, as built, m.
+    pub at: Vec2,
+    /// How wide it is open there, m.
+    pub width: f64,
+    /// How wide it is open at its other end, m: none where that stays shut.
+    pub other: f64,
+    /// Length of the joint over which it is open, m.
+    pub depth: f64,
+}
+
 /// The structure on a movement of its supports.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SettlementPath {
@@ -45,6 +62,10 @@ pub struct SettlementPath {
     pub mechanism: Mechanism,
     /// Resultants per joint at the end.
     pub thrust_line: Vec<Thrust>,
+    /// Joints that are open at the end, in their order.
+    pub open_joints: Vec<OpenJoint>,
+    /// Force of every passive element at the end, N/m.
+    pub soil: Vec<f64>,
     /// Displacement (u, v) of every body's centroid and its rotation at the end, m and rad.
     pub displacements: Vec<[f64; 3]>,
     /// Share at which the arch first snaps into another shape: the path dips by more than a hundredth, then goes on further.

@@ -54,6 +54,11 @@ impl Tracer<'_> {
         self.rate
     }
 
+    /// Gap, positive when open, and slip of contact `p`, as the state reached has them, m.
+    pub fn gap(&self, p: usize) -> [f64; 2] {
+        self.gaps[p]
+    }
+
     /// Rates of gap and slip of contact `p` in that direction.
     pub fn gap_rate(&self, p: usize) -> [f64; 2] {
         self.rates[p]

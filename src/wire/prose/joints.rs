@@ -22,7 +22,8 @@ fn between(structure: &StructureBody, joint: usize) -> String {
     format!("{} and {}", joint.between[0], joint.between[1])
 }
 
-fn place(at: [f64; 2]) -> String {
+/// A point in words.
+pub fn place(at: [f64; 2]) -> String {
     let size = at[0].hypot(at[1]);
     // The rounding of a sine is no height.
     let [x, y] = at.map(|along| Digits(if along.abs() > ROUND_OFF * size { along } else { 0.0 }));

@@ -13,6 +13,7 @@ mod noun;
 mod plan;
 mod positions;
 mod safety;
+mod settlement;
 mod summary;
 mod wording;
 

@@ -2,7 +2,8 @@
 
 use super::joints;
 use super::noun::in_its_words;
-use super::summary::append;
+use super::settlement::{movements, open_joints};
+use super::summary::{append, soil};
 use super::wording::{self, word};
 use crate::collapse::{SettlementEnd, UpdatedEnd};
 use crate::wire::prose::{Digits, Rounded};
@@ -73,6 +74,8 @@ pub fn supports(text: &mut String, result: &AnalysisResult) {
     let path = settlement.updated_geometry.as_ref().unwrap_or(&settlement.first_order);
     let which = if settlement.updated_geometry.is_some() { "on moving geometry" } else { "at first order" };
     joints::moving(text, &format!(" at the end of the movement, {which}"), &path.mechanism, result);
+    let title = format!("Open joints at the end of the movement, {which}");
+    append(text, &title, open_joints(&path.open_joints, result.named().is_some()));
     let history = &path.history;
     let force = |column: Option<&Vec<f64>>, last: bool| {
         let value = column.and_then(|column| if last { column.last() } else { column.first() });
@@ -86,7 +89,7 @@ pub fn supports(text: &mut String, result: &AnalysisResult) {
     let left = history.left_reaction_n_per_m.as_ref();
     let mut rows: Vec<_> =
         left.map(|left| row("left springing", history.thrust_n_per_m.as_ref(), Some(left))).into_iter().collect();
-    rows.extend(right.as_ref().map(|right| row("right springing", None, Some(right))));
+    rows.extend(right.as_ref().map(|right| row("right springing", history.right_thrust_n_per_m.as_ref(), Some(right))));
     let named = history.supports.iter();
     rows.extend(named.map(|of| row(&of.support, Some(&of.rightwards_n_per_m), Some(&of.upwards_n_per_m))));
     let title = format!(
@@ -106,9 +109,12 @@ pub fn facts(result: &AnalysisResult) -> Vec<(&'static str, String)> {
         lines.push(("moving geometry", on_moving_geometry(result, updated)));
     }
     if let Some(settlement) = &result.settlement {
-        lines.push(("first order", path(&settlement.first_order)));
-        if let Some(updated) = &settlement.updated_geometry {
-            lines.push(("moving geometry", path(updated)));
+        lines.extend(movements(&result.request).map(|asked| ("movement", asked)));
+        let first_order = [("first order", &settlement.first_order)];
+        let moving = settlement.updated_geometry.as_ref().map(|updated| ("moving geometry", updated));
+        for (name, followed) in first_order.into_iter().chain(moving) {
+            lines.push((name, path(followed)));
+            lines.extend(soil(&followed.passive_n_per_m, result).map(|soil| ("soil presses", soil)));
         }
     }
     lines

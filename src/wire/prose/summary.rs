@@ -179,14 +179,14 @@ fn end_facts(result: &AnalysisResult, end: &EndBody) -> Vec<(&'static str, Strin
     if !end.crushed_joints.is_empty() {
         lines.push(("joints that crush", joints::crushed(&end.crushed_joints)));
     }
-    lines.extend(soil(end, result).map(|soil| ("soil presses", soil)));
+    lines.extend(soil(&end.fall.passive_n_per_m, result).map(|soil| ("soil presses", soil)));
     lines.push(("residual", in_its_words(&result.request, &format!("{:.1e} of the arch's weight", end.residual))));
     lines
 }
 
 /// What passive elements press on either side.
-fn soil(end: &EndBody, result: &AnalysisResult) -> Option<String> {
-    let (elements, forces) = (&result.structure.passive_elements, &end.fall.passive_n_per_m);
+pub fn soil(forces: &[f64], result: &AnalysisResult) -> Option<String> {
+    let elements = &result.structure.passive_elements;
     let side = |direction: f64| {
         let pressing = |(element, force): &(&PassiveElementBody, &f64)| {
             element.direction == direction && **force > FULL * element.most_n_per_m

@@ -2,7 +2,7 @@
 
 use super::columns::{ThrustColumns, column};
 use super::mechanism::MechanismBody;
-use crate::collapse::{SettlementEnd, SettlementPath, SettlementPoint, SettlementReport};
+use crate::collapse::{Face, OpenJoint, SettlementEnd, SettlementPath, SettlementPoint, SettlementReport};
 use serde::Serialize;
 use utoipa::ToSchema;
 
@@ -36,6 +36,11 @@ pub struct SettlementPathBody {
     /// How it follows its supports, or falls, at the end.
     #[serde(flatten)]
     pub mechanism: MechanismBody,
+    /// Joints that are open at the end, in their order: cracks. Those open by less than a millionth of their length are not listed.
+    /// Which of two neighbouring joints opens may be up to how the arch was built.
+    pub open_joints: Vec<OpenJointBody>,
+    /// Force of every one of `structure.passive_elements` at the end, N/m.
+    pub passive_n_per_m: Vec<f64>,
     /// Resultant per joint at the end, as places on the joints as built.
     pub thrust_line: ThrustColumns,
     /// Displacements at the end.
@@ -46,6 +51,23 @@ pub struct SettlementPathBody {
     pub residual: f64,
 }
 
+/// A joint that is open.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub struct OpenJointBody {
+    /// Joint number: of an arch from 0 at the left springing, else the place in `structure.joints`.
+    pub joint: usize,
+    /// Face at which it is open, or open more.
+    pub opens: Face,
+    /// The joint's end there as built, [x, y].
+    pub at_m: [f64; 2],
+    /// Width of the crack there.
+    pub width_m: f64,
+    /// Width at the joint's other end; 0 where that stays shut.
+    pub width_at_other_end_m: f64,
+    /// Length of the joint over which it is open.
+    pub depth_m: f64,
+}
+
 /// Forces of the ground as the supports move: of an arch thrust and reactions, of a bridge and of blocks `supports`.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct SettlementColumns {
@@ -53,6 +75,8 @@ pub struct SettlementColumns {
     pub share_of_movement: Vec<f64>,
     /// Horizontal force of the left springing on the arch, to the right; null of a bridge and of blocks.
     pub thrust_n_per_m: Option<Vec<f64>>,
+    /// Horizontal force of the right springing on the arch, to the right; null for half an arch, a bridge and blocks.
+    pub right_thrust_n_per_m: Option<Vec<f64>>,
     /// Vertical force of the left springing on the arch, upwards; null of a bridge and of blocks.
     pub left_reaction_n_per_m: Option<Vec<f64>>,
     /// Vertical force of the right springing on the arch, upwards; null for half an arch, a bridge and blocks.
@@ -109,6 +133,8 @@ impl SettlementPathBody {
             thrust_n_per_m: history.thrust_n_per_m.as_ref().map(|thrust| thrust.last().copied().unwrap_or(0.0)),
             history,
             mechanism: (&path.mechanism).into(),
+            open_joints: column(&path.open_joints, Into::into),
+            passive_n_per_m: path.soil.clone(),
             thrust_line: ThrustColumns::new(&path.thrust_line),
             displacements: DisplacementColumns {
                 x_m: column(&path.displacements, |row| row[0]),
@@ -118,6 +144,14 @@ impl SettlementPathBody {
             snap_share_of_movement: path.snap,
             residual: path.residual,
         }
+    }
+}
+
+impl From<&OpenJoint> for OpenJointBody {
+    fn from(open: &OpenJoint) -> Self {
+        let &OpenJoint { joint, face, at, width, other, depth } = open;
+        let (width_m, width_at_other_end_m, depth_m) = (width, other, depth);
+        OpenJointBody { joint, opens: face, at_m: at.into(), width_m, width_at_other_end_m, depth_m }
     }
 }
 
@@ -134,10 +168,11 @@ impl SettlementColumns {
             Grounds::Arch { half } => (Some(*half), &[]),
             Grounds::Named(names) => (None, names),
         };
-        let ([thrust, left], [_, right]) = (forces(0), forces(1));
+        let ([thrust, left], [right_thrust, right]) = (forces(0), forces(1));
         SettlementColumns {
             share_of_movement: column(rows, |row| row.share),
             thrust_n_per_m: half.map(|_| thrust),
+            right_thrust_n_per_m: half.filter(|half| !half).map(|_| right_thrust),
             left_reaction_n_per_m: half.map(|_| left),
             right_reaction_n_per_m: half.map(|half| right.into_iter().map(|up| (!half).then_some(up)).collect()),
             supports: names.iter().enumerate().map(support).collect(),

@@ -139,8 +139,8 @@ impl<'r> Parted<'r> {
         inside.map(|share| share.min(1.0 - share)).fold(f64::INFINITY, f64::min)
     }
 
-    /// How far a hinge is open at its other face, m.
-    fn opening(&self, (joint, extrados): Hinge) -> f64 {
+    /// How far a hinge is open at its other face, m, times the joint's length.
+    pub fn opening(&self, (joint, extrados): Hinge) -> f64 {
         let other = corner(self.ring, (joint, !extrados));
         let [before, after] = [self.motions[joint].of(other), self.motions[joint + 1].of(other)];
         let (inner, outer) = self.ring.joints[joint];

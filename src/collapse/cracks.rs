@@ -1,0 +1,76 @@
+//! Joints that are open, and how wide.
+
+use super::discretise::Model;
+use super::{Face, OpenJoint};
+use crate::dda::Tracer;
+use crate::structure::{Joint, JointLaw, Structure};
+
+/// A joint that is open by less than this share of its length is shut: that is strain of stones and contacts.
+const SHUT: f64 = 1e-6;
+
+/// The joints that are open where the path is, in their order.
+pub(super) fn open_joints(structure: &Structure, model: &Model, tracer: &Tracer) -> Vec<OpenJoint> {
+    let opens = |(k, joint): (usize, &Joint)| {
+        joint.law.coulomb()?;
+        // The other stone's half of a joint on the plane of symmetry is its mirror image.
+        let both = if joint.law == JointLaw::Wall { 2.0 } else { 1.0 };
+        let gaps: Vec<[f64; 2]> = model.contacts(k).map(|p| [model.position(k, p), both * tracer.gap(p)[0]]).collect();
+        open_joint(k, joint, &gaps)
+    };
+    structure.ring().iter().enumerate().filter_map(opens).collect()
+}
+
+/// From gaps at places on the joint: 0 at the intrados, 1 at the extrados.
+fn open_joint(number: usize, joint: &Joint, gaps: &[[f64; 2]]) -> Option<OpenJoint> {
+    let ends = [gaps.first()?[1], gaps.last()?[1]];
+    let (face, [width, other]) = match ends {
+        [intrados, extrados] if intrados > extrados => (Face::Intrados, ends),
+        [intrados, extrados] => (Face::Extrados, [extrados, intrados]),
+    };
+    let open: f64 = gaps.windows(2).map(|pair| open_between(pair[0], pair[1])).sum();
+    (width > SHUT * joint.length()).then(|| OpenJoint {
+        joint: number,
+        face,
+        at: joint.end(face),
+        width,
+        other: other.max(0.0),
+        depth: open * joint.length(),
+    })
+}
+
+/// The length of a stretch over which a gap linear on it is more than none.
+fn open_between([from, a]: [f64; 2], [to, b]: [f64; 2]) -> f64 {
+    let share = match (a > 0.0, b > 0.0) {
+        (true, true) => 1.0,
+        (false, false) => 0.0,
+        (true, false) => a / (a - b),
+        (false, true) => b / (b - a),
+    };
+    share * (to - from)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Vec2;
+    use crate::structure::Side;
+
+    #[test]
+    fn width_and_depth_are_those_of_a_gap_linear_between_points() {
+        let joint = Joint {
+            between: [Side::Support(0), Side::Body(0)],
+            intrados: Vec2::new(1.0, 0.0),
+            extrados: Vec2::new(1.0, 2.0),
+            law: JointLaw::Dry { friction: 0.5, cohesion: 0.0 },
+        };
+        let hinge = open_joint(3, &joint, &[[0.0, -1e-4], [1.0, 3e-4]]).unwrap();
+        let expected =
+            OpenJoint { joint: 3, face: Face::Extrados, at: joint.extrados, width: 3e-4, other: 0.0, depth: 1.5 };
+        assert_eq!(hinge, expected);
+        let part = open_joint(3, &joint, &[[0.0, 2e-3], [0.5, 1e-3], [1.0, -1e-3]]).unwrap();
+        assert!((part.face, part.width) == (Face::Intrados, 2e-3) && (part.depth - 1.5).abs() < 1e-12);
+        let apart = open_joint(3, &joint, &[[0.0, 2e-3], [1.0, 1e-3]]).unwrap();
+        assert_eq!([apart.width, apart.other, apart.depth], [2e-3, 1e-3, 2.0]);
+        assert_eq!(open_joint(3, &joint, &[[0.0, -1e-3], [1.0, 1e-7]]), None);
+    }
+}
