@@ -36,6 +36,9 @@ pub enum Verb {
     /// Analyse one request and print the answer
     #[command(after_help = EXIT_CODES)]
     Solve(Solve),
+    /// Make a request of a table of surveyed points
+    #[command(after_help = COLUMNS)]
+    Survey(Survey),
     /// Serve HTTP until told to stop
     Serve(Box<Serve>),
     /// Print the OpenAPI document
@@ -59,6 +62,27 @@ pub struct Solve {
     /// Also draw how the arch collapses, as SVG, into this file
     #[arg(long, value_name = "OUT.svg")]
     pub figure: Option<PathBuf>,
+}
+
+/// What `survey` reads.
+const COLUMNS: &str = "The table is comma-separated, its first line the names of the columns: side (intrados or extrados; all intrados \
+without it), x_m, y_m, and tolerance_m where points are uncertain. Points of a side run from left to right, one for every joint. \
+tolerance_m asks for the analysis survey_tolerance, which needs a scaled load: give --into.";
+
+/// Options of `survey`.
+#[derive(Debug, Args)]
+pub struct Survey {
+    /// The points as CSV; - reads standard input
+    pub file: PathBuf,
+    /// Put them into the arch of this request in JSON [default: an arch under its self weight]
+    #[arg(long, value_name = "REQUEST.json")]
+    pub into: Option<PathBuf>,
+    /// Thickness in m, where there are points of the intrados alone
+    #[arg(long, value_name = "M")]
+    pub thickness: Option<f64>,
+    /// Length in m over which the points are smoothed
+    #[arg(long, value_name = "M")]
+    pub smoothing_length: Option<f64>,
 }
 
 /// Options of `serve`.

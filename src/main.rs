@@ -16,6 +16,7 @@ fn main() -> ExitCode {
     let program = Program::read().unwrap_or_else(|error| error.exit());
     match program.verb {
         Verb::Solve(options) => cli::solve::solve(&options),
+        Verb::Survey(options) => cli::survey::survey(&options),
         Verb::Serve(options) => cli::serve::serve(&options),
         Verb::Openapi => cli::openapi(),
         Verb::Health(options) => cli::health::health(&options),

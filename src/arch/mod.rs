@@ -9,7 +9,9 @@ mod build;
 mod ellipse;
 pub mod profile;
 pub mod ring;
+mod smoothing;
 mod survey;
 
 pub use build::{ArchFault, MAX_VOUSSOIRS, assemble, make_of, stand_on_abutments, straight_voussoirs};
-pub use survey::joints_on_intrados;
+pub use smoothing::{LEAST_POINTS, smoothed};
+pub use survey::{joints_on_intrados, outwards};

@@ -1,4 +1,4 @@
-//! A ring from points surveyed on its intrados.
+//! A ring from points surveyed on its intrados, and the normals of surveyed points.
 
 use super::ring::JointEnds;
 use crate::geometry::{Vec2, perpendicular};
@@ -7,8 +7,19 @@ use crate::geometry::{Vec2, perpendicular};
 /// its point and both neighbours (the first and the last: through the three points at that end). A straight row of points has one
 /// normal. None where points coincide or there are fewer than three.
 pub fn joints_on_intrados(points: &[Vec2], thickness: f64) -> Option<Vec<JointEnds>> {
+    let joint = |(point, outwards): (&Vec2, Vec2)| {
+        let end = point + thickness * outwards;
+        (end.x.is_finite() && end.y.is_finite()).then_some([*point, end])
+    };
+    points.iter().zip(outwards(points)?).map(joint).collect()
+}
+
+/// Unit normals of a row of points, to the left of its way: out of an arch whose points run from left to right. Each is that of the
+/// circle through a point and both neighbours, as [`joints_on_intrados`] has it. None where points coincide or there are fewer than
+/// three.
+pub fn outwards(points: &[Vec2]) -> Option<Vec<Vec2>> {
     let last = points.len().checked_sub(1).filter(|last| *last >= 2)?;
-    let joint = |k: usize| {
+    let normal = |k: usize| {
         let [back, ahead] = match k {
             0 => [2, 1],
             _ if k == last => [last - 1, last - 2],
@@ -21,10 +32,9 @@ pub fn joints_on_intrados(points: &[Vec2], thickness: f64) -> Option<Vec<JointEn
         };
         let along = inverted(ahead) - inverted(back);
         let outwards = perpendicular(along) / along.norm();
-        let end = points[k] + thickness * outwards;
-        (end.x.is_finite() && end.y.is_finite()).then_some([points[k], end])
+        (outwards.x.is_finite() && outwards.y.is_finite()).then_some(outwards)
     };
-    (0..=last).map(joint).collect()
+    (0..=last).map(normal).collect()
 }
 
 #[cfg(test)]

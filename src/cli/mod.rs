@@ -4,6 +4,7 @@ mod connections;
 pub mod health;
 pub mod serve;
 pub mod solve;
+pub mod survey;
 
 use std::fmt::Display;
 use std::io::{self, Write};

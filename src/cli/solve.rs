@@ -15,7 +15,7 @@ use voussoir::wire::read::read_question;
 use voussoir::wire::rendering::{FIGURE, WHOLE, plain, renderings};
 
 /// Exit code for a request that cannot be analysed.
-const FAULTY: u8 = 2;
+pub(super) const FAULTY: u8 = 2;
 
 /// Analyses the request in a file and prints the answer.
 pub fn solve(options: &Solve) -> ExitCode {
@@ -50,7 +50,8 @@ pub fn solve(options: &Solve) -> ExitCode {
     drawn.map_or_else(fail, |()| printed)
 }
 
-fn load(file: &Path) -> io::Result<Vec<u8>> {
+/// The bytes of a file, or of standard input where it is named `-`.
+pub(super) fn load(file: &Path) -> io::Result<Vec<u8>> {
     if file != Path::new("-") {
         return fs::read(file);
     }

@@ -10,7 +10,7 @@ mod kinds;
 
 use super::discretise::{grids, touching};
 use super::strips::MOST_POINTS;
-use super::{Analysis, CurvedBeam, Geometry, PositionQuestion, Question, Task, plan, worst_position};
+use super::{Analysis, CurvedBeam, Geometry, PositionQuestion, Question, SurveyQuestion, Task, plan, worst_position};
 use crate::budget::{Budget, Stopped};
 use crate::dda::{AssemblySize, Beside, Touch};
 use crate::structure::{Side, Structure};
@@ -102,6 +102,7 @@ pub fn estimate(question: &Question) -> Demand {
             Ok(of(&first.analysis, &budget)?.and(points, Share::Points))
         }),
         Question::WorstPosition(question) => of_positions(question, &budget),
+        Question::SurveyTolerance(question) => of_surveys(question, &budget),
         Question::CurvedBeam(beam) => Ok(of_beam(beam)),
     };
     demand.unwrap_or(Demand { memory: usize::MAX, uncrushed: usize::MAX, work: 0.0, largest: Share::Mesh })
@@ -125,6 +126,14 @@ fn of_positions(question: &PositionQuestion, budget: &Budget) -> Result<Demand, 
     let kept = grid * (PLACE * forces + MOTION * joints);
     let demand = of(&question.analysis, budget)?.and(kept, Share::Points);
     Ok(Demand { work: demand.work + (grid * joints * SOLVED) as f64, ..demand })
+}
+
+/// One analysis, and limit analysis of every point out, in and, at the worst of all, elsewhere; one survey at a time.
+fn of_surveys(question: &SurveyQuestion, budget: &Budget) -> Result<Demand, Stopped> {
+    let SurveyQuestion { analysis, points, .. } = question;
+    let demand = of(analysis, budget)?.and(translated(analysis), Share::Stones);
+    let solved = 4 * points.len() * analysis.structure.joints.len();
+    Ok(Demand { work: demand.work + (solved * SOLVED) as f64, ..demand })
 }
 
 /// Bytes of the analysis itself.

@@ -28,6 +28,8 @@ mod sliding;
 mod smallest_motion;
 mod state;
 mod strips;
+mod survey;
+mod survey_tolerance;
 mod tally;
 mod task;
 mod tolerances;
@@ -40,6 +42,7 @@ pub use grid::{can_be_cut, subblocks_of};
 pub use plan::{LOAD_PIECES, can_be_refined};
 pub use position::*;
 pub use report::*;
+pub use survey::*;
 pub use task::*;
 
 use crate::budget::{Budget, Stopped};
@@ -185,6 +188,8 @@ pub enum Question {
     Curve(Vec<CurvePoint>),
     /// The worst position of vehicles, and an analysis there.
     WorstPosition(Box<PositionQuestion>),
+    /// An analysis of a surveyed structure, and how its load factor moves with the points.
+    SurveyTolerance(Box<SurveyQuestion>),
     /// The curved beam of section 3.3 of the paper.
     CurvedBeam(CurvedBeam),
 }
@@ -308,6 +313,9 @@ pub fn answer(question: &Question, budget: &Budget) -> Result<Answer, AnalysisEr
         Question::Curve(points) => safety::curve(points, built).map(Answer::Curve),
         Question::WorstPosition(question) => {
             worst_position::find(question, budget).map(|report| Answer::One(Box::new(report)))
+        }
+        Question::SurveyTolerance(question) => {
+            survey_tolerance::find(question, budget).map(|report| Answer::One(Box::new(report)))
         }
         Question::CurvedBeam(beam) => plan::beam(beam, budget).map(Answer::CurvedBeam),
     }?;

@@ -24,7 +24,7 @@ pub use strength::*;
 pub use unfollowed::*;
 pub use updated::*;
 
-use super::{Direction, FieldAt, PositionReport};
+use super::{Direction, FieldAt, PositionReport, SurveyReport};
 use crate::geometry::Vec2;
 
 /// What happened.
@@ -273,6 +273,8 @@ pub enum TaskReport {
     GeometricSafety(Option<Box<GeometricSafety>>),
     /// The worst position, at which the collapse is told.
     WorstPosition(Box<PositionReport>),
+    /// How the load factor moves with the points of the survey.
+    SurveyTolerance(Box<SurveyReport>),
 }
 
 impl CollapseReport {
@@ -294,5 +296,10 @@ impl CollapseReport {
     /// The worst position, where it was asked for.
     pub fn worst_position(&self) -> Option<&PositionReport> {
         if let TaskReport::WorstPosition(report) = &self.task { Some(report) } else { None }
+    }
+
+    /// How the load factor moves with the points of the survey, where that was asked for.
+    pub fn survey_tolerance(&self) -> Option<&SurveyReport> {
+        if let TaskReport::SurveyTolerance(report) = &self.task { Some(report) } else { None }
     }
 }

@@ -135,6 +135,7 @@ fn size(question: &Question) -> (usize, usize) {
         Question::One(analysis) => of(analysis),
         Question::Curve(points) => points.first().map_or((0, 0), |point| of(&point.analysis)),
         Question::WorstPosition(question) => of(&question.analysis),
+        Question::SurveyTolerance(question) => of(&question.analysis),
         Question::CurvedBeam(beam) if beam.accuracy.is_some() => (1, MAX_SUBBLOCKS_EACH_WAY.pow(2)),
         Question::CurvedBeam(beam) => (1, beam.subblocks.iter().product()),
     }

@@ -10,5 +10,6 @@ pub mod read;
 pub mod rendering;
 pub mod request;
 pub mod response;
+pub mod survey;
 pub mod translate;
 mod tree;

@@ -14,6 +14,7 @@ mod safety;
 mod settlement;
 mod stress;
 mod structure;
+mod survey_tolerance;
 mod updated;
 mod width;
 mod words;
@@ -38,6 +39,7 @@ pub use stress::{
     mesh_in_words,
 };
 pub use structure::{BodyBody, JointBody, LawWord, LoadOnBody, PassiveElementBody, StructureBody};
+pub use survey_tolerance::{LimitBody, MovedPointBody, MovedPointColumns, SurveyToleranceBody};
 pub use updated::UpdatedBody;
 pub use width::{ScaledLoadBody, ThrustRangeBody};
 pub use words::MethodWord;
@@ -105,6 +107,8 @@ pub struct AnalysisResult {
     pub geometric_safety: Option<GeometricSafetyBody>,
     /// The worst position of vehicles, where `analysis` asks for it.
     pub worst_position: Option<WorstPositionBody>,
+    /// How the load factor moves with the points of a survey, where `analysis` asks for it.
+    pub survey_tolerance: Option<SurveyToleranceBody>,
     /// The load path, event by event.
     pub history: HistoryColumns,
     /// What was modelled, and how accurate it is, where `accuracy` is asked for.
@@ -206,6 +210,7 @@ impl AnalysisResult {
                 GeometricSafetyBody::new(safety, request.arch.as_ref().and_then(|arch| arch.thickness.as_ref()))
             }),
             worst_position: report.worst_position().map(|position| WorstPositionBody::new(position, &scale)),
+            survey_tolerance: report.survey_tolerance().map(|survey| SurveyToleranceBody::new(survey, &scale)),
             history: HistoryColumns::new(&report.history, &scale),
             plan,
             cost: report.cost,

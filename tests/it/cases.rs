@@ -106,6 +106,13 @@ impl Case {
                 }
                 return;
             }
+            "survey_tolerance" => {
+                for (name, intensity) in value.as_object().unwrap() {
+                    let inside = if name == "all_at_worst" { "" } else { "/limit" };
+                    self.number(key, intensity, &format!("/survey_tolerance/{name}{inside}/intensity"));
+                }
+                return;
+            }
             "highest" | "lowest" => return self.load(key, value, &end(&self.answer, key).clone()),
             "hinges" => return self.same_hinges(key, value, &self.answer["ends"][0].clone()),
             "highest_hinges" | "lowest_hinges" => {

@@ -64,6 +64,42 @@ fn solve_lists_faults() {
     assert!(String::from_utf8_lossy(&missing.stderr).contains("no/such/file.json"));
 }
 
+/// The first block of code in this language of the guide.
+fn block_of_the_guide(language: &str) -> String {
+    let guide = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/guide.md")).unwrap();
+    let (_, rest) = guide.split_once(&format!("```{language}\n")).unwrap();
+    rest.split("```").next().unwrap().to_owned()
+}
+
+#[test]
+fn survey_makes_the_request_of_the_guide() {
+    let from_guide = examples("docs/guide.md").into_iter().map(|example| example.request);
+    let mut expected =
+        from_guide.into_iter().find(|request| request["analysis"].get("survey_tolerance").is_some()).unwrap();
+    let into = std::env::temp_dir().join(format!("voussoir-into-{}.json", std::process::id()));
+    std::fs::write(
+        &into,
+        serde_json::json!({"loads": expected["loads"], "load_factor": expected["load_factor"]}).to_string(),
+    )
+    .unwrap();
+    let options = ["survey", "-", "--thickness", "0.45", "--smoothing-length", "2", "--into", into.to_str().unwrap()];
+    let table = block_of_the_guide("csv");
+    let output = fed(&options, &table);
+    let wrong = fed(&options, &table.replace("1.548", "1,548"));
+    std::fs::remove_file(&into).unwrap();
+    let made: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    // One tolerance for all is a list of them; options are numbers with a point.
+    expected["arch"]["profile"]["surveyed"]["smoothing_length_m"] = serde_json::json!(2.0);
+    expected["analysis"] = serde_json::json!({"survey_tolerance": {"intrados_m": vec![0.01; 13]}});
+    assert_eq!(made, expected);
+    let solved = fed(&["solve", "-"], &String::from_utf8(output.stdout).unwrap());
+    assert!(String::from_utf8(solved.stdout).unwrap().contains("all at their worst"));
+    let told = String::from_utf8(wrong.stderr).unwrap();
+    assert!(wrong.status.code() == Some(2) && told.contains("line 7: 5 values for 4 columns"), "{told}");
+    let missing = fed(&["survey", "no/such/points.csv"], "");
+    assert_eq!(missing.status.code(), Some(1));
+}
+
 #[test]
 fn openapi_prints_the_document() {
     let output = fed(&["openapi"], "");

@@ -124,4 +124,6 @@ mod structures;
 #[cfg(feature = "server")]
 mod support;
 #[cfg(feature = "server")]
+mod survey;
+#[cfg(feature = "server")]
 mod worst_position;

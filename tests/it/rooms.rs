@@ -39,7 +39,7 @@ const TABLE: [(&str, &[&str], &[&str]); 13] = [
     (
         "wire",
         &["jobs", "render", "arch", "blocks", "bridge", "structure", "collapse", "geometry"],
-        &["bytes", "comfy_table", "serde", "serde_json", "strsim", "thiserror", "utoipa"],
+        &["bytes", "comfy_table", "csv", "serde", "serde_json", "strsim", "thiserror", "utoipa"],
     ),
     (
         "http",

@@ -3,7 +3,7 @@
 use std::cell::Cell;
 use std::ops::ControlFlow;
 use voussoir::budget::Budget;
-use voussoir::collapse::{self, Analysis, Question, Task};
+use voussoir::collapse::{self, Analysis, Question, Task, UncertainPoint};
 use voussoir::structure::{JointLaw, PointForce, Structure};
 use voussoir::wire::fault::Fault;
 use voussoir::wire::read::read_question;
@@ -56,6 +56,11 @@ fn is_finite(question: &Question) -> bool {
             let axles = question.vehicles.iter().flat_map(|moving| &moving.vehicle.axles);
             analysis_is_finite(&question.analysis)
                 && sweeps.chain(axles.flat_map(|axle| [axle.offset, axle.force, axle.length])).all(f64::is_finite)
+        }
+        Question::SurveyTolerance(question) => {
+            let point = |point: &UncertainPoint| point.at + point.outwards * point.tolerance;
+            analysis_is_finite(&question.analysis)
+                && question.points.iter().map(point).all(|at| at.iter().all(|number| number.is_finite()))
         }
         Question::CurvedBeam(beam) => {
             let stone = &beam.stone;
@@ -125,6 +130,7 @@ pub fn is_small(question: &Question) -> bool {
         Question::WorstPosition(question) => {
             small(&question.analysis) && question.sweeps.iter().map(|sweep| sweep.parts()).sum::<usize>() <= 100
         }
+        Question::SurveyTolerance(question) => small(&question.analysis) && question.points.len() <= 100,
         Question::CurvedBeam(beam) => beam.subblocks[0] * beam.subblocks[1] <= 200,
     }
 }

@@ -117,6 +117,15 @@ pub enum Note {
     },
     /// At so many positions rounding kept limit analysis from one of its two answers, or from both.
     PositionsUnknown(usize),
+    /// Surveyed points were moved within their tolerances, and limit analysis asked of each survey.
+    PointsMoved {
+        /// Surveys solved.
+        solved: usize,
+        /// Whether the search for all points at their worst came to its end.
+        settled: bool,
+    },
+    /// For so many points moved one at a time limit analysis gave no answer, or the structure could not be set out.
+    PointsUnknown(usize),
     /// In some steps of the motion friction is beyond its bound, by at most this share of the loads.
     MotionBeyondFriction(f64),
 }

@@ -14,6 +14,7 @@ pub fn figure(question: &Question, answer: &Answer, result: &JobResult) -> Resul
     let analysis = match question {
         Question::One(analysis) => Some(&**analysis),
         Question::WorstPosition(question) => Some(&question.analysis),
+        Question::SurveyTolerance(question) => Some(&question.analysis),
         Question::Curve(_) | Question::CurvedBeam(_) => None,
     };
     let (Some(analysis), Answer::One(report), JobResult::Analysis(result)) = (analysis, answer, result) else {

@@ -38,6 +38,11 @@ fn arch(arch: &ArchRequest) -> String {
         ProfileRequest::MultiCentre(_) => ("multi-centre", 0),
         ProfileRequest::Surveyed(surveyed) => ("surveyed", surveyed.intrados_m.len()),
     };
+    let smoothed = match &arch.profile {
+        ProfileRequest::Surveyed(surveyed) => surveyed.smoothing_length_m,
+        _ => None,
+    };
+    let smoothed = smoothed.map(|length| format!(", smoothed over {} m", Digits(length))).unwrap_or_default();
     let count = arch.voussoirs.unwrap_or(joints.saturating_sub(1));
     let half = match (arch.half, count.is_multiple_of(2)) {
         (false, _) => "",
@@ -50,7 +55,7 @@ fn arch(arch: &ArchRequest) -> String {
     };
     let parts: String = arch.stone_of.iter().take(STONES_LISTED).map(part).collect();
     let more = if arch.stone_of.len() > STONES_LISTED { "; and so on" } else { "" };
-    format!("{shape}, {count} voussoirs, {} joints{half}{parts}{more}", count + 1)
+    format!("{shape}{smoothed}, {count} voussoirs, {} joints{half}{parts}{more}", count + 1)
 }
 
 /// Most runs of voussoirs of other stones that are listed.

@@ -15,11 +15,13 @@ mod positions;
 mod safety;
 mod settlement;
 mod summary;
+mod survey;
 mod wording;
 
 pub use digits::{Digits, Rounded};
 pub use figure::figure;
 pub use noun::in_its_words;
+pub use survey::smoothed;
 
 use super::response::JobResult;
 use std::time::Duration;

@@ -1,6 +1,6 @@
 //! What the mechanics have to say of an answer, in sentences.
 
-use super::{Digits, geometric, positions};
+use super::{Digits, geometric, positions, survey};
 use crate::collapse::{Doubt, FieldAt, LimitWindow, LoadRange, Note, OtherStates, Unfollowed, Unreached};
 use std::fmt;
 
@@ -48,6 +48,8 @@ impl fmt::Display for Note {
             }
             Note::PositionsBetween { solved, tolerance } => positions::between(*solved, Digits(*tolerance)),
             Note::PositionsUnknown(count) => positions::unknown(*count),
+            Note::PointsMoved { solved, settled } => survey::moved(*solved, *settled),
+            Note::PointsUnknown(count) => survey::unknown(*count),
             Note::FallsFromZero => FALLS_FROM_ZERO.into(),
             Note::NothingGrows => "Nothing grows with the load factor: the answer says only that the arch stands.".into(),
             Note::LaterMechanism => LATER_MECHANISM.into(),

@@ -2,7 +2,7 @@
 
 use super::noun::in_its_words;
 use super::wording::{self, word};
-use super::{geometric, given, joints, moving, plan, safety};
+use super::{geometric, given, joints, moving, plan, safety, survey};
 use crate::collapse::{GovernedBy, Outcome};
 use crate::wire::prose::Digits;
 use crate::wire::request::LoadRequest;
@@ -33,6 +33,10 @@ pub fn summary(result: &AnalysisResult, wall_time: Duration) -> String {
         joints::ground(&mut text, end, result);
     }
     moving::supports(&mut text, result);
+    if let Some(of) = &result.survey_tolerance {
+        let title = format!("Points on which the load depends most, {}", wording::unit(result));
+        append(&mut text, &title, survey::points(of));
+    }
     let modes = result.ends.iter().map(|end| end.fall.mechanism.mode);
     let modes = modes.chain(result.safety.iter().filter_map(|safety| safety.mode));
     wording::explain(&mut text, &result.request, modes, result.safety.iter().filter_map(|safety| safety.zone));
@@ -103,7 +107,8 @@ fn facts(result: &AnalysisResult, wall_time: Duration) -> Table {
     if let Some(width) = result.request.width_m {
         fact("over the width", over_width(result, width));
     }
-    for (name, value) in moving::facts(result).into_iter().chain(safety::facts(result)) {
+    let of_survey = survey::facts(result);
+    for (name, value) in moving::facts(result).into_iter().chain(safety::facts(result)).chain(of_survey) {
         fact(name, value);
     }
     for (name, value) in result.geometric_safety.iter().flat_map(geometric::facts) {

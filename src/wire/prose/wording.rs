@@ -2,7 +2,7 @@
 
 use super::noun::in_its_words;
 use super::summary::paragraph;
-use super::{geometric, moving, safety};
+use super::{geometric, moving, safety, survey};
 use crate::collapse::{Direction, GovernedBy, Mode, Outcome, SafetyZone, WhichEnd};
 use crate::wire::prose::{Digits, Rounded};
 use crate::wire::request::AnalysisRequest;
@@ -80,7 +80,8 @@ fn of_an_arch(result: &AnalysisResult) -> String {
     };
     let worst = result.worst_position.as_ref();
     let worst = worst.map(|worst| format!(" The vehicle stands worst at x = {} m.", Rounded(worst.x_m)));
-    let sentence = sentence + &worst.unwrap_or_default();
+    let survey = result.survey_tolerance.as_ref().map(|of| survey::sentence(of, unit(result)));
+    let sentence = sentence + &worst.or(survey).unwrap_or_default();
     match result.method {
         MethodWord::EventPath => sentence,
         MethodWord::FixedSteps => {

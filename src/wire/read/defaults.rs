@@ -30,7 +30,7 @@ fn with_defaults(mut request: AnalysisRequest) -> AnalysisRequest {
     }
     let stress = request.accuracy.is_some_and(|accuracy| accuracy.stress.is_some());
     let one_path = match &request.analysis {
-        AimRequest::Collapse | AimRequest::WorstPosition(_) => true,
+        AimRequest::Collapse | AimRequest::WorstPosition(_) | AimRequest::SurveyTolerance(_) => true,
         AimRequest::Safety(safety) => safety.curve.is_none(),
         AimRequest::Settlement(_) | AimRequest::GeometricSafety(_) => false,
     };

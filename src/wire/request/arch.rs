@@ -138,6 +138,11 @@ pub struct Surveyed {
     /// neighbours, at a springing through the three points at that end.
     #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub thickness_m: Option<f64>,
+    /// Length over which the points are smoothed, m: each is moved along the normal on to a parabola fitted to the points of its face
+    /// nearer than this, measured along them, of which there are at least four. A note tells how far points are moved. Left out:
+    /// they are used as they are.
+    #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
+    pub smoothing_length_m: Option<f64>,
 }
 
 /// Thickness, normal to the profile.

@@ -14,6 +14,7 @@ mod motion;
 mod passive;
 mod question;
 mod stones;
+mod survey_tolerance;
 mod values;
 mod worst_position;
 
@@ -35,6 +36,7 @@ use serde::ser::Error;
 use serde::{Deserialize, Serialize, Serializer};
 use serde_json::Value;
 pub use stones::*;
+pub use survey_tolerance::*;
 use utoipa::ToSchema;
 pub use values::*;
 pub use worst_position::*;

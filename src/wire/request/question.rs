@@ -1,6 +1,6 @@
 //! What is asked of an arch, and what the answer shows.
 
-use super::{Abscissa, LoadFactor, Point, Text, WorstPositionRequest};
+use super::{Abscissa, LoadFactor, Point, SurveyToleranceRequest, Text, WorstPositionRequest};
 use crate::collapse::CrushingKind;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
@@ -20,12 +20,14 @@ pub enum AimRequest {
     GeometricSafety(GeometricSafetyRequest),
     /// Where vehicles stand worst, and the load factor at which the structure falls there.
     WorstPosition(WorstPositionRequest),
+    /// How the load factor moves with the points of a survey within their tolerances.
+    SurveyTolerance(SurveyToleranceRequest),
 }
 
 impl AimRequest {
-    /// Whether the load factor at which the structure falls is asked for, at a position given or the worst.
+    /// Whether the load factor at which the structure falls is asked for, whatever else is.
     pub fn is_collapse(&self) -> bool {
-        matches!(self, AimRequest::Collapse | AimRequest::WorstPosition(_))
+        matches!(self, AimRequest::Collapse | AimRequest::WorstPosition(_) | AimRequest::SurveyTolerance(_))
     }
 }
 

@@ -2,8 +2,9 @@
 
 use super::structure::StructureBody;
 use crate::collapse::Geometry;
-use crate::wire::prose::Digits;
-use crate::wire::request::{AimRequest, AnalysisRequest, LoadEntry, LoadRequest, Subblocks, SubblocksRequest};
+use crate::wire::prose::{Digits, smoothed};
+use crate::wire::request::{AnalysisRequest, LoadEntry, LoadRequest, Subblocks, SubblocksRequest};
+use crate::wire::translate::smoothing;
 
 /// Note on fill and acceleration together.
 const FILL_IS_SHAKEN: &str = "Fill has mass: in the acceleration the column of fill and embankment over every part of the \
@@ -13,10 +14,6 @@ const FILL_IS_SHAKEN: &str = "Fill has mass: in the acceleration the column of f
 /// Note on fill that resists as it is shaken.
 const SOIL_IS_SHAKEN: &str = "The backfill resists in the acceleration as it does at rest. In an earthquake it resists less: give \
      backfill.passive a lower factor.";
-
-/// Note on fill that resists as supports move.
-const SOIL_IS_NOT_TOLD: &str = "What the backfill presses as the supports move is not listed: the forces of the supports alone need \
-     not balance the loads.";
 
 /// Note on contacts stiffer than the default, where joints slide.
 const STIFF_CONTACTS: &str = "Contacts are stiffer than the default of a bridge and of blocks. Where joints slide, such as those \
@@ -48,7 +45,6 @@ pub(super) fn assumptions(request: &AnalysisRequest, structure: &StructureBody) 
     let fill = any(|load| matches!(load, LoadRequest::FillPressure(_)));
     let massless = any(|load| matches!(load, LoadRequest::LateralPressure(_)));
     let resists = !structure.passive_elements.is_empty();
-    let settles = matches!(request.analysis, AimRequest::Settlement(_));
     let stiff = request.arch.is_none() && request.stone.penalty_ratio.is_some_and(|ratio| ratio > 1.0);
     let notes = [
         (stiff, STIFF_CONTACTS),
@@ -56,11 +52,11 @@ pub(super) fn assumptions(request: &AnalysisRequest, structure: &StructureBody) 
         (shaken && (fill || request.backfill.is_some()), FILL_IS_SHAKEN),
         (shaken && massless, MASSLESS_IS_SHAKEN),
         (shaken && resists, SOIL_IS_SHAKEN),
-        (settles && resists, SOIL_IS_NOT_TOLD),
     ];
     let notes = notes.into_iter().filter(|(holds, _)| *holds).map(|(_, note)| note.to_owned());
     let others = uncut(request, structure).into_iter().chain(units(request, structure)).chain(beyond(structure));
-    notes.chain(factored(request)).chain(others).chain(mobilised(request, structure)).collect()
+    let survey = smoothing(request).map(|smoothing| smoothed(&smoothing));
+    notes.chain(survey).chain(factored(request)).chain(others).chain(mobilised(request, structure)).collect()
 }
 
 /// How far stones have to move into fill until all of its resistance is there.

@@ -2,16 +2,15 @@
 
 use super::profile::profile;
 use super::stone::{Stones, joint_law};
+use super::survey;
 use crate::arch::profile::Profile;
 use crate::arch::ring::{JointEnds, JointLines, Line, Ring, Thickness, stations};
-use crate::arch::{ArchFault, assemble, joints_on_intrados, make_of, stand_on_abutments, straight_voussoirs};
-use crate::geometry::Vec2;
+use crate::arch::{ArchFault, assemble, make_of, stand_on_abutments, straight_voussoirs};
 use crate::structure::{Joint, JointLaw, Structure};
 use crate::wire::fault::{Faults, Shown};
 use crate::wire::prose::Digits;
 use crate::wire::request::{
-    ArchRequest, ExtradosCircle, JointsRequest, Length, Point, ProfileRequest, SpringingJoints, Surveyed,
-    ThicknessRequest,
+    ArchRequest, ExtradosCircle, JointsRequest, Length, ProfileRequest, SpringingJoints, Surveyed, ThicknessRequest,
 };
 
 /// Least height of an abutment over the thickness it carries: far below, its area and stiffness cannot be told.
@@ -125,28 +124,7 @@ fn surveyed_ends(request: &ArchRequest, surveyed: &Surveyed, faults: &mut Faults
         "/arch/curved_sides",
         "a surveyed arch has straight sides: set this to false",
     );
-    let here = "/arch/profile/surveyed";
-    let intrados = &surveyed.intrados_m;
-    let ends = match (&surveyed.extrados_m, surveyed.thickness_m) {
-        (Some(extrados), None) => {
-            let (inner, outer) = (intrados.len(), extrados.len());
-            let detail = format!("{inner} intrados points but {outer} extrados points: give one pair per joint");
-            faults.require(inner == outer, format!("{here}/extrados_m"), detail);
-            let pair = |(a, b): (&Point, &Point)| [Vec2::from(*a), Vec2::from(*b)];
-            Some(intrados.iter().zip(extrados).map(pair).collect())
-        }
-        (None, Some(thickness)) => {
-            let points: Vec<Vec2> = intrados.iter().map(|point| Vec2::from(*point)).collect();
-            let ends = joints_on_intrados(&points, thickness);
-            let detail = "points that follow on each other coincide: list every one once, from left to right";
-            faults.require(ends.is_some(), format!("{here}/intrados_m"), detail);
-            ends
-        }
-        _ => {
-            faults.add(here, "give either extrados_m or thickness_m");
-            None
-        }
-    };
+    let ends = survey::ends(surveyed, faults);
     ends.filter(|_| faults.len() == before)
 }
 

@@ -20,6 +20,8 @@ mod settlement;
 mod site;
 mod stone;
 mod structure;
+mod survey;
+mod survey_tolerance;
 mod vehicle;
 mod worst_position;
 
@@ -30,6 +32,7 @@ use site::Unloaded;
 
 pub use loads::arriving;
 pub use structure::Layout;
+pub use survey::{Smoothing, smoothing};
 pub use worst_position::placed;
 
 /// Translates a request.
@@ -59,7 +62,7 @@ pub fn analysed(request: &AnalysisRequest) -> Option<(Analysis, Layout)> {
 fn structure_question(request: &AnalysisRequest, faults: &mut Faults) -> Option<Question> {
     let site = Unloaded::new(request, faults);
     let curve = match &request.analysis {
-        AimRequest::Collapse | AimRequest::WorstPosition(_) => None,
+        AimRequest::Collapse | AimRequest::WorstPosition(_) | AimRequest::SurveyTolerance(_) => None,
         AimRequest::Safety(safety) => {
             safety::check(request, faults);
             safety.curve.as_ref()
@@ -80,6 +83,10 @@ fn structure_question(request: &AnalysisRequest, faults: &mut Faults) -> Option<
         (Some(curve), _) => safety::points(&site, curve, faults).map(Question::Curve),
         (None, AimRequest::WorstPosition(asked)) => {
             worst_position::question(&site, asked, faults).map(|question| Question::WorstPosition(Box::new(question)))
+        }
+        (None, AimRequest::SurveyTolerance(asked)) => {
+            let question = survey_tolerance::question(&site, asked, faults);
+            question.map(|question| Question::SurveyTolerance(Box::new(question)))
         }
         (None, _) => site.analysis(&request.loads, faults).map(|analysis| Question::One(Box::new(analysis))),
     }

@@ -128,17 +128,19 @@ impl<'a> Unloaded<'a> {
         };
         let states = StatesAsked { share: request.report.share_of_collapse, fields: self.fields.clone() };
         Some(match &request.analysis {
-            AimRequest::Collapse | AimRequest::WorstPosition(_) => Task::Collapse(CollapseTask {
-                direction: request.load_factor.direction,
-                cap,
-                method: match self.steps {
-                    Some(steps) => steps,
-                    None if request.crushing_in_path => Method::CrushingPath,
-                    None => Method::EventPath(path),
-                },
-                states,
-                motion: self.motion,
-            }),
+            AimRequest::Collapse | AimRequest::WorstPosition(_) | AimRequest::SurveyTolerance(_) => {
+                Task::Collapse(CollapseTask {
+                    direction: request.load_factor.direction,
+                    cap,
+                    method: match self.steps {
+                        Some(steps) => steps,
+                        None if request.crushing_in_path => Method::CrushingPath,
+                        None => Method::EventPath(path),
+                    },
+                    states,
+                    motion: self.motion,
+                })
+            }
             AimRequest::Safety(safety) => Task::Safety(SafetyTask { crushing: safety.crushing, cap, path, states }),
             AimRequest::Settlement(moved) => Task::Settlement(SettlementTask {
                 movements: settlement::movements(moved, self.layout()?),
@@ -156,7 +158,10 @@ fn check_method(request: &AnalysisRequest, faults: &mut Faults) {
         (AimRequest::Settlement(_), _) => "a movement of supports",
         (AimRequest::GeometricSafety(_), _) => "a structure that stands",
         (_, Geometry::Updated) => "a path on moving geometry",
-        (AimRequest::Collapse | AimRequest::WorstPosition(_), Geometry::FirstOrder) => return,
+        (
+            AimRequest::Collapse | AimRequest::WorstPosition(_) | AimRequest::SurveyTolerance(_),
+            Geometry::FirstOrder,
+        ) => return,
     };
     let detail = format!("{what} is followed exactly: set method to `event_path`");
     faults.require(request.method == MethodRequest::EventPath, "/method", detail);

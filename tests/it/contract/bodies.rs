@@ -121,6 +121,24 @@ fn surveyed_intrados() -> Value {
     with(without(surveyed(), "/arch/profile/surveyed/extrados_m"), "/arch/profile/surveyed/thickness_m", json!(0.5))
 }
 
+fn measured() -> Value {
+    let row = |radius: f64| {
+        (0..9)
+            .map(|k| 0.125 * std::f64::consts::PI * f64::from(8 - k))
+            .map(move |a| [radius * a.cos(), radius * a.sin()])
+    };
+    let [intrados, extrados] = [2.0, 2.5].map(|radius| json!(row(radius).collect::<Vec<_>>()));
+    let tolerances = json!([0.01, 0, 0, 0, 0.01, 0, 0, 0, 0.01]);
+    json!({
+        "arch": {"profile": {"surveyed": {"intrados_m": intrados, "extrados_m": extrados, "smoothing_length_m": 3}}},
+        "loads": [
+            {"load": {"self_weight": {}}},
+            {"load": {"point_load": {"force_n_per_m": 1000, "x_m": 0.5}}, "scaled": true}
+        ],
+        "analysis": {"survey_tolerance": {"tolerance_m": 0.01, "intrados_m": tolerances, "extrados_m": tolerances}}
+    })
+}
+
 fn blocks() -> Value {
     let corners = |y: f64| json!([[0, y], [1, y], [1, y + 1.0], [0, y + 1.0]]);
     json!({
@@ -261,6 +279,7 @@ pub fn bodies() -> Vec<Value> {
         blocks(),
         sinking(),
         given(),
+        measured(),
         on_a_line(),
         bridge(),
         level(),

@@ -20,13 +20,14 @@ const UNITS: [(&str, &str); 12] = [
 ];
 
 /// Sections of docs/reference.md that tell what the words of an answer mean, by the schema that lists the words.
-pub const WORDS: [(&str, &str); 11] = [
+pub const WORDS: [(&str, &str); 12] = [
     ("Outcome", "Outcomes"),
     ("Mode", "Modes"),
     ("SafetyZone", "Zones"),
     ("Governs", "What governs"),
     ("GovernedBy", "What governs"),
     ("ReachBody", "States of a safety factor"),
+    ("LimitBody", "States of limit analysis"),
     ("UpdatedEnd", "Ends on moving geometry"),
     ("SettlementEnd", "Ends of a movement"),
     ("MotionEnd", "Ends of a motion"),
