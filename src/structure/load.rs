@@ -79,6 +79,13 @@ pub enum Load {
         /// The force, N/m.
         force: Vec2,
     },
+    /// A tie that pulls two points towards each other.
+    Tie {
+        /// The bodies that it is fixed to, and where, m: inside the body or on its sides.
+        ends: [(usize, Vec2); 2],
+        /// Its force, N/m.
+        force: f64,
+    },
 }
 
 /// Why a load cannot be put on a structure.
@@ -113,6 +120,15 @@ pub enum LoadFault {
     /// A force in the air.
     #[error("this point lies outside the block that carries the force")]
     OffTheBody,
+    /// An end of a tie in the air.
+    #[error("this point lies outside the block that the tie is fixed to")]
+    TieOffTheBody {
+        /// Which end, 0 or 1.
+        end: usize,
+    },
+    /// A tie that holds nothing.
+    #[error("the tie has no length, or both its ends are fixed to one block, where it does nothing")]
+    TieHoldsNothing,
 }
 
 /// How far outside its body a force may act, as a share of the body's longest side.
@@ -150,6 +166,7 @@ impl Load {
             Load::Point(force, Place::Abscissa(x)) => point_load(structure, *force, *x)?,
             Load::Point(force, Place::Body(k)) => vec![middle_load(structure, *force, *k)?],
             Load::Force { body, at, force } => vec![force_on(structure, *body, *at, *force)?],
+            Load::Tie { ends, force } => tie(structure, *ends, *force)?,
             Load::Patch(patch) => patch.on(structure, &sides)?,
             Load::Vehicle(vehicle) => vehicle.on(structure, &sides)?,
         };
@@ -252,6 +269,21 @@ fn force_on(structure: &Structure, body: usize, at: Vec2, force: Vec2) -> Result
     } else {
         Err(LoadFault::OffTheBody)
     }
+}
+
+/// The pulls of a tie on both its ends.
+fn tie(structure: &Structure, ends: [(usize, Vec2); 2], force: f64) -> Result<Vec<PointForce>, LoadFault> {
+    let [(from, a), (to, b)] = ends;
+    let length = (b - a).norm();
+    if from == to || length == 0.0 {
+        return Err(LoadFault::TieHoldsNothing);
+    }
+    let pull = (b - a) * (force / length);
+    let on = |end: usize, force: Vec2| {
+        let (body, at) = ends[end];
+        force_on(structure, body, at, force).map_err(|_| LoadFault::TieOffTheBody { end })
+    };
+    Ok(vec![on(0, pull)?, on(1, -pull)?])
 }
 
 /// The ends of all surfaces, m.

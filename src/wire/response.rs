@@ -15,6 +15,7 @@ mod settlement;
 mod stress;
 mod structure;
 mod survey_tolerance;
+mod ties;
 mod updated;
 mod width;
 mod words;
@@ -179,6 +180,7 @@ impl AnalysisResult {
         let settlement = report.settlement().map(|settlement| SettlementBody::new(settlement, &grounds));
         let scaled_load = ScaledLoadBody::new(request, &structure);
         let assumptions = assumptions::assumptions(request, &structure);
+        let ties = ties::notes(request, &structure, report);
         Some(AnalysisResult {
             outcome: report.outcome,
             method: (&request.method).into(),
@@ -216,6 +218,7 @@ impl AnalysisResult {
             cost: report.cost,
             notes: { report.notes.iter().map(Note::to_string) }
                 .chain(assumptions)
+                .chain(ties)
                 .map(|note| in_its_words(request, &note))
                 .collect(),
             request: asked.clone(),

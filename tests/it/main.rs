@@ -126,4 +126,6 @@ mod support;
 #[cfg(feature = "server")]
 mod survey;
 #[cfg(feature = "server")]
+mod ties;
+#[cfg(feature = "server")]
 mod worst_position;

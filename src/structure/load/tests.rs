@@ -318,3 +318,20 @@ fn an_embankment_presses_on_a_level_side_at_the_top_of_the_fill() {
     let forces = Load::Fill(fill(Some(1.0)).under(0.5, 1000.0)).on(&arch, 1.0).unwrap();
     close(sum(&forces).y, -0.5 * 1000.0 * GRAVITY * 2.0, 1e-9);
 }
+
+/// Both ends pull towards each other along the line between them, in balance.
+#[test]
+fn a_tie_pulls_its_ends_together() {
+    let arch = arch_of(&ring(Profile::circular(5.0, PI), 0.5, 10));
+    let [a, b] = [arch.bodies[1].region.centroid, arch.bodies[7].region.centroid];
+    let tie = |from: (usize, Vec2), to: (usize, Vec2)| Load::Tie { ends: [from, to], force: 300.0 };
+    let forces = tie((1, a), (7, b)).on(&arch, 2.0).unwrap();
+    assert_eq!((forces[0].body, forces[0].at, forces[1].body, forces[1].at), (1, a, 7, b));
+    assert!((forces[0].force - 600.0 * (b - a).normalize()).norm() < 1e-9 && sum(&forces).norm() < 1e-9);
+    assert!(forces.iter().map(|pull| cross(pull.at, pull.force)).sum::<f64>().abs() < 1e-9);
+    let fault = |from, to| tie(from, to).on(&arch, 1.0).unwrap_err();
+    assert_eq!(fault((1, b), (7, b)), LoadFault::TieHoldsNothing);
+    assert_eq!(fault((1, a), (1, b)), LoadFault::TieHoldsNothing);
+    assert_eq!(fault((1, b), (7, a)), LoadFault::TieOffTheBody { end: 0 });
+    assert_eq!(fault((1, a), (7, Vec2::zeros())), LoadFault::TieOffTheBody { end: 1 });
+}

@@ -5,6 +5,7 @@
 mod axle_groups;
 mod fill;
 mod patch;
+mod tie;
 mod vehicle;
 
 use super::{BackfillRequest, ForceVector, Point, Text};
@@ -16,6 +17,7 @@ use crate::wire::prose::Digits;
 pub use fill::FillPressure;
 pub use patch::{Boussinesq, DispersalRequest, DistributionRequest, PatchLoad, Uniform};
 use serde::{Deserialize, Serialize};
+pub use tie::{TieEnd, TieLoad};
 use utoipa::ToSchema;
 pub use vehicle::VehicleLoad;
 
@@ -49,6 +51,8 @@ pub enum LoadRequest {
     PointLoad(PointLoad),
     /// A force in any direction at a point of a block.
     PointForce(PointForceLoad),
+    /// A tie that pulls two points of blocks towards each other.
+    Tie(TieLoad),
     /// A vertical force spread over a plan width.
     PatchLoad(PatchLoad),
     /// A vehicle: axles at fixed distances.
@@ -103,7 +107,7 @@ pub struct PointLoad {
     pub voussoir: Option<usize>,
 }
 
-/// A force in any direction at a point of a block, such as a tie's on an arch.
+/// A force in any direction at a point of a block.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct PointForceLoad {
     /// The block's name: that of `blocks.polygons`, or of a body of the bridge or a voussoir of the arch as `structure.bodies` of an
@@ -147,6 +151,7 @@ impl LoadRequest {
             LoadRequest::PatchLoad(_) => ("patch_load", Bearer::Extrados),
             LoadRequest::Vehicle(_) => ("vehicle", Bearer::Extrados),
             LoadRequest::PointForce(_) => ("point_force", Bearer::AllBodies),
+            LoadRequest::Tie(_) => ("tie", Bearer::AllBodies),
             LoadRequest::BodyAcceleration(_) => ("body_acceleration", Bearer::AllBodies),
         }
     }
@@ -169,8 +174,22 @@ impl LoadRequest {
                 at: force.at_m.into(),
                 force: force.force_n_per_m.0.into(),
             },
+            LoadRequest::Tie(tie) => tie.in_si(names)?,
             LoadRequest::BodyAcceleration(body) => Load::BodyAcceleration(body.in_si()),
         })
+    }
+
+    /// The field of a block that is none of these.
+    pub fn unknown_block(&self, names: &[String]) -> Option<String> {
+        let known = |block: &Text| names.iter().any(|name| **name == **block);
+        match self {
+            LoadRequest::PointForce(force) => (!known(&force.block)).then(|| "block".to_owned()),
+            LoadRequest::Tie(tie) => {
+                let unknown = tie.ends().into_iter().find(|(_, end)| !known(&end.block));
+                unknown.map(|(field, _)| format!("{field}/block"))
+            }
+            _ => None,
+        }
     }
 
     /// Most forces that it puts on one side of a body.
@@ -183,6 +202,7 @@ impl LoadRequest {
             | LoadRequest::PointLoad(_)
             | LoadRequest::PatchLoad(_)
             | LoadRequest::PointForce(_)
+            | LoadRequest::Tie(_)
             | LoadRequest::BodyAcceleration(_) => 1,
         }
     }
@@ -199,7 +219,7 @@ impl LoadRequest {
     /// What it says against itself, over a backfill where there is one. `here` points to its fields.
     pub fn check(&self, here: &str, backfill: Option<&BackfillRequest>, faults: &mut Faults) {
         match self {
-            LoadRequest::SelfWeight(_) | LoadRequest::BodyAcceleration(_) => {}
+            LoadRequest::SelfWeight(_) | LoadRequest::Tie(_) | LoadRequest::BodyAcceleration(_) => {}
             LoadRequest::FillPressure(fill) => fill.check(here, backfill, faults),
             LoadRequest::LateralPressure(lateral) => {
                 for (i, band) in lateral.bands.iter().enumerate() {
@@ -237,6 +257,8 @@ impl LoadRequest {
             (LoadRequest::PatchLoad(_), _) => Some("centre_x_m"),
             (LoadRequest::Vehicle(_), _) => Some("x_m"),
             (LoadRequest::PointForce(_), _) => Some("at_m"),
+            (LoadRequest::Tie(_), LoadFault::TieOffTheBody { end: 0 }) => Some("from/at_m"),
+            (LoadRequest::Tie(_), _) => Some("to/at_m"),
             (LoadRequest::SelfWeight(_) | LoadRequest::LateralPressure(_) | LoadRequest::BodyAcceleration(_), _) => {
                 None
             }
@@ -264,6 +286,7 @@ impl LoadRequest {
                 let [x, y] = force.at_m.0.map(Digits);
                 format!("({fx}, {fy}) kN/m on {} at ({x}, {y}) m", force.block)
             }
+            LoadRequest::Tie(tie) => tie.words(),
             LoadRequest::BodyAcceleration(body) => {
                 let [x, y] = [body.x_g, body.y_g].map(Digits);
                 format!("inertia force of {x} times the weight to the right, {y} upwards")

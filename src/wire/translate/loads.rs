@@ -65,14 +65,14 @@ pub fn loads(
         let Some(layout) = whole.filter(|_| faults.len() == before) else { continue };
         let Some(load) = entry.load.in_si(&layout.bodies, below) else {
             // A surface with faults has its own.
-            if let LoadRequest::PointForce(_) = entry.load {
+            if let Some(field) = entry.load.unknown_block(&layout.bodies) {
                 let detail = match &request.arch {
                     Some(_) => {
                         "an arch has no block of this name: give that of a voussoir, as `voussoir 0` for the leftmost"
                     }
                     None => "there is no block of this name: correct the name",
                 };
-                faults.add(format!("{fields}/block"), detail);
+                faults.add(format!("{fields}/{field}"), detail);
             }
             continue;
         };

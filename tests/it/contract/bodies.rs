@@ -158,7 +158,10 @@ fn blocks() -> Value {
         }],
         "loads": [
             {"load": {"self_weight": {}}},
-            {"load": {"point_force": {"block": "high", "at_m": [0, 1.5], "force_n_per_m": [100, -10]}}, "scaled": true}
+            {"load": {"point_force": {"block": "high", "at_m": [0, 1.5], "force_n_per_m": [100, -10]}}, "scaled": true},
+            {"load": {"tie": {
+                "force_n_per_m": 100, "from": {"block": "low", "at_m": [0.5, 0.5]}, "to": {"block": "high", "at_m": [0.5, 1.5]}
+            }}}
         ]
     })
 }
@@ -276,10 +279,10 @@ pub fn bodies() -> Vec<Value> {
         driven(),
         surveyed(),
         surveyed_intrados(),
+        measured(),
         blocks(),
         sinking(),
         given(),
-        measured(),
         on_a_line(),
         bridge(),
         level(),
