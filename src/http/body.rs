@@ -1,4 +1,4 @@
-//! A body of JSON on its way in: together they hold only so much memory.
+//! A body on its way in: together they hold only so much memory.
 
 use super::Service;
 use super::layers::Client;
@@ -15,8 +15,14 @@ use std::ops::Deref;
 /// What the shortest body counts, bytes: what is kept beside it, and reading it, cost no less.
 pub(super) const LEAST: usize = 16 << 10;
 
-/// A body that is JSON, arrived in time and is not too long. Its share of the memory is given back when it has been read.
-pub(super) struct JsonBody {
+/// A body that is said to be JSON.
+pub(super) struct JsonBody(Arrived);
+
+/// A body that is said to be comma-separated values.
+pub(super) struct CsvBody(Arrived);
+
+/// A body that arrived in time and is not too long. Its share of the memory is given back when it has been read.
+struct Arrived {
     bytes: Vec<u8>,
     share: Share,
 }
@@ -25,7 +31,15 @@ impl Deref for JsonBody {
     type Target = [u8];
 
     fn deref(&self) -> &[u8] {
-        &self.bytes
+        &self.0.bytes
+    }
+}
+
+impl Deref for CsvBody {
+    type Target = [u8];
+
+    fn deref(&self) -> &[u8] {
+        &self.0.bytes
     }
 }
 
@@ -33,12 +47,27 @@ impl FromRequest<Service> for JsonBody {
     type Rejection = Problem;
 
     async fn from_request(request: Request, service: &Service) -> Result<Self, Problem> {
-        let unsupported = |detail| Err(Problem::plain(StatusCode::UNSUPPORTED_MEDIA_TYPE, detail));
-        if !is_json(request.headers()) {
-            return unsupported("send the request with the header content-type: application/json");
+        Arrived::as_said(request, service, "application/json").await.map(JsonBody)
+    }
+}
+
+impl FromRequest<Service> for CsvBody {
+    type Rejection = Problem;
+
+    async fn from_request(request: Request, service: &Service) -> Result<Self, Problem> {
+        Arrived::as_said(request, service, "text/csv").await.map(CsvBody)
+    }
+}
+
+impl Arrived {
+    /// The body of a request that has to be of this media type.
+    async fn as_said(request: Request, service: &Service, media: &str) -> Result<Self, Problem> {
+        let unsupported = |detail: String| Err(Problem::plain(StatusCode::UNSUPPORTED_MEDIA_TYPE, detail));
+        if !is_said_to_be(media, request.headers()) {
+            return unsupported(format!("send the request with the header content-type: {media}"));
         }
         if request.headers().contains_key(header::CONTENT_ENCODING) {
-            return unsupported("send the body as it is, without content-encoding");
+            return unsupported("send the body as it is, without content-encoding".to_owned());
         }
         let (most, time) = (service.settings.limits.body, service.settings.limits.request_time);
         // Told before the body is sent, to clients that ask whether they may.
@@ -48,15 +77,13 @@ impl FromRequest<Service> for JsonBody {
         }
         let client = request.extensions().get::<Client>().map(|client| &*client.name).unwrap_or_default();
         let share = service.incoming.take(client, LEAST).map_err(no_room)?;
-        let body = JsonBody { bytes: Vec::new(), share };
+        let body = Arrived { bytes: Vec::new(), share };
         tokio::time::timeout(time, body.fill(request.into_body(), most)).await.map_err(|_| {
             let detail = format!("the body did not arrive within {} s", time.as_secs_f64());
             Problem::plain(StatusCode::REQUEST_TIMEOUT, detail)
         })?
     }
-}
 
-impl JsonBody {
     /// Takes what arrives, at most `most` bytes, and room for it as it grows.
     async fn fill(mut self, body: Body, most: usize) -> Result<Self, Problem> {
         let broken = |_| Problem::plain(StatusCode::BAD_REQUEST, "the body could not be read to its end");
@@ -93,11 +120,11 @@ fn no_room(full: Full) -> Problem {
     }
 }
 
-/// True for `application/json` with or without parameters.
-fn is_json(headers: &HeaderMap) -> bool {
+/// True for a media type with or without parameters.
+fn is_said_to_be(media: &str, headers: &HeaderMap) -> bool {
     let value = headers.get(header::CONTENT_TYPE).and_then(|value| value.to_str().ok()).unwrap_or_default();
     let essence = value.split(';').next().unwrap_or_default().trim();
-    essence.eq_ignore_ascii_case("application/json")
+    essence.eq_ignore_ascii_case(media)
 }
 
 /// Tells a body that is not JSON (400) from JSON that says something impossible (422).

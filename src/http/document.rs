@@ -21,9 +21,9 @@ const NO_SCOPES: [&str; 0] = [];
 type Refused = (&'static str, &'static str, fn(&str, &str) -> bool);
 
 /// Problems; of two for the same status code the first one holds.
-const PROBLEMS: [Refused; 31] = [
+const PROBLEMS: [Refused; 33] = [
     ("400", "The query cannot be read", |path, id| {
-        of_results(path, id) || ["list_jobs", "get_events_of_many"].contains(&id)
+        of_results(path, id) || ["list_jobs", "get_events_of_many", "make_request"].contains(&id)
     }),
     ("400", "Not JSON, or a header that cannot be read", |_, id| has_body(id)),
     ("400", "The header `host` is missing, given twice or no host name", |_, _| true),
@@ -38,25 +38,25 @@ const PROBLEMS: [Refused; 31] = [
     ("410", "The idempotency key was used for a job that is forgotten", |_, id| id == "submit_job"),
     ("410", "The job was dismissed", of_results),
     ("413", "The body is too long", |_, id| has_body(id)),
+    ("415", "The body is not said to be CSV", |_, id| id == "make_request"),
     ("415", "The body is not said to be JSON", |_, id| has_body(id)),
     ("421", "The service does not go by the name in the header `host`", |_, _| true),
     ("422", "The analysis failed", of_results),
     ("422", FAULTY_OR_TAKEN, |_, id| id == "submit_job"),
     ("422", "Describes no analysis: the faults are listed", |_, id| id == "validate"),
     ("422", "Describes no link: the faults are listed", |_, id| id == "create_link"),
+    ("422", "Describes no arch: the faults are listed, with their lines", |_, id| id == "make_request"),
     (
         "429",
         "As many jobs of this client wait, or as many bytes are kept for it or on their way from it, as may",
         |_, id| id == "submit_job",
     ),
-    ("429", "As many bodies of this client are on their way as may", |_, id| ["validate", "create_link"].contains(&id)),
+    ("429", "As many bodies of this client are on their way as may", |_, id| is_only_read(id)),
     ("429", "As many answers to this client are on their way as may", of_results),
     ("500", "A defect of the program", |_, _| true),
     ("503", "Too many answers are on their way", of_results),
     ("503", "Queue or memory full, or shutting down", |_, id| id == "submit_job"),
-    ("503", "As many bodies are on their way as there is memory for", |_, id| {
-        ["validate", "create_link"].contains(&id)
-    }),
+    ("503", "As many bodies are on their way as there is memory for", |_, id| is_only_read(id)),
     ("429", "As many event streams of this client are open as may", |_, id| is_stream(id)),
     ("503", "Too many streams are open, or shutting down", |_, id| is_stream(id)),
     ("503", "Shutting down", |_, id| id == "ready"),
@@ -103,7 +103,12 @@ fn of_results(path: &str, operation: &str) -> bool {
 }
 
 fn has_body(operation: &str) -> bool {
-    ["submit_job", "validate", "create_link"].contains(&operation)
+    operation == "submit_job" || is_only_read(operation)
+}
+
+/// True for what queues nothing of its body.
+fn is_only_read(operation: &str) -> bool {
+    ["validate", "create_link", "make_request"].contains(&operation)
 }
 
 fn is_stream(operation: &str) -> bool {

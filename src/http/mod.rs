@@ -22,6 +22,7 @@ mod results;
 mod service;
 pub mod status;
 mod submit;
+mod surveys;
 
 pub use document::document;
 pub use layers::{Hosts, LinkKey, NO_TOKEN, Tokens, is_token};
@@ -59,6 +60,7 @@ fn guarded() -> OpenApiRouter<Service> {
         .routes(routes!(results::field))
         .routes(routes!(results::figure))
         .routes(routes!(submit::validate))
+        .routes(routes!(surveys::make))
         .routes(routes!(links::create))
         .routes(routes!(metrics::metrics))
 }

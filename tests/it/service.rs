@@ -360,6 +360,29 @@ fn a_request_is_looked_over_and_not_queued() {
 }
 
 #[test]
+fn a_table_of_points_becomes_a_request() {
+    let server = Server::start(1, 10);
+    let table = "x_m,y_m\n-2,0\n-1.4,1.4\n0,2\n1.4,1.4\n2,0\n";
+    let send = |query: &str, headers: &str, body: &str| {
+        server.call("POST", &format!("/v1/surveys{query}"), headers, body.as_bytes())
+    };
+    let csv = "content-type: text/csv; charset=utf-8\r\n";
+    let made = send("?thickness_m=0.5&smoothing_length_m=5", csv, table);
+    let surveyed = &made.json()["arch"]["profile"]["surveyed"];
+    assert_eq!((made.status, &surveyed["intrados_m"][2]), (200, &json!([0.0, 2.0])));
+    assert_eq!((&surveyed["thickness_m"], &surveyed["smoothing_length_m"]), (&json!(0.5), &json!(5.0)));
+    assert!(server.get("/v1/jobs").json()["jobs"].as_array().unwrap().is_empty());
+    let path = server.submit(&made.json());
+    server.until(&path, &["successful"]);
+    let problem = send("?thickness_m=0.5", csv, &table.replace("0,2", "0,two")).problem(422);
+    let detail = problem["errors"][0]["detail"].as_str().unwrap();
+    assert!(detail.starts_with("line 4, column y_m: \"two\" is no number"), "{problem}");
+    send("", csv, table).problem(422);
+    send("?thickness=0.5", csv, table).problem(400);
+    send("?thickness_m=0.5", JSON, table).problem(415);
+}
+
+#[test]
 fn a_service_takes_no_more_than_it_is_set_to() {
     let server = Server::start(1, 10);
     let faults = |request: &Value| server.post(request.to_string().as_bytes()).problem(422)["errors"].take();
