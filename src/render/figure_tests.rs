@@ -5,33 +5,32 @@ use crate::collapse::{CrushedJoint, Hinge, LiftOff, Mechanism, Mode, SettlementE
 use crate::geometry::{cross, perpendicular};
 use crate::render::canvas::WIDTH;
 use crate::render::checks::{attributes, well_formed};
-use crate::structure::load::{FillBacking, Layer, SurfaceLine};
-use crate::structure::{Face, JointLaw, PassiveElement, Stone};
+use crate::structure::{Face, JointLaw, Stone};
 use std::f64::consts::PI;
 
 /// A drawing of a structure alone.
-fn drawing<'a>(structure: &'a Structure, state: State<'a>) -> Drawing<'a> {
+pub(super) fn drawing<'a>(structure: &'a Structure, state: State<'a>) -> Drawing<'a> {
     let (fills, loads, altered) = (Vec::new(), Vec::new(), Vec::new());
     let [title, caption, description] = ["Title", "", "Words"].map(str::to_owned);
     Drawing { structure, fills, loads, altered, state, title, caption, description }
 }
 
-fn falling(structure: &Structure, end: &PathEnd) -> String {
+pub(super) fn falling(structure: &Structure, end: &PathEnd) -> String {
     svg(&drawing(structure, State::Falls(end)))
 }
 
-fn count(svg: &str, class: &str) -> usize {
+pub(super) fn count(svg: &str, class: &str) -> usize {
     svg.matches(&format!("class=\"{class}\"")).count()
 }
 
 /// The numbers of an attribute of the first element of a class.
-fn number(svg: &str, class: &str, name: &str) -> f64 {
+pub(super) fn number(svg: &str, class: &str, name: &str) -> f64 {
     let line = svg.lines().find(|line| line.contains(&format!("class=\"{class}\""))).unwrap();
     attributes(line, name)[0].parse().unwrap()
 }
 
 /// A semicircle of `n` voussoirs that turns about four hinges; `mirror` swaps left and right.
-fn example(n: usize, hinges: [usize; 4], mirror: bool) -> (Structure, PathEnd) {
+pub(super) fn example(n: usize, hinges: [usize; 4], mirror: bool) -> (Structure, PathEnd) {
     let law = JointLaw::Dry { friction: 0.6, cohesion: 0.0 };
     let polar = |r: f64, k: usize| {
         let angle = PI * (1.0 - k as f64 / n as f64);
@@ -249,129 +248,6 @@ fn a_wall_is_drawn_body_by_body() {
         attributes(stones, "d")[0].starts_with('M') && attributes(stones, "d")[0].contains(&format!(" {x:.2},{y:.2} "))
     );
     assert!(svg.contains(">width 1 m<") && svg.contains(">height 6 m<"));
-}
-
-#[test]
-fn the_thrust_of_a_standing_arch_is_drawn_where_it_nearly_touches() {
-    let (structure, end) = example(17, [1, 6, 11, 16], false);
-    // A line along the middle but for two joints side by side and one elsewhere.
-    let shifted = |k: usize, share: f64| {
-        let joint = &structure.joints[k];
-        let eccentricity = share * joint.length();
-        Thrust { joint: k, normal: 1.0, shear: 0.0, eccentricity, at: joint.middle() + eccentricity * joint.tangent() }
-    };
-    let share = |k: usize| [(4, 0.485), (5, 0.495), (12, -0.5)].iter().find(|(at, _)| *at == k).map_or(0.1, |at| at.1);
-    let line: Vec<Thrust> = (0..=17).map(|k| shifted(k, share(k))).collect();
-    let drawn = drawing(&structure, State::Stands([None, Some((12_345.6, &line))]));
-    let touched: Vec<usize> = thrust::touched(&drawn).iter().map(|touch| touch.0).collect();
-    assert_eq!(touched, [5, 12], "of two in a row the nearer one");
-    assert_eq!(thrust::touched(&drawn)[0].1, structure.joints[5].extrados);
-    let svg = svg(&drawn);
-    assert!(svg.contains(">greatest thrust 12.35 kN/m<") && !svg.contains("least thrust"));
-    // Both, and the legend.
-    assert_eq!(count(&svg, "near"), 3);
-    // The drawing of an end has none.
-    assert_eq!(thrust::touched(&drawing(&structure, State::Falls(&end))), []);
-}
-
-#[test]
-fn forces_of_contact_points_have_the_resultant_of_their_sum_and_moment() {
-    let (structure, _) = example(9, [0, 3, 6, 9], false);
-    let point = |position: f64, normal: f64| crate::collapse::ContactPoint {
-        joint: 2,
-        position,
-        normal,
-        tangential: 0.5,
-        gap: 0.0,
-    };
-    let all = resultants(&structure, &[point(0.0, 1.0), point(1.0, 3.0)]);
-    let joint = &structure.joints[2];
-    assert_eq!((all.len(), all[0].joint, all[0].normal, all[0].shear), (1, 2, 4.0, 1.0));
-    assert!((all[0].eccentricity - 0.25 * joint.length()).abs() < 1e-12);
-    assert!((all[0].at - (joint.intrados + 0.75 * (joint.extrados - joint.intrados))).norm() < 1e-12);
-}
-
-#[test]
-fn soil_is_drawn_with_the_sum_of_what_presses_one_way() {
-    let (mut structure, mut end) = example(17, [1, 6, 11, 16], false);
-    let element = |body: usize| PassiveElement {
-        body,
-        at: structure.surfaces[body].ends[0],
-        way: -1.0,
-        most: 1e4,
-        mobilised_at: 0.01,
-    };
-    structure.passive = vec![element(14), element(15), element(16)];
-    end.soil = vec![1000.0, 2500.0, 0.0];
-    let svg = falling(&structure, &end);
-    assert!(svg.contains(">soil 3.5 kN/m<"), "{svg}");
-    // Two arrows of three lines each, and the legend.
-    assert_eq!(count(&svg, "soil"), 3 * 3);
-}
-
-#[test]
-fn loads_are_drawn_where_they_act() {
-    let (structure, end) = example(17, [1, 6, 11, 16], false);
-    let mut drawn = drawing(&structure, State::Falls(&end));
-    let at = structure.joints[7].extrados;
-    let force = |acts: bool| Acting {
-        mark: Mark::Force { at, along: Vec2::new(0.0, -1.0) },
-        words: "12 kN/m".to_owned(),
-        acts,
-    };
-    drawn.loads = vec![force(true)];
-    let svg = svg(&drawn);
-    assert!(svg.contains(">12 kN/m<") && count(&svg, "load") == 3 && count(&svg, "idle") == 0);
-    let [x1, y1, x2, y2] = ["x1", "y1", "x2", "y2"].map(|name| number(&svg, "load", name));
-    // Downwards, onto the joint's end as the thrust's line of the stones has it.
-    let stones = svg.lines().find(|line| line.contains("class=\"stone\"")).unwrap();
-    assert!(x1 == x2 && y2 > y1 && stones.contains(&format!("{x2:.2},{y2:.2}")), "{x2} {y2}");
-    drawn.loads = vec![force(false)];
-    let idle = super::svg(&drawn);
-    assert!(count(&idle, "load") == 0 && idle.contains("load that does not act here"));
-}
-
-#[test]
-fn what_stands_far_off_is_told_and_not_drawn() {
-    let (structure, end) = example(17, [1, 6, 11, 16], false);
-    let mut drawn = drawing(&structure, State::Falls(&end));
-    let near = svg(&drawn);
-    let ends = [Vec2::new(40.0, 6.0), Vec2::new(41.0, 6.0)];
-    drawn.loads = vec![Acting { mark: Mark::Strip { ends, upwards: false }, words: "9 kN".to_owned(), acts: true }];
-    let svg = svg(&drawn);
-    assert!(svg.contains("one load stands further off") && !svg.contains(">9 kN<"));
-    assert_eq!(number(&svg, "hinge", "cx"), number(&near, "hinge", "cx"));
-}
-
-#[test]
-fn fill_lies_between_the_extrados_and_its_line() {
-    let (structure, end) = example(17, [1, 6, 11, 16], false);
-    let layers = vec![
-        Layer { bottom: -0.5, top: 0.0, density: 2400.0 },
-        Layer { bottom: f64::NEG_INFINITY, top: -0.5, density: 1900.0 },
-    ];
-    let backing = Some(FillBacking { height: 2.0, density: 2200.0 });
-    let mut drawn = drawing(&structure, State::Falls(&end));
-    drawn.fills = vec![Fill { line: Some(SurfaceLine::level(6.0)), layers, backing, lateral_ratio: 0.0 }];
-    let strata = fill::strata(&structure, &drawn.fills);
-    assert_eq!(strata.iter().map(|s| s.class).collect::<Vec<_>>(), ["backing", "fill", "layer"]);
-    // By area: all that is above the extrados, of which the layer has half a metre everywhere.
-    let area = |points: &[Vec2]| crate::geometry::Region::polygon(points).area.abs();
-    let widest = 2.0 * 5.0 * 1.2;
-    assert!((area(&strata[2].outline) - 0.5 * widest).abs() < 1e-9);
-    let under: f64 =
-        structure.surfaces.iter().map(|s| 0.5 * (s.ends[0].y + s.ends[1].y) * (s.ends[1].x - s.ends[0].x)).sum();
-    let all: f64 = strata.iter().map(|s| area(&s.outline)).sum();
-    assert!((all - (6.0 * widest - under)).abs() < 1e-9, "{all}");
-    // The backing ends at its level.
-    assert!(
-        strata[0].outline.iter().all(|p| p.y <= 2.0 + 1e-12 || structure.surfaces.iter().any(|s| s.ends.contains(p)))
-    );
-    let svg = svg(&drawn);
-    well_formed(&svg);
-    for words in ["backing 2200 kg/m³", "fill 1900 kg/m³", "layer of fill 0.5 m, 2400 kg/m³"] {
-        assert!(svg.contains(words), "{words}");
-    }
 }
 
 #[test]

@@ -87,16 +87,14 @@ fn drawings(request: &Request, question: &Question, answer: &Answer, result: &Jo
     };
     let names = |(i, drawn): (usize, &Figure)| {
         let main = (i == 0).then(|| FIGURE.to_owned());
-        let mut names: Vec<String> = main.into_iter().chain([figure(&drawn.name)]).collect();
-        if let (Request::Structure(request), Answer::One(report), Some(load_factor)) =
-            (request, answer, drawn.stress_at)
-        {
-            names.extend(
-                words_of_field(load_factor, request, report).iter().map(|word| figure(&format!("{STRESS}{word}"))),
-            );
-            names.dedup();
-        }
-        names
+        let names = match (request, answer, drawn.stress_at) {
+            (Request::Structure(request), Answer::One(report), Some(load_factor)) => {
+                let words = words_of_field(load_factor, request, report);
+                words.iter().map(|word| figure(&format!("{STRESS}{word}"))).collect()
+            }
+            _ => vec![figure(&drawn.name)],
+        };
+        main.into_iter().chain(names).collect()
     };
     let names: Vec<Vec<String>> = all.iter().enumerate().map(names).collect();
     let drawn = names.into_iter().zip(all).map(|(names, drawn)| rendering(names, Format::Svg, drawn.svg));

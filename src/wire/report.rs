@@ -39,20 +39,19 @@ pub fn report(result: &JobResult, figures: &[Figure]) -> Result<String, String> 
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" \
          content=\"width=device-width\">\n<title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<header>\n\
          <p>Voussoir {VERSION}: report of an analysis</p>\n<h1>{title}</h1>\n<p class=\"verdict\">{verdict}</p>\n</header>\n\
-         {sections}{FILE}</body>\n</html>\n"
+         {sections}</body>\n</html>\n"
     ))
 }
 
 /// What people write on it.
-const FILE: &str = "<section class=\"file\">\n<h2>For the file</h2>\n<table>\n<tr><th>Computed by</th><td></td><th>Date</th><td></td></tr>\n\
-<tr><th>Checked by</th><td></td><th>Date</th><td></td></tr>\n</table>\n</section>\n";
+const FILE: &str = "<table class=\"file\">\n\
+    <tr><th>Computed by</th><td></td><th>Date</th><td></td></tr>\n\
+    <tr><th>Checked by</th><td></td><th>Date</th><td></td></tr>\n</table>\n";
 
 fn of_analysis(result: &AnalysisResult, figures: &[Figure]) -> Result<Vec<Section>, NotFinite> {
     let mut found = table(&summary::facts(result, None));
-    let mechanisms = result.ends.iter().map(|end| &end.fall.mechanism);
-    let settled = result.settlement.iter().map(|settlement| &settlement.first_order.mechanism);
     let named = result.named();
-    for mechanism in mechanisms.chain(settled) {
+    for mechanism in result.ends.iter().map(|end| &end.fall.mechanism) {
         for (title, rows) in [
             ("Hinges", joints::hinges(&mechanism.hinges, named)),
             ("Sliding joints", joints::slides(&mechanism.slides, named)),
@@ -74,6 +73,7 @@ fn of_analysis(result: &AnalysisResult, figures: &[Figure]) -> Result<Vec<Sectio
         ("What was given and found", found),
         ("Assumptions and notes", list(result.notes.iter().cloned())),
         ("Checks", checks(result)),
+        ("For the file", FILE.to_owned()),
         ("The request", request(&result.request)?),
     ])
 }
@@ -86,6 +86,7 @@ fn of_curve(result: &SafetyCurveResult, figures: &[Figure]) -> Result<Vec<Sectio
         ("What was given", table(&curve::facts(result, None))),
         ("What was found", points),
         ("Assumptions and notes", list(notes.iter().map(|(note, at)| format!("Abscissa {at}: {note}")))),
+        ("For the file", FILE.to_owned()),
         ("The request", request(&result.request)?),
     ])
 }
@@ -121,7 +122,10 @@ fn checks(result: &AnalysisResult) -> String {
 
 fn request(request: &AnalysisRequest) -> Result<String, NotFinite> {
     let text = pretty(&Request::Structure(Box::new(request.clone())))?;
-    Ok(format!("<p>With it Voussoir {VERSION} gives the same answer again.</p>\n<pre>{}</pre>\n", lines(&text)))
+    Ok(format!(
+        "<p>With it Voussoir {VERSION} gives the same answer again.</p>\n<pre class=\"request\">{}</pre>\n",
+        lines(&text)
+    ))
 }
 
 fn drawn(figures: &[Figure]) -> String {

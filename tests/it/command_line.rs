@@ -155,7 +155,7 @@ fn case(name: &str) -> String {
 #[test]
 fn the_figures_of_the_documents_are_what_solve_draws() {
     let file = std::env::temp_dir().join(format!("voussoir-figure-{}.svg", std::process::id()));
-    for name in ["first-arch", "two-span-bridge", "wall"] {
+    for name in ["first-arch", "filled-bridge", "geometric-safety", "settlement", "two-span-bridge", "wall"] {
         let output = fed(&["solve", &case(&format!("{name}/request.json")), "--figure", file.to_str().unwrap()], "");
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
         let drawn = std::fs::read_to_string(&file).unwrap();

@@ -23,7 +23,7 @@ fn every_operation_is_described() {
             operations += 1;
         }
     }
-    assert_eq!(operations, 18);
+    assert_eq!(operations, 21);
 }
 
 #[test]

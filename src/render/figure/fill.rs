@@ -127,3 +127,6 @@ pub fn draw(canvas: &mut Canvas, strata: &[Stratum]) {
         canvas.polyline("road", &highest.top);
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -203,3 +203,6 @@ fn draw_soil(canvas: &mut Canvas, drawing: &Drawing<'_>) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -118,3 +118,6 @@ pub fn touched(drawing: &Drawing<'_>) -> Vec<(usize, Vec2, Vec2)> {
     }
     all
 }
+
+#[cfg(test)]
+mod tests;

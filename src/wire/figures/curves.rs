@@ -187,3 +187,36 @@ pub fn settlement(result: &AnalysisResult, title: &str) -> Option<Chart> {
         ..Chart::default()
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_curve_leaves_the_drawing_where_it_crosses_the_ceiling() {
+        let points = vec![
+            (0.0, Some(30.0)),
+            (1.0, Some(10.0)),
+            (2.0, Some(2.0)),
+            (3.0, None),
+            (4.0, Some(6.0)),
+            (5.0, Some(9.0)),
+        ];
+        let kept = below(points, 8.0);
+        let expected = [
+            (0.0, None),
+            (1.0, None),
+            (1.25, Some(8.0)),
+            (2.0, Some(2.0)),
+            (3.0, None),
+            (4.0, Some(6.0)),
+            (4.0 + 2.0 / 3.0, Some(8.0)),
+            (5.0, None),
+        ];
+        assert_eq!(kept.len(), expected.len());
+        for (a, b) in kept.iter().zip(expected) {
+            assert!((a.0 - b.0).abs() < 1e-12 && a.1.is_some() == b.1.is_some(), "{a:?} {b:?}");
+            assert!(a.1.zip(b.1).is_none_or(|(a, b)| (a - b).abs() < 1e-12), "{a:?} {b:?}");
+        }
+    }
+}

@@ -16,7 +16,7 @@ mod wording;
 
 pub use crate::render::digits::{Digits, Rounded};
 pub use noun::{in_its_words, noun};
-pub use wording::{headline, motion, name as name_of_end, unit, word, wrapped};
+pub use wording::{headline, motion, name as name_of_end, unit};
 
 use super::response::JobResult;
 use std::time::Duration;
