@@ -13,6 +13,7 @@ use common::state::{Broken, broken, broken_line};
 use common::verify::{Checked, check};
 use std::collections::BTreeMap;
 use std::time::Instant;
+use voussoir::render::figure::{Drawing, State, svg};
 
 fn main() {
     // Cargo passes `--bench` on.
@@ -171,8 +172,18 @@ fn look(seed: u64, picture: Option<&String>) {
     println!("{:#?}", check(seed, true));
     if let (Some(file), Some(end)) = (picture, &report.end) {
         let analysis = common::door::analysis(&request).unwrap_or_else(|faults| panic!("{faults}"));
-        let caption = format!("{:?} at load factor {:.6}: {:?}", report.outcome, end.load_factor, end.mechanism.mode);
-        let svg = voussoir::render::figure::svg(&analysis.structure, end, &caption);
+        let title = format!("{:?} at load factor {:.6}: {:?}", report.outcome, end.load_factor, end.mechanism.mode);
+        let drawing = Drawing {
+            structure: &analysis.structure,
+            fills: Vec::new(),
+            loads: Vec::new(),
+            altered: Vec::new(),
+            state: State::Falls(end),
+            title,
+            caption: String::new(),
+            description: String::new(),
+        };
+        let svg = svg(&drawing);
         std::fs::write(file, svg).unwrap_or_else(|error| panic!("{file}: {error}"));
     }
 }

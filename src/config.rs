@@ -59,9 +59,15 @@ pub struct Solve {
     /// Print the whole answer as JSON, byte for byte what /v1/jobs/{id}/results gives
     #[arg(long)]
     pub json: bool,
-    /// Also draw how the arch collapses, as SVG, into this file
+    /// Also draw the structure in the state that governs, as SVG, into this file
     #[arg(long, value_name = "OUT.svg")]
     pub figure: Option<PathBuf>,
+    /// Also write every drawing, as SVG, into this folder, each under its name
+    #[arg(long, value_name = "FOLDER")]
+    pub figures: Option<PathBuf>,
+    /// Also write a report to be printed, as HTML, into this file
+    #[arg(long, value_name = "OUT.html")]
+    pub report: Option<PathBuf>,
 }
 
 /// What `survey` reads.

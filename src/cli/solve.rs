@@ -2,6 +2,7 @@
 
 use super::{complain, fail, print};
 use crate::config::Solve;
+use bytes::Bytes;
 use std::fs;
 use std::io::{self, Read};
 use std::path::Path;
@@ -9,10 +10,11 @@ use std::process::ExitCode;
 use std::time::Instant;
 use voussoir::budget::Budget;
 use voussoir::collapse;
+use voussoir::jobs::Product;
 use voussoir::wire::fault::Fault;
 use voussoir::wire::format::Format;
 use voussoir::wire::read::read_question;
-use voussoir::wire::rendering::{FIGURE, WHOLE, plain, renderings};
+use voussoir::wire::rendering::{FIGURE, REPORT, WHOLE, figure, plain, renderings};
 
 /// Exit code for a request that cannot be analysed.
 pub(super) const FAULTY: u8 = 2;
@@ -37,17 +39,35 @@ pub fn solve(options: &Solve) -> ExitCode {
         Ok(product) => product,
         Err(failure) => return fail(failure),
     };
-    let written = |name: &str, format: Format| {
-        let part = product.iter().find(|part| part.is(name, format.name()));
-        part.map_or_else(|| Err(format!("there is no {name}")), |part| plain(&part.part))
-    };
-    let drawn = options.figure.as_ref().map_or(Ok(()), |file| {
-        let figure = written(FIGURE, Format::Svg)?;
-        fs::write(file, figure).map_err(|error| format!("cannot write {}: {error}", file.display()))
-    });
-    let printed = written(WHOLE, if options.json { Format::Json } else { Format::Text });
+    let printed = part(&product, WHOLE, if options.json { Format::Json } else { Format::Text });
     let printed = printed.map_or_else(fail, |bytes| print(&bytes));
-    drawn.map_or_else(fail, |()| printed)
+    write_files(options, &product).map_or_else(fail, |()| printed)
+}
+
+/// A part of an answer.
+fn part(product: &Product, name: &str, format: Format) -> Result<Bytes, String> {
+    let part = product.iter().find(|part| part.is(name, format.name()));
+    part.map_or_else(|| Err(format!("there is no {name}")), |part| plain(&part.part))
+}
+
+/// Writes what is asked for besides the answer.
+fn write_files(options: &Solve, product: &Product) -> Result<(), String> {
+    let write = |file: &Path, bytes: &[u8]| {
+        fs::write(file, bytes).map_err(|error| format!("cannot write {}: {error}", file.display()))
+    };
+    let asked = [(&options.figure, FIGURE, Format::Svg), (&options.report, REPORT, Format::Html)];
+    for (file, name, format) in asked {
+        if let Some(file) = file {
+            write(file, &part(product, name, format)?)?;
+        }
+    }
+    for drawing in product.iter().filter(|_| options.figures.is_some()) {
+        let name = drawing.names.iter().find_map(|name| name.strip_prefix(&figure("")));
+        if let (Some(folder), Some(name)) = (&options.figures, name) {
+            write(&folder.join(format!("{name}.svg")), &plain(&drawing.part)?)?;
+        }
+    }
+    Ok(())
 }
 
 /// The bytes of a file, or of standard input where it is named `-`.

@@ -3,7 +3,7 @@
 use super::problem::{MEDIA_TYPE, Problem};
 use super::{guarded, open};
 use crate::wire::contract;
-use crate::wire::format::{FIELD, FIGURE, Format, HISTORY, RESULTS};
+use crate::wire::format::{FIELD, FIGURE, Format, HISTORY, POSITIONS, REPORT, RESULTS};
 use serde_json::{Value, from_value, json};
 use utoipa::ToSchema;
 use utoipa::openapi::OpenApi;
@@ -67,7 +67,7 @@ const FAULTY_OR_TAKEN: &str =
     "Describes no analysis: the faults are listed; or the idempotency key was used for another request";
 
 /// What a job's id is good for.
-const LINKED: [&str; 9] = [
+const LINKED: [&str; 12] = [
     "get_job",
     "dismiss_job",
     "forget_job",
@@ -76,12 +76,22 @@ const LINKED: [&str; 9] = [
     "get_results",
     "get_history",
     "get_field",
+    "get_positions",
     "get_figure",
+    "get_figure_of_name",
+    "get_report",
 ];
 
 /// Ends of paths, and the formats on offer there.
-const FORMATS: [(&str, &[Format]); 4] =
-    [("/results", &RESULTS), ("/history", &HISTORY), ("/fields/{load}", &FIELD), ("/figure", &FIGURE)];
+const FORMATS: [(&str, &[Format]); 7] = [
+    ("/results", &RESULTS),
+    ("/history", &HISTORY),
+    ("/positions", &POSITIONS),
+    ("/fields/{load}", &FIELD),
+    ("/figure", &FIGURE),
+    ("/figures/{figure}", &FIGURE),
+    ("/report", &REPORT),
+];
 
 /// The OpenAPI document, as it is served and as `openapi/voussoir.json` holds it.
 pub fn document() -> String {

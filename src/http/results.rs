@@ -9,7 +9,7 @@ use super::problem::{Problem, kinds};
 use crate::jobs::{Job, JobState, Part};
 use crate::wire::format::{self, Format};
 use crate::wire::rendering::{self, Unpacking};
-use crate::wire::response::{HistoryColumns, JobResult, StressFieldBody};
+use crate::wire::response::{HistoryColumns, JobResult, PositionColumns, StressFieldBody};
 use axum::body::{Body, Bytes};
 use axum::extract::rejection::{PathRejection, QueryRejection};
 use axum::extract::{FromRequestParts, Path, Query};
@@ -81,6 +81,11 @@ impl Asked {
                 None => return none(kinds::NO_SUCH_PART, missing.to_owned()),
             },
         };
+        if format == Format::Html {
+            // What a client has written stands in it.
+            let policy = HeaderValue::from_static("default-src 'none'; style-src 'unsafe-inline'");
+            response.headers_mut().append(header::CONTENT_SECURITY_POLICY, policy);
+        }
         response.headers_mut().append(header::VARY, HeaderValue::from_static("accept, accept-encoding"));
         Ok(response)
     }
@@ -156,15 +161,68 @@ pub(super) async fn field(
     asked.give(&rendering::field(&load), &format::FIELD, &missing).await
 }
 
-/// The picture of a job's answer.
+/// Every position of the vehicles of a job that was solved.
+#[utoipa::path(
+    get, path = "/v1/jobs/{id}/results/positions", tag = "results", operation_id = "get_positions",
+    params(("id" = String, Path, format = "uuid", description = "Job id")),
+    responses(
+        (status = 200, description = "One column per quantity", content(
+            (PositionColumns = "application/json"), (String = "text/csv"),
+        ), headers(("etag" = String, description = "Names this answer"))),
+    )
+)]
+pub(super) async fn positions(asked: Asked) -> Result<Response, Problem> {
+    let missing = "only an analysis that asks for the worst position has positions";
+    asked.give(rendering::POSITIONS, &format::POSITIONS, missing).await
+}
+
+/// The main drawing of a job's answer.
 #[utoipa::path(
     get, path = "/v1/jobs/{id}/results/figure", tag = "results", operation_id = "get_figure",
     params(("id" = String, Path, format = "uuid", description = "Job id")),
     responses(
-        (status = 200, description = "The arch as it falls", content((String = "image/svg+xml"), (String = "text/xml")),
-            headers(("etag" = String, description = "Names this answer"))),
+        (status = 200, description = "The structure in the state that governs, or a safety curve", content(
+            (String = "image/svg+xml"), (String = "text/xml"),
+        ), headers(("etag" = String, description = "Names this answer"))),
     )
 )]
 pub(super) async fn figure(asked: Asked) -> Result<Response, Problem> {
     asked.give(rendering::FIGURE, &format::FIGURE, "").await
+}
+
+/// A drawing of a job's answer.
+#[utoipa::path(
+    get, path = "/v1/jobs/{id}/results/figures/{figure}", tag = "results", operation_id = "get_figure_of_name",
+    params(
+        ("id" = String, Path, format = "uuid", description = "Job id"),
+        ("figure" = String, Path, description = "`structure`: in the state that governs; `standing`: with the least and the \
+            greatest thrust under the fixed loads; `load_displacement`, `worst_position`, `safety_curve`, `settlement`: curves; \
+            `stress_unit_load`, `stress_near_collapse` or `stress_` and a load factor: a stress field of `report.stress_fields`, \
+            of up to 20000 subblocks; `motion`: moves", example = "structure"),
+    ),
+    responses(
+        (status = 200, description = "The drawing", content((String = "image/svg+xml"), (String = "text/xml")),
+            headers(("etag" = String, description = "Names this answer"))),
+    )
+)]
+pub(super) async fn figure_of_name(
+    asked: Asked,
+    path: Result<Path<(String, String)>, PathRejection>,
+) -> Result<Response, Problem> {
+    let Path((_, name)) = path.map_err(|_| Problem::no_such_path("this path"))?;
+    let missing = format!("this answer has no drawing {name}: structure is there wherever a structure was analysed");
+    asked.give(&rendering::figure(&name), &format::FIGURE, &missing).await
+}
+
+/// The report on a job's answer: drawings, inputs, assumptions, results, checks and the request on one page to be printed.
+#[utoipa::path(
+    get, path = "/v1/jobs/{id}/results/report", tag = "results", operation_id = "get_report",
+    params(("id" = String, Path, format = "uuid", description = "Job id")),
+    responses(
+        (status = 200, description = "The page; it has no scripts and fetches nothing", content((String = "text/html")),
+            headers(("etag" = String, description = "Names this answer"))),
+    )
+)]
+pub(super) async fn report(asked: Asked) -> Result<Response, Problem> {
+    asked.give(rendering::REPORT, &format::REPORT, "").await
 }

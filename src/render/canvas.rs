@@ -1,16 +1,57 @@
 //! A sheet of paper: metres to pixels, and the few marks a figure is made of, written as SVG.
 
+use super::labels::{Frame, Labels, NEEDS_LEADER, extent};
 use crate::geometry::Vec2;
 use std::fmt::{self, Display, Formatter, Write as _};
 
 /// Width of the sheet, pixels.
 pub const WIDTH: f64 = 960.0;
-/// White space left and right, pixels.
-const SIDE: f64 = 56.0;
 /// Greatest height of the drawing itself, pixels.
 const GREATEST_HEIGHT: f64 = 560.0;
-/// White space below the drawing (scale bar and legend), pixels.
-const FOOT: f64 = 84.0;
+/// Size of the letters of words that are put where there is room, pixels.
+pub const LETTERS: f64 = 14.0;
+
+/// Left edge of words at the top, pixels.
+const EDGE: f64 = 40.0;
+/// Height of their first line, pixels.
+const FIRST_LINE: f64 = 40.0;
+/// Height of every further line, pixels.
+const LINE: f64 = 22.0;
+
+/// Words at the top of a sheet.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Heading {
+    titles: Vec<String>,
+    lines: Vec<String>,
+}
+
+impl Heading {
+    /// A title and what stands below it, in lines as wide as the sheet.
+    pub fn new(title: &str, below: &str) -> Self {
+        let lines = below.lines().flat_map(|line| broken(line, 15.0)).collect();
+        Heading { titles: broken(title, 19.0), lines }
+    }
+
+    /// Where it ends, pixels.
+    pub fn height(&self) -> f64 {
+        FIRST_LINE + LINE * (self.titles.len() + self.lines.len()) as f64 - 8.0
+    }
+}
+
+/// Words in lines that fit on the sheet with letters of this size.
+fn broken(words: &str, size: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in words.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if extent(&format!("{line} {word}"), size).x <= WIDTH - 2.0 * EDGE => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}
 
 /// The sheet being drawn on.
 pub struct Canvas {
@@ -20,6 +61,22 @@ pub struct Canvas {
     head: f64,
     height: f64,
     body: String,
+    /// Words stand over all else.
+    words: String,
+    labels: Labels,
+    /// What is to be named: its place, in which direction off it there should be words, and the words.
+    wanted: Vec<(Vec2, Vec2, String)>,
+}
+
+/// White space around a drawing, pixels.
+#[derive(Debug, Clone, Copy)]
+pub struct Space {
+    /// Above it.
+    pub head: f64,
+    /// On either side.
+    pub side: f64,
+    /// Below it.
+    pub foot: f64,
 }
 
 /// Shown rounded to a hundredth of a pixel, never as "-0.00".
@@ -60,17 +117,20 @@ pub fn escaped(text: &str) -> String {
 }
 
 impl Canvas {
-    /// A sheet on which everything between two corners (m) is shown, `head` pixels left free above it.
-    pub fn new(low: Vec2, high: Vec2, head: f64) -> Self {
+    /// A sheet on which everything between two corners (m) is shown, with so much left free around it.
+    pub fn new(low: Vec2, high: Vec2, space: Space) -> Self {
         let size = (high - low).map(|side| side.max(f64::MIN_POSITIVE));
-        let scale = ((WIDTH - 2.0 * SIDE) / size.x).min(GREATEST_HEIGHT / size.y);
-        let height = (head + size.y * scale + FOOT).ceil();
-        Canvas { scale, middle: 0.5 * (low.x + high.x), top: high.y, head, height, body: String::new() }
+        let scale = ((WIDTH - 2.0 * space.side) / size.x).min(GREATEST_HEIGHT / size.y);
+        let height = (space.head + size.y * scale + space.foot).ceil();
+        let middle = 0.5 * (low.x + high.x);
+        Canvas { scale, middle, top: high.y, head: space.head, ..Canvas::blank(height) }
     }
 
     /// A sheet of this height (pixels) for what is placed in pixels alone.
     pub fn blank(height: f64) -> Self {
-        Canvas { scale: 1.0, middle: 0.5 * WIDTH, top: 0.0, head: 0.0, height, body: String::new() }
+        let whole = Frame { low: Vec2::zeros(), high: Vec2::new(WIDTH, height) };
+        let (body, words, labels, wanted) = (String::new(), String::new(), Labels::new(whole), Vec::new());
+        Canvas { scale: 1.0, middle: 0.5 * WIDTH, top: 0.0, head: 0.0, height, body, words, labels, wanted }
     }
 
     /// Height of the sheet, pixels.
@@ -95,6 +155,24 @@ impl Canvas {
     /// A closed shape through points in metres.
     pub fn polygon(&mut self, class: &str, points: &[Vec2]) {
         self.shape(class, &self.places(points));
+    }
+
+    /// Closed shapes through points in metres, as one.
+    pub fn polygons<'p>(&mut self, class: &str, shapes: impl Iterator<Item = &'p [Vec2]>) {
+        let mut path = String::new();
+        for shape in shapes {
+            let _ = write!(path, "M{}Z", listed(&self.places(shape)));
+        }
+        let _ = writeln!(self.body, r#"<path class="{class}" d="{path}"/>"#);
+    }
+
+    /// A closed shape through points in metres that is moved so, and moves on as these elements say.
+    pub fn moving(&mut self, class: &str, points: &[Vec2], [transform, animation]: &[String; 2]) {
+        let points = listed(&self.places(points));
+        let _ = writeln!(
+            self.body,
+            r#"<polygon class="{class}" points="{points}" transform="{transform}">{animation}</polygon>"#
+        );
     }
 
     /// An open line through points in metres.
@@ -135,7 +213,46 @@ impl Canvas {
     /// Words, their place (baseline) in pixels.
     pub fn text(&mut self, class: &str, at: Vec2, words: &str) {
         let ([x, y], words) = ([at.x, at.y].map(Hundredths), escaped(words));
-        let _ = writeln!(self.body, r#"<text class="{class}" x="{x}" y="{y}">{words}</text>"#);
+        let _ = writeln!(self.words, r#"<text class="{class}" x="{x}" y="{y}">{words}</text>"#);
+    }
+
+    /// Keeps labels off what lies around these places in pixels.
+    pub fn keep_free(&mut self, places: &[Vec2], space: f64) {
+        self.labels.keep_free(Frame::around(places, space));
+    }
+
+    /// Keeps labels to what lies between these heights in pixels.
+    pub fn keep_labels_between(&mut self, top: f64, bottom: f64) {
+        self.labels.keep_free(Frame { low: Vec2::zeros(), high: Vec2::new(WIDTH, top) });
+        self.labels.keep_free(Frame { low: Vec2::new(0.0, bottom), high: Vec2::new(WIDTH, self.height) });
+    }
+
+    /// Words that name what is at a place (pixels), in this direction off it if there is room, else near, with a line to it. They
+    /// are put on the sheet last, in the order in which they are wanted, and left out where there is no room.
+    pub fn label(&mut self, at: Vec2, direction: Vec2, words: &str) {
+        self.wanted.push((at, direction, words.to_owned()));
+    }
+
+    fn put_labels(&mut self) {
+        for (at, direction, words) in std::mem::take(&mut self.wanted) {
+            let size = extent(&words, LETTERS);
+            let Some(middle) = self.labels.place(at, direction, size) else { continue };
+            let nearest = middle + (at - middle).sup(&(-0.5 * size)).inf(&(0.5 * size));
+            if (nearest - at).norm() > NEEDS_LEADER {
+                self.line("leader", at, nearest);
+            }
+            self.text("label", middle + Vec2::new(0.0, 0.35 * LETTERS), &words);
+        }
+    }
+
+    /// A title and lines below it, at the top of the sheet.
+    pub fn heading(&mut self, heading: &Heading) {
+        let (mut y, titles) = (FIRST_LINE, heading.titles.len());
+        for (i, line) in heading.titles.iter().chain(&heading.lines).enumerate() {
+            let class = if i < titles { "title" } else { "line" };
+            self.text(class, Vec2::new(EDGE, y), line);
+            y += if i + 1 == titles { LINE + 2.0 } else { LINE };
+        }
     }
 
     /// An arrow with its head at `to`, pixels.
@@ -150,15 +267,29 @@ impl Canvas {
     }
 
     /// The whole document.
-    pub fn finish(self, title: &str, style: &str) -> String {
+    /// The whole document; `description` says in words what is to be seen. Its style, a rule a line, is for drawings of this kind
+    /// only, so that several kinds may stand in one page.
+    pub fn finish(mut self, kind: &str, title: &str, description: &str, style: &str) -> String {
+        self.put_labels();
         let (w, h) = (Hundredths(WIDTH), Hundredths(self.height));
-        let title = escaped(title);
+        let (title, description, style) = (escaped(title), escaped(description), scoped(style, kind));
         format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\" role=\"img\">\n\
-             <title>{title}</title>\n<style>\n{style}</style>\n<rect class=\"paper\" width=\"{w}\" height=\"{h}\"/>\n{}</svg>\n",
-            self.body
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"{kind}\" width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\" \
+             role=\"img\">\n<title>{title}</title>\n<desc>{description}</desc>\n<style>\n{style}</style>\n\
+             <rect class=\"paper\" width=\"{w}\" height=\"{h}\"/>\n{}{}</svg>\n",
+            self.body, self.words
         )
     }
+}
+
+/// Rules of style, one a line, for what is inside an element of a class.
+fn scoped(style: &str, class: &str) -> String {
+    let rule = |rule: &str| match rule.split_once('{') {
+        // A rule of rules: its own are scoped.
+        Some((media, rules)) if media.starts_with('@') => format!("{media}{{.{class} {rules}\n"),
+        _ => format!(".{class} {rule}\n"),
+    };
+    style.lines().map(rule).collect()
 }
 
 #[cfg(test)]
@@ -173,16 +304,33 @@ mod tests {
     }
 
     #[test]
+    fn rules_of_style_are_for_one_kind() {
+        let scoped = scoped(".a{x:1}\ntext{y:2}\n@media print{.a{z:3}}\n", "k");
+        assert_eq!(scoped, ".k .a{x:1}\n.k text{y:2}\n@media print{.k .a{z:3}}\n");
+    }
+
+    #[test]
+    fn a_heading_is_broken_between_words() {
+        let heading = Heading::new(&"word ".repeat(40), "short\nshort");
+        assert!(heading.titles.len() > 1 && heading.titles.iter().all(|line| extent(line, 19.0).x <= WIDTH - 80.0));
+        assert_eq!((heading.titles.join(" ").split(' ').count(), heading.lines.len()), (40, 2));
+        assert!(heading.height() > Heading::new("word", "").height());
+    }
+
+    #[test]
     fn words_cannot_break_the_document() {
         assert_eq!(escaped("<a & 'b'>\u{7}\""), "&lt;a &amp; &apos;b&apos;&gt; &quot;");
     }
 
     #[test]
     fn the_whole_extent_lies_on_the_sheet() {
+        let space = Space { head: 40.0, side: 56.0, foot: 30.0 };
         for (low, high) in [(Vec2::new(-5.0, 0.0), Vec2::new(5.0, 1.0)), (Vec2::new(3.0, -2.0), Vec2::new(3.5, 9.0))] {
-            let canvas = Canvas::new(low, high, 40.0);
+            let canvas = Canvas::new(low, high, space);
             let (a, b) = (canvas.place(Vec2::new(low.x, high.y)), canvas.place(Vec2::new(high.x, low.y)));
-            assert!(a.x >= SIDE - 1e-9 && b.x <= WIDTH - SIDE + 1e-9 && a.y >= 40.0 && b.y <= canvas.height());
+            assert!(
+                a.x >= 56.0 - 1e-9 && b.x <= WIDTH - 56.0 + 1e-9 && a.y >= 40.0 && b.y <= canvas.height() - 30.0 + 1e-9
+            );
             assert!((a.x + b.x - WIDTH).abs() < 1e-9);
         }
     }

@@ -1,12 +1,36 @@
+use super::legend::scale_bar;
 use super::*;
 use crate::arch::{assemble, straight_voussoirs};
-use crate::collapse::{CrushedJoint, Face, Hinge, LiftOff, Mechanism, Mode, Slide, Thrust};
+use crate::collapse::{CrushedJoint, Hinge, LiftOff, Mechanism, Mode, SettlementEnd, Slide};
+use crate::geometry::{cross, perpendicular};
+use crate::render::canvas::WIDTH;
 use crate::render::checks::{attributes, well_formed};
-use crate::structure::Stone;
+use crate::structure::{Face, JointLaw, Stone};
 use std::f64::consts::PI;
 
+/// A drawing of a structure alone.
+pub(super) fn drawing<'a>(structure: &'a Structure, state: State<'a>) -> Drawing<'a> {
+    let (fills, loads, altered) = (Vec::new(), Vec::new(), Vec::new());
+    let [title, caption, description] = ["Title", "", "Words"].map(str::to_owned);
+    Drawing { structure, fills, loads, altered, state, title, caption, description }
+}
+
+pub(super) fn falling(structure: &Structure, end: &PathEnd) -> String {
+    svg(&drawing(structure, State::Falls(end)))
+}
+
+pub(super) fn count(svg: &str, class: &str) -> usize {
+    svg.matches(&format!("class=\"{class}\"")).count()
+}
+
+/// The numbers of an attribute of the first element of a class.
+pub(super) fn number(svg: &str, class: &str, name: &str) -> f64 {
+    let line = svg.lines().find(|line| line.contains(&format!("class=\"{class}\""))).unwrap();
+    attributes(line, name)[0].parse().unwrap()
+}
+
 /// A semicircle of `n` voussoirs that turns about four hinges; `mirror` swaps left and right.
-fn example(n: usize, hinges: [usize; 4], mirror: bool) -> (Structure, PathEnd) {
+pub(super) fn example(n: usize, hinges: [usize; 4], mirror: bool) -> (Structure, PathEnd) {
     let law = JointLaw::Dry { friction: 0.6, cohesion: 0.0 };
     let polar = |r: f64, k: usize| {
         let angle = PI * (1.0 - k as f64 / n as f64);
@@ -87,22 +111,23 @@ fn mirrored(mut structure: Structure, mut end: PathEnd) -> (Structure, PathEnd) 
 #[test]
 fn the_document_is_well_formed_and_finite() {
     let (structure, end) = example(17, [1, 6, 11, 16], false);
-    let svg = svg(&structure, &end, "Load < 2 & more\nsecond line");
+    let mut drawn = drawing(&structure, State::Falls(&end));
+    drawn.title = "Load < 2 & more".to_owned();
+    let svg = svg(&drawn);
     well_formed(&svg);
-    assert!(svg.contains("Load &lt; 2 &amp; more"));
-    assert_eq!(svg.matches("class=\"stone\"").count(), 17);
-    assert_eq!(svg.matches("class=\"ghost\"").count(), 3 + 1);
-    assert_eq!(svg.matches("<circle").count(), 4 + 1);
+    assert!(svg.contains("<title>Load &lt; 2 &amp; more</title>\n<desc>Words</desc>"));
+    let stones = svg.lines().find(|line| line.contains("class=\"stone\"")).unwrap();
+    assert_eq!(stones.matches('M').count(), 17);
+    assert_eq!((count(&svg, "ghost"), svg.matches("<circle").count()), (3 + 1, 4 + 1));
 }
 
 #[test]
 fn a_joint_that_parts_is_drawn() {
     let (structure, mut end) = example(17, [1, 6, 11, 16], false);
     end.mechanism.lift_offs.push(LiftOff { joint: 8, at: Vec2::zeros(), intrados: 0.1, extrados: 0.2, along: 0.0 });
-    let svg = svg(&structure, &end, "");
+    let svg = falling(&structure, &end);
     // The joint and the legend; the stones part there.
-    assert_eq!(svg.matches("class=\"parting\"").count(), 2);
-    assert_eq!(svg.matches("class=\"ghost\"").count(), 4 + 1);
+    assert_eq!((count(&svg, "parting"), count(&svg, "ghost")), (2, 4 + 1));
 }
 
 #[test]
@@ -111,11 +136,10 @@ fn a_joint_that_crushes_is_drawn_with_its_block() {
     let (joint, face) = (6, Face::Extrados);
     let at = structure.joints[joint].end(face);
     end.crushed.push(CrushedJoint { joint, face, at, length: structure.joints[joint].length() });
-    let svg = svg(&structure, &end, "");
+    let svg = falling(&structure, &end);
     // The block and the legend; here the block is the whole joint.
-    assert_eq!(svg.matches("class=\"crushed\"").count(), 2);
-    let line = svg.lines().find(|line| line.contains("class=\"crushed\"")).unwrap();
-    let canvas_ends = |name: &str| attributes(line, name)[0].parse::<f64>().unwrap();
+    assert_eq!(count(&svg, "crushed"), 2);
+    let canvas_ends = |name: &str| number(&svg, "crushed", name);
     let drawn = Vec2::new(canvas_ends("x2") - canvas_ends("x1"), canvas_ends("y2") - canvas_ends("y1"));
     let hinges: Vec<f64> =
         [(0, 1.0), (1, -1.0)].map(|(i, sign)| (structure.joints[joint].intrados - at)[i] * sign / drawn[i]).to_vec();
@@ -126,7 +150,7 @@ fn a_joint_that_crushes_is_drawn_with_its_block() {
 fn a_mirrored_arch_gives_a_mirrored_figure() {
     let draw = |mirror| {
         let (structure, end) = example(17, [1, 6, 10, 15], mirror);
-        let svg = svg(&structure, &end, "");
+        let svg = falling(&structure, &end);
         let mut xs: Vec<f64> = attributes(&svg, "points")
             .iter()
             .flat_map(|points| {
@@ -145,14 +169,14 @@ fn a_mirrored_arch_gives_a_mirrored_figure() {
 #[test]
 fn the_same_arch_gives_the_same_bytes() {
     let (structure, end) = example(9, [0, 3, 6, 9], false);
-    assert_eq!(svg(&structure, &end, "x"), svg(&structure, &end, "x"));
+    assert_eq!(falling(&structure, &end), falling(&structure, &end));
 }
 
 #[test]
 fn an_arch_at_rest_is_drawn_without_a_ghost() {
     let (structure, mut end) = example(9, [0, 3, 6, 9], false);
     end.mechanism.velocities.clear();
-    assert_eq!(svg(&structure, &end, "").matches("class=\"ghost\"").count(), 1);
+    assert_eq!(count(&falling(&structure, &end), "ghost"), 0);
 }
 
 #[test]
@@ -209,16 +233,53 @@ fn wall() -> (Structure, PathEnd) {
 #[test]
 fn a_wall_is_drawn_body_by_body() {
     let (structure, end) = wall();
-    let svg = svg(&structure, &end, "");
+    let svg = falling(&structure, &end);
     well_formed(&svg);
-    assert!(svg.contains("<title>Structure at collapse</title>"));
-    let count = |class: &str| svg.matches(&format!("class=\"{class}\"")).count();
-    // Two blocks move, and the legend shows one more; so it does of the hinge.
-    assert_eq!((count("stone"), count("ghost"), count("ground"), count("resultant")), (3, 2 + 1, 1, 3));
+    // Two blocks move, and the legend shows one more; so it does of the force of a joint and of the hinge.
+    assert_eq!(
+        (count(&svg, "stone"), count(&svg, "ghost"), count(&svg, "ground"), count(&svg, "resultant")),
+        (1, 3, 1, 4)
+    );
     assert_eq!(svg.matches("<circle class=\"hinge\"").count(), 1 + 1);
     // The hinge is drawn where it turns: between the stones, at the right side of the lowest.
-    let corner = |points: &String| points.split(' ').nth(2).unwrap().to_owned();
-    let stones: Vec<String> = attributes(&svg, "points");
-    let [x, y] = [attributes(&svg, "cx"), attributes(&svg, "cy")].map(|all| all[3].clone());
-    assert_eq!(corner(&stones[0]), format!("{x},{y}"));
+    let stones = svg.lines().find(|line| line.contains("class=\"stone\"")).unwrap();
+    let [x, y] = ["cx", "cy"].map(|name| number(&svg, "hinge", name));
+    assert!(
+        attributes(stones, "d")[0].starts_with('M') && attributes(stones, "d")[0].contains(&format!(" {x:.2},{y:.2} "))
+    );
+    assert!(svg.contains(">width 1 m<") && svg.contains(">height 6 m<"));
+}
+
+#[test]
+fn cracks_are_as_wide_as_what_moves_parts() {
+    let (structure, end) = example(17, [1, 6, 11, 16], false);
+    // The right half turns about the end of joint 9 on the intrados, and the right springing with it.
+    let (pivot, turn) = (structure.joints[9].intrados, -2e-3);
+    let displaced = |k: usize| {
+        let by = turn * perpendicular(structure.bodies[k].region.centroid - pivot);
+        if k < 9 { [0.0; 3] } else { [by.x, by.y, turn] }
+    };
+    let about = structure.joints[17].middle();
+    let by = turn * perpendicular(about - pivot);
+    let movements = [SupportMovement { support: 1, about, by, rotation: turn }];
+    let path = SettlementPath {
+        end: SettlementEnd::Follows,
+        why: None,
+        share: 1.0,
+        safe: 1.0,
+        points: Vec::new(),
+        mechanism: Mechanism { slides: Vec::new(), ..end.mechanism.clone() },
+        thrust_line: Vec::new(),
+        displacements: (0..17).map(displaced).collect(),
+        snap: None,
+        residual: 0.0,
+    };
+    let cracks = signs::cracks(&structure, &path, &movements);
+    assert_eq!(cracks.len(), 1);
+    let (joint, face, width) = cracks[0];
+    assert_eq!((joint.extrados, face), (structure.joints[9].extrados, Face::Extrados));
+    assert!((width - 2e-3 * joint.length()).abs() < 1e-12, "{width}");
+    let svg = svg(&drawing(&structure, State::Settles(&path, &movements)));
+    well_formed(&svg);
+    assert!(svg.contains(">1.5 mm<"), "0.75 m times 2e-3");
 }

@@ -1,7 +1,12 @@
 //! Reports as pictures and files. Draws only: nothing here runs an analysis.
 
 pub mod canvas;
+pub mod chart;
 #[cfg(test)]
 mod checks;
+pub mod digits;
 pub mod figure;
+mod labels;
+pub mod motion;
+pub mod stress;
 pub mod vtu;

@@ -1,13 +1,16 @@
 //! A stress field as an unstructured grid of VTK, in XML and text, as ParaView reads it.
 
-use crate::collapse::{StressField, SubblockStress};
+use crate::collapse::{Snapshot, StressField, SubblockStress};
+use crate::geometry::{Vec2, perpendicular};
+use crate::structure::Structure;
 use std::fmt::Write;
 
 /// Number of a polygon among VTK's kinds of cells.
 const POLYGON: u8 = 7;
 
-/// One cell per subblock; the stresses are constant in it, Pa, compression negative.
-pub fn vtu(field: &StressField) -> String {
+/// One cell per subblock; the stresses are constant in it, Pa, compression negative. With a state of the same load factor every point
+/// has its displacement, m, as far as it is that of a rigid body: mean displacement and rotation of the body that it is part of.
+pub fn vtu(field: &StressField, state: Option<&Snapshot>, structure: &Structure) -> String {
     let cells = &field.subblocks;
     let mut file = String::from("<?xml version=\"1.0\"?>\n");
     file.push_str(
@@ -37,9 +40,28 @@ pub fn vtu(field: &StressField) -> String {
         array("Int64", "offsets", 1, ends.iter()),
         array("UInt8", "types", 1, cells.iter().map(|_| POLYGON)),
     );
+    if let Some(state) = state {
+        let displacements = cells.iter().flat_map(|cell| displacements(cell, state, structure)).flatten();
+        let _ = writeln!(file, "<PointData>\n{}</PointData>", array("Float64", "displacement_m", 3, displacements));
+    }
     let _ = writeln!(file, "<CellData>\n{}</CellData>", cell_data(cells));
     file.push_str("</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
     file
+}
+
+/// Displacements of the corners of a subblock.
+fn displacements<'a>(
+    cell: &'a SubblockStress,
+    state: &Snapshot,
+    structure: &Structure,
+) -> impl Iterator<Item = [f64; 3]> + use<'a> {
+    let (by, turn) =
+        state.blocks.get(cell.voussoir).map_or((Vec2::zeros(), 0.0), |body| (body.displacement, body.rotation));
+    let centre = structure.bodies.get(cell.voussoir).map_or(cell.centre, |body| body.region.centroid);
+    cell.corners
+        .iter()
+        .map(move |corner| by + turn * perpendicular(corner - centre))
+        .map(|moved| [moved.x, moved.y, 0.0])
 }
 
 fn cell_data(cells: &[SubblockStress]) -> String {

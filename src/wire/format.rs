@@ -15,6 +15,8 @@ pub enum Format {
     Svg,
     /// The same drawing, for those who know it as XML only.
     Xml,
+    /// A page to be read or printed.
+    Html,
     /// Measurements for Prometheus.
     OpenMetrics,
 }
@@ -25,7 +27,11 @@ pub const RESULTS: [Format; 2] = [Format::Json, Format::Text];
 pub const HISTORY: [Format; 2] = [Format::Json, Format::Csv];
 /// Formats of a stress field.
 pub const FIELD: [Format; 3] = [Format::Json, Format::Csv, Format::Vtu];
-/// Formats of the drawing.
+/// Formats of the positions of vehicles.
+pub const POSITIONS: [Format; 2] = [Format::Json, Format::Csv];
+/// Formats of the report.
+pub const REPORT: [Format; 1] = [Format::Html];
+/// Formats of a drawing.
 pub const FIGURE: [Format; 2] = [Format::Svg, Format::Xml];
 
 impl Format {
@@ -38,6 +44,7 @@ impl Format {
             Format::Vtu => ("vtu", "application/vnd.vtk.vtu+xml"),
             Format::Svg => ("svg", "image/svg+xml"),
             Format::Xml => ("xml", "text/xml"),
+            Format::Html => ("html", "text/html"),
             Format::OpenMetrics => ("openmetrics", "application/openmetrics-text"),
         }
     }
@@ -52,6 +59,7 @@ impl Format {
         match self {
             Format::Text => "text/plain; charset=utf-8",
             Format::Xml => "text/xml; charset=utf-8",
+            Format::Html => "text/html; charset=utf-8",
             Format::OpenMetrics => "application/openmetrics-text; version=1.0.0; charset=utf-8",
             other => other.words().1,
         }

@@ -36,6 +36,15 @@ pub fn compact(value: &impl Serialize) -> Result<String, NotFinite> {
     serde_json::to_string(value).map_err(ser::Error::custom)
 }
 
+/// JSON in lines, for people.
+///
+/// # Errors
+/// Where a number is not finite.
+pub fn pretty(value: &impl Serialize) -> Result<String, NotFinite> {
+    value.serialize(Finite)?;
+    serde_json::to_string_pretty(value).map_err(ser::Error::custom)
+}
+
 /// Compact JSON and a newline.
 ///
 /// # Errors

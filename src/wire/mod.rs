@@ -3,11 +3,13 @@
 
 pub mod contract;
 pub mod fault;
+pub mod figures;
 pub mod format;
 pub mod json;
 pub mod prose;
 pub mod read;
 pub mod rendering;
+mod report;
 pub mod request;
 pub mod response;
 pub mod survey;

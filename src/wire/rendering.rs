@@ -5,23 +5,28 @@ mod table;
 
 pub use packed::{Unpacking, plain};
 
+use super::figures::{Figure, STRESS, analysed, figures};
 use super::format::Format;
 use super::json::line;
 use super::prose;
+use super::report::report;
 use super::request::{AnalysisRequest, Request, StressFieldRequest};
 use super::response::JobResult;
-use crate::collapse::{Answer, CollapseReport, Question};
+use crate::collapse::{Answer, CollapseReport, Question, Snapshot};
 use crate::jobs::{Failure, Part, Product, Rendering};
 use crate::render::vtu::vtu;
-use bytes::Bytes;
 use std::time::Duration;
 
 /// The whole answer, in JSON and text.
 pub const WHOLE: &str = "results";
 /// The load path, in JSON and CSV.
 pub const HISTORY: &str = "history";
-/// The drawing, in SVG, or why there is none.
+/// The main drawing, in SVG, or why there is none.
 pub const FIGURE: &str = "figure";
+/// Every position of vehicles that was solved, in JSON and CSV.
+pub const POSITIONS: &str = "positions";
+/// The report, in HTML, or why there is none.
+pub const REPORT: &str = "report";
 
 /// Writes an answer in all its parts and formats; `wall_time` is what finding it took. The first is the whole of it as JSON:
 /// what is not finite is refused there, before any other shows it.
@@ -40,21 +45,66 @@ pub fn renderings(
         rendering(named(WHOLE), Format::Json, line(&result)?),
         rendering(named(WHOLE), Format::Text, prose::prose(&result, wall_time)),
     ];
-    if let (Request::Structure(request), Answer::One(report), JobResult::Analysis(result)) = (request, answer, &result)
+    if let (Request::Structure(request), Answer::One(report), JobResult::Analysis(result), Some(analysis)) =
+        (request, answer, &result, analysed(question))
     {
+        let structure = &analysis.structure;
         all.push(rendering(named(HISTORY), Format::Json, line(&result.history)?));
         all.push(rendering(named(HISTORY), Format::Csv, table::history(&result.history)));
+        if let Some(worst) = &result.worst_position {
+            all.push(rendering(named(POSITIONS), Format::Json, line(&worst.curve)?));
+            all.push(rendering(named(POSITIONS), Format::Csv, table::positions(&worst.curve)));
+        }
         for (field, body) in report.stress_fields.iter().zip(&result.stress_fields) {
-            let names = || names_of_field(field.load_factor, request, report);
+            let names =
+                || words_of_field(field.load_factor, request, report).iter().map(|word| self::field(word)).collect();
             all.push(rendering(names(), Format::Json, line(body)?));
             all.push(rendering(names(), Format::Csv, table::field(body)));
-            all.push(rendering(names(), Format::Vtu, vtu(field)));
+            all.push(rendering(names(), Format::Vtu, vtu(field, state_at(field.load_factor, report), structure)));
         }
     }
-    let figure = prose::figure(question, answer, &result).map(Bytes::from);
-    let part = Part { body: figure, packed_from: None };
-    all.push(Rendering { names: named(FIGURE), format: Format::Svg.name(), part });
+    all.extend(drawings(request, question, answer, &result));
     Ok(all.into())
+}
+
+/// Every drawing and the report, or why there is none.
+fn drawings(request: &Request, question: &Question, answer: &Answer, result: &JobResult) -> Vec<Rendering> {
+    let missing = |name: &str, format: Format, reason: String| Rendering {
+        names: vec![name.to_owned()],
+        format: format.name(),
+        part: Part { body: Err(reason), packed_from: None },
+    };
+    let all = match figures(question, answer, result) {
+        Ok(all) => all,
+        Err(reason) => {
+            let reasons = [(FIGURE, Format::Svg), (REPORT, Format::Html)];
+            return reasons.into_iter().map(|(name, format)| missing(name, format, reason.clone())).collect();
+        }
+    };
+    let report = match report(result, &all) {
+        Ok(page) => rendering(vec![REPORT.to_owned()], Format::Html, page),
+        Err(reason) => missing(REPORT, Format::Html, reason),
+    };
+    let names = |(i, drawn): (usize, &Figure)| {
+        let main = (i == 0).then(|| FIGURE.to_owned());
+        let names = match (request, answer, drawn.stress_at) {
+            (Request::Structure(request), Answer::One(report), Some(load_factor)) => {
+                let words = words_of_field(load_factor, request, report);
+                words.iter().map(|word| figure(&format!("{STRESS}{word}"))).collect()
+            }
+            _ => vec![figure(&drawn.name)],
+        };
+        main.into_iter().chain(names).collect()
+    };
+    let names: Vec<Vec<String>> = all.iter().enumerate().map(names).collect();
+    let drawn = names.into_iter().zip(all).map(|(names, drawn)| rendering(names, Format::Svg, drawn.svg));
+    drawn.chain([report]).collect()
+}
+
+/// The state of a load factor, where it is reported.
+fn state_at(load_factor: f64, report: &CollapseReport) -> Option<&Snapshot> {
+    let states = [&report.near_collapse, &report.at_unit_load, &report.at_start];
+    states.into_iter().flatten().find(|state| state.load_factor == load_factor)
 }
 
 fn rendering(names: Vec<String>, format: Format, body: impl Into<Vec<u8>>) -> Rendering {
@@ -62,12 +112,12 @@ fn rendering(names: Vec<String>, format: Format, body: impl Into<Vec<u8>>) -> Re
 }
 
 /// A stress field goes by its load factor, and by the word it was asked for with.
-fn names_of_field(load_factor: f64, request: &AnalysisRequest, report: &CollapseReport) -> Vec<String> {
+fn words_of_field(load_factor: f64, request: &AnalysisRequest, report: &CollapseReport) -> Vec<String> {
     let near = report.near_collapse.as_ref().filter(|near| near.load_factor == load_factor);
     let asked = request.report.stress_fields.contains(&StressFieldRequest::NearCollapse);
     let words = [("unit_load", load_factor == 1.0), ("near_collapse", asked && near.is_some())];
-    let words = words.into_iter().filter(|(_, holds)| *holds).map(|(word, _)| field(word));
-    words.chain([field(&load_factor.to_string())]).collect()
+    let words = words.into_iter().filter(|(_, holds)| *holds).map(|(word, _)| word.to_owned());
+    words.chain([load_factor.to_string()]).collect()
 }
 
 /// The name of a stress field that a client calls by a word or a number, however it writes that.
@@ -75,6 +125,13 @@ pub fn field(load: &str) -> String {
     // Zero has no sign here.
     let number = load.parse::<f64>().map(|number| (number + 0.0).to_string());
     format!("fields/{}", number.unwrap_or_else(|_| load.to_owned()))
+}
+
+/// The name of a drawing that a client calls so.
+pub fn figure(name: &str) -> String {
+    let word = name.strip_prefix(STRESS).map(field);
+    let name = word.map_or(name.to_owned(), |field| field.replacen("fields/", STRESS, 1));
+    format!("figures/{name}")
 }
 
 /// The format in which a part that is given out in `format` is kept: a drawing is kept once, and goes by two media types.

@@ -5,7 +5,7 @@
 
 Needs Python with venv, npm, and the registries of both. The generators may not warn; the Python client (client.py) is
 type-checked, submits a case and reads its answer; what it reads has to be what the case expects. The TypeScript
-(client.ts) is type-checked against the types generated. Everything is written to a temporary folder."""
+(client.ts) is type-checked against the types generated. meshio reads a stress field (field.py). Everything is written to a temporary folder."""
 import os, pathlib, shutil, socket, subprocess, sys, tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -50,6 +50,7 @@ def python(folder, program):
                 sys.exit("the service does not start")
         case = ROOT / "cases" / "first-arch"
         print(run(programs / "python", "client.py", f"http://{address}", "t", case, folder=folder), end="")
+        print(run(programs / "python", HERE / "field.py", f"http://{address}", "t", case, folder=folder), end="")
     finally:
         server.terminate()
         server.wait()

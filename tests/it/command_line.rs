@@ -37,16 +37,16 @@ fn solve_json_prints_the_bytes_of_the_service() {
 }
 
 #[test]
-fn solve_prints_a_curve_and_draws_none() {
+fn solve_prints_a_curve() {
     let output = fed(&["solve", "-"], &curve().to_string());
     let text = String::from_utf8(output.stdout).unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     for part in ["scaled loads", "abscissa times: 1 kN/m", "strength", "10 MPa", "plastic section", "time"] {
         assert!(text.contains(part), "{part} in\n{text}");
     }
-    let output = fed(&["solve", "-", "--figure", "no/such/figure.svg"], &curve().to_string());
+    let output = fed(&["solve", "-", "--report", "no/such/report.html"], &beam().to_string());
     assert_eq!(output.status.code(), Some(1));
-    assert!(String::from_utf8_lossy(&output.stderr).contains("no figure: only one structure"));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("no report: a curved beam"));
     let mut request = beam();
     request["mesh"] = serde_json::json!({"subblocks": {"uniform": {"radial": 0, "along": 1}}});
     let output = fed(&["solve", "-"], &request.to_string());
@@ -191,7 +191,7 @@ fn case(name: &str) -> String {
 #[test]
 fn the_figures_of_the_documents_are_what_solve_draws() {
     let file = std::env::temp_dir().join(format!("voussoir-figure-{}.svg", std::process::id()));
-    for name in ["first-arch", "two-span-bridge", "wall"] {
+    for name in ["first-arch", "filled-bridge", "geometric-safety", "settlement", "two-span-bridge", "wall"] {
         let output = fed(&["solve", &case(&format!("{name}/request.json")), "--figure", file.to_str().unwrap()], "");
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
         let drawn = std::fs::read_to_string(&file).unwrap();
@@ -203,12 +203,30 @@ fn the_figures_of_the_documents_are_what_solve_draws() {
 }
 
 #[test]
-fn where_nothing_moves_there_is_no_figure() {
-    let file = std::env::temp_dir().join(format!("voussoir-no-figure-{}.svg", std::process::id()));
-    let output = fed(&["solve", &case("half-arch/request.json"), "--figure", file.to_str().unwrap()], "");
-    assert_eq!(output.status.code(), Some(1));
-    assert!(String::from_utf8_lossy(&output.stderr).contains("no figure: nothing moves"));
-    assert!(String::from_utf8_lossy(&output.stdout).contains("The arch stands") && !file.exists());
+fn solve_writes_drawings_and_a_report() {
+    let folder = std::env::temp_dir().join(format!("voussoir-drawings-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let report = folder.join("report.html");
+    let [figures, report] = [&folder, &report].map(|path| path.to_str().unwrap());
+    let arguments = ["solve", &case("worst-position/request.json"), "--figures", figures, "--report", report];
+    let output = fed(&arguments, "");
+    let page = std::fs::read_to_string(report).unwrap();
+    let mut names: Vec<_> = std::fs::read_dir(&folder).unwrap().map(|file| file.unwrap().file_name()).collect();
+    names.sort();
+    std::fs::remove_dir_all(&folder).unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(String::from_utf8_lossy(&output.stdout).contains("The vehicle stands worst at"));
+    let expected = ["load_displacement.svg", "report.html", "standing.svg", "structure.svg", "worst_position.svg"];
+    assert_eq!(names, expected);
+    // All of it in one page, which fetches nothing and runs nothing.
+    assert_eq!(page.matches("<svg ").count(), 4);
+    for part in
+        ["The vehicle stands worst at", "<h2>Checks</h2>", "<h2>The request</h2>", "&quot;effective_width_m&quot;: 1"]
+    {
+        assert!(page.contains(part), "{part}");
+    }
+    assert!(!page.contains("<script") && !page.contains("href=") && !page.contains("src="));
+    assert!(page.contains(concat!("Voussoir ", env!("CARGO_PKG_VERSION"))));
 }
 
 /// The summary of a case, changed.

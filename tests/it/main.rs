@@ -56,6 +56,8 @@ mod factors;
 #[cfg(feature = "server")]
 mod falling;
 #[cfg(feature = "server")]
+mod figures;
+#[cfg(feature = "server")]
 mod fill;
 #[cfg(feature = "server")]
 mod fixed_steps;

@@ -23,7 +23,7 @@ fn every_operation_is_described() {
             operations += 1;
         }
     }
-    assert_eq!(operations, 19);
+    assert_eq!(operations, 22);
 }
 
 #[test]

@@ -268,9 +268,20 @@ fn results_come_in_parts_and_formats() {
     assert!(figure.text().starts_with("<svg") && figure.text().trim_end().ends_with("</svg>"));
     let as_xml = part("/figure", "text/xml");
     assert_eq!((as_xml.header("content-type"), as_xml.text()), (Some("text/xml; charset=utf-8"), figure.text()));
+    assert_eq!(part("/figures/structure", "*/*").text(), figure.text());
+    for name in ["load_displacement", "stress_near_collapse", "stress_2.50"] {
+        assert!(part(&format!("/figures/{name}"), "*/*").text().starts_with("<svg"), "{name}");
+    }
+    let report = part("/report", "text/html");
+    assert_eq!(report.header("content-type"), Some("text/html; charset=utf-8"));
+    assert!(report.header("content-security-policy").unwrap().starts_with("default-src 'none'"));
+    assert!(report.text().starts_with("<!DOCTYPE html>") && report.text().contains(&figure.text()));
     for (rest, accept, status) in [
         ("", "image/png", 406),
         ("/figure", "text/csv", 406),
+        ("/figures/no_such", "*/*", 404),
+        ("/positions", "*/*", 404),
+        ("/report", "text/csv", 406),
         ("/history?f=vtu", "*/*", 400),
         ("?format=json", "*/*", 400),
         ("/fields/unit_load", "*/*", 404),
@@ -309,6 +320,55 @@ fn a_field_opens_in_paraview() {
     );
 }
 
+#[test]
+fn points_of_a_field_move_with_their_bodies() {
+    let server = Server::start(1, 10);
+    let path = done(&server, &stressed());
+    let file = server.get(&format!("{path}/results/fields/near_collapse?f=vtu")).text();
+    let array = |name: &str| -> Vec<f64> {
+        let data = &file[file.find(&format!("Name=\"{name}\"")).unwrap()..];
+        let data = &data[data.find('>').unwrap() + 1..data.find("</DataArray>").unwrap()];
+        data.split_whitespace().map(|number| number.parse().unwrap()).collect()
+    };
+    let whole = server.get(&format!("{path}/results")).json();
+    let of = |name: &str| numbers(&whole["near_collapse"]["blocks"][name]);
+    let (x, y, turn) = (of("displacement_x_m"), of("displacement_y_m"), of("rotation_rad"));
+    let (points, moved, bodies) = (array("Points"), array("displacement_m"), array("voussoir"));
+    assert_eq!((moved.len(), bodies.len()), (points.len(), points.len() / 12));
+    for (k, (at, by)) in points.chunks(3).zip(moved.chunks(3)).enumerate() {
+        let body = bodies[k / 4] as usize;
+        let centre = numbers(&whole["structure"]["bodies"][body]["centroid_m"]);
+        let expected = [x[body] - turn[body] * (at[1] - centre[1]), y[body] + turn[body] * (at[0] - centre[0]), 0.0];
+        assert!(
+            by.iter().zip(expected).all(|(by, expected)| (by - expected).abs() < 1e-12),
+            "{k}: {by:?} {expected:?}"
+        );
+    }
+    assert!(moved.iter().any(|by| by.abs() > 1e-6));
+    // At another load factor no state is reported.
+    assert!(!server.get(&format!("{path}/results/fields/2.5?f=vtu")).text().contains("displacement_m"));
+}
+
+#[test]
+fn positions_are_a_table() {
+    let server = Server::start(1, 10);
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/cases/worst-position/request.json");
+    let path = done(&server, &serde_json::from_slice(&std::fs::read(file).unwrap()).unwrap());
+    let whole = server.get(&format!("{path}/results")).json();
+    let curve = &whole["worst_position"]["curve"];
+    assert_eq!(&server.get(&format!("{path}/results/positions")).json(), curve);
+    let rows = table(&server.get(&format!("{path}/results/positions?f=csv")).text());
+    assert_eq!(rows[0], ["x_m", "reversed", "arriving", "instability", "crushing"]);
+    assert_eq!(column(&rows, "x_m"), numbers(&curve["x_m"]));
+    let told = |name: &str, place: usize| {
+        let of_json: Vec<Option<f64>> = curve[name].as_array().unwrap().iter().map(Value::as_f64).collect();
+        let of_table: Vec<Option<f64>> = rows[1..].iter().map(|row| row[place].parse().ok()).collect();
+        assert_eq!(of_json, of_table, "{name}");
+    };
+    told("instability", 3);
+    told("crushing", 4);
+}
+
 fn table(text: &str) -> Vec<Vec<String>> {
     text.lines().map(|line| line.split(',').map(str::to_owned).collect()).collect()
 }
@@ -328,7 +388,7 @@ fn what_has_no_such_part_says_so() {
     for request in [curve(), beam()] {
         let path = done(&server, &request);
         assert!(!server.get(&format!("{path}/results?f=text")).text().is_empty());
-        for part in ["history", "fields/unit_load", "figure"] {
+        for part in ["history", "fields/unit_load", "figures/structure", "positions"] {
             let problem = server.get(&format!("{path}/results/{part}")).problem(404);
             assert_eq!(problem["type"], kinds::NO_SUCH_PART.uri, "{part}");
         }

@@ -31,6 +31,11 @@ impl SurfaceLine {
         (rises && !points.is_empty()).then_some(SurfaceLine(points))
     }
 
+    /// Its points, from left to right, m.
+    pub fn points(&self) -> &[Vec2] {
+        &self.0
+    }
+
     /// Its highest point, m.
     pub fn top(&self) -> f64 {
         self.0.iter().map(|point| point.y).fold(f64::NEG_INFINITY, f64::max)

@@ -18,7 +18,7 @@ const ABSCISSAE_NAMED: usize = 5;
 pub fn summary(result: &SafetyCurveResult, wall_time: Duration) -> String {
     let name = result.request.name.as_ref().map(|name| format!("{name}\n\n")).unwrap_or_default();
     let headline = wording::wrapped(&headline(result));
-    let mut text = format!("{name}{headline}\n\n{}\n", facts(result, wall_time).trim_fmt());
+    let mut text = format!("{name}{headline}\n\n{}\n", facts(result, Some(wall_time)).trim_fmt());
     append(&mut text, "Safety factors", points(result));
     let of = |point: &CurvePointBody| (point.safety.mode, point.safety.zone);
     let (modes, zones): (Vec<_>, Vec<_>) = result.points.iter().map(of).unzip();
@@ -30,7 +30,7 @@ pub fn summary(result: &SafetyCurveResult, wall_time: Duration) -> String {
 }
 
 /// One sentence: where the arch is least safe.
-fn headline(result: &SafetyCurveResult) -> String {
+pub fn headline(result: &SafetyCurveResult) -> String {
     let unsafe_at = result.points.iter().find(|point| point.safety.governing == ReachBody::DoesNotStand);
     let factor = |point: &CurvePointBody| match point.safety.governing {
         ReachBody::At { load_factor } => Some((load_factor, point.abscissa, point.safety.governed_by)),
@@ -58,7 +58,8 @@ fn place(result: &SafetyCurveResult, abscissa: f64) -> String {
     }
 }
 
-fn facts(result: &SafetyCurveResult, wall_time: Duration) -> Table {
+/// What was given; what finding the curve took, where that is told.
+pub fn facts(result: &SafetyCurveResult, wall_time: Option<Duration>) -> Table {
     let (mut table, request) = (bare(), &result.request);
     let mut fact = |name: &str, value: String| {
         table.add_row([name, &value]);
@@ -75,11 +76,14 @@ fn facts(result: &SafetyCurveResult, wall_time: Duration) -> Table {
     }
     fact("strength", given::strengths(request));
     fact("crushing by", word(&result.crushing));
-    fact("time", format!("{:.3} ms", wall_time.as_secs_f64() * 1e3));
+    if let Some(time) = wall_time {
+        fact("time", format!("{:.3} ms", time.as_secs_f64() * 1e3));
+    }
     table
 }
 
-fn points(result: &SafetyCurveResult) -> Option<Table> {
+/// Every abscissa with its safety factors.
+pub fn points(result: &SafetyCurveResult) -> Option<Table> {
     let mut table = bare();
     let abscissa = if result.unit == "-" { "abscissa".to_owned() } else { format!("abscissa, {}", result.unit) };
     let moving = result.points.iter().any(|point| point.safety.updated_geometry.is_some());
@@ -104,7 +108,7 @@ fn points(result: &SafetyCurveResult) -> Option<Table> {
 }
 
 /// Every note once, with the abscissae it belongs to.
-fn notes(points: &[CurvePointBody]) -> Vec<(&str, String)> {
+pub fn notes(points: &[CurvePointBody]) -> Vec<(&str, String)> {
     let mut notes: Vec<(&str, Vec<f64>)> = Vec::new();
     for point in points {
         for note in &point.safety.notes {

@@ -1,27 +1,25 @@
-//! An answer in words, and the words under its picture.
+//! An answer in words.
 
 mod beam;
-mod curve;
-mod digits;
-mod figure;
+pub(super) mod curve;
 mod geometric;
 mod given;
-mod joints;
-mod moving;
+pub(super) mod joints;
+pub(super) mod moving;
 mod notes;
 mod noun;
 mod plan;
 mod positions;
 mod safety;
 mod settlement;
-mod summary;
+pub(super) mod summary;
 mod survey;
 mod wording;
 
-pub use digits::{Digits, Rounded};
-pub use figure::figure;
-pub use noun::in_its_words;
+pub use crate::render::digits::{Digits, Rounded};
+pub use noun::{in_its_words, noun};
 pub use survey::smoothed;
+pub use wording::{headline, motion, name as name_of_end, unit};
 
 use super::response::JobResult;
 use std::time::Duration;

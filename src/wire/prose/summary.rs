@@ -18,7 +18,7 @@ const FULL: f64 = 1e-6;
 pub fn summary(result: &AnalysisResult, wall_time: Duration) -> String {
     let name = result.request.name.as_ref().map(|name| format!("{name}\n\n")).unwrap_or_default();
     let headline = wording::wrapped(&wording::headline(result));
-    let mut text = format!("{name}{headline}\n\n{}\n", facts(result, wall_time).trim_fmt());
+    let mut text = format!("{name}{headline}\n\n{}\n", facts(result, Some(wall_time)).trim_fmt());
     let window = result.outcome == Outcome::StandsInWindow;
     for (title, end) in ["Lower end", "Upper end"].into_iter().zip(wording::limits(result)).filter(|_| window) {
         if end.is_none() {
@@ -63,7 +63,8 @@ pub fn summary(result: &AnalysisResult, wall_time: Duration) -> String {
     text
 }
 
-fn facts(result: &AnalysisResult, wall_time: Duration) -> Table {
+/// What was given and what was found; what finding it took, where that is told.
+pub fn facts(result: &AnalysisResult, wall_time: Option<Duration>) -> Table {
     let mut table = bare();
     let mut fact = |name: &str, value: String| {
         table.add_row([name, &value]);
@@ -117,7 +118,9 @@ fn facts(result: &AnalysisResult, wall_time: Duration) -> Table {
     let cost = &result.cost;
     let counts = (cost.events, cost.factorisations, cost.unknowns);
     fact("cost", format!("{} events, {} factorisations, {} unknowns", counts.0, counts.1, counts.2));
-    fact("time", format!("{:.3} ms", wall_time.as_secs_f64() * 1e3));
+    if let Some(time) = wall_time {
+        fact("time", format!("{:.3} ms", time.as_secs_f64() * 1e3));
+    }
     table
 }
 
@@ -204,7 +207,8 @@ pub fn soil(forces: &[f64], result: &AnalysisResult) -> Option<String> {
     (!forces.is_empty()).then(|| format!("{right} kN/m to the right, {left} kN/m to the left; {full}"))
 }
 
-fn explanation(result: &AnalysisResult) -> &'static str {
+/// What words in the facts mean.
+pub fn explanation(result: &AnalysisResult) -> &'static str {
     match &result.thrust_range {
         Some(_) => {
             "Limit window: what rigid-block limit analysis allows. Thrust range: horizontal force with which the left \

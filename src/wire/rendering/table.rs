@@ -1,6 +1,6 @@
 //! Parts of an answer as comma-separated values: a line of names, then a line for every row of numbers.
 
-use crate::wire::response::{HistoryColumns, StressFieldBody};
+use crate::wire::response::{HistoryColumns, PositionColumns, StressFieldBody};
 use std::fmt::Write;
 
 /// The load path, a line for every point.
@@ -10,6 +10,22 @@ pub fn history(history: &HistoryColumns) -> String {
         [&history.load_factor, &history.intensity, &history.crown_x_m, &history.crown_y_m, &history.largest_m];
     table(&names.map(str::to_owned), history.load_factor.len(), |row, line| {
         columns.iter().for_each(|column| add(line, column[row]));
+    })
+}
+
+/// Every position of vehicles, a line each; empty where there is no intensity.
+pub fn positions(curve: &PositionColumns) -> String {
+    let names = ["x_m", "reversed", "arriving", "instability", "crushing"];
+    table(&names.map(str::to_owned), curve.x_m.len(), |row, line| {
+        add(line, curve.x_m[row]);
+        add(line, curve.reversed[row]);
+        add(line, curve.arriving[row]);
+        for column in [&curve.instability, &curve.crushing] {
+            match column[row] {
+                Some(intensity) => add(line, intensity),
+                None => line.push(','),
+            }
+        }
     })
 }
 

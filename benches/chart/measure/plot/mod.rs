@@ -110,7 +110,8 @@ pub fn svg(chart: &Chart) -> String {
         draw_mark(&mut canvas, series.mark, place - Vec2::new(14.0, 4.5), true);
         canvas.text("small", place, series.name);
     }
-    canvas.finish(lines.first().unwrap_or(&"Error against time"), STYLE)
+    let title = lines.first().unwrap_or(&"Error against time");
+    canvas.finish("scatter", title, &lines.join(" "), STYLE)
 }
 
 impl Field {

@@ -10,6 +10,16 @@ pub struct Digits(pub f64);
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rounded(pub f64);
 
+/// Shows a number with two significant digits and no zeros behind them: what follows from a stiffness that is hardly known.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measured(pub f64);
+
+impl fmt::Display for Measured {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write(out, self.0, 2)
+    }
+}
+
 impl fmt::Display for Digits {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         write(out, self.0, 6)

@@ -1,0 +1,154 @@
+//! The report: all of an answer that an assessment's file needs, as one page to be printed.
+
+use super::figures::Figure;
+use super::json::{NotFinite, pretty};
+use super::prose::{self, Digits, curve, joints, moving, summary};
+use super::request::{AnalysisRequest, Request};
+use super::response::{AnalysisResult, JobResult, SafetyCurveResult};
+use crate::collapse::WhichEnd;
+use crate::render::canvas::escaped;
+use comfy_table::{Row, Table};
+
+/// The version of this program.
+const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+const STYLE: &str = include_str!("report/style.css");
+
+/// A part of the report: its title and what it holds, as HTML.
+type Section = (&'static str, String);
+
+/// The page.
+///
+/// # Errors
+/// Why there is none.
+pub fn report(result: &JobResult, figures: &[Figure]) -> Result<String, String> {
+    let (name, verdict, sections) = match result {
+        JobResult::Analysis(result) => (&result.request.name, prose::headline(result), of_analysis(result, figures)),
+        JobResult::SafetyCurve(result) => (&result.request.name, curve::headline(result), of_curve(result, figures)),
+        JobResult::CurvedBeam(_) => return Err("no report: a curved beam is a test of the method".to_owned()),
+    };
+    let sections = sections.map_err(|NotFinite(what)| format!("no report: {what} is not finite"))?;
+    let title = escaped(name.as_deref().unwrap_or("Masonry structure"));
+    let sections: String = sections
+        .into_iter()
+        .filter(|(_, body)| !body.is_empty())
+        .map(|(title, body)| format!("<section>\n<h2>{title}</h2>\n{body}</section>\n"))
+        .collect();
+    let verdict = escaped(&verdict);
+    Ok(format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" \
+         content=\"width=device-width\">\n<title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<header>\n\
+         <p>Voussoir {VERSION}: report of an analysis</p>\n<h1>{title}</h1>\n<p class=\"verdict\">{verdict}</p>\n</header>\n\
+         {sections}</body>\n</html>\n"
+    ))
+}
+
+/// What people write on it.
+const FILE: &str = "<table class=\"file\">\n\
+    <tr><th>Computed by</th><td></td><th>Date</th><td></td></tr>\n\
+    <tr><th>Checked by</th><td></td><th>Date</th><td></td></tr>\n</table>\n";
+
+fn of_analysis(result: &AnalysisResult, figures: &[Figure]) -> Result<Vec<Section>, NotFinite> {
+    let mut found = table(&summary::facts(result, None));
+    let named = result.named();
+    for mechanism in result.ends.iter().map(|end| &end.fall.mechanism) {
+        for (title, rows) in [
+            ("Hinges", joints::hinges(&mechanism.hinges, named)),
+            ("Sliding joints", joints::slides(&mechanism.slides, named)),
+            ("Joints that part altogether", joints::lift_offs(&mechanism.lift_offs, named)),
+        ] {
+            found += &rows.map_or(String::new(), |rows| format!("<h3>{title}</h3>\n{}", table(&rows)));
+        }
+    }
+    let mut ground = String::new();
+    if let Some(end) = result.ends.first() {
+        joints::ground(&mut ground, end, result);
+    }
+    moving::supports(&mut ground, result);
+    if !ground.is_empty() {
+        found += &format!("<pre>{}</pre>\n", lines(ground.trim()));
+    }
+    Ok(vec![
+        ("Drawings", drawn(figures)),
+        ("What was given and found", found),
+        ("Assumptions and notes", list(result.notes.iter().cloned())),
+        ("Checks", checks(result)),
+        ("For the file", FILE.to_owned()),
+        ("The request", request(&result.request)?),
+    ])
+}
+
+fn of_curve(result: &SafetyCurveResult, figures: &[Figure]) -> Result<Vec<Section>, NotFinite> {
+    let points = curve::points(result).map_or(String::new(), |points| table(&points));
+    let notes = curve::notes(&result.points);
+    Ok(vec![
+        ("Drawings", drawn(figures)),
+        ("What was given", table(&curve::facts(result, None))),
+        ("What was found", points),
+        ("Assumptions and notes", list(notes.iter().map(|(note, at)| format!("Abscissa {at}: {note}")))),
+        ("For the file", FILE.to_owned()),
+        ("The request", request(&result.request)?),
+    ])
+}
+
+/// How the answer was checked against itself, and how it can be checked anew.
+fn checks(result: &AnalysisResult) -> String {
+    let mut all = Vec::new();
+    let [lowest, highest] = result.limit_window_load_factor.unwrap_or([None, None]);
+    for end in &result.ends {
+        let limit = if end.which == WhichEnd::Lowest { lowest } else { highest };
+        if let (Some(path), Some(limit)) = (&end.instability, limit) {
+            let apart =
+                (path.load_factor - limit).abs() / limit.abs().max(path.load_factor.abs()).max(f64::MIN_POSITIVE);
+            all.push(format!(
+                "Of stone that does not crush, the load path ends at load factor {} and the window of limit analysis, found \
+                 independently, at {}: {apart:.0e} apart.",
+                Digits(path.load_factor),
+                Digits(limit)
+            ));
+        }
+        all.push(format!("Equilibrium holds to {:.0e} at the {}.", end.residual, prose::name_of_end(end)));
+    }
+    if result.proof.is_some() {
+        all.push(
+            "The limit window is proved by forces in equilibrium and by motions that no joint hinders: both are in the \
+             answer as JSON, under proof, to be checked with structure alone."
+                .to_owned(),
+        );
+    }
+    all.push(prose::in_its_words(&result.request, summary::explanation(result)));
+    list(all.into_iter())
+}
+
+fn request(request: &AnalysisRequest) -> Result<String, NotFinite> {
+    let text = pretty(&Request::Structure(Box::new(request.clone())))?;
+    Ok(format!(
+        "<p>With it Voussoir {VERSION} gives the same answer again.</p>\n<pre class=\"request\">{}</pre>\n",
+        lines(&text)
+    ))
+}
+
+fn drawn(figures: &[Figure]) -> String {
+    figures.iter().map(|figure| format!("<figure>\n{}</figure>\n", figure.svg)).collect()
+}
+
+/// Lines of text; the line breaks stay.
+fn lines(text: &str) -> String {
+    text.lines().map(|line| escaped(line) + "\n").collect()
+}
+
+fn list(items: impl Iterator<Item = String>) -> String {
+    let items: String = items.map(|item| format!("<li>{}</li>\n", escaped(&item))).collect();
+    if items.is_empty() { items } else { format!("<ul>\n{items}</ul>\n") }
+}
+
+fn table(table: &Table) -> String {
+    let row = |row: &Row, cell: &str| {
+        let cells =
+            row.cell_iter().map(|of| format!("<{cell}>{}</{cell}>", lines(&of.content()).trim().replace('\n', "<br>")));
+        format!("<tr>{}</tr>\n", cells.collect::<String>())
+    };
+    let head = table.header().map_or(String::new(), |header| row(header, "th"));
+    let rows: String = table.row_iter().map(|of| row(of, "td")).collect();
+    format!("<table>\n{head}{rows}</table>\n")
+}
