@@ -1,0 +1,46 @@
+// The structure of a draft as one types: its stones, ground and fill, and loads that can be dragged.
+
+import {arrows, levels, places} from './arrows.js';
+import {outline} from './outline.js';
+import {el} from './dom.js';
+import {idOf} from './fields.js';
+import {View, middleOf} from './view.js';
+
+export class Sketch {
+  constructor(draft) {
+    this.draft = draft;
+    this.view = new View('Drawing of the structure. Loads with a handle move with the pointer or the arrow keys.', view => this.paint(view));
+    this.empty = el('p', {class: 'empty soft', hidden: true}, 'Nothing to draw yet: some size of the structure is missing or cannot be.');
+    this.view.node.append(this.empty);
+    this.refresh();
+  }
+
+  /** After every change of the draft. */
+  refresh() {
+    this.drawn = outline(this.draft.request);
+    this.empty.hidden = this.drawn !== null;
+    const points = this.drawn ? [...this.drawn.stones.flat(), ...this.drawn.ground.flat()] : [];
+    if (!this.dragging) this.view.show(points, 0.12);
+    this.view.redraw();
+  }
+
+  paint(view) {
+    if (!this.drawn) return view.marks.replaceChildren();
+    const {stones, ground} = this.drawn, {request} = this.draft;
+    view.lines(levels(request, [view.box[0], view.box[2]]), {stroke: view.colours.soft, dash: [6, 4], width: 1});
+    view.polygons(stones, {fill: view.colours.stone, stroke: view.colours.edge});
+    view.ground(ground, middleOf(stones));
+    const focused = document.activeElement?.id;
+    view.mark(arrows(view, places(request, stones), (place, point) => this.move(place, point)));
+    if (focused?.startsWith('load-')) document.getElementById(focused)?.focus();
+  }
+
+  move({pointer, both}, point) {
+    // The view keeps its scale while a load moves.
+    this.dragging = true;
+    this.draft.set(pointer, both ? point : point[0]);
+    this.dragging = false;
+    const field = document.getElementById(idOf(pointer));
+    if (field) field.value = both ? point.join(' ') : point[0];
+  }
+}

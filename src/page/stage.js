@@ -1,0 +1,164 @@
+// The drawing of an answer: stones on their way along the load path and through the collapse, stresses in colour, values under the
+// pointer.
+
+import {QUANTITIES, legend, scaleOf, valuesOf} from './colour.js';
+import {LEGEND, happenings, marks, thrustSegments} from './thrust.js';
+import {View, inside, middleOf} from './view.js';
+import {arrows, places} from './arrows.js';
+import {el, put, say} from './dom.js';
+import {figures, mega} from './number.js';
+import {framesOf, moved} from './frames.js';
+import {player} from './player.js';
+
+export class Stage {
+  constructor(answer) {
+    this.answer = answer;
+    this.bodies = answer.structure?.bodies ?? [];
+    this.after = afterJoints(answer.structure);
+    this.fields = fieldsOf(answer);
+    this.loads = places(located(answer), this.bodies.map(body => body.corners_m));
+    this.view = new View('Drawing of the answer', () => this.paint());
+    this.view.show(this.bodies.length > 0 ? this.bodies.flatMap(body => body.corners_m) : this.fields[0].polygons.flat(), 0.08);
+    this.readout = el('p', {class: 'readout'}, HINT);
+    this.key = el('div', {class: 'key'});
+    this.note = el('p', {class: 'soft note'});
+    this.slider = player(index => this.stopAt(index));
+    this.chosen = {field: this.fields.length > 0 && answer.stress_fields?.length > 0 ? 0 : -1, quantity: 'tresca', thrust: true, end: 0};
+    this.node = el('div', {class: 'stage'}, this.view.node, this.readout, this.slider.node, this.note, this.controls(), this.key);
+    this.view.node.addEventListener('pointermove', event => this.point(event));
+    this.view.node.addEventListener('pointerleave', () => { this.readout.textContent = HINT; });
+    this.useEnd(0);
+  }
+
+  useEnd(which) {
+    this.chosen.end = which;
+    this.end = this.answer.ends?.[which] ?? this.settled();
+    this.happens = this.end ? happenings(this.end) : [];
+    this.thrust = this.answer.structure ? thrustSegments(this.answer.structure, this.end?.thrust_line) : [];
+    const {stops, note, fallsFrom} = framesOf(this.answer, which, this.view.size);
+    this.stops = stops;
+    this.fallsFrom = fallsFrom ?? 0;
+    this.note.textContent = note;
+    this.slider.use(stops.map(stop => stop.text), fallsFrom === undefined ? stops.length - 1 : Math.min(stops.length - 1, fallsFrom + 20));
+  }
+
+  settled() {
+    const {settlement} = this.answer;
+    return settlement && {...settlement.updated_geometry ?? settlement.first_order};
+  }
+
+  stopAt(index) {
+    this.moves = this.stops[index].moves;
+    // What the joints carry is known at the collapse, not on the way there.
+    this.atEnd = index >= this.fallsFrom;
+    this.view.redraw();
+  }
+
+  paint() {
+    const {view} = this, {colours} = view;
+    const move = (point, k) => this.bodies[k] ? moved(point, this.moves[k], this.bodies[k].centroid_m) : point;
+    this.placed = this.bodies.map((body, k) => body.corners_m.map(corner => move(corner, k)));
+    if (this.moves.length > 0) view.polygons(this.bodies.map(body => body.corners_m), {stroke: colours.soft, width: 0.7, alpha: 0.5});
+    this.paintStones(move);
+    if (this.answer.structure) view.ground(grounds(this.answer.structure), middleOf(this.placed));
+    const showEnd = this.chosen.thrust && this.atEnd;
+    if (showEnd) {
+      view.lines(this.thrust.map(([a, b, k]) => [move(a, k), move(b, k)]), {stroke: colours.accent, width: 2});
+    }
+    const pixels = (at, joint) => view.at(move(at, this.after[joint]));
+    view.mark(arrows(view, this.loads), showEnd && marks(this.happens, pixels));
+    const kinds = [...new Set(this.happens.map(({kind}) => kind))].map(kind => LEGEND[kind]);
+    put(this.key, this.scale && legend(this.scale),
+      el('p', {class: 'soft'}, showEnd && this.end ? ['— line of thrust', ...kinds].join('   ') : ' '));
+  }
+
+  paintStones(move) {
+    const {view} = this, field = this.fields[this.chosen.field];
+    this.scale = null;
+    if (!field) return view.polygons(this.placed, {fill: view.colours.stone, stroke: view.colours.edge});
+    const dark = matchMedia('(prefers-color-scheme: dark)').matches;
+    this.values = valuesOf(field.columns, this.chosen.quantity);
+    this.scale = scaleOf(this.values, dark);
+    const steps = Array.from({length: this.scale.count}, () => []);
+    this.cells = field.polygons.map((corners, i) => corners.map(corner => move(corner, field.body[i])));
+    this.cells.forEach((corners, i) => steps[this.scale.step(this.values[i])].push(corners));
+    // One path for each colour, whatever the number of subblocks; its own outline closes the seams.
+    steps.forEach((polygons, k) => view.polygons(polygons, {fill: this.scale.colour(k), stroke: this.scale.colour(k), width: 0.6}));
+    view.polygons(this.placed, {stroke: view.colours.edge, width: 0.9});
+  }
+
+  /** What is under the pointer, in words. */
+  point(event) {
+    const at = this.view.under(event);
+    const cell = this.fields[this.chosen.field] ? this.cells.findIndex(corners => inside(at, corners)) : -1;
+    const body = this.placed.findIndex(corners => inside(at, corners));
+    if (cell >= 0 || body >= 0) this.readout.textContent = this.words(body, cell);
+    else this.readout.textContent = `x = ${figures(at[0])} m, y = ${figures(at[1])} m`;
+  }
+
+  words(body, cell) {
+    const {answer} = this, state = answer.near_collapse;
+    const stress = cell >= 0 ? `${QUANTITIES[this.chosen.quantity].words.toLowerCase()} ${mega(this.values[cell])} MPa` : '';
+    if (body < 0) return stress;
+    const {name} = this.bodies[body], here = this.happens.filter(({joint}) => answer.structure.joints[joint].between.includes(name));
+    const displaced = state?.blocks && `near collapse displaced by (${figures(1e3 * state.blocks.displacement_x_m[body], 3)}, `
+      + `${figures(1e3 * state.blocks.displacement_y_m[body], 3)}) mm`;
+    return [name, stress, displaced, ...here.map(({joint, text}) => `joint ${joint} ${text}`)].filter(Boolean).join('; ');
+  }
+
+  controls() {
+    const {chosen} = this;
+    const select = (label, options, now, use) => el('label', {class: 'field'}, label, el('select', {onchange: event => use(event.target.value)},
+      options.map(([value, words]) => el('option', {value, selected: String(value) === String(now)}, words))));
+    const draw = (key, number) => value => {
+      chosen[key] = number ? Number(value) : value;
+      this.view.redraw();
+    };
+    const thrust = el('input', {type: 'checkbox', checked: true, onchange: () => draw('thrust')(thrust.checked)});
+    const ends = this.answer.ends ?? [];
+    return el('div', {class: 'controls'},
+      ends.length > 1 && select('End of the window', ends.map((end, i) => [i, `${figures(end.intensity)} ${end.unit} (${end.which})`]), 0, which => this.useEnd(Number(which))),
+      this.fields.length > 0 && select('Colour', [[-1, 'none'], ...this.fields.map((field, i) => [i, field.words])], chosen.field, draw('field', true)),
+      this.fields.length > 0 && select('Quantity', Object.entries(QUANTITIES).map(([key, {words}]) => [key, words]), chosen.quantity, draw('quantity')),
+      this.bodies.length > 0 && select('Values of', [[-1, 'the stone under the pointer'], ...this.bodies.map((body, k) => [k, body.name])], -1, which => this.tell(Number(which))),
+      (ends.length > 0 || this.settled()) && el('label', {class: 'check'}, thrust, ' Line of thrust and moving joints, at the collapse'));
+  }
+
+  tell(body) {
+    const field = this.fields[this.chosen.field];
+    const words = body < 0 ? HINT : this.words(body, field ? field.body.indexOf(body) : -1);
+    this.readout.textContent = words;
+    say(words);
+  }
+}
+
+const HINT = 'Point at a stone for its values, or choose one below.';
+
+/** The body that moves with a joint: the one after it or, where that is ground, before it. */
+function afterJoints(structure) {
+  const place = new Map((structure?.bodies ?? []).map((body, k) => [body.name, k]));
+  return (structure?.joints ?? []).map(({between: [before, after]}) => place.get(after) ?? place.get(before));
+}
+
+/** The request, with its vehicles where they were found to stand worst. */
+function located({request, worst_position: worst}) {
+  const at = entry => entry.load.vehicle && entry.load.vehicle.x_m === undefined
+    ? {...entry, load: {vehicle: {...entry.load.vehicle, x_m: worst.x_m, reversed: worst.reversed}}} : entry;
+  return worst ? {...request, loads: request.loads.map(at)} : request;
+}
+
+function grounds({joints, supports}) {
+  return joints.filter(({between}) => between.some(name => supports.includes(name))).map(({ends_m: ends}) => ends);
+}
+
+/** What there is to colour: {words, columns, polygons, body}. */
+function fieldsOf(answer) {
+  const polygonsOf = ({corners_x_m: x, corners_y_m: y}) => x.map((xs, k) => xs.map((_, i) => [xs[i], y[k][i]]));
+  const fields = (answer.stress_fields ?? []).map(({load_factor: at, subblocks}) =>
+    ({words: `subblocks at load factor ${figures(at)}`, columns: subblocks, polygons: polygonsOf(subblocks), body: subblocks.voussoir}));
+  if (answer.subblocks) return [{words: 'subblocks', columns: answer.subblocks, polygons: polygonsOf(answer.subblocks), body: answer.subblocks.voussoir}];
+  const states = [['near_collapse', 'near collapse'], ['at_unit_load', 'at load factor 1'], ['at_start', 'at the start']];
+  const bodies = answer.structure?.bodies ?? [];
+  return [...fields, ...states.filter(([key]) => answer[key]?.blocks).map(([key, words]) => ({
+    words: `mean of each stone, ${words}`, columns: answer[key].blocks, polygons: bodies.map(body => body.corners_m), body: bodies.map((_, k) => k)}))];
+}
