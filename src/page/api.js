@@ -53,7 +53,7 @@ function isAway() {
 
 /** The answer to a request. Throws `Refused` or `Unreachable`; asks for a token where one is needed. */
 export async function call(method, path, {body, headers = {}, signal} = {}) {
-  const head = {...headers};
+  const head = {...headers}, sent = token;
   if (body !== undefined) head['content-type'] = 'application/json';
   if (token) head.authorization = `Bearer ${token}`;
   const answer = await fetch(path, {method, headers: head, body, signal}).catch(error => {
@@ -64,7 +64,8 @@ export async function call(method, path, {body, headers = {}, signal} = {}) {
   if (answer.ok) return answer;
   const problem = await answer.json().catch(() => ({title: `The service answered with status ${answer.status}.`}));
   if (answer.status === 401) {
-    await askToken(token ? 'The service does not know this token.' : '');
+    // Somebody may have given another one while this was on its way.
+    if (token === sent) await askToken(token ? 'The service does not know this token.' : '');
     return call(method, path, {body, headers, signal});
   }
   throw new Refused(problem, answer.status, answer.headers.get('retry-after'));

@@ -15,7 +15,7 @@ import {written} from './pointer.js';
 
 /** The whole view of a request; `go(path)` leads on to its job. */
 export function formView(request, go) {
-  const form = el('form', {class: 'request', novalidate: true, 'aria-label': 'Request'});
+  const form = el('form', {id: 'request', novalidate: true, 'aria-label': 'Request'});
   const rest = el('ul', {class: 'fault list', 'aria-label': 'Faults of the request as a whole'});
   const json = el('textarea', {id: 'json', class: 'json', spellcheck: 'false', 'aria-describedby': 'json-fault', 'aria-label': 'Request as JSON'});
   const state = el('p', {class: 'state', role: 'status'}, ' ');
@@ -30,10 +30,10 @@ export function formView(request, go) {
     if (document.activeElement !== json) json.value = written(draft.request);
     state.textContent = 'Checking …';
   };
-  const run = button('Analyse', () => send(draft, {form, state, run}, go), {class: 'main', id: 'analyse'});
+  const run = el('button', {type: 'submit', form: 'request', class: 'main', id: 'analyse'}, 'Analyse');
   form.addEventListener('submit', event => {
     event.preventDefault();
-    run.click();
+    send(draft, {form, state, run}, go);
   });
   readJson(json, draft);
   fill(form, draft);

@@ -31,6 +31,11 @@ function round(x) {
 
 const thinned = (list, most) => list.length <= most ? list : Array.from({length: most}, (_, i) => list[Math.round(i * (list.length - 1) / (most - 1))]);
 
+function inWords(times) {
+  if (times === 1) return 'true to size';
+  return times > 1 ? `${figures(times)} times as large` : `at ${figures(times)} of their size`;
+}
+
 /** {stops, note}: how end number `which` comes about, of a structure of this size, m. */
 export function framesOf(answer, which, size) {
   const built = {text: 'As built', moves: []};
@@ -57,8 +62,7 @@ function loadPath(answer, size) {
       + `; largest displacement ${figures(1e3 * history.largest_m[i], 3)} mm`,
     moves: scaled(between(known, history.largest_m[i], history.load_factor[i]), times),
   }));
-  const shown = times === 1 ? 'true to size' : `${figures(times)} times as large`;
-  const note = `On the load path displacements are drawn ${shown}; between the load factors at which the answer has them, in proportion to the largest.`;
+  const note = `On the load path displacements are drawn ${inWords(times)}; between the load factors at which the answer has them, in proportion to the largest.`;
   const crushes = ends.some(end => end.governed_by === 'crushing') && !request.crushing_in_path;
   return {stops, note: crushes ? `${note} The path is that of stone that does not crush.` : note, last: stops.at(-1).moves};
 }
@@ -105,7 +109,7 @@ function settlement(path, size) {
     const part = (i + 1) / STOPS_IN_FALL;
     return {text: `${figures(100 * share * part, 3)} % of the movement`, moves: scaled(moves, times * part)};
   });
-  return {stops, note: `Displacements are drawn ${figures(times)} times as large. The answer has them at the end of the movement; before it they are drawn in proportion.`};
+  return {stops, note: `Displacements are drawn ${inWords(times)}. The answer has them at the end of the movement; before it they are drawn in proportion.`};
 }
 
 /** A point of a stone after its move. */

@@ -6,6 +6,7 @@ import {answerView} from './answer.js';
 import {el, put, say} from './dom.js';
 import {follow} from './stream.js';
 import {moment, statusWord} from './number.js';
+import {requestOf} from './memory.js';
 
 export function jobView(id, go) {
   const head = {
@@ -61,8 +62,8 @@ function update(view, job) {
 async function ended(view, job) {
   if (job.status === 'failed') put(view.body, problemOf(job));
   if (job.status === 'dismissed') put(view.body, el('p', {}, 'It was cancelled, and has no answer.'));
-  if (job.status === 'lost') put(view.body, el('p', {}, progressWords(job),
-    ' Where this browser sent it, Clone submits its request again.'));
+  if (job.status === 'lost') put(view.body, el('p', {}, requestOf(view.id) ? 'This browser sent it: Clone submits its request again.'
+    : 'Its request is not kept in this browser either.'));
   if (active(job)) put(view.body, el('p', {class: 'soft'}, 'The answer will be here when the job is done; this page follows it.'));
   if (job.status !== 'successful') return;
   try {

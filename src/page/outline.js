@@ -6,10 +6,8 @@ import {along, joints, stations, stonesBetween, surveyedJoints} from './ring.js'
 
 export function outline(request) {
   try {
-    if (request.arch) return archOutline(request.arch);
-    if (request.bridge) return bridgeOutline(request.bridge);
-    if (request.blocks) return blocksOutline(request.blocks);
-    return null;
+    const drawn = request.arch ? archOutline(request.arch) : request.bridge ? bridgeOutline(request.bridge) : blocksOutline(request.blocks);
+    return drawn?.stones.flat(2).every(Number.isFinite) && drawn.ground.flat(2).every(Number.isFinite) ? drawn : null;
   } catch {
     // Half a request may be anything; the service says what is wrong with it.
     return null;

@@ -23,7 +23,7 @@ export function questionFields(draft) {
     group('/load_factor', 'Load factor',
       text(draft, '/load_factor/unit', 'Unit of the answer', {usual: '–'}),
       number(draft, '/load_factor/intensity_per_unit', 'At load factor 1 that is', '', {usual: '1'}),
-      choice(draft, '/load_factor/direction', 'It', [[undefined, 'grows'], ['decrease', 'falls below 0']])),
+      choice(draft, '/load_factor/direction', 'Direction', [[undefined, 'it grows'], ['decrease', 'it falls below 0']])),
   ];
 }
 

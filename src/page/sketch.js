@@ -10,17 +10,17 @@ export class Sketch {
   constructor(draft) {
     this.draft = draft;
     this.view = new View('Drawing of the structure. Loads with a handle move with the pointer or the arrow keys.', view => this.paint(view));
-    this.empty = el('p', {class: 'empty soft', hidden: true}, 'Nothing to draw yet: some size of the structure is missing or cannot be.');
-    this.view.node.append(this.empty);
+    this.old = el('p', {class: 'old soft', hidden: true}, 'Some size is missing or cannot be: this is how it was before.');
+    this.view.node.append(this.old);
     this.refresh();
   }
 
   /** After every change of the draft. */
   refresh() {
-    this.drawn = outline(this.draft.request);
-    this.empty.hidden = this.drawn !== null;
-    const points = this.drawn ? [...this.drawn.stones.flat(), ...this.drawn.ground.flat()] : [];
-    if (!this.dragging) this.view.show(points, 0.12);
+    const drawn = outline(this.draft.request);
+    this.old.hidden = drawn !== null;
+    this.drawn = drawn ?? this.drawn;
+    if (drawn && !this.dragging) this.view.show([...drawn.stones.flat(), ...drawn.ground.flat()], 0.12);
     this.view.redraw();
   }
 
@@ -28,7 +28,7 @@ export class Sketch {
     if (!this.drawn) return view.marks.replaceChildren();
     const {stones, ground} = this.drawn, {request} = this.draft;
     view.lines(levels(request, [view.box[0], view.box[2]]), {stroke: view.colours.soft, dash: [6, 4], width: 1});
-    view.polygons(stones, {fill: view.colours.stone, stroke: view.colours.edge});
+    view.polygons(stones, {fill: view.colours.stone, stroke: view.colours.edge, alpha: this.old.hidden ? 1 : 0.4});
     view.ground(ground, middleOf(stones));
     const focused = document.activeElement?.id;
     view.mark(arrows(view, places(request, stones), (place, point) => this.move(place, point)));

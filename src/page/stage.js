@@ -4,7 +4,7 @@
 import {QUANTITIES, legend, scaleOf, valuesOf} from './colour.js';
 import {LEGEND, happenings, marks, thrustSegments} from './thrust.js';
 import {View, inside, middleOf} from './view.js';
-import {arrows, places} from './arrows.js';
+import {arrows, levels, places} from './arrows.js';
 import {el, put, say} from './dom.js';
 import {figures, mega} from './number.js';
 import {framesOf, moved} from './frames.js';
@@ -23,7 +23,7 @@ export class Stage {
     this.key = el('div', {class: 'key'});
     this.note = el('p', {class: 'soft note'});
     this.slider = player(index => this.stopAt(index));
-    this.chosen = {field: this.fields.length > 0 && answer.stress_fields?.length > 0 ? 0 : -1, quantity: 'tresca', thrust: true, end: 0};
+    this.chosen = {field: answer.subblocks || answer.stress_fields?.length > 0 ? 0 : -1, quantity: 'tresca', thrust: true, end: 0};
     this.node = el('div', {class: 'stage'}, this.view.node, this.readout, this.slider.node, this.note, this.controls(), this.key);
     this.view.node.addEventListener('pointermove', event => this.point(event));
     this.view.node.addEventListener('pointerleave', () => { this.readout.textContent = HINT; });
@@ -59,6 +59,7 @@ export class Stage {
     const move = (point, k) => this.bodies[k] ? moved(point, this.moves[k], this.bodies[k].centroid_m) : point;
     this.placed = this.bodies.map((body, k) => body.corners_m.map(corner => move(corner, k)));
     if (this.moves.length > 0) view.polygons(this.bodies.map(body => body.corners_m), {stroke: colours.soft, width: 0.7, alpha: 0.5});
+    view.lines(levels(this.answer.request, [view.box[0], view.box[2]]), {stroke: colours.soft, dash: [6, 4], width: 1});
     this.paintStones(move);
     if (this.answer.structure) view.ground(grounds(this.answer.structure), middleOf(this.placed));
     const showEnd = this.chosen.thrust && this.atEnd;

@@ -106,7 +106,7 @@ export async function anArchFromSurveyedPoints(tools) {
     window.dispatchEvent(new DragEvent('drop', {dataTransfer: data, bubbles: true, cancelable: true}));
   }, [name, body]);
   await drop('inner.csv', ['side;x_m;y_m', ...rows('intrados', 1).map(row => row.replaceAll(',', ';').replaceAll('.', ','))].join('\r\n'));
-  await text(page, '#f-arch-profile-surveyed-fault, [data-at="/arch/profile/surveyed"] > .fault, [data-at="/arch/profile"] > .fault', 'thickness_m');
+  await text(page, '[data-at="/arch/profile#"] .fault', 'thickness_m');
   await page.fill('#f-arch-profile-surveyed-thickness_m', '0.4');
   await judged(page);
   assert.equal((await draft(page)).arch.profile.surveyed.extrados_m, undefined);

@@ -143,5 +143,5 @@ export const SMALL = {
 
 /** One that takes long, and says how far it has come: many positions of a vehicle. */
 export function long(request) {
-  return {...request, name: 'Long', analysis: {worst_position: {step_m: 0.01, from_m: -3, to_m: 3}}};
+  return {...request, name: 'Long', arch: {...request.arch, voussoirs: 400}, analysis: {worst_position: {step_m: 0.0035, from_m: -3, to_m: 3}}};
 }
