@@ -18,7 +18,7 @@ export function formView(request, go) {
   const form = el('form', {id: 'request', novalidate: true, 'aria-label': 'Request'});
   const rest = el('ul', {class: 'fault list', 'aria-label': 'Faults of the request as a whole'});
   const json = el('textarea', {id: 'json', class: 'json', spellcheck: 'false', 'aria-describedby': 'json-fault', 'aria-label': 'Request as JSON'});
-  const state = el('p', {class: 'state', role: 'status'}, ' ');
+  const state = el('p', {class: 'state', role: 'status'}, 'Checking …');
   const draft = new Draft(request, {
     changed: () => changed(),
     reshaped: () => fill(form, draft),
@@ -28,7 +28,7 @@ export function formView(request, go) {
   const changed = () => {
     sketch.refresh();
     if (document.activeElement !== json) json.value = written(draft.request);
-    state.textContent = 'Checking …';
+    state.setAttribute('aria-busy', 'true');
   };
   const run = el('button', {type: 'submit', form: 'request', class: 'main', id: 'analyse'}, 'Analyse');
   form.addEventListener('submit', event => {
@@ -47,7 +47,12 @@ export function formView(request, go) {
         el('p', {class: 'row'}, button('Save the request', () => save('request.json', new Blob([written(draft.request)]))))),
     ),
     form);
-  return {node, stop: () => draft.stop()};
+  const again = () => draft.touch();
+  document.addEventListener('voussoir:back', again);
+  return {node, stop: () => {
+    document.removeEventListener('voussoir:back', again);
+    draft.stop();
+  }};
 }
 
 /** Fills the form anew; whoever was in a field stays there. */
@@ -77,6 +82,7 @@ function kinds(draft) {
 }
 
 function judged({form, rest, state}, faults, error) {
+  state.removeAttribute('aria-busy');
   if (faults === null) {
     state.textContent = `Not checked: ${error.message}`;
     return;

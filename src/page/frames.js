@@ -112,9 +112,12 @@ function settlement(path, size) {
   return {stops, note: `Displacements are drawn ${inWords(times)}. The answer has them at the end of the movement; before it they are drawn in proportion.`};
 }
 
-/** A point of a stone after its move. */
-export function moved([x, y], move, [cx, cy]) {
-  if (!move) return [x, y];
-  const [sin, cos] = [Math.sin(move[2]), Math.cos(move[2])];
-  return [cx + move[0] + cos * (x - cx) - sin * (y - cy), cy + move[1] + sin * (x - cx) + cos * (y - cy)];
+/** A move about a centroid as what `moved` takes; computed once for all corners of a stone. */
+export function wayOf(move, [cx, cy]) {
+  if (!move) return [1, 0, 0, 0];
+  const [cos, sin] = [Math.cos(move[2]), Math.sin(move[2])];
+  return [cos, sin, cx + move[0] - cos * cx + sin * cy, cy + move[1] - sin * cx - cos * cy];
 }
+
+/** A point of a stone after its move. */
+export const moved = ([x, y], [cos, sin, right, up]) => [right + cos * x - sin * y, up + sin * x + cos * y];

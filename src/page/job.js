@@ -1,11 +1,13 @@
 // One job: how it goes and, when it is done, its answer.
 
 import {Refused, Unreachable, get} from './api.js';
+import {Sketch} from './sketch.js';
 import {active, actions, badge, problemOf, progressBar, progressWords, showProgress} from './status.js';
 import {answerView} from './answer.js';
 import {el, put, say} from './dom.js';
 import {follow} from './stream.js';
 import {moment, statusWord} from './number.js';
+import {outline} from './outline.js';
 import {requestOf} from './memory.js';
 
 export function jobView(id, go) {
@@ -59,12 +61,20 @@ function update(view, job) {
   ended(view, job);
 }
 
+/** What is analysed, until there is an answer. */
+async function waits(view) {
+  if (view.body.childElementCount > 0) return;
+  put(view.body, el('p', {class: 'soft'}, 'The answer will be here when the job is done; this page follows it.'));
+  const request = await get(`/v1/jobs/${view.id}/request`).catch(() => null);
+  if (request && active(view.job) && outline(request)) view.body.append(el('div', {class: 'waits'}, new Sketch({request}).view.node));
+}
+
 async function ended(view, job) {
   if (job.status === 'failed') put(view.body, problemOf(job));
   if (job.status === 'dismissed') put(view.body, el('p', {}, 'It was cancelled, and has no answer.'));
   if (job.status === 'lost') put(view.body, el('p', {}, requestOf(view.id) ? 'This browser sent it: Clone submits its request again.'
     : 'Its request is not kept in this browser either.'));
-  if (active(job)) put(view.body, el('p', {class: 'soft'}, 'The answer will be here when the job is done; this page follows it.'));
+  if (active(job)) await waits(view);
   if (job.status !== 'successful') return;
   try {
     const node = await answerView(view.id);

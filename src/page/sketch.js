@@ -1,4 +1,4 @@
-// The structure of a draft as one types: its stones, ground and fill, and loads that can be dragged.
+// The structure of a request: its stones, ground and fill, and its loads, which can be dragged where the request is a draft.
 
 import {arrows, levels, places} from './arrows.js';
 import {outline} from './outline.js';
@@ -7,9 +7,12 @@ import {idOf} from './fields.js';
 import {View, middleOf} from './view.js';
 
 export class Sketch {
+  /** Of a draft, or of anything with a `request` that stays as it is. */
   constructor(draft) {
     this.draft = draft;
-    this.view = new View('Drawing of the structure. Loads with a handle move with the pointer or the arrow keys.', view => this.paint(view));
+    this.movable = draft.set && ((place, point) => this.move(place, point));
+    const words = this.movable ? ' Loads with a handle move with the pointer or the arrow keys.' : '';
+    this.view = new View(`Drawing of the structure.${words}`, view => this.paint(view));
     this.old = el('p', {class: 'old soft', hidden: true}, 'Some size is missing or cannot be: this is how it was before.');
     this.view.node.append(this.old);
     this.refresh();
@@ -31,7 +34,7 @@ export class Sketch {
     view.polygons(stones, {fill: view.colours.stone, stroke: view.colours.edge, alpha: this.old.hidden ? 1 : 0.4});
     view.ground(ground, middleOf(stones));
     const focused = document.activeElement?.id;
-    view.mark(arrows(view, places(request, stones), (place, point) => this.move(place, point)));
+    view.mark(arrows(view, places(request, stones), this.movable));
     if (focused?.startsWith('load-')) document.getElementById(focused)?.focus();
   }
 

@@ -7,7 +7,7 @@ import {View, inside, middleOf} from './view.js';
 import {arrows, levels, places} from './arrows.js';
 import {el, put, say} from './dom.js';
 import {figures, mega} from './number.js';
-import {framesOf, moved} from './frames.js';
+import {framesOf, moved, wayOf} from './frames.js';
 import {player} from './player.js';
 
 export class Stage {
@@ -56,7 +56,8 @@ export class Stage {
 
   paint() {
     const {view} = this, {colours} = view;
-    const move = (point, k) => this.bodies[k] ? moved(point, this.moves[k], this.bodies[k].centroid_m) : point;
+    const ways = this.bodies.map((body, k) => wayOf(this.moves[k], body.centroid_m));
+    const move = (point, k) => ways[k] ? moved(point, ways[k]) : point;
     this.placed = this.bodies.map((body, k) => body.corners_m.map(corner => move(corner, k)));
     if (this.moves.length > 0) view.polygons(this.bodies.map(body => body.corners_m), {stroke: colours.soft, width: 0.7, alpha: 0.5});
     view.lines(levels(this.answer.request, [view.box[0], view.box[2]]), {stroke: colours.soft, dash: [6, 4], width: 1});

@@ -14,10 +14,11 @@ export const badge = ({status}) => el('span', {class: `badge ${status}`}, status
 export function progressWords({status, progress, queue_position: place, wall_time_s: time, problem}) {
   if (status === 'accepted') return place ? `place ${place} in the queue` : 'in the queue';
   if (status === 'running' && !progress) return `begun${time ? `, ${seconds(time)}` : ''}`;
-  if (status === 'running') {
-    const done = progress.percent === null || progress.percent === undefined ? '' : `${figures(progress.percent, 3)} %, `;
-    return `${done}load factor ${figures(progress.load_factor)}, ${progress.events} events, ${seconds(time)}`;
-  }
+  if (status === 'running') return [
+    typeof progress.percent === 'number' && `${figures(progress.percent, 3)} %`,
+    progress.events > 0 && `load factor ${figures(progress.load_factor)}, ${progress.events} events`,
+    seconds(time),
+  ].filter(Boolean).join(', ');
   if (status === 'failed') return problem?.detail ?? 'no answer';
   if (status === 'lost') return 'The service no longer has this job: it was started anew, or it forgot the job.';
   return status === 'successful' ? seconds(time) : '';

@@ -61,10 +61,15 @@ export class View {
 
   /** All polygons as one path. */
   polygons(polygons, {fill, stroke, width = 1, alpha = 1}) {
-    const {context} = this;
+    const {context, scale, origin: [left, top]} = this;
     context.beginPath();
     for (const corners of polygons) {
-      corners.forEach((corner, i) => context[i ? 'lineTo' : 'moveTo'](...this.at(corner)));
+      let begun = false;
+      for (const [x, y] of corners) {
+        if (begun) context.lineTo(left + scale * x, top - scale * y);
+        else context.moveTo(left + scale * x, top - scale * y);
+        begun = true;
+      }
       context.closePath();
     }
     context.globalAlpha = alpha;

@@ -11,7 +11,7 @@ export async function cancelCloneAndEdit(tools) {
   const running = await service.submit(long(tools.request('worst-position')), 0);
   const waiting = await service.submit({...SMALL, name: 'Waiting'}, 0);
   const page = await tools.page('/', {service});
-  await text(page, `[data-id="${running.job_id}"] .words`, 'load factor');
+  await text(page, `[data-id="${running.job_id}"] .words`, '%');
   await text(page, `[data-id="${waiting.job_id}"] .words`, 'in the queue');
   await row(page, running.job_id).getByRole('button', {name: 'Cancel Long'}).click();
   await text(page, `[data-id="${running.job_id}"] .badge`, 'cancelled');
@@ -53,7 +53,7 @@ export async function theServiceIsKilledAndComesBack(tools) {
   const id = page.url().split('/').at(-1);
   const other = await service.submit(long(tools.request('worst-position')), 0);
   await page.click('.top nav a[href="#/"]');
-  await text(page, `[data-id="${other.job_id}"] .words`, 'load factor');
+  await text(page, `[data-id="${other.job_id}"] .words`, '%');
   await service.kill();
   await page.waitForSelector('#away:not([hidden])');
   await service.begin();

@@ -105,10 +105,11 @@ const shifts = page => page.evaluate(() => new Promise(resolve => {
 export async function twentyThousandSubblocks(tools) {
   const {job_id: id} = await tools.service.submit(tools.request('first-arch'));
   const answer = await tools.service.results(id);
-  answer.stress_fields = [fine(answer.structure, 27, 28)];
   const page = await tools.page('/');
+  await page.evaluate(`globalThis.fine = ${fine}`);
   const [count, took, moved] = await page.evaluate(async answer => {
     const {Stage} = await import('/page/stage.js');
+    answer.stress_fields = [globalThis.fine(answer.structure, 27, 28)];
     const drawn = stage => {
       stage.view.draw();
       // What is read back has been drawn.

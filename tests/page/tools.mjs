@@ -69,7 +69,7 @@ export class Tools {
   static async start(program, root) {
     const tools = new Tools();
     Object.assign(tools, {program, root, troubles: [], contexts: [], services: []});
-    tools.browser = await chromium.launch({executablePath: CHROMIUM, args: ['--no-sandbox']});
+    tools.browser = await chromium.launch({executablePath: CHROMIUM, args: ['--no-sandbox', '--disable-dev-shm-usage']});
     tools.service = await Service.start(program, ['--queue', '4000']);
     return tools;
   }
@@ -130,7 +130,7 @@ export const text = (page, selector, words) => page.waitForFunction(
   ([selector, words]) => document.querySelector(selector)?.textContent.includes(words), [selector, words]);
 
 /** Waits until the service has judged the draft so. */
-export const judged = (page, words = 'understands') => text(page, '.state', words);
+export const judged = (page, words = 'understands') => text(page, '.state:not([aria-busy])', words);
 
 /** What the form would send. */
 export const draft = async page => JSON.parse(await page.inputValue('#json'));
