@@ -30,7 +30,7 @@ export function valuesOf(columns, quantity) {
 export function scaleOf(values, dark) {
   const [low, high] = values.reduce(([a, b], v) => [Math.min(a, v), Math.max(b, v)], [Infinity, -Infinity]);
   const bound = Math.max(Math.abs(low), Math.abs(high)) || 1;
-  const from = low < 0 ? (high > 0 ? -bound : -bound) : 0, to = high > 0 ? bound : 0;
+  const from = low < 0 ? -bound : 0, to = high > 0 ? bound : 0;
   const count = low < 0 && high > 0 ? 2 * STEPS : STEPS;
   const step = value => Math.min(count - 1, Math.max(0, Math.floor((value - from) / (to - from) * count)));
   const colour = k => {

@@ -2,7 +2,7 @@
 
 const SVG = 'http://www.w3.org/2000/svg';
 // Set as properties, since their attributes only say how they begin.
-const PROPERTIES = new Set(['value', 'checked', 'selected', 'disabled', 'open', 'indeterminate', 'textContent']);
+const PROPERTIES = new Set(['value', 'checked', 'selected', 'disabled']);
 
 /** el('p', {class: 'soft', onclick: f}, 'text', child); what is null, undefined or false is left out. */
 export function el(name, attributes = {}, ...children) {
@@ -37,6 +37,13 @@ export function put(node, ...children) {
 /** Tells those who listen to a screen reader. */
 export function say(text) {
   document.getElementById('said').textContent = text;
+}
+
+/** Tells everybody that something did not work, until the next view. */
+export function complain(text) {
+  const told = document.getElementById('told');
+  told.textContent = text;
+  told.hidden = text === '';
 }
 
 /** Hands bytes over as a file. */

@@ -14,21 +14,27 @@ const AGAIN = 5000;
 export function jobsView(go, take) {
   const list = el('ol', {class: 'jobs', 'aria-label': 'Jobs, newest first'});
   const count = el('p', {class: 'soft', role: 'status'}, 'Asking for the jobs …');
-  const more = el('p', {});
+  const more = button('Show older jobs', () => older(view), {hidden: true});
   const view = {list, count, more, go, rows: new Map(), next: null, older: [], stop: () => {}};
   const refresh = () => first(view);
+  // A service that was away may have lost any job.
+  const anew = () => {
+    view.older = [];
+    first(view);
+  };
   const timer = setInterval(() => { if (!document.hidden) refresh(); }, AGAIN);
-  document.addEventListener('voussoir:back', refresh);
+  document.addEventListener('voussoir:back', anew);
   document.addEventListener('voussoir:token', refresh);
   refresh();
   const stop = () => {
+    view.over = true;
     clearInterval(timer);
     view.stop();
-    document.removeEventListener('voussoir:back', refresh);
+    document.removeEventListener('voussoir:back', anew);
     document.removeEventListener('voussoir:token', refresh);
   };
   return {node: el('div', {}, beginnings(take), el('section', {'aria-labelledby': 'jobs-title'},
-    el('h2', {id: 'jobs-title'}, 'Jobs'), count, list, more)), stop};
+    el('h2', {id: 'jobs-title'}, 'Jobs'), count, list, el('p', {}, more))), stop};
 }
 
 function beginnings(take) {
@@ -76,6 +82,7 @@ async function missing(view, ids, oldest) {
 }
 
 function show(view, jobs, rest) {
+  if (view.over) return;
   const all = [...jobs, ...rest].sort((a, b) => b.created.localeCompare(a.created));
   const rows = new Map();
   for (const job of all) {
@@ -84,13 +91,22 @@ function show(view, jobs, rest) {
     rows.set(job.job_id, row);
   }
   view.rows = rows;
-  // Only what is new or has gone moves, so that whoever is in a row stays in it.
-  const nodes = [...rows.values()].map(row => row.node);
-  if (nodes.length !== view.list.childElementCount || nodes.some((node, i) => view.list.children[i] !== node)) put(view.list, nodes);
-  view.count.textContent = all.length === 0 ? 'No jobs yet. Begin with one of the structures above.'
-    : `${all.length}${view.next ? ' newest' : ''} ${all.length === 1 ? 'job' : 'jobs'}`;
-  put(view.more, view.next && button('Show older jobs', event => older(view, event.target)));
+  arrange(view.list, [...rows.values()].map(row => row.node));
+  view.count.textContent = rows.size === 0 ? 'No jobs yet. Begin with one of the structures above.'
+    : `${rows.size}${view.next ? ' newest' : ''} ${rows.size === 1 ? 'job' : 'jobs'}`;
+  view.more.hidden = view.next === null;
   followActive(view);
+}
+
+/** Only what is new or has gone moves, so that whoever is in a row stays in it. */
+function arrange(list, nodes) {
+  const wanted = new Set(nodes);
+  for (const node of [...list.children]) if (!wanted.has(node)) node.remove();
+  let place = list.firstElementChild;
+  for (const node of nodes) {
+    if (node === place) place = place.nextElementSibling;
+    else list.insertBefore(node, place);
+  }
 }
 
 function newRow(view, job) {
@@ -137,15 +153,16 @@ function followActive(view) {
   });
 }
 
-async function older(view, pressed) {
-  pressed.disabled = true;
+async function older(view) {
+  view.more.disabled = true;
   const answer = await get(view.next.replace(/limit=\d+/, 'limit=1000')).catch(error => ({error}));
-  pressed.disabled = false;
+  view.more.disabled = false;
   if (answer.error) return void (view.count.textContent = answer.error.message);
   view.next = answer.links.next ?? null;
   const listed = [...view.rows.values()].map(row => row.job);
-  view.older = [...view.older, ...answer.jobs];
-  const ids = new Set(answer.jobs.map(job => job.job_id));
-  show(view, listed.filter(job => !ids.has(job.job_id) && !view.older.includes(job)), view.older);
+  const known = new Set(listed.map(job => job.job_id));
+  const more = answer.jobs.filter(job => !known.has(job.job_id));
+  view.older = [...view.older, ...more];
+  show(view, listed, more);
   [...view.list.children][listed.length]?.querySelector('a').focus();
 }

@@ -8,10 +8,9 @@ import {requestOf} from './memory.js';
 import {requestFrom} from './survey.js';
 import {STARTERS} from './starters.js';
 import {tokenButton} from './token.js';
-import {el, put, say} from './dom.js';
+import {complain, el, put, say} from './dom.js';
 
 const main = document.getElementById('main');
-const told = document.getElementById('told');
 let shown = null, turn = 0, given = null;
 
 const go = path => {
@@ -42,7 +41,7 @@ async function show() {
   const mine = ++turn, first = shown === null;
   shown?.stop?.();
   shown = {};
-  told.hidden = true;
+  complain('');
   try {
     const view = await viewOf(location.hash);
     if (mine !== turn) return view.stop?.();
@@ -66,7 +65,7 @@ async function take(file) {
     given = await requestFrom(file);
     go('#/new/file');
   } catch (error) {
-    put(told, error.message).hidden = false;
+    complain(error.message);
   }
 }
 
@@ -97,6 +96,9 @@ function listenForTheService() {
 document.getElementById('skip').addEventListener('click', event => {
   event.preventDefault();
   main.focus();
+});
+matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
+  for (const view of document.querySelectorAll('.view')) view.dispatchEvent(new Event('recolour'));
 });
 addEventListener('hashchange', show);
 tokenButton(document.getElementById('token'));

@@ -3,10 +3,10 @@
 
 import {QUANTITIES, legend, scaleOf, valuesOf} from './colour.js';
 import {LEGEND, happenings, marks, thrustSegments} from './thrust.js';
-import {View, inside, middleOf} from './view.js';
+import {View, distance, inside, middleOf} from './view.js';
 import {arrows, levels, places} from './arrows.js';
 import {el, put, say} from './dom.js';
-import {figures, mega} from './number.js';
+import {figures, kilo, mega} from './number.js';
 import {framesOf, moved, wayOf} from './frames.js';
 import {player} from './player.js';
 
@@ -57,7 +57,7 @@ export class Stage {
   paint() {
     const {view} = this, {colours} = view;
     const ways = this.bodies.map((body, k) => wayOf(this.moves[k], body.centroid_m));
-    const move = (point, k) => ways[k] ? moved(point, ways[k]) : point;
+    const move = this.move = (point, k) => ways[k] ? moved(point, ways[k]) : point;
     this.placed = this.bodies.map((body, k) => body.corners_m.map(corner => move(corner, k)));
     if (this.moves.length > 0) view.polygons(this.bodies.map(body => body.corners_m), {stroke: colours.soft, width: 0.7, alpha: 0.5});
     view.lines(levels(this.answer.request, [view.box[0], view.box[2]]), {stroke: colours.soft, dash: [6, 4], width: 1});
@@ -91,11 +91,25 @@ export class Stage {
 
   /** What is under the pointer, in words. */
   point(event) {
-    const at = this.view.under(event);
+    const at = this.view.under(event), joint = this.jointWords(at);
     const cell = this.fields[this.chosen.field] ? this.cells.findIndex(corners => inside(at, corners)) : -1;
     const body = this.placed.findIndex(corners => inside(at, corners));
-    if (cell >= 0 || body >= 0) this.readout.textContent = this.words(body, cell);
+    if (joint) this.readout.textContent = joint;
+    else if (cell >= 0 || body >= 0) this.readout.textContent = this.words(body, cell);
     else this.readout.textContent = `x = ${figures(at[0])} m, y = ${figures(at[1])} m`;
+  }
+
+  /** What the joint under the pointer carries and does at the collapse. */
+  jointWords(at) {
+    const line = this.end?.thrust_line, near = NEAR / this.view.scale;
+    if (!line || !this.atEnd) return null;
+    const joint = this.answer.structure.joints.findIndex(({ends_m: ends}, k) =>
+      distance(at, ends.map(end => this.move(end, this.after[k]))) < near);
+    const i = line.joint.indexOf(joint);
+    if (i < 0) return null;
+    const here = this.happens.filter(one => one.joint === joint).map(({text}) => text);
+    return [`joint ${joint}: normal ${kilo(line.normal_n_per_m[i])} kN/m, shear ${kilo(line.shear_n_per_m[i])} kN/m, `
+      + `eccentricity ${figures(line.eccentricity_m[i])} m`, ...here].join('; ');
   }
 
   words(body, cell) {
@@ -134,7 +148,10 @@ export class Stage {
   }
 }
 
-const HINT = 'Point at a stone for its values, or choose one below.';
+/** So many pixels from a joint are at it. */
+const NEAR = 5;
+
+const HINT = 'Point at a stone or a joint for its values, or choose a stone below.';
 
 /** The body that moves with a joint: the one after it or, where that is ground, before it. */
 function afterJoints(structure) {

@@ -1,7 +1,7 @@
 // How a job stands, in words and as a bar; and what can be done with it.
 
 import {Refused, call, submit} from './api.js';
-import {button, el, put, say} from './dom.js';
+import {button, complain, el, say} from './dom.js';
 import {figures, seconds, statusWord} from './number.js';
 import {forget, remember, requestOf} from './memory.js';
 
@@ -44,7 +44,7 @@ export function actions(id, job, {go, after}) {
       await work();
     } catch (error) {
       // Whoever cancels a job that has just ended is told so by its new status.
-      if (!(error instanceof Refused && error.status === 409)) say(error.message);
+      if (!(error instanceof Refused && error.status === 409)) complain(error.message);
       after?.(error);
     } finally {
       event.target.disabled = false;
@@ -68,10 +68,10 @@ async function clone(id, go) {
   const body = requestOf(id) ?? await (await call('GET', `/v1/jobs/${id}/request`)).text();
   const job = await submit(body);
   remember(job, body);
-  say(`Submitted again as a new job.`);
+  say('Submitted again as a new job.');
   go(`#/jobs/${job.job_id}`);
 }
 
-export const problemOf = ({problem}) => problem && put(el('div', {class: 'problem fault', role: 'alert'}),
+export const problemOf = ({problem}) => el('div', {class: 'problem fault', role: 'alert'},
   el('h2', {}, problem.title), el('p', {}, problem.detail),
   problem.errors?.length > 0 && el('ul', {}, problem.errors.map(({pointer, detail}) => el('li', {}, el('code', {}, pointer), ' ', detail))));

@@ -1,4 +1,5 @@
-// Follows jobs as they go: one event stream for up to a hundred of them.
+// Follows jobs as they go: one event stream for up to a hundred of them, and none while nobody looks: a browser has few connections
+// for all its tabs.
 
 import {Refused, get, opened} from './api.js';
 
@@ -33,6 +34,7 @@ export function follow(ids, told) {
   // A stream that broke off says nothing of why: every job is looked up, then the rest is followed again.
   const again = async () => {
     source?.close();
+    if (document.hidden) return;
     for (const id of [...open]) {
       if (stopped) return;
       try {
@@ -42,6 +44,7 @@ export function follow(ids, told) {
       }
     }
     if (stopped || open.size === 0) return;
+    clearTimeout(timer);
     timer = setTimeout(connect, pause);
     pause = Math.min(2 * pause, LONGEST_PAUSE);
   };
@@ -49,6 +52,7 @@ export function follow(ids, told) {
     try {
       const url = await opened(`/v1/events?${[...open].map(id => `job=${id}`).join('&')}`);
       if (stopped) return;
+      source?.close();
       source = new EventSource(url);
       for (const name of ['status', 'step', 'end']) source.addEventListener(name, hear);
       source.addEventListener('error', again);
@@ -56,11 +60,17 @@ export function follow(ids, told) {
       again();
     }
   };
+  const looked = () => {
+    clearTimeout(timer);
+    again();
+  };
   const stop = () => {
     stopped = true;
     source?.close();
     clearTimeout(timer);
+    document.removeEventListener('visibilitychange', looked);
   };
+  document.addEventListener('visibilitychange', looked);
   if (open.size > 0) connect();
   return stop;
 }

@@ -14,7 +14,7 @@ export class View {
     this.paint = paint;
     this.box = [-1, -1, 1, 1];
     new ResizeObserver(() => this.redraw()).observe(this.node);
-    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.redraw());
+    this.node.addEventListener('recolour', () => this.redraw());
   }
 
   /** Shows all of these points. */
@@ -155,4 +155,11 @@ export function inside([x, y], corners) {
     if (ay > y !== by > y && x < (bx - ax) * (y - ay) / (by - ay) + ax) within = !within;
   });
   return within;
+}
+
+/** From a point to a line between two others. */
+export function distance([x, y], [[ax, ay], [bx, by]]) {
+  const [dx, dy] = [bx - ax, by - ay];
+  const share = Math.min(1, Math.max(0, ((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy || 1)));
+  return Math.hypot(x - ax - share * dx, y - ay - share * dy);
 }

@@ -49,19 +49,22 @@ export async function valuesOfAStone(tools) {
   await named.selectOption({label: 'voussoir 13'});
   const mega = Number((answer.stress_fields[0].subblocks.tresca_pa[13] / 1e6).toPrecision(4));
   assert.ok((await page.textContent('.stage .readout')).startsWith(`voussoir 13; equivalent stress (tresca) ${mega} MPa`));
-  await slide(page, 0);
-  const box = await page.locator('.stage .view').boundingBox();
-  await page.mouse.move(box.x + box.width / 2, box.y + box.height * 0.5);
-  await text(page, '.stage .readout', 'm');
-  const stone = await page.evaluate(() => {
+  const swept = words => page.evaluate(words => {
     const readout = document.querySelector('.stage .readout'), view = document.querySelector('.stage .view'), frame = view.getBoundingClientRect();
-    for (let y = 0; y < frame.height; y += 4) {
-      view.dispatchEvent(new PointerEvent('pointermove', {clientX: frame.left + frame.width / 2, clientY: frame.top + y}));
-      if (readout.textContent.startsWith('voussoir')) return readout.textContent;
+    for (let x = 0.3; x < 0.7; x += 0.02) {
+      for (let y = 0; y < frame.height; y += 3) {
+        view.dispatchEvent(new PointerEvent('pointermove', {clientX: frame.left + frame.width * x, clientY: frame.top + y}));
+        if (readout.textContent.startsWith(words)) return readout.textContent;
+      }
     }
     return null;
-  });
-  assert.match(stone, /^voussoir 13; equivalent/, 'the keystone is in the middle');
+  }, words);
+  const line = answer.ends[0].thrust_line, said = await swept('joint');
+  const [, joint, normal] = said.match(/^joint (\d+): normal ([\d.]+) kN/);
+  assert.equal(Number(normal), Number((line.normal_n_per_m[joint] / 1e3).toPrecision(4)));
+  await slide(page, 0);
+  assert.equal(await swept('joint'), null, 'forces are those of the collapse');
+  assert.match(await swept('voussoir 13'), /^voussoir 13; equivalent stress/);
   const before = await picture(page);
   await page.getByLabel('Quantity').selectOption({label: 'Smaller principal stress'});
   await page.waitForFunction(before => document.querySelector('.stones').toDataURL() !== before, before);

@@ -71,10 +71,9 @@ export async function theServiceIsKilledAndComesBack(tools) {
 /** A thousand jobs are listed in well under a second. */
 export async function aThousandJobs(tools) {
   const service = await tools.serve('--queue', '4000');
-  const blocker = await service.submit(long(tools.request('worst-position')), 0);
-  const body = {...SMALL};
+  await service.submit(long(tools.request('worst-position')), 0);
   for (let i = 0; i < 1000; i += 20) {
-    await Promise.all(Array.from({length: 20}, (_, k) => service.submit({...body, name: `Job ${i + k}`}, 0)));
+    await Promise.all(Array.from({length: 20}, (_, k) => service.submit({...SMALL, name: `Job ${i + k}`}, 0)));
   }
   const page = await tools.page('/', {service});
   await page.waitForFunction(() => document.querySelectorAll('.job').length === 100);
@@ -90,5 +89,4 @@ export async function aThousandJobs(tools) {
     return performance.now() - clock;
   });
   assert.ok(took < 1000, `${took} ms`);
-  await row(page, blocker.job_id).waitFor({state: 'detached'});
 }

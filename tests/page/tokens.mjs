@@ -1,8 +1,10 @@
 // A service with tokens: asked for once, for streams and downloads as well, and in no address.
 
 import assert from 'node:assert/strict';
-import {readFileSync} from 'node:fs';
-import {judged, long, text} from './tools.mjs';
+import {mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
+import {join} from 'node:path';
+import {tmpdir} from 'node:os';
+import {SMALL, judged, long, text} from './tools.mjs';
 
 const TOKEN = 'a-token-of-this-trial';
 
@@ -39,4 +41,23 @@ export async function aTokenIsAskedForOnce(tools) {
   await text(page, '.badge', 'cancelled');
   await page.getByRole('button', {name: 'Forget token'}).click();
   await page.waitForSelector('dialog[open]');
+}
+
+/** Who may only read is told so where the page would write. */
+export async function aTokenThatMayOnlyRead(tools) {
+  const folder = mkdtempSync(join(tmpdir(), 'voussoir-tokens-'));
+  writeFileSync(join(folder, 'tokens'), 'assessor submit,read writes\ndashboard read-all reads\n');
+  const service = await tools.serve('--token-file', join(folder, 'tokens'));
+  const answer = await service.call('POST', '/v1/jobs', SMALL, {authorization: 'Bearer writes', prefer: 'wait=20'});
+  const {job_id: id} = await answer.json();
+  const page = await tools.page(`/#/jobs/${id}`, {service});
+  await page.waitForSelector('dialog[open]');
+  await page.fill('#token-field', 'reads');
+  await page.keyboard.press('Enter');
+  await page.waitForSelector('.certificate.holds');
+  await page.getByRole('button', {name: /^Clone/}).click();
+  await text(page, '#told', 'role submit');
+  await page.getByRole('button', {name: 'Edit a copy'}).click();
+  await judged(page, 'role submit');
+  rmSync(folder, {recursive: true});
 }
