@@ -53,7 +53,8 @@ function isAway() {
 
 /** The answer to a request. Throws `Refused` or `Unreachable`; asks for a token where one is needed. */
 export async function call(method, path, {body, headers = {}, signal} = {}) {
-  const head = {...headers}, sent = token;
+  const head = {...headers},
+    sent = token;
   if (body !== undefined) head['content-type'] = 'application/json';
   if (token) head.authorization = `Bearer ${token}`;
   const answer = await fetch(path, {method, headers: head, body, signal}).catch(error => {

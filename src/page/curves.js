@@ -3,7 +3,7 @@
 import {plot} from './plot.js';
 
 const pairs = (xs, ys, by = 1) => (xs ?? []).map((x, i) => [x * by, ys?.[i]]);
-const inUnit = (words, unit) => unit && unit !== '-' ? `${words}, ${unit}` : words;
+const inUnit = (words, unit) => (unit && unit !== '-' ? `${words}, ${unit}` : words);
 
 export function curvesOf(answer) {
   if (answer.points) return [safety(answer)];
@@ -13,7 +13,9 @@ export function curvesOf(answer) {
 function path({history, unit}) {
   if (!(history?.load_factor.length > 1)) return null;
   return plot({
-    title: 'Load path', x: 'displacement, mm', y: inUnit('intensity', unit),
+    title: 'Load path',
+    x: 'displacement, mm',
+    y: inUnit('intensity', unit),
     curves: [
       {name: 'largest displacement', points: pairs(history.largest_m, history.intensity, 1e3)},
       {name: 'crown, upwards', points: pairs(history.crown_y_m, history.intensity, 1e3)},
@@ -23,10 +25,21 @@ function path({history, unit}) {
 }
 
 function safety({points, unit}) {
-  const kinds = {governing: 'governs', instability: 'instability', plastic_section: 'plastic section', elastic: 'first yield', updated_geometry: 'moving geometry'};
+  const kinds = {
+    governing: 'governs',
+    instability: 'instability',
+    plastic_section: 'plastic section',
+    elastic: 'first yield',
+    updated_geometry: 'moving geometry',
+  };
   return plot({
-    title: 'Safety factor', x: inUnit('abscissa', unit), y: 'safety factor',
-    curves: Object.entries(kinds).map(([key, name]) => ({name, points: points.map(point => [point.abscissa, point[key]?.load_factor])})),
+    title: 'Safety factor',
+    x: inUnit('abscissa', unit),
+    y: 'safety factor',
+    curves: Object.entries(kinds).map(([key, name]) => ({
+      name,
+      points: points.map(point => [point.abscissa, point[key]?.load_factor]),
+    })),
   });
 }
 
@@ -37,29 +50,45 @@ function positions({worst_position: worst, unit}) {
   if (!worst) return null;
   const {x_m: x, reversed, instability, crushing} = worst.curve;
   const most = TIMES_THE_LEAST * (worst.intensity ?? Infinity);
-  const way = (backwards, values) => pairs(x, values).filter(([, y], i) => reversed[i] === backwards && y !== null && y <= most);
+  const way = (backwards, values) =>
+    pairs(x, values).filter(([, y], i) => reversed[i] === backwards && y !== null && y <= most);
   return plot({
-    title: `Positions of the vehicles, up to ${TIMES_THE_LEAST} times the least`, x: 'x, m', y: inUnit('intensity', unit),
+    title: `Positions of the vehicles, up to ${TIMES_THE_LEAST} times the least`,
+    x: 'x, m',
+    y: inUnit('intensity', unit),
     curves: [
-      {name: 'instability', points: way(false, instability)}, {name: 'crushing', points: way(false, crushing)},
-      {name: 'instability, reversed', points: way(true, instability)}, {name: 'crushing, reversed', points: way(true, crushing)},
+      {name: 'instability', points: way(false, instability)},
+      {name: 'crushing', points: way(false, crushing)},
+      {name: 'instability, reversed', points: way(true, instability)},
+      {name: 'crushing, reversed', points: way(true, crushing)},
     ],
   });
 }
 
 function movements({settlement}) {
   if (!settlement) return [];
-  const kilo = values => values?.map(value => value === null ? null : value / 1e3);
-  return [['first_order', 'Forces as the supports move'], ['updated_geometry', 'The same on moving geometry']].map(([key, title]) => {
+  const kilo = values => values?.map(value => (value === null ? null : value / 1e3));
+  return [
+    ['first_order', 'Forces as the supports move'],
+    ['updated_geometry', 'The same on moving geometry'],
+  ].map(([key, title]) => {
     const history = settlement[key]?.history;
-    return history && plot({
-      title, x: 'share of the movement', y: 'kN/m',
-      curves: [
-        {name: 'thrust', points: pairs(history.share_of_movement, kilo(history.thrust_n_per_m))},
-        {name: 'left reaction', points: pairs(history.share_of_movement, kilo(history.left_reaction_n_per_m))},
-        {name: 'right reaction', points: pairs(history.share_of_movement, kilo(history.right_reaction_n_per_m))},
-        ...history.supports.map(support => ({name: `${support.support}, upwards`, points: pairs(history.share_of_movement, kilo(support.upwards_n_per_m))})),
-      ],
-    });
+    return (
+      history &&
+      plot({
+        title,
+        x: 'share of the movement',
+        y: 'kN/m',
+        curves: [
+          {name: 'thrust', points: pairs(history.share_of_movement, kilo(history.thrust_n_per_m))},
+          {name: 'left reaction', points: pairs(history.share_of_movement, kilo(history.left_reaction_n_per_m))},
+          {name: 'right reaction', points: pairs(history.share_of_movement, kilo(history.right_reaction_n_per_m))},
+          ...history.supports.map(support => ({
+            name: `${support.support}, upwards`,
+            points: pairs(history.share_of_movement, kilo(support.upwards_n_per_m)),
+          })),
+        ],
+      })
+    );
   });
 }

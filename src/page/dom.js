@@ -63,9 +63,29 @@ export function button(words, onclick, more = {}) {
 
 /** A table of rows of cells under headings; cells that begin with a number stand to the right. */
 export function table(headings, rows, caption) {
-  return el('table', {},
+  return el(
+    'table',
+    {},
     caption && el('caption', {class: 'unseen'}, caption),
-    el('thead', {}, el('tr', {}, headings.map(text => el('th', {scope: 'col'}, text)))),
-    el('tbody', {}, rows.map(row => el('tr', {}, row.map(cell =>
-      el('td', typeof cell === 'number' || /^[−\d]/.test(cell) ? {class: 'number'} : {}, cell))))));
+    el(
+      'thead',
+      {},
+      el(
+        'tr',
+        {},
+        headings.map(text => el('th', {scope: 'col'}, text)),
+      ),
+    ),
+    el(
+      'tbody',
+      {},
+      rows.map(row =>
+        el(
+          'tr',
+          {},
+          row.map(cell => el('td', typeof cell === 'number' || /^[−\d]/.test(cell) ? {class: 'number'} : {}, cell)),
+        ),
+      ),
+    ),
+  );
 }

@@ -44,7 +44,7 @@ export class Draft {
   async judge() {
     clearTimeout(this.timer);
     this.asking?.abort();
-    const asking = this.asking = new AbortController();
+    const asking = (this.asking = new AbortController());
     try {
       const faults = await faultsOf(JSON.stringify(this.request), asking.signal);
       if (asking.signal.aborted) return null;

@@ -14,22 +14,46 @@ export function exportsOf(id, answer) {
     ['Request', 'JSON', `/v1/jobs/${id}/request`, 'request.json'],
   ].filter(Boolean);
   const told = el('p', {class: 'fault', role: 'status'});
-  return el('section', {'aria-labelledby': 'exports-title'}, el('h3', {id: 'exports-title'}, 'Take it away'),
-    el('ul', {class: 'exports'}, files.map(([what, format, path, name]) => el('li', {},
-      button(`${what}, ${format}`, async () => {
-        try {
-          save(name, await (await call('GET', path)).blob());
-          told.textContent = '';
-        } catch (error) {
-          told.textContent = `${what} (${format}): ${error.message}`;
-        }
-      }, {class: 'small', 'data-file': name})))), told);
+  return el(
+    'section',
+    {'aria-labelledby': 'exports-title'},
+    el('h3', {id: 'exports-title'}, 'Take it away'),
+    el(
+      'ul',
+      {class: 'exports'},
+      files.map(([what, format, path, name]) =>
+        el(
+          'li',
+          {},
+          button(
+            `${what}, ${format}`,
+            async () => {
+              try {
+                save(name, await (await call('GET', path)).blob());
+                told.textContent = '';
+              } catch (error) {
+                told.textContent = `${what} (${format}): ${error.message}`;
+              }
+            },
+            {class: 'small', 'data-file': name},
+          ),
+        ),
+      ),
+    ),
+    told,
+  );
 }
 
 /** A stress field goes by the name that the request gave it. */
 function fieldFiles({request, stress_fields: fields}, i, base) {
   const asked = request.report?.stress_fields ?? [];
   // What the path did not reach is left out of the answer: then only load factors tell which is which.
-  const name = asked.length === fields.length && typeof asked[i] === 'string' ? asked[i] : String(fields[i].load_factor);
-  return ['csv', 'vtu'].map(format => [`Stress, ${name.replaceAll('_', ' ')}`, format === 'csv' ? 'CSV' : 'VTU (ParaView)', `${base}/${name}?f=${format}`, `stress-${name}.${format}`]);
+  const name =
+    asked.length === fields.length && typeof asked[i] === 'string' ? asked[i] : String(fields[i].load_factor);
+  return ['csv', 'vtu'].map(format => [
+    `Stress, ${name.replaceAll('_', ' ')}`,
+    format === 'csv' ? 'CSV' : 'VTU (ParaView)',
+    `${base}/${name}?f=${format}`,
+    `stress-${name}.${format}`,
+  ]);
 }

@@ -12,14 +12,23 @@ export function show(form, rest, faults) {
     if (!places.has(at) || node.classList.contains('field')) places.set(at, node);
   }
   for (const node of form.querySelectorAll('[data-at]')) tell(node, []);
-  const pointers = [...places.keys()], told = new Map(), homeless = [];
+  const pointers = [...places.keys()],
+    told = new Map(),
+    homeless = [];
   for (const fault of faults) {
     const at = nearest(pointers, fault.pointer);
     if (at === undefined) homeless.push(fault);
-    else told.set(at, [...told.get(at) ?? [], at === fault.pointer ? fault.detail : `${fault.pointer.slice(at.length + 1)}: ${fault.detail}`]);
+    else
+      told.set(at, [
+        ...(told.get(at) ?? []),
+        at === fault.pointer ? fault.detail : `${fault.pointer.slice(at.length + 1)}: ${fault.detail}`,
+      ]);
   }
   for (const [at, details] of told) tell(places.get(at), details);
-  put(rest, homeless.map(({pointer, detail}) => el('li', {}, pointer && el('code', {}, pointer), pointer && ' ', detail)));
+  put(
+    rest,
+    homeless.map(({pointer, detail}) => el('li', {}, pointer && el('code', {}, pointer), pointer && ' ', detail)),
+  );
 }
 
 function tell(node, details) {

@@ -17,7 +17,13 @@ import {written} from './pointer.js';
 export function formView(request, go) {
   const form = el('form', {id: 'request', novalidate: true, 'aria-label': 'Request'});
   const rest = el('ul', {class: 'fault list', 'aria-label': 'Faults of the request as a whole'});
-  const json = el('textarea', {id: 'json', class: 'json', spellcheck: 'false', 'aria-describedby': 'json-fault', 'aria-label': 'Request as JSON'});
+  const json = el('textarea', {
+    id: 'json',
+    class: 'json',
+    spellcheck: 'false',
+    'aria-describedby': 'json-fault',
+    'aria-label': 'Request as JSON',
+  });
   const state = el('p', {class: 'state', role: 'status'}, 'Checking …');
   const draft = new Draft(request, {
     changed: () => changed(),
@@ -38,47 +44,93 @@ export function formView(request, go) {
   readJson(json, draft);
   fill(form, draft);
   draft.touch();
-  const node = el('div', {class: 'new'},
-    el('div', {class: 'side'},
+  const node = el(
+    'div',
+    {class: 'new'},
+    el(
+      'div',
+      {class: 'side'},
       sketch.view.node,
-      el('div', {class: 'row go'}, run, state), rest,
-      el('details', {class: 'pane', open: matchMedia('(min-width: 60rem)').matches}, el('summary', {}, 'The request as JSON'), json,
+      el('div', {class: 'row go'}, run, state),
+      rest,
+      el(
+        'details',
+        {class: 'pane', open: matchMedia('(min-width: 60rem)').matches},
+        el('summary', {}, 'The request as JSON'),
+        json,
         el('p', {class: 'fault', id: 'json-fault'}),
-        el('p', {class: 'row'}, button('Save the request', () => save('request.json', new Blob([written(draft.request)]))))),
+        el(
+          'p',
+          {class: 'row'},
+          button('Save the request', () => save('request.json', new Blob([written(draft.request)]))),
+        ),
+      ),
     ),
-    form);
+    form,
+  );
   const again = () => draft.touch();
   document.addEventListener('voussoir:back', again);
-  return {node, stop: () => {
-    document.removeEventListener('voussoir:back', again);
-    draft.stop();
-  }};
+  return {
+    node,
+    stop: () => {
+      document.removeEventListener('voussoir:back', again);
+      draft.stop();
+    },
+  };
 }
 
 /** Fills the form anew; whoever was in a field stays there. */
 function fill(form, draft) {
   const focused = document.activeElement?.id;
   const open = new Set([...form.querySelectorAll('details[open]')].map(section => section.id));
-  const section = (id, title, begins, ...fields) => el('details', {id, class: 'section', open: form.childElementCount ? open.has(id) : begins},
-    el('summary', {}, el('h2', {}, title)), fields);
-  put(form,
+  const section = (id, title, begins, ...fields) =>
+    el(
+      'details',
+      {id, class: 'section', open: form.childElementCount ? open.has(id) : begins},
+      el('summary', {}, el('h2', {}, title)),
+      fields,
+    );
+  put(
+    form,
     group('/name', 'What', text(draft, '/name', 'Name'), kinds(draft)),
     section('s-structure', kindOf(draft.request), true, structureFields(draft)),
     section('s-loads', 'Loads', true, loadFields(draft), fillFields(draft)),
-    section('s-stone', 'Stone and joints', false, el('div', {class: 'grid', 'data-at': '/stone'}, stoneFields(draft), el('p', {class: 'fault'}))),
+    section(
+      's-stone',
+      'Stone and joints',
+      false,
+      el('div', {class: 'grid', 'data-at': '/stone'}, stoneFields(draft), el('p', {class: 'fault'})),
+    ),
     section('s-question', 'Question', false, questionFields(draft)),
-    section('s-answer', 'What the answer shows', false, el('div', {class: 'grid'}, answerFields(draft))));
+    section('s-answer', 'What the answer shows', false, el('div', {class: 'grid'}, answerFields(draft))),
+  );
   if (draft.faults) show(form, el('ul'), draft.faults);
   if (focused) document.getElementById(focused)?.focus();
 }
 
-const kindOf = request => (Object.keys(STARTERS).find(kind => request[kind]) ?? 'structure').replace(/^./, letter => letter.toUpperCase());
+const kindOf = request =>
+  (Object.keys(STARTERS).find(kind => request[kind]) ?? 'structure').replace(/^./, letter => letter.toUpperCase());
 
 function kinds(draft) {
-  return el('fieldset', {class: 'kinds'}, el('legend', {class: 'unseen'}, 'Structure'),
-    Object.entries(STARTERS).map(([kind, {words, request}]) => el('label', {class: 'kind'},
-      el('input', {type: 'radio', name: 'kind', id: `kind-${kind}`, checked: Boolean(draft.request[kind]),
-        onchange: () => draft.replace({...structuredClone(request)})}), ` ${words}`)));
+  return el(
+    'fieldset',
+    {class: 'kinds'},
+    el('legend', {class: 'unseen'}, 'Structure'),
+    Object.entries(STARTERS).map(([kind, {words, request}]) =>
+      el(
+        'label',
+        {class: 'kind'},
+        el('input', {
+          type: 'radio',
+          name: 'kind',
+          id: `kind-${kind}`,
+          checked: Boolean(draft.request[kind]),
+          onchange: () => draft.replace({...structuredClone(request)}),
+        }),
+        ` ${words}`,
+      ),
+    ),
+  );
 }
 
 function judged({form, rest, state}, faults, error) {
@@ -89,7 +141,8 @@ function judged({form, rest, state}, faults, error) {
   }
   show(form, rest, faults);
   const count = faults.length;
-  state.textContent = count === 0 ? 'The service understands this request.' : `${count} ${count === 1 ? 'fault' : 'faults'} to mend.`;
+  state.textContent =
+    count === 0 ? 'The service understands this request.' : `${count} ${count === 1 ? 'fault' : 'faults'} to mend.`;
   state.classList.toggle('fault', count > 0);
 }
 
@@ -100,14 +153,17 @@ function readJson(json, draft) {
       const request = JSON.parse(json.value);
       told.textContent = '';
       json.removeAttribute('aria-invalid');
-      if (request === null || typeof request !== 'object' || Array.isArray(request)) throw new Error('a request is an object in braces');
+      if (request === null || typeof request !== 'object' || Array.isArray(request))
+        throw new Error('a request is an object in braces');
       draft.replace(request);
     } catch (error) {
       told.textContent = `This is no request: ${error.message}`;
       json.setAttribute('aria-invalid', 'true');
     }
   });
-  json.addEventListener('blur', () => { if (!json.hasAttribute('aria-invalid')) json.value = written(draft.request); });
+  json.addEventListener('blur', () => {
+    if (!json.hasAttribute('aria-invalid')) json.value = written(draft.request);
+  });
 }
 
 async function send(draft, {form, state, run}, go) {

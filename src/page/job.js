@@ -12,21 +12,37 @@ import {requestOf} from './memory.js';
 
 export function jobView(id, go) {
   const head = {
-    name: el('h2', {class: 'jobname'}, ' '), badge: el('span'), words: el('span', {class: 'soft', id: 'progress-words'}),
-    bar: progressBar('this job'), buttons: el('span', {class: 'buttons'}),
+    name: el('h2', {class: 'jobname'}, ' '),
+    badge: el('span'),
+    words: el('span', {class: 'soft', id: 'progress-words'}),
+    bar: progressBar('this job'),
+    buttons: el('span', {class: 'buttons'}),
   };
   const body = el('div', {class: 'body'});
   const view = {id, go, head, body, stop: () => {}, status: null};
-  const node = el('article', {class: 'onejob'},
-    el('header', {}, head.name, el('p', {class: 'row'}, head.badge, head.words, head.buttons), el('p', {class: 'live'}, head.bar)), body);
+  const node = el(
+    'article',
+    {class: 'onejob'},
+    el(
+      'header',
+      {},
+      head.name,
+      el('p', {class: 'row'}, head.badge, head.words, head.buttons),
+      el('p', {class: 'live'}, head.bar),
+    ),
+    body,
+  );
   const back = () => load(view);
   document.addEventListener('voussoir:back', back);
   load(view);
-  return {node, stop: () => {
-    view.over = true;
-    view.stop();
-    document.removeEventListener('voussoir:back', back);
-  }};
+  return {
+    node,
+    stop: () => {
+      view.over = true;
+      view.stop();
+      document.removeEventListener('voussoir:back', back);
+    },
+  };
 }
 
 async function load(view) {
@@ -43,7 +59,8 @@ async function load(view) {
 
 function update(view, job) {
   if (view.over) return;
-  const {head} = view, changed = view.status !== job.status;
+  const {head} = view,
+    changed = view.status !== job.status;
   view.job = job;
   view.status = job.status;
   head.words.textContent = `${progressWords(job)}${job.created ? ` · submitted ${moment(job.created)}` : ''}`;
@@ -52,11 +69,17 @@ function update(view, job) {
   head.name.textContent = job.name ?? (job.status === 'lost' ? 'This job is not known' : 'Without a name');
   document.title = `${head.name.textContent} – Voussoir`;
   put(head.badge, badge(job));
-  put(head.buttons, actions(view.id, job, {go: view.go, after: (error, now) => {
-    if (now === null) view.go('#/');
-    else if (now) update(view, now);
-    else load(view);
-  }}));
+  put(
+    head.buttons,
+    actions(view.id, job, {
+      go: view.go,
+      after: (error, now) => {
+        if (now === null) view.go('#/');
+        else if (now) update(view, now);
+        else load(view);
+      },
+    }),
+  );
   say(`The job is ${statusWord(job.status)}.`);
   ended(view, job);
 }
@@ -66,14 +89,24 @@ async function waits(view) {
   if (view.body.childElementCount > 0) return;
   put(view.body, el('p', {class: 'soft'}, 'The answer will be here when the job is done; this page follows it.'));
   const request = await get(`/v1/jobs/${view.id}/request`).catch(() => null);
-  if (request && active(view.job) && outline(request)) view.body.append(el('div', {class: 'waits'}, new Sketch({request}).view.node));
+  if (request && active(view.job) && outline(request))
+    view.body.append(el('div', {class: 'waits'}, new Sketch({request}).view.node));
 }
 
 async function ended(view, job) {
   if (job.status === 'failed') put(view.body, problemOf(job));
   if (job.status === 'dismissed') put(view.body, el('p', {}, 'It was cancelled, and has no answer.'));
-  if (job.status === 'lost') put(view.body, el('p', {}, requestOf(view.id) ? 'This browser sent it: Clone submits its request again.'
-    : 'Its request is not kept in this browser either.'));
+  if (job.status === 'lost')
+    put(
+      view.body,
+      el(
+        'p',
+        {},
+        requestOf(view.id)
+          ? 'This browser sent it: Clone submits its request again.'
+          : 'Its request is not kept in this browser either.',
+      ),
+    );
   if (active(job)) await waits(view);
   if (job.status !== 'successful') return;
   try {

@@ -22,7 +22,9 @@ export function jobsView(go, take) {
     view.older = [];
     first(view);
   };
-  const timer = setInterval(() => { if (!document.hidden) refresh(); }, AGAIN);
+  const timer = setInterval(() => {
+    if (!document.hidden) refresh();
+  }, AGAIN);
   document.addEventListener('voussoir:back', anew);
   document.addEventListener('voussoir:token', refresh);
   refresh();
@@ -33,21 +35,61 @@ export function jobsView(go, take) {
     document.removeEventListener('voussoir:back', anew);
     document.removeEventListener('voussoir:token', refresh);
   };
-  return {node: el('div', {}, beginnings(take), el('section', {'aria-labelledby': 'jobs-title'},
-    el('h2', {id: 'jobs-title'}, 'Jobs'), count, list, el('p', {}, more))), stop};
+  return {
+    node: el(
+      'div',
+      {},
+      beginnings(take),
+      el(
+        'section',
+        {'aria-labelledby': 'jobs-title'},
+        el('h2', {id: 'jobs-title'}, 'Jobs'),
+        count,
+        list,
+        el('p', {}, more),
+      ),
+    ),
+    stop,
+  };
 }
 
 function beginnings(take) {
-  const file = el('input', {type: 'file', id: 'file', accept: '.csv,.json,text/csv,application/json', onchange: () => {
-    if (file.files.length > 0) take(file.files[0]);
-    file.value = '';
-  }});
-  return el('section', {class: 'starters', 'aria-labelledby': 'new-title'},
+  const file = el('input', {
+    type: 'file',
+    id: 'file',
+    accept: '.csv,.json,text/csv,application/json',
+    onchange: () => {
+      if (file.files.length > 0) take(file.files[0]);
+      file.value = '';
+    },
+  });
+  return el(
+    'section',
+    {class: 'starters', 'aria-labelledby': 'new-title'},
     el('h2', {id: 'new-title'}, 'When does it fall, how, and how sure is that?'),
-    el('ul', {}, Object.entries(STARTERS).map(([kind, {words, about}]) => el('li', {},
-      el('a', {href: `#/new/${kind}`}, el('strong', {}, words), el('span', {class: 'soft'}, about)))),
-    el('li', {class: 'file'}, el('label', {for: 'file'}, el('strong', {}, 'From a file'),
-      el('span', {class: 'soft'}, 'A request (JSON), or points surveyed on an arch (CSV: side, x_m, y_m). Drop it anywhere on the page, or choose it:')), file)));
+    el(
+      'ul',
+      {},
+      Object.entries(STARTERS).map(([kind, {words, about}]) =>
+        el('li', {}, el('a', {href: `#/new/${kind}`}, el('strong', {}, words), el('span', {class: 'soft'}, about))),
+      ),
+      el(
+        'li',
+        {class: 'file'},
+        el(
+          'label',
+          {for: 'file'},
+          el('strong', {}, 'From a file'),
+          el(
+            'span',
+            {class: 'soft'},
+            'A request (JSON), or points surveyed on an arch (CSV: side, x_m, y_m). Drop it anywhere on the page, or choose it:',
+          ),
+        ),
+        file,
+      ),
+    ),
+  );
 }
 
 /** The newest jobs, and those shown before that are not among them. */
@@ -58,7 +100,7 @@ async function first(view) {
     const ids = new Set(answer.jobs.map(job => job.job_id));
     view.older = view.older.filter(job => !ids.has(job.job_id));
     const oldest = answer.links.next ? answer.jobs.at(-1).created : '';
-    show(view, answer.jobs, [...await missing(view, ids, oldest), ...view.older]);
+    show(view, answer.jobs, [...(await missing(view, ids, oldest)), ...view.older]);
   } catch (error) {
     if (!(error instanceof Unreachable)) view.count.textContent = error.message;
   }
@@ -67,17 +109,23 @@ async function first(view) {
 /** Jobs that this page has seen or sent, and that should be listed but are not: each is asked for by name. */
 async function missing(view, ids, oldest) {
   const older = new Set(view.older.map(job => job.job_id));
-  const known = new Map(remembered().map(entry => [entry.id, {job_id: entry.id, name: entry.name, created: entry.created}]));
+  const known = new Map(
+    remembered().map(entry => [entry.id, {job_id: entry.id, name: entry.name, created: entry.created}]),
+  );
   for (const [id, row] of view.rows) known.set(id, row.job);
-  const absent = [...known.values()].filter(job => !ids.has(job.job_id) && !older.has(job.job_id) && job.created > oldest);
-  const found = await Promise.all(absent.map(async job => {
-    if (job.status === 'lost') return job;
-    try {
-      return await get(`/v1/jobs/${job.job_id}`);
-    } catch (error) {
-      return error instanceof Refused && error.status === 404 ? {...job, status: 'lost'} : job;
-    }
-  }));
+  const absent = [...known.values()].filter(
+    job => !ids.has(job.job_id) && !older.has(job.job_id) && job.created > oldest,
+  );
+  const found = await Promise.all(
+    absent.map(async job => {
+      if (job.status === 'lost') return job;
+      try {
+        return await get(`/v1/jobs/${job.job_id}`);
+      } catch (error) {
+        return error instanceof Refused && error.status === 404 ? {...job, status: 'lost'} : job;
+      }
+    }),
+  );
   return found.filter(job => job.status);
 }
 
@@ -91,9 +139,14 @@ function show(view, jobs, rest) {
     rows.set(job.job_id, row);
   }
   view.rows = rows;
-  arrange(view.list, [...rows.values()].map(row => row.node));
-  view.count.textContent = rows.size === 0 ? 'No jobs yet. Begin with one of the structures above.'
-    : `${rows.size}${view.next ? ' newest' : ''} ${rows.size === 1 ? 'job' : 'jobs'}`;
+  arrange(
+    view.list,
+    [...rows.values()].map(row => row.node),
+  );
+  view.count.textContent =
+    rows.size === 0
+      ? 'No jobs yet. Begin with one of the structures above.'
+      : `${rows.size}${view.next ? ' newest' : ''} ${rows.size === 1 ? 'job' : 'jobs'}`;
   view.more.hidden = view.next === null;
   followActive(view);
 }
@@ -112,11 +165,20 @@ function arrange(list, nodes) {
 function newRow(view, job) {
   const name = job.name ?? 'Without a name';
   const row = {
-    badge: el('span'), words: el('span', {class: 'words soft'}), bar: progressBar(name), buttons: el('span', {class: 'buttons'}),
+    badge: el('span'),
+    words: el('span', {class: 'words soft'}),
+    bar: progressBar(name),
+    buttons: el('span', {class: 'buttons'}),
   };
-  row.node = el('li', {class: 'job', 'data-id': job.job_id},
-    el('a', {class: 'name', href: `#/jobs/${job.job_id}`}, name), row.badge,
-    el('span', {class: 'soft time'}, moment(job.created)), el('span', {class: 'progress'}, row.bar, row.words), row.buttons);
+  row.node = el(
+    'li',
+    {class: 'job', 'data-id': job.job_id},
+    el('a', {class: 'name', href: `#/jobs/${job.job_id}`}, name),
+    row.badge,
+    el('span', {class: 'soft time'}, moment(job.created)),
+    el('span', {class: 'progress'}, row.bar, row.words),
+    row.buttons,
+  );
   return row;
 }
 
@@ -127,11 +189,17 @@ function update(view, row, job) {
   showProgress(row.bar, job);
   if (same) return;
   put(row.badge, badge(job));
-  put(row.buttons, actions(job.job_id, job, {go: view.go, after: (error, now) => {
-    if (now === null) drop(view, job.job_id);
-    else if (now) update(view, row, now);
-    else first(view);
-  }}));
+  put(
+    row.buttons,
+    actions(job.job_id, job, {
+      go: view.go,
+      after: (error, now) => {
+        if (now === null) drop(view, job.job_id);
+        else if (now) update(view, row, now);
+        else first(view);
+      },
+    }),
+  );
 }
 
 function drop(view, id) {

@@ -7,8 +7,16 @@ const KINDS = [
   ['point_load', 'Point load', {force_n_per_m: 1000, x_m: 0}],
   ['patch_load', 'Patch load', {force_n_per_m: 1000, centre_x_m: 0, width_m: 1}],
   ['point_force', 'Force on a block, in any direction', {force_n_per_m: [1000, 0], at_m: [0, 0], block: 'block 1'}],
-  ['vehicle', 'Vehicle', {x_m: 0, effective_width_m: 2.5, effective_width_rule: 'as assumed',
-    axles: [{force_n: 100000, length_m: 0.3, offset_m: 0}]}],
+  [
+    'vehicle',
+    'Vehicle',
+    {
+      x_m: 0,
+      effective_width_m: 2.5,
+      effective_width_rule: 'as assumed',
+      axles: [{force_n: 100000, length_m: 0.3, offset_m: 0}],
+    },
+  ],
   ['fill_pressure', 'Fill and embankment', {fill_height_m: 4}],
   ['lateral_pressure', 'Lateral pressure', {bands: [{from_m: 0, to_m: 1, pressure_pa: 1000}]}],
   ['body_acceleration', 'Acceleration (earthquake)', {x_g: 1}],
@@ -37,12 +45,17 @@ const FIELDS = {
     number(draft, `${at}/x_m`, 'Reference at x', 'm', {usual: 'the worst position'}),
     number(draft, `${at}/effective_width_m`, 'Effective width', 'm'),
     text(draft, `${at}/effective_width_rule`, 'By which rule'),
-    draft.get(`${at}/axles`) && list(draft, `${at}/axles`, {name: 'Axle', least: 1, start: axles => ({...axles.at(-1), offset_m: axles.at(-1).offset_m + 1}),
-      entry: here => [
-        number(draft, `${here}/force_n`, 'Force', 'N'),
-        number(draft, `${here}/offset_m`, 'From the reference', 'm'),
-        number(draft, `${here}/length_m`, 'Contact length', 'm'),
-      ]}),
+    draft.get(`${at}/axles`) &&
+      list(draft, `${at}/axles`, {
+        name: 'Axle',
+        least: 1,
+        start: axles => ({...axles.at(-1), offset_m: axles.at(-1).offset_m + 1}),
+        entry: here => [
+          number(draft, `${here}/force_n`, 'Force', 'N'),
+          number(draft, `${here}/offset_m`, 'From the reference', 'm'),
+          number(draft, `${here}/length_m`, 'Contact length', 'm'),
+        ],
+      }),
     dispersal(draft, `${at}/dispersal`),
   ],
   fill_pressure: (draft, at) => [
@@ -51,11 +64,20 @@ const FIELDS = {
     number(draft, `${at}/embankment_thickness_m`, 'Embankment on it', 'm', {usual: '0'}),
     number(draft, `${at}/lateral_ratio`, 'Horizontal over vertical pressure', '', {usual: '0'}),
   ],
-  lateral_pressure: (draft, at) => list(draft, `${at}/bands`, {name: 'Band', least: 1, start: {from_m: 0, to_m: 1, pressure_pa: 1000}, entry: here => [
-    number(draft, `${here}/from_m`, 'From', 'm'), number(draft, `${here}/to_m`, 'To', 'm'), number(draft, `${here}/pressure_pa`, 'Pressure', 'Pa'),
-  ]}),
+  lateral_pressure: (draft, at) =>
+    list(draft, `${at}/bands`, {
+      name: 'Band',
+      least: 1,
+      start: {from_m: 0, to_m: 1, pressure_pa: 1000},
+      entry: here => [
+        number(draft, `${here}/from_m`, 'From', 'm'),
+        number(draft, `${here}/to_m`, 'To', 'm'),
+        number(draft, `${here}/pressure_pa`, 'Pressure', 'Pa'),
+      ],
+    }),
   body_acceleration: (draft, at) => [
-    number(draft, `${at}/x_g`, 'To the right', 'g', {usual: '0'}), number(draft, `${at}/y_g`, 'Upwards', 'g', {usual: '0'}),
+    number(draft, `${at}/x_g`, 'To the right', 'g', {usual: '0'}),
+    number(draft, `${at}/y_g`, 'Upwards', 'g', {usual: '0'}),
   ],
 };
 
@@ -68,20 +90,29 @@ function dispersal(draft, at) {
 
 /** All loads, each fixed or scaled. */
 export function loadFields(draft) {
-  return list(draft, '/loads', {name: 'Load', start: {load: KINDS[1].start, scaled: true}, entry: at => {
-    const kind = Object.keys(draft.get(`${at}/load`) ?? {})[0];
-    return [
-      shape(draft, `${at}/load`, 'Kind', KINDS),
-      choice(draft, `${at}/scaled`, 'Load factor', [[undefined, 'does not touch it'], [true, 'multiplies it']]),
-      FIELDS[kind]?.(draft, `${at}/load/${kind}`) ?? [],
-    ];
-  }});
+  return list(draft, '/loads', {
+    name: 'Load',
+    start: {load: KINDS[1].start, scaled: true},
+    entry: at => {
+      const kind = Object.keys(draft.get(`${at}/load`) ?? {})[0];
+      return [
+        shape(draft, `${at}/load`, 'Kind', KINDS),
+        choice(draft, `${at}/scaled`, 'Load factor', [
+          [undefined, 'does not touch it'],
+          [true, 'multiplies it'],
+        ]),
+        FIELDS[kind]?.(draft, `${at}/load/${kind}`) ?? [],
+      ];
+    },
+  });
 }
 
 /** A road over fill. */
 export function fillFields(draft) {
   const at = '/backfill';
-  return group(at, 'Fill under a road',
+  return group(
+    at,
+    'Fill under a road',
     tick(draft, at, 'There is fill up to a surface', {on: {surface_height_m: 4}}),
     draft.get(at) && [
       number(draft, `${at}/surface_height_m`, 'Height of the surface', 'm above y = 0'),
@@ -91,5 +122,6 @@ export function fillFields(draft) {
         number(draft, `${at}/passive/friction_angle_deg`, 'Friction angle of the fill', 'degrees', {usual: '30'}),
         number(draft, `${at}/passive/factor`, 'Share of passive pressure that is mobilised', '', {usual: '0.5'}),
       ],
-    ]);
+    ],
+  );
 }

@@ -11,7 +11,9 @@ import {tokenButton} from './token.js';
 import {complain, el, put, say} from './dom.js';
 
 const main = document.getElementById('main');
-let shown = null, turn = 0, given = null;
+let shown = null,
+  turn = 0,
+  given = null;
 
 const go = path => {
   if (location.hash === path) show();
@@ -38,7 +40,8 @@ async function requestFor(address) {
 }
 
 async function show() {
-  const mine = ++turn, first = shown === null;
+  const mine = ++turn,
+    first = shown === null;
   shown?.stop?.();
   shown = {};
   complain('');
@@ -49,7 +52,12 @@ async function show() {
     document.title = `${view.title} – Voussoir`;
     put(main, el('h1', {class: 'unseen', id: 'title'}, view.title), view.node);
   } catch (error) {
-    put(main, el('h1', {}, 'This cannot be shown'), el('p', {class: 'fault'}, error.message), el('p', {}, el('a', {href: '#/'}, 'All jobs')));
+    put(
+      main,
+      el('h1', {}, 'This cannot be shown'),
+      el('p', {class: 'fault'}, error.message),
+      el('p', {}, el('a', {href: '#/'}, 'All jobs')),
+    );
   }
   if (!first) {
     scrollTo(0, 0);
@@ -75,7 +83,9 @@ function listenForFiles() {
     event.preventDefault();
     document.body.classList.add('dropping');
   });
-  addEventListener('dragleave', event => { if (!event.relatedTarget) document.body.classList.remove('dropping'); });
+  addEventListener('dragleave', event => {
+    if (!event.relatedTarget) document.body.classList.remove('dropping');
+  });
   addEventListener('drop', event => {
     document.body.classList.remove('dropping');
     if (!event.dataTransfer?.files.length) return;
@@ -85,8 +95,11 @@ function listenForFiles() {
 }
 
 function listenForTheService() {
-  const word = document.getElementById('away'), text = word.textContent;
-  document.addEventListener('voussoir:away', () => { put(word, text).hidden = false; });
+  const word = document.getElementById('away'),
+    text = word.textContent;
+  document.addEventListener('voussoir:away', () => {
+    put(word, text).hidden = false;
+  });
   document.addEventListener('voussoir:back', () => {
     word.hidden = true;
     say('The service answers again.');

@@ -35,7 +35,12 @@ export function moment(text) {
 }
 
 const WORDS = {
-  accepted: 'waiting', running: 'running', successful: 'done', failed: 'failed', dismissed: 'cancelled', lost: 'lost',
+  accepted: 'waiting',
+  running: 'running',
+  successful: 'done',
+  failed: 'failed',
+  dismissed: 'cancelled',
+  lost: 'lost',
 };
 
 /** A status in one word. */

@@ -6,7 +6,11 @@ import {along, joints, stations, stonesBetween, surveyedJoints} from './ring.js'
 
 export function outline(request) {
   try {
-    const drawn = request.arch ? archOutline(request.arch) : request.bridge ? bridgeOutline(request.bridge) : blocksOutline(request.blocks);
+    const drawn = request.arch
+      ? archOutline(request.arch)
+      : request.bridge
+        ? bridgeOutline(request.bridge)
+        : blocksOutline(request.blocks);
     return drawn?.stones.flat(2).every(Number.isFinite) && drawn.ground.flat(2).every(Number.isFinite) ? drawn : null;
   } catch {
     // Half a request may be anything; the service says what is wrong with it.
@@ -35,10 +39,13 @@ function setOut(arch) {
   const {thickness = {}, voussoirs: count, line} = arch;
   if (!profile || !(count >= 2 && count <= 2001)) return null;
   const circle = thickness.extrados_circle;
-  const [crown, springing] = thickness.linear ? [thickness.linear.crown_m, thickness.linear.springing_m]
+  const [crown, springing] = thickness.linear
+    ? [thickness.linear.crown_m, thickness.linear.springing_m]
     : [thickness.constant_m, thickness.constant_m];
   if (!circle && !(crown > 0 && springing > 0)) return null;
-  const whole = [crown, springing], half = [crown / 2, springing / 2], none = [0, 0];
+  const whole = [crown, springing],
+    half = [crown / 2, springing / 2],
+    none = [0, 0];
   const ring = {
     profile,
     inner: circle || line === 'intrados' ? none : half,
@@ -61,16 +68,18 @@ function leftHalf(ends) {
 /** A rectangle under a springing joint; its first two corners stand on the ground. */
 function abutment([a, b], side, height) {
   const length = Math.hypot(b[0] - a[0], b[1] - a[1]);
-  const away = [side * (a[1] - b[1]) / length, side * (b[0] - a[0]) / length].map(t => -t);
+  const away = [(side * (a[1] - b[1])) / length, (side * (b[0] - a[0])) / length].map(t => -t);
   return [along(a, height, away), along(b, height, away), b, a];
 }
 
 function blocksOutline({polygons, supports = []}) {
   const stones = polygons.map(({corners_m: corners}) => corners).filter(corners => corners?.length >= 3);
   const lines = supports.flatMap(support => support.segments_m ?? []);
-  const sides = supports.flatMap(support => support.sides ?? []).map(({block, side}) => {
-    const corners = polygons.find(polygon => polygon.name === block).corners_m;
-    return [corners[side], corners[(side + 1) % corners.length]];
-  });
+  const sides = supports
+    .flatMap(support => support.sides ?? [])
+    .map(({block, side}) => {
+      const corners = polygons.find(polygon => polygon.name === block).corners_m;
+      return [corners[side], corners[(side + 1) % corners.length]];
+    });
   return stones.length > 0 ? {stones, ground: [...lines, ...sides]} : null;
 }

@@ -1,6 +1,10 @@
 // Values of a request by their JSON Pointers (RFC 6901), such as /arch/thickness/constant_m.
 
-const keys = at => at.split('/').slice(1).map(key => key.replaceAll('~1', '/').replaceAll('~0', '~'));
+const keys = at =>
+  at
+    .split('/')
+    .slice(1)
+    .map(key => key.replaceAll('~1', '/').replaceAll('~0', '~'));
 
 export function look(request, at) {
   return keys(at).reduce((value, key) => value?.[key], request);
@@ -8,7 +12,8 @@ export function look(request, at) {
 
 /** Sets a value; objects on the way to it are made. Undefined removes it. */
 export function set(request, at, value) {
-  const path = keys(at), last = path.pop();
+  const path = keys(at),
+    last = path.pop();
   let place = request;
   for (const key of path) place = place[key] ??= {};
   if (value !== undefined) place[last] = value;
@@ -23,6 +28,8 @@ export function nearest(pointers, at) {
 
 /** A request as text: short lists of numbers on one line. */
 export function written(request) {
-  return JSON.stringify(request, null, 2).replace(/\[\s+([-\d.eE+]+(?:,\s+[-\d.eE+]+)*)\s+\]/g,
-    (_, list) => `[${list.replace(/\s+/g, ' ')}]`);
+  return JSON.stringify(request, null, 2).replace(
+    /\[\s+([-\d.eE+]+(?:,\s+[-\d.eE+]+)*)\s+\]/g,
+    (_, list) => `[${list.replace(/\s+/g, ' ')}]`,
+  );
 }

@@ -12,18 +12,39 @@ const QUESTIONS = [
 ];
 
 export function questionFields(draft) {
-  const at = '/analysis', part = draft.get(at);
+  const at = '/analysis',
+    part = draft.get(at);
   const springings = draft.get('/arch') ? ['left', 'right'] : [];
   return [
-    group(at, 'Question', shape(draft, at, 'What is asked', QUESTIONS),
-      part?.settlement && springings.map(end => group(`${at}/settlement/${end}`, `The ${end} springing moves`, [
-        ['outwards_m', 'Outwards', 'm'], ['downwards_m', 'Downwards', 'm'], ['rotation_deg', 'Rotation', 'degrees'],
-      ].map(([key, label, unit]) => number(draft, `${at}/settlement/${end}/${key}`, label, unit, {usual: '0'})))),
-      part?.worst_position && number(draft, `${at}/worst_position/step_m`, 'Step between positions', 'm', {usual: '0.1'})),
-    group('/load_factor', 'Load factor',
+    group(
+      at,
+      'Question',
+      shape(draft, at, 'What is asked', QUESTIONS),
+      part?.settlement &&
+        springings.map(end =>
+          group(
+            `${at}/settlement/${end}`,
+            `The ${end} springing moves`,
+            [
+              ['outwards_m', 'Outwards', 'm'],
+              ['downwards_m', 'Downwards', 'm'],
+              ['rotation_deg', 'Rotation', 'degrees'],
+            ].map(([key, label, unit]) => number(draft, `${at}/settlement/${end}/${key}`, label, unit, {usual: '0'})),
+          ),
+        ),
+      part?.worst_position &&
+        number(draft, `${at}/worst_position/step_m`, 'Step between positions', 'm', {usual: '0.1'}),
+    ),
+    group(
+      '/load_factor',
+      'Load factor',
       text(draft, '/load_factor/unit', 'Unit of the answer', {usual: '–'}),
       number(draft, '/load_factor/intensity_per_unit', 'At load factor 1 that is', '', {usual: '1'}),
-      choice(draft, '/load_factor/direction', 'Direction', [[undefined, 'it grows'], ['decrease', 'it falls below 0']])),
+      choice(draft, '/load_factor/direction', 'Direction', [
+        [undefined, 'it grows'],
+        ['decrease', 'it falls below 0'],
+      ]),
+    ),
   ];
 }
 
@@ -42,7 +63,10 @@ export function answerFields(draft) {
   return [
     tick(draft, '/motion', 'Motion after collapse, stone by stone', {on: {most_frames: 120}}),
     tick(draft, '/crushing_in_path', 'Joints crush on the load path'),
-    choice(draft, '/geometry', 'Geometry', [[undefined, 'as built'], ['updated', 'as built and as it moves']]),
+    choice(draft, '/geometry', 'Geometry', [
+      [undefined, 'as built'],
+      ['updated', 'as built and as it moves'],
+    ]),
     number(draft, '/mesh/subblocks/uniform/radial', 'Subblocks through the thickness', '1 to 48', {usual: '1'}),
     number(draft, '/mesh/subblocks/uniform/along', 'Subblocks along each stone', '1 to 48', {usual: '1'}),
     tick(draft, '/report/stress_fields', 'Stress near collapse', {on: ['near_collapse']}),

@@ -14,7 +14,7 @@ export function stations(total, lengths) {
   let before = 0;
   const at = lengths.map(length => {
     before += length;
-    const sigma = total / 2 * ((2 * before - sum) / sum);
+    const sigma = (total / 2) * ((2 * before - sum) / sum);
     return Math.abs(sigma) < 1e-12 * total ? 0 : sigma;
   });
   return [-total / 2, ...at];
@@ -34,7 +34,12 @@ function jointAt(ring, sigma) {
   if (ring.centre) {
     const arm = minus(place.point, ring.centre);
     if (dot(arm, outward(place)) <= 0) return null;
-    return ray(ring, sigma, place.point, arm.map(a => a / Math.hypot(...arm)));
+    return ray(
+      ring,
+      sigma,
+      place.point,
+      arm.map(a => a / Math.hypot(...arm)),
+    );
   }
   if (sigma === 0 && ring.profile.hasApex) return ray(ring, sigma, place.point, [0, 1]);
   const [inner, outer] = depths(ring, Math.abs(sigma));
@@ -44,13 +49,14 @@ function jointAt(ring, sigma) {
 }
 
 function depths({profile, inner, outer}, u) {
-  const share = Math.max(0, 2 * u / profile.length);
+  const share = Math.max(0, (2 * u) / profile.length);
   return [inner, outer].map(([crown, springing]) => crown + (springing - crown) * share);
 }
 
 /** How far it is in a direction to a circle from inside it. */
 function toCircle(from, direction, {centre, radius}) {
-  const arm = minus(from, centre), b = dot(arm, direction);
+  const arm = minus(from, centre),
+    b = dot(arm, direction);
   return -b + Math.sqrt(b * b - dot(arm, arm) + radius * radius);
 }
 
@@ -63,7 +69,7 @@ function ray(ring, sigma, through, direction) {
       const found = meetsLeft(ring, sigma, flip(through), flip(direction), outer);
       return found && flip(found);
     };
-    return sigma > 0 ? right() ?? left() : left() ?? right();
+    return sigma > 0 ? (right() ?? left()) : (left() ?? right());
   };
   const ends = [end(false), end(true)];
   return ends[0] && ends[1] ? ends : null;
@@ -73,11 +79,15 @@ function ray(ring, sigma, through, direction) {
 function meetsLeft(ring, u, through, direction, outer) {
   const from = Math.max(0, u);
   const point = v => {
-    const place = ring.profile.left(v), depth = depths(ring, v);
+    const place = ring.profile.left(v),
+      depth = depths(ring, v);
     return along(place.point, outer ? depth[1] : -depth[0], outward(place));
   };
   const miss = v => cross(direction, minus(point(v), through));
-  const reach = Math.max(depths(ring, from).reduce((a, b) => a + b), 1e-6 * ring.profile.length);
+  const reach = Math.max(
+    depths(ring, from).reduce((a, b) => a + b),
+    1e-6 * ring.profile.length,
+  );
   const root = nearestRoot(miss, from, reach / 8);
   if (root === null) return null;
   const found = point(root);
@@ -87,10 +97,14 @@ function meetsLeft(ring, u, through, direction, outer) {
 function nearestRoot(f, start, step) {
   const first = f(start);
   if (first === 0) return start;
-  const last = [[start, first], [start, first]];
+  const last = [
+    [start, first],
+    [start, first],
+  ];
   for (let i = 1; i <= 64; i++) {
     for (const side of [0, 1]) {
-      const x = start + (side ? 1 : -1) * i * step, here = [x, f(x)];
+      const x = start + (side ? 1 : -1) * i * step,
+        here = [x, f(x)];
       if (here[1] * last[side][1] <= 0) return halve(f, last[side], here);
       last[side] = here;
     }
@@ -100,7 +114,8 @@ function nearestRoot(f, start, step) {
 
 function halve(f, [a, fa], [b]) {
   for (let i = 0; i < 80; i++) {
-    const x = (a + b) / 2, fx = f(x);
+    const x = (a + b) / 2,
+      fx = f(x);
     if (fx * fa <= 0) b = x;
     else [a, fa] = [x, fx];
   }

@@ -13,7 +13,11 @@ export class Sketch {
     this.movable = draft.set && ((place, point) => this.move(place, point));
     const words = this.movable ? ' Loads with a handle move with the pointer or the arrow keys.' : '';
     this.view = new View(`Drawing of the structure.${words}`, view => this.paint(view));
-    this.old = el('p', {class: 'old soft', hidden: true}, 'Some size is missing or cannot be: this is how it was before.');
+    this.old = el(
+      'p',
+      {class: 'old soft', hidden: true},
+      'Some size is missing or cannot be: this is how it was before.',
+    );
     this.view.node.append(this.old);
     this.refresh();
   }
@@ -29,7 +33,8 @@ export class Sketch {
 
   paint(view) {
     if (!this.drawn) return view.marks.replaceChildren();
-    const {stones, ground} = this.drawn, {request} = this.draft;
+    const {stones, ground} = this.drawn,
+      {request} = this.draft;
     view.lines(levels(request, [view.box[0], view.box[2]]), {stroke: view.colours.soft, dash: [6, 4], width: 1});
     view.polygons(stones, {fill: view.colours.stone, stroke: view.colours.edge, alpha: this.old.hidden ? 1 : 0.4});
     view.ground(ground, middleOf(stones));

@@ -10,11 +10,15 @@ export function bridgeOutline({spans, piers = [], abutments = {}, backing}) {
   const springings = rings.map(span => [0, 1].map(end => springing(span, end)));
   const standing = piers.map((pier, j) => pierStones(pier, springings[j][1], springings[j + 1][0]));
   const ends = [0, 1].map(end => endBlock(end ? abutments?.right : abutments?.left, springings.at(-end)[end], end));
-  const stones = [...rings.flat().flatMap(stonesBetween), ...standing.flat(), ...ends.filter(Boolean).map(({stone}) => stone)];
+  const stones = [
+    ...rings.flat().flatMap(stonesBetween),
+    ...standing.flat(),
+    ...ends.filter(Boolean).map(({stone}) => stone),
+  ];
   if (Number.isFinite(backing?.level_m)) stones.push(...fills(rings, ends, springings, backing.level_m));
   const ground = [
     ...standing.map(([lowest]) => [lowest[0], lowest[1]]),
-    ...ends.map((block, end) => block ? block.bed : [springings.at(-end)[end][0], springings.at(-end)[end].at(-1)]),
+    ...ends.map((block, end) => (block ? block.bed : [springings.at(-end)[end][0], springings.at(-end)[end].at(-1)])),
   ];
   return {stones, ground};
 }
@@ -54,19 +58,28 @@ function springing(rings, end) {
 
 function pierStones({height_m: height, courses = 1, batter = 0}, left, right) {
   const at = k => {
-    const y = height / courses * k - height;
-    return [[left[0][0] + batter * y, y], [right[0][0] - batter * y, y]];
+    const y = (height / courses) * k - height;
+    return [
+      [left[0][0] + batter * y, y],
+      [right[0][0] - batter * y, y],
+    ];
   };
-  return Array.from({length: Math.min(courses, 2001)}, (_, k) => k + 1 < courses
-    ? [...at(k), ...at(k + 1).reverse()] : [...at(k), ...right, ...[...left].reverse()]);
+  return Array.from({length: Math.min(courses, 2001)}, (_, k) =>
+    k + 1 < courses ? [...at(k), ...at(k + 1).reverse()] : [...at(k), ...right, ...[...left].reverse()],
+  );
 }
 
 /** An abutment under a springing, with its bed and its back; null where the arch stands on the ground. */
 function endBlock(abutment, points, end) {
   if (!(abutment?.height_m > 0)) return null;
-  const out = end ? 1 : -1, face = points[0][0], outer = points.at(-1);
+  const out = end ? 1 : -1,
+    face = points[0][0],
+    outer = points.at(-1);
   const back = face + out * (abutment.width_m ?? Math.abs(outer[0] - face));
-  const bed = [[back, -abutment.height_m], [face, -abutment.height_m]];
+  const bed = [
+    [back, -abutment.height_m],
+    [face, -abutment.height_m],
+  ];
   return {stone: [...bed, ...points, [back, outer[1]]], bed, back};
 }
 

@@ -24,15 +24,37 @@ const bridge = {
 
 /** Six courses of bricks in running bond. */
 function wall() {
-  const [length, height, courses] = [4, 0.5, 6], polygons = [];
+  const [length, height, courses] = [4, 0.5, 6],
+    polygons = [];
   for (let row = 0; row < courses; row++) {
     const joints = row % 2 ? [0, 0.5, 1.5, 2.5, 3.5, length] : [0, 1, 2, 3, length];
     joints.slice(1).forEach((right, i) => {
       const [left, low, high] = [joints[i], row * height, (row + 1) * height];
-      polygons.push({name: `brick ${polygons.length + 1}`, corners_m: [[left, low], [right, low], [right, high], [left, high]]});
+      polygons.push({
+        name: `brick ${polygons.length + 1}`,
+        corners_m: [
+          [left, low],
+          [right, low],
+          [right, high],
+          [left, high],
+        ],
+      });
     });
   }
-  return {polygons, supports: [{name: 'ground', segments_m: [[[-1, 0], [length + 1, 0]]]}]};
+  return {
+    polygons,
+    supports: [
+      {
+        name: 'ground',
+        segments_m: [
+          [
+            [-1, 0],
+            [length + 1, 0],
+          ],
+        ],
+      },
+    ],
+  };
 }
 
 const blocks = {

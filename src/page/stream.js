@@ -14,7 +14,10 @@ const LONGEST_PAUSE = 8000;
 export function follow(ids, told) {
   const open = new Set(ids.slice(0, MOST));
   const last = new Map();
-  let source = null, timer = null, stopped = false, pause = FIRST_PAUSE;
+  let source = null,
+    timer = null,
+    stopped = false,
+    pause = FIRST_PAUSE;
 
   const tell = (id, news) => {
     const status = {...last.get(id), ...news};
@@ -26,8 +29,8 @@ export function follow(ids, told) {
     pause = FIRST_PAUSE;
     const {job_id: id, type, wall_time_s, ...news} = JSON.parse(event.data);
     // A step has the fields of the progress; a status has it as a field.
-    const whole = event.type === 'step'
-      ? {status: 'running', wall_time_s, progress: news} : {job_id: id, wall_time_s, ...news};
+    const whole =
+      event.type === 'step' ? {status: 'running', wall_time_s, progress: news} : {job_id: id, wall_time_s, ...news};
     tell(id, whole);
     if (open.size === 0) stop();
   };

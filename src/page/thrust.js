@@ -6,12 +6,13 @@ import {svg} from './dom.js';
 export function thrustSegments(structure, line) {
   if (!line) return [];
   const strongest = line.normal_n_per_m.reduce((most, n) => Math.max(most, Math.abs(n)), 0);
-  const bodies = new Map(structure.bodies.map((body, k) => [body.name, k])), at = new Map();
+  const bodies = new Map(structure.bodies.map((body, k) => [body.name, k])),
+    at = new Map();
   line.joint.forEach((joint, i) => {
     if (Math.abs(line.normal_n_per_m[i]) <= 1e-9 * strongest) return;
     for (const name of structure.joints[joint].between) {
       const body = bodies.get(name);
-      if (body !== undefined) at.set(body, [...at.get(body) ?? [], [line.x_m[i], line.y_m[i]]]);
+      if (body !== undefined) at.set(body, [...(at.get(body) ?? []), [line.x_m[i], line.y_m[i]]]);
     }
   });
   return [...at].filter(([, points]) => points.length === 2).map(([body, points]) => [...points, body]);
@@ -19,9 +20,14 @@ export function thrustSegments(structure, line) {
 
 /** What happens at joints of an end: {joint, at, kind, text}. */
 export function happenings(end) {
-  const list = (entries, kind, text) => (entries ?? []).map(entry => ({joint: entry.joint, at: entry.at_m, kind, text: text(entry)}));
+  const list = (entries, kind, text) =>
+    (entries ?? []).map(entry => ({joint: entry.joint, at: entry.at_m, kind, text: text(entry)}));
   return [
-    ...list(end.crushed_joints, 'crushed', ({face, length_m: length}) => `crushed over ${Number(length.toPrecision(3))} m at the ${face}`),
+    ...list(
+      end.crushed_joints,
+      'crushed',
+      ({face, length_m: length}) => `crushed over ${Number(length.toPrecision(3))} m at the ${face}`,
+    ),
     ...list(end.hinges, 'hinge', ({face, opens}) => `hinge at the ${face}, opens at the ${opens}`),
     ...list(end.slides, 'slide', () => 'slides'),
     ...list(end.lift_offs, 'parting', () => 'parts altogether'),
@@ -37,8 +43,14 @@ const SHAPES = {
 
 /** Marks at pixels. */
 export function marks(found, pixels) {
-  return found.map(({joint, kind, text, at}) => svg('g', {class: `happening ${kind}`},
-    svg('title', {}, `Joint ${joint}: ${text}`), SHAPES[kind](pixels(at, joint))));
+  return found.map(({joint, kind, text, at}) =>
+    svg(
+      'g',
+      {class: `happening ${kind}`},
+      svg('title', {}, `Joint ${joint}: ${text}`),
+      SHAPES[kind](pixels(at, joint)),
+    ),
+  );
 }
 
 export const LEGEND = {hinge: '○ hinge', crushed: '× crushed', slide: '⇄ slides', parting: '‖ parts'};

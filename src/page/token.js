@@ -7,20 +7,34 @@ let asking = null;
 
 /** Settles when a token has been given. */
 export function askToken(why) {
-  asking ??= new Promise(resolve => show(why, resolve)).finally(() => { asking = null; });
+  asking ??= new Promise(resolve => show(why, resolve)).finally(() => {
+    asking = null;
+  });
   return asking;
 }
 
 function show(why, done) {
-  const field = el('input', {type: 'password', id: 'token-field', autocomplete: 'off', required: true, spellcheck: 'false'});
+  const field = el('input', {
+    type: 'password',
+    id: 'token-field',
+    autocomplete: 'off',
+    required: true,
+    spellcheck: 'false',
+  });
   const keep = el('input', {type: 'checkbox', id: 'token-keep'});
-  const form = el('form', {method: 'dialog'},
+  const form = el(
+    'form',
+    {method: 'dialog'},
     el('h2', {id: 'token-title'}, 'This service asks for a token'),
-    el('p', {role: why ? 'alert' : null, class: why ? 'fault' : 'soft'},
-      why || 'Whoever runs the service gives tokens. It is sent with every request to this service and nowhere else.'),
+    el(
+      'p',
+      {role: why ? 'alert' : null, class: why ? 'fault' : 'soft'},
+      why || 'Whoever runs the service gives tokens. It is sent with every request to this service and nowhere else.',
+    ),
     el('p', {class: 'field'}, el('label', {for: 'token-field'}, 'Token'), field),
     el('p', {}, el('label', {class: 'check'}, keep, ' Keep it on this device when the tab is closed')),
-    el('p', {class: 'row'}, el('button', {class: 'main'}, 'Use this token')));
+    el('p', {class: 'row'}, el('button', {class: 'main'}, 'Use this token')),
+  );
   const dialog = el('dialog', {'aria-labelledby': 'token-title'}, form);
   // Nothing works without it, so the dialog comes back until there is one.
   dialog.addEventListener('cancel', event => event.preventDefault());

@@ -20,10 +20,16 @@ export class View {
   /** Shows all of these points. */
   show(points, upwards = 0) {
     let box = [Infinity, Infinity, -Infinity, -Infinity];
-    for (const [x, y] of points) box = [Math.min(box[0], x), Math.min(box[1], y), Math.max(box[2], x), Math.max(box[3], y)];
+    for (const [x, y] of points)
+      box = [Math.min(box[0], x), Math.min(box[1], y), Math.max(box[2], x), Math.max(box[3], y)];
     if (!box.every(Number.isFinite)) box = [-1, -1, 1, 1];
     const size = Math.max(box[2] - box[0], box[3] - box[1], 1e-6);
-    this.box = [box[0] - MARGIN * size, box[1] - MARGIN * size, box[2] + MARGIN * size, box[3] + (MARGIN + upwards) * size];
+    this.box = [
+      box[0] - MARGIN * size,
+      box[1] - MARGIN * size,
+      box[2] + MARGIN * size,
+      box[3] + (MARGIN + upwards) * size,
+    ];
     this.size = size;
   }
 
@@ -37,7 +43,7 @@ export class View {
     if (width === 0) return;
     const [left, bottom, right, top] = this.box;
     this.scale = Math.min(width / (right - left), height / (top - bottom));
-    this.origin = [width / 2 - this.scale * (left + right) / 2, height / 2 + this.scale * (bottom + top) / 2];
+    this.origin = [width / 2 - (this.scale * (left + right)) / 2, height / 2 + (this.scale * (bottom + top)) / 2];
     const fine = devicePixelRatio;
     Object.assign(this.canvas, {width: Math.round(width * fine), height: Math.round(height * fine)});
     this.marks.setAttribute('viewBox', `0 0 ${width} ${height}`);
@@ -61,7 +67,11 @@ export class View {
 
   /** All polygons as one path. */
   polygons(polygons, {fill, stroke, width = 1, alpha = 1}) {
-    const {context, scale, origin: [left, top]} = this;
+    const {
+      context,
+      scale,
+      origin: [left, top],
+    } = this;
     context.beginPath();
     for (const corners of polygons) {
       let begun = false;
@@ -100,7 +110,8 @@ export class View {
   /** Ground under these lines: a line, and hatches on the side away from `middle`. */
   ground(lines, middle) {
     for (const [a, b] of lines) {
-      const [p, q] = [this.at(a), this.at(b)], m = this.at(middle);
+      const [p, q] = [this.at(a), this.at(b)],
+        m = this.at(middle);
       const length = Math.hypot(q[0] - p[0], q[1] - p[1]) || 1;
       const t = [(q[0] - p[0]) / length, (q[1] - p[1]) / length];
       const away = t[0] * (m[1] - p[1]) - t[1] * (m[0] - p[0]) > 0 ? [t[1], -t[0]] : [-t[1], t[0]];
@@ -125,12 +136,17 @@ export class View {
   }
 
   scaleBar() {
-    const wished = 90 / this.scale, ten = 10 ** Math.floor(Math.log10(wished));
+    const wished = 90 / this.scale,
+      ten = 10 ** Math.floor(Math.log10(wished));
     const length = [5, 2, 1].map(k => k * ten).find(k => k <= wished) ?? ten;
-    const width = length * this.scale, y = this.node.clientHeight - 12;
-    return svg('g', {class: 'bar', 'aria-hidden': 'true'},
+    const width = length * this.scale,
+      y = this.node.clientHeight - 12;
+    return svg(
+      'g',
+      {class: 'bar', 'aria-hidden': 'true'},
       svg('path', {d: `M12 ${y - 5}v5h${width}v-5`}),
-      svg('text', {x: 18 + width, y}, `${Number(length.toPrecision(1))} m`));
+      svg('text', {x: 18 + width, y}, `${Number(length.toPrecision(1))} m`),
+    );
   }
 }
 
@@ -152,7 +168,7 @@ export function inside([x, y], corners) {
   let within = false;
   corners.forEach(([ax, ay], i) => {
     const [bx, by] = corners[(i + 1) % corners.length];
-    if (ay > y !== by > y && x < (bx - ax) * (y - ay) / (by - ay) + ax) within = !within;
+    if (ay > y !== by > y && x < ((bx - ax) * (y - ay)) / (by - ay) + ax) within = !within;
   });
   return within;
 }

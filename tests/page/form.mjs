@@ -17,12 +17,15 @@ export async function aBridgeByForm(tools) {
   const request = await draft(page);
   assert.equal(request.name, 'Two spans');
   assert.equal(request.bridge.piers[0].height_m, 5);
-  assert.deepEqual(request.bridge.spans[0].rings.map(ring => ring.thickness_m), [0.4, 0.3]);
+  assert.deepEqual(
+    request.bridge.spans[0].rings.map(ring => ring.thickness_m),
+    [0.4, 0.3],
+  );
   await page.click('#analyse');
   await page.waitForSelector('#headline');
   assert.equal(await page.textContent('.jobname'), 'Two spans');
   const said = await tools.service.results(page.url().split('/').at(-1), '?f=text');
-  assert.ok(said.replace(/\s+/g, ' ').includes(await page.textContent('#headline')), 'the headline is the service\'s');
+  assert.ok(said.replace(/\s+/g, ' ').includes(await page.textContent('#headline')), "the headline is the service's");
 }
 
 /** A load on the drawing moves with the pointer and with the keys; field, JSON and drawing follow. */
@@ -72,7 +75,10 @@ export async function faultsBesideTheirFields(tools) {
   await page.fill('#f-arch-thickness-constant_m', '-1');
   await page.fill('#f-arch-voussoirs', 'many');
   await judged(page, '2 faults');
-  for (const [id, words] of [['f-arch-thickness-constant_m', 'out of range'], ['f-arch-voussoirs', 'number']]) {
+  for (const [id, words] of [
+    ['f-arch-thickness-constant_m', 'out of range'],
+    ['f-arch-voussoirs', 'number'],
+  ]) {
     assert.equal(await page.getAttribute(`#${id}`, 'aria-invalid'), 'true');
     assert.ok((await page.textContent(`#${id}-fault`)).includes(words));
   }
@@ -83,7 +89,7 @@ export async function faultsBesideTheirFields(tools) {
   await judged(page, '1 fault');
   assert.ok((await page.textContent('#f-arch-voussoirs-fault')).includes('missing'));
   // A fault of what has no field is told, too.
-  await page.fill('#json', JSON.stringify({...await draft(page), moon: 1}));
+  await page.fill('#json', JSON.stringify({...(await draft(page)), moon: 1}));
   await text(page, '.fault.list', '/moon');
   assert.equal(new URL(page.url()).hash, '#/new/arch');
 }
@@ -91,7 +97,13 @@ export async function faultsBesideTheirFields(tools) {
 /** An arch from surveyed points, chosen or dropped; a file that is none says why. */
 export async function anArchFromSurveyedPoints(tools) {
   const page = await tools.page('/');
-  const points = [[-2, 0], [-1.4, 0.9], [0, 1.4], [1.4, 0.9], [2, 0]];
+  const points = [
+    [-2, 0],
+    [-1.4, 0.9],
+    [0, 1.4],
+    [1.4, 0.9],
+    [2, 0],
+  ];
   const rows = (side, scale) => points.map(([x, y]) => `${side},${x * scale},${(y * scale).toFixed(3)}`);
   const csv = ['side,x_m,y_m', ...rows('intrados', 1), ...rows('extrados', 1.25).reverse()].join('\n');
   await page.setInputFiles('#file', {name: 'arch of 1840.csv', mimeType: 'text/csv', buffer: Buffer.from(csv)});
@@ -100,12 +112,19 @@ export async function anArchFromSurveyedPoints(tools) {
   assert.equal(request.name, 'arch of 1840');
   assert.deepEqual(request.arch.profile.surveyed.intrados_m, points);
   assert.deepEqual(request.arch.profile.surveyed.extrados_m[0], [-2.5, 0]);
-  const drop = (name, body) => page.evaluate(([name, body]) => {
-    const data = new DataTransfer();
-    data.items.add(new File([body], name, {type: 'text/csv'}));
-    window.dispatchEvent(new DragEvent('drop', {dataTransfer: data, bubbles: true, cancelable: true}));
-  }, [name, body]);
-  await drop('inner.csv', ['side;x_m;y_m', ...rows('intrados', 1).map(row => row.replaceAll(',', ';').replaceAll('.', ','))].join('\r\n'));
+  const drop = (name, body) =>
+    page.evaluate(
+      ([name, body]) => {
+        const data = new DataTransfer();
+        data.items.add(new File([body], name, {type: 'text/csv'}));
+        window.dispatchEvent(new DragEvent('drop', {dataTransfer: data, bubbles: true, cancelable: true}));
+      },
+      [name, body],
+    );
+  await drop(
+    'inner.csv',
+    ['side;x_m;y_m', ...rows('intrados', 1).map(row => row.replaceAll(',', ';').replaceAll('.', ','))].join('\r\n'),
+  );
   await text(page, '[data-at="/arch/profile#"] .fault', 'thickness_m');
   await page.fill('#f-arch-profile-surveyed-thickness_m', '0.4');
   await judged(page);
@@ -113,5 +132,9 @@ export async function anArchFromSurveyedPoints(tools) {
   await drop('bad.csv', 'side,x_m,y_m\nintrados,0,zero');
   await text(page, '#told', 'line 2');
   await drop('request.json', JSON.stringify(tools.request('pointed')));
-  await page.waitForFunction(() => document.getElementById('f-arch-profile-pointed-span_m') || document.getElementById('f-arch-profile-pointed-radius_m'));
+  await page.waitForFunction(
+    () =>
+      document.getElementById('f-arch-profile-pointed-span_m') ||
+      document.getElementById('f-arch-profile-pointed-radius_m'),
+  );
 }

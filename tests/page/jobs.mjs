@@ -20,7 +20,9 @@ export async function cancelCloneAndEdit(tools) {
   await page.waitForSelector('#headline');
   const clone = page.url().split('/').at(-1);
   assert.notEqual(clone, waiting.job_id);
-  const requests = await Promise.all([waiting.job_id, clone].map(async id => (await service.call('GET', `/v1/jobs/${id}/request`)).text()));
+  const requests = await Promise.all(
+    [waiting.job_id, clone].map(async id => (await service.call('GET', `/v1/jobs/${id}/request`)).text()),
+  );
   assert.equal(requests[0], requests[1]);
   await page.getByRole('button', {name: 'Edit a copy'}).click();
   await judged(page);
@@ -59,7 +61,11 @@ export async function theServiceIsKilledAndComesBack(tools) {
   await service.begin();
   await page.waitForSelector('#away', {state: 'hidden'});
   for (const lost of [id, other.job_id]) await text(page, `[data-id="${lost}"] .badge`, 'lost');
-  assert.equal(await row(page, other.job_id).getByRole('button', {name: /Clone/}).count(), 0, 'its request is not known here');
+  assert.equal(
+    await row(page, other.job_id).getByRole('button', {name: /Clone/}).count(),
+    0,
+    'its request is not known here',
+  );
   await page.reload();
   await text(page, `[data-id="${id}"] .badge`, 'lost');
   await row(page, id).locator('.name').click();
@@ -82,7 +88,10 @@ export async function aThousandJobs(tools) {
   const took = await page.evaluate(async () => {
     const {jobsView} = await import('/page/jobs.js');
     const clock = performance.now();
-    const view = jobsView(() => {}, () => {});
+    const view = jobsView(
+      () => {},
+      () => {},
+    );
     document.getElementById('main').replaceChildren(view.node);
     while (view.node.querySelectorAll('.job').length < 100) await new Promise(requestAnimationFrame);
     view.stop();

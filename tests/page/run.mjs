@@ -13,7 +13,9 @@ const [, , program, root] = process.argv;
 const tools = await Tools.start(program, root);
 const only = process.env.ONLY ?? '';
 let failed = 0;
-for (const [name, trial] of [form, answers, proof, jobs, tokens, looks].flatMap(Object.entries).filter(([name]) => name.includes(only))) {
+for (const [name, trial] of [form, answers, proof, jobs, tokens, looks]
+  .flatMap(Object.entries)
+  .filter(([name]) => name.includes(only))) {
   const clock = performance.now();
   try {
     await trial(tools);

@@ -26,16 +26,24 @@ export async function aTokenIsAskedForOnce(tools) {
   await judged(page);
   await page.click('#analyse');
   await page.waitForSelector('.certificate.holds');
-  const [download] = await Promise.all([page.waitForEvent('download'), page.click('.exports [data-file="figure.svg"]')]);
+  const [download] = await Promise.all([
+    page.waitForEvent('download'),
+    page.click('.exports [data-file="figure.svg"]'),
+  ]);
   assert.ok(readFileSync(await download.path(), 'utf8').startsWith('<svg'));
   const authorised = {authorization: `Bearer ${TOKEN}`};
   const answer = await service.call('POST', '/v1/jobs', long(tools.request('worst-position')), authorised);
   const {job_id: id} = await answer.json();
-  await page.evaluate(id => { location.hash = `#/jobs/${id}`; }, id);
+  await page.evaluate(id => {
+    location.hash = `#/jobs/${id}`;
+  }, id);
   await page.waitForFunction(() => document.querySelector('.live progress')?.value > 0);
   await page.getByRole('button', {name: /^Cancel/}).click();
   await text(page, '.badge', 'cancelled');
-  assert.ok(addresses.some(address => address.includes('/v1/events?')), 'the stream was followed by a link');
+  assert.ok(
+    addresses.some(address => address.includes('/v1/events?')),
+    'the stream was followed by a link',
+  );
   assert.ok(addresses.every(address => !address.includes(TOKEN)));
   await page.reload();
   await text(page, '.badge', 'cancelled');

@@ -28,7 +28,7 @@ export class Service {
     const service = new Service();
     service.program = program;
     service.flags = flags;
-    service.port = port ?? await freePort();
+    service.port = port ?? (await freePort());
     service.url = `http://127.0.0.1:${service.port}`;
     await service.begin();
     return service;
@@ -36,9 +36,15 @@ export class Service {
 
   async begin() {
     const bind = `127.0.0.1:${this.port}`;
-    this.process = spawn(this.program, ['serve', '--bind', bind, '--log', 'warn', '--workers', '1', ...this.flags], {stdio: ['ignore', 'inherit', 'inherit']});
-    const healthy = () => run(this.program, ['health', '--bind', bind]).then(() => true, () => false);
-    while (!await healthy()) assert.equal(this.process.exitCode, null, 'the service does not start');
+    this.process = spawn(this.program, ['serve', '--bind', bind, '--log', 'warn', '--workers', '1', ...this.flags], {
+      stdio: ['ignore', 'inherit', 'inherit'],
+    });
+    const healthy = () =>
+      run(this.program, ['health', '--bind', bind]).then(
+        () => true,
+        () => false,
+      );
+    while (!(await healthy())) assert.equal(this.process.exitCode, null, 'the service does not start');
   }
 
   /** Ends it as a loss of power would. */
@@ -48,7 +54,11 @@ export class Service {
   }
 
   async call(method, path, body, headers = {}) {
-    const answer = await fetch(this.url + path, {method, headers: {'content-type': 'application/json', ...headers}, body: body && JSON.stringify(body)});
+    const answer = await fetch(this.url + path, {
+      method,
+      headers: {'content-type': 'application/json', ...headers},
+      body: body && JSON.stringify(body),
+    });
     return answer;
   }
 
@@ -69,7 +79,10 @@ export class Tools {
   static async start(program, root) {
     const tools = new Tools();
     Object.assign(tools, {program, root, troubles: [], contexts: [], services: []});
-    tools.browser = await chromium.launch({executablePath: CHROMIUM, args: ['--no-sandbox', '--disable-dev-shm-usage']});
+    tools.browser = await chromium.launch({
+      executablePath: CHROMIUM,
+      args: ['--no-sandbox', '--disable-dev-shm-usage'],
+    });
     tools.service = await Service.start(program, ['--queue', '4000']);
     return tools;
   }
@@ -90,7 +103,15 @@ export class Tools {
   async page(path = '/', {service = this.service, ...options} = {}) {
     const context = await this.browser.newContext({viewport: {width: 1280, height: 900}, ...options});
     this.contexts.push(context);
-    const page = this.shown = await context.newPage();
+    await context.addInitScript(() => {
+      globalThis.shifted = 0;
+      const count = list =>
+        list.getEntries().forEach(entry => {
+          globalThis.shifted += entry.value;
+        });
+      new PerformanceObserver(count).observe({type: 'layout-shift', buffered: true});
+    });
+    const page = (this.shown = await context.newPage());
     page.setDefaultTimeout(PATIENCE);
     page.on('pageerror', error => this.troubles.push(`${error.stack}`));
     page.on('console', message => {
@@ -126,8 +147,11 @@ export class Tools {
 }
 
 /** Waits until a text is on the page. */
-export const text = (page, selector, words) => page.waitForFunction(
-  ([selector, words]) => document.querySelector(selector)?.textContent.includes(words), [selector, words]);
+export const text = (page, selector, words) =>
+  page.waitForFunction(
+    ([selector, words]) => document.querySelector(selector)?.textContent.includes(words),
+    [selector, words],
+  );
 
 /** Waits until the service has judged the draft so. */
 export const judged = (page, words = 'understands') => text(page, '.state:not([aria-busy])', words);
@@ -137,11 +161,17 @@ export const draft = async page => JSON.parse(await page.inputValue('#json'));
 
 /** A small arch that is solved at once. */
 export const SMALL = {
-  name: 'Small', arch: {profile: {circular: {span_m: 4, rise_m: 1}}, thickness: {constant_m: 0.5}, voussoirs: 7},
+  name: 'Small',
+  arch: {profile: {circular: {span_m: 4, rise_m: 1}}, thickness: {constant_m: 0.5}, voussoirs: 7},
   loads: [{load: {self_weight: {}}}, {load: {point_load: {force_n_per_m: 1000, x_m: -1}}, scaled: true}],
 };
 
 /** One that takes long, and says how far it has come: many positions of a vehicle. */
 export function long(request) {
-  return {...request, name: 'Long', arch: {...request.arch, voussoirs: 400}, analysis: {worst_position: {step_m: 0.0035, from_m: -3, to_m: 3}}};
+  return {
+    ...request,
+    name: 'Long',
+    arch: {...request.arch, voussoirs: 400},
+    analysis: {worst_position: {step_m: 0.0035, from_m: -3, to_m: 3}},
+  };
 }
