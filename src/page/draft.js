@@ -8,7 +8,7 @@ const PAUSE = 250;
 export class Draft {
   /** `changed` runs after every change, `reshaped` where fields come or go, `judged` with the faults of the service. */
   constructor(request, {changed, reshaped, judged}) {
-    Object.assign(this, {request, changed, reshaped, judged, faults: null});
+    Object.assign(this, {request, changed, reshaped, judged, faults: null, left: new Map()});
   }
 
   get(at) {
@@ -31,6 +31,12 @@ export class Draft {
     this.request = request;
     this.reshaped();
     this.touch();
+  }
+
+  /** Goes on with another kind of structure: as it was left, or from a start. */
+  change(kind, start) {
+    for (const now of ['arch', 'bridge', 'blocks']) if (this.request[now]) this.left.set(now, this.request);
+    this.replace(this.left.get(kind) ?? start);
   }
 
   touch() {

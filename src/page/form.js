@@ -72,6 +72,7 @@ export function formView(request, go) {
   document.addEventListener('voussoir:back', again);
   return {
     node,
+    request: () => draft.request,
     stop: () => {
       document.removeEventListener('voussoir:back', again);
       draft.stop();
@@ -125,7 +126,7 @@ function kinds(draft) {
           name: 'kind',
           id: `kind-${kind}`,
           checked: Boolean(draft.request[kind]),
-          onchange: () => draft.replace({...structuredClone(request)}),
+          onchange: () => draft.change(kind, structuredClone(request)),
         }),
         ` ${words}`,
       ),

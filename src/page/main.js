@@ -11,14 +11,24 @@ import {tokenButton} from './token.js';
 import {complain, el, put, say} from './dom.js';
 
 const main = document.getElementById('main');
+// Drafts by their addresses: whoever comes back to one finds it as it was left.
+const drafts = new Map();
 let shown = null,
   turn = 0,
   given = null;
 
+/** Leads to an address, where everything begins anew. */
 const go = path => {
+  keepDraft();
+  shown = {stop: shown?.stop};
+  drafts.delete(path);
   if (location.hash === path) show();
   else location.hash = path;
 };
+
+function keepDraft() {
+  if (shown?.request) drafts.set(shown.address, shown.request());
+}
 
 /** The view of an address: {title, node, stop}. */
 async function viewOf(address) {
@@ -31,6 +41,7 @@ async function viewOf(address) {
 /** The request that a new one begins with: a starter, a file, or that of a job. */
 async function requestFor(address) {
   const [, , kind, id] = address.split('/');
+  if (drafts.has(address)) return drafts.get(address);
   if (kind === 'file' && given) return structuredClone(given);
   if (kind === 'job') {
     const kept = requestOf(id);
@@ -41,14 +52,16 @@ async function requestFor(address) {
 
 async function show() {
   const mine = ++turn,
-    first = shown === null;
+    first = shown === null,
+    address = location.hash;
+  keepDraft();
   shown?.stop?.();
   shown = {};
   complain('');
   try {
-    const view = await viewOf(location.hash);
+    const view = await viewOf(address);
     if (mine !== turn) return view.stop?.();
-    shown = view;
+    shown = {...view, address};
     document.title = `${view.title} – Voussoir`;
     put(main, el('h1', {class: 'unseen', id: 'title'}, view.title), view.node);
   } catch (error) {
@@ -112,6 +125,12 @@ document.getElementById('skip').addEventListener('click', event => {
 });
 matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
   for (const view of document.querySelectorAll('.view')) view.dispatchEvent(new Event('recolour'));
+});
+document.addEventListener('click', event => {
+  const link = event.target.closest('a[href^="#/new/"]');
+  if (!link || event.ctrlKey || event.metaKey || event.shiftKey) return;
+  event.preventDefault();
+  go(link.hash);
 });
 addEventListener('hashchange', show);
 tokenButton(document.getElementById('token'));

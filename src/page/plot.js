@@ -14,6 +14,8 @@ export function plot({title, x, y, curves}) {
   if (drawn.length === 0) return null;
   const picture = svg('svg', {class: 'plot', role: 'img', 'aria-label': `${title}: ${y} over ${x}`});
   const told = el('p', {class: 'readout'}, 'Point at a curve for its values.');
+  // Long curves have long tables, which few open.
+  const values = el('div', {class: 'scroll', tabindex: 0, role: 'region', 'aria-label': `Values: ${title}`});
   const node = el(
     'figure',
     {},
@@ -39,13 +41,9 @@ export function plot({title, x, y, curves}) {
       ),
     el(
       'details',
-      {},
+      {ontoggle: () => put(values, valueTable(drawn, x, y))},
       el('summary', {}, 'The values as a table'),
-      el(
-        'div',
-        {class: 'scroll', tabindex: 0, role: 'region', 'aria-label': `Values: ${title}`},
-        valueTable(drawn, x, y),
-      ),
+      values,
     ),
   );
   const paint = () => draw(picture, drawn, {x, y});

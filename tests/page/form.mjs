@@ -14,8 +14,13 @@ export async function aBridgeByForm(tools) {
   await page.click('#f-bridge-spans-0-rings-add');
   await page.fill('#f-bridge-spans-0-rings-1-thickness_m', '0.3');
   await judged(page);
+  await page.check('#kind-arch');
+  await judged(page);
+  assert.ok((await draft(page)).arch);
+  await page.check('#kind-bridge');
+  await judged(page);
   const request = await draft(page);
-  assert.equal(request.name, 'Two spans');
+  assert.equal(request.name, 'Two spans', 'another kind does not spoil this one');
   assert.equal(request.bridge.piers[0].height_m, 5);
   assert.deepEqual(
     request.bridge.spans[0].rings.map(ring => ring.thickness_m),
@@ -26,6 +31,14 @@ export async function aBridgeByForm(tools) {
   assert.equal(await page.textContent('.jobname'), 'Two spans');
   const said = await tools.service.results(page.url().split('/').at(-1), '?f=text');
   assert.ok(said.replace(/\s+/g, ' ').includes(await page.textContent('#headline')), "the headline is the service's");
+  await page.goBack();
+  await judged(page);
+  assert.equal((await draft(page)).name, 'Two spans', 'a draft is found as it was left');
+  await page.click('.top nav a[href="#/new/arch"]');
+  await page.waitForSelector('#f-arch-voussoirs');
+  await page.fill('#f-name', 'Mine');
+  await page.click('.top nav a[href="#/new/arch"]');
+  await page.waitForFunction(() => document.getElementById('f-name').value === 'Arch');
 }
 
 /** A load on the drawing moves with the pointer and with the keys; field, JSON and drawing follow. */
