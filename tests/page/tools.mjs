@@ -8,7 +8,7 @@ import {execFile, spawn} from 'node:child_process';
 import {promisify} from 'node:util';
 import assert from 'node:assert/strict';
 
-const CHROMIUM = process.env.CHROMIUM ?? '/usr/bin/chromium';
+const {CHROMIUM} = process.env;
 const PATIENCE = 20_000;
 const run = promisify(execFile);
 
