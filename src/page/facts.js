@@ -3,6 +3,13 @@
 import {el} from './dom.js';
 import {figures, mega, words} from './number.js';
 
+/** Outcomes of which no intensity means anything. */
+const AS_BUILT = ['falls_as_built', 'slides_as_built'];
+
+/** Where the fixed loads alone crush the joints, the end is that of stone that does not crush. */
+const loadOf = ({outcome, safety}) =>
+  outcome === 'crushes' && !safety ? 'Collapse, if its stone did not crush' : 'Collapse';
+
 /** [term, value] of what there is. */
 function factsOf(answer) {
   const {unit} = answer,
@@ -12,10 +19,11 @@ function factsOf(answer) {
   const facts = [['Outcome', words(answer.outcome)]];
   for (const end of answer.ends) {
     const which = answer.ends.length > 1 ? `, ${end.which} end` : '';
+    facts.push([`Mode${which}`, words(end.mode)]);
+    if (AS_BUILT.includes(answer.outcome)) continue;
     facts.push(
-      [`Collapse${which}`, of(end.intensity, end.unit)],
+      [`${loadOf(answer)}${which}`, of(end.intensity, end.unit)],
       [`Governed by${which}`, words(end.governed_by)],
-      [`Mode${which}`, words(end.mode)],
     );
     if (end.governed_by === 'crushing' && end.instability)
       facts.push([`Without crushing${which}`, of(end.instability.intensity, end.unit)]);

@@ -17,9 +17,17 @@ const VERDICTS = {
   null: ['none', 'No certificate', ''],
 };
 
+/** Where the service itself cannot say what happens, a proof of the window is none of the outcome. */
+const WINDOW_ONLY = [
+  'none',
+  'The limit window alone is proved',
+  'What limit analysis allows was checked in this browser and holds. The outcome is another matter: see the headline and the notes.',
+];
+const NOT_BY_LIMITS = ['cannot_tell', 'slides_as_built'];
+
 export function proofBox(answer) {
   const {proved, claims, why} = check(answer);
-  const [kind, title, words] = VERDICTS[proved];
+  const [kind, title, words] = proved && NOT_BY_LIMITS.includes(answer.outcome) ? WINDOW_ONLY : VERDICTS[proved];
   return el(
     'section',
     {class: `certificate ${kind}`, 'aria-labelledby': 'certificate-title'},

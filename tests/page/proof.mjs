@@ -6,6 +6,7 @@ import {spawnSync} from 'node:child_process';
 import {mkdtempSync, rmSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
+import {SMALL, text} from './tools.mjs';
 
 const CASES = [
   'first-arch',
@@ -91,6 +92,28 @@ export async function greenOnlyIfItHolds(tools) {
   await page.waitForSelector('.certificate.fails');
   assert.ok((await page.textContent('.certificate')).includes('Do not rely'));
   assert.equal(await page.locator('.certificate.holds').count(), 0);
+  const hair = {...SMALL, arch: {...SMALL.arch, thickness: {constant_m: 1e-6}}};
+  const {job_id: slender} = await tools.service.submit(hair);
+  assert.equal((await tools.service.results(slender)).outcome, 'cannot_tell');
+  await page.evaluate(id => {
+    location.hash = `#/jobs/${id}`;
+  }, slender);
+  await text(page, '.certificate.none', 'limit window alone');
+}
+
+/** Where an intensity means nothing none is shown. */
+export async function noLoadWhereNoneMeansAnything(tools) {
+  const thin = {
+    profile: {circular: {radius_m: 5, opening_angle_deg: 180}},
+    thickness: {constant_m: 0.2},
+    voussoirs: 20,
+  };
+  const {job_id: id} = await tools.service.submit({...SMALL, arch: thin});
+  assert.equal((await tools.service.results(id)).outcome, 'falls_as_built');
+  const page = await tools.page(`/#/jobs/${id}`);
+  await page.waitForSelector('.facts');
+  const terms = await page.locator('.facts dt').allTextContents();
+  assert.ok(terms.includes('Mode') && !terms.some(term => term.startsWith('Collapse')), `${terms}`);
 }
 
 const DRAWN = {
