@@ -15,6 +15,8 @@ pub mod jobs;
 #[path = "../tests/it/common/largest.rs"]
 mod largest;
 pub mod limit;
+#[cfg(feature = "server")]
+pub mod page;
 pub mod render;
 pub mod structure;
 #[cfg(feature = "server")]

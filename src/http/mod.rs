@@ -29,9 +29,8 @@ pub use layers::{Hosts, LinkKey, NO_TOKEN, Tokens, is_token};
 pub use limits::ApiLimits;
 pub use service::{Service, Settings, Solver};
 
+use crate::page;
 use axum::Router;
-use axum::response::Redirect;
-use axum::routing::get;
 use utoipa::OpenApi;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
@@ -77,10 +76,8 @@ fn open() -> OpenApiRouter<Service> {
 pub fn router(service: Service) -> Router {
     let (guarded, _) = guarded().split_for_parts();
     let (open, _) = open().split_for_parts();
-    let router = layers::guard(guarded, service.settings.clone())
-        .merge(open)
-        .merge(docs::router())
-        .route("/", get(Redirect::to("/docs/")));
+    let router =
+        layers::guard(guarded, service.settings.clone()).merge(open).merge(docs::router()).merge(page::router());
     layers::wrap(router.with_state(service.clone()), &service)
 }
 

@@ -81,6 +81,8 @@ mod oracle;
 #[cfg(feature = "server")]
 mod outcomes;
 #[cfg(feature = "server")]
+mod page;
+#[cfg(feature = "server")]
 mod paper;
 #[cfg(feature = "server")]
 mod passive;

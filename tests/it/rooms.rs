@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 const PURE: [&str; 9] = ["budget", "geometry", "structure", "arch", "blocks", "bridge", "dda", "limit", "collapse"];
 
 /// A room, the rooms of this crate it may use, the outside crates it may use.
-const TABLE: [(&str, &[&str], &[&str]); 13] = [
+const TABLE: [(&str, &[&str], &[&str]); 14] = [
     ("budget", &[], &["thiserror"]),
     ("geometry", &[], &["nalgebra"]),
     ("structure", &["geometry"], &["thiserror"]),
@@ -41,9 +41,10 @@ const TABLE: [(&str, &[&str], &[&str]); 13] = [
         &["jobs", "render", "arch", "blocks", "bridge", "structure", "collapse", "geometry"],
         &["bytes", "comfy_table", "csv", "serde", "serde_json", "strsim", "thiserror", "utoipa"],
     ),
+    ("page", &[], &["axum", "headers"]),
     (
         "http",
-        &["budget", "jobs", "wire", "collapse"],
+        &["budget", "jobs", "page", "wire", "collapse"],
         &[
             "axum",
             "futures_util",
