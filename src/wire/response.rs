@@ -103,7 +103,7 @@ pub struct AnalysisResult {
     pub geometric_safety: Option<GeometricSafetyBody>,
     /// The worst position of vehicles, where `analysis` asks for it.
     pub worst_position: Option<WorstPositionBody>,
-    /// The load path, event by event.
+    /// The load path, event by event; empty where an accuracy of the stress is asked for, whose states are solved for one by one.
     pub history: HistoryColumns,
     /// What was modelled, and how accurate it is, where `accuracy` is asked for.
     pub plan: Option<PlanBody>,
