@@ -9,6 +9,7 @@ mod beam;
 mod estimate;
 mod mesh;
 mod refine;
+mod states;
 mod unfold;
 
 pub(super) use beam::solve as beam;
@@ -16,7 +17,7 @@ pub use mesh::{LOAD_PIECES, can_be_refined};
 pub(super) use mesh::{MOST_EACH_WAY, around};
 
 use super::{
-    Accuracy, Analysis, AnalysisError, CollapseReport, Direction, Estimate, Outcome, PathEnd, Plan, PlanReason,
+    Accuracy, Analysis, AnalysisError, CollapseReport, Direction, Estimate, Outcome, PathEnd, Plan, PlanReason, verdict,
 };
 use crate::budget::Budget;
 use crate::structure::is_symmetric;
@@ -69,7 +70,12 @@ fn on_finer_meshes(
         return Ok(rigid);
     }
     let half = half_of(analysis, &rigid);
-    let mut found = match refine::solve(half.as_ref().unwrap_or(analysis), most, asked, budget)? {
+    let modelled = half.as_ref().unwrap_or(analysis);
+    let whole = match &half {
+        Some(half) => verdict::solve(&with_mesh(half, vec![[1, 1]; half.structure.voussoirs().len()]), budget)?,
+        None => rigid.clone(),
+    };
+    let mut found = match refine::solve(modelled, &whole, most, asked, budget)? {
         Ok(found) => found,
         Err(why) => {
             plan.why.push(why);
@@ -78,6 +84,7 @@ fn on_finer_meshes(
     };
     found.report.cost.join(rigid.cost);
     plan.why.extend([why_half(analysis, half.is_some()), found.why]);
+    plan.why.extend(found.one_by_one.then_some(PlanReason::StatesOneByOne));
     (plan.stress, plan.first_yield, plan.meshes) = (Some(found.stress), found.first_yield, found.meshes);
     (plan.half, plan.subblocks) = match half {
         Some(_) => (true, unfold::subblocks(&analysis.structure, &found.subblocks)),

@@ -246,7 +246,7 @@ pub struct CollapseReport {
     pub updated: Option<UpdatedGeometry>,
     /// What the task asked for besides.
     pub task: TaskReport,
-    /// The path, event by event.
+    /// The path, event by event; nothing where the states of a refined mesh were solved for one by one.
     pub history: Vec<HistoryPoint>,
     /// How the arch moves on from `end`, where asked.
     pub motion: Option<FallingMotion>,

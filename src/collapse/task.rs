@@ -203,6 +203,11 @@ impl Task {
         if let Task::Collapse(task) = self { task.motion.filter(|_| !self.crushes_on_path()) } else { None }
     }
 
+    /// Whether it is asked when the stone first yields on the way.
+    pub(super) fn yields(&self) -> bool {
+        matches!(self, Task::Safety(SafetyTask { crushing: CrushingKind::Elastic, .. }))
+    }
+
     /// Whether the answer is about loads that grow.
     pub fn grows(&self) -> bool {
         self.states().is_some()

@@ -206,7 +206,7 @@ impl<'a> Setup<'a> {
         let fixed = disturbed(model, self.start, attempt);
         let mut progress = |tracer: &Tracer, load_factor: f64| self.budget.step(load_factor, tracer.events());
         let mut report = self.blank(model.assembly.unknowns());
-        report.notes = self.mesh_notes(model);
+        report.notes = notes_on_mesh(self.analysis, model);
         let (tracer, end) =
             stand(model, &fixed, self.start, self.weight, &mut |t| progress(t, self.start * t.parameter()));
         report.cost.add(&tracer, Cost::default());
@@ -300,13 +300,6 @@ impl<'a> Setup<'a> {
         Ok(())
     }
 
-    fn mesh_notes(&self, model: &Model) -> Vec<Note> {
-        let slenderness = model.grids[..model.bodies].iter().map(|grid| grid.slenderness()).fold(1.0, f64::max);
-        let several = self.analysis.mesh.subblocks.iter().any(|&subblocks| subblocks != [1, 1]);
-        let cohesive = |joint: &Joint| matches!(joint.law, JointLaw::Dry { cohesion, .. } if cohesion > 0.0);
-        mesh_notes(slenderness, several, self.analysis.structure.ring().iter().any(cohesive))
-    }
-
     /// A report of nothing but the limit window, on a model of so many `unknowns`.
     fn blank(&self, unknowns: usize) -> CollapseReport {
         let window = self.rigid;
@@ -342,4 +335,12 @@ impl<'a> Setup<'a> {
             notes: Vec::new(),
         }
     }
+}
+
+/// What the mesh does to an answer.
+pub(super) fn notes_on_mesh(analysis: &Analysis, model: &Model) -> Vec<Note> {
+    let slenderness = model.grids[..model.bodies].iter().map(|grid| grid.slenderness()).fold(1.0, f64::max);
+    let several = analysis.mesh.subblocks.iter().any(|&subblocks| subblocks != [1, 1]);
+    let cohesive = |joint: &Joint| matches!(joint.law, JointLaw::Dry { cohesion, .. } if cohesion > 0.0);
+    mesh_notes(slenderness, several, analysis.structure.ring().iter().any(cohesive))
 }

@@ -21,8 +21,12 @@
 //! stiffness is singular, in antisymmetric directions only if a symmetric state is found. The residual is symmetric and
 //! does no work in those; what rounding puts into them is taken out as every correction is made symmetric.
 
+mod direct;
+
+pub use direct::direct;
+
 use super::assembly::Assembly;
-use super::contact::{Contact, State};
+use super::contact::Contact;
 use super::elements::Elements;
 use super::factor::Factor;
 use super::trace::{Drive, End, Tracer};
@@ -75,7 +79,7 @@ pub fn balanced(
     traced.map_or(Ok(None), |near| by_newton(assembly, loads, &near, symmetric, budget))
 }
 
-/// Newton's method from displacements `near`.
+/// Newton's method on the law of the exact contacts, from displacements `near`.
 fn by_newton(
     assembly: &Assembly,
     loads: &[f64],
@@ -83,11 +87,11 @@ fn by_newton(
     symmetric: bool,
     budget: &Budget,
 ) -> Result<Option<Balanced>, Stopped> {
-    let mut newton = LawNewton::new(assembly, symmetric, budget);
+    let (contacts, mut factored) = (assembly.exact_contacts(), Factored::new(assembly, loads, budget));
     let mut d = if symmetric { assembly.symmetrised(near) } else { near.to_vec() };
     let (mut residual, mut best) = (vec![0.0; d.len()], (f64::INFINITY, Vec::new()));
     for _ in 0..STEPS {
-        assembly.unbalance(newton.contacts, loads, &d, &mut residual, budget)?;
+        assembly.unbalance(contacts, loads, &d, &mut residual, budget)?;
         let share = share_of(&residual, loads);
         let settled = share <= EXACT_BALANCE || (share >= 0.5 * best.0 && best.0 <= BALANCED);
         let lost = share > LOST * best.0;
@@ -97,12 +101,16 @@ fn by_newton(
         if settled || lost {
             break;
         }
-        newton.correct(&mut d, &residual)?;
+        let tangent =
+            |(p, contact): (usize, &Contact)| contact.tangent_stiffness(contact.state_at(assembly.gap(p, &d)));
+        let tangents: Vec<[f64; 4]> = contacts.iter().enumerate().map(tangent).collect();
+        let correction = factored.solve(&tangents, &residual, budget)?;
+        let correction = if symmetric { assembly.symmetrised(&correction) } else { correction };
+        d.iter_mut().zip(&correction).for_each(|(d, correction)| *d += correction);
     }
-    let (share, displacements) = best;
-    let [factorisations, block_rows] = [newton.factorisations, newton.factor.eliminated()];
-    let found = Balanced { displacements, free: newton.factor.pivot_ratio() < FREE_PIVOT, factorisations, block_rows };
-    Ok((share <= BALANCED).then_some(found))
+    let ((share, displacements), free) = (best, factored.pivot_ratio() < FREE_PIVOT);
+    let [factorisations, block_rows] = [factored.factorisations, factored.block_rows()];
+    Ok((share <= BALANCED).then_some(Balanced { displacements, free, factorisations, block_rows }))
 }
 
 /// Where the tangent is singular, as next to a momentary mechanism, a state may be far away in its direction. Displacements
@@ -155,58 +163,57 @@ fn total(loads: &[f64]) -> f64 {
     loads.iter().map(|load| load.abs()).sum::<f64>().max(f64::MIN_POSITIVE)
 }
 
-/// Newton's method on the law of an assembly's exact contacts.
-struct LawNewton<'c> {
-    assembly: &'c Assembly,
-    contacts: &'c [Contact],
-    symmetric: bool,
-    budget: &'c Budget<'c>,
+/// The tangent stiffness of an assembly, factored anew only where that of contacts has changed.
+struct Factored<'a> {
+    assembly: &'a Assembly,
     matrix: Elements,
-    factor: Factor<'c>,
-    /// States in which the matrix is factored; none at first.
-    states: Vec<State>,
+    factor: Factor<'a>,
+    /// Tangent stiffness of every contact as factored; none at first.
+    tangents: Vec<[f64; 4]>,
+    /// A right-hand side that never changes, which updates of the factors carry along; and its solution.
+    constant: &'a [f64],
+    solution: Vec<f64>,
     factorisations: usize,
 }
 
-impl<'c> LawNewton<'c> {
-    fn new(assembly: &'c Assembly, symmetric: bool, budget: &'c Budget<'c>) -> Self {
+impl<'a> Factored<'a> {
+    /// Of nothing yet.
+    fn new(assembly: &'a Assembly, constant: &'a [f64], budget: &Budget) -> Self {
         let (matrix, factor) = (assembly.elastic().copied(budget), Factor::new(assembly.tree()));
-        let (states, contacts) = (Vec::new(), assembly.exact_contacts());
-        LawNewton { assembly, contacts, symmetric, budget, matrix, factor, states, factorisations: 0 }
+        let (tangents, solution) = (Vec::new(), vec![0.0; constant.len()]);
+        Factored { assembly, matrix, factor, tangents, constant, solution, factorisations: 0 }
     }
 
-    /// Adds the correction for a residual, by the tangent stiffness that the law has at displacements `d`.
-    fn correct(&mut self, d: &mut [f64], residual: &[f64]) -> Result<(), Stopped> {
-        let states: Vec<State> =
-            self.contacts.iter().enumerate().map(|(p, contact)| contact.state_at(self.assembly.gap(p, d))).collect();
-        let mut correction = vec![0.0; d.len()];
-        if states == self.states {
-            self.factor.solve(residual, &mut correction, self.budget)?;
-        } else {
-            self.states = states;
-            self.assemble();
-            self.factor.update(&self.matrix, residual, &mut correction, self.middle(), self.budget)?;
+    /// Displacements that contacts of these tangent stiffnesses answer a residual with.
+    fn solve(&mut self, tangents: &[[f64; 4]], residual: &[f64], budget: &Budget) -> Result<Vec<f64>, Stopped> {
+        let mut last = None;
+        for k in 0..self.assembly.interfaces() {
+            let here = self.assembly.at_interface(k);
+            if self.tangents.get(here.clone()) != Some(&tangents[here]) {
+                self.assembly.set_interface(k, |p| tangents[p], &mut self.matrix);
+                last = Some(self.assembly.element(k));
+                self.factor.invalidate(self.assembly.element(k));
+            }
+        }
+        if let Some(last) = last {
+            // All of a new matrix is eliminated towards its middle; a few changes, where they are.
+            let first = self.tangents.is_empty();
+            let to = if first { self.assembly.element(self.assembly.interfaces() / 2) } else { last };
+            self.tangents = tangents.to_vec();
+            self.factor.update(&self.matrix, self.constant, &mut self.solution, to, budget)?;
             self.factorisations += 1;
         }
-        if self.symmetric {
-            correction = self.assembly.symmetrised(&correction);
-        }
-        d.iter_mut().zip(&correction).for_each(|(d, correction)| *d += correction);
-        Ok(())
+        let mut answer = vec![0.0; residual.len()];
+        self.factor.solve(residual, &mut answer, budget)?;
+        Ok(answer)
     }
 
-    fn assemble(&mut self) {
-        let (contacts, states) = (self.contacts, &self.states);
-        for k in 0..self.assembly.interfaces() {
-            self.assembly.set_interface(k, |p| contacts[p].tangent_stiffness(states[p]), &mut self.matrix);
-        }
-        for k in 0..self.assembly.interfaces() {
-            self.factor.invalidate(self.assembly.element(k));
-        }
+    fn pivot_ratio(&self) -> f64 {
+        self.factor.pivot_ratio()
     }
 
-    /// All of the matrix is new, wherever elimination meets.
-    fn middle(&self) -> usize {
-        self.assembly.element(self.assembly.interfaces() / 2)
+    /// Block rows eliminated.
+    fn block_rows(&self) -> usize {
+        self.factor.eliminated()
     }
 }

@@ -28,7 +28,7 @@ mod trace;
 mod tree;
 
 pub use assembly::{Assembly, AssemblyBuilder, Beside, Loads, MeanMotion, Push, Touch};
-pub use balance::{Balanced, balanced, missing};
+pub use balance::{Balanced, balanced, direct, missing};
 pub use block::{Block, Elasticity, V6};
 pub use condense::{Condensed, Loose, Node, Unbuilt, free_response};
 pub use contact::{Contact, ContactForce, Law, State, Zone};

@@ -110,7 +110,7 @@ pub struct AnalysisResult {
     pub worst_position: Option<WorstPositionBody>,
     /// How the load factor moves with the points of a survey, where `analysis` asks for it.
     pub survey_tolerance: Option<SurveyToleranceBody>,
-    /// The load path, event by event.
+    /// The load path, event by event; empty where an accuracy of the stress is asked for, whose states are solved for one by one.
     pub history: HistoryColumns,
     /// What was modelled, and how accurate it is, where `accuracy` is asked for.
     pub plan: Option<PlanBody>,

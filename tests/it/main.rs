@@ -76,6 +76,7 @@ mod meshes;
 #[cfg(feature = "server")]
 mod moving_geometry;
 #[cfg(feature = "server")]
+mod one_by_one;
 mod openapi;
 mod oracle;
 #[cfg(feature = "server")]

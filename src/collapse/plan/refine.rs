@@ -3,6 +3,7 @@
 use super::super::{Analysis, AnalysisError, CollapseReport, Estimate, MeshTried, Outcome, PlanReason, verdict};
 use super::estimate::{FieldErrors, Orders, differences};
 use super::mesh::ladder;
+use super::states::{Wanted, on_mesh};
 use super::with_mesh;
 use crate::budget::Budget;
 
@@ -16,6 +17,8 @@ const AIM: f64 = 0.9;
 pub(super) struct Refined {
     /// The answer, its cost that of all meshes.
     pub report: CollapseReport,
+    /// Whether its states were solved for one by one.
+    pub one_by_one: bool,
     /// Subblocks of every voussoir modelled.
     pub subblocks: Vec<[usize; 2]>,
     pub stress: Estimate,
@@ -37,9 +40,11 @@ struct Refinement {
     meshes: Vec<MeshTried>,
 }
 
-/// Solves on ever finer meshes until the stress fields are as accurate as asked; where there is not even a first, says why.
+/// Solves on ever finer meshes until the stress fields are as accurate as asked; where there is not even a first, says why. `whole` is
+/// the answer of whole stones.
 pub(super) fn solve(
     analysis: &Analysis,
+    whole: &CollapseReport,
     most: usize,
     asked: f64,
     budget: &Budget,
@@ -50,7 +55,14 @@ pub(super) fn solve(
     if fewest > most {
         return Ok(Err(PlanReason::CoarsestTooLarge { subblocks: fewest, allowed: most }));
     }
-    let report = verdict::solve(&with_mesh(analysis, coarsest), budget)?;
+    let solve = |subblocks: Vec<[usize; 2]>, wanted: Wanted| {
+        let analysis = with_mesh(analysis, subblocks);
+        match on_mesh(&analysis, whole, wanted, budget)? {
+            Some(report) => Ok((report, true)),
+            None => verdict::solve(&analysis, budget).map(|report| (report, false)),
+        }
+    };
+    let (report, mut one_by_one) = solve(coarsest, Wanted::Start)?;
     if report.outcome == Outcome::CannotTell || report.stress_fields.is_empty() {
         return Ok(Err(PlanReason::CoarsestLost));
     }
@@ -60,11 +72,12 @@ pub(super) fn solve(
         if let Some(why) = mesh.last_before(&levels, most) {
             break why;
         }
-        let report = verdict::solve(&with_mesh(analysis, mesh.subblocks(&levels)), budget)?;
+        let (report, by_itself) = solve(mesh.subblocks(&levels), Wanted::Start)?;
         if report.outcome == Outcome::CannotTell || report.stress_fields.len() != mesh.errors.len() {
             break PlanReason::NextLost;
         }
         mesh.take(levels, report);
+        one_by_one = by_itself;
         if mesh.estimate() <= asked {
             break PlanReason::AccurateEnough;
         }
@@ -73,7 +86,20 @@ pub(super) fn solve(
     let estimate = mesh.meshes.last().and_then(|tried| tried.stress);
     let stress = Estimate { asked, estimate, met: estimate.is_some_and(|estimate| estimate <= asked) };
     let subblocks = mesh.subblocks(&mesh.levels);
-    Ok(Ok(Refined { report: mesh.report, subblocks, stress, first_yield: mesh.first_yield, meshes: mesh.meshes, why }))
+    if one_by_one {
+        let (mut report, by_itself) = solve(subblocks.clone(), Wanted::All)?;
+        report.cost.join(mesh.report.cost);
+        (mesh.report, one_by_one) = (report, by_itself);
+    }
+    Ok(Ok(Refined {
+        report: mesh.report,
+        one_by_one,
+        subblocks,
+        stress,
+        first_yield: mesh.first_yield,
+        meshes: mesh.meshes,
+        why,
+    }))
 }
 
 impl Refinement {

@@ -68,6 +68,8 @@ pub enum PlanReason {
     Finest,
     /// The stress is as accurate as asked.
     AccurateEnough,
+    /// States on the mesh were solved for one by one; the load path is that of whole stones.
+    StatesOneByOne,
 }
 
 /// An accuracy asked for, and what was had.

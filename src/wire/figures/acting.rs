@@ -4,7 +4,7 @@ use crate::geometry::Vec2;
 use crate::render::digits::Rounded;
 use crate::render::figure::{Acting, Mark};
 use crate::structure::load::{Band, Fill, Layer, Load, Patch};
-use crate::structure::{GRAVITY, Structure};
+use crate::structure::{GRAVITY, PointForce, Structure};
 use crate::wire::request::{LoadEntry, LoadRequest, VehicleLoad};
 use crate::wire::response::AnalysisResult;
 use crate::wire::translate::placed;
@@ -88,6 +88,15 @@ impl Entry<'_> {
                     .map(|part| here(Mark::Force { at: part.at, along: whole.normalize() }, words))
                     .into_iter()
                     .collect()
+            }
+            Load::Tie { .. } => {
+                let pulls = load.on(structure, self.factor).unwrap_or_default();
+                let pulls = pulls.iter().filter(|pull| pull.force != Vec2::zeros());
+                let words = |force: Vec2| format!("{} kN/m", Rounded(force.norm() / 1e3));
+                let pull = |part: &PointForce| {
+                    here(Mark::Force { at: part.at, along: part.force.normalize() }, words(part.force))
+                };
+                pulls.map(pull).collect()
             }
             Load::Patch(patch) => self.strip(patch, 1.0, "kN/m", structure).into_iter().collect(),
             Load::Vehicle(vehicle) => {
