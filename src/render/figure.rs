@@ -11,7 +11,7 @@ mod supports;
 mod thrust;
 
 use super::canvas::{Canvas, Heading, Space};
-use crate::collapse::{PathEnd, SettlementPath, SupportMovement, Thrust};
+use crate::collapse::{PathEnd, SettlementPath, Thrust};
 use crate::geometry::Vec2;
 use crate::structure::load::Fill;
 use crate::structure::{Joint, Structure};
@@ -56,7 +56,7 @@ pub enum State<'a> {
     /// As it stands, with one of many ways in which its joints may press.
     Presses(Vec<Thrust>),
     /// At the end of a movement of its supports, which would have gone so far.
-    Settles(&'a SettlementPath, &'a [SupportMovement]),
+    Settles(&'a SettlementPath),
     /// Nothing is known of it.
     Unknown,
 }

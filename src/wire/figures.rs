@@ -109,9 +109,7 @@ fn governing<'a>(analysis: &'a Analysis, report: &'a CollapseReport, result: &An
         caption.push_str(&format!("\nDrawn: the {}.", prose::name_of_end(words)));
     }
     let settles = match (&analysis.task, &report.task) {
-        (Task::Settlement(asked), TaskReport::Settlement(Some(settled))) => {
-            Some(State::Settles(&settled.first_order, &asked.movements))
-        }
+        (Task::Settlement(_), TaskReport::Settlement(Some(settled))) => Some(State::Settles(&settled.first_order)),
         _ => None,
     };
     let state = settles.or(end.map(State::Falls)).or_else(|| as_it_stands(analysis, report, result));

@@ -41,7 +41,7 @@ pub fn entries(drawing: &Drawing<'_>, moved: &Moved, ground: &[Stratum]) -> Vec<
     let mut all: Vec<Entry> = of_joints(drawing);
     let mut add = |sign: Sign, words: &str| all.push((sign, words.to_owned()));
     match &drawing.state {
-        State::Falls(PathEnd { thrust_line, .. }) | State::Settles(SettlementPath { thrust_line, .. }, _)
+        State::Falls(PathEnd { thrust_line, .. }) | State::Settles(SettlementPath { thrust_line, .. })
             if thrust_line.is_empty() => {}
         State::Falls(_) | State::Settles(..) | State::Presses(_) if drawing.structure.spans.is_empty() => {
             add(Sign::Dot("resultant", 2.6), "force of a joint");

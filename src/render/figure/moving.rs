@@ -25,7 +25,7 @@ impl State<'_> {
     pub fn mechanism(&self) -> Option<&Mechanism> {
         match self {
             State::Falls(end) => Some(&end.mechanism),
-            State::Settles(path, _) => Some(&path.mechanism),
+            State::Settles(path) => Some(&path.mechanism),
             State::Stands(_) | State::Presses(_) | State::Unknown => None,
         }
     }
@@ -34,7 +34,7 @@ impl State<'_> {
     fn rates(&self) -> &[[f64; 3]] {
         match self {
             State::Falls(end) => &end.mechanism.velocities,
-            State::Settles(path, _) => &path.displacements,
+            State::Settles(path) => &path.displacements,
             State::Stands(_) | State::Presses(_) | State::Unknown => &[],
         }
     }

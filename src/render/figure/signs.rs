@@ -1,10 +1,10 @@
 //! Hinges, slides, joints that part or crush, and cracks.
 
 use super::{Canvas, Drawing, Joint, State, Structure, along, on_sheet};
-use crate::collapse::{Hinge, Mechanism, SettlementPath, SupportMovement};
-use crate::geometry::{Vec2, perpendicular};
+use crate::collapse::{Hinge, Mechanism, OpenJoint, SettlementPath};
+use crate::geometry::Vec2;
 use crate::render::digits::Measured;
-use crate::structure::{Face, JointLaw, Side};
+use crate::structure::{Face, Side};
 
 /// Radius of the sign of a hinge, pixels.
 pub const HINGE: f64 = 5.5;
@@ -86,10 +86,10 @@ fn label(canvas: &mut Canvas, drawing: &Drawing<'_>, mechanism: &Mechanism) {
         let words = hinge_words(drawing, hinge);
         canvas.label(canvas.place(hinge.at), outwards(&joints[hinge.joint], hinge.face), &words);
     }
-    if let State::Settles(path, movements) = &drawing.state {
-        for (joint, face, width) in cracks(drawing.structure, path, movements) {
-            let at = canvas.place(joint.end(face));
-            canvas.label(at, outwards(joint, face), &format!("{} mm", Measured(1e3 * width)));
+    if let State::Settles(path) = &drawing.state {
+        for open in cracks(path) {
+            let way = outwards(&joints[open.joint], open.face);
+            canvas.label(canvas.place(open.at), way, &format!("{} mm", Measured(1e3 * open.width)));
         }
     }
     let across = |joint: &usize| is_across(drawing.structure, *joint);
@@ -133,37 +133,10 @@ fn run_words(run: &[usize]) -> String {
     }
 }
 
-/// Joints that have opened at the end of a movement, with the face at which they are open and how wide there, m.
-pub fn cracks<'s>(
-    structure: &'s Structure,
-    path: &SettlementPath,
-    movements: &[SupportMovement],
-) -> Vec<(&'s Joint, Face, f64)> {
-    let moved = |side: Side, at: Vec2| match side {
-        Side::Body(body) => {
-            let [u, v, turn] = path.displacements.get(body).copied().unwrap_or_default();
-            Vec2::new(u, v) + turn * perpendicular(at - structure.bodies[body].region.centroid)
-        }
-        Side::Support(support) => movements
-            .iter()
-            .filter(|movement| movement.support == support)
-            .map(|movement| path.share * (movement.by + movement.rotation * perpendicular(at - movement.about)))
-            .sum(),
-    };
-    let open = |joint: &'s Joint| {
-        let width = |face: Face| {
-            let at = joint.end(face);
-            let [before, after] = joint.between.map(|side| moved(side, at));
-            // The other half of a symmetric arch opens as wide.
-            (after - before).dot(&joint.normal()) * if joint.law == JointLaw::Wall { 2.0 } else { 1.0 }
-        };
-        let [intrados, extrados] = [Face::Intrados, Face::Extrados].map(width);
-        if intrados > extrados { (joint, Face::Intrados, intrados) } else { (joint, Face::Extrados, extrados) }
-    };
-    let all = structure.joints.iter().filter(|joint| joint.law.coulomb().is_some()).map(open);
-    let all: Vec<(&Joint, Face, f64)> = all.collect();
-    let widest = all.iter().map(|crack| crack.2).fold(0.0, f64::max);
-    all.into_iter().filter(|crack| crack.2 > NARROW * widest).collect()
+/// Joints that are open at the end of a movement, but those that hardly are beside the widest.
+fn cracks(path: &SettlementPath) -> impl Iterator<Item = &OpenJoint> {
+    let widest = path.open_joints.iter().map(|open| open.width).fold(0.0, f64::max);
+    path.open_joints.iter().filter(move |open| open.width > NARROW * widest)
 }
 
 #[cfg(test)]

@@ -20,7 +20,7 @@ pub const SIGN: f64 = 4.0;
 pub fn lines<'d>(drawing: &'d Drawing<'_>) -> Vec<(&'static str, &'d [Thrust])> {
     match &drawing.state {
         State::Falls(end) => vec![("thrust", &end.thrust_line)],
-        State::Settles(path, _) => vec![("thrust", &path.thrust_line)],
+        State::Settles(path) => vec![("thrust", &path.thrust_line)],
         State::Presses(thrusts) => vec![("thrust", thrusts)],
         State::Stands(lines) => {
             let both = ["least", "thrust"].into_iter().zip(lines);
