@@ -74,7 +74,7 @@ fn they_are_the_states_on_the_path() {
         asked += 1;
     }
     println!(
-        "{asked} arches, {followed} more whose path was followed on the mesh; at the start, at load factor 1, near collapse {worst:.1e?}"
+        "{asked} arches, {followed} more whose path was followed on the mesh; at the start, at load factor 1, near collapse {worst:?}"
     );
     assert!(asked >= ASKED, "{asked}");
 }

@@ -2,7 +2,6 @@
 
 use super::{Canvas, Drawing, Joint, State, Structure, along, on_sheet};
 use crate::collapse::{Hinge, Mechanism, OpenJoint, SettlementPath};
-use crate::geometry::Vec2;
 use crate::render::digits::Measured;
 use crate::structure::{Face, Side};
 
