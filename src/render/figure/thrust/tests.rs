@@ -14,8 +14,8 @@ fn the_thrust_of_a_standing_arch_is_drawn_where_it_nearly_touches() {
     let share = |k: usize| [(4, 0.485), (5, 0.495), (12, -0.5)].iter().find(|(at, _)| *at == k).map_or(0.1, |at| at.1);
     let line: Vec<Thrust> = (0..=17).map(|k| shifted(k, share(k))).collect();
     let drawn = drawing(&structure, State::Stands([None, Some((12_345.6, &line))]));
-    let touched: Vec<usize> = touched(&drawn).iter().map(|touch| touch.0).collect();
-    assert_eq!(touched, [5, 12], "of two in a row the nearer one");
+    let joints: Vec<usize> = touched(&drawn).iter().map(|touch| touch.0).collect();
+    assert_eq!(joints, [5, 12], "of two in a row the nearer one");
     assert_eq!(touched(&drawn)[0].1, structure.joints[5].extrados);
     let svg = svg(&drawn);
     assert!(svg.contains(">greatest thrust 12.35 kN/m<") && !svg.contains("least thrust"));
