@@ -5,8 +5,8 @@ use super::digits::Rounded;
 use crate::collapse::{StressField, SubblockStress};
 use crate::geometry::Vec2;
 
-/// Colours of the scale from least to greatest, evenly spaced: those of the map cividis (Nunez, Anderton and Renslow, 2018), which the
-/// colour-blind see as others do, and whose lightness rises all along.
+/// Colours of the scale from least to greatest, evenly spaced: those of the map cividis (Nunez, Anderton and Renslow, 2018), which
+/// the colour-blind see as others do, and whose lightness rises all along.
 const COLOURS: [[u8; 3]; 9] = [
     [0, 34, 78],
     [26, 56, 111],

@@ -8,8 +8,9 @@ use std::fmt::Write;
 /// Number of a polygon among VTK's kinds of cells.
 const POLYGON: u8 = 7;
 
-/// One cell per subblock; the stresses are constant in it, Pa, compression negative. With a state of the same load factor every point
-/// has its displacement, m, as far as it is that of a rigid body: mean displacement and rotation of the body that it is part of.
+/// One cell per subblock; the stresses are constant in it, Pa, compression negative. With a state of the same load factor every
+/// point has its displacement, m, as far as it is that of a rigid body: mean displacement and rotation of the body that it is part
+/// of.
 pub fn vtu(field: &StressField, state: Option<&Snapshot>, structure: &Structure) -> String {
     let cells = &field.subblocks;
     let mut file = String::from("<?xml version=\"1.0\"?>\n");

@@ -51,8 +51,7 @@ pub fn figures(question: &Question, answer: &Answer, result: &JobResult) -> Resu
 fn of_beam(report: &BeamReport, result: &BeamResult) -> Result<Figure, String> {
     let title = result.request.name.as_deref().unwrap_or("Curved beam");
     let caption = format!("Stress at an error e_N of {} per cent.", Rounded(result.error_percent));
-    let drawn = stress::svg(&report.field, std::iter::empty(), title, &caption);
-    let drawn = drawn.filter(|_| report.field.subblocks.len() <= MOST_SUBBLOCKS);
+    let drawn = legible(&report.field).and_then(|field| stress::svg(field, std::iter::empty(), title, &caption));
     drawn.map(|svg| figure("stress", svg)).ok_or_else(|| "no figure: too many subblocks to be told apart".to_owned())
 }
 
@@ -91,13 +90,16 @@ fn of_structure(analysis: &Analysis, report: &CollapseReport, result: &AnalysisR
     all
 }
 
-/// A stress field; none of more subblocks than can be told apart.
+/// A stress field whose subblocks can be told apart.
+fn legible(field: &StressField) -> Option<&StressField> {
+    Some(field).filter(|field| field.subblocks.len() <= MOST_SUBBLOCKS)
+}
+
 fn of_stress(analysis: &Analysis, field: &StressField, result: &AnalysisResult) -> Option<Figure> {
     let intensity = field.load_factor * result.request.load_factor.intensity_per_unit;
     let caption = format!("Stress at {} {}.", Rounded(intensity), prose::unit(result));
     let bodies = analysis.structure.bodies.iter().map(|body| body.corners.as_slice());
-    let svg =
-        stress::svg(field, bodies, &title(result), &caption).filter(|_| field.subblocks.len() <= MOST_SUBBLOCKS)?;
+    let svg = stress::svg(legible(field)?, bodies, &title(result), &caption)?;
     Some(Figure { stress_at: Some(field.load_factor), ..figure(&format!("{STRESS}{}", field.load_factor), svg) })
 }
 

@@ -330,7 +330,7 @@ fn no_form_of_a_refused_answer_is_written() {
     let formats: Vec<_> = fine.iter().map(|rendering| (rendering.names[0].as_str(), rendering.format)).collect();
     let fields = ["json", "csv", "vtu"].map(|format| ("fields/unit_load", format));
     let whole = [("results", "json"), ("results", "text"), ("history", "json"), ("history", "csv")];
-    let drawn = ["figure", "figures/stress_1", "figures/motion"].map(|name| (name, "svg"));
+    let drawn = ["figure", "figures/stress_unit_load", "figures/motion"].map(|name| (name, "svg"));
     assert_eq!(formats, [&whole[..], &fields, &drawn, &[("report", "html")]].concat());
     for (place, forge) in FORGED {
         let mut report = full();
