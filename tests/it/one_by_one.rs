@@ -40,7 +40,7 @@ fn they_are_the_states_on_the_path() {
     let (mut asked, mut followed, mut worst) = (0, 0, [0f64; 3]);
     for seed in 0..ARCHES {
         let mut request = random_arch::request(seed);
-        request["accuracy"] = json!({"stress": 0.3, "most_subblocks": 600});
+        request["accuracy"] = json!({"stress": 0.3, "subblocks": 600});
         let Some(analysis) = door::analysis(&request).ok().filter(|analysis| analysis.structure.bodies.len() <= 40)
         else {
             continue;
