@@ -66,7 +66,7 @@ pub fn read_analysis(body: &[u8]) -> Result<(AnalysisRequest, Analysis), Vec<Fau
     match read_question(body)? {
         (Request::Structure(request), Question::One(analysis)) => Ok((*request, *analysis)),
         _ => {
-            let detail = "this asks for more or other than one analysis of a structure: leave out curve, worst_position and curved_beam";
+            let detail = "this asks for more or other than one analysis of a structure: leave out curve, worst_position, survey_tolerance and curved_beam";
             Err(vec![Fault { pointer: String::new(), detail: detail.to_owned() }])
         }
     }

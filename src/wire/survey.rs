@@ -161,8 +161,8 @@ mod tests {
         refused(&BOTH.replace("extrados,0,2", "extrados,0,2e9"), "line 5, column y_m: 2e9 is out of range");
         refused(&BOTH.replace("intrados,1,0", "intrados,0,1"), "line 4: ");
         refused(
-            &BOTH.replace("extrados,0,2\n", ""),
-            "/arch/profile/surveyed/extrados_m: 3 intrados points but 2 extrados",
+            &format!("{BOTH}intrados,1.5,-1\n"),
+            "/arch/profile/surveyed/extrados_m: 4 intrados points but 3 extrados",
         );
         let several = told(&BOTH.replace("0,1\n", "?,!\n"), Besides::default());
         assert_eq!(several.len(), 2);

@@ -80,7 +80,8 @@ fn every_case_is_reported_in_states_that_keep_the_law() {
         // Crushed stones overlap.
         let crushes = request["crushing_in_path"] == true;
         let asked = &request["analysis"];
-        let many = asked["safety"].get("curve").is_some() || asked.get("worst_position").is_some();
+        let more = ["worst_position", "survey_tolerance"].iter().any(|more| asked.get(more).is_some());
+        let many = asked["safety"].get("curve").is_some() || more;
         if request.get("arch").is_some() && !crushes && !many {
             judged.judge(&name(&folder), &request);
         }
