@@ -24,6 +24,9 @@ use std::ops::ControlFlow;
 /// By default the load factor is raised until the scaled loads are so many times the fixed ones.
 const DEFAULT_CAP: f64 = 1e6;
 
+/// Hinges with which an arch follows any movement of its springings.
+const HINGES: usize = 3;
+
 /// What all attempts at one analysis share.
 struct Setup<'a> {
     analysis: &'a Analysis,
@@ -289,6 +292,12 @@ impl<'a> Setup<'a> {
             return Ok(());
         }
         let settlement = settlement::follow(self.analysis, movements, self.weight, &mut report.cost, built)?;
+        let structure = &self.analysis.structure;
+        let arch = structure.spans.len() == 1 && structure.spans[0].joints.len() == structure.ring().len();
+        let open = settlement.as_ref().map_or(0, |settlement| settlement.first_order.open_joints.len());
+        if arch && !structure.is_half() && open > HINGES {
+            report.notes.push(Note::CracksShared(open));
+        }
         if report.outcome != Outcome::Crushes {
             report.outcome = match settlement.as_ref().map(|s| s.updated.as_ref().unwrap_or(&s.first_order).end) {
                 Some(SettlementEnd::Follows) => Outcome::FollowsMovement,
@@ -341,6 +350,11 @@ impl<'a> Setup<'a> {
 pub(super) fn notes_on_mesh(analysis: &Analysis, model: &Model) -> Vec<Note> {
     let slenderness = model.grids[..model.bodies].iter().map(|grid| grid.slenderness()).fold(1.0, f64::max);
     let several = analysis.mesh.subblocks.iter().any(|&subblocks| subblocks != [1, 1]);
+    mesh_notes(slenderness, several, is_cohesive(analysis))
+}
+
+/// Whether joints have cohesion, which they lose point by point: then they slide otherwise on another mesh.
+pub(super) fn is_cohesive(analysis: &Analysis) -> bool {
     let cohesive = |joint: &Joint| matches!(joint.law, JointLaw::Dry { cohesion, .. } if cohesion > 0.0);
-    mesh_notes(slenderness, several, analysis.structure.ring().iter().any(cohesive))
+    analysis.structure.ring().iter().any(cohesive)
 }

@@ -191,7 +191,8 @@ impl Contact {
             Law::Bonded => self.force_in(State::Bonded, gap, slip),
             _ if gap >= self.reach.max(0.0) => [0.0, 0.0],
             _ => {
-                let capacity = self.capacity(self.zone_at(gap), gap);
+                // At the reach rounding may leave less than nothing.
+                let capacity = self.capacity(self.zone_at(gap), gap).max(0.0);
                 [(-self.stiffness[0] * gap).max(0.0).min(self.cap), trial.clamp(-capacity, capacity)]
             }
         };

@@ -81,9 +81,10 @@ impl Asked {
                 None => return none(kinds::NO_SUCH_PART, missing.to_owned()),
             },
         };
-        if format == Format::Html {
-            // What a client has written stands in it.
-            let policy = HeaderValue::from_static("default-src 'none'; style-src 'unsafe-inline'");
+        if matches!(format, Format::Html | Format::Svg) {
+            // What a client has written stands in them, and rules of style of their own.
+            let policy =
+                HeaderValue::from_static("default-src 'none'; style-src 'unsafe-inline'; frame-ancestors 'none'");
             response.headers_mut().append(header::CONTENT_SECURITY_POLICY, policy);
         }
         response.headers_mut().append(header::VARY, HeaderValue::from_static("accept, accept-encoding"));

@@ -42,6 +42,12 @@ const KINDS = {
       size > 0 && {at, way: force.map(f => f / size), text: `${figures(size / 1e3)} kN/m`, field: 'at_m', both: true}
     );
   },
+  tie({force_n_per_m: force, from, to}) {
+    const [a, b] = [from?.at_m, to?.at_m];
+    if (a?.length !== 2 || b?.length !== 2) return null;
+    const length = Math.hypot(b[0] - a[0], b[1] - a[1]);
+    return length > 0 && {at: a, way: [(b[0] - a[0]) / length, (b[1] - a[1]) / length], text: `tie ${figures(force / 1e3)} kN/m`};
+  },
   patch_load({force_n_per_m: force, centre_x_m: x, width_m: width, dispersal}, stones, request) {
     if (!Number.isFinite(x)) return null;
     const at = [x, surface(x, dispersal, request) ?? top(x, stones)?.[1] ?? 0];

@@ -109,7 +109,8 @@ pub fn escaped(text: &str) -> String {
             '>' => out.push_str("&gt;"),
             '"' => out.push_str("&quot;"),
             '\'' => out.push_str("&apos;"),
-            c if c.is_control() => out.push(' '),
+            // XML has no such characters.
+            c if c.is_control() || matches!(c, '\u{FFFE}' | '\u{FFFF}') => out.push(' '),
             c => out.push(c),
         }
     }
@@ -320,6 +321,7 @@ mod tests {
     #[test]
     fn words_cannot_break_the_document() {
         assert_eq!(escaped("<a & 'b'>\u{7}\""), "&lt;a &amp; &apos;b&apos;&gt; &quot;");
+        assert_eq!(escaped("\u{FFFE}\u{FFFF}\u{FFFD}"), "  \u{FFFD}");
     }
 
     #[test]

@@ -47,6 +47,14 @@ impl Points {
 
     fn put_into(&self, besides: Besides) -> Result<Value, TableFault> {
         let Besides { thickness_m, smoothing_length_m, into } = besides;
+        if ![thickness_m, smoothing_length_m].into_iter().flatten().all(f64::is_finite) {
+            return Err(whole("the thickness and the smoothing length have to be numbers, in m"));
+        }
+        if self.with_tolerance && into.is_none() {
+            let detail = "tolerances move a collapse load, which points alone have not: give a request with a load that grows, or \
+                          leave the column tolerance_m out";
+            return Err(whole(detail));
+        }
         let row = |side: usize| -> Vec<Point> { self.of(side).map(|row| Point(row.at)).collect() };
         let [intrados_m, extrados_m] = [0, 1].map(row);
         match (extrados_m.is_empty(), thickness_m.is_some()) {
@@ -140,7 +148,7 @@ mod tests {
         assert_eq!(made["analysis"], json!({"survey_tolerance": {"intrados_m": [0.01, 0.0, 0.02]}}));
         assert_eq!((&made["name"], &made["loads"]), (&into["name"], &into["loads"]));
         let alone = told(table, Besides { into: None, ..besides.clone() });
-        assert!(alone[0].starts_with("/analysis/survey_tolerance: the load factor is what moves"), "{alone:?}");
+        assert!(alone[0].starts_with("the table: tolerances move a collapse load"), "{alone:?}");
         let thin = told(table, Besides { thickness_m: None, ..besides });
         assert!(thin[0].starts_with("the table: there are no points of the extrados"), "{thin:?}");
         assert!(

@@ -144,3 +144,23 @@ fn forces_of_springings_and_soil_balance_the_loads() {
     }
     assert!(!said.contains("need not balance"));
 }
+
+/// Four joints of an arch of so many voussoirs open where both springings come nearer, and three would do.
+#[test]
+fn what_may_be_open_otherwise_is_said() {
+    let notes = |count: usize, outwards: f64| {
+        let each = json!({"outwards_m": outwards});
+        let request = moved(circular(90.0, 0.15, count), json!({"left": each, "right": each}), "first_order");
+        let (answer, report) = (solved(&request), solve(&request));
+        let open = report.settlement().unwrap().first_order.open_joints.len();
+        let said = answer["notes"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .any(|note| note.as_str().unwrap().contains("no more than three"));
+        assert_eq!(said, open > 3, "{count} {outwards}: {open}");
+        open
+    };
+    assert!(notes(28, -0.005) > 3);
+    assert_eq!(notes(21, 0.005), 3);
+}

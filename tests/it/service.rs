@@ -266,6 +266,8 @@ fn results_come_in_parts_and_formats() {
     let figure = part("/figure", "image/*");
     assert_eq!(figure.header("content-type"), Some("image/svg+xml"));
     assert!(figure.text().starts_with("<svg") && figure.text().trim_end().ends_with("</svg>"));
+    // Its rules of style stand in it.
+    assert!(figure.header("content-security-policy").unwrap().contains("style-src 'unsafe-inline'"));
     let as_xml = part("/figure", "text/xml");
     assert_eq!((as_xml.header("content-type"), as_xml.text()), (Some("text/xml; charset=utf-8"), figure.text()));
     assert_eq!(part("/figures/structure", "*/*").text(), figure.text());

@@ -242,4 +242,8 @@ fn what_cannot_be_asked_is_said() {
     ring["arch"]["profile"]["surveyed"].as_object_mut().unwrap().remove("extrados_m");
     ring["analysis"]["survey_tolerance"]["extrados_m"] = json!([0.1, 0.1, 0.1]);
     refused(&ring, &format!("{STEM}/extrados_m"), "follows from thickness_m");
+    let mut backwards = arch(&points(8), -1.0, 1e7);
+    let rightmost_first: Vec<[f64; 2]> = points(8)[0].iter().rev().copied().collect();
+    backwards["arch"]["profile"]["surveyed"] = json!({"intrados_m": rightmost_first, "thickness_m": 0.4});
+    refused(&backwards, "/arch/profile/surveyed/intrados_m", "from left to right");
 }

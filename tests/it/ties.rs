@@ -130,5 +130,6 @@ fn ties_that_hold_nothing_are_refused() {
         &at("to/at_m"),
         "it does nothing",
     );
+    refused(&with(good.clone(), "/loads/1/coefficient", json!(-1)), "/loads/1/coefficient", "a tie pulls");
     refused(&with(good, &at("force_n_per_m"), json!(-1)), &at("force_n_per_m"), "out of range");
 }

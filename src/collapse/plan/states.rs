@@ -2,15 +2,15 @@
 //!
 //! The collapse load of rigid stones does not depend on the mesh: the path of whole stones has load, mechanism and thrust line. The
 //! states that are reported are solved for on the mesh, from the start on towards collapse and each from the one before. Where one
-//! is not found, where there are several, or where joints slide at collapse, on which states depend, the path is followed on
-//! the mesh.
+//! is not found, where there are several, where joints slide at collapse, on which states depend, or have cohesion, with which they
+//! slide otherwise on another mesh, the path is followed on the mesh.
 
 use crate::budget::Budget;
 use crate::collapse::discretise::{Discretisation, Model};
 use crate::collapse::path::Attempt;
 use crate::collapse::record::{snapshot, stress_field};
 use crate::collapse::state::Standing;
-use crate::collapse::verdict::notes_on_mesh;
+use crate::collapse::verdict::{is_cohesive, notes_on_mesh};
 use crate::collapse::{
     Analysis, AnalysisError, CollapseReport, Cost, Crushing, Note, Outcome, PathEnd, Snapshot, StressField,
 };
@@ -39,7 +39,7 @@ pub(super) fn on_mesh(
     wanted: Wanted,
     budget: &Budget,
 ) -> Result<Option<CollapseReport>, AnalysisError> {
-    if analysis.task.yields() || !will_do(whole) {
+    if analysis.task.yields() || is_cohesive(analysis) || !will_do(whole) {
         return Ok(None);
     }
     let mut built = Discretisation::new(budget);

@@ -119,3 +119,17 @@ fn a_point_sticks_inside_its_capacity_only() {
     let slip = out.iter().find(|(_, next)| *next == State::Slip { sign: 1.0, zone: Zone::Pressed }).unwrap();
     assert!((slip.0[0] / -slip.0[1] - 2.5e-4).abs() < 1e-15);
 }
+
+#[test]
+fn what_is_left_of_adhesion_next_to_its_reach_is_not_less_than_nothing() {
+    for cohesion in (1..1000).map(|i| 17.3 * f64::from(i)) {
+        let law = Law::Coulomb { friction: 0.6, cohesion, cap: f64::INFINITY };
+        let c = Contact::new([3.7e9, 1.9e9], law);
+        let mut gap = ADHESION_REACH * cohesion / 3.7e9;
+        for _ in 0..4 {
+            gap = gap.next_down();
+            let ContactForce { normal, tangential, .. } = c.force(gap, -1e-3);
+            assert!(normal == 0.0 && (0.0..1e-6 * cohesion).contains(&tangential), "{cohesion}: {tangential}");
+        }
+    }
+}

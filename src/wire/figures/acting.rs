@@ -4,8 +4,8 @@ use crate::geometry::Vec2;
 use crate::render::digits::Rounded;
 use crate::render::figure::{Acting, Mark};
 use crate::structure::load::{Band, Fill, Layer, Load, Patch};
-use crate::structure::{GRAVITY, PointForce, Structure};
-use crate::wire::request::{LoadEntry, LoadRequest, VehicleLoad};
+use crate::structure::{GRAVITY, Structure};
+use crate::wire::request::{LoadEntry, LoadRequest, TieLoad, VehicleLoad};
 use crate::wire::response::AnalysisResult;
 use crate::wire::translate::placed;
 
@@ -17,9 +17,13 @@ pub fn on(result: &AnalysisResult, structure: &Structure, load_factor: Option<f6
     let mut fills: Vec<Fill> = request.backfill.iter().filter_map(|backfill| backfill.in_si()).collect();
     let mut all = Vec::new();
     for entry in &request.loads {
-        let Some(load) = entry.load.in_si(&names, request.backfill.as_ref()) else { continue };
         let factor = request.factors().of(entry) * entry.coefficient;
         let at = if entry.scaled { load_factor.unwrap_or(0.0) } else { 1.0 };
+        if let LoadRequest::Tie(tie) = &entry.load {
+            all.extend(pulls(tie, if at == 0.0 { factor } else { factor * at }, at != 0.0));
+            continue;
+        }
+        let Some(load) = entry.load.in_si(&names, request.backfill.as_ref()) else { continue };
         if let Load::Fill(fill) = load {
             fills.extend(as_thick(fill, &fills, if entry.scaled { at * entry.coefficient } else { entry.coefficient }));
             continue;
@@ -38,6 +42,18 @@ pub fn on(result: &AnalysisResult, structure: &Structure, load_factor: Option<f6
         }
     }
     (fills, all)
+}
+
+/// What a tie does at either end.
+fn pulls(tie: &TieLoad, factor: f64, acts: bool) -> [Acting; 2] {
+    let [from, to] = [&tie.from, &tie.to].map(|end| Vec2::from(end.at_m));
+    let words = format!("tie {} kN/m", Rounded(factor * tie.force_n_per_m / 1e3));
+    let pull = |at: Vec2, towards: Vec2| Acting {
+        mark: Mark::Force { at, along: (towards - at).normalize() },
+        words: words.clone(),
+        acts,
+    };
+    [pull(from, to), pull(to, from)]
 }
 
 /// Fill on what lies there already; an embankment that is multiplied is as many times as thick. None where it weighs nothing.
@@ -69,7 +85,8 @@ impl Entry<'_> {
     fn marks(&self, load: &Load, structure: &Structure) -> Vec<Acting> {
         let here = |mark: Mark, words: String| Acting { mark, words, acts: self.acts };
         match load {
-            Load::SelfWeight | Load::Fill(_) => Vec::new(),
+            // Ties are drawn from the request: of half an arch one end is on no block.
+            Load::SelfWeight | Load::Fill(_) | Load::Tie { .. } => Vec::new(),
             Load::Lateral(bands, flanks) => {
                 let band = |band: &Band| {
                     let pressure = self.factor * band.pressure;
@@ -88,15 +105,6 @@ impl Entry<'_> {
                     .map(|part| here(Mark::Force { at: part.at, along: whole.normalize() }, words))
                     .into_iter()
                     .collect()
-            }
-            Load::Tie { .. } => {
-                let pulls = load.on(structure, self.factor).unwrap_or_default();
-                let pulls = pulls.iter().filter(|pull| pull.force != Vec2::zeros());
-                let words = |force: Vec2| format!("{} kN/m", Rounded(force.norm() / 1e3));
-                let pull = |part: &PointForce| {
-                    here(Mark::Force { at: part.at, along: part.force.normalize() }, words(part.force))
-                };
-                pulls.map(pull).collect()
             }
             Load::Patch(patch) => self.strip(patch, 1.0, "kN/m", structure).into_iter().collect(),
             Load::Vehicle(vehicle) => {

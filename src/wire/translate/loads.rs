@@ -59,6 +59,13 @@ pub fn loads(
         let before = faults.len();
         let here = format!("/loads/{i}");
         check_coefficient(&format!("{here}/coefficient"), entry.coefficient, faults);
+        if let LoadRequest::Tie(_) = entry.load {
+            faults.require(
+                entry.coefficient >= 0.0,
+                format!("{here}/coefficient"),
+                "a tie pulls: give a coefficient above 0",
+            );
+        }
         let fields = format!("{here}/load/{}", entry.load.kind().0);
         entry.load.check(&fields, below, faults);
         check_fits(&fields, &entry.load, request, faults);

@@ -45,6 +45,11 @@ pub fn ends(surveyed: &Surveyed, faults: &mut Faults) -> Option<Vec<JointEnds>> 
             fits.then(|| intrados.into_iter().zip(points(extrados)).map(|(a, b)| [a, b]).collect())
         }
         (None, Some(thickness)) => {
+            let rightwards = intrados.first().zip(intrados.last()).is_some_and(|(first, last)| first.x < last.x);
+            let detail = "the points go from right to left: list them from left to right";
+            if !faults.require(rightwards, format!("{HERE}/intrados_m"), detail) {
+                return None;
+            }
             let ends = joints_on_intrados(&intrados, thickness);
             let detail = "points that follow on each other coincide: list every one once, from left to right";
             faults.require(ends.is_some(), format!("{HERE}/intrados_m"), detail);
