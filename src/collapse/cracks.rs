@@ -1,12 +1,17 @@
 //! Joints that are open, and how wide.
 
 use super::discretise::Model;
-use super::{Face, OpenJoint};
+use super::{Face, OpenJoint, SettlementPath, Thrust};
 use crate::dda::Tracer;
 use crate::structure::{Joint, JointLaw, Structure};
 
 /// A joint that is open by less than this share of its length is shut: that is strain of stones and contacts.
 const SHUT: f64 = 1e-6;
+
+/// Hinges with which an arch follows any movement of its springings.
+const HINGES: usize = 3;
+/// A thrust so far from the middle of its joint, as a share of half its length, is at its end but for what stone and contacts give.
+const AT_END: f64 = 0.99;
 
 /// The joints that are open where the path is, in their order.
 pub(super) fn open_joints(structure: &Structure, model: &Model, tracer: &Tracer) -> Vec<OpenJoint> {
@@ -47,6 +52,15 @@ fn open_between([from, a]: [f64; 2], [to, b]: [f64; 2]) -> f64 {
         (false, true) => b / (b - a),
     };
     share * (to - from)
+}
+
+/// Of an arch that could follow its springings by opening other joints, or these by more or less: at how many joints the thrust
+/// passes through an end. Three hinges are enough to follow.
+pub(super) fn shared(structure: &Structure, path: &SettlementPath) -> Option<usize> {
+    let arch = structure.spans.len() == 1 && structure.spans[0].joints.len() == structure.ring().len();
+    let at_end = |thrust: &&Thrust| thrust.eccentricity.abs() >= 0.5 * AT_END * structure.ring()[thrust.joint].length();
+    let ends = path.thrust_line.iter().filter(at_end).count();
+    (arch && !structure.is_half() && ends > HINGES).then_some(ends)
 }
 
 #[cfg(test)]

@@ -2,9 +2,12 @@
 
 mod fallen;
 mod leg;
+mod mesh;
 mod softer;
 
-use super::certificate::{Certificate, ThrustLines, loaded, mesh_notes};
+pub(super) use mesh::{is_cohesive, notes_on_mesh};
+
+use super::certificate::{Certificate, ThrustLines, loaded};
 use super::discretise::{Discretisation, Model};
 use super::path::{ATTEMPTS, Attempt, disturbed, nothing_grows, stand, total};
 use super::record::snapshot;
@@ -14,18 +17,15 @@ use super::updated::{self, Course};
 use super::{
     Analysis, AnalysisError, CollapseReport, Cost, Crushing, Doubt, End, Geometry, GovernedBy, LimitWindow, Method,
     Note, Outcome, SafetyFactors, SettlementEnd, SupportMovement, Task, TaskReport, ThrustRange, UpdatedGeometry,
-    falling, geometric, plan, rounding, safety, settlement,
+    cracks, falling, geometric, plan, rounding, safety, settlement,
 };
 use crate::budget::Budget;
 use crate::dda::{self, Tracer};
-use crate::structure::{Joint, JointLaw};
+
 use std::ops::ControlFlow;
 
 /// By default the load factor is raised until the scaled loads are so many times the fixed ones.
 const DEFAULT_CAP: f64 = 1e6;
-
-/// Hinges with which an arch follows any movement of its springings.
-const HINGES: usize = 3;
 
 /// What all attempts at one analysis share.
 struct Setup<'a> {
@@ -292,12 +292,9 @@ impl<'a> Setup<'a> {
             return Ok(());
         }
         let settlement = settlement::follow(self.analysis, movements, self.weight, &mut report.cost, built)?;
-        let structure = &self.analysis.structure;
-        let arch = structure.spans.len() == 1 && structure.spans[0].joints.len() == structure.ring().len();
-        let open = settlement.as_ref().map_or(0, |settlement| settlement.first_order.open_joints.len());
-        if arch && !structure.is_half() && open > HINGES {
-            report.notes.push(Note::CracksShared(open));
-        }
+        let shared =
+            settlement.as_ref().and_then(|report| cracks::shared(&self.analysis.structure, &report.first_order));
+        report.notes.extend(shared.map(Note::CracksShared));
         if report.outcome != Outcome::Crushes {
             report.outcome = match settlement.as_ref().map(|s| s.updated.as_ref().unwrap_or(&s.first_order).end) {
                 Some(SettlementEnd::Follows) => Outcome::FollowsMovement,
@@ -344,17 +341,4 @@ impl<'a> Setup<'a> {
             notes: Vec::new(),
         }
     }
-}
-
-/// What the mesh does to an answer.
-pub(super) fn notes_on_mesh(analysis: &Analysis, model: &Model) -> Vec<Note> {
-    let slenderness = model.grids[..model.bodies].iter().map(|grid| grid.slenderness()).fold(1.0, f64::max);
-    let several = analysis.mesh.subblocks.iter().any(|&subblocks| subblocks != [1, 1]);
-    mesh_notes(slenderness, several, is_cohesive(analysis))
-}
-
-/// Whether joints have cohesion, which they lose point by point: then they slide otherwise on another mesh.
-pub(super) fn is_cohesive(analysis: &Analysis) -> bool {
-    let cohesive = |joint: &Joint| matches!(joint.law, JointLaw::Dry { cohesion, .. } if cohesion > 0.0);
-    analysis.structure.ring().iter().any(cohesive)
 }

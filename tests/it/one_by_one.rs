@@ -10,7 +10,7 @@ use voussoir::collapse::{
 use voussoir::structure::Joint;
 
 /// How many random arches, and how many of them at least have to ask a question.
-const ARCHES: u64 = 400;
+const ARCHES: u64 = 600;
 const ASKED: usize = 60;
 /// Largest difference of a contact's force, over the largest; so near collapse a state follows its load a thousandfold.
 const EQUAL: [f64; 2] = [1e-9, 1e-6];

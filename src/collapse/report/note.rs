@@ -124,7 +124,8 @@ pub enum Note {
         /// Whether the search for all points at their worst came to its end.
         settled: bool,
     },
-    /// So many joints of an arch are open at the end of a movement at first order, more than the three that it needs to follow.
+    /// At the end of a movement at first order the thrust of an arch passes through the ends of so many joints, more than the three
+    /// that it needs to open.
     CracksShared(usize),
     /// For so many points moved one at a time limit analysis gave no answer, or the structure could not be set out.
     PointsUnknown(usize),

@@ -1,6 +1,6 @@
 //! What the mechanics have to say of an answer, in sentences.
 
-use super::{Digits, geometric, positions, survey};
+use super::{Digits, geometric, positions, settlement, survey};
 use crate::collapse::{Doubt, FieldAt, LimitWindow, LoadRange, Note, OtherStates, Unfollowed, Unreached};
 use std::fmt;
 
@@ -49,10 +49,7 @@ impl fmt::Display for Note {
             Note::PositionsBetween { solved, tolerance } => positions::between(*solved, Digits(*tolerance)),
             Note::PositionsUnknown(count) => positions::unknown(*count),
             Note::PointsMoved { solved, settled } => survey::moved(*solved, *settled),
-            Note::CracksShared(count) => format!(
-                "{count} joints are open at the end of the movement, and an arch needs no more than three to follow it. How wide each is \
-                 depends on how the arch was built: of a symmetric arch the mirror image is as good."
-            ),
+            Note::CracksShared(count) => settlement::shared(*count),
             Note::PointsUnknown(count) => survey::unknown(*count),
             Note::FallsFromZero => FALLS_FROM_ZERO.into(),
             Note::NothingGrows => "Nothing grows with the load factor: the answer says only that the arch stands.".into(),

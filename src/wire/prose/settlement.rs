@@ -54,3 +54,12 @@ pub fn open_joints(joints: &[OpenJointBody], by_place: bool) -> Option<Table> {
     };
     table(["joint", "opens at", "width, mm", "at its other end, mm", "depth, m"], joints.iter().map(row).collect())
 }
+
+/// What to say of cracks where the thrust passes through the ends of so many joints.
+pub(super) fn shared(ends: usize) -> String {
+    format!(
+        "At the end of the movement the thrust passes through the ends of {ends} joints, and an arch needs to open no more than three \
+         to follow. Which of them open, and how wide, depends on how the arch was built: of a symmetric arch the mirror image of these \
+         cracks is as good."
+    )
+}
