@@ -37,7 +37,7 @@ def python(folder, program):
     path = f"{programs}:{os.environ['PATH']}"
     package = folder / "voussoir_client"
     generate(folder, programs / "openapi-python-client", "generate", "--path", DOCUMENT, "--meta", "none",
-             "--output-path", package, "--fail-on-warning", PATH=path)
+             "--output-path", package, "--config", HERE / "python.yaml", "--fail-on-warning", PATH=path)
     shutil.copy(HERE / "client.py", folder)
     print(run(programs / "mypy", "--strict", "--follow-imports=silent", "client.py", folder=folder), end="")
     with socket.socket() as free:
