@@ -120,20 +120,23 @@ function box(at, label, input, help) {
 }
 
 /**
- * One of several shapes that a part of a request may have; each is {words, is, start}: whether the part has it, and what it begins as.
- * Choosing another shape replaces the part.
+ * One of several shapes that a part of a request may have; each is {words, is, start}: whether the part has it, and what it begins as,
+ * or what it makes of the part before. Choosing another shape replaces the part.
  */
 export function shape(draft, at, label, shapes, {help} = {}) {
   const part = draft.get(at);
   const now = shapes.findIndex(({is}) => is(part));
   const input = el(
     'select',
-    {onchange: () => draft.reshape(at, structuredClone(shapes[input.value].start))},
+    {onchange: () => draft.reshape(at, begun(shapes[input.value].start, draft.get(at)))},
     now < 0 && el('option', {value: -1, selected: true}, 'as in the JSON'),
     shapes.map(({words}, i) => el('option', {value: i, selected: i === now}, words)),
   );
   return field(`${at}#`, label, input, {help});
 }
+
+/** What a part begins as: given, or made of what is there. */
+const begun = (start, now) => structuredClone(typeof start === 'function' ? start(now) : start);
 
 /** A group of fields under a legend, with a place for faults of the whole. */
 export function group(at, legend, ...children) {
@@ -159,8 +162,7 @@ export function list(draft, at, {name, start, entry, least = 0}) {
         el('p', {class: 'fault'}),
       ),
     );
-  const add = () =>
-    draft.reshape(at, [...entries, structuredClone(typeof start === 'function' ? start(entries) : start)]);
+  const add = () => draft.reshape(at, [...entries, begun(start, entries)]);
   const more = entries.length - cards.length;
   return [
     cards,

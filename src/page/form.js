@@ -3,13 +3,14 @@
 import {Draft} from './draft.js';
 import {Sketch} from './sketch.js';
 import {Refused, submit} from './api.js';
-import {answerFields, questionFields, stoneFields} from './question-form.js';
+import {answerFields, questionFields} from './question-form.js';
 import {fillFields, loadFields} from './loads-form.js';
 import {STARTERS} from './starters.js';
 import {button, el, put, save, say} from './dom.js';
 import {group, text} from './fields.js';
 import {remember} from './memory.js';
 import {show, toFirst} from './faults.js';
+import {stoneFields} from './stone-form.js';
 import {structureFields} from './structure-form.js';
 import {written} from './pointer.js';
 
@@ -96,12 +97,7 @@ function fill(form, draft) {
     group('/name', 'What', text(draft, '/name', 'Name'), kinds(draft)),
     section('s-structure', kindOf(draft.request), true, structureFields(draft)),
     section('s-loads', 'Loads', true, loadFields(draft), fillFields(draft)),
-    section(
-      's-stone',
-      'Stone and joints',
-      false,
-      el('div', {class: 'grid', 'data-at': '/stone'}, stoneFields(draft), el('p', {class: 'fault'})),
-    ),
+    section('s-stone', 'Stone and joints', false, stoneFields(draft)),
     section('s-question', 'Question', false, questionFields(draft)),
     section('s-answer', 'What the answer shows', false, el('div', {class: 'grid'}, answerFields(draft))),
   );

@@ -1,6 +1,6 @@
 // The loads of a request, and what fills the ground around it.
 
-import {choice, group, list, number, row, shape, text, tick} from './fields.js';
+import {choice, group, list, number, points, row, shape, text, tick} from './fields.js';
 
 const KINDS = [
   ['self_weight', 'Weight of the stones', {}],
@@ -107,6 +107,29 @@ export function loadFields(draft) {
   });
 }
 
+const heightOf = ({surface_height_m: level, surface_m: road}) => level ?? road?.[0]?.[1] ?? 4;
+const SURFACES = [
+  {
+    words: 'Level',
+    is: part => part?.surface_m === undefined,
+    start: ({surface_m: road, ...rest}) => ({...rest, surface_height_m: heightOf({surface_m: road})}),
+  },
+  {
+    words: 'Through points',
+    is: part => part?.surface_m !== undefined,
+    start: ({surface_height_m: level, ...rest}) => {
+      const y = heightOf({surface_height_m: level});
+      return {
+        ...rest,
+        surface_m: [
+          [-5, y],
+          [5, y],
+        ],
+      };
+    },
+  },
+];
+
 /** A road over fill. */
 export function fillFields(draft) {
   const at = '/backfill';
@@ -115,8 +138,24 @@ export function fillFields(draft) {
     'Fill under a road',
     tick(draft, at, 'There is fill up to a surface', {on: {surface_height_m: 4}}),
     draft.get(at) && [
-      number(draft, `${at}/surface_height_m`, 'Height of the surface', 'm above y = 0'),
+      shape(draft, at, 'Surface', SURFACES),
+      draft.get(`${at}/surface_m`)
+        ? points(draft, `${at}/surface_m`, 'Surface, left to right')
+        : number(draft, `${at}/surface_height_m`, 'Height of the surface', 'm above y = 0'),
       number(draft, `${at}/density_kg_m3`, 'Density', 'kg/m³', {usual: '1600'}),
+      list(draft, `${at}/layers`, {
+        name: 'Layer',
+        start: {thickness_m: 0.1, density_kg_m3: 2400},
+        entry: here => [
+          number(draft, `${here}/thickness_m`, 'Thickness', 'm', {help: 'from the surface downwards'}),
+          number(draft, `${here}/density_kg_m3`, 'Density', 'kg/m³'),
+        ],
+      }),
+      tick(draft, `${at}/backing`, 'Denser fill up to a level', {on: {height_m: 1, density_kg_m3: 2200}}),
+      draft.get(`${at}/backing`) && [
+        number(draft, `${at}/backing/height_m`, 'Top of the denser fill', 'm above y = 0'),
+        number(draft, `${at}/backing/density_kg_m3`, 'Its density', 'kg/m³'),
+      ],
       tick(draft, `${at}/passive`, 'It resists stones that move into it', {on: {}}),
       draft.get(`${at}/passive`) && [
         number(draft, `${at}/passive/friction_angle_deg`, 'Friction angle of the fill', 'degrees', {usual: '30'}),

@@ -29,7 +29,8 @@ const FILES: &[(&str, &[u8])] = &files! {
     "answer.js" "api.js" "arrows.js" "certificate.js" "colour.js" "curves.js" "dom.js" "draft.js" "exports.js" "facts.js" "faults.js"
     "fields.js" "form.js" "frames.js" "job.js" "jobs.js" "joints.js" "loads-form.js" "main.js" "memory.js" "number.js" "outline.js"
     "player.js" "plot.js" "pointer.js" "profile.js" "proof.js" "question-form.js" "ring.js" "sketch.js" "spans.js" "stage.js"
-    "starters.js" "status.js" "stream.js" "stress.js" "structure-form.js" "survey.js" "thrust.js" "token.js" "view.js"
+    "starters.js" "status.js" "stone-form.js" "stream.js" "stress.js" "structure-form.js" "survey.js" "thrust.js" "token.js"
+    "view.js"
 };
 
 /// The page, and whatever it loads.

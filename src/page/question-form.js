@@ -1,4 +1,4 @@
-// What is asked of a structure, its stone, and what the answer is to show.
+// What is asked of a structure, and what the answer is to show.
 
 import {choice, group, number, shape, text, tick} from './fields.js';
 
@@ -46,17 +46,6 @@ export function questionFields(draft) {
       ]),
     ),
   ];
-}
-
-export function stoneFields(draft) {
-  return [
-    ['density_kg_m3', 'Density', 'kg/m³', '2300'],
-    ['compressive_strength_pa', 'Compressive strength', 'Pa', '1e7'],
-    ['friction_angle_deg', 'Friction angle of joints', 'degrees', '30'],
-    ['cohesion_pa', 'Cohesion of joints', 'Pa', '0'],
-    ['youngs_modulus_pa', "Young's modulus", 'Pa', '1e9'],
-    ['poissons_ratio', "Poisson's ratio", '', '0.25'],
-  ].map(([key, label, unit, usual]) => number(draft, `/stone/${key}`, label, unit, {usual}));
 }
 
 export function answerFields(draft) {

@@ -1,6 +1,7 @@
 // The structure of a request: an arch, a bridge or blocks.
 
 import {choice, group, list, number, points, row, shape, text, tick} from './fields.js';
+import {stoneOf} from './stone-form.js';
 
 const has = (key, inner) => part => Boolean(part?.[key] && (!inner || part[key][inner] !== undefined));
 
@@ -150,6 +151,7 @@ function span(draft, at) {
         number(draft, `${here}/thickness_m`, 'Thickness at the crown', 'm'),
         number(draft, `${here}/springing_thickness_m`, 'At the springings', 'm', {usual: 'as at the crown'}),
         number(draft, `${here}/voussoirs`, 'Voussoirs', ''),
+        stoneOf(draft, here),
       ],
     }),
   ];
@@ -166,6 +168,7 @@ function bridge(draft) {
         number(draft, `${at}/height_m`, 'Height', 'm'),
         number(draft, `${at}/courses`, 'Courses', '', {usual: '1'}),
         number(draft, `${at}/batter`, 'Batter', 'run over height', {usual: '0'}),
+        stoneOf(draft, at),
       ],
     }),
     group(
@@ -178,11 +181,15 @@ function bridge(draft) {
           number(draft, `/bridge/abutments/${end}/width_m`, 'Width of its bed', 'm', {
             usual: 'as wide as the springings',
           }),
+          stoneOf(draft, `/bridge/abutments/${end}`),
         ],
       ]),
       tick(draft, '/bridge/backing', 'Backing over the haunches', {on: {level_m: 1}}),
       draft.get('/bridge/backing') &&
-        number(draft, '/bridge/backing/level_m', 'Top of the backing', 'm above the springings'),
+        [
+          number(draft, '/bridge/backing/level_m', 'Top of the backing', 'm above the springings'),
+          stoneOf(draft, '/bridge/backing'),
+        ],
       number(draft, '/bridge/ring_friction_angle_deg', 'Friction between rings', 'degrees', {
         usual: 'that of the stone',
       }),
@@ -200,7 +207,11 @@ function blocks(draft) {
       name: 'Block',
       least: 1,
       start: all => ({name: name(all, 'block'), corners_m: (all.at(-1)?.corners_m ?? []).map(([x, y]) => [x + 1, y])}),
-      entry: at => [text(draft, `${at}/name`, 'Name'), points(draft, `${at}/corners_m`, 'Corners')],
+      entry: at => [
+        text(draft, `${at}/name`, 'Name'),
+        points(draft, `${at}/corners_m`, 'Corners'),
+        stoneOf(draft, at),
+      ],
     }),
     list(draft, '/blocks/supports', {
       name: 'Support',

@@ -81,6 +81,37 @@ export async function theJsonBesideIt(tools) {
   assert.deepEqual((await draft(page)).joint_overrides, request.joint_overrides, 'what has no field stays');
 }
 
+/** Other stones, altered joints, and a road over layers of fill. */
+export async function stonesJointsAndFill(tools) {
+  const page = await tools.page('/#/new/arch');
+  await judged(page);
+  await page.click('#s-stone > summary');
+  await page.click('#f-stones-add');
+  await page.fill('#f-stones-0-density_kg_m3', '1800');
+  await page.click('#f-arch-stone_of-add');
+  await page.fill('#f-arch-stone_of-0-to', '3');
+  await page.click('#f-joint_overrides-add');
+  await page.fill('#f-joint_overrides-0-joint', '4');
+  await page.fill('#f-joint_overrides-0-lost_at_intrados_m', '0.05');
+  await page.check('#f-backfill');
+  await page.fill('#f-backfill-density_kg_m3', '1900');
+  await page.selectOption('[id="f-backfill#"]', {label: 'Through points'});
+  await page.fill('#f-backfill-surface_m', '-6 6\n0 7\n6 6.5');
+  await page.click('#f-backfill-layers-add');
+  await page.check('#f-backfill-backing');
+  await judged(page);
+  const request = await draft(page);
+  assert.deepEqual(request.stones, [{name: 'stone 2', density_kg_m3: 1800}]);
+  assert.deepEqual(request.arch.stone_of, [{from: 0, to: 3, stone: 'stone 2'}]);
+  assert.deepEqual(request.joint_overrides, [{joint: 4, lost_at_intrados_m: 0.05}]);
+  const {surface_m, density_kg_m3: density, layers, backing} = request.backfill;
+  assert.deepEqual(surface_m[1], [0, 7]);
+  assert.deepEqual([density, layers.length, backing.height_m], [1900, 1, 1], 'another surface spoils nothing else');
+  await page.selectOption('[id="f-backfill#"]', {label: 'Level'});
+  assert.equal((await draft(page)).backfill.surface_height_m, 6);
+  assert.equal((await draft(page)).backfill.surface_m, undefined);
+}
+
 /** Every fault of the service stands beside its field, and nothing is submitted. */
 export async function faultsBesideTheirFields(tools) {
   const page = await tools.page('/#/new/arch');
@@ -142,6 +173,15 @@ export async function anArchFromSurveyedPoints(tools) {
   await page.fill('#f-arch-profile-surveyed-thickness_m', '0.4');
   await judged(page);
   assert.equal((await draft(page)).arch.profile.surveyed.extrados_m, undefined);
+  // Of one face alone, from right to left, two of its points uncertain.
+  const uncertain = points.map(([x, y], i) => [x, y, ['', 0.02, '', '', 0.03][i]].join(',')).reverse();
+  await drop('uncertain.csv', ['x_m,y_m,tolerance_m', ...uncertain].join('\n'));
+  await text(page, '[data-at="/arch/profile#"] .fault', 'thickness_m');
+  await page.fill('#f-arch-profile-surveyed-thickness_m', '0.4');
+  await judged(page);
+  const {analysis, arch} = await draft(page);
+  assert.deepEqual(analysis, {survey_tolerance: {intrados_m: [0, 0.02, 0, 0, 0.03]}});
+  assert.deepEqual(arch.profile.surveyed.intrados_m, points);
   await drop('bad.csv', 'side,x_m,y_m\nintrados,0,zero');
   await text(page, '#told', 'line 2');
   await drop('request.json', JSON.stringify(tools.request('pointed')));
