@@ -1,9 +1,11 @@
 //! What can be set, by flag or by environment variable; `--help` is the list.
 
+mod once;
 pub mod store;
 mod values;
 mod variables;
 
+pub use once::{Solve, Survey};
 pub use variables::strays;
 
 use axum::http::HeaderValue;
@@ -34,10 +36,10 @@ pub struct Program {
 #[derive(Debug, Subcommand)]
 pub enum Verb {
     /// Analyse one request and print the answer
-    #[command(after_help = EXIT_CODES)]
+    #[command(after_help = once::EXIT_CODES)]
     Solve(Solve),
     /// Make a request of a table of surveyed points
-    #[command(after_help = COLUMNS)]
+    #[command(after_help = once::COLUMNS)]
     Survey(Survey),
     /// Serve HTTP until told to stop
     Serve(Box<Serve>),
@@ -45,50 +47,6 @@ pub enum Verb {
     Openapi,
     /// Ask a running service for a sign of life
     Health(HealthOptions),
-}
-
-/// What `solve` ends with.
-const EXIT_CODES: &str = "Exit codes: 0 with an answer, whatever its outcome; 2 for a request that cannot be analysed, or a wrong \
-command line; 1 where there is no answer, the file cannot be read or nothing can be written.";
-
-/// Options of `solve`.
-#[derive(Debug, Args)]
-pub struct Solve {
-    /// The request as JSON, just as one would POST it; - reads standard input
-    pub file: PathBuf,
-    /// Print the whole answer as JSON, byte for byte what /v1/jobs/{id}/results gives
-    #[arg(long)]
-    pub json: bool,
-    /// Also draw the structure in the state that governs, as SVG, into this file
-    #[arg(long, value_name = "OUT.svg")]
-    pub figure: Option<PathBuf>,
-    /// Also write every drawing, as SVG, into this folder, each under its name
-    #[arg(long, value_name = "FOLDER")]
-    pub figures: Option<PathBuf>,
-    /// Also write a report to be printed, as HTML, into this file
-    #[arg(long, value_name = "OUT.html")]
-    pub report: Option<PathBuf>,
-}
-
-/// What `survey` reads.
-const COLUMNS: &str = "The table is comma-separated, its first line the names of the columns: side (intrados or extrados; all intrados \
-without it), x_m, y_m, and tolerance_m where points are uncertain. Points of a side run from left to right, one for every joint. \
-tolerance_m asks for the analysis survey_tolerance, which needs a scaled load: give --into.";
-
-/// Options of `survey`.
-#[derive(Debug, Args)]
-pub struct Survey {
-    /// The points as CSV; - reads standard input
-    pub file: PathBuf,
-    /// Put them into the arch of this request in JSON [default: an arch under its self weight]
-    #[arg(long, value_name = "REQUEST.json")]
-    pub into: Option<PathBuf>,
-    /// Thickness in m, where there are points of the intrados alone
-    #[arg(long, value_name = "M")]
-    pub thickness: Option<f64>,
-    /// Length in m over which the points are smoothed
-    #[arg(long, value_name = "M")]
-    pub smoothing_length: Option<f64>,
 }
 
 /// Options of `serve`.

@@ -10,11 +10,11 @@ use std::process::ExitCode;
 use std::time::Instant;
 use voussoir::budget::Budget;
 use voussoir::collapse;
-use voussoir::jobs::Product;
+use voussoir::jobs::{Part, Product};
 use voussoir::wire::fault::Fault;
 use voussoir::wire::format::Format;
 use voussoir::wire::read::read_question;
-use voussoir::wire::rendering::{FIGURE, REPORT, WHOLE, figure, plain, renderings};
+use voussoir::wire::rendering::{FIGURE, REPORT, WHOLE, figure, painted, plain, renderings};
 
 /// Exit code for a request that cannot be analysed.
 pub(super) const FAULTY: u8 = 2;
@@ -52,22 +52,31 @@ fn part(product: &Product, name: &str, format: Format) -> Result<Bytes, String> 
 
 /// Writes what is asked for besides the answer.
 fn write_files(options: &Solve, product: &Product) -> Result<(), String> {
-    let write = |file: &Path, bytes: &[u8]| {
-        fs::write(file, bytes).map_err(|error| format!("cannot write {}: {error}", file.display()))
-    };
-    let asked = [(&options.figure, FIGURE, Format::Svg), (&options.report, REPORT, Format::Html)];
-    for (file, name, format) in asked {
-        if let Some(file) = file {
-            write(file, &part(product, name, format)?)?;
+    if let Some(folder) = &options.figures {
+        fs::create_dir_all(folder).map_err(|error| format!("cannot make {}: {error}", folder.display()))?;
+        for drawing in product.iter() {
+            if let Some(name) = drawing.names.iter().find_map(|name| name.strip_prefix(&figure(""))) {
+                write(&folder.join(format!("{name}.svg")), &plain(&drawing.part)?)?;
+            }
         }
     }
-    for drawing in product.iter().filter(|_| options.figures.is_some()) {
-        let name = drawing.names.iter().find_map(|name| name.strip_prefix(&figure("")));
-        if let (Some(folder), Some(name)) = (&options.figures, name) {
-            write(&folder.join(format!("{name}.svg")), &plain(&drawing.part)?)?;
-        }
+    if let Some(file) = &options.figure {
+        write(file, &main_drawing(product, file.extension().is_some_and(|kind| kind.eq_ignore_ascii_case("png")))?)?;
+    }
+    if let Some(file) = &options.report {
+        write(file, &part(product, REPORT, Format::Html)?)?;
     }
     Ok(())
+}
+
+/// The main drawing as SVG, or in pixels.
+fn main_drawing(product: &Product, in_pixels: bool) -> Result<Bytes, String> {
+    let svg = part(product, FIGURE, Format::Svg)?;
+    if in_pixels { painted(&Part { body: Ok(svg), packed_from: None }) } else { Ok(svg) }
+}
+
+fn write(file: &Path, bytes: &[u8]) -> Result<(), String> {
+    fs::write(file, bytes).map_err(|error| format!("cannot write {}: {error}", file.display()))
 }
 
 /// The bytes of a file, or of standard input where it is named `-`.

@@ -15,6 +15,7 @@ mod links;
 mod meta;
 mod metrics;
 mod outgoing;
+mod painter;
 pub mod problem;
 pub mod quota;
 mod readers;

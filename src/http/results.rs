@@ -19,6 +19,7 @@ use axum::response::{IntoResponse, Response};
 use futures_util::stream;
 use serde::Deserialize;
 use std::sync::Arc;
+use utoipa::ToSchema;
 
 /// In which format.
 #[derive(Debug, Deserialize)]
@@ -72,6 +73,10 @@ impl Asked {
         let mut response = match version.known(&headers) {
             Some(response) => response,
             None => match service.store.part(id, part, rendering::kept_as(format)).await? {
+                Some(drawing @ Part { body: Ok(_), .. }) if format == Format::Png => {
+                    let bytes = service.outgoing.hold(&client, service.painter.paint(drawing).await?)?;
+                    version.mark(([(header::CONTENT_TYPE, format.content_type())], Body::from(bytes)))
+                }
                 Some(Part { body: Ok(bytes), packed_from }) => {
                     let bytes = service.outgoing.hold(&client, bytes)?;
                     let content_type = [(header::CONTENT_TYPE, format.content_type())];
@@ -106,6 +111,12 @@ pub(super) fn body(bytes: Bytes, packed_from: Option<usize>, headers: &HeaderMap
         }
     }
 }
+
+/// A drawing in pixels.
+#[derive(ToSchema)]
+#[schema(value_type = String, format = Binary)]
+#[allow(dead_code, reason = "only described")]
+struct Picture(Vec<u8>);
 
 /// A job's results.
 #[utoipa::path(
@@ -183,7 +194,7 @@ pub(super) async fn positions(asked: Asked) -> Result<Response, Problem> {
     params(("id" = String, Path, format = "uuid", description = "Job id")),
     responses(
         (status = 200, description = "The structure in the state that governs, or a safety curve", content(
-            (String = "image/svg+xml"), (String = "text/xml"),
+            (String = "image/svg+xml"), (String = "text/xml"), (Picture = "image/png"),
         ), headers(("etag" = String, description = "Names this answer"))),
     )
 )]
@@ -202,7 +213,7 @@ pub(super) async fn figure(asked: Asked) -> Result<Response, Problem> {
             of up to 20000 subblocks; `motion`: moves", example = "structure"),
     ),
     responses(
-        (status = 200, description = "The drawing", content((String = "image/svg+xml"), (String = "text/xml")),
+        (status = 200, description = "The drawing", content((String = "image/svg+xml"), (String = "text/xml"), (Picture = "image/png")),
             headers(("etag" = String, description = "Names this answer"))),
     )
 )]

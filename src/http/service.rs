@@ -5,6 +5,7 @@ use super::layers::{Hosts, LinkKey, Tokens};
 use super::limits::ApiLimits;
 use super::metrics::Metrics;
 use super::outgoing::Outgoing;
+use super::painter::Painter;
 use super::quota::Quota;
 use super::readers::Readers;
 use crate::budget::Budget;
@@ -63,6 +64,7 @@ pub struct Service {
     /// Memory for bodies on their way in, bytes.
     pub(super) incoming: Quota,
     pub(super) outgoing: Outgoing,
+    pub(super) painter: Painter,
 }
 
 impl Service {
@@ -84,6 +86,7 @@ impl Service {
             readers: Readers::new(),
             incoming: Quota::new(incoming, part(incoming).max(longest)),
             outgoing: Outgoing::new(limits.outgoing, part(limits.outgoing)),
+            painter: Painter::new(),
             settings: Arc::new(settings),
         }
     }

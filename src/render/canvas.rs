@@ -267,13 +267,13 @@ impl Canvas {
         }
     }
 
-    /// The whole document.
     /// The whole document; `description` says in words what is to be seen. Its style, a rule a line, is for drawings of this kind
     /// only, so that several kinds may stand in one page.
     pub fn finish(mut self, kind: &str, title: &str, description: &str, style: &str) -> String {
         self.put_labels();
         let (w, h) = (Hundredths(WIDTH), Hundredths(self.height));
-        let (title, description, style) = (escaped(title), escaped(description), scoped(style, kind));
+        let (title, description, style) =
+            (escaped(title), escaped(description), scoped(&format!("{SHEET}{style}"), kind));
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"{kind}\" width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\" \
              role=\"img\">\n<title>{title}</title>\n<desc>{description}</desc>\n<style>\n{style}</style>\n\
@@ -282,6 +282,18 @@ impl Canvas {
         )
     }
 }
+
+/// How the sheet and what is written on it look, in drawings of every kind.
+const SHEET: &str = "\
+.paper{fill:#fff}
+@media print{.paper{fill:none}}
+text{font-family:Inter,'Helvetica Neue',Helvetica,Arial,sans-serif;fill:#1d1d1f}
+.title{font-size:19px;font-weight:600}
+.line{font-size:15px;fill:#55524d}
+.label{font-size:14px;text-anchor:middle;stroke:#fff;stroke-width:4;stroke-linejoin:round;paint-order:stroke}
+.small{font-size:13px;fill:#3c3a37}
+.centred{font-size:13px;fill:#3c3a37;text-anchor:middle}
+";
 
 /// Rules of style, one a line, for what is inside an element of a class.
 fn scoped(style: &str, class: &str) -> String {

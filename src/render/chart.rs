@@ -71,7 +71,6 @@ pub struct Zone {
 }
 
 const STYLE: &str = "\
-.paper{fill:#fff}
 .frame{fill:none;stroke:#55524d;stroke-width:1.2}
 .grid{stroke:#dcd9d3;stroke-width:1}
 .zone0{fill:#f4f1ea;stroke:none}
@@ -87,14 +86,7 @@ const STYLE: &str = "\
 .point3{fill:#8a5a00}
 .mark{fill:#fff;stroke:#1d1d1f;stroke-width:2.2}
 .leader{stroke:#8a8780;stroke-width:.9}
-text{font-family:Inter,'Helvetica Neue',Helvetica,Arial,sans-serif;fill:#1d1d1f}
-.title{font-size:19px;font-weight:600}
-.line{font-size:15px;fill:#55524d}
-.label{font-size:14px;text-anchor:middle;stroke:#fff;stroke-width:4;stroke-linejoin:round;paint-order:stroke}
-.small{font-size:13px;fill:#3c3a37}
-.centred{font-size:13px;fill:#3c3a37;text-anchor:middle}
 .right{font-size:13px;fill:#3c3a37;text-anchor:end}
-@media print{.paper{fill:none}}
 ";
 
 /// Kinds of lines.

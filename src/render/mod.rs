@@ -8,5 +8,7 @@ pub mod digits;
 pub mod figure;
 mod labels;
 pub mod motion;
+#[cfg(feature = "server")]
+pub mod png;
 pub mod stress;
 pub mod vtu;

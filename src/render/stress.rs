@@ -28,18 +28,10 @@ const LENGTH: f64 = 480.0;
 const PARTS: usize = 4;
 
 const STYLE: &str = "\
-.paper{fill:#fff}
 .outline{fill:none;stroke:#1d1d1f;stroke-width:.7;stroke-linejoin:round}
 .frame{fill:none;stroke:#1d1d1f;stroke-width:1}
 .mark{fill:none;stroke:#b3341f;stroke-width:2.4}
 .leader{stroke:#8a8780;stroke-width:.9}
-text{font-family:Inter,'Helvetica Neue',Helvetica,Arial,sans-serif;fill:#1d1d1f}
-.title{font-size:19px;font-weight:600}
-.line{font-size:15px;fill:#55524d}
-.label{font-size:14px;text-anchor:middle;stroke:#fff;stroke-width:4;stroke-linejoin:round;paint-order:stroke}
-.small{font-size:13px;fill:#3c3a37}
-.centred{font-size:13px;fill:#3c3a37;text-anchor:middle}
-@media print{.paper{fill:none}}
 ";
 
 /// Draws it as SVG, the bodies by these outlines; none of a field without subblocks.

@@ -15,6 +15,8 @@ pub enum Format {
     Svg,
     /// The same drawing, for those who know it as XML only.
     Xml,
+    /// The same drawing in pixels.
+    Png,
     /// A page to be read or printed.
     Html,
     /// Measurements for Prometheus.
@@ -32,7 +34,7 @@ pub const POSITIONS: [Format; 2] = [Format::Json, Format::Csv];
 /// Formats of the report.
 pub const REPORT: [Format; 1] = [Format::Html];
 /// Formats of a drawing.
-pub const FIGURE: [Format; 2] = [Format::Svg, Format::Xml];
+pub const FIGURE: [Format; 3] = [Format::Svg, Format::Xml, Format::Png];
 
 impl Format {
     /// Its name in the query, and its media type.
@@ -44,6 +46,7 @@ impl Format {
             Format::Vtu => ("vtu", "application/vnd.vtk.vtu+xml"),
             Format::Svg => ("svg", "image/svg+xml"),
             Format::Xml => ("xml", "text/xml"),
+            Format::Png => ("png", "image/png"),
             Format::Html => ("html", "text/html"),
             Format::OpenMetrics => ("openmetrics", "application/openmetrics-text"),
         }

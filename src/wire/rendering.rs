@@ -14,7 +14,9 @@ use super::request::{AnalysisRequest, Request, StressFieldRequest};
 use super::response::JobResult;
 use crate::collapse::{Answer, CollapseReport, Question, Snapshot};
 use crate::jobs::{Failure, Part, Product, Rendering};
+use crate::render::png::png;
 use crate::render::vtu::vtu;
+use bytes::Bytes;
 use std::time::Duration;
 
 /// The whole answer, in JSON and text.
@@ -134,7 +136,18 @@ pub fn figure(name: &str) -> String {
     format!("figures/{name}")
 }
 
-/// The format in which a part that is given out in `format` is kept: a drawing is kept once, and goes by two media types.
+/// The format in which a part that is given out in `format` is kept: a drawing is kept once, goes by two media types, and is painted
+/// when it is asked for in pixels.
 pub fn kept_as(format: Format) -> &'static str {
-    if format == Format::Xml { Format::Svg.name() } else { format.name() }
+    if matches!(format, Format::Xml | Format::Png) { Format::Svg.name() } else { format.name() }
+}
+
+/// A drawing that is kept as SVG, in pixels.
+///
+/// # Errors
+/// Why there is none.
+pub fn painted(drawing: &Part) -> Result<Bytes, String> {
+    let svg = plain(drawing)?;
+    let svg = std::str::from_utf8(&svg).map_err(|error| error.to_string())?;
+    png(svg).map(Bytes::from)
 }

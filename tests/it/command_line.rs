@@ -204,8 +204,9 @@ fn the_figures_of_the_documents_are_what_solve_draws() {
 
 #[test]
 fn solve_writes_drawings_and_a_report() {
-    let folder = std::env::temp_dir().join(format!("voussoir-drawings-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
+    // A folder that is not there yet, in another that is not.
+    let outer = std::env::temp_dir().join(format!("voussoir-drawings-{}", std::process::id()));
+    let folder = outer.join("of/one");
     let report = folder.join("report.html");
     let [figures, report] = [&folder, &report].map(|path| path.to_str().unwrap());
     let arguments = ["solve", &case("worst-position/request.json"), "--figures", figures, "--report", report];
@@ -213,7 +214,7 @@ fn solve_writes_drawings_and_a_report() {
     let page = std::fs::read_to_string(report).unwrap();
     let mut names: Vec<_> = std::fs::read_dir(&folder).unwrap().map(|file| file.unwrap().file_name()).collect();
     names.sort();
-    std::fs::remove_dir_all(&folder).unwrap();
+    std::fs::remove_dir_all(&outer).unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     assert!(String::from_utf8_lossy(&output.stdout).contains("The vehicle stands worst at"));
     let expected = ["load_displacement.svg", "report.html", "standing.svg", "structure.svg", "worst_position.svg"];
@@ -227,6 +228,18 @@ fn solve_writes_drawings_and_a_report() {
     }
     assert!(!page.contains("<script") && !page.contains("href=") && !page.contains("src="));
     assert!(page.contains(concat!("Voussoir ", env!("CARGO_PKG_VERSION"))));
+}
+
+#[test]
+fn solve_draws_in_pixels() {
+    let file = std::env::temp_dir().join(format!("voussoir-drawing-{}.PNG", std::process::id()));
+    let output = fed(&["solve", &case("first-arch/request.json"), "--figure", file.to_str().unwrap()], "");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let drawn = std::fs::read(&file).unwrap();
+    std::fs::remove_file(&file).unwrap();
+    assert!(drawn.starts_with(b"\x89PNG\r\n\x1a\n"));
+    // Twice as wide as the drawing.
+    assert_eq!(u32::from_be_bytes(drawn[16..20].try_into().unwrap()), 1920);
 }
 
 /// The summary of a case, changed.

@@ -35,7 +35,7 @@ const TABLE: [(&str, &[&str], &[&str]); 14] = [
             "uuid",
         ],
     ),
-    ("render", &["collapse", "structure", "geometry"], &["thiserror"]),
+    ("render", &["collapse", "structure", "geometry"], &["resvg", "thiserror"]),
     (
         "wire",
         &["jobs", "render", "arch", "blocks", "bridge", "structure", "collapse", "geometry"],

@@ -268,6 +268,9 @@ fn results_come_in_parts_and_formats() {
     assert!(figure.text().starts_with("<svg") && figure.text().trim_end().ends_with("</svg>"));
     // Its rules of style stand in it.
     assert!(figure.header("content-security-policy").unwrap().contains("style-src 'unsafe-inline'"));
+    let in_pixels = part("/figure", "image/png");
+    assert_eq!(in_pixels.header("content-type"), Some("image/png"));
+    assert!(in_pixels.bytes().starts_with(b"\x89PNG\r\n\x1a\n"));
     let as_xml = part("/figure", "text/xml");
     assert_eq!((as_xml.header("content-type"), as_xml.text()), (Some("text/xml; charset=utf-8"), figure.text()));
     assert_eq!(part("/figures/structure", "*/*").text(), figure.text());

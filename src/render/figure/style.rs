@@ -1,7 +1,6 @@
 //! How things look: legible in black and white, and to the colour-blind (the colours are those of Okabe and Ito).
 
 pub const STYLE: &str = "\
-.paper{fill:#fff}
 .stone{fill:#f3eddf;stroke:#8b8172;stroke-width:.8;stroke-linejoin:round}
 .fine{fill:#f3eddf;stroke:#8b8172;stroke-width:.1}
 .abutment{fill:#dcd6ca;stroke:#8b8172;stroke-width:.8;stroke-linejoin:round}
@@ -31,11 +30,4 @@ pub const STYLE: &str = "\
 .measure{stroke:#55524d;stroke-width:1}
 .leader{stroke:#8a8780;stroke-width:.9}
 .bar{stroke:#1d1d1f;stroke-width:1.6}
-text{font-family:Inter,'Helvetica Neue',Helvetica,Arial,sans-serif;fill:#1d1d1f}
-.title{font-size:19px;font-weight:600}
-.line{font-size:15px;fill:#55524d}
-.label{font-size:14px;text-anchor:middle;stroke:#fff;stroke-width:4;stroke-linejoin:round;paint-order:stroke}
-.small{font-size:13px;fill:#3c3a37}
-.centred{font-size:13px;fill:#3c3a37;text-anchor:middle}
-@media print{.paper{fill:none}}
 ";
