@@ -118,13 +118,14 @@ pub enum LoadFault {
         last: usize,
     },
     /// A force in the air.
-    #[error("this point lies outside the block that carries the force")]
-    OffTheBody,
-    /// An end of a tie in the air.
-    #[error("this point lies outside the block that the tie is fixed to")]
-    TieOffTheBody {
-        /// Which end, 0 or 1.
+    #[error("this point lies outside its block, which reaches from {low:.6?} to {high:.6?} m")]
+    OffTheBody {
+        /// Which end of a tie, 0 or 1; 0 for any other force.
         end: usize,
+        /// Least abscissa and height of the block, m.
+        low: [f64; 2],
+        /// Greatest, m.
+        high: [f64; 2],
     },
     /// A tie that holds nothing.
     #[error("the tie has no length, or both its ends are fixed to one block, where it does nothing")]
@@ -267,7 +268,9 @@ fn force_on(structure: &Structure, body: usize, at: Vec2, force: Vec2) -> Result
     if lies_inside(at, corners) || near() {
         Ok(PointForce { body, at, force, spread: false })
     } else {
-        Err(LoadFault::OffTheBody)
+        let none = [f64::INFINITY, f64::NEG_INFINITY].map(Vec2::repeat);
+        let [low, high] = corners.iter().fold(none, |[low, high], corner| [low.inf(corner), high.sup(corner)]);
+        Err(LoadFault::OffTheBody { end: 0, low: low.into(), high: high.into() })
     }
 }
 
@@ -281,7 +284,10 @@ fn tie(structure: &Structure, ends: [(usize, Vec2); 2], force: f64) -> Result<Ve
     let pull = (b - a) * (force / length);
     let on = |end: usize, force: Vec2| {
         let (body, at) = ends[end];
-        force_on(structure, body, at, force).map_err(|_| LoadFault::TieOffTheBody { end })
+        force_on(structure, body, at, force).map_err(|fault| match fault {
+            LoadFault::OffTheBody { low, high, .. } => LoadFault::OffTheBody { end, low, high },
+            other => other,
+        })
     };
     Ok(vec![on(0, pull)?, on(1, -pull)?])
 }

@@ -5,6 +5,7 @@ mod assumptions;
 mod beam;
 mod columns;
 mod falling;
+mod favourable;
 mod geometric;
 mod mechanism;
 mod plan;
@@ -180,6 +181,7 @@ impl AnalysisResult {
         let settlement = report.settlement().map(|settlement| SettlementBody::new(settlement, &grounds));
         let scaled_load = ScaledLoadBody::new(request, &structure);
         let assumptions = assumptions::assumptions(request, &structure);
+        let favourable = favourable::note(request, &structure, report);
         let ties = ties::notes(request, &structure, report);
         Some(AnalysisResult {
             outcome: report.outcome,
@@ -218,6 +220,7 @@ impl AnalysisResult {
             cost: report.cost,
             notes: { report.notes.iter().map(Note::to_string) }
                 .chain(assumptions)
+                .chain(favourable)
                 .chain(ties)
                 .map(|note| in_its_words(request, &note))
                 .collect(),

@@ -200,8 +200,12 @@ fn loads_stand_on_what_can_carry_them() {
     let l = |rest: &str| format!("/loads/1/load/{rest}");
     let force = |rest: &str| l(&format!("point_force/{rest}"));
     refused(&with(wall(), &force("block"), json!("b7")), &force("block"), "correct the name");
-    refused(&with(wall(), &force("at_m"), json!([-0.1, 2.5])), &force("at_m"), "outside the block");
-    refused(&with(wall(), &force("at_m"), json!([0, 1.5])), &force("at_m"), "outside the block");
+    refused(
+        &with(wall(), &force("at_m"), json!([-0.1, 2.5])),
+        &force("at_m"),
+        "outside its block, which reaches from [",
+    );
+    refused(&with(wall(), &force("at_m"), json!([0, 1.5])), &force("at_m"), "outside its block");
     refused(&with(wall(), &force("force_n_per_m"), json!([0, 0])), &force("force_n_per_m"), "leave the load out");
     for load in [
         json!({"point_load": {"force_n_per_m": 1000, "x_m": 0}}),

@@ -212,6 +212,30 @@ fn only_with_factors_an_end_has_an_adequacy_factor() {
     }
 }
 
+/// Weight holds an arch back that a load brings down, and brings down one that is shaken less than it bears: the note says which
+/// factors are on the unsafe side, and they are.
+#[test]
+fn factors_on_weight_that_help_are_told() {
+    let arch = |scaled: Value, dead: f64| {
+        json!({
+            "arch": {"profile": {"circular": {"radius_m": 5, "opening_angle_deg": 180}}, "thickness": {"constant_m": 0.8}, "voussoirs": 15},
+            "stone": {"friction_angle_deg": 40, "compressive_strength_pa": 1e30},
+            "loads": [{"load": {"self_weight": {}}}, {"load": scaled, "scaled": true}],
+            "partial_factors": {"dead": dead}
+        })
+    };
+    let load = json!({"point_load": {"force_n_per_m": 1000, "x_m": -2}});
+    let told = |answer: &Value| answer["notes"].to_string().contains("fixed loads as a whole hold it back");
+    let [plain, more, less] = [1.0, 1.2, 0.9].map(|dead| solved(&arch(load.clone(), dead)));
+    let at = |answer: &Value| end(answer, "highest")["load_factor"].as_f64().unwrap();
+    close([at(&more), 1.2 * at(&plain)], 1e-9, "weight times 1.2");
+    close([at(&less), 0.9 * at(&plain)], 1e-9, "weight times 0.9");
+    assert!(told(&more) && !told(&plain) && !told(&less), "{} {}", more["notes"], less["notes"]);
+    // Lifted off instead.
+    let lift = json!({"point_load": {"force_n_per_m": -1000, "x_m": 0}});
+    assert!(told(&solved(&arch(lift, 1.35))));
+}
+
 #[test]
 fn an_adequacy_factor_is_never_more_than_what_else_was_found() {
     // In a safety analysis it is what governs there.

@@ -40,6 +40,14 @@ fn numbers(of: &Value) -> Vec<f64> {
     of.as_array().unwrap().iter().map(|value| value.as_f64().unwrap()).collect()
 }
 
+/// Intensities of a column of limits, all of which have one.
+fn intensities(of: &Value) -> Vec<f64> {
+    of.as_array().unwrap().iter().map(|limit| limit["intensity"].as_f64().unwrap()).collect()
+}
+
+/// Numbers of a column.
+type Reader = fn(&Value) -> Vec<f64>;
+
 /// What limit analysis says of a request alone: the lower of rigid stones and of joints that crush.
 fn limit(request: &Value) -> f64 {
     let answer = solved(request);
@@ -64,7 +72,7 @@ fn every_moved_point_is_a_survey_of_its_own() {
         let points = points(9);
         let answer = solved(&uncertain(arch(&points, -1.2, strength), &json!({"tolerance_m": 0.01})));
         let survey = &answer["survey_tolerance"];
-        let [outwards, inwards] = ["outwards", "inwards"].map(|way| numbers(&survey["points"][way]));
+        let [outwards, inwards] = ["outwards", "inwards"].map(|way| intensities(&survey["points"][way]));
         assert_eq!(outwards.len(), 20);
         let as_surveyed = survey["as_surveyed"]["intensity"].as_f64().unwrap();
         assert!((as_surveyed / limit(&arch(&points, -1.2, strength)) - 1.0).abs() < 1e-8);
@@ -93,7 +101,7 @@ fn small_tolerances_act_in_proportion() {
     let of = |tolerance: f64| {
         let answer = solved(&uncertain(arch(&points(10), -1.0, 1e30), &json!({"tolerance_m": tolerance})));
         let survey = &answer["survey_tolerance"];
-        let [outwards, inwards] = ["outwards", "inwards"].map(|way| numbers(&survey["points"][way]));
+        let [outwards, inwards] = ["outwards", "inwards"].map(|way| intensities(&survey["points"][way]));
         let slopes: Vec<f64> = outwards.iter().zip(inwards).map(|(out, inside)| (out - inside) / tolerance).collect();
         let [base, worst, first] = [
             &survey["as_surveyed"]["load_factor"],
@@ -119,8 +127,8 @@ fn a_mirrored_survey_has_mirrored_answers() {
         answer["survey_tolerance"].clone()
     };
     let (one, other) = (asked(&points, -1.3), asked(&mirrored, 1.3));
-    for way in ["outwards", "inwards", "at_worst_m"] {
-        let [here, there] = [&one, &other].map(|survey| numbers(&survey["points"][way]));
+    for (way, read) in [("outwards", intensities as Reader), ("inwards", intensities), ("at_worst_m", numbers)] {
+        let [here, there] = [&one, &other].map(|survey| read(&survey["points"][way]));
         for (row, at) in here.iter().enumerate() {
             let image = if row < 9 { 8 - row } else { 26 - row };
             assert!((at - there[image]).abs() <= 1e-7 * at.abs(), "{way} {row}: {at} and {}", there[image]);
@@ -212,7 +220,7 @@ fn points_of_a_ring_of_one_thickness_move_with_their_joints() {
         request
     };
     let answer = solved(&uncertain(ring(&intrados), &json!({"tolerance_m": 0.02})));
-    let found = numbers(&answer["survey_tolerance"]["points"]["inwards"]);
+    let found = intensities(&answer["survey_tolerance"]["points"]["inwards"]);
     assert_eq!(found.len(), 10);
     for (row, found) in found.iter().enumerate() {
         let [elsewhere, _] = moved(&[intrados.clone(), Vec::new()], &answer, row, -0.02);

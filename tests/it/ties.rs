@@ -118,12 +118,12 @@ fn ties_that_hold_nothing_are_refused() {
     refused(
         &with(good.clone(), &at("from/at_m"), json!([-3, 1])),
         &at("from/at_m"),
-        "outside the block that the tie is fixed to",
+        "outside its block, which reaches from [",
     );
     refused(
         &with(good.clone(), &at("to/at_m"), json!([3, 1])),
         &at("to/at_m"),
-        "outside the block that the tie is fixed to",
+        "outside its block, which reaches from [",
     );
     refused(
         &with(good.clone(), &at("to"), json!({"block": "left", "at_m": [-1.5, 1]})),

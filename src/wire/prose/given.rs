@@ -61,6 +61,30 @@ fn arch(arch: &ArchRequest) -> String {
 /// Most runs of voussoirs of other stones that are listed.
 const STONES_LISTED: usize = 6;
 
+/// The stone, and others in what they differ from it; strengths stand elsewhere.
+pub fn stone(request: &AnalysisRequest) -> String {
+    let stone = &request.stone;
+    let density = |density: f64| format!("{} kg/m3", Digits(density));
+    let modulus = |modulus: f64| format!("Young's modulus {} GPa", Digits(modulus / 1e9));
+    let friction = |angle: f64| format!("friction of joints {} deg", Digits(angle));
+    let cohesion = |cohesion: f64| format!("cohesion {} kPa", Digits(cohesion / 1e3));
+    let mut of_most = vec![density(stone.density_kg_m3), modulus(stone.youngs_modulus_pa)];
+    of_most.push(friction(stone.friction_angle_deg));
+    of_most.extend((stone.cohesion_pa > 0.0).then(|| cohesion(stone.cohesion_pa)));
+    let other = |other: &NamedStone| {
+        let parts = [
+            other.density_kg_m3.map(density),
+            other.youngs_modulus_pa.map(modulus),
+            other.friction_angle_deg.map(friction),
+            other.cohesion_pa.map(cohesion),
+        ];
+        let parts: Vec<String> = parts.into_iter().flatten().collect();
+        (!parts.is_empty()).then(|| format!("; {}: {}", other.name, parts.join(", ")))
+    };
+    let others: String = request.stones.iter().filter_map(other).collect();
+    format!("{}{others}", of_most.join(", "))
+}
+
 /// Strength beyond that of any matter, Pa: the request means none.
 const NO_LIMIT_PA: f64 = 1e15;
 

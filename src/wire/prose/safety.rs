@@ -110,9 +110,18 @@ fn crushing_facts(lines: &mut Vec<(&'static str, String)>, result: &AnalysisResu
     }
 }
 
-/// What the two answers about crushing mean.
-pub const EXPLANATION: &str = "First yield: the equivalent stress of Tresca reaches the strength in some subblock; it \
-    depends on the mesh. Plastic section: what limit analysis allows where no joint carries more than the strength.";
+/// What the answers about crushing mean, where there are any.
+pub fn explanation(result: &AnalysisResult) -> Option<String> {
+    let crushing = result.crushing.as_ref()?;
+    let said = [(crushing.elastic.is_some(), FIRST_YIELD), (crushing.plastic_section.is_some(), PLASTIC_SECTION)];
+    let said: Vec<&str> = said.iter().filter(|(told, _)| *told).map(|(_, means)| *means).collect();
+    (!said.is_empty()).then(|| said.join(" "))
+}
+
+const FIRST_YIELD: &str =
+    "First yield: the equivalent stress of Tresca reaches the strength in some subblock; it depends on the mesh.";
+const PLASTIC_SECTION: &str =
+    "Plastic section: what limit analysis allows where no joint carries more than the strength.";
 
 fn first_yield(result: &AnalysisResult, elastic: &ElasticCrushingBody) -> String {
     let at = elastic.subblock.as_ref().map(|subblock| format!(", in {}", place(result, subblock))).unwrap_or_default();

@@ -57,8 +57,8 @@ pub fn summary(result: &AnalysisResult, wall_time: Duration) -> String {
     if result.geometric_safety.is_some() {
         paragraph(&mut text, &in_its_words(&result.request, geometric::EXPLANATION));
     }
-    if result.crushing.is_some() {
-        paragraph(&mut text, safety::EXPLANATION);
+    if let Some(explanation) = safety::explanation(result) {
+        paragraph(&mut text, &explanation);
     }
     text
 }
@@ -74,6 +74,7 @@ pub fn facts(result: &AnalysisResult, wall_time: Option<Duration>) -> Table {
     if let Some(shape) = given::shape(result) {
         fact("shape", shape);
     }
+    fact("stone", given::stone(&result.request));
     if let Some(altered) = given::altered_joints(&result.request.joint_overrides) {
         fact("joints altered", altered);
     }

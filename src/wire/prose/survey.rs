@@ -84,7 +84,7 @@ pub fn facts(result: &AnalysisResult) -> Vec<(&'static str, String)> {
 pub fn points(survey: &SurveyToleranceBody) -> Option<Table> {
     let points = &survey.points;
     let range = |k: &usize| match (points.outwards[*k], points.inwards[*k]) {
-        (Some(a), Some(b)) => (a - b).abs(),
+        (LimitBody::At { intensity: a, .. }, LimitBody::At { intensity: b, .. }) => (a - b).abs(),
         _ => f64::INFINITY,
     };
     let mut order: Vec<usize> = (0..points.joint.len()).collect();
@@ -97,7 +97,12 @@ pub fn points(survey: &SurveyToleranceBody) -> Option<Table> {
 }
 
 fn row(points: &MovedPointColumns, k: usize) -> [String; 6] {
-    let intensity = |at: Option<f64>| at.map_or("-".to_owned(), |at| Digits(at).to_string());
+    let intensity = |limit: LimitBody| match limit {
+        LimitBody::At { intensity, .. } => Digits(intensity).to_string(),
+        LimitBody::NoEnd => "any".to_owned(),
+        LimitBody::NoEquilibrium => "falls at any".to_owned(),
+        LimitBody::Unknown => "not known".to_owned(),
+    };
     [
         points.joint[k].to_string(),
         word(&points.face[k]),

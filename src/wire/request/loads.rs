@@ -257,7 +257,7 @@ impl LoadRequest {
             (LoadRequest::PatchLoad(_), _) => Some("centre_x_m"),
             (LoadRequest::Vehicle(_), _) => Some("x_m"),
             (LoadRequest::PointForce(_), _) => Some("at_m"),
-            (LoadRequest::Tie(_), LoadFault::TieOffTheBody { end: 0 }) => Some("from/at_m"),
+            (LoadRequest::Tie(_), LoadFault::OffTheBody { end: 0, .. }) => Some("from/at_m"),
             (LoadRequest::Tie(_), _) => Some("to/at_m"),
             (LoadRequest::SelfWeight(_) | LoadRequest::LateralPressure(_) | LoadRequest::BodyAcceleration(_), _) => {
                 None

@@ -79,10 +79,10 @@ pub struct MovedPointColumns {
     pub normal_y: Vec<f64>,
     /// How far it may lie either way, m.
     pub tolerance_m: Vec<f64>,
-    /// Intensity with this point alone moved outwards by its tolerance; null where there is none or it is not known.
-    pub outwards: Vec<Option<f64>>,
-    /// Intensity with this point alone moved inwards by its tolerance; null likewise.
-    pub inwards: Vec<Option<f64>>,
+    /// With this point alone moved outwards by its tolerance.
+    pub outwards: Vec<LimitBody>,
+    /// With this point alone moved inwards by its tolerance.
+    pub inwards: Vec<LimitBody>,
     /// How far outwards the point is moved in `all_at_worst`, m; negative inwards.
     pub at_worst_m: Vec<f64>,
 }
@@ -125,7 +125,6 @@ impl SurveyToleranceBody {
 
 impl MovedPointColumns {
     fn new(points: &[MovedPoint], scale: &Scale<'_>) -> Self {
-        let intensity = |limit: SurveyedLimit| limit.filter(|at| at.is_finite()).map(|at| scale.intensity(at));
         MovedPointColumns {
             joint: column(points, |of| of.point.joint),
             face: column(points, |of| of.point.face),
@@ -134,8 +133,8 @@ impl MovedPointColumns {
             normal_x: column(points, |of| of.point.outwards.x),
             normal_y: column(points, |of| of.point.outwards.y),
             tolerance_m: column(points, |of| of.point.tolerance),
-            outwards: column(points, |of| intensity(of.outwards)),
-            inwards: column(points, |of| intensity(of.inwards)),
+            outwards: column(points, |of| LimitBody::new(of.outwards, scale)),
+            inwards: column(points, |of| LimitBody::new(of.inwards, scale)),
             at_worst_m: column(points, |of| of.at_worst),
         }
     }
