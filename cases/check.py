@@ -60,12 +60,12 @@ class Structure:
 def check(answer):
     if "structure" not in answer: return False, "without a proof: an answer of one structure has one, a curve and a curved beam have none"
     structure, proof, window = Structure(answer["structure"]), answer["proof"], answer["limit_window_load_factor"]
-    if window is None: return structure.falls(rows(proof["falls"]), 0, 0), "no load factor is borne"
+    if window is None: return proof["falls"] and structure.falls(rows(proof["falls"]), 0, 0), "no load factor is borne"
     same, good, said = lambda a, b: math.isclose(a, b, rel_tol=1e-6, abs_tol=1e-9), [], f"borne from {window[0]} to {window[1]}"
     for end, value, sign in zip((proof["lowest"], proof["highest"]), window, (-1, 1)):
         good += [structure.borne((1, end["load_factor"]), rows(end["forces"]), end["passive_n_per_m"]),
                  end["ray"] and structure.borne((0, sign), rows(end["ray"]), [0] * len(structure.soil)) if value is None else
-                 same(value, end["load_factor"]) and structure.falls(rows(end["motion"]), value, sign)]
+                 same(value, end["load_factor"]) and end["motion"] and structure.falls(rows(end["motion"]), value, sign)]
     for end in answer["ends"] if answer["outcome"] in ("collapse", "stands_in_window") else []:
         at, which = end["load_factor"], ("lowest", "highest").index(end["which"])
         why = end["governed_by"] + " on the path" * (end["governed_by"] == "crushing" and answer["request"].get("crushing_in_path", False))

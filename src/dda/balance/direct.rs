@@ -18,10 +18,13 @@ use crate::dda::contact::{Contact, Law, State};
 /// Most steps under the first law and under the second (measured: 30 and 5 where they end at all).
 const STEPS: [usize; 2] = [40, 12];
 /// A tangent is singular below this pivot ratio. Contacts that are open are then pressed by this share of their stiffness, less
-/// after every full step and more after short ones, within these bounds.
+/// by the first of these factors after every full step and more by the second after short ones, within these bounds.
 const SINGULAR: f64 = 1e-8;
 const PROPPED: f64 = 1e-6;
+const PROP_CHANGES: [f64; 2] = [0.01, 10.0];
 const PROPS: [f64; 2] = [1e-9, 1e-2];
+/// Steps of less than this share of Newton's are short.
+const SHORT: f64 = 0.3;
 /// A step is searched until the slope of the energy is this share of what it was at its start, in so many looks. A first full step
 /// is good enough with twice the share.
 const FLAT: f64 = 0.05;
@@ -79,12 +82,9 @@ struct Direct<'a> {
 
 /// Contacts of the first law: normal and tangential force at a gap and a slip, N/m.
 fn held_force(contact: &Contact, [gap, slip]: [f64; 2]) -> [f64; 2] {
-    let ([k_n, k_t], pressure) = (contact.stiffness, -contact.stiffness[0] * gap);
-    match contact.law {
-        Law::Bonded => [pressure, -k_t * slip],
-        _ if contact.frictionless() => [pressure.clamp(0.0, contact.cap()), 0.0],
-        _ => [(-k_n * gap).clamp(0.0, contact.cap()), -k_t * slip],
-    }
+    let [k_n, k_t] = contact.stiffness;
+    let normal = if contact.law == Law::Bonded { -k_n * gap } else { (-k_n * gap).clamp(0.0, contact.cap()) };
+    [normal, if contact.frictionless() { 0.0 } else { -k_t * slip }]
 }
 
 /// And their tangent stiffness.
@@ -110,12 +110,10 @@ impl Direct<'_> {
             if share == 1.0 && (0..gaps.len()).all(|p| tangent(&gaps, p) == tangent(&before, p)) {
                 return Ok(true);
             }
-            let by = if share >= 1.0 {
-                0.01
-            } else if share < 0.3 {
-                10.0
-            } else {
-                1.0
+            let by = match share {
+                1.0.. => PROP_CHANGES[0],
+                ..SHORT => PROP_CHANGES[1],
+                _ => 1.0,
             };
             propped = (propped * by).clamp(PROPS[0], PROPS[1]);
         }
