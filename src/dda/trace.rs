@@ -124,6 +124,11 @@ pub struct Tracer<'a> {
     events: usize,
     factorisations: usize,
     worst_residual: f64,
+    /// Changes of state since the residual was measured last, and whether it was too small then to be corrected.
+    unmeasured: usize,
+    balanced: bool,
+    /// The most that any unknown can have changed by along the way, m; on the reference geometry.
+    travelled: f64,
 }
 
 impl<'a> Tracer<'a> {
@@ -169,6 +174,9 @@ impl<'a> Tracer<'a> {
             events: 0,
             factorisations: 0,
             worst_residual: 0.0,
+            unmeasured: 0,
+            balanced: false,
+            travelled: 0.0,
         };
         tracer.find_settling();
         tracer.reassemble_all();
@@ -252,13 +260,16 @@ impl<'a> Tracer<'a> {
             let to_target = (target - self.parameter) / self.rate;
             if rises && event.is_none_or(|event| to_target <= event.step) {
                 if to_target > far {
-                    return End::Rising;
+                    return if self.is_in_equilibrium() { End::Rising } else { End::Lost };
                 }
                 self.advance(to_target);
                 self.parameter = target;
                 return if self.keep_equilibrium() { End::Reached } else { End::Lost };
             }
             let Some(event) = event else {
+                if !self.is_in_equilibrium() {
+                    return End::Lost;
+                }
                 self.note_peak(true);
                 return End::Mechanism;
             };
@@ -270,9 +281,12 @@ impl<'a> Tracer<'a> {
             if zero_steps > most_zero_steps || self.events > most_events {
                 return End::Lost;
             }
-            let residual = self.worst_residual;
+            if self.keeps_balance(event.step) {
+                continue;
+            }
+            let (residual, blind) = (self.worst_residual, self.unmeasured > 0);
             if !self.keep_equilibrium() {
-                return self.lost_equilibrium(drift, residual);
+                return if blind { End::Lost } else { self.lost_equilibrium(drift, residual) };
             }
         }
     }
@@ -296,7 +310,12 @@ impl<'a> Tracer<'a> {
         for (d, along) in self.displacements.iter_mut().zip(&self.direction) {
             *d += along * step;
         }
+        for (gap, rate) in self.gaps.iter_mut().zip(&self.rates) {
+            (0..2).for_each(|axis| gap[axis] += rate[axis] * step);
+        }
         self.parameter += step * self.rate;
+        // The direction's largest entry is 1.
+        self.travelled += step;
     }
 
     /// Switches one contact and turns into the new cell so that the event goes on crossing its border.
@@ -320,9 +339,11 @@ impl<'a> Tracer<'a> {
     fn find_rates(&mut self) {
         match &self.moving {
             None => {
-                for p in 0..self.states.len() {
-                    let ([gap, slip], drift) = (self.assembly.gap(p, &self.direction), self.drift(p));
-                    self.rates[p] = [gap + drift[0] * self.rate, slip + drift[1] * self.rate];
+                self.assembly.gaps(&self.direction, &mut self.rates);
+                let drifting = if self.drive.gaps_drift() { self.states.len() } else { 0 };
+                for p in 0..drifting {
+                    let drift = self.drift(p);
+                    (0..2).for_each(|axis| self.rates[p][axis] += drift[axis] * self.rate);
                 }
             }
             Some(moving) => {
