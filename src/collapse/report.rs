@@ -150,7 +150,7 @@ pub struct PathEnd {
     pub load_factor: f64,
     /// Where joints slide: between what the load lies.
     pub range: Option<LoadRange>,
-    /// Largest equilibrium residual of any block along the path, with forces by the contact law alone, as a share of the arch's
+    /// Largest equilibrium residual of any block at any event, with forces by the contact law alone, as a share of the arch's
     /// weight, or of the largest load at a point where that is more.
     pub residual: f64,
     /// The mechanism.

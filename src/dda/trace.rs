@@ -124,9 +124,6 @@ pub struct Tracer<'a> {
     events: usize,
     factorisations: usize,
     worst_residual: f64,
-    /// Changes of state since the residual was measured last, and whether it was too small then to be corrected.
-    unmeasured: usize,
-    balanced: bool,
     /// The most that any unknown can have changed by along the way, m; on the reference geometry.
     travelled: f64,
 }
@@ -174,8 +171,6 @@ impl<'a> Tracer<'a> {
             events: 0,
             factorisations: 0,
             worst_residual: 0.0,
-            unmeasured: 0,
-            balanced: false,
             travelled: 0.0,
         };
         tracer.find_settling();
@@ -260,16 +255,13 @@ impl<'a> Tracer<'a> {
             let to_target = (target - self.parameter) / self.rate;
             if rises && event.is_none_or(|event| to_target <= event.step) {
                 if to_target > far {
-                    return if self.is_in_equilibrium() { End::Rising } else { End::Lost };
+                    return End::Rising;
                 }
                 self.advance(to_target);
                 self.parameter = target;
                 return if self.keep_equilibrium() { End::Reached } else { End::Lost };
             }
             let Some(event) = event else {
-                if !self.is_in_equilibrium() {
-                    return End::Lost;
-                }
                 self.note_peak(true);
                 return End::Mechanism;
             };
@@ -281,12 +273,9 @@ impl<'a> Tracer<'a> {
             if zero_steps > most_zero_steps || self.events > most_events {
                 return End::Lost;
             }
-            if self.keeps_balance(event.step) {
-                continue;
-            }
-            let (residual, blind) = (self.worst_residual, self.unmeasured > 0);
+            let residual = self.worst_residual;
             if !self.keep_equilibrium() {
-                return if blind { End::Lost } else { self.lost_equilibrium(drift, residual) };
+                return self.lost_equilibrium(drift, residual);
             }
         }
     }
@@ -309,9 +298,6 @@ impl<'a> Tracer<'a> {
     fn advance(&mut self, step: f64) {
         for (d, along) in self.displacements.iter_mut().zip(&self.direction) {
             *d += along * step;
-        }
-        for (gap, rate) in self.gaps.iter_mut().zip(&self.rates) {
-            (0..2).for_each(|axis| gap[axis] += rate[axis] * step);
         }
         self.parameter += step * self.rate;
         // The direction's largest entry is 1.

@@ -12,35 +12,14 @@ const CORRECT: f64 = 1e-11;
 const GIVE_UP: f64 = 1e-6;
 /// And above which factors that were updated are made anew.
 const REFINE: f64 = 1e-9;
-/// Where it was below what is corrected, so many changes of state pass until it is measured again: what rounding adds in between
-/// is as little.
-const UNMEASURED: usize = 7;
-/// But not after a step so long, as a share of the size, which may add much.
-const LONG: f64 = 1e-3;
 /// Work of renewing an entry of the matrix's diagonal and those beside it, in multiplications.
 const RENEWED: usize = 8;
 
 impl Tracer<'_> {
-    /// True where equilibrium needs no measuring after a step, so steady was it: not in soft directions, nor where the path turns
-    /// down at its highest, which a report may be of.
-    pub(super) fn keeps_balance(&mut self, step: f64) -> bool {
-        let peaks = self.rate <= 0.0 && self.is_highest();
-        let keeps = self.balanced && self.unmeasured < UNMEASURED && step < LONG * self.size;
-        let keeps = keeps && !peaks && !self.is_mechanism();
-        self.unmeasured += usize::from(keeps);
-        keeps
-    }
-
-    /// Measures equilibrium unless it has just been; false when it is lost.
-    pub(super) fn is_in_equilibrium(&mut self) -> bool {
-        self.unmeasured == 0 || self.keep_equilibrium()
-    }
-
     /// Measures the equilibrium residual of every node by the contact law, corrects the displacements where it matters; false when
     /// equilibrium is lost.
     pub(super) fn keep_equilibrium(&mut self) -> bool {
         let mut worst = self.find_residual();
-        (self.unmeasured, self.balanced) = (0, worst <= CORRECT);
         if worst > if self.is_mechanism() { REFINE } else { CORRECT } {
             let Some(corrected) = self.corrected(worst) else { return false };
             worst = corrected;

@@ -27,14 +27,10 @@ pub struct Peak {
 impl Tracer<'_> {
     /// Keeps the present point where the path turns down here, and was never higher.
     pub(super) fn note_peak(&mut self, turns_down: bool) {
-        if turns_down && self.is_highest() {
+        let highest = self.peak.as_ref().is_none_or(|peak| self.parameter >= peak.parameter);
+        if highest && turns_down {
             self.peak = Some(self.as_peak());
         }
-    }
-
-    /// Whether the path was never higher where it turned down.
-    pub(super) fn is_highest(&self) -> bool {
-        self.peak.as_ref().is_none_or(|peak| self.parameter >= peak.parameter)
     }
 
     /// The present point, and how the path goes on.

@@ -124,8 +124,8 @@ impl Tracer<'_> {
         self.factor.eliminated()
     }
 
-    /// Largest equilibrium residual of any block where it was measured, as a share of the load scale, or of the largest load on a
-    /// node where that is more.
+    /// Largest equilibrium residual of any block at any event, as a share of the load scale, or of the largest load on a node where
+    /// that is more.
     pub fn worst_residual(&self) -> f64 {
         self.worst_residual
     }
