@@ -8,6 +8,7 @@ mod crushed;
 mod discretise;
 mod ending;
 mod falling;
+mod farthest;
 mod geometric;
 mod grid;
 mod mechanism;

@@ -236,7 +236,7 @@ pub(super) fn follow(
     tracer.drive_on(Drive { base: fixed.to_vec(), rate, ..Drive::default() }, sign * start);
     let mut met = None;
     let end = tracer.trace(cap, &mut |tracer| {
-        met = recorder.see(sign * tracer.parameter(), tracer.displacements());
+        met = recorder.see(sign * tracer.parameter(), tracer.displacements(), tracer.travelled());
         if met.is_some() { ControlFlow::Break(()) } else { see(tracer, sign * tracer.parameter()) }
     });
     match end {

@@ -1,6 +1,7 @@
 //! What is kept of a path: its history, the arch at load factor 1 and just before collapse.
 
 use super::discretise::Model;
+use super::farthest::Farthest;
 use super::mirror::{evened_blocks, evened_stresses};
 use super::state::Standing;
 use super::yielding::Yielding;
@@ -33,6 +34,12 @@ pub(super) struct Recorder<'a> {
     crown: [usize; 2],
     /// Points from which the one at `share` of the way to the highest load factor so far can be interpolated.
     recent: VecDeque<Rc<PathPoint>>,
+    /// Memory of points that nobody asks for any more.
+    spare: Vec<Vec<f64>>,
+    /// Load factor beyond which, up or down, nothing is symmetric.
+    lopsided: f64,
+    /// The body that has moved farthest, of all and of symmetric states.
+    farthest_moved: [Farthest; 2],
     /// Load factor farthest from the start so far.
     farthest: f64,
     last: Option<Rc<PathPoint>>,
@@ -59,6 +66,9 @@ impl<'a> Recorder<'a> {
             sign,
             crown: mechanism::crown(&analysis.structure, &analysis.scaled),
             recent: VecDeque::new(),
+            spare: Vec::new(),
+            lopsided: model.assembly.lopsided_beyond(&model.fixed.on_nodes, &model.scaled.on_nodes),
+            farthest_moved: [(); 2].map(|()| Farthest::new(model)),
             farthest: start,
             last: None,
             steps_done: 0,
@@ -68,9 +78,10 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Takes in the next point; returns a load factor when the fixed-steps criterion says collapse.
-    pub(super) fn see(&mut self, load_factor: f64, displacements: &[f64]) -> Option<f64> {
-        let now = Rc::new((load_factor, displacements.to_vec()));
+    /// Takes in the next point, by which no node can have gone farther along its axes than `travelled`, m, since the start of the
+    /// path; returns a load factor when the fixed-steps criterion says collapse.
+    pub(super) fn see(&mut self, load_factor: f64, displacements: &[f64], travelled: f64) -> Option<f64> {
+        let now = self.point(load_factor, displacements);
         let before = self.last.take();
         if let Some(before) = &before {
             self.pass(before, &now);
@@ -81,7 +92,8 @@ impl<'a> Recorder<'a> {
                 return Some(load_factor);
             }
         }
-        self.history.push(self.history_point(load_factor, displacements));
+        let point = self.history_point(load_factor, displacements, travelled);
+        self.history.push(point);
         self.keep(before, &now);
         self.last = Some(now);
         None
@@ -94,6 +106,19 @@ impl<'a> Recorder<'a> {
             self.pass(&before, &now);
             self.yielding.see(Some(&before), &now, true);
         }
+    }
+
+    /// A point of the path, in memory of one that is not wanted any more.
+    fn point(&mut self, load_factor: f64, displacements: &[f64]) -> Rc<PathPoint> {
+        let mut kept = self.spare.pop().unwrap_or_default();
+        kept.clear();
+        kept.extend_from_slice(displacements);
+        Rc::new((load_factor, kept))
+    }
+
+    /// Gives a point up.
+    fn release(&mut self, point: Option<Rc<PathPoint>>) {
+        self.spare.extend(point.and_then(Rc::into_inner).map(|(_, displacements)| displacements));
     }
 
     /// Keeps what was asked for between two points of the path.
@@ -137,17 +162,19 @@ impl<'a> Recorder<'a> {
         let highest = self.way(now.0) >= self.way(self.farthest);
         self.yielding.see(before.as_ref(), now, highest);
         if !highest {
-            return;
+            return self.release(before);
         }
         // Where the load factor had fallen and now recovers, the last leg of the way up starts below the farthest point.
-        if let Some(before) = before.filter(|b| self.recent.back().is_some_and(|kept| !Rc::ptr_eq(kept, b))) {
+        let is_kept = |before: &Rc<PathPoint>| self.recent.back().is_none_or(|kept| Rc::ptr_eq(kept, before));
+        if let Some(before) = before.filter(|before| !is_kept(before)) {
             self.recent.push_back(before);
         }
         self.farthest = now.0;
         self.recent.push_back(Rc::clone(now));
         let wanted = self.share * self.way(self.farthest);
         while self.recent.len() > 2 && self.way(self.recent[1].0) <= wanted {
-            self.recent.pop_front();
+            let passed = self.recent.pop_front();
+            self.release(passed);
         }
     }
 
@@ -168,14 +195,18 @@ impl<'a> Recorder<'a> {
         Some((wanted, displacements))
     }
 
-    fn history_point(&self, load_factor: f64, displacements: &[f64]) -> HistoryPoint {
+    fn history_point(&mut self, load_factor: f64, displacements: &[f64], travelled: f64) -> HistoryPoint {
         // Of two states that are each other's mirror image, as near as the scatter of stiffness lets them be.
-        let symmetric = self.model.symmetric && self.model.is_symmetric_under(&self.model.loads_on_nodes(load_factor));
+        let symmetric = self.model.symmetric
+            && load_factor.abs() <= self.lopsided
+            && self.model.is_symmetric_under(&self.model.loads_on_nodes(load_factor));
+        debug_assert_eq!(symmetric, self.model.is_symmetric_under(&self.model.loads_on_nodes(load_factor)));
         let symmetric = symmetric.then(|| self.model.assembly.symmetrised(displacements));
         let displacements = symmetric.as_deref().unwrap_or(displacements);
         let of = |voussoir: usize| self.model.motion(voussoir, load_factor, displacements).displacement;
         let crown = 0.5 * (of(self.crown[0]) + of(self.crown[1]));
-        let largest = (0..self.model.bodies).map(|v| of(v).norm_squared()).fold(0.0, f64::max).sqrt();
+        let farthest = &mut self.farthest_moved[usize::from(symmetric.is_some())];
+        let largest = farthest.at(self.model, load_factor, displacements, travelled);
         HistoryPoint { load_factor, crown, largest }
     }
 

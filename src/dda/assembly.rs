@@ -4,6 +4,7 @@ mod build;
 mod law;
 mod mirror;
 mod places;
+mod strain;
 
 pub use build::{AssemblyBuilder, Touch};
 pub(super) use build::{has_core, interfaces_of};
@@ -13,7 +14,7 @@ use super::condense::{Condensed, Node};
 use super::contact::Contact;
 use super::elements::{Elements, Pattern};
 use super::macroblock::Macroblock;
-use super::panels::add_applied_columns;
+use super::panels::{ThreeOfEight, add_applied_columns, three_of_eight};
 use super::tree::Tree;
 use crate::budget::{Budget, Stopped};
 use crate::geometry::{Vec2, cross, perpendicular};
@@ -21,6 +22,7 @@ use mirror::Mirror;
 use nalgebra::{DMatrix, DVector, SMatrix};
 use std::cell::OnceCell;
 use std::ops::Range;
+use strain::Strain;
 
 /// Work of putting a force on a subblock, in multiplications; and of solving for the inside of a body, over the number of
 /// entries of its response to the nodes.
@@ -49,6 +51,10 @@ struct Kind {
     /// 2 n_nodes; none where that would be too much to keep.
     stress: Vec<SMatrix<f64, 3, 6>>,
     stress_of_nodes: Option<DMatrix<f64>>,
+    /// `mean_of_nodes` and `stress_of_nodes` of a body of one subblock between two joints of two contact points.
+    whole: Option<[ThreeOfEight; 2]>,
+    /// What bounds a change of stress, where there are several subblocks and `stress_of_nodes`.
+    strain: Option<Strain>,
 }
 
 /// What lies on one side of an interface.
@@ -76,6 +82,13 @@ pub struct Loads {
     mean: Vec<[f64; 3]>,
     /// Stress of its subblocks with its nodes held, in the body's frame, three numbers each.
     stress: Vec<Vec<f64>>,
+}
+
+impl Loads {
+    /// The most that the mean displacement of any body is with its nodes held, m.
+    pub fn most_shift(&self) -> f64 {
+        self.mean.iter().map(|[x, y, _]| x.hypot(*y)).fold(0.0, f64::max)
+    }
 }
 
 /// A force on one subblock.
@@ -224,7 +237,16 @@ impl Assembly {
     /// The gaps of all contacts.
     pub fn gaps(&self, d: &[f64], into: &mut Vec<[f64; 2]>) {
         into.clear();
-        into.extend((0..self.contacts.len()).map(|p| self.gap(p, d)));
+        for (k, points) in self.first.windows(2).enumerate() {
+            match self.faces(k) {
+                // Contacts are in order on either face.
+                [Some(before), Some(after)] => {
+                    let pairs = d[before].as_chunks::<2>().0.iter().zip(d[after].as_chunks::<2>().0);
+                    into.extend(pairs.map(|(before, after)| [after[0] - before[0], after[1] - before[1]]));
+                }
+                _ => into.extend((points[0]..points[1]).map(|p| self.gap(p, d))),
+            }
+        }
     }
 
     /// Adds the forces that contact `p` puts on the bodies beside it.
@@ -289,18 +311,43 @@ impl Assembly {
     /// Mean motion of body `i` for node displacements (or velocities) `d` and what loads, each times its factor, add
     /// between the nodes.
     pub fn mean_motion(&self, i: usize, d: &[f64], loads: &[(&Loads, f64)]) -> MeanMotion {
-        let body = &self.bodies[i];
+        let mean = self.mean_in_frame(i, d, loads);
+        MeanMotion { displacement: self.bodies[i].turned_back(Vec2::new(mean[0], mean[1])), rotation: mean[2] }
+    }
+
+    /// Mean displacement and rotation of body `i` in its own frame.
+    fn mean_in_frame(&self, i: usize, d: &[f64], loads: &[(&Loads, f64)]) -> [f64; 3] {
+        let (kind, d) = (&self.kinds[self.bodies[i].kind], &d[self.nodes[i].clone()]);
         let mut mean = [0.0; 3];
-        add_applied_columns(self.kinds[body.kind].mean_of_nodes.as_slice(), &d[self.nodes_of(i)], &mut mean);
-        for (loads, factor) in loads {
-            mean.iter_mut().zip(loads.mean[i]).for_each(|(sum, of_load)| *sum += of_load * factor);
+        match (&kind.whole, d.as_array()) {
+            (Some([of_nodes, _]), Some(d)) => mean = three_of_eight(of_nodes, d),
+            _ => add_applied_columns(kind.mean_of_nodes.as_slice(), d, &mut mean),
         }
-        MeanMotion { displacement: body.turned_back(Vec2::new(mean[0], mean[1])), rotation: mean[2] }
+        for (loads, factor) in loads {
+            (0..3).for_each(|c| mean[c] += loads.mean[i][c] * factor);
+        }
+        mean
+    }
+
+    /// Size of the mean displacement of body `i`, m.
+    pub fn shift(&self, i: usize, d: &[f64], loads: &[(&Loads, f64)]) -> f64 {
+        // As long in every frame.
+        let [x, y, _] = self.mean_in_frame(i, d, loads);
+        x.hypot(y)
+    }
+
+    /// The most that the mean displacement of any body changes by where no unknown of its nodes does by more than 1 m.
+    pub fn most_shift(&self) -> f64 {
+        let most = |kind: &Kind| {
+            let row = |i: usize| kind.mean_of_nodes.row(i).iter().map(|entry| entry.abs()).sum::<f64>();
+            row(0).hypot(row(1))
+        };
+        self.kinds.iter().map(most).fold(0.0, f64::max)
     }
 
     /// Stress (sigma_x, sigma_y, tau_xy) in every subblock of body `i`, three numbers each in the body's own frame, Pa.
     pub fn stresses_in_frame(&self, i: usize, d: &[f64], loads: &[(&Loads, f64)], into: &mut Vec<f64>) {
-        let (kind, d) = (&self.kinds[self.bodies[i].kind], &d[self.nodes_of(i)]);
+        let (kind, d) = (&self.kinds[self.bodies[i].kind], &d[self.nodes[i].clone()]);
         into.clear();
         match &kind.stress_of_nodes {
             Some(of_nodes) => {
@@ -312,6 +359,18 @@ impl Assembly {
         for (loads, factor) in loads {
             into.iter_mut().zip(&loads.stress[i]).for_each(|(sum, stress)| *sum += stress * factor);
         }
+    }
+
+    /// The same of a body of one subblock between two joints of two contact points; none of any other.
+    #[inline]
+    pub fn stress_of_whole(&self, i: usize, d: &[f64], loads: &[(&Loads, f64)]) -> Option<[f64; 3]> {
+        let [_, of_nodes] = self.kinds[self.bodies[i].kind].whole.as_ref()?;
+        let mut stress = three_of_eight(of_nodes, d[self.nodes[i].clone()].as_array()?);
+        for (loads, factor) in loads {
+            let of_load = loads.stress[i].as_array::<3>()?;
+            (0..3).for_each(|c| stress[c] += of_load[c] * factor);
+        }
+        Some(stress)
     }
 
     /// Stress (sigma_x, sigma_y, tau_xy) in every subblock of body `i`, Pa, for node displacements `d` under loads, each

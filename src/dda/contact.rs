@@ -222,6 +222,20 @@ impl Contact {
         }
     }
 
+    /// True where a gap and a slip are inside a state for sure, at none of its borders; cheap where that is what most points are.
+    pub(super) fn is_inside(&self, state: State, gap: f64, slip: f64) -> bool {
+        let pressed = gap < 0.0 && gap > self.floor;
+        match state {
+            State::Bonded => true,
+            State::Open => gap > self.reach,
+            State::Stick(Zone::Pressed) => pressed && self.trial_shear(slip).abs() < self.capacity(Zone::Pressed, gap),
+            State::Slip { sign, zone: Zone::Pressed } => {
+                pressed && sign * self.trial_shear(slip) > self.capacity(Zone::Pressed, gap)
+            }
+            _ => false,
+        }
+    }
+
     /// Calls `see(value, next state)` for every way out of `state`, each a function that is positive inside the state and
     /// vanishes at its border.
     pub fn ways_out(&self, state: State, gap: Moving, slip: Moving, mut see: impl FnMut(Moving, State)) {

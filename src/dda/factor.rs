@@ -8,6 +8,7 @@
 //! Where blocks are large, the tracer goes on with these factors over several changes, see [`super::trace`].
 
 mod dense;
+mod link;
 
 use super::elements::Elements;
 use super::panels::{Panels, subtract_applied};
@@ -136,8 +137,13 @@ impl<'t> Factor<'t> {
         order.push(self.root);
         self.find_order(&mut order, |current| !current);
         for &front in order.iter().rev() {
-            self.eliminate(k, front, budget)?;
-            self.forward_front(b, front);
+            match self.tree.links[front] {
+                Some(link) => self.eliminate_link(k, b, (front, link), budget)?,
+                None => {
+                    self.eliminate(k, front, budget)?;
+                    self.forward_front(b, front);
+                }
+            }
         }
         self.scratch.order = order;
         self.substitute_back(x);
@@ -156,7 +162,12 @@ impl<'t> Factor<'t> {
         order.push(self.root);
         self.find_order(&mut order, |_| true);
         std::mem::swap(&mut self.forward, &mut self.other);
-        order.iter().rev().for_each(|&front| self.forward_front(b, front));
+        for &front in order.iter().rev() {
+            match self.tree.links[front] {
+                Some(link) => self.forward_link(b, (front, link)),
+                None => self.forward_front(b, front),
+            }
+        }
         self.scratch.order = order;
         self.substitute_back(x);
         std::mem::swap(&mut self.forward, &mut self.other);
@@ -252,6 +263,7 @@ impl<'t> Factor<'t> {
         order.clear();
         order.push(self.root);
         while let Some(number) = order.pop() {
+            let Some(number) = self.substitute_along(number, x) else { continue };
             let front = &self.tree.fronts[number];
             load.clear();
             load.extend_from_slice(self.forward.removed.get(number));

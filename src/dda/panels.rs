@@ -99,6 +99,21 @@ pub fn add_applied_columns(a: &[f64], x: &[f64], y: &mut [f64]) {
     }
 }
 
+/// Three numbers of a body with eight unknowns, row by row: a shape known to the compiler.
+pub type ThreeOfEight = [[f64; 8]; 3];
+
+/// a x.
+#[inline(always)]
+pub fn three_of_eight(a: &ThreeOfEight, x: &[f64; 8]) -> [f64; 3] {
+    a.each_ref().map(|row| {
+        let mut sums = [0.0; 2];
+        for (a, x) in row.as_chunks::<2>().0.iter().zip(x.as_chunks::<2>().0) {
+            (0..2).for_each(|lane| sums[lane] += a[lane] * x[lane]);
+        }
+        sums[0] + sums[1]
+    })
+}
+
 /// a . x, in four sums side by side, which compilers turn into vector instructions.
 #[inline(always)]
 pub fn dot(a: &[f64], x: &[f64]) -> f64 {

@@ -124,6 +124,8 @@ pub struct Tracer<'a> {
     events: usize,
     factorisations: usize,
     worst_residual: f64,
+    /// The most that any unknown can have changed by along the way, m; on the reference geometry.
+    travelled: f64,
 }
 
 impl<'a> Tracer<'a> {
@@ -169,6 +171,7 @@ impl<'a> Tracer<'a> {
             events: 0,
             factorisations: 0,
             worst_residual: 0.0,
+            travelled: 0.0,
         };
         tracer.find_settling();
         tracer.reassemble_all();
@@ -297,6 +300,8 @@ impl<'a> Tracer<'a> {
             *d += along * step;
         }
         self.parameter += step * self.rate;
+        // The direction's largest entry is 1.
+        self.travelled += step;
     }
 
     /// Switches one contact and turns into the new cell so that the event goes on crossing its border.
@@ -320,9 +325,11 @@ impl<'a> Tracer<'a> {
     fn find_rates(&mut self) {
         match &self.moving {
             None => {
-                for p in 0..self.states.len() {
-                    let ([gap, slip], drift) = (self.assembly.gap(p, &self.direction), self.drift(p));
-                    self.rates[p] = [gap + drift[0] * self.rate, slip + drift[1] * self.rate];
+                self.assembly.gaps(&self.direction, &mut self.rates);
+                let drifting = if self.drive.gaps_drift() { self.states.len() } else { 0 };
+                for p in 0..drifting {
+                    let drift = self.drift(p);
+                    (0..2).for_each(|axis| self.rates[p][axis] += drift[axis] * self.rate);
                 }
             }
             Some(moving) => {

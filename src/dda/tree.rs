@@ -70,6 +70,20 @@ fn work([removed, kept]: [usize; 2]) -> [usize; 2] {
     [removed * (removed * removed / 3 + removed * kept + kept * kept), removed * (removed + 2 * kept)]
 }
 
+/// A front of bodies in a row with two contact points a joint: one element, of which the one face is removed and the other kept,
+/// four unknowns each.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Link {
+    /// The element, and whether its first face is the one that is removed.
+    pub element: usize,
+    pub first: bool,
+    /// Where the unknowns that are removed and kept begin.
+    pub removed: usize,
+    pub kept: usize,
+    /// The front that feeds it.
+    pub from: Option<usize>,
+}
+
 /// What eliminating takes, from either direction of every edge.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Elimination {
@@ -114,6 +128,8 @@ impl Elimination {
 #[derive(Debug, Clone, Default)]
 pub struct Tree {
     pub fronts: Vec<Front>,
+    /// Those of the fronts that are links.
+    pub links: Vec<Option<Link>>,
     pub sources: Vec<Source>,
     pub runs: Vec<Run>,
     pub ends: Vec<usize>,
@@ -166,6 +182,7 @@ impl Tree {
             add(*parent, Some(2 * e + 1));
         }
         (0..cliques.len()).for_each(|clique| add(clique, None));
+        tree.links = tree.fronts.iter().map(|front| tree.link(front)).collect();
         tree.solving = tree.fronts.iter().step_by(2).take(tree.edges).map(|front| front.work()[1]).sum();
         Ok(tree)
     }
@@ -222,6 +239,31 @@ impl Tree {
             sources: first..self.sources.len(),
             ends: first_end..self.ends.len(),
         });
+    }
+
+    /// A front as a link, where it is one.
+    fn link(&self, front: &Front) -> Option<Link> {
+        let ([removed], [kept]) = (&self.runs[front.removed.clone()], &self.runs[front.kept.clone()]) else {
+            return None;
+        };
+        let (of, fed) = match &self.sources[front.sources.clone()] {
+            [of] => (of, None),
+            [of, fed] => (of, Some(fed)),
+            _ => return None,
+        };
+        let Origin::Element(element) = of.origin else { return None };
+        let from = match fed.map(|fed| (fed.origin, &self.runs[fed.runs.clone()])) {
+            None => None,
+            Some((Origin::Front(front), [Run { from: 0, to: 0, length: 4 }])) => Some(front),
+            Some(_) => return None,
+        };
+        let first = match self.runs[of.runs.clone()] {
+            [Run { from: 0, to: 0, length: 4 }, Run { from: 4, to: 4, length: 4 }] => true,
+            [Run { from: 0, to: 4, length: 4 }, Run { from: 4, to: 0, length: 4 }] => false,
+            _ => return None,
+        };
+        let four = front.sizes == [4, 4] && of.size == 8;
+        four.then_some(Link { element, first, removed: removed.from, kept: kept.from, from })
     }
 
     /// The front that eliminates all of a clique.

@@ -1,11 +1,12 @@
 //! Building an assembly: contact points, and stones of one shape condensed once.
 
-use super::{Assembly, Beside, Instance, Kind, Site, stresses};
+use super::{Assembly, Beside, Instance, Kind, Site, Strain, stresses};
 use crate::budget::Budget;
 use crate::dda::condense::{Condensed, Loose, Node, Unbuilt};
 use crate::dda::contact::{Contact, Law};
 use crate::dda::elements::{Elements, Pattern};
 use crate::dda::macroblock::Macroblock;
+use crate::dda::panels::ThreeOfEight;
 use crate::dda::tree::Tree;
 use crate::geometry::{Vec2, cross, perpendicular};
 use nalgebra::{DMatrix, DVectorView};
@@ -202,8 +203,22 @@ impl Kind {
                 of_nodes.set_column(j, &stresses(&stress, d));
             }
         })?;
-        Ok(Kind { macroblock, nodes, condensed, mean, mean_of_nodes, stress, stress_of_nodes })
+        let whole = stress_of_nodes.as_ref().and_then(|stress| Some([by_rows(&mean_of_nodes)?, by_rows(stress)?]));
+        let strain = match &stress_of_nodes {
+            Some(of_nodes) if blocks.len() > 1 => {
+                budget.work(3 * of_nodes.len())?;
+                Some(Strain::new(&nodes, of_nodes))
+            }
+            _ => None,
+        };
+        Ok(Kind { macroblock, nodes, condensed, mean, mean_of_nodes, stress, stress_of_nodes, whole, strain })
     }
+}
+
+/// A matrix of three rows and eight columns, row by row; none of another shape.
+fn by_rows(matrix: &DMatrix<f64>) -> Option<ThreeOfEight> {
+    let is_one = matrix.shape() == (3, 8);
+    is_one.then(|| std::array::from_fn(|i| std::array::from_fn(|j| matrix[(i, j)])))
 }
 
 /// Nodes of the body on one side of an interface.

@@ -37,12 +37,25 @@ impl Assembly {
 
     /// The mean of displacements of the nodes and their mirror image, where the assembly is its own: symmetric to the last digit.
     pub fn symmetrised(&self, d: &[f64]) -> Vec<f64> {
-        self.mirrored(d).iter().zip(d).map(|(there, here)| 0.5 * (there + here)).collect()
+        let Some(Mirror { place, sign, .. }) = &self.mirror else { return d.to_vec() };
+        place.iter().zip(sign).zip(d).map(|((&place, sign), here)| 0.5 * (sign * d[place] + here)).collect()
     }
 
     /// True where the assembly and `loads` on its nodes are their own mirror image.
     pub fn are_symmetric(&self, loads: &[f64]) -> bool {
         self.is_symmetric() && near(&self.mirrored(loads), loads, MIRROR_ROUNDING)
+    }
+
+    /// How many times loads `scaled` on the nodes have to be added to, or taken from, `fixed` until the sum is not its own mirror
+    /// image for sure.
+    pub fn lopsided_beyond(&self, fixed: &[f64], scaled: &[f64]) -> f64 {
+        let size = |loads: &mut dyn Iterator<Item = f64>| loads.fold(0.0f64, |most, load| most.max(load.abs()));
+        let [of_fixed, of_scaled] = [fixed, scaled].map(|loads| {
+            let apart = size(&mut self.mirrored(loads).iter().zip(loads).map(|(there, here)| there - here));
+            [apart, MIRROR_ROUNDING * size(&mut loads.iter().copied())]
+        });
+        let share = (of_fixed[0] + of_fixed[1]) / (of_scaled[0] - of_scaled[1]);
+        if of_scaled[0] > of_scaled[1] { share } else { f64::INFINITY }
     }
 
     /// True where the assembly is its own mirror image: places, normals, exact contacts and elastic stiffness.

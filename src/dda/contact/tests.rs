@@ -133,3 +133,27 @@ fn what_is_left_of_adhesion_next_to_its_reach_is_not_less_than_nothing() {
         }
     }
 }
+
+#[test]
+fn what_is_inside_a_state_is_on_the_right_side_of_all_its_borders() {
+    let mut seen = 0;
+    for c in contacts() {
+        let zones = [Zone::Pressed, Zone::Adhering, Zone::Capped];
+        let slips = zones.iter().flat_map(|&zone| [1.0, -1.0].map(|sign| State::Slip { sign, zone }));
+        for state in [State::Open].into_iter().chain(zones.map(State::Stick)).chain(slips) {
+            for gap in (-40..40).map(|i| 1e-4 * f64::from(i)) {
+                for slip in (-40..40).map(|i| 3e-5 * f64::from(i)) {
+                    let mut least = f64::INFINITY;
+                    c.ways_out(state, [gap, 0.0], [slip, 0.0], |value, _| least = least.min(value[0]));
+                    let inside = c.is_inside(state, gap, slip);
+                    assert!(!inside || least > 0.0, "{state:?} at {gap}, {slip}: {least}");
+                    // Where it says no without need it costs time.
+                    let told = matches!(state, State::Open | State::Stick(Zone::Pressed));
+                    assert!(!told || inside || least <= 1e-15, "{state:?} at {gap}, {slip}: {least}");
+                    seen += usize::from(inside);
+                }
+            }
+        }
+    }
+    assert!(seen > 1000);
+}

@@ -30,6 +30,8 @@ fn patterns() -> Vec<Pattern> {
     let forest: [&[usize]; 6] = [&[0, 1], &[1, 2], &[2, 3, 4], &[4, 5], &[6, 7], &[8]];
     vec![
         row(&[4, 4, 6, 2, 4, 5, 0]),
+        row(&[4; 9]),
+        row(&[4, 4, 4, 2, 4, 4, 4, 4]),
         pattern(&[4, 4, 2, 6, 4, 4, 3, 4, 2], &loops),
         pattern(&[4, 2, 4, 4, 0, 4, 4, 4, 2], &forest),
         pattern(&[3], &[&[0]]),
@@ -108,7 +110,12 @@ fn agrees_with_a_dense_solver_wherever_the_change_is() {
 
 #[test]
 fn until_the_next_update_the_factors_are_those_of_the_last() {
-    let pattern = &patterns()[1];
+    for pattern in &patterns()[1..4] {
+        until_the_next_update(pattern);
+    }
+}
+
+fn until_the_next_update(pattern: &Pattern) {
     let (mut k, tree) = (matrix(pattern), Tree::new(pattern, |_| true, &Budget::unlimited()).unwrap());
     let (before, b, mut x) = (k.clone(), vec![1.0; pattern.unknowns()], vec![0.0; pattern.unknowns()]);
     let mut factor = Factor::new(&tree);
@@ -118,6 +125,14 @@ fn until_the_next_update_the_factors_are_those_of_the_last() {
     factor.solve(&b, &mut x, &Budget::unlimited()).unwrap();
     assert!(error(pattern, &before, &b, &x) < 1e-13);
     assert!(error(pattern, &k, &b, &x) > 1e-3);
+}
+
+#[test]
+fn all_fronts_of_bodies_in_a_row_with_two_points_a_joint_are_links() {
+    for (size, links) in [(4, 14), (6, 0)] {
+        let tree = Tree::new(&row(&[size; 9]), |_| true, &Budget::unlimited()).unwrap();
+        assert_eq!((tree.links.iter().flatten().count(), tree.directed()), (links, 14), "{size}");
+    }
 }
 
 #[test]

@@ -54,6 +54,11 @@ pub struct Drive {
 }
 
 impl Drive {
+    /// Whether gaps change with the parameter where the nodes stay.
+    pub(super) fn gaps_drift(&self) -> bool {
+        self.offset[1] != 0.0 || !self.ground.is_empty()
+    }
+
     /// Movement of the ground beside interface `k`; none where it stays, or no ground is there.
     pub(in crate::dda) fn moving_ground(&self, assembly: &Assembly, k: usize) -> Option<&Movement> {
         self.ground.get(assembly.ground_at(k)?).filter(|movement| !movement.is_still())

@@ -1,6 +1,7 @@
 //! Assembly of the tracer's matrix and the balance of forces on every node.
 
 use super::Tracer;
+use super::tangent::largest_of;
 use crate::budget::Stopped;
 use crate::dda::contact::State;
 use crate::dda::moving::{Bearing, Placed};
@@ -50,6 +51,7 @@ impl Tracer<'_> {
 
     fn correct_by(&mut self, corrections: &[f64], sign: f64) {
         self.displacements.iter_mut().zip(corrections).for_each(|(d, correction)| *d += sign * correction);
+        self.travelled += largest_of(corrections);
     }
 
     /// How many times the load scale the largest load on a node is, at least 1: far out on a path the rounding of loads that

@@ -9,6 +9,8 @@ const STILL_GAP: f64 = 1e-7;
 const NO_GAP: f64 = 8.0 * f64::EPSILON;
 /// Where no pivot ratio is below this, a soft direction is none of rounding (measured: singular pivots are blurred to 1e-10 at most).
 const BLUR: f64 = 1e-9;
+/// A step that is longer by more than rounding.
+const BEYOND: f64 = 1.0 + 1e-6;
 
 /// The next change of state on the path.
 #[derive(Debug, Clone, Copy)]
@@ -30,8 +32,14 @@ impl Tracer<'_> {
         let rounded = self.moving.is_none() && self.is_mechanism() && self.factor.pivot_ratio() < BLUR;
         let still = if rounded { STILL_GAP } else { 0.0 };
         let mut nearest: Option<Event> = None;
-        for (p, &state) in self.states.iter().enumerate() {
-            let stiffness = self.assembly.contacts()[p].stiffness[0];
+        let mut ahead = f64::INFINITY;
+        let contacts = self.assembly.contacts().iter().zip(&self.states).zip(self.gaps.iter().zip(&self.rates));
+        for (p, ((contact, &state), (gap, rate))) in contacts.enumerate() {
+            // States are convex: what is inside its own beyond the nearest event so far goes nowhere before.
+            if contact.is_inside(state, gap[0] + ahead * rate[0], gap[1] + ahead * rate[1]) {
+                continue;
+            }
+            let stiffness = contact.stiffness[0];
             let mut leave = |[value, change]: Moving, next| {
                 let back = barred.is_some_and(|(contact, old)| contact == p && (next == old || state == State::Open));
                 // Rates of gaps are measured against 1, rates of forces against the penalty.
@@ -51,6 +59,7 @@ impl Tracer<'_> {
                     leave(way, next)
                 }
             });
+            ahead = nearest.map_or(ahead, |event| BEYOND * event.step);
         }
         nearest
     }

@@ -18,6 +18,11 @@ impl Tracer<'_> {
         &self.displacements
     }
 
+    /// The most that any of them can have changed by along the way so far, m; on the reference geometry.
+    pub fn travelled(&self) -> f64 {
+        self.travelled
+    }
+
     /// Normal and tangential force of every contact, the drive's offset included, N/m.
     pub fn contact_forces(&self) -> Vec<[f64; 2]> {
         (0..self.states.len()).map(|p| self.force_seen(p)).collect()

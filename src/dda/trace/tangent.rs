@@ -95,6 +95,17 @@ fn change(assembly: &Assembly, p: usize, from: State, to: State) -> [f64; 4] {
     std::array::from_fn(|i| after[i] - before[i])
 }
 
+/// Size of the largest number, eight side by side.
+pub(super) fn largest_of(numbers: &[f64]) -> f64 {
+    let (by_eight, rest) = numbers.as_chunks::<8>();
+    let larger = |most: f64, x: f64| if x.abs() > most { x.abs() } else { most };
+    let mut most = [0.0; 8];
+    for eight in by_eight {
+        (0..8).for_each(|lane| most[lane] = larger(most[lane], eight[lane]));
+    }
+    most.iter().chain(rest).copied().fold(0.0, larger)
+}
+
 impl Tracer<'_> {
     /// Solves for the tangent of the path, its largest entry 1 m.
     pub(super) fn solve_tangent(&mut self) {
@@ -120,7 +131,7 @@ impl Tracer<'_> {
 
     /// Makes the direction's largest entry 1 m.
     fn scale_tangent(&mut self) {
-        let largest = self.direction.iter().map(|d| d.abs()).fold(0.0, f64::max);
+        let largest = largest_of(&self.direction);
         self.rate = if largest > 0.0 { 1.0 / largest } else { 1.0 };
         self.direction.iter_mut().for_each(|d| *d *= self.rate);
         self.find_rates();
