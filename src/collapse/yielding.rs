@@ -111,8 +111,10 @@ impl<'a> Yielding<'a> {
     }
 
     fn subblock(&self, found: &YieldPoint) -> Option<SubblockStress> {
-        let stresses = self.model.stresses(found.voussoir, found.at.0, &found.at.1);
-        self.model.grids[found.voussoir].field(found.voussoir, &stresses).into_iter().nth(found.subblock)
+        let (load_factor, displacements) = &*found.at;
+        let stresses = self.model.stresses(found.voussoir, *load_factor, displacements);
+        let corners = self.model.told(found.voussoir, *load_factor, displacements).corners;
+        self.model.grids[found.voussoir].field(found.voussoir, &stresses, corners).into_iter().nth(found.subblock)
     }
 }
 
