@@ -29,7 +29,8 @@ use std::process::Command;
 use std::time::Instant;
 use voussoir::budget::Budget;
 use voussoir::collapse::{
-    Analysis, Answer, CollapseTask, Cost, CurvedBeam, FieldAt, PlaneModel, Question, Seams, StatesAsked, Task, answer,
+    Analysis, Answer, CollapseTask, Cost, CurvedBeam, FieldAt, Order, PlaneModel, Question, Seams, Spacing,
+    StatesAsked, Task, answer,
 };
 use voussoir::structure::JointLaw;
 use voussoir::wire::read::read_analysis;
@@ -183,6 +184,8 @@ fn beam(each_way: usize) -> Question {
         accuracy: None,
         subblocks: [each_way; 2],
         seams: Seams::Split,
+        order: Order::First,
+        spacing: Spacing::Even,
         curved_sides: true,
     })
 }

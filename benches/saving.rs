@@ -216,7 +216,10 @@ impl Arch {
         let fine: Vec<_> = (0..voussoirs).map(square).collect();
         let cap = 1.0001 * at.abs().max(rigid.start.abs());
         let up_to_there = asking(&analysis, Path::FirstOrder, here(), Some(cap));
-        let exact = Arch { analysis: up_to_there, exact: StressField { load_factor: at, subblocks: Vec::new() } };
+        let exact = Arch {
+            analysis: up_to_there,
+            exact: StressField { load_factor: at, subblocks: Vec::new(), roughness: Vec::new() },
+        };
         let exact = exact.on_mesh(fine).0.stress_fields.into_iter().next()?;
         Some(Arch { analysis, exact })
     }

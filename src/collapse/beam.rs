@@ -1,11 +1,14 @@
 //! The curved beam of section 3.3 of the paper: a quarter ring bent by end shear, against the theory of elasticity.
 
 use super::discretise::{bond, elasticity};
-use super::grid::{Grid, Lines};
+use super::grid::{Cut, Grid, Lines};
+use super::recovery;
 use super::report::tresca;
-use super::{AnalysisError, BeamReport, CurvedBeam, DEFAULT_PENALTY_RATIO, PlaneModel, StressField, SubblockStress};
+use super::{
+    AnalysisError, BeamReport, CurvedBeam, DEFAULT_PENALTY_RATIO, Order, PlaneModel, StressField, SubblockStress,
+};
 use crate::budget::Budget;
-use crate::dda::{Macroblock, free_response};
+use crate::dda::{GAUSS_3, Inside, free_response};
 use crate::geometry::{Region, Vec2};
 
 use nalgebra::DVector;
@@ -17,7 +20,7 @@ const SIMPSON_STEPS: i32 = 2000;
 /// The exact solution, eq. (3) of the paper (Timoshenko and Goodier, Theory of Elasticity, bending of a curved bar by a
 /// force at its end). Angles are measured from the end that carries shear alone.
 #[derive(Debug, Clone, Copy)]
-struct Exact {
+pub(super) struct Exact {
     /// a^2 b^2 and a^2 + b^2.
     product: f64,
     sum: f64,
@@ -27,7 +30,7 @@ struct Exact {
 }
 
 impl Exact {
-    fn new(beam: &CurvedBeam) -> Self {
+    pub(super) fn new(beam: &CurvedBeam) -> Self {
         let (a, b) = (beam.inner_radius, beam.outer_radius);
         let (product, sum) = (a * a * b * b, a * a + b * b);
         let delta = a * a - b * b + sum * (b / a).ln();
@@ -35,7 +38,7 @@ impl Exact {
     }
 
     /// sigma_r, sigma_theta and tau_r_theta at a point, Pa.
-    fn stress(&self, r: f64, theta: f64) -> [f64; 3] {
+    pub(super) fn stress(&self, r: f64, theta: f64) -> [f64; 3] {
         let (q, s) = (self.product / r.powi(3), self.sum / r);
         let (sin, cos) = theta.sin_cos();
         [(r + q - s) * sin, (3.0 * r - q - s) * sin, -(r + q - s) * cos].map(|x| x * self.scale)
@@ -79,23 +82,25 @@ impl Exact {
 
 /// Solves the beam and holds it against the exact solution.
 pub(super) fn solve(beam: &CurvedBeam, budget: &Budget) -> Result<BeamReport, AnalysisError> {
+    sampled(beam, budget).map(|(.., report)| report)
+}
+
+/// The same with its grid, and the stress at all samples of the subblocks.
+pub(super) fn sampled(beam: &CurvedBeam, budget: &Budget) -> Result<(Grid, Vec<[f64; 3]>, BeamReport), AnalysisError> {
     budget.ask()?;
     let exact = Exact::new(beam);
-    let (grid, body) = macroblock(beam);
+    let (grid, body) = divided(beam);
     budget.ask()?;
     let load = end_loads(beam, &exact, &grid, &body);
-    let unknowns = 6 * body.blocks().len();
+    let unknowns = body.unknowns();
     let response = free_response(&body, &load, budget)?;
     let none = |what: &str| AnalysisError::NotFinite { what: what.to_owned() };
     let displacements = response.ok_or_else(|| none("displacements of the curved beam"))?;
     budget.ask()?;
-    let stresses: Vec<[f64; 3]> = body
-        .blocks()
-        .iter()
-        .enumerate()
-        .map(|(i, block)| block.stress(&displacements.fixed_rows::<6>(6 * i).into_owned()))
-        .collect();
-    let field = StressField { load_factor: 1.0, subblocks: grid.field(0, &stresses) };
+    let [stresses, samples] = body.stresses(&displacements);
+    let samples = if samples.is_empty() { stresses.clone() } else { samples };
+    let field = grid.field(0, &stresses, recovery::tell(&grid, &samples).corners);
+    let field = StressField { load_factor: 1.0, subblocks: field, roughness: Vec::new() };
     let exact_tresca: Vec<f64> = field.subblocks.iter().map(|s| tresca_at(&exact, s)).collect();
     let squares = |of: &dyn Fn(usize) -> f64| (0..exact_tresca.len()).map(|i| of(i).powi(2)).sum::<f64>().sqrt();
     let error = squares(&|i| exact_tresca[i] - field.subblocks[i].tresca()) / squares(&|i| exact_tresca[i]);
@@ -103,43 +108,54 @@ pub(super) fn solve(beam: &CurvedBeam, budget: &Budget) -> Result<BeamReport, An
         return Err(none("error of the curved beam"));
     }
     let energy = [0.5 * displacements.dot(&load), exact.energy(beam)];
-    Ok(BeamReport { field, exact: exact_tresca, error, energy, unknowns, plan: None })
+    Ok((grid, samples, BeamReport { field, exact: exact_tresca, error, energy, unknowns, plan: None }))
 }
 
 /// The ring from theta = 90 degrees (left) to 0, as a stone between two joints.
-fn macroblock(beam: &CurvedBeam) -> (Grid, Macroblock) {
+fn divided(beam: &CurvedBeam) -> (Grid, Inside) {
     let side = |direction: Vec2| [direction * beam.inner_radius, direction * beam.outer_radius];
     let lines = if beam.curved_sides { Lines::Arcs(Vec2::zeros()) } else { Lines::Chords(Vec2::zeros()) };
     let (a, b) = (beam.inner_radius, beam.outer_radius);
     let area = 0.5 * FRAC_PI_2 * (b * b - a * a);
     // First moment of a quarter ring about either axis: (b^3 - a^3) / 3.
     let whole = Region { area, centroid: Vec2::repeat((b.powi(3) - a.powi(3)) / (3.0 * area)) };
-    let grid = Grid::new([side(Vec2::y()), side(Vec2::x())], whole, lines, beam.subblocks);
+    let grid = Grid::new(
+        [side(Vec2::y()), side(Vec2::x())],
+        whole,
+        lines,
+        beam.subblocks,
+        Cut { order: beam.order, spacing: beam.spacing },
+    );
     let bond = bond(beam.seams, DEFAULT_PENALTY_RATIO * beam.stone.youngs_modulus);
-    let body = grid.macroblock(elasticity(&beam.stone, beam.plane), bond);
+    let body = grid.inside(elasticity(&beam.stone, beam.plane), bond);
     (grid, body)
 }
 
-/// Generalised loads of the exact end tractions: on each subblock's side, the two forces at its ends that have the
-/// resultant and the moment of the distribution.
-fn end_loads(beam: &CurvedBeam, exact: &Exact, grid: &Grid, body: &Macroblock) -> DVector<f64> {
-    let mut load = DVector::zeros(6 * body.blocks().len());
+/// Generalised loads of the exact end tractions: on the side of each constant-strain subblock, the two forces at its ends that have the
+/// resultant and the moment of the distribution; on that of a second-order one, by Gauss's rule.
+fn end_loads(beam: &CurvedBeam, exact: &Exact, grid: &Grid, body: &Inside) -> DVector<f64> {
+    let mut load = DVector::zeros(body.unknowns());
     let n = grid.radial;
-    let radius = |i: usize| beam.inner_radius + (beam.outer_radius - beam.inner_radius) * i as f64 / n as f64;
+    let radius = |i: usize| beam.inner_radius + (beam.outer_radius - beam.inner_radius) * grid.across(i);
     // At 90 degrees the outer normal is e_theta = -x, at 0 it is -e_theta and the traction -tau e_r = -tau x.
-    let mut pull = |first: usize, along: Vec2, integral: &dyn Fn(f64) -> [f64; 2]| {
+    let mut pull = |first: usize, along: Vec2, integral: &dyn Fn(f64) -> [f64; 2], traction: &dyn Fn(f64) -> f64| {
         for i in 0..n {
             let (from, to) = (radius(i), radius(i + 1));
             let [force, moment] = [0, 1].map(|k| integral(to)[k] - integral(from)[k]);
             let outer = (moment - force * from) / (to - from);
-            for (r, share) in [(from, force - outer), (to, outer)] {
-                let mut place = load.fixed_rows_mut::<6>(6 * (first + i));
-                place += body.blocks()[first + i].load(along * r, Vec2::new(-share, 0.0));
+            let ends = vec![(from, force - outer), (to, outer)];
+            let middles = |(place, weight): (f64, f64)| {
+                let r = 0.5 * (from + to) + 0.5 * place * (to - from);
+                (r, 0.5 * weight * (to - from) * traction(r))
+            };
+            let shares = if beam.order == Order::First { ends } else { GAUSS_3.map(middles).to_vec() };
+            for (r, share) in shares {
+                body.add_load(first + i, along * r, Vec2::new(-share, 0.0), &mut load);
             }
         }
     };
-    pull(0, Vec2::y(), &|r| exact.bending(r));
-    pull((grid.along - 1) * n, Vec2::x(), &|r| exact.shearing(r));
+    pull(0, Vec2::y(), &|r| exact.bending(r), &|r| exact.stress(r, FRAC_PI_2)[1]);
+    pull((grid.along - 1) * n, Vec2::x(), &|r| exact.shearing(r), &|r| exact.stress(r, 0.0)[2]);
     load
 }
 
@@ -180,6 +196,8 @@ mod tests {
                 subblocks: [1, 1],
                 accuracy: None,
                 seams: Seams::Split,
+                order: Order::First,
+                spacing: crate::collapse::Spacing::Even,
                 curved_sides: true,
             };
             let exact = Exact::new(&beam);

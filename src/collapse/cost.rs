@@ -10,7 +10,9 @@ mod kinds;
 
 use super::discretise::{grids, touching};
 use super::strips::MOST_POINTS;
-use super::{Analysis, CurvedBeam, Geometry, PositionQuestion, Question, SurveyQuestion, Task, plan, worst_position};
+use super::{
+    Analysis, CurvedBeam, Geometry, Order, PositionQuestion, Question, SurveyQuestion, Task, plan, worst_position,
+};
 use crate::budget::{Budget, Stopped};
 use crate::dda::{AssemblySize, Beside, Touch};
 use crate::structure::{Side, Structure};
@@ -80,7 +82,7 @@ const SOLVED: usize = 1000;
 /// Events of a path for every contact point, and more than were seen.
 const EVENTS: f64 = 2.0;
 /// Bytes of a stress field for every subblock, in the answer and in all that is written of it at once.
-const FIELD: usize = 1900;
+const FIELD: usize = 2800;
 /// Bytes of a frame of a motion for every body.
 const FRAME: usize = 2000;
 /// Bytes of a step of a settlement for every joint; steps, and contact points for one more.
@@ -183,8 +185,10 @@ fn with_points(analysis: &Analysis, least: usize, budget: &Budget) -> Result<Dem
     let touches: Vec<Vec<Touch>> = (0..structure.joints.len()).map(|k| touching(analysis, k, &grids, None)).collect();
     let points: Vec<usize> = touches.iter().map(|touches| touches.len().max(least)).collect();
     let subblocks: Vec<usize> = grids.iter().map(|grid| grid.radial * grid.along).collect();
+    let one_block: Vec<bool> =
+        grids.iter().map(|grid| grid.order == Order::First && grid.radial * grid.along == 1).collect();
     let moves = analysis.task.geometry() == Geometry::Updated;
-    let size = assembled(structure, &subblocks, &points, moves, budget)?;
+    let size = assembled(structure, &one_block, &points, moves, budget)?;
     // No two bodies whose joints crush, or on which soil presses, need be alike.
     let kinds = if least > 0 || !structure.passive.is_empty() {
         (0..grids.len()).collect()
@@ -216,10 +220,10 @@ fn with_points(analysis: &Analysis, least: usize, budget: &Budget) -> Result<Dem
     Ok(Demand { memory, uncrushed: memory, work, largest })
 }
 
-/// The size of the assembly of bodies of so many subblocks, with so many contact points at every joint.
+/// The size of the assembly of bodies, of which some are one constant-strain subblock, with so many contact points at every joint.
 fn assembled(
     structure: &Structure,
-    subblocks: &[usize],
+    one_block: &[bool],
     points: &[usize],
     moves: bool,
     budget: &Budget,
@@ -232,7 +236,7 @@ fn assembled(
     let soil =
         structure.passive.iter().map(|element| ([Beside::Ground(structure.supports), Beside::Body(element.body)], 1));
     let interfaces: Vec<_> = between.zip(points.iter().copied()).chain(soil).collect();
-    AssemblySize::new(subblocks, &interfaces, moves, MOST_ENTRIES, budget)
+    AssemblySize::new(one_block, &interfaces, moves, MOST_ENTRIES, budget)
 }
 
 /// Bytes of matrices, their factors and what is kept of the path while it is followed.

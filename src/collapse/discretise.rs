@@ -2,15 +2,16 @@
 
 mod touches;
 
-use super::grid::Grid;
+use super::grid::{Cut, Grid};
 use super::path::Attempt;
+use super::recovery::{self, Told};
 use super::scatter::Scatter;
 use super::strips::{Points, Strips};
-use super::{Analysis, AnalysisError, Geometry, PlaneModel, Seams};
+use super::{Analysis, AnalysisError, Geometry, Mesh, PlaneModel, Seams};
 use crate::budget::Budget;
 use crate::dda::{Assembly, AssemblyBuilder, Beside, Bond, Elasticity, Loads, MeanMotion, Push, Touch};
-use crate::geometry::{Region, Vec2};
-use crate::structure::{PointForce, Side, Stone, Structure};
+use crate::geometry::Vec2;
+use crate::structure::{Body, PointForce, Side, Stone, Structure};
 use touches::{around, passive, penalties, points, touches};
 
 /// Work of cutting out a subblock with its seams, in multiplications.
@@ -135,14 +136,14 @@ fn discretise<'p>(analysis: &Analysis, strips: &Strips, budget: &'p Budget<'p>) 
 /// The bodies cut like this, joined as the structure says.
 fn assembly(analysis: &Analysis, grids: &[Grid], strips: &Strips, budget: &Budget) -> Result<Assembly, AnalysisError> {
     let structure = &analysis.structure;
-    let mut macroblocks = Vec::with_capacity(grids.len());
+    let mut bodies = Vec::with_capacity(grids.len());
     for (body, grid) in grids.iter().enumerate() {
         let stone = structure.stone_of(body);
         let bond = bond(analysis.mesh.seams, analysis.penalty_ratio * stone.youngs_modulus);
-        macroblocks.push(grid.macroblock(elasticity(stone, analysis.plane), bond));
+        bodies.push(grid.inside(elasticity(stone, analysis.plane), bond));
         budget.work(CUT * grid.radial * grid.along)?;
     }
-    let mut builder = AssemblyBuilder::new(macroblocks);
+    let mut builder = AssemblyBuilder::new(bodies);
     for (k, joint) in structure.joints.iter().enumerate() {
         let between = joint.between.map(|side| match side {
             Side::Body(body) => Beside::Body(body),
@@ -192,25 +193,21 @@ pub(super) fn touching(analysis: &Analysis, k: usize, grids: &[Grid], strips: Op
 
 /// How every body is cut: whole, where the mesh says nothing of it.
 pub(super) fn grids(analysis: &Analysis) -> Vec<Grid> {
-    let subblocks = |k: usize| analysis.mesh.subblocks.get(k).copied().unwrap_or([1, 1]);
-    analysis.structure.bodies.iter().enumerate().map(|(k, body)| Grid::of(body, subblocks(k))).collect()
+    let Mesh { subblocks, order, spacing, .. } = &analysis.mesh;
+    let grid = |(k, body): (usize, &Body)| match subblocks.get(k) {
+        Some(subblocks) => Grid::of(body, *subblocks, Cut { order: *order, spacing: *spacing }),
+        None => Grid::of(body, [1, 1], Cut::default()),
+    };
+    analysis.structure.bodies.iter().enumerate().map(grid).collect()
 }
 
 /// A force on a body as forces on its subblocks.
 fn pushes(force: &PointForce, grids: &[Grid]) -> Vec<Push> {
     let (grid, body) = (&grids[force.body], force.body);
     if force.spread {
-        let regions: Vec<_> = grid.cells().map(|(i, j)| grid.region(i, j)).collect();
-        let area: f64 = regions.iter().map(|r| r.area).sum();
-        let push = |(subblock, region): (usize, &Region)| Push {
-            body,
-            subblock,
-            at: region.centroid,
-            force: force.force * (region.area / area),
-        };
-        return regions.iter().enumerate().map(push).collect();
+        return vec![Push { body, subblock: None, at: force.at, force: force.force }];
     }
-    let push = |(subblock, share)| Push { body, subblock, at: force.at, force: force.force * share };
+    let push = |(subblock, share)| Push { body, subblock: Some(subblock), at: force.at, force: force.force * share };
     grid.at(force.at).into_iter().map(push).collect()
 }
 
@@ -275,6 +272,12 @@ impl Model<'_> {
     /// Stress in every subblock of a body, Pa.
     pub(super) fn stresses(&self, body: usize, load_factor: f64, displacements: &[f64]) -> Vec<[f64; 3]> {
         self.assembly.stresses(body, displacements, &self.loads_at(load_factor))
+    }
+
+    /// Stress at the corners of the subblocks of a body, and how rough it is.
+    pub(super) fn told(&self, body: usize, load_factor: f64, displacements: &[f64]) -> Told {
+        let samples = self.assembly.samples(body, displacements, &self.loads_at(load_factor));
+        recovery::tell(&self.grids[body], &samples)
     }
 
     /// Mean stress in a body, Pa.

@@ -1,17 +1,27 @@
 //! The grid of subblocks in one stone.
 
+mod cell;
 mod parts;
 mod patch;
 mod places;
+mod points;
+mod spacing;
 
-use super::SubblockStress;
-use crate::dda::{Block, Bond, Elasticity, Macroblock, Seam};
+use super::{Order, Spacing, SubblockStress};
+use crate::dda::{Block, Bond, Elasticity, Inside, Macroblock, Seam};
 use crate::geometry::{Region, Vec2, perpendicular};
-use crate::structure::Body;
+use crate::structure::{Body, Sides};
 use parts::{is_simple, parts};
 pub(super) use patch::Lines;
 use patch::Patch;
 pub(super) use places::OnSide;
+
+/// How subblocks are drawn, whose number is given.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Cut {
+    pub order: Order,
+    pub spacing: Spacing,
+}
 
 /// A point this close to a line of the grid, as a share of a subblock, lies on it.
 pub(super) const ON_LINE: f64 = 1e-9;
@@ -29,6 +39,10 @@ pub(super) struct Grid {
     pub radial: usize,
     /// Subblocks along.
     pub along: usize,
+    /// Of which order they are.
+    pub order: Order,
+    /// Places in a part, from 0 to 1, of the lines that run along it and across it.
+    lines: [Vec<f64>; 2],
     /// Shape of the whole stone.
     whole: Region,
     /// Corners of every subblock, counter-clockwise from the intrados end on the side of the joint before, m.
@@ -39,9 +53,9 @@ pub(super) struct Grid {
 ///
 /// A body of several parts is as many times cut in two as would be its like of one part: each part has half of the larger number,
 /// rounded up, both ways.
-pub fn subblocks_of(body: &Body, wanted: [usize; 2]) -> Option<[usize; 2]> {
+pub fn subblocks_of(body: &Body, wanted: [usize; 2], order: Order) -> Option<[usize; 2]> {
     match parts(body).len() {
-        _ if wanted == [1, 1] => Some(wanted),
+        _ if wanted == [1, 1] && order == Order::First => Some(wanted),
         0 => None,
         1 => Some(wanted),
         parts => {
@@ -52,8 +66,16 @@ pub fn subblocks_of(body: &Body, wanted: [usize; 2]) -> Option<[usize; 2]> {
 }
 
 /// Whether a body can be cut into just so many subblocks.
-pub fn can_be_cut(body: &Body, subblocks: [usize; 2]) -> bool {
-    subblocks == [1, 1] || body.is_quadrilateral() || Grid::cut(body, parts(body), subblocks).is_some()
+pub fn can_be_cut(body: &Body, subblocks: [usize; 2], order: Order, spacing: Spacing) -> bool {
+    let whole = subblocks == [1, 1] && order == Order::First;
+    let cut = || Grid::cut(body, parts(body), subblocks, Cut { order, spacing });
+    whole || body.is_quadrilateral() || cut().is_some()
+}
+
+/// Whether subblocks of second order can fill a body: where it is of parts whose sides are straight, or two of them arcs.
+pub fn can_bend(body: &Body) -> bool {
+    let parts = parts(body);
+    body.sides != Sides::Compound && !parts.is_empty() && parts.iter().all(Patch::has_straight_sides)
 }
 
 /// Mean distances of opposite sides' ends of a body of one part: from intrados to extrados, and along, m.
@@ -64,28 +86,39 @@ pub(super) fn extents(body: &Body) -> Option<[f64; 2]> {
 
 impl Grid {
     /// The grid of a body with this many subblocks (radial, along); what cannot be cut like this is whole.
-    pub(super) fn of(body: &Body, subblocks: [usize; 2]) -> Self {
-        let cut = if subblocks == [1, 1] { None } else { Grid::cut(body, parts(body), subblocks) };
-        let outlines = vec![body.corners.clone()];
-        cut.unwrap_or_else(|| Grid { patches: Vec::new(), radial: 1, along: 1, whole: body.region, outlines })
+    pub(super) fn of(body: &Body, subblocks: [usize; 2], cut: Cut) -> Self {
+        let whole = subblocks == [1, 1] && cut.order == Order::First;
+        let grid = if whole { None } else { Grid::cut(body, parts(body), subblocks, cut) };
+        let (outlines, lines) = (vec![body.corners.clone()], [vec![0.0, 1.0], vec![0.0, 1.0]]);
+        let order = Order::First;
+        grid.unwrap_or_else(|| Grid {
+            patches: Vec::new(),
+            radial: 1,
+            along: 1,
+            order,
+            lines,
+            whole: body.region,
+            outlines,
+        })
     }
 
     /// The grid between two sides, each from intrados to extrados, of a stone of the given shape.
-    pub(super) fn new(ends: [[Vec2; 2]; 2], whole: Region, lines: Lines, subblocks: [usize; 2]) -> Self {
-        Grid::within(vec![Patch::new(ends, lines)], whole, subblocks)
+    pub(super) fn new(ends: [[Vec2; 2]; 2], whole: Region, lines: Lines, subblocks: [usize; 2], cut: Cut) -> Self {
+        Grid::within(vec![Patch::new(ends, lines)], whole, subblocks, cut)
     }
 
     /// The grid of a body in these parts of it; none where lines would cross.
-    fn cut(body: &Body, patches: Vec<Patch>, [radial, along]: [usize; 2]) -> Option<Self> {
+    fn cut(body: &Body, patches: Vec<Patch>, [radial, along]: [usize; 2], cut: Cut) -> Option<Self> {
         let whole = patches.is_empty() || (patches.len() > 1 && along != radial * patches.len());
-        let grid = (!whole).then(|| Grid::within(patches, body.region, [radial, along]))?;
+        let grid = (!whole).then(|| Grid::within(patches, body.region, [radial, along], cut))?;
         // With straight sides parts are convex, and arcs do not cross.
         let straight = grid.patches.iter().all(Patch::has_straight_sides);
         (straight || grid.is_sound()).then_some(grid)
     }
 
-    fn within(patches: Vec<Patch>, whole: Region, [radial, along]: [usize; 2]) -> Self {
-        let mut grid = Grid { patches, radial, along, whole, outlines: Vec::new() };
+    fn within(patches: Vec<Patch>, whole: Region, [radial, along]: [usize; 2], Cut { order, spacing }: Cut) -> Self {
+        let lines = spacing::lines(spacing, [radial, along / patches.len()], patches.len() > 1);
+        let mut grid = Grid { patches, radial, along, order, lines, whole, outlines: Vec::new() };
         grid.outlines = grid.cells().map(|(i, j)| grid.outline(i, j)).collect();
         grid
     }
@@ -107,31 +140,31 @@ impl Grid {
     }
 
     /// Subblocks along a part.
-    fn columns(&self) -> usize {
+    pub(super) fn columns(&self) -> usize {
         self.along / self.patches.len().max(1)
     }
 
     /// Where lines `i` and `j` of a part meet, m.
     fn corner(&self, part: usize, i: usize, j: usize) -> Vec2 {
-        self.patches[part].point(j as f64 / self.columns() as f64, i as f64 / self.radial as f64)
+        self.patches[part].point(self.lines[1][j], self.lines[0][i])
     }
 
     /// Corners of subblock (i, j), those of the stone's own between them.
     fn outline(&self, i: usize, j: usize) -> Vec<Vec2> {
         let (part, rows, columns) = (j / self.columns(), self.radial, self.columns());
         let j = j % columns;
-        let between = |side: usize, k: usize, count: usize| {
-            let [from, to] = [k, k + 1].map(|k| k as f64 / count as f64);
-            self.patches[part].sides[side].between(from, to, ON_LINE)
+        let between = |side: usize, k: usize| {
+            let lines = &self.lines[side / 2];
+            self.patches[part].sides[side].between(lines[k], lines[k + 1], ON_LINE)
         };
         let mut corners = vec![self.corner(part, i, j)];
-        corners.extend((i == 0).then(|| between(2, j, columns)).into_iter().flatten());
+        corners.extend((i == 0).then(|| between(2, j)).into_iter().flatten());
         corners.push(self.corner(part, i, j + 1));
-        corners.extend((j + 1 == columns).then(|| between(1, i, rows)).into_iter().flatten());
+        corners.extend((j + 1 == columns).then(|| between(1, i)).into_iter().flatten());
         corners.push(self.corner(part, i + 1, j + 1));
-        corners.extend((i + 1 == rows).then(|| between(3, j, columns)).into_iter().flatten().rev());
+        corners.extend((i + 1 == rows).then(|| between(3, j)).into_iter().flatten().rev());
         corners.push(self.corner(part, i + 1, j));
-        corners.extend((j == 0).then(|| between(0, i, rows)).into_iter().flatten().rev());
+        corners.extend((j == 0).then(|| between(0, i)).into_iter().flatten().rev());
         corners
     }
 
@@ -147,7 +180,12 @@ impl Grid {
         segments.into_iter().filter(|s| s.area != 0.0).fold(polygon, Region::join)
     }
 
-    fn number(&self, i: usize, j: usize) -> usize {
+    /// Place of line `i` from the intrados, 0, to the extrados, 1.
+    pub(super) fn across(&self, i: usize) -> f64 {
+        self.lines[0][i]
+    }
+
+    pub(super) fn number(&self, i: usize, j: usize) -> usize {
         j * self.radial + i
     }
 
@@ -157,8 +195,15 @@ impl Grid {
         (0..self.along * radial).map(move |s| (s % radial, s / radial))
     }
 
-    /// The stone as a macroblock.
-    pub(super) fn macroblock(&self, elasticity: Elasticity, bond: Bond) -> Macroblock {
+    /// The stone as a body of subblocks.
+    pub(super) fn inside(&self, elasticity: Elasticity, bond: Bond) -> Inside {
+        match self.order {
+            Order::First => self.macroblock(elasticity, bond).into(),
+            Order::Second => Inside::Quadratic(self.second_order(elasticity)),
+        }
+    }
+
+    fn macroblock(&self, elasticity: Elasticity, bond: Bond) -> Macroblock {
         let four_sided = self.patches.len() < 2 && self.patches.iter().all(Patch::has_straight_sides);
         let bond = if four_sided || bond != Bond::Split { bond } else { Bond::Consistent };
         let blocks = self.cells().map(|(i, j)| Block::new(self.region(i, j), elasticity)).collect();
@@ -205,12 +250,19 @@ impl Grid {
         self.patches.iter().map(|patch| patch.slenderness(self.radial, self.columns())).fold(1.0, f64::max)
     }
 
-    /// The field of these stresses, one per subblock, in voussoir number `voussoir`.
-    pub(super) fn field(&self, voussoir: usize, stresses: &[[f64; 3]]) -> Vec<SubblockStress> {
+    /// The field of these stresses, one per subblock, and these at their corners, in voussoir number `voussoir`.
+    pub(super) fn field(
+        &self,
+        voussoir: usize,
+        stresses: &[[f64; 3]],
+        at_corners: Vec<Vec<[f64; 3]>>,
+    ) -> Vec<SubblockStress> {
         let mut field = Vec::with_capacity(stresses.len());
-        for (((i, j), corners), &stress) in self.cells().zip(&self.outlines).zip(stresses) {
+        for ((((i, j), corners), &stress), corner_stress) in
+            self.cells().zip(&self.outlines).zip(stresses).zip(at_corners)
+        {
             let (centre, corners) = (self.region(i, j).centroid, corners.clone());
-            field.push(SubblockStress { voussoir, place: [i, j], centre, corners, stress });
+            field.push(SubblockStress { voussoir, place: [i, j], centre, corners, stress, corner_stress });
         }
         field
     }

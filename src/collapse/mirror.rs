@@ -2,6 +2,7 @@
 //! turned otherwise on either side. The mean of both sides is given.
 
 use super::grid::Grid;
+use super::recovery::mirrored_corners;
 use super::{BlockState, SubblockStress};
 use crate::geometry::mirrored;
 
@@ -40,8 +41,11 @@ pub(super) fn evened_stresses(
     let first: Vec<usize> = counted.collect();
     let evened = |here: &SubblockStress| {
         let image = images[here.voussoir];
-        let [x, y, tau] = subblocks[first[image] + grids[image].cell_at(mirrored(here.centre, axis))].stress;
-        SubblockStress { stress: mean(here.stress, [x, y, -tau]), ..here.clone() }
+        let there = &subblocks[first[image] + grids[image].cell_at(mirrored(here.centre, axis))];
+        let [x, y, tau] = there.stress;
+        let corners = here.corner_stress.iter().zip(mirrored_corners(here, there, axis));
+        let corner_stress = corners.map(|(&here, there)| mean(here, there)).collect();
+        SubblockStress { stress: mean(here.stress, [x, y, -tau]), corner_stress, ..here.clone() }
     };
     subblocks.iter().map(evened).collect()
 }

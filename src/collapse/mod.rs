@@ -19,6 +19,7 @@ mod plan;
 mod plastic_end;
 mod position;
 mod record;
+mod recovery;
 pub mod report;
 mod rigid_parts;
 mod rounding;
@@ -39,7 +40,7 @@ mod verdict;
 mod worst_position;
 mod yielding;
 
-pub use grid::{can_be_cut, subblocks_of};
+pub use grid::{can_be_cut, can_bend, subblocks_of};
 pub use plan::{LOAD_PIECES, can_be_refined};
 pub use position::*;
 pub use report::*;
@@ -129,13 +130,46 @@ pub enum Seams {
     Corners,
 }
 
+/// How displacements vary in a subblock.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Order {
+    /// Linearly: strain is constant, as in the paper.
+    #[default]
+    First,
+    /// As polynomials of second order that go on from subblock to subblock.
+    Second,
+}
+
+/// Where the lines of a mesh lie.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "server", derive(serde::Serialize, serde::Deserialize, utoipa::ToSchema))]
+#[cfg_attr(feature = "server", serde(rename_all = "snake_case"))]
+pub enum Spacing {
+    /// Evenly.
+    #[default]
+    Even,
+    /// Close together at joints and faces, where stress changes most: at (1 - cos) / 2 of even shares of half a turn.
+    Graded,
+}
+
 /// How the voussoirs are cut into subblocks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mesh {
     /// Subblocks of every voussoir from intrados to extrados, and along the arch.
     pub subblocks: Vec<[usize; 2]>,
-    /// What holds them together.
+    /// What holds them together, where they are of first order.
     pub seams: Seams,
+    /// How displacements vary in them.
+    pub order: Order,
+    /// Where their lines lie.
+    pub spacing: Spacing,
+}
+
+impl Mesh {
+    /// So many subblocks, as in the paper but for the seams.
+    pub fn of(subblocks: Vec<[usize; 2]>) -> Self {
+        Mesh { subblocks, seams: Seams::default(), order: Order::default(), spacing: Spacing::default() }
+    }
 }
 
 /// Where on the path a stress field is reported.
@@ -152,8 +186,7 @@ pub enum FieldAt {
 pub struct Accuracy {
     /// Largest error of the collapse load factor, as a share of it.
     pub collapse_intensity: Option<f64>,
-    /// Largest error of the stress fields asked for, as a share, in the norm of eq. (5) of the paper: that of the equivalent
-    /// stress, by area. Loads have to come in [`LOAD_PIECES`], and no stone may have a side of more than one arc.
+    /// Largest error of the stress fields asked for, as a share: that of the equivalent stress, by area, point by point. Loads have to come in [`LOAD_PIECES`], and no stone may have a side of more than one arc.
     pub stress: Option<f64>,
     /// Most subblocks of the model.
     pub most_subblocks: usize,
@@ -238,7 +271,7 @@ impl Analysis {
             plane: PlaneModel::Stress,
             penalty_ratio: DEFAULT_PENALTY_RATIO,
             shear_penalty_ratio: 1.0,
-            mesh: Mesh { subblocks, seams: Seams::Split },
+            mesh: Mesh::of(subblocks),
             task: Task::Collapse(CollapseTask::default()),
         }
     }
@@ -261,8 +294,12 @@ pub struct CurvedBeam {
     pub subblocks: [usize; 2],
     /// Largest error e_N of eq. (5), as a share, if that decides on the mesh.
     pub accuracy: Option<f64>,
-    /// What holds them together.
+    /// What holds them together, where they are of first order.
     pub seams: Seams,
+    /// How displacements vary in them.
+    pub order: Order,
+    /// Where their lines lie.
+    pub spacing: Spacing,
     /// True sectors, or subblocks with straight sides.
     pub curved_sides: bool,
 }

@@ -2,8 +2,7 @@
 //!
 //! The collapse load of rigid stones does not depend on the mesh, so one subblock per voussoir gives it; how far path and
 //! limit window are apart tells how well. Stress needs a mesh. It starts coarse, and those voussoirs are refined
-//! whose share of the error is too large, until the estimate is small enough: two meshes are compared, voussoir by
-//! voussoir (see [`estimate`]).
+//! whose share of the error is too large, until the estimate is small enough (see [`estimate`]).
 
 mod beam;
 mod estimate;
@@ -17,7 +16,8 @@ pub use mesh::{LOAD_PIECES, can_be_refined};
 pub(super) use mesh::{MOST_EACH_WAY, around};
 
 use super::{
-    Accuracy, Analysis, AnalysisError, CollapseReport, Direction, Estimate, Outcome, PathEnd, Plan, PlanReason, verdict,
+    Accuracy, Analysis, AnalysisError, CollapseReport, Direction, Estimate, Mesh, Outcome, PathEnd, Plan, PlanReason,
+    verdict,
 };
 use crate::budget::Budget;
 use crate::structure::is_symmetric;
@@ -36,6 +36,8 @@ pub(super) fn refined(
     let mut plan = Plan {
         half: false,
         subblocks: analysis.mesh.subblocks.clone(),
+        order: analysis.mesh.order,
+        spacing: analysis.mesh.spacing,
         collapse_intensity: None,
         stress: accuracy.stress.map(|asked| Estimate { asked, estimate: None, met: false }),
         first_yield: None,
@@ -72,7 +74,7 @@ fn on_finer_meshes(
     let half = half_of(analysis, &rigid);
     let modelled = half.as_ref().unwrap_or(analysis);
     let whole = match &half {
-        Some(half) => verdict::solve(&with_mesh(half, vec![[1, 1]; half.structure.voussoirs().len()]), budget)?,
+        Some(half) => verdict::solve(&of_whole_stones(half), budget)?,
         None => rigid.clone(),
     };
     let mut found = match refine::solve(modelled, &whole, most, asked, budget)? {
@@ -85,6 +87,7 @@ fn on_finer_meshes(
     found.report.cost.join(rigid.cost);
     plan.why.extend([why_half(analysis, half.is_some()), found.why]);
     plan.why.extend(found.one_by_one.then_some(PlanReason::StatesOneByOne));
+    (plan.order, plan.spacing) = mesh::drawing(&modelled.structure);
     (plan.stress, plan.first_yield, plan.meshes) = (Some(found.stress), found.first_yield, found.meshes);
     (plan.half, plan.subblocks) = match half {
         Some(_) => (true, unfold::subblocks(&analysis.structure, &found.subblocks)),
@@ -93,11 +96,15 @@ fn on_finer_meshes(
     Ok(if plan.half { unfold::whole(&analysis.structure, found.report, &rigid) } else { found.report })
 }
 
-/// The same question on another mesh.
+/// The same question on a mesh that is found.
 pub(super) fn with_mesh(analysis: &Analysis, subblocks: Vec<[usize; 2]>) -> Analysis {
-    let mut analysis = analysis.clone();
-    analysis.mesh.subblocks = subblocks;
-    analysis
+    let (order, spacing) = mesh::drawing(&analysis.structure);
+    Analysis { mesh: Mesh { order, spacing, ..Mesh::of(subblocks) }, ..analysis.clone() }
+}
+
+/// The same question of whole stones.
+fn of_whole_stones(analysis: &Analysis) -> Analysis {
+    Analysis { mesh: Mesh::of(vec![[1, 1]; analysis.structure.voussoirs().len()]), ..analysis.clone() }
 }
 
 /// How well the collapse load is known: path and limit window come to it from two sides; where joints slide, it is a range from

@@ -269,14 +269,17 @@ pub(super) fn snapshot(model: &Model, state: &Standing) -> Result<Snapshot, Anal
 
 /// Stress in every subblock in a state, under the loads at `load_factor`.
 pub(super) fn stress_field(model: &Model, load_factor: f64, state: &Standing) -> Result<StressField, AnalysisError> {
-    let mut subblocks = Vec::new();
+    let (mut subblocks, mut roughness) = (Vec::new(), Vec::new());
     let grids = &model.grids[..model.bodies];
     for (voussoir, grid) in grids.iter().enumerate() {
         model.budget.work(model.work_of_stresses(voussoir))?;
-        subblocks.extend(grid.field(voussoir, &model.stresses(voussoir, load_factor, &state.displacements)));
+        let told = model.told(voussoir, load_factor, &state.displacements);
+        let stresses = model.stresses(voussoir, load_factor, &state.displacements);
+        subblocks.extend(grid.field(voussoir, &stresses, told.corners));
+        roughness.push(told.roughness);
     }
     if let Some(mirror) = model.assembly.images_of_bodies().filter(|_| state.symmetric) {
         subblocks = evened_stresses(&subblocks, grids, mirror);
     }
-    Ok(StressField { load_factor, subblocks })
+    Ok(StressField { load_factor, subblocks, roughness })
 }

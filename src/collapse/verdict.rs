@@ -16,8 +16,8 @@ use super::strips::Strips;
 use super::updated::{self, Course};
 use super::{
     Analysis, AnalysisError, CollapseReport, Cost, Crushing, Doubt, End, Geometry, GovernedBy, LimitWindow, Method,
-    Note, Outcome, SafetyFactors, SettlementEnd, SupportMovement, Task, TaskReport, ThrustRange, UpdatedGeometry,
-    cracks, falling, geometric, plan, rounding, safety, settlement,
+    Note, Order, Outcome, SafetyFactors, SettlementEnd, SupportMovement, Task, TaskReport, ThrustRange,
+    UpdatedGeometry, cracks, falling, geometric, plan, rounding, safety, settlement,
 };
 use crate::budget::Budget;
 use crate::dda::{self, Tracer};
@@ -127,7 +127,8 @@ impl<'a> Setup<'a> {
             report = plan::refined(analysis, accuracy, report, budget)?;
         }
         report.settle_fields(analysis);
-        let unbent = analysis.mesh.subblocks.iter().any(|[radial, _]| *radial == 1);
+        let mesh = &analysis.mesh;
+        let unbent = mesh.order == Order::First && mesh.subblocks.iter().any(|[radial, _]| *radial == 1);
         if analysis.task.geometry() == Geometry::Updated && unbent && report.at_start.is_some() {
             report.notes.push(Note::UnbentStones);
         }

@@ -181,7 +181,8 @@ impl<'a> Yielding<'a> {
         displacements: &[f64],
     ) -> Option<SubblockStress> {
         let stresses = self.model.stresses(voussoir, load_factor, displacements);
-        self.model.grids[voussoir].field(voussoir, &stresses).into_iter().nth(subblock)
+        let corners = self.model.told(voussoir, load_factor, displacements).corners;
+        self.model.grids[voussoir].field(voussoir, &stresses, corners).into_iter().nth(subblock)
     }
 }
 

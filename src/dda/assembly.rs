@@ -9,17 +9,16 @@ mod strain;
 pub use build::{AssemblyBuilder, Touch};
 pub(super) use build::{has_core, interfaces_of};
 
-use super::block::V6;
 use super::condense::{Condensed, Node};
 use super::contact::Contact;
 use super::elements::{Elements, Pattern};
-use super::macroblock::Macroblock;
+use super::inside::{Inside, Stress};
 use super::panels::{ThreeOfEight, add_applied_columns, three_of_eight};
 use super::tree::Tree;
 use crate::budget::{Budget, Stopped};
 use crate::geometry::{Vec2, cross, perpendicular};
 use mirror::Mirror;
-use nalgebra::{DMatrix, DVector, SMatrix};
+use nalgebra::{DMatrix, DVector};
 use std::cell::OnceCell;
 use std::ops::Range;
 use strain::Strain;
@@ -40,16 +39,16 @@ struct Instance {
 /// A macroblock that one or more bodies are copies of, up to a rigid motion.
 #[derive(Debug, Clone)]
 struct Kind {
-    macroblock: Macroblock,
+    inside: Inside,
     nodes: Vec<Node>,
     condensed: Condensed,
-    /// Area-weighted mean displacement and rotation of the subblocks per unit of their unknowns, 3 x 6 n_subblocks.
+    /// Area-weighted mean displacement and rotation per unit of the unknowns inside.
     mean: DMatrix<f64>,
     /// The same per displacement of the nodes.
     mean_of_nodes: DMatrix<f64>,
-    /// Stress of every subblock per unit of its unknowns, 3 x 6 each, and per displacement of the nodes, 3 n_subblocks x
-    /// 2 n_nodes; none where that would be too much to keep.
-    stress: Vec<SMatrix<f64, 3, 6>>,
+    /// Mean stress of every subblock per unit of the unknowns, and per displacement of the nodes, 3 n_subblocks x 2 n_nodes; none
+    /// where that would be too much to keep.
+    stress: Stress,
     stress_of_nodes: Option<DMatrix<f64>>,
     /// `mean_of_nodes` and `stress_of_nodes` of a body of one subblock between two joints of two contact points.
     whole: Option<[ThreeOfEight; 2]>,
@@ -80,8 +79,10 @@ pub struct Loads {
     pub on_nodes: Vec<f64>,
     /// Mean displacement and rotation of every body with its nodes held, in the body's frame.
     mean: Vec<[f64; 3]>,
-    /// Stress of its subblocks with its nodes held, in the body's frame, three numbers each.
+    /// Mean stress of its subblocks with its nodes held, in the body's frame, three numbers each; and that at their samples, of
+    /// second-order ones.
     stress: Vec<Vec<f64>>,
+    samples: Vec<Vec<[f64; 3]>>,
 }
 
 impl Loads {
@@ -91,14 +92,14 @@ impl Loads {
     }
 }
 
-/// A force on one subblock.
+/// A force on a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Push {
     /// Which body.
     pub body: usize,
-    /// Which of its subblocks.
-    pub subblock: usize,
-    /// Where, m.
+    /// On which of its subblocks; none: spread evenly over all of it.
+    pub subblock: Option<usize>,
+    /// Where it acts, be it as a resultant, m.
     pub at: Vec2,
     /// Force, N/m.
     pub force: Vec2,
@@ -152,12 +153,6 @@ pub struct Assembly {
     mirror: Option<Mirror>,
 }
 
-/// Stress of subblocks displaced by `d`, three numbers each.
-fn stresses(stress: &[SMatrix<f64, 3, 6>], d: &[f64]) -> DVector<f64> {
-    let each = stress.iter().zip(d.chunks_exact(6)).map(|(of, d)| of * V6::from_column_slice(d));
-    DVector::from_iterator(3 * stress.len(), each.flat_map(|s| [s[0], s[1], s[2]]))
-}
-
 impl Assembly {
     /// Number of bodies.
     pub fn bodies(&self) -> usize {
@@ -169,9 +164,9 @@ impl Assembly {
         self.kinds.len()
     }
 
-    /// Number of displacement unknowns: six for every subblock.
+    /// Number of displacement unknowns inside all bodies.
     pub fn unknowns(&self) -> usize {
-        self.bodies.iter().map(|b| 6 * self.kinds[b.kind].macroblock.blocks().len()).sum()
+        self.bodies.iter().map(|b| self.kinds[b.kind].inside.unknowns()).sum()
     }
 
     /// Elastic stiffness of the bodies as elements, N/m2; zero in the interfaces.
@@ -265,14 +260,15 @@ impl Assembly {
     /// # Errors
     /// When stopped.
     pub fn loads(&self, pushes: impl IntoIterator<Item = Push>, budget: &Budget) -> Result<Loads, Stopped> {
-        let mut loads = Loads { on_nodes: Vec::new(), mean: Vec::new(), stress: Vec::new() };
+        let mut loads = Loads::default();
         for (body, load) in self.bodies.iter().zip(self.on_blocks(pushes, budget)?) {
             let kind = &self.kinds[body.kind];
             let inner = kind.condensed.inner(&load);
             loads.on_nodes.extend(kind.condensed.on_nodes(&load, &inner).iter());
             let mean = &kind.mean * &inner;
             loads.mean.push([mean[0], mean[1], mean[2]]);
-            loads.stress.push(stresses(&kind.stress, inner.as_slice()).as_slice().to_vec());
+            loads.stress.push(kind.stress.mean(inner.as_slice()).as_slice().to_vec());
+            loads.samples.push(kind.stress.samples(inner.as_slice()));
             budget.work(SOLVED * load.len() * 2 * kind.nodes.len())?;
         }
         Ok(loads)
@@ -295,15 +291,17 @@ impl Assembly {
 
     /// Generalised loads on the subblocks of every body, in its frame.
     fn on_blocks(&self, pushes: impl IntoIterator<Item = Push>, budget: &Budget) -> Result<Vec<DVector<f64>>, Stopped> {
-        let zeros = |b: &Instance| DVector::zeros(6 * self.kinds[b.kind].macroblock.blocks().len());
+        let zeros = |b: &Instance| DVector::zeros(self.kinds[b.kind].inside.unknowns());
         let mut on_blocks: Vec<DVector<f64>> = self.bodies.iter().map(zeros).collect();
         for push in pushes {
             let body = &self.bodies[push.body];
-            let block = &self.kinds[body.kind].macroblock.blocks()[push.subblock];
-            let load: V6 = block.load(body.turned(push.at - body.origin), body.turned(push.force));
-            let mut place = on_blocks[push.body].fixed_rows_mut::<6>(6 * push.subblock);
-            place += load;
-            budget.work(PUSHED)?;
+            let (at, force) = (body.turned(push.at - body.origin), body.turned(push.force));
+            let (inside, loads) = (&self.kinds[body.kind].inside, &mut on_blocks[push.body]);
+            match push.subblock {
+                Some(subblock) => inside.add_load(subblock, at, force, loads),
+                None => inside.add_spread(at, force, loads),
+            }
+            budget.work(PUSHED * push.subblock.map_or(inside.subblocks(), |_| 1))?;
         }
         Ok(on_blocks)
     }
@@ -345,7 +343,7 @@ impl Assembly {
         self.kinds.iter().map(most).fold(0.0, f64::max)
     }
 
-    /// Stress (sigma_x, sigma_y, tau_xy) in every subblock of body `i`, three numbers each in the body's own frame, Pa.
+    /// Mean stress (sigma_x, sigma_y, tau_xy) in every subblock of body `i`, three numbers each in the body's own frame, Pa.
     pub fn stresses_in_frame(&self, i: usize, d: &[f64], loads: &[(&Loads, f64)], into: &mut Vec<f64>) {
         let (kind, d) = (&self.kinds[self.bodies[i].kind], &d[self.nodes[i].clone()]);
         into.clear();
@@ -354,7 +352,7 @@ impl Assembly {
                 into.resize(of_nodes.nrows(), 0.0);
                 add_applied_columns(of_nodes.as_slice(), d, into);
             }
-            None => into.extend(&stresses(&kind.stress, kind.condensed.displaced(d).as_slice())),
+            None => into.extend(&kind.stress.mean(kind.condensed.displaced(d).as_slice())),
         }
         for (loads, factor) in loads {
             into.iter_mut().zip(&loads.stress[i]).for_each(|(sum, stress)| *sum += stress * factor);
@@ -373,12 +371,30 @@ impl Assembly {
         Some(stress)
     }
 
-    /// Stress (sigma_x, sigma_y, tau_xy) in every subblock of body `i`, Pa, for node displacements `d` under loads, each
+    /// Mean stress (sigma_x, sigma_y, tau_xy) in every subblock of body `i`, Pa, for node displacements `d` under loads, each
     /// times its factor.
     pub fn stresses(&self, i: usize, d: &[f64], loads: &[(&Loads, f64)]) -> Vec<[f64; 3]> {
         let mut in_frame = Vec::new();
         self.stresses_in_frame(i, d, loads, &mut in_frame);
         in_frame.chunks_exact(3).map(|s| self.bodies[i].stress_turned_back([s[0], s[1], s[2]])).collect()
+    }
+
+    /// The same at the samples of the subblocks: one of a constant-strain one, those of [`SecondOrder::SAMPLES`] of another.
+    ///
+    /// [`SecondOrder::SAMPLES`]: super::SecondOrder::SAMPLES
+    pub fn samples(&self, i: usize, d: &[f64], loads: &[(&Loads, f64)]) -> Vec<[f64; 3]> {
+        let body = &self.bodies[i];
+        let kind = &self.kinds[body.kind];
+        if let Stress::Constant(_) = kind.stress {
+            return self.stresses(i, d, loads);
+        }
+        let mut samples = kind.stress.samples(kind.condensed.displaced(&d[self.nodes_of(i)]).as_slice());
+        for (loads, factor) in loads {
+            for (sum, of_load) in samples.iter_mut().zip(&loads.samples[i]) {
+                (0..3).for_each(|c| sum[c] += of_load[c] * factor);
+            }
+        }
+        samples.into_iter().map(|stress| body.stress_turned_back(stress)).collect()
     }
 }
 

@@ -8,8 +8,7 @@
 
 mod product;
 
-use super::block::{M6, V6};
-use super::macroblock::Macroblock;
+use super::inside::Inside;
 use crate::budget::{Budget, Stopped};
 use crate::geometry::Vec2;
 use faer::linalg::solvers::{Llt, Solve};
@@ -75,8 +74,8 @@ pub enum Unbuilt {
 struct Tie {
     /// Stiffness of the link along it, N/m2.
     link: f64,
-    /// Loads on the subblocks per unit of it.
-    loads: Vec<(usize, V6)>,
+    /// Loads on the unknowns per unit of it, whole groups of them.
+    loads: Vec<(usize, f64)>,
 }
 
 /// So many columns of X at least, and less than twice as many, are solved for at a time: X as a whole is the largest thing
@@ -87,6 +86,8 @@ const COLUMNS_AT_ONCE: usize = 16;
 const ADDED: usize = 200;
 const PLACED: usize = 36;
 const SOLVED_COLUMN: usize = 50;
+/// Entries of a block of stiffness between two constant-strain subblocks.
+const CONSTANT_STRAIN: usize = 36;
 
 impl Condensed {
     /// Condenses `body` onto `nodes`, both seen from one frame. `see(j, x)` is shown every column of X, the displacements of
@@ -95,21 +96,21 @@ impl Condensed {
     /// # Errors
     /// When the nodes leave the body a rigid motion, or when stopped.
     pub fn new(
-        body: &Macroblock,
+        body: &Inside,
         nodes: &[Node],
         budget: &Budget,
         mut see: impl FnMut(usize, &[f64]),
     ) -> Result<Self, Unbuilt> {
         let ties: Vec<Tie> = nodes.iter().flat_map(|node| [0, 1].map(|axis| Tie::new(body, node, axis))).collect();
         budget.ask()?;
-        let links = |add: &mut dyn FnMut(usize, usize, &M6)| ties.iter().for_each(|tie| tie.stiffness(add));
+        let links = |add: &mut Add| ties.iter().for_each(|tie| tie.stiffness(body.group(), add));
         let factors = factor(body, links, budget)?.ok_or(Loose)?;
-        let (unknowns, columns) = (6 * body.blocks().len(), ties.len());
+        let (unknowns, columns) = (body.unknowns(), ties.len());
         let mut raw = DMatrix::from_diagonal(&DVector::from_iterator(columns, ties.iter().map(|tie| tie.link)));
         for part in parts(columns) {
             let mut right = Mat::zeros(unknowns, part.len());
             for (j, tie) in ties[part.clone()].iter().enumerate() {
-                tie.loads.iter().for_each(|(i, load)| (0..6).for_each(|a| right[(6 * i + a, j)] = load[a]));
+                tie.loads.iter().for_each(|&(i, load)| right[(i, j)] += load);
             }
             let x = solve(&factors, &right);
             for (j, column) in part.clone().enumerate() {
@@ -134,11 +135,11 @@ impl Condensed {
         let mut matrix = vec![0.0; width * width];
         for (i, tie) in self.ties[range].iter().enumerate() {
             matrix[i * width + i] = tie.link;
-            for (_, load) in tie.loads.iter().filter(|_| tie.link > 0.0) {
-                for a in 0..6 {
-                    matrix[i * width + nodes + a] -= load[a];
-                    matrix[(nodes + a) * width + i] -= load[a];
-                    (0..6).for_each(|b| matrix[(nodes + a) * width + nodes + b] += load[a] * load[b] / tie.link);
+            for &(a, load) in tie.loads.iter().filter(|_| tie.link > 0.0) {
+                matrix[i * width + nodes + a] -= load;
+                matrix[(nodes + a) * width + i] -= load;
+                for (b, other) in &tie.loads {
+                    matrix[(nodes + a) * width + nodes + b] += load * other / tie.link;
                 }
             }
         }
@@ -159,7 +160,7 @@ impl Condensed {
     pub fn displaced(&self, p: &[f64]) -> DVector<f64> {
         let mut load = DVector::zeros(self.unknowns);
         for (tie, p) in self.ties.iter().zip(p) {
-            tie.loads.iter().for_each(|(i, each)| load.fixed_rows_mut::<6>(6 * i).axpy(*p, each, 1.0));
+            tie.loads.iter().for_each(|&(i, each)| load[i] += p * each);
         }
         self.inner(&load)
     }
@@ -176,18 +177,25 @@ impl Condensed {
     }
 }
 
+/// Takes in a block of stiffness between two groups of unknowns, column by column.
+type Add<'a> = dyn FnMut(usize, usize, &[f64]) + 'a;
+
 impl Tie {
-    fn new(body: &Macroblock, node: &Node, axis: usize) -> Self {
+    fn new(body: &Inside, node: &Node, axis: usize) -> Self {
         let (along, link) = (node.axes[axis], node.link[axis]);
         let held = node.holds.into_iter().filter(|(_, share)| *share != 0.0);
-        let load = |(i, share): (usize, f64)| (i, body.blocks()[i].displacement_row(node.at, along) * (link * share));
-        Tie { link, loads: held.map(load).collect() }
+        let loads = held.flat_map(|(subblock, share)| {
+            body.row(subblock, node.at, along).into_iter().map(move |(i, each)| (i, each * (link * share)))
+        });
+        Tie { link, loads: loads.collect() }
     }
 
-    /// Adds the link's stiffness on the subblocks.
-    fn stiffness(&self, add: &mut dyn FnMut(usize, usize, &M6)) {
-        for (i, a) in self.loads.iter().filter(|_| self.link > 0.0) {
-            self.loads.iter().for_each(|(j, b)| add(*i, *j, &(a * b.transpose() / self.link)));
+    /// Adds the link's stiffness on the unknowns, of which so many are a group.
+    fn stiffness(&self, group: usize, add: &mut Add) {
+        let groups = || self.loads.chunks_exact(group).filter(|_| self.link > 0.0);
+        for (a, b) in groups().flat_map(|a| groups().map(move |b| (a, b))) {
+            let entries = b.iter().flat_map(|(_, b)| a.iter().map(move |(_, a)| a * b / self.link));
+            add(a[0].0 / group, b[0].0 / group, &entries.collect::<Vec<f64>>());
         }
     }
 
@@ -195,47 +203,42 @@ impl Tie {
     fn work(&self, x: &[f64]) -> f64 {
         // Fused, with one rounding for each product and sum: copies of a stone share what rounding leaves of S, and over
         // hundreds of them it adds up.
-        let terms = self.loads.iter().flat_map(|(i, load)| load.iter().zip(&x[6 * i..6 * i + 6]));
-        terms.fold(0.0, |sum, (load, x)| load.mul_add(*x, sum))
+        self.loads.iter().fold(0.0, |sum, &(i, load)| load.mul_add(x[i], sum))
     }
 }
 
-/// Displacements of the subblocks of a free body under a load in equilibrium, with no motion of the first subblock.
+/// The unknowns of a free body under a load in equilibrium, but for a rigid motion.
 ///
-/// `load`: generalised loads of all subblocks, 6 n_subblocks.
+/// `load`: generalised loads on all unknowns.
 /// None where the body's stiffness does not hold.
 ///
 /// # Errors
 /// When stopped.
-pub fn free_response(body: &Macroblock, load: &DVector<f64>, budget: &Budget) -> Result<Option<DVector<f64>>, Stopped> {
-    let modulus = body.blocks()[0].youngs_modulus();
+pub fn free_response(body: &Inside, load: &DVector<f64>, budget: &Budget) -> Result<Option<DVector<f64>>, Stopped> {
     // Three springs on three rigid motions: statically determinate, so that a load in equilibrium does not feel them.
-    let springs = M6::from_diagonal(&V6::from([modulus, modulus, modulus, 0.0, 0.0, 0.0]));
-    let factors = factor(body, |add| add(0, 0, &springs), budget)?;
+    let factors = factor(body, |add| body.hold(add), budget)?;
     Ok(factors.map(|factors| solve_one(&factors, load)))
 }
 
 /// Factors the stiffness of a body to which `more(add)` adds.
-fn factor(
-    body: &Macroblock,
-    more: impl Fn(&mut dyn FnMut(usize, usize, &M6)),
-    budget: &Budget,
-) -> Result<Option<Factors>, Stopped> {
-    let all = |add: &mut dyn FnMut(usize, usize, &M6)| {
+fn factor(body: &Inside, more: impl Fn(&mut Add), budget: &Budget) -> Result<Option<Factors>, Stopped> {
+    let all = |add: &mut Add| {
         more(&mut *add);
         body.stiffness(|i, j, block| {
             add(i, j, block);
             // Where this says to stop, asking the budget does too.
-            let _ = budget.work(ADDED);
+            let _ = budget.work(ADDED * block.len() / CONSTANT_STRAIN);
         });
     };
-    if body.blocks().len() == 1 {
-        let mut sum = M6::zeros();
-        all(&mut |_, _, block| sum += block);
-        return Ok(Mat::from_fn(6, 6, |i, j| sum[(i, j)]).llt(Side::Lower).ok().map(Factors::Dense));
+    let group = body.group();
+    if body.groups() == 1 {
+        let mut sum = vec![0.0; group * group];
+        all(&mut |_, _, block| sum.iter_mut().zip(block).for_each(|(sum, x)| *sum += x));
+        let whole = Mat::from_fn(group, group, |i, j| sum[j * group + i]);
+        return Ok(whole.llt(Side::Lower).ok().map(Factors::Dense));
     }
     budget.ask()?;
-    let sparse = assemble(body.blocks().len(), all, budget)?;
+    let sparse = assemble([body.groups(), group], all, budget)?;
     budget.ask()?;
     let Ok(order) = SymbolicLlt::try_new(sparse.symbolic(), Side::Lower) else { return Ok(None) };
     budget.ask()?;
@@ -244,27 +247,28 @@ fn factor(
     Ok(factors.ok().map(Factors::Sparse))
 }
 
-/// The blocks on and below the diagonal of a symmetric matrix of 6 x 6 blocks, column by column: the sum of what `all(add)`
-/// adds, twice over. First it is seen which blocks there are, for the list of all that is added is several times as long.
+/// The blocks on and below the diagonal of a symmetric matrix between so many groups of so many unknowns, column by column: the sum of
+/// what `all(add)` adds, twice over. First it is seen which blocks there are, for the list of all that is added is several times as
+/// long.
 fn assemble(
-    blocks: usize,
-    all: impl Fn(&mut dyn FnMut(usize, usize, &M6)),
+    [groups, group]: [usize; 2],
+    all: impl Fn(&mut Add),
     budget: &Budget,
 ) -> Result<SparseColMat<usize, f64>, Stopped> {
-    let mut below = vec![Vec::new(); blocks];
+    let mut below = vec![Vec::new(); groups];
     all(&mut |i, j, _| {
         if i >= j && !below[j].contains(&i) {
             below[j].push(i);
         }
     });
     budget.ask()?;
-    let count = 36 * below.iter().map(Vec::len).sum::<usize>();
-    let (mut start, mut ends, mut rows) = (Vec::with_capacity(blocks), vec![0], Vec::with_capacity(count));
+    let count = group * group * below.iter().map(Vec::len).sum::<usize>();
+    let (mut start, mut ends, mut rows) = (Vec::with_capacity(groups), vec![0], Vec::with_capacity(count));
     for below in &mut below {
         below.sort_unstable();
         start.push(rows.len());
-        for _ in 0..6 {
-            rows.extend(below.iter().flat_map(|i| 6 * i..6 * i + 6));
+        for _ in 0..group {
+            rows.extend(below.iter().flat_map(|i| group * i..group * (i + 1)));
             ends.push(rows.len());
         }
         budget.work(PLACED * below.len())?;
@@ -273,14 +277,14 @@ fn assemble(
     let mut values = vec![0.0; count];
     all(&mut |i, j, block| {
         if let Ok(place) = below[j].binary_search(&i) {
-            for (b, column) in block.column_iter().enumerate() {
-                let first = start[j] + 6 * (b * below[j].len() + place);
-                values[first..first + 6].iter_mut().zip(&column).for_each(|(sum, x)| *sum += x);
+            for (b, column) in block.chunks_exact(group).enumerate() {
+                let first = start[j] + group * (b * below[j].len() + place);
+                values[first..first + group].iter_mut().zip(column).for_each(|(sum, x)| *sum += x);
             }
         }
     });
     budget.ask()?;
-    let pattern = SymbolicSparseColMat::new_checked(6 * blocks, 6 * blocks, ends, None, rows);
+    let pattern = SymbolicSparseColMat::new_checked(group * groups, group * groups, ends, None, rows);
     Ok(SparseColMat::new(pattern, values))
 }
 
@@ -303,8 +307,8 @@ fn parts(columns: usize) -> impl Iterator<Item = Range<usize>> {
     (0..count).map(move |i| i * columns / count..(i + 1) * columns / count)
 }
 
-/// The three rigid motions as displacements of the nodes (orthonormal) and of the subblocks.
-fn rigid_motions(body: &Macroblock, nodes: &[Node]) -> [DMatrix<f64>; 2] {
+/// The three rigid motions as displacements of the nodes (orthonormal) and of the unknowns inside.
+fn rigid_motions(body: &Inside, nodes: &[Node]) -> [DMatrix<f64>; 2] {
     let centre = nodes.iter().map(|n| n.at).sum::<Vec2>() / nodes.len().max(1) as f64;
     let field = |motion: usize, at: Vec2| match motion {
         0 => Vec2::x(),
@@ -313,13 +317,8 @@ fn rigid_motions(body: &Macroblock, nodes: &[Node]) -> [DMatrix<f64>; 2] {
     };
     let of_nodes =
         DMatrix::from_fn(2 * nodes.len(), 3, |i, m| field(m, nodes[i / 2].at).dot(&nodes[i / 2].axes[i % 2]));
-    let of_blocks = DMatrix::from_fn(6 * body.blocks().len(), 3, |i, m| {
-        let block = &body.blocks()[i / 6];
-        let velocity = field(m, block.centroid());
-        let spin = if m == 2 { block.size() } else { 0.0 };
-        V6::from([velocity.x, velocity.y, spin, 0.0, 0.0, 0.0])[i % 6]
-    });
-    orthonormal(of_nodes, of_blocks)
+    let of_body = [0, 1, 2].map(|m| body.rigid(|at| field(m, at), if m == 2 { 1.0 } else { 0.0 }));
+    orthonormal(of_nodes, DMatrix::from_columns(&of_body))
 }
 
 /// Orthonormal columns of `a`, and the same combinations of the columns of `b` (modified Gram and Schmidt, twice).

@@ -19,25 +19,25 @@ pub struct AssemblySize {
 }
 
 impl AssemblySize {
-    /// Of bodies of so many subblocks, joined at interfaces of so many contact points, whose geometry may be `moving`. Entries of
+    /// Of bodies, of which some are one constant-strain subblock, joined at interfaces of so many contact points, whose geometry may be `moving`. Entries of
     /// elements are found first: where they are more than `most`, no more is said.
     ///
     /// # Errors
     /// When stopped.
     pub fn new(
-        subblocks: &[usize],
+        one_block: &[bool],
         interfaces: &[([Beside; 2], usize)],
         moving: bool,
         most: usize,
         budget: &Budget,
     ) -> Result<Self, Stopped> {
-        let of_bodies = interfaces_of(subblocks.len(), interfaces.iter().map(|(between, _)| *between));
+        let of_bodies = interfaces_of(one_block.len(), interfaces.iter().map(|(between, _)| *between));
         let points: Vec<usize> = interfaces.iter().map(|(_, points)| *points).collect();
         let (mut pattern, _, nodes) = Pattern::new(&of_bodies, &points);
         let elements = pattern.faces.len();
         let nodes: Vec<usize> = nodes.into_iter().map(|nodes| nodes.len()).collect();
-        let cored = |&i: &usize| has_core(subblocks[i], of_bodies[i].len(), nodes[i] / 2);
-        let cored: Vec<usize> = (0..subblocks.len()).filter(cored).collect();
+        let cored = |&i: &usize| has_core(one_block[i], of_bodies[i].len(), nodes[i] / 2);
+        let cored: Vec<usize> = (0..one_block.len()).filter(cored).collect();
         cored.iter().for_each(|&body| pattern.add_core(body));
         let entries = (0..pattern.faces.len()).map(|element| pattern.size(element).pow(2)).sum();
         let mut size = AssemblySize { nodes, elements: entries, ..AssemblySize::default() };

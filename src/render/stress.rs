@@ -120,9 +120,16 @@ mod tests {
             let x = k as f64;
             let corners = [[x, 0.0], [x + 1.0, 0.0], [x + 1.0, 1.0], [x, 1.0]].map(Vec2::from).to_vec();
             let stress = [0.0, -1e6 * (x + 1.0), 0.0];
-            SubblockStress { voussoir: k, place: [0, 0], centre: Vec2::new(x + 0.5, 0.5), corners, stress }
+            SubblockStress {
+                voussoir: k,
+                place: [0, 0],
+                centre: Vec2::new(x + 0.5, 0.5),
+                corners,
+                stress,
+                corner_stress: vec![stress; 4],
+            }
         };
-        StressField { load_factor: 1.0, subblocks: (0..4).map(cell).collect() }
+        StressField { load_factor: 1.0, subblocks: (0..4).map(cell).collect(), roughness: Vec::new() }
     }
 
     #[test]
@@ -148,6 +155,14 @@ mod tests {
 
     #[test]
     fn a_field_of_nothing_is_not_drawn() {
-        assert_eq!(svg(&StressField { load_factor: 1.0, subblocks: Vec::new() }, std::iter::empty(), "", ""), None);
+        assert_eq!(
+            svg(
+                &StressField { load_factor: 1.0, subblocks: Vec::new(), roughness: Vec::new() },
+                std::iter::empty(),
+                "",
+                ""
+            ),
+            None
+        );
     }
 }

@@ -35,11 +35,13 @@ fn beam_request() -> Request {
 
 fn subblock() -> SubblockStress {
     let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 2.0], [0.0, 2.0]].map(Vec2::from).to_vec();
-    SubblockStress { voussoir: 4, place: [1, 2], centre: Vec2::new(0.5, 1.0), corners, stress: [-5.0, 1.0, 4.0] }
+    let stress = [-5.0, 1.0, 4.0];
+    let corner_stress = vec![stress; corners.len()];
+    SubblockStress { voussoir: 4, place: [1, 2], centre: Vec2::new(0.5, 1.0), corners, stress, corner_stress }
 }
 
 fn field(load_factor: f64) -> StressField {
-    StressField { load_factor, subblocks: vec![subblock(); 2] }
+    StressField { load_factor, subblocks: vec![subblock(); 2], roughness: Vec::new() }
 }
 
 fn factors() -> SafetyFactors {
@@ -108,12 +110,14 @@ fn a_stress_field_is_served_in_columns() {
     let answer = served(&request(json!("collapse")), &Answer::One(Box::new(report())));
     let field = &answer["stress_fields"][0];
     assert_eq!((&field["load_factor"], &field["intensity"]), (&json!(1.0), &json!(10.0)));
+    let all = |number: f64| vec![[number; 4]; 2];
     let columns = json!({
         "voussoir": [4, 4], "radial": [1, 1], "along": [2, 2], "centre_x_m": [0.5, 0.5], "centre_y_m": [1.0, 1.0],
         "corners_x_m": [[0.0, 1.0, 1.0, 0.0], [0.0, 1.0, 1.0, 0.0]],
         "corners_y_m": [[0.0, 0.0, 2.0, 2.0], [0.0, 0.0, 2.0, 2.0]],
         "sigma_x_pa": [-5.0, -5.0], "sigma_y_pa": [1.0, 1.0], "tau_xy_pa": [4.0, 4.0],
         "sigma_1_pa": [3.0, 3.0], "sigma_2_pa": [-7.0, -7.0], "tresca_pa": [10.0, 10.0],
+        "corner_sigma_x_pa": all(-5.0), "corner_sigma_y_pa": all(1.0), "corner_tau_xy_pa": all(4.0),
     });
     assert_eq!(field["subblocks"], columns);
 }

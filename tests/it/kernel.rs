@@ -86,7 +86,7 @@ fn stack(shifts: &[f64], b: f64, h: f64, friction: f64) -> (Vec<Rectangle>, Asse
 fn body_loads(blocks: &[Rectangle], chain: &Assembly, acceleration: Vec2) -> Loads {
     let push = |(body, r): (usize, &Rectangle)| Push {
         body,
-        subblock: 0,
+        subblock: Some(0),
         at: 0.5 * (r.low + r.high),
         force: acceleration * (WEIGHT_DENSITY * r.area()),
     };

@@ -107,6 +107,8 @@ mod safety;
 #[cfg(feature = "server")]
 mod scene;
 #[cfg(feature = "server")]
+mod second_order;
+#[cfg(feature = "server")]
 mod service;
 #[cfg(all(feature = "server", unix))]
 mod serving;

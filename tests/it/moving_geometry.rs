@@ -74,7 +74,7 @@ fn two_shallow_bars_snap_through_at_the_load_of_von_mises() {
             builder.join(in_a_row(k, 2), [-1.0, 1.0].map(pin));
         }
         let chain = builder.finish(&Budget::unlimited()).unwrap();
-        let push = Push { body: 0, subblock: 0, at: top, force: Vec2::new(0.0, -1e5) };
+        let push = Push { body: 0, subblock: Some(0), at: top, force: Vec2::new(0.0, -1e5) };
         let found = limit_point(&chain, push, 2.0 * a);
         let c = alpha.cos();
         let stiffness = modulus * thickness / length;
@@ -105,7 +105,7 @@ fn a_column_under_an_eccentric_load_falls_when_its_lever_reaches_the_edge() {
         }
         let chain = builder.finish(&Budget::unlimited()).unwrap();
         let at = Vec2::new(eccentricity, n as f64 * height);
-        let push = Push { body: n - 1, subblock: 0, at, force: Vec2::new(0.0, -1e5) };
+        let push = Push { body: n - 1, subblock: Some(0), at, force: Vec2::new(0.0, -1e5) };
         let found = limit_point(&chain, push, n as f64 * height);
         let rotational = 0.5 * stiffness * width * width;
         let lever = |load: f64| {

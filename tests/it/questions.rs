@@ -110,7 +110,8 @@ fn defaults_ask_what_was_always_asked() {
     assert_eq!((&analysis.task, analysis.mesh.seams), (&Task::Collapse(CollapseTask::default()), Seams::Split));
     assert_eq!(analysis.mesh.subblocks, [[1, 1]; 12]);
     let echo = serde_json::to_value(read(request.to_string().as_bytes()).unwrap()).unwrap();
-    assert_eq!(echo["mesh"], json!({"subblocks": {"uniform": {"radial": 1, "along": 1}}, "seams": "split"}));
+    let whole = json!({"uniform": {"radial": 1, "along": 1}});
+    assert_eq!(echo["mesh"], json!({"subblocks": whole, "seams": "split", "order": 1, "lines": "even"}));
     assert_eq!((&echo["analysis"], &echo["report"]["stress_fields"]), (&json!("collapse"), &json!([])));
     let beam = with(beam(), "/mesh", json!({}));
     let Question::CurvedBeam(beam) = question(&beam) else { panic!("a beam") };

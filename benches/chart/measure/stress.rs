@@ -103,6 +103,7 @@ mod tests {
                 centre,
                 corners: corners.to_vec(),
                 stress: stress(centre.x, centre.y),
+                corner_stress: corners.map(|corner| stress(corner.x, corner.y)).to_vec(),
             }
         };
         let places = meshes

@@ -3,7 +3,7 @@ use crate::arch::profile::Profile;
 use crate::arch::ring::{JointLines, Line, Ring, Thickness, stations};
 use crate::arch::{assemble, straight_voussoirs};
 use crate::collapse::{CurvePoint, Mesh, Path, SafetyTask, Task, safety};
-use crate::geometry::perpendicular;
+use crate::geometry::{Region, perpendicular};
 use crate::largest::largest;
 use crate::structure::JointLaw;
 
@@ -21,7 +21,7 @@ fn semicircle(n: usize, subblocks: [usize; 2], curved: bool) -> Analysis {
     let stones = if curved { ring.curved_voussoirs(&ends).unwrap() } else { straight_voussoirs(&ends).unwrap() };
     let law = JointLaw::Dry { friction: 0.6, cohesion: 0.0 };
     let structure = assemble(&ends, stones, Stone::default(), law);
-    let mesh = Mesh { subblocks: vec![subblocks; n], seams: Seams::Split };
+    let mesh = Mesh::of(vec![subblocks; n]);
     Analysis { mesh, ..Analysis::new(structure, Vec::new(), Vec::new()) }
 }
 

@@ -1,8 +1,9 @@
 //! The contact points of a joint: where they are, their stiffness and their law.
 
 use super::super::grid::{Grid, ON_LINE, OnSide};
-use super::super::strips::{Points, nearest};
+use super::super::strips::{Points, consistent, nearest};
 use super::Analysis;
+use crate::collapse::Order;
 use crate::dda::{Law, Touch};
 use crate::geometry::Vec2;
 use crate::structure::{Joint, JointLaw, PassiveElement};
@@ -92,9 +93,12 @@ pub(super) fn passive(element: &PassiveElement, grid: &Grid, penalty: f64) -> To
     }
 }
 
-/// A joint's contact points: those of its strips, where it has any; else each of [`places`], with what is nearest to it.
+/// A joint's contact points: those of its strips, where it has any; else each of [`places`], with what is nearest to it; between
+/// second-order subblocks, besides, the middles between these.
 pub(super) fn points(strips: Option<Points>, law: JointLaw, around: &Around) -> Points {
-    strips.unwrap_or_else(|| nearest(places(law, around)))
+    let second = around.iter().flatten().any(|(grid, _)| grid.order == Order::Second);
+    let drawn = || if second { consistent(&lines(around)) } else { nearest(places(law, around)) };
+    strips.unwrap_or_else(drawn)
 }
 
 /// Places of the contact points of a joint between two bodies, from 0 at its first end to 1 at its second.
@@ -106,6 +110,11 @@ fn places(law: JointLaw, around: &Around<'_>) -> Vec<f64> {
     if let Some((grid, _)) = around[0].filter(|(grid, _)| law == JointLaw::Mirror && grid.radial > 1) {
         return (0..grid.radial).map(|i| (i as f64 + 0.5) / grid.radial as f64).collect();
     }
+    lines(around)
+}
+
+/// Places of a joint's ends, and of all lines that meet it from either side.
+fn lines(around: &Around<'_>) -> Vec<f64> {
     let lines = around.iter().flatten().flat_map(|(grid, on)| grid.lines_on(*on));
     let mut places: Vec<f64> = [0.0, 1.0].into_iter().chain(lines).collect();
     places.sort_by(f64::total_cmp);

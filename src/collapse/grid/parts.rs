@@ -6,7 +6,7 @@
 //! two neighbouring sides.
 
 use super::patch::{Patch, Polyline};
-use super::{Grid, ON_LINE};
+use super::{Cut, Grid, ON_LINE};
 use crate::geometry::{Vec2, cross, segments_meet};
 use crate::structure::{Body, Sides};
 
@@ -31,7 +31,8 @@ pub(super) fn parts(body: &Body) -> Vec<Patch> {
     }
     let corners = |least: f64| (0..turns.len()).filter(|&i| turns[i] > least).collect::<Vec<_>>();
     let divisions = [SHARP, TURNS].map(corners).into_iter().filter(|corners| corners.len() >= 3);
-    let serves = |parts: &Vec<Patch>| Grid::cut(body, parts.clone(), [TRIED, TRIED * parts.len()]).is_some();
+    let tried = |parts: &Vec<Patch>| [TRIED, TRIED * parts.len()];
+    let serves = |parts: &Vec<Patch>| Grid::cut(body, parts.clone(), tried(parts), Cut::default()).is_some();
     divisions.map(|corners| divided(body, &corners)).find(serves).unwrap_or_default()
 }
 

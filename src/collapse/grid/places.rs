@@ -1,6 +1,7 @@
 //! Where points and joints lie on a stone that is cut.
 
 use super::patch::{Patch, Polyline};
+use super::spacing::shares;
 use super::{Grid, ON_LINE};
 use crate::geometry::{Vec2, cross, distance_from_segment, lies_inside};
 
@@ -56,13 +57,13 @@ impl Grid {
         best.0
     }
 
-    /// Subblocks along a side.
-    fn on_side(&self, side: usize) -> usize {
+    /// Places of the ends of the subblocks along a side.
+    fn ends_on(&self, side: usize) -> Vec<f64> {
+        let [across, along] = &self.lines;
         match self.patches.len() {
-            0 => 1,
-            1 if side < 2 => self.radial,
-            1 => self.along,
-            _ => 2 * self.radial,
+            0 | 1 => self.lines[side / 2].clone(),
+            // There and back in the next part.
+            _ => along.iter().map(|x| 0.5 * x).chain(across.iter().rev().skip(1).map(|x| 1.0 - 0.5 * x)).collect(),
         }
     }
 
@@ -81,8 +82,9 @@ impl Grid {
 
     /// Places on a joint, from 0 to 1, where two subblocks of this stone meet.
     pub(in super::super) fn lines_on(&self, OnSide { side, ends: [from, to] }: OnSide) -> impl Iterator<Item = f64> {
-        let count = self.on_side(side);
-        let places = (1..count).map(move |k| (k as f64 / count as f64 - from) / (to - from));
+        let mut ends = self.ends_on(side);
+        ends.pop();
+        let places = ends.into_iter().skip(1).map(move |end| (end - from) / (to - from));
         places.filter(|place| (ON_LINE..1.0 - ON_LINE).contains(place))
     }
 
@@ -94,7 +96,7 @@ impl Grid {
         eta: f64,
         around: [f64; 2],
     ) -> Shares {
-        let [mut lower, mut upper] = shares(from + (to - from) * eta, self.on_side(side));
+        let [mut lower, mut upper] = shares(from + (to - from) * eta, &self.ends_on(side), ON_LINE);
         if upper.1 > 0.0 {
             let [below, above] = if from < to { around } else { [around[1], around[0]] };
             (lower.1, upper.1) = (below / (below + above), above / (below + above));
@@ -115,7 +117,7 @@ impl Grid {
             _ => return self.nearest(at),
         };
         let (xi, eta) = if self.is_whole() { (0.5, 0.5) } else { place(patch, at) };
-        let (rows, columns) = (shares(eta, self.radial), shares(xi, self.along));
+        let [rows, columns] = [(eta, 0), (xi, 1)].map(|(place, way)| shares(place, &self.lines[way], ON_LINE));
         let cells = columns.map(|(j, along)| rows.map(|(i, share)| (self.number(i, j), along * share)));
         cells.into_iter().flatten().filter(|(_, share)| *share > 0.0).collect()
     }
@@ -135,7 +137,7 @@ impl Grid {
 }
 
 /// The place (xi, eta) of a point, by Newton's method.
-fn place(patch: &Patch, at: Vec2) -> (f64, f64) {
+pub(super) fn place(patch: &Patch, at: Vec2) -> (f64, f64) {
     let (mut xi, mut eta) = (0.5, 0.5);
     let step = PLACE_DIFFERENCE;
     for _ in 0..PLACE_STEPS {
@@ -150,15 +152,4 @@ fn place(patch: &Patch, at: Vec2) -> (f64, f64) {
         eta += cross(by_xi, miss) / area;
     }
     (xi, eta)
-}
-
-/// The cells of `count` equal ones that `share` of the way touches: one, or the two beside a line.
-fn shares(share: f64, count: usize) -> Shares {
-    let place = share * count as f64;
-    let line = place.round();
-    if (place - line).abs() < ON_LINE && line > 0.0 && line < count as f64 {
-        return [(line as usize - 1, 0.5), (line as usize, 0.5)];
-    }
-    // Casting saturates: what lies outside belongs to the cell at the rim.
-    [((place.floor() as usize).min(count - 1), 1.0), (0, 0.0)]
 }

@@ -1,10 +1,14 @@
-//! The error of a stress field, by comparing it with the field on a coarser mesh.
+//! The error of a stress field: of second order by how rough it is, of first order by comparing it with the field on a coarser mesh.
 //!
-//! The two meshes nest, so that every subblock of the coarser is made up of whole ones of the finer. What the coarser
+//! A field of second order is about as far from the smooth one that is recovered from it as from the exact one. Against finite
+//! elements (closed joints, half-way and 0.9 of the way to collapse; graded) it was 0.9 to 1.6 times as far with three subblocks
+//! along or more, 0.5 to 1 times with two, of which a cubic leaves nothing over.
+//!
+//! Two meshes of first order nest, so that every subblock of the coarser is made up of whole ones of the finer. What the coarser
 //! says of it is held against the mean over these: stress in a subblock is a mean, and means can be compared exactly.
 
 use crate::collapse::report::tresca;
-use crate::collapse::{StressField, SubblockStress};
+use crate::collapse::{Roughness, StressField, SubblockStress};
 use crate::geometry::Region;
 
 /// What two fields say of one voussoir: squares, integrated over its area, Pa2 m2.
@@ -51,6 +55,10 @@ fn difference(coarse: &[SubblockStress], fine: &[SubblockStress]) -> Difference 
 fn area_of(subblock: &SubblockStress) -> f64 {
     Region::polygon(&subblock.corners).area
 }
+
+/// What an error is taken to be over the roughness, where there are fewer than so many subblocks along, and where there are more.
+const FEW: usize = 3;
+const MARGINS: [f64; 2] = [2.0, 1.15];
 
 /// Slowest and fastest convergence that an estimate counts on, as exponents of the subblocks' size.
 pub(super) type Orders = [f64; 2];
@@ -102,13 +110,27 @@ impl FieldErrors {
         }
     }
 
+    /// Takes in how rough the field of second order is in every voussoir, after those that are `refined` got finer subblocks.
+    pub(super) fn take_rough(&mut self, roughness: &[Roughness], refined: &[bool]) {
+        self.norm = roughness.iter().map(|rough| rough.whole).sum::<f64>().sqrt();
+        for ((known, rough), refined) in self.voussoirs.iter_mut().zip(roughness).zip(refined) {
+            let error = MARGINS[usize::from(rough.columns >= FEW)] * rough.apart.sqrt();
+            if *refined {
+                let [slowest, fastest] = self.orders;
+                let order = Some((known.error / error).log2()).filter(|order| !order.is_nan());
+                known.order = order.map(|order| order.clamp(slowest, fastest));
+            }
+            known.error = error;
+        }
+    }
+
     /// Squared error of every voussoir as a share of the squared norm; after `halvings` more of its subblocks, hoping for the best
     /// where no order is known.
     pub(super) fn shares(&self, halvings: i32) -> impl Iterator<Item = f64> + '_ {
         let (norm, fastest) = (self.norm, self.orders[1]);
         self.voussoirs.iter().map(move |known| {
             let error = known.error * (-known.order.unwrap_or(fastest) * f64::from(halvings)).exp2();
-            if error > 0.0 { (error / norm).powi(2) } else { 0.0 }
+            if error == 0.0 { 0.0 } else { (error / norm).powi(2) }
         })
     }
 }

@@ -1,14 +1,19 @@
 //! Meshes of one body that nest, from coarse to fine, of subblocks that are about square.
 
-use super::super::grid::{can_be_cut, extents, subblocks_of};
+use super::super::grid::{can_be_cut, can_bend, extents, subblocks_of};
+use super::super::{Order, Spacing};
 use crate::structure::{Body, Joint, JointLaw, Side, Structure};
 
 /// Into how many pieces the loads on the extrados side of every voussoir have to be cut for any of these meshes: their
 /// numbers along divide it.
 pub const LOAD_PIECES: usize = 96;
 
-/// Subblocks from intrados to extrados in a voussoir's first mesh: the least that bend.
-const FIRST_RADIAL: usize = 2;
+/// Subblocks from intrados to extrados in a voussoir's first mesh, of first and of second order: the least that bend, and the least
+/// whose error can be told.
+const FIRST_RADIAL: [usize; 2] = [2, 4];
+/// Least subblocks along over those across, and least of each part of a body either way, of second order: one leaves nothing to differ by.
+const SECOND_COLUMNS: f64 = 0.5;
+const SECOND_EACH: usize = 2;
 /// Most subblocks in either direction.
 pub(in super::super) const MOST_EACH_WAY: usize = 48;
 
@@ -18,6 +23,11 @@ const ASPECT: f64 = 1.5;
 /// How much shorter than that subblocks may become when they are halved along as well as across.
 const SHORTER: f64 = 0.7;
 
+/// How the subblocks of meshes that are found are drawn: of second order, graded, wherever all bodies can be.
+pub(in super::super) fn drawing(structure: &Structure) -> (Order, Spacing) {
+    if structure.bodies.iter().all(can_bend) { (Order::Second, Spacing::Graded) } else { Default::default() }
+}
+
 /// Subblocks, radial and along, of ever finer meshes of body `k`: each has whole subblocks of the next in every one of
 /// its own.
 pub(super) fn ladder(structure: &Structure, k: usize) -> Vec<[usize; 2]> {
@@ -25,7 +35,7 @@ pub(super) fn ladder(structure: &Structure, k: usize) -> Vec<[usize; 2]> {
     // A stone that is cut in two on the axis has half of the pieces.
     let pieces = if structure.joints.iter().any(mirrored) { LOAD_PIECES / 2 } else { LOAD_PIECES };
     let of_arch = structure.spans.iter().any(|span| span.bodies.contains(&k));
-    meshes(&structure.bodies[k], if of_arch { ASPECT } else { 1.0 }, pieces)
+    meshes(&structure.bodies[k], if of_arch { ASPECT } else { 1.0 }, pieces, drawing(structure).0)
 }
 
 /// Of the meshes whose bodies are all refined alike, the finest of at most so many subblocks (or the coarsest), and the next.
@@ -42,26 +52,30 @@ pub(in super::super) fn around(structure: &Structure, most: usize) -> [Vec<[usiz
 
 /// Whether the error of the stress in a body can be told: by two meshes.
 pub fn can_be_refined(body: &Body) -> bool {
-    meshes(body, 1.0, LOAD_PIECES).len() >= 2
+    meshes(body, 1.0, LOAD_PIECES, Order::First).len() >= 2
 }
 
 /// Meshes of a body, of subblocks `aspect` times as long as high: of one with four sides from two subblocks across its shorter
 /// extent on, of another from one each way in each part.
-fn meshes(body: &Body, aspect: f64, pieces: usize) -> Vec<[usize; 2]> {
-    let meshes = match (extents(body), subblocks_of(body, [2, 2])) {
-        (Some([radial, along]), _) if aspect > 1.0 || along >= radial => {
-            rungs(FIRST_RADIAL, along / radial / aspect, pieces)
-        }
+fn meshes(body: &Body, aspect: f64, pieces: usize, order: Order) -> Vec<[usize; 2]> {
+    let (first, least, each) = match order {
+        Order::First => (FIRST_RADIAL[0], 0.0, 1),
+        Order::Second => (FIRST_RADIAL[1], SECOND_COLUMNS, SECOND_EACH),
+    };
+    let columns = |long: f64, across: f64| (long / across / aspect).max(least);
+    let meshes = match (extents(body), subblocks_of(body, [2, 2], Order::First)) {
+        (Some([radial, along]), _) if aspect > 1.0 || along >= radial => rungs(first, columns(along, radial), pieces),
         (Some([radial, along]), _) => {
-            rungs(FIRST_RADIAL, radial / along / aspect, pieces).into_iter().map(|[i, j]| [j, i]).collect()
+            rungs(first, columns(radial, along), pieces).into_iter().map(|[i, j]| [j, i]).collect()
         }
         (None, Some([_, parts])) => {
             let finer = |each: &usize| Some(2 * each).filter(|each| parts * each <= MOST_EACH_WAY.max(2 * parts));
-            std::iter::successors(Some(1), finer).map(|each| [each, parts * each]).collect()
+            std::iter::successors(Some(each), finer).map(|each| [each, parts * each]).collect()
         }
         (None, None) => Vec::new(),
     };
-    let meshes: Vec<_> = meshes.into_iter().take_while(|&mesh| can_be_cut(body, mesh)).collect();
+    let meshes: Vec<_> =
+        meshes.into_iter().take_while(|&mesh| can_be_cut(body, mesh, Order::First, Spacing::Even)).collect();
     if meshes.is_empty() { vec![[1, 1]] } else { meshes }
 }
 

@@ -84,7 +84,8 @@ fn unfolded_field(structure: &Structure, left: &StressField) -> StressField {
             ..mirror_image_of(subblock, axis)
         }));
     }
-    StressField { load_factor: left.load_factor, subblocks }
+    let roughness = (0..n).map(|k| left.roughness[k.min(n - 1 - k)]).collect();
+    StressField { load_factor: left.load_factor, subblocks, roughness }
 }
 
 /// A subblock on the other side, its corners counter-clockwise from the intrados end at the joint before again.
@@ -93,5 +94,8 @@ fn mirror_image_of(subblock: &SubblockStress, axis: f64) -> SubblockStress {
     // The first two and the last two change places.
     let mut corners: Vec<Vec2> = subblock.corners.iter().map(|&corner| mirrored(corner, axis)).collect();
     corners.chunks_mut(2).for_each(<[Vec2]>::reverse);
-    SubblockStress { centre: mirrored(subblock.centre, axis), corners, stress: [x, y, -tau], ..subblock.clone() }
+    let mut corner_stress: Vec<_> = subblock.corner_stress.iter().map(|&[x, y, tau]| [x, y, -tau]).collect();
+    corner_stress.chunks_mut(2).for_each(<[[f64; 3]]>::reverse);
+    let centre = mirrored(subblock.centre, axis);
+    SubblockStress { centre, corners, stress: [x, y, -tau], corner_stress, ..subblock.clone() }
 }

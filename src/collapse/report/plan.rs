@@ -1,5 +1,7 @@
 //! What was modelled to answer as accurately as asked, and why.
 
+use crate::collapse::{Order, Spacing};
+
 /// The model that was picked.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
@@ -7,6 +9,10 @@ pub struct Plan {
     pub half: bool,
     /// Subblocks of every voussoir of the whole arch, radial and along; a keystone that was cut in two counts both halves.
     pub subblocks: Vec<[usize; 2]>,
+    /// How displacements vary in them.
+    pub order: Order,
+    /// Where their lines lie.
+    pub spacing: Spacing,
     /// Accuracy of the collapse load factor, where asked.
     pub collapse_intensity: Option<Estimate>,
     /// Accuracy of the stress fields, where asked.
@@ -92,7 +98,7 @@ pub struct MeshTried {
     pub subblocks: usize,
     /// Contact points modelled; none for the curved beam, which has no joints.
     pub contact_points: Option<usize>,
-    /// Estimated error of the stress, as a share; none for the first mesh, which has none to be compared with.
+    /// Estimated error of the stress, as a share; none for the first mesh of first order, which has none to be compared with.
     #[cfg_attr(feature = "server", serde(rename = "stress_estimate"))]
     pub stress: Option<f64>,
 }

@@ -3,7 +3,7 @@
 use super::{BeamPlan, LimitWindow, Mode, Note, PathEnd};
 use crate::geometry::Vec2;
 
-/// State of stress in one subblock, constant in it.
+/// State of stress in one subblock.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SubblockStress {
     /// Which body.
@@ -15,8 +15,22 @@ pub struct SubblockStress {
     /// Corners, counter-clockwise from the intrados end at the joint before, m; four, and
     /// those of the body's own between them; all of a whole body.
     pub corners: Vec<Vec2>,
-    /// sigma_x, sigma_y, tau_xy, Pa, compression negative.
+    /// sigma_x, sigma_y, tau_xy, Pa, compression negative: constant, or of second order the mean.
     pub stress: [f64; 3],
+    /// The same at the corners: of second order it is bilinear between them; of first order it is that of a smooth field, recovered from
+    /// the neighbours, and of a whole body the one there is.
+    pub corner_stress: Vec<[f64; 3]>,
+}
+
+/// What a smooth field in a body differs by from one of second order: squares of the equivalent stress, integrated over the body, Pa2 m2.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Roughness {
+    /// Of the difference.
+    pub apart: f64,
+    /// Of the field itself.
+    pub whole: f64,
+    /// Subblocks along each part of the body: few leave little to differ by.
+    pub columns: usize,
 }
 
 impl SubblockStress {
@@ -51,6 +65,8 @@ pub struct StressField {
     pub load_factor: f64,
     /// Every subblock: voussoir by voussoir, in it from joint to joint, in that from intrados to extrados.
     pub subblocks: Vec<SubblockStress>,
+    /// How rough it is in every body, of second order; zero of first.
+    pub roughness: Vec<Roughness>,
 }
 
 /// When the equivalent stress first reaches the strength.

@@ -1,11 +1,11 @@
 //! Building an assembly: contact points, and stones of one shape condensed once.
 
-use super::{Assembly, Beside, Instance, Kind, Site, Strain, stresses};
+use super::{Assembly, Beside, Instance, Kind, Site, Strain};
 use crate::budget::Budget;
 use crate::dda::condense::{Condensed, Loose, Node, Unbuilt};
 use crate::dda::contact::{Contact, Law};
 use crate::dda::elements::{Elements, Pattern};
-use crate::dda::macroblock::Macroblock;
+use crate::dda::inside::Inside;
 use crate::dda::panels::ThreeOfEight;
 use crate::dda::tree::Tree;
 use crate::geometry::{Vec2, cross, perpendicular};
@@ -44,7 +44,7 @@ pub struct Touch {
 /// Builds an [`Assembly`].
 #[derive(Debug)]
 pub struct AssemblyBuilder {
-    macroblocks: Vec<Macroblock>,
+    bodies: Vec<Inside>,
     interfaces: Vec<Joined>,
 }
 
@@ -57,8 +57,8 @@ struct Joined {
 
 impl AssemblyBuilder {
     /// An assembly of these bodies, not yet joined to anything.
-    pub fn new(macroblocks: Vec<Macroblock>) -> Self {
-        AssemblyBuilder { macroblocks, interfaces: Vec::new() }
+    pub fn new(bodies: Vec<Inside>) -> Self {
+        AssemblyBuilder { bodies, interfaces: Vec::new() }
     }
 
     /// Joins what lies before an interface to what lies after it, by these contact points.
@@ -71,18 +71,17 @@ impl AssemblyBuilder {
     /// # Errors
     /// When a body is not held by two contact points at least, or when stopped.
     pub fn finish(self, budget: &Budget) -> Result<Assembly, Unbuilt> {
-        let of_bodies =
-            interfaces_of(self.macroblocks.len(), self.interfaces.iter().map(|interface| interface.between));
+        let of_bodies = interfaces_of(self.bodies.len(), self.interfaces.iter().map(|interface| interface.between));
         let mut kinds: Vec<Kind> = Vec::new();
         let mut bodies = Vec::new();
-        for (i, macroblock) in self.macroblocks.iter().enumerate() {
+        for (i, inside) in self.bodies.iter().enumerate() {
             let nodes: Vec<Node> =
                 of_bodies[i].iter().flat_map(|&(k, side)| nodes(&self.interfaces[k].touches, side)).collect();
             let (origin, x_axis) = nodes.first().map(|n| (n.at, n.axes[0])).ok_or(Loose)?;
-            let (seen, nodes) = (macroblock.seen_from(origin, x_axis), seen_nodes(&nodes, origin, x_axis));
+            let (seen, nodes) = (inside.seen_from(origin, x_axis), seen_nodes(&nodes, origin, x_axis));
             let rounding = COORDINATE_ROUNDING * (origin.amax() + extent(&nodes));
             // A kind is compared, or a new one made.
-            budget.work(BODY_WORK * (1 + kinds.len() + seen.blocks().len()))?;
+            budget.work(BODY_WORK * (1 + kinds.len() + seen.subblocks()))?;
             let same = |kind: &Kind| alike(kind, &seen, &nodes, rounding);
             let kind = match kinds.iter().rposition(same) {
                 Some(kind) => kind,
@@ -108,7 +107,7 @@ impl AssemblyBuilder {
         let (unknowns, elements) = (pattern.unknowns(), pattern.faces.len());
         let kind_of = |body: usize| &kinds[bodies[body].kind];
         let cored: Vec<usize> = (0..bodies.len())
-            .filter(|&i| has_core(kind_of(i).macroblock.blocks().len(), of_bodies[i].len(), kind_of(i).nodes.len()))
+            .filter(|&i| has_core(kind_of(i).inside.is_one_block(), of_bodies[i].len(), kind_of(i).nodes.len()))
             .collect();
         cored.iter().for_each(|&body| pattern.add_core(body));
         let mut elastic = Elements::zeros(&pattern);
@@ -121,7 +120,8 @@ impl AssemblyBuilder {
                 (element, from) = (element + 1, to);
             }
             // Symmetric, so that columns are rows.
-            elastic.get_mut(element).copy_from_slice(kind.macroblock.blocks()[0].stiffness().as_slice());
+            let core = elastic.get_mut(element);
+            kind.inside.stiffness(|_, _, block| core.copy_from_slice(block));
             element += 1;
         }
         for (i, body) in bodies.iter().enumerate() {
@@ -177,41 +177,33 @@ pub(in crate::dda) fn interfaces_of(
     of_bodies
 }
 
-/// Whether a body of so many subblocks between so many faces with so many nodes is better eliminated by way of its own unknowns:
-/// where it has one subblock, more than the two faces of a chain, and fewer unknowns than they.
-pub(in crate::dda) fn has_core(subblocks: usize, faces: usize, nodes: usize) -> bool {
-    subblocks == 1 && faces > 2 && 2 * nodes > 6
+/// Whether a body between so many faces with so many nodes is better eliminated by way of its own unknowns: where it is one
+/// constant-strain subblock, with more than the two faces of a chain, and fewer unknowns than they.
+pub(in crate::dda) fn has_core(one_block: bool, faces: usize, nodes: usize) -> bool {
+    one_block && faces > 2 && 2 * nodes > 6
 }
 
 impl Kind {
-    fn new(macroblock: Macroblock, nodes: Vec<Node>, budget: &Budget) -> Result<Self, Unbuilt> {
-        let blocks = macroblock.blocks();
-        let area: f64 = blocks.iter().map(|b| b.area()).sum();
-        let mean = DMatrix::from_fn(3, 6 * blocks.len(), |i, j| {
-            let block = &blocks[j / 6];
-            let weight = block.area() / area / if i == 2 { block.size() } else { 1.0 };
-            if j % 6 == i { weight } else { 0.0 }
-        });
-        let stress: Vec<_> = blocks.iter().map(|b| b.stress_matrix()).collect();
-        let columns = 2 * nodes.len();
+    fn new(inside: Inside, nodes: Vec<Node>, budget: &Budget) -> Result<Self, Unbuilt> {
+        let (mean, stress, columns) = (inside.mean(), inside.stress(), 2 * nodes.len());
         let mut mean_of_nodes = DMatrix::zeros(3, columns);
-        let kept = Some(3 * blocks.len()).filter(|rows| rows * columns <= MOST_KEPT);
+        let kept = Some(3 * inside.subblocks()).filter(|rows| rows * columns <= MOST_KEPT);
         let mut stress_of_nodes = kept.map(|rows| DMatrix::zeros(rows, columns));
-        let condensed = Condensed::new(&macroblock, &nodes, budget, |j, d| {
+        let condensed = Condensed::new(&inside, &nodes, budget, |j, d| {
             mean_of_nodes.set_column(j, &(&mean * DVectorView::from_slice(d, d.len())));
             if let Some(of_nodes) = &mut stress_of_nodes {
-                of_nodes.set_column(j, &stresses(&stress, d));
+                of_nodes.set_column(j, &stress.mean(d));
             }
         })?;
         let whole = stress_of_nodes.as_ref().and_then(|stress| Some([by_rows(&mean_of_nodes)?, by_rows(stress)?]));
         let strain = match &stress_of_nodes {
-            Some(of_nodes) if blocks.len() > 1 => {
+            Some(of_nodes) if inside.subblocks() > 1 => {
                 budget.work(3 * of_nodes.len())?;
                 Some(Strain::new(&nodes, of_nodes))
             }
             _ => None,
         };
-        Ok(Kind { macroblock, nodes, condensed, mean, mean_of_nodes, stress, stress_of_nodes, whole, strain })
+        Ok(Kind { inside, nodes, condensed, mean, mean_of_nodes, stress, stress_of_nodes, whole, strain })
     }
 }
 
@@ -241,7 +233,7 @@ fn extent(nodes: &[Node]) -> f64 {
 }
 
 /// True where a body seen from its own frame is the same as `kind`, up to the rounding of its coordinates.
-fn alike(kind: &Kind, body: &Macroblock, nodes: &[Node], rounding: f64) -> bool {
+fn alike(kind: &Kind, body: &Inside, nodes: &[Node], rounding: f64) -> bool {
     let near = |a: Vec2, b: Vec2| (a - b).amax() <= rounding;
     let parallel = |a: Vec2, b: Vec2, size: f64| (a - b).amax() * size <= rounding;
     let size = extent(nodes);
@@ -252,5 +244,5 @@ fn alike(kind: &Kind, body: &Macroblock, nodes: &[Node], rounding: f64) -> bool 
     };
     kind.nodes.len() == nodes.len()
         && kind.nodes.iter().zip(nodes).all(same_node)
-        && kind.macroblock.same_as(body, rounding)
+        && kind.inside.same_as(body, rounding)
 }

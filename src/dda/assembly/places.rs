@@ -96,9 +96,7 @@ impl Assembly {
     ) -> MeanMotion {
         let body = &self.bodies[i];
         let kind = &self.kinds[body.kind];
-        let blocks = kind.macroblock.blocks();
-        let area: f64 = blocks.iter().map(|b| b.area()).sum();
-        let middle = blocks.iter().map(|b| b.centroid() * (b.area() / area)).sum::<Vec2>();
+        let middle = kind.inside.centroid();
         let mut mean = [0.0; 3];
         add_applied_columns(kind.mean_of_nodes.as_slice(), elastic, &mut mean);
         let (turned, moved) = (turn.shift((middle - centre).into()), turn.pair([mean[0], mean[1]]));

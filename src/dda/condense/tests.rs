@@ -1,5 +1,6 @@
 use super::*;
 use crate::budget::Budget;
+use crate::dda::block::M6;
 use faer::sparse::Triplet;
 
 /// A block of numbers, symmetric where asked.
@@ -12,20 +13,20 @@ fn blocks_of_one_place_are_added_up_as_the_solver_would() {
     let blocks = 50;
     // Many to a place, in no order, each with its mirror image.
     let pairs: Vec<(usize, usize, M6)> = (0..2000).map(|s| (s * 7 % blocks, s * s % 11, block(s))).collect();
-    let all = |add: &mut dyn FnMut(usize, usize, &M6)| {
+    let all = |add: &mut Add| {
         for (i, j, block) in &pairs {
-            add(*i, *j, block);
-            add(*j, *i, &block.transpose());
+            add(*i, *j, block.as_slice());
+            add(*j, *i, block.transpose().as_slice());
         }
     };
     let mut triplets = Vec::new();
     all(&mut |i, j, block| {
         if i >= j {
             let entries = (0..36).map(|e| (e / 6, e % 6));
-            triplets.extend(entries.map(|(a, b)| Triplet::new(6 * i + a, 6 * j + b, block[(a, b)])));
+            triplets.extend(entries.map(|(a, b)| Triplet::new(6 * i + a, 6 * j + b, block[6 * b + a])));
         }
     });
-    let ours = assemble(blocks, all, &Budget::unlimited()).unwrap();
+    let ours = assemble([blocks, 6], all, &Budget::unlimited()).unwrap();
     let theirs = SparseColMat::try_new_from_triplets(6 * blocks, 6 * blocks, &triplets).unwrap();
     assert_eq!(ours.col_ptr(), theirs.col_ptr());
     assert_eq!(ours.row_idx(), theirs.row_idx());

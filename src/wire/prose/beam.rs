@@ -3,7 +3,7 @@
 use super::plan::error as error_of;
 use super::summary::bare;
 use super::wording;
-use crate::collapse::Seams;
+use crate::collapse::{Order, Seams};
 use crate::wire::prose::Digits;
 use crate::wire::request::CurvedBeamRequest;
 use crate::wire::response::{BeamResult, mesh_in_words};
@@ -18,7 +18,11 @@ pub fn summary(result: &BeamResult, wall_time: Duration) -> String {
     let CurvedBeamRequest { inner_radius_m: inner, outer_radius_m: outer, end_shear_n_per_m: shear, .. } =
         request.curved_beam;
     let sides = if request.curved_beam.curved_sides { "true sectors" } else { "straight sides" };
-    let seams = if request.mesh.seams == Seams::Split { "split springs" } else { "corner springs" };
+    let seams = match (request.mesh.order(), request.mesh.seams) {
+        (Order::Second, _) => "",
+        (Order::First, Seams::Split) => ", split springs",
+        (Order::First, Seams::Corners) => ", corner springs",
+    };
     let off = 100.0 * (result.energy_j_per_m / result.exact_energy_j_per_m - 1.0);
     let energy = [result.energy_j_per_m, result.exact_energy_j_per_m].map(Digits);
     let mesh = match &result.plan {
@@ -29,7 +33,7 @@ pub fn summary(result: &BeamResult, wall_time: Duration) -> String {
     table.add_rows([
         ["beam", &format!("a quarter ring from {} to {} m, {sides}", Digits(inner), Digits(outer))],
         ["end shear", &format!("{} N/m", Digits(shear))],
-        ["mesh", &format!("{mesh}, {seams}")],
+        ["mesh", &format!("{mesh}{seams}")],
         ["error", &format!("{error} % (e_N of eq. (5) of the paper)")],
         ["energy", &format!("{} J/m; exact: {} J/m, so it is off by {off:.3} %", energy[0], energy[1])],
         ["cost", &format!("{} unknowns", result.unknowns)],

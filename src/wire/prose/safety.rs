@@ -2,7 +2,7 @@
 
 use super::given;
 use super::wording::{self, word};
-use crate::collapse::{CrushingKind, Governs, SafetyZone, Seams};
+use crate::collapse::{CrushingKind, Governs, Order, SafetyZone, Seams};
 use crate::wire::prose::{Digits, Rounded};
 use crate::wire::request::{AimRequest, MeshRequest, Subblocks, SubblocksRequest};
 use crate::wire::response::{
@@ -21,7 +21,7 @@ pub fn mesh(mesh: &MeshRequest) -> Option<String> {
         Seams::Split => "",
         Seams::Corners => ", held at the corners of their seams",
     };
-    (!whole).then(|| format!("{}{seams}", mesh_in_words(mesh)))
+    (!whole || mesh.order() == Order::Second).then(|| format!("{}{seams}", mesh_in_words(mesh)))
 }
 
 /// One sentence.

@@ -1,8 +1,8 @@
 //! What was modelled to be as accurate as asked.
 
 use super::columns::column;
-use super::stress::counts_in_words;
-use crate::collapse::{BeamPlan, Estimate, MeshTried, Plan, PlanReason};
+use super::stress::{counts_in_words, kind_in_words};
+use crate::collapse::{BeamPlan, Estimate, MeshTried, Order, Plan, PlanReason, Spacing};
 use serde::Serialize;
 use utoipa::ToSchema;
 
@@ -13,6 +13,10 @@ pub struct PlanBody {
     pub half: bool,
     /// Subblocks of every voussoir of the whole arch.
     pub subblocks: SubblockCounts,
+    /// How displacements vary in them, as `mesh.order` of a request: 2, unless some body has corners within a side.
+    pub order: u8,
+    /// Where their lines lie, as `mesh.lines` of a request.
+    pub lines: Spacing,
     /// Accuracy of the collapse intensity, where asked.
     pub collapse_intensity: Option<Estimate>,
     /// Accuracy of the stress fields, where asked.
@@ -29,7 +33,8 @@ impl PlanBody {
     /// The mesh, briefly.
     pub fn mesh_in_words(&self) -> String {
         let SubblockCounts { radial, along } = &self.subblocks;
-        counts_in_words(radial.iter().copied(), along.iter().copied())
+        let counts = counts_in_words(radial.iter().copied(), along.iter().copied());
+        kind_in_words(counts, if self.order == 2 { Order::Second } else { Order::First }, self.lines)
     }
 }
 
@@ -71,6 +76,8 @@ impl From<&Plan> for PlanBody {
                 radial: column(&plan.subblocks, |[radial, _]| *radial),
                 along: column(&plan.subblocks, |[_, along]| *along),
             },
+            order: if plan.order == Order::Second { 2 } else { 1 },
+            lines: plan.spacing,
             collapse_intensity: plan.collapse_intensity,
             stress: plan.stress,
             first_yield_change: plan.first_yield,

@@ -2,7 +2,7 @@
 
 use super::Scale;
 use super::columns::column;
-use crate::collapse::{Crushing, ElasticCrushing, PlasticCrushing, StressField, SubblockStress};
+use crate::collapse::{Crushing, ElasticCrushing, Order, PlasticCrushing, Spacing, StressField, SubblockStress};
 use crate::wire::request::{MeshRequest, SubblocksRequest};
 use serde::Serialize;
 use utoipa::ToSchema;
@@ -28,7 +28,7 @@ impl StressFieldBody {
     }
 }
 
-/// The stress is constant in each; compression is negative.
+/// Stress is constant in each, or of second order its mean; compression is negative.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct SubblockColumns {
     /// Which voussoir, from 0 on the left; of a bridge and of blocks which of `structure.bodies`.
@@ -60,10 +60,18 @@ pub struct SubblockColumns {
     pub sigma_2_pa: Vec<f64>,
     /// Equivalent stress of Tresca, eq. (4) of the paper: the largest of |s1 - s2|, |s1| and |s2|.
     pub tresca_pa: Vec<f64>,
+    /// Horizontal normal stress at the corners. Of second order stress is bilinear between them; of first order it is that of a smooth
+    /// field recovered from the neighbours, better than the constants, and of a body of one subblock the one there is.
+    pub corner_sigma_x_pa: Vec<Vec<f64>>,
+    /// Vertical normal stress there.
+    pub corner_sigma_y_pa: Vec<Vec<f64>>,
+    /// Shear stress there.
+    pub corner_tau_xy_pa: Vec<Vec<f64>>,
 }
 
 impl SubblockColumns {
     pub(super) fn new(rows: &[SubblockStress]) -> Self {
+        let at_corners = |c: usize| column(rows, |row| row.corner_stress.iter().map(|stress| stress[c]).collect());
         SubblockColumns {
             voussoir: column(rows, |row| row.voussoir),
             radial: column(rows, |row| row.place[0]),
@@ -78,6 +86,9 @@ impl SubblockColumns {
             sigma_1_pa: column(rows, |row| row.principal()[0]),
             sigma_2_pa: column(rows, |row| row.principal()[1]),
             tresca_pa: column(rows, SubblockStress::tresca),
+            corner_sigma_x_pa: at_corners(0),
+            corner_sigma_y_pa: at_corners(1),
+            corner_tau_xy_pa: at_corners(2),
         }
     }
 }
@@ -122,7 +133,7 @@ pub struct ElasticCrushingBody {
 impl ElasticCrushingBody {
     fn new(elastic: &ElasticCrushing, mesh: &str, scale: &Scale<'_>) -> Self {
         let note = format!(
-            "First yield depends on the mesh, here {mesh}: stress is constant in a subblock, so a finer mesh comes closer \
+            "First yield depends on the mesh, here {mesh}: the mean stress of a subblock counts, so a finer mesh comes closer \
              to the peaks at pressed corners and yields at a lower load."
         );
         ElasticCrushingBody {
@@ -137,12 +148,20 @@ impl ElasticCrushingBody {
 
 /// A mesh as `4 x 8 subblocks (radial x along)`.
 pub fn mesh_in_words(mesh: &MeshRequest) -> String {
-    match &mesh.subblocks {
+    let counts = match &mesh.subblocks {
         SubblocksRequest::Uniform(each) => format!("{} x {} subblocks (radial x along)", each.radial, each.along),
         SubblocksRequest::PerVoussoir(list) => {
             counts_in_words(list.0.iter().map(|each| each.radial), list.0.iter().map(|each| each.along))
         }
-    }
+    };
+    kind_in_words(counts, mesh.order(), mesh.lines)
+}
+
+/// The same with their order and their lines.
+pub fn kind_in_words(counts: String, order: Order, lines: Spacing) -> String {
+    let order = if order == Order::Second { ", of second order" } else { "" };
+    let lines = if lines == Spacing::Graded { ", graded" } else { "" };
+    format!("{counts}{order}{lines}")
 }
 
 /// The same where every voussoir has its own numbers, radial and along.

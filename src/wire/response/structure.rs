@@ -1,7 +1,7 @@
 //! The structure that was analysed: all that the numbers of an answer stand for, and that a check of it needs.
 
 use super::columns::column;
-use crate::collapse::{Analysis, subblocks_of};
+use crate::collapse::{Analysis, Order, subblocks_of};
 use crate::geometry::cross;
 use crate::structure::{Body, Joint, JointLaw, PassiveElement, PointForce, Side, Sides, Structure};
 use crate::wire::request::AnalysisRequest;
@@ -121,7 +121,7 @@ impl StructureBody {
             Side::Support(support) => supports.get(support).cloned().unwrap_or_default(),
         };
         let joints = structure.joints.iter().map(|joint| JointBody::new(joint, structure, name)).collect();
-        let uncut = |body: &Body| body.sides == Sides::Straight && subblocks_of(body, [2, 2]).is_none();
+        let uncut = |body: &Body| body.sides == Sides::Straight && subblocks_of(body, [2, 2], Order::First).is_none();
         let whole = structure.bodies.iter().enumerate().filter(|(_, body)| uncut(body));
         let whole = whole.map(|(k, _)| k).collect();
         let passive_elements = structure.passive.iter().map(|e| PassiveElementBody::new(e, name)).collect();

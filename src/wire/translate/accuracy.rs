@@ -2,9 +2,11 @@
 
 use super::mesh::why_whole;
 use super::structure::Layout;
-use crate::collapse::{Accuracy, Geometry, Seams, can_be_refined, subblocks_of};
+use crate::collapse::{Accuracy, Geometry, Order, Seams, Spacing, can_be_refined, subblocks_of};
 use crate::wire::fault::Faults;
-use crate::wire::request::{AccuracyRequest, AimRequest, AnalysisRequest, MethodRequest, SubblocksRequest};
+use crate::wire::request::{
+    AccuracyRequest, AimRequest, AnalysisRequest, MeshRequest, MethodRequest, SubblocksRequest,
+};
 
 /// The accuracy asked for, where one is.
 pub fn accuracy(request: &AnalysisRequest, layout: Option<&Layout>, faults: &mut Faults) -> Option<Accuracy> {
@@ -25,15 +27,23 @@ pub fn accuracy(request: &AnalysisRequest, layout: Option<&Layout>, faults: &mut
         let own = request.mesh.subblocks == SubblocksRequest::default();
         let detail = "accuracy.stress finds the mesh itself: leave the subblocks out, or accuracy.stress";
         faults.require(own, "/mesh/subblocks", detail);
+        check_drawing(&request.mesh, "accuracy.stress", faults);
         let detail = "stress converges with split seams only: set seams to `split`, or leave accuracy.stress out";
         faults.require(request.mesh.seams == Seams::Split, "/mesh/seams", detail);
         let refined = |layout: &Layout| layout.structure.voussoirs().iter().position(|body| !can_be_refined(body));
         if let Some((layout, body)) = layout.and_then(|layout| Some((layout, refined(layout)?))) {
-            let coarsest = subblocks_of(&layout.structure.bodies[body], [2, 2]).unwrap_or([1, 1]);
+            let coarsest = subblocks_of(&layout.structure.bodies[body], [2, 2], Order::First).unwrap_or([1, 1]);
             faults.add("/accuracy/stress", why_whole(layout, body, coarsest, "leave accuracy.stress out"));
         }
     }
     Some(accuracy)
+}
+
+/// How subblocks are drawn where their number is found by `asked`.
+pub fn check_drawing(mesh: &MeshRequest, asked: &str, faults: &mut Faults) {
+    let detail = |name: &str| format!("{asked} finds the mesh itself: leave {name} out, or {asked}");
+    faults.require(mesh.order() == Order::First, "/mesh/order", detail("order"));
+    faults.require(mesh.lines == Spacing::Even, "/mesh/lines", detail("lines"));
 }
 
 /// What stands in the object itself.

@@ -1,7 +1,8 @@
 //! The curved beam of a request.
 
+use super::accuracy::check_drawing;
 use super::stone;
-use crate::collapse::{CurvedBeam, Seams};
+use crate::collapse::{CurvedBeam, Order, Seams};
 use crate::wire::fault::{Faults, Shown};
 use crate::wire::request::{BeamRequest, Subblocks, SubblocksRequest};
 
@@ -32,9 +33,13 @@ pub fn beam(request: &BeamRequest, faults: &mut Faults) -> Option<CurvedBeam> {
         let detail = "accuracy.stress finds the mesh itself: leave the subblocks out, or accuracy";
         let own = request.mesh.subblocks == BeamRequest::default_mesh().subblocks;
         faults.require(own, "/mesh/subblocks", detail);
+        check_drawing(&request.mesh, "accuracy", faults);
         let detail = "stress converges with split seams only: set seams to `split`, or leave accuracy out";
         faults.require(request.mesh.seams == Seams::Split, "/mesh/seams", detail);
     }
+    let (first, split) = (request.mesh.order() == Order::First, request.mesh.seams == Seams::Split);
+    let detail = "subblocks of second order have no seams: set seams to `split`, or order to 1";
+    faults.require(first || split, "/mesh/seams", detail);
     let Subblocks { radial, along } = subblocks(request, faults)?;
     Some(CurvedBeam {
         inner_radius: inner,
@@ -45,6 +50,8 @@ pub fn beam(request: &BeamRequest, faults: &mut Faults) -> Option<CurvedBeam> {
         subblocks: [radial, along],
         accuracy,
         seams: request.mesh.seams,
+        order: request.mesh.order(),
+        spacing: request.mesh.lines,
         curved_sides: beam.curved_sides,
     })
 }

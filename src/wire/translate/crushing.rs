@@ -1,6 +1,6 @@
 //! Crushing in the load path.
 
-use crate::collapse::Geometry;
+use crate::collapse::{Geometry, Order};
 use crate::wire::fault::Faults;
 use crate::wire::request::{AnalysisRequest, MethodRequest};
 
@@ -30,6 +30,11 @@ pub fn check(request: &AnalysisRequest, subblocks: &[[usize; 2]], faults: &mut F
             "/mesh/subblocks",
             subblocks.iter().all(|each| *each == [1, 1]),
             "joints that crush lie between whole stones: cut every stone into 1 x 1 subblocks",
+        ),
+        (
+            "/mesh/order",
+            request.mesh.order() == Order::First,
+            "joints that crush lie between stones of one stress each: set order to 1",
         ),
         (
             "/accuracy",

@@ -1,7 +1,7 @@
 //! Subblocks and stress fields of a request.
 
 use super::structure::Layout;
-use crate::collapse::{FieldAt, can_be_cut, subblocks_of};
+use crate::collapse::{FieldAt, Order, Seams, can_be_cut, can_bend, subblocks_of};
 use crate::structure::{Body, Sides};
 use crate::wire::fault::Faults;
 use crate::wire::request::{
@@ -28,7 +28,7 @@ pub fn subblocks(
     let voussoirs = whole.map(|whole| whole.structure.voussoirs().len());
     let given = match &request.subblocks {
         SubblocksRequest::Uniform(each) => {
-            let cut = |body: &Body| subblocks_of(body, [each.radial, each.along]).unwrap_or([1, 1]);
+            let cut = |body: &Body| subblocks_of(body, [each.radial, each.along], request.order()).unwrap_or([1, 1]);
             whole.map_or_else(Vec::new, |whole| whole.structure.voussoirs().iter().map(cut).collect())
         }
         SubblocksRequest::PerVoussoir(PerVoussoir(list)) => {
@@ -44,7 +44,26 @@ pub fn subblocks(
             check_bodies(request, whole, &given, faults);
         }
     }
+    check_order(request, whole, faults);
     if faults.len() == before { given } else { vec![[1, 1]; voussoirs.unwrap_or(0)] }
+}
+
+/// Whether subblocks can be of the order asked for.
+fn check_order(request: &MeshRequest, whole: Option<&Layout>, faults: &mut Faults) {
+    if request.order() == Order::First {
+        return;
+    }
+    let detail = "subblocks of second order have no seams: set seams to `split`, or order to 1";
+    faults.require(request.seams == Seams::Split, "/mesh/seams", detail);
+    let stiff = |layout: &Layout| layout.structure.voussoirs().iter().position(|body| !can_bend(body));
+    if let Some((layout, body)) = whole.and_then(|layout| Some((layout, stiff(layout)?))) {
+        let detail = format!(
+            "{} cannot be divided into subblocks of second order, whose sides are straight or of one arc: it turns inwards, or has \
+             corners within a side; set order to 1",
+            layout.called(body)
+        );
+        faults.add("/mesh/order", detail);
+    }
 }
 
 /// How many they are together.
@@ -61,7 +80,8 @@ fn check_bodies(request: &MeshRequest, whole: &Layout, subblocks: &[[usize; 2]],
     };
     // Arcs would become chords.
     let arcs = |k: usize| bodies[k].sides == Sides::Compound && uniform.is_some_and(|each| each != [1, 1]);
-    let uncut = (0..bodies.len()).filter(|&k| arcs(k) || !can_be_cut(&bodies[k], subblocks[k]));
+    let uncut =
+        (0..bodies.len()).filter(|&k| arcs(k) || !can_be_cut(&bodies[k], subblocks[k], request.order(), request.lines));
     for k in uncut.take(if uniform.is_some() { 1 } else { MAX_VOUSSOIR_FAULTS }) {
         let pointer = if uniform.is_some() { UNIFORM.to_owned() } else { format!("{PER_VOUSSOIR}/{k}") };
         faults.add(pointer, why_whole(whole, k, subblocks[k], "leave it at 1 x 1"));
@@ -77,7 +97,7 @@ pub fn why_whole(whole: &Layout, k: usize, subblocks: [usize; 2], or_else: &str)
              arcs meet, set curved_sides to false, or {or_else}"
         );
     }
-    match subblocks_of(body, [2, 2]) {
+    match subblocks_of(body, [2, 2], Order::First) {
         None => format!(
             "{called} turns inwards, so that it cannot be cut into subblocks: divide it into convex bodies with bonded joints \
              between them, or {or_else}"

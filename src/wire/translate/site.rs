@@ -4,8 +4,8 @@ use super::stone::{Stones, check_overrides, override_joints};
 use super::structure::{self, Layout};
 use super::{accuracy, backfill, crushing, geometric, half, loads, mesh, motion, settlement};
 use crate::collapse::{
-    Accuracy, Analysis, CollapseTask, FieldAt, Geometry, LOAD_PIECES, Mesh, Method, MotionAsked, Path, SafetyTask,
-    SettlementTask, StatesAsked, Task,
+    Accuracy, Analysis, CollapseTask, FieldAt, Geometry, LOAD_PIECES, Mesh, Method, MotionAsked, Order, Path,
+    SafetyTask, SettlementTask, Spacing, StatesAsked, Task,
 };
 use crate::geometry::Vec2;
 use crate::structure::{PointForce, Structure};
@@ -30,6 +30,9 @@ pub struct Unloaded<'a> {
     fields: Vec<FieldAt>,
     motion: Option<MotionAsked>,
 }
+
+/// Least pieces of a load on a subblock of second order, or between lines that are not even.
+const LEAST_PIECES: usize = 8;
 
 impl<'a> Unloaded<'a> {
     /// Checks and translates all but the loads.
@@ -76,8 +79,12 @@ impl<'a> Unloaded<'a> {
         if self.accuracy.is_some_and(|accuracy| accuracy.stress.is_some()) {
             return vec![LOAD_PIECES; self.subblocks.len()];
         }
+        let mesh = &self.request.mesh;
+        let fine = mesh.order() == Order::Second || mesh.lines == Spacing::Graded;
         let whole = |k: usize| if self.cut == Some(k) { 2 } else { 1 };
-        self.subblocks.iter().enumerate().map(|(k, [_, along])| whole(k) * along).collect()
+        // Beyond one a subblock for loads whose share in its points, or on either side of its lines, is to be right.
+        let pieces = |along: usize| if fine { along * LEAST_PIECES.max(LOAD_PIECES / along) } else { along };
+        self.subblocks.iter().enumerate().map(|(k, [_, along])| whole(k) * pieces(*along)).collect()
     }
 
     /// Distance of the whole arch's joints farthest apart, m; none where it cannot be built.
@@ -113,7 +120,12 @@ impl<'a> Unloaded<'a> {
             plane: request.stone.plane,
             penalty_ratio: request.stone.penalty_ratio_of(request.arch.is_some()),
             shear_penalty_ratio: request.stone.shear_penalty_ratio,
-            mesh: Mesh { subblocks: self.subblocks().to_vec(), seams: request.mesh.seams },
+            mesh: Mesh {
+                subblocks: self.subblocks().to_vec(),
+                seams: request.mesh.seams,
+                order: request.mesh.order(),
+                spacing: request.mesh.lines,
+            },
             task: self.task()?,
         })
     }

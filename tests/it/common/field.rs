@@ -1,8 +1,10 @@
 //! The error of a stress field against another on a finer mesh, which stands for the exact one.
+#![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
 use super::masonry::polygon;
 use std::collections::BTreeMap;
 use voussoir::collapse::{StressField, SubblockStress};
+use voussoir::geometry::{Vec2, cross};
 
 /// Subblocks of one voussoir, radial and along, and what is in each.
 struct Stone<'a> {
@@ -30,6 +32,60 @@ pub fn tresca([x, y, tau]: [f64; 3]) -> f64 {
 fn overlap(i: usize, n: usize, j: usize, m: usize) -> f64 {
     let ([a, b], [c, d]) = ([i, i + 1].map(|k| k as f64 / n as f64), [j, j + 1].map(|k| k as f64 / m as f64));
     (b.min(d) - a.max(c)).max(0.0) * m as f64
+}
+
+/// Places and weights of Gauss's rule of three points.
+const GAUSS_3: [(f64, f64); 3] =
+    [(-0.774_596_669_241_483_4, 5.0 / 9.0), (0.0, 8.0 / 9.0), (0.774_596_669_241_483_4, 5.0 / 9.0)];
+
+/// Shares of the four corners in what is bilinear between them, at a place from -1 to 1.
+fn shares([x, y]: [f64; 2]) -> [f64; 4] {
+    [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[p, q]| 0.25 * (1.0 + p * x) * (1.0 + q * y))
+}
+
+/// How the point of a subblock moves with its place either way.
+fn tangents(corners: &[Vec2], [x, y]: [f64; 2]) -> [Vec2; 2] {
+    let signs = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+    let slopes = [signs.map(|[p, q]| 0.25 * p * (1.0 + q * y)), signs.map(|[p, q]| 0.25 * q * (1.0 + p * x))];
+    slopes.map(|slopes| corners.iter().zip(slopes).map(|(corner, slope)| corner * slope).sum())
+}
+
+/// Place of a point in a subblock of four corners, from -1 to 1 where it lies inside.
+fn place(corners: &[Vec2], at: Vec2) -> [f64; 2] {
+    let mut place = [0.0; 2];
+    for _ in 0..10 {
+        let here: Vec2 = corners.iter().zip(shares(place)).map(|(corner, share)| corner * share).sum();
+        let ([a, b], miss) = (tangents(corners, place), at - here);
+        let area = cross(a, b);
+        place = [place[0] + cross(miss, b) / area, place[1] + cross(a, miss) / area];
+    }
+    place
+}
+
+fn bilinear(subblock: &SubblockStress, place: [f64; 2]) -> [f64; 3] {
+    let of = subblock.corner_stress.iter().zip(shares(place));
+    of.fold([0.0; 3], |sum, (stress, share)| [0, 1, 2].map(|c| sum[c] + share * stress[c]))
+}
+
+/// Root of the mean square, by area, of the error of the equivalent stress over that of the stress itself, point by point: stress is
+/// bilinear between the corners of subblocks.
+pub fn pointwise_error(coarse: &StressField, fine: &StressField) -> f64 {
+    let (mut apart, mut whole) = (0.0, 0.0);
+    let coarse = stones(coarse);
+    for reference in &fine.subblocks {
+        let here = &coarse[&reference.voussoir].subblocks;
+        for ((x, w), (y, v)) in GAUSS_3.iter().flat_map(|x| GAUSS_3.iter().map(move |y| (*x, *y))) {
+            let at: Vec2 = reference.corners.iter().zip(shares([x, y])).map(|(corner, share)| corner * share).sum();
+            let [a, b] = tangents(&reference.corners, [x, y]);
+            let places = here.iter().map(|subblock| (subblock, place(&subblock.corners, at)));
+            let deepest = |place: [f64; 2]| place[0].abs().max(place[1].abs());
+            let (subblock, place) = places.min_by(|a, b| deepest(a.1).total_cmp(&deepest(b.1))).unwrap();
+            let (exact, found) = (tresca(bilinear(reference, [x, y])), tresca(bilinear(subblock, place)));
+            apart += w * v * cross(a, b) * (found - exact).powi(2);
+            whole += w * v * cross(a, b) * exact * exact;
+        }
+    }
+    (apart / whole).sqrt()
 }
 
 /// Root of the mean square, by area, of the error of the equivalent stress over that of the stress itself. Every subblock is held

@@ -4,7 +4,7 @@ use super::exact::{Ring, tresca};
 use crate::common::dice::Dice;
 use crate::common::largest::larger;
 use voussoir::budget::Budget;
-use voussoir::collapse::{Answer, CurvedBeam, PlaneModel, Question, Seams, answer};
+use voussoir::collapse::{Answer, CurvedBeam, Order, PlaneModel, Question, Seams, Spacing, answer};
 use voussoir::structure::Stone;
 
 /// How many beams.
@@ -33,6 +33,8 @@ fn beams_are_as_accurate_as_asked() {
             subblocks: [7, 7],
             accuracy: Some(asked),
             seams: Seams::Split,
+            order: Order::First,
+            spacing: Spacing::Even,
             curved_sides: dice.chance(0.8),
         };
         let Ok(Answer::CurvedBeam(report)) = answer(&Question::CurvedBeam(beam), &Budget::unlimited()) else {

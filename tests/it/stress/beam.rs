@@ -2,7 +2,7 @@
 
 use super::exact::{PAPER, Ring, tresca};
 use voussoir::budget::Budget;
-use voussoir::collapse::{Answer, BeamReport, CurvedBeam, PlaneModel, Question, Seams, answer};
+use voussoir::collapse::{Answer, BeamReport, CurvedBeam, Order, PlaneModel, Question, Seams, Spacing, answer};
 use voussoir::structure::Stone;
 
 /// Exact strain energy of the paper's beam, J/m (`curved_beam_exact.json`).
@@ -12,8 +12,19 @@ fn beam(ring: Ring, n: usize, seams: Seams, curved_sides: bool) -> BeamReport {
     let stone = Stone { youngs_modulus: 1e9, poissons_ratio: 0.25, ..Stone::default() };
     let [inner_radius, outer_radius] = ring.radii;
     let (shear, plane, subblocks) = (ring.shear, PlaneModel::Stress, [n, n]);
-    let beam =
-        CurvedBeam { inner_radius, outer_radius, shear, stone, plane, subblocks, accuracy: None, seams, curved_sides };
+    let beam = CurvedBeam {
+        inner_radius,
+        outer_radius,
+        shear,
+        stone,
+        plane,
+        subblocks,
+        accuracy: None,
+        seams,
+        order: Order::First,
+        spacing: Spacing::Even,
+        curved_sides,
+    };
     match answer(&Question::CurvedBeam(beam), &Budget::unlimited()).unwrap() {
         Answer::CurvedBeam(report) => report,
         other => panic!("{other:?}"),

@@ -208,7 +208,7 @@ impl<'g> Whole<'g> {
         let mut load = DVector::zeros(self.matrix.nrows());
         for push in pushes {
             for (along, force) in [(Vec2::x(), push.force.x), (Vec2::y(), push.force.y)] {
-                let row = self.displacement(push.body, push.subblock, push.at, along, force);
+                let row = self.displacement(push.body, push.subblock.unwrap(), push.at, along, force);
                 row.into_iter().for_each(|(i, x)| load[i] += x);
             }
         }
@@ -233,7 +233,7 @@ fn condensation_loses_nothing() {
         let glued = bonded(&[0, 1, 2].map(stone), &faces, None);
         let push = |body: usize, subblock: usize, block: &voussoir::dda::Block| Push {
             body,
-            subblock,
+            subblock: Some(subblock),
             at: block.centroid() + Vec2::new(0.01, 0.02),
             force: Vec2::new(30.0 * (body as f64 - 0.7), -1e4 * block.area() * (1.0 + subblock as f64)),
         };

@@ -1,6 +1,6 @@
 //! A grid of subblocks written down a second time, with its outer sides: nothing of `collapse::grid` is used.
 
-use voussoir::dda::{Block, Bond, Elasticity, Macroblock, Seam, V6};
+use voussoir::dda::{Block, Bond, Elasticity, Inside, Macroblock, Seam, V6};
 use voussoir::geometry::{Region, Vec2};
 
 /// A side of a subblock: ends and middle, and the unit normals there, out of the stone where it is an outer one.
@@ -91,8 +91,8 @@ impl Mesh {
         }
     }
 
-    pub fn macroblock(&self, bond: Bond) -> Macroblock {
-        Macroblock::new(self.blocks.clone(), self.seams.clone(), bond)
+    pub fn macroblock(&self, bond: Bond) -> Inside {
+        Macroblock::new(self.blocks.clone(), self.seams.clone(), bond).into()
     }
 
     /// Subblocks of the joint before or after at `eta` from the intrados, each with its share of what the point stands for.

@@ -155,7 +155,7 @@ fn a_column_of_refined_stones_is_uniform_under_pressure() {
             .filter(|s| (s.points[1].y - top).abs() < 1e-9)
             .map(|s| Push {
                 body: 1,
-                subblock: s.block,
+                subblock: Some(s.block),
                 at: s.points[1],
                 force: Vec2::new(0.0, -pressure * (s.points[2] - s.points[0]).norm()),
             })

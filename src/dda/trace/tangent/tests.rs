@@ -43,7 +43,7 @@ fn error(tracer: &Tracer) -> f64 {
 fn an_updated_tangent_is_that_of_a_factorisation() {
     let (assembly, budget) = (column(6, f64::INFINITY), Budget::unlimited());
     let forces = |force: Vec2| {
-        let push = move |body| Push { body, subblock: 0, at: Vec2::new(0.5, body as f64 + 0.5), force };
+        let push = move |body| Push { body, subblock: Some(0), at: Vec2::new(0.5, body as f64 + 0.5), force };
         assembly.loads((0..6).map(push), &budget).unwrap().on_nodes
     };
     let weight = forces(Vec2::new(0.0, -1e4));
@@ -68,7 +68,7 @@ fn a_column_bears_its_strength_over_what_lies_about_its_force() {
     let assembly = column(3, cap);
     // A force so far off the axis leaves whole strips about it.
     for off in [0.0, 1.0, 2.0, 3.0, -2.0].map(|strips| strips / 9.0) {
-        let push = Push { body: 2, subblock: 0, at: Vec2::new(0.5 + off, 3.0), force: -Vec2::y() };
+        let push = Push { body: 2, subblock: Some(0), at: Vec2::new(0.5 + off, 3.0), force: -Vec2::y() };
         let unit = assembly.loads([push], &budget).unwrap().on_nodes;
         let mut tracer = Tracer::new(&assembly, covering(&assembly, &unit, 5e-5), 3.0, cap, &budget);
         let mut see = |_: &Tracer| ControlFlow::Continue(());
