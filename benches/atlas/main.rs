@@ -1,14 +1,17 @@
 //! The atlas of hard scenes: every method over every map, judged by an oracle.
 //!
-//! `cargo bench --bench atlas -- [map ...] [--out DIR] [--ours]`: all maps unless some are named; with `--out` a table per map and
-//! the sheet `atlas.svg` are written there; with `--ours` the classic methods are left out. `... -- look MAP X Y [VARIANT]` shows the
-//! scenes in one place (values on the axes) in full.
+//! `cargo bench --bench atlas -- [map ...] [--out DIR] [--ours]`: all maps unless some are named; with `--out` a table per map, the marks
+//! of all of them (`atlas.json`) and the pages `atlas-1.svg` and on are written there; with `--ours` the classic methods are left out,
+//! and with `--ours --from FILE.json` their marks are those of that file. `... -- --from FILE.json --out DIR` draws the pages again and
+//! runs nothing. `... -- look MAP X Y [VARIANT]` shows the scenes in one
+//! place (values on the axes) in full.
 #![allow(clippy::print_stdout, clippy::print_stderr, clippy::disallowed_methods, clippy::expect_used, missing_docs)]
 
 #[path = "../../tests/it/common/mod.rs"]
 #[allow(dead_code, reason = "the tests use the rest")]
 mod common;
 
+mod cells;
 mod classic;
 mod judge;
 mod maps;
@@ -18,10 +21,11 @@ mod sheet;
 mod table;
 mod theirs;
 
+use cells::Cells;
 use judge::Truth;
 use maps::{Map, Scene};
 use ours::{Ours, ours};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 use theirs::{Theirs, theirs};
 use voussoir::budget::Budget;
@@ -39,10 +43,11 @@ pub struct Row {
 
 fn main() {
     let mut arguments = std::env::args().skip(1);
-    let (mut names, mut out, mut classic) = (Vec::new(), None, true);
+    let (mut names, mut out, mut from, mut classic) = (Vec::new(), None, None, true);
     while let Some(argument) = arguments.next() {
         match argument.as_str() {
             "--out" => out = arguments.next().map(PathBuf::from),
+            "--from" => from = arguments.next().map(PathBuf::from),
             "--ours" => classic = false,
             // Cargo passes `--bench` on.
             "--bench" => {}
@@ -51,6 +56,10 @@ fn main() {
     }
     if names.first().is_some_and(|name| name == "look") {
         return look(&names[1..]);
+    }
+    let earlier = from.map_or_else(Vec::new, read);
+    if !earlier.is_empty() && classic {
+        return write(&out.expect("--out DIR"), &earlier);
     }
     // A panic is a finding here, not a page of text.
     std::panic::set_hook(Box::new(|_| {}));
@@ -68,10 +77,25 @@ fn main() {
         }
         all.push((map, rows));
         if let Some(out) = &out {
-            std::fs::write(out.join("atlas.svg"), sheet::svg(&all)).expect("a sheet");
+            let cells = all.iter().map(|(map, rows)| table::cells(map, rows).with_classic_of(&earlier));
+            write(out, &cells.collect::<Vec<_>>());
         }
     }
     println!("{}", table::totals(&all));
+}
+
+/// The marks of an earlier run.
+fn read(file: PathBuf) -> Vec<Cells> {
+    serde_json::from_str(&std::fs::read_to_string(file).expect("a file")).expect("marks")
+}
+
+/// The marks of all maps, and the pages that show them.
+fn write(out: &Path, all: &[Cells]) {
+    std::fs::create_dir_all(out).expect("a folder");
+    std::fs::write(out.join("atlas.json"), serde_json::to_string_pretty(all).expect("marks") + "\n").expect("a file");
+    for (i, page) in sheet::pages(all).iter().enumerate() {
+        std::fs::write(out.join(format!("atlas-{}.svg", i + 1)), page).expect("a page");
+    }
 }
 
 /// Every method on every scene of a map; and how many places are no arches.

@@ -1,5 +1,6 @@
 //! What was found, as tables: one line a scene, one paragraph a map, and the totals.
 
+use super::cells::{Cells, Method, NOT_RUN, Scale};
 use super::classic::{Found, METHODS};
 use super::judge::Mark;
 use super::maps::Map;
@@ -68,6 +69,33 @@ pub fn csv(map: &Map, rows: &[Row]) -> String {
         }
     }
     text + "\n"
+}
+
+/// The worst mark of every method in every place of a map.
+pub fn cells(map: &Map, rows: &[Row]) -> Cells {
+    let [across, up] =
+        [0, 1].map(|k| Scale { label: map.axes[k].label.to_owned(), values: map.axes[k].values.clone() });
+    let size = [across.values.len(), up.values.len()];
+    let here = |at: [usize; 2]| rows.iter().filter(move |row| row.scene.at == at);
+    let ours =
+        Method::of("event path (this program)", size, |at| here(at).map(|row| number_of(&row.ours.mark)).collect());
+    let theirs = METHODS.iter().enumerate().map(|(k, (name, _))| {
+        let mark = |row: &Row| row.theirs[k].as_ref().map_or(NOT_RUN, |theirs| number_of(&theirs.mark));
+        Method::of(name, size, |at| here(at).map(mark).collect())
+    });
+    let methods = std::iter::once(ours).chain(theirs).collect();
+    Cells { name: map.name.to_owned(), title: map.title.to_owned(), across, up, methods }
+}
+
+/// Its number among [`super::cells::MARKS`].
+fn number_of(mark: &Mark) -> usize {
+    match mark {
+        Mark::Right => 0,
+        Mark::Open => 1,
+        Mark::GaveUp(_) => 2,
+        Mark::Unproven(_) => 3,
+        Mark::Wrong(_) => 4,
+    }
 }
 
 /// Counts of right, wrong, gave up, unproven and open.

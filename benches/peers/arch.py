@@ -68,6 +68,11 @@ def semicircles():
     return [name for name, scene in named if "point_load" in str(scene) and not scene["request"].get("stone")]
 
 
+def small(name):
+    """Whether a scene is small enough for tools that take minutes of it."""
+    return scenes()[name]["request"]["arch"]["voussoirs"] <= 61
+
+
 def arch(name):
     """The arch of a scene with radial joints and straight-sided blocks."""
     request = scenes()[name]["request"]
@@ -103,7 +108,7 @@ def largest_load(stands, above, tolerance, limit):
         return held
 
     def told(load, note):
-        return {"intensity": load, "seconds": spent, "note": f"{note}{trials} trials"}
+        return {"intensity": load, **spread([spent]), "note": f"{note}{trials} trials"}
 
     if not attempt(0.0):
         return told(None, "finds no equilibrium under self weight; ")
@@ -123,3 +128,10 @@ def timed(run):
     start = time.process_time()
     result = run()
     return result, time.process_time() - start
+
+
+def spread(seconds):
+    """The median of some times, the least and the greatest, and how many there are."""
+    ordered = sorted(seconds)
+    middle, least, greatest = ordered[len(ordered) // 2], ordered[0], ordered[-1]
+    return {"seconds": middle, "least_seconds": least, "greatest_seconds": greatest, "repetitions": len(ordered)}

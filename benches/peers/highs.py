@@ -1,10 +1,15 @@
-"""Rigid-block limit analysis as a linear programme, solved by HiGHS: load, joint forces, no displacement and no stress."""
+"""Rigid-block limit analysis as a linear programme, solved by HiGHS: load, joint forces, no displacement and no stress.
+
+    python highs.py SCENE SETTING     # prints the load, kN: what is timed as a whole process
+"""
+
+import sys
 
 import numpy as np
 from scipy.optimize import linprog
 from scipy.sparse import coo_array
 
-from arch import DENSITY, GRAVITY, timed
+from arch import DENSITY, GRAVITY, arch, spread, timed
 
 SETTINGS = {"dual simplex": "highs-ds", "interior point": "highs-ipm"}
 REPETITIONS = 21
@@ -45,9 +50,16 @@ def programme(arch):
 
 
 def solve(arch, setting, _limit):
-    """The median CPU time of `linprog` alone; the matrices are made before."""
+    """CPU times of `linprog` alone; the matrices are made before."""
     asked = programme(arch)
     runs = [timed(lambda: linprog(**asked, method=SETTINGS[setting])) for _ in range(REPETITIONS)]
-    found, seconds = runs[0][0], sorted(run[1] for run in runs)[REPETITIONS // 2]
-    intensity = float(found.x[-1]) if found.status == 0 else None
-    return {"intensity": intensity, "seconds": seconds, "note": f"median of {REPETITIONS}"}
+    return {"intensity": intensity(runs[0][0]), **spread([seconds for _, seconds in runs]), "note": ""}
+
+
+def intensity(found):
+    return float(found.x[-1]) if found.status == 0 else None
+
+
+if __name__ == "__main__":
+    scene, setting = sys.argv[1:]
+    print(intensity(linprog(**programme(arch(scene)), method=SETTINGS[setting])))

@@ -1,6 +1,8 @@
 //! A thin slice of the atlas of hard scenes (`benches/atlas/`): ours is right in all of it, or says that it cannot tell.
 #![allow(dead_code, reason = "the atlas is a program of its own")]
 
+#[path = "../../benches/atlas/cells.rs"]
+mod cells;
 #[path = "../../benches/atlas/judge.rs"]
 mod judge;
 #[path = "../../benches/atlas/maps/mod.rs"]
@@ -9,7 +11,10 @@ mod maps;
 mod moving;
 #[path = "../../benches/atlas/ours.rs"]
 mod ours;
+#[path = "../../benches/atlas/sheet.rs"]
+mod sheet;
 
+use cells::{Cells, MARKS, Method, NOT_RUN};
 use judge::{Mark, Truth};
 use ours::ours;
 use voussoir::collapse::Outcome;
@@ -117,5 +122,90 @@ fn contacts_far_stiffer_than_the_stone_do_not_hide_a_mechanism() {
     for penalty in [3.0, 3.5, 5.0, 5.5] {
         let found = at("penalty", [10f64.powf(penalty), 21.0], "haunch");
         assert_eq!((&found.mark, found.outcome), (&Mark::Right, Some(Outcome::Collapse)), "1e{penalty}");
+    }
+}
+
+fn committed(name: &str) -> String {
+    std::fs::read_to_string(format!("{}/cases/hard/{name}", env!("CARGO_MANIFEST_DIR"))).unwrap()
+}
+
+/// The marks of all maps, as the bench wrote them.
+fn marks() -> Vec<Cells> {
+    serde_json::from_str(&committed("atlas.json")).unwrap()
+}
+
+#[test]
+fn a_place_has_its_worst_mark() {
+    let scenes = |at: [usize; 2]| match at {
+        [0, 0] => vec![0, 4, 2],
+        [1, 0] => vec![0, NOT_RUN, 0],
+        [0, 1] => vec![NOT_RUN],
+        _ => Vec::new(),
+    };
+    let method = Method::of("some", [2, 2], scenes);
+    assert_eq!(method.rows, ["  ", "x."]);
+    let marks = [[0, 0], [1, 0], [0, 1], [1, 1], [0, 2], [2, 0]].map(|at| method.mark(at));
+    assert_eq!(marks, [4, 0, NOT_RUN, NOT_RUN, NOT_RUN, NOT_RUN]);
+}
+
+#[test]
+fn marks_of_classic_methods_are_kept_where_the_map_is_the_same() {
+    let earlier = marks();
+    let mut now = earlier[0].clone();
+    now.methods.iter_mut().for_each(|method| method.rows.iter_mut().for_each(|row| *row = row.replace(|_| true, ".")));
+    let kept = now.clone().with_classic_of(&earlier);
+    assert_eq!((&kept.methods[0], &kept.methods[1..]), (&now.methods[0], &earlier[0].methods[1..]));
+    now.up.values[0] += 1.0;
+    assert_eq!(now.clone().with_classic_of(&earlier), now);
+}
+
+#[test]
+fn pages_show_the_marks() {
+    let pages = sheet::pages(&marks());
+    assert_eq!(pages.len(), 2);
+    for (i, page) in pages.iter().enumerate() {
+        let name = format!("atlas-{}.svg", i + 1);
+        assert!(*page == committed(&name), "{name} is not what `cargo bench --bench atlas -- --from` draws");
+    }
+}
+
+/// All letters are on the page, of eight points or more.
+#[test]
+fn pages_can_be_read() {
+    let [width, height] = sheet::PAGE;
+    assert!(((height / width) / 2f64.sqrt() - 1.0).abs() < 1e-3);
+    for page in sheet::pages(&marks()) {
+        for text in page.split("<text ").skip(1) {
+            let number = |name: &str| -> Option<f64> {
+                text.split('>').next()?.split(&format!("{name}=\"")).nth(1)?.split('"').next()?.parse().ok()
+            };
+            let [x, y] = ["x", "y"].map(|name| number(name).unwrap());
+            let size = number("font-size").unwrap_or(sheet::LETTERS);
+            let words = text.split('>').nth(1).unwrap().split('<').next().unwrap();
+            // Letters are about half as wide as high.
+            let long = if text.contains("text-anchor") { 0.0 } else { 0.52 * size * words.chars().count() as f64 };
+            assert!(
+                size >= 10.6 && x >= 0.0 && x + long <= width && y - size >= 0.0 && y <= height,
+                "{words}: {x} + {long}, {y}"
+            );
+        }
+    }
+}
+
+/// Every map is there with all its places, and in none of them is ours wrong.
+#[test]
+fn the_marks_are_whole() {
+    let all = marks();
+    let names: Vec<&str> = all.iter().map(|map| map.name.as_str()).collect();
+    assert_eq!(names, maps::MAPS.map(|(name, _)| name));
+    for map in &all {
+        let [across, up] = [&map.across, &map.up].map(|scale| scale.values.len());
+        assert_eq!(map.methods.len(), 4);
+        for method in &map.methods {
+            let row = |row: &String| row.len() == across && row.chars().all(|mark| MARKS.contains(&mark));
+            assert!(method.rows.len() == up && method.rows.iter().all(row), "{}, {}", map.name, method.name);
+        }
+        let ours = map.methods[0].rows.concat();
+        assert!(ours.contains('.') && !ours.contains('x'), "{}", map.name);
     }
 }

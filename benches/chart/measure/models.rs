@@ -4,13 +4,11 @@ use serde_json::{Value, json};
 
 /// Uniform meshes, subblocks each way.
 const UNIFORM: [usize; 5] = [1, 2, 4, 8, 16];
-/// Meshes on moving geometry.
-const UPDATED: [usize; 2] = [1, 4];
 
 /// Error of the collapse intensity that the program is asked to keep.
 const INTENSITY: f64 = 1e-6;
 /// Errors of the stress that it is asked to keep.
-const STRESS: [f64; 7] = [0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001];
+const STRESS: [f64; 4] = [0.1, 0.05, 0.02, 0.01];
 
 /// Name of the model in whose time all others are measured.
 pub const BASE: &str = "1 x 1";
@@ -33,20 +31,17 @@ pub enum Way {
     LimitWindow,
     /// By an analysis of the scene's request with these fields.
     Analysis(Value),
-    /// By the same, read on moving geometry.
-    Updated(Value),
 }
 
-/// Models of a scene whose collapse intensity is sought; the base comes first.
-pub fn collapse(step: Option<f64>) -> Vec<Model> {
-    let mut models = meshes();
+/// Models of a scene whose collapse intensity is sought, which no seams change; where there is a finest mesh, no finer ones and no
+/// others than meshes and the limit window. The base comes first.
+pub fn collapse(step: Option<f64>, finest: Option<usize>) -> Vec<Model> {
+    let mut models: Vec<Model> =
+        meshes(&MESHES[..1]).filter(|(n, _)| finest.is_none_or(|most| *n <= most)).map(|(_, model)| model).collect();
     models.push(Model { family: "limit window", name: "limit window".to_owned(), way: Way::LimitWindow });
-    models.extend(UPDATED.map(|n| {
-        let mut fields = mesh(n, "split");
-        fields["geometry"] = json!("updated");
-        Model { family: "moving geometry", name: format!("{n} x {n}, moving geometry"), way: Way::Updated(fields) }
-    }));
-    models.push(accuracy("collapse_intensity", INTENSITY));
+    if finest.is_none() {
+        models.push(accuracy("collapse_intensity", INTENSITY));
+    }
     models.extend(step.map(|step| {
         let fields = json!({"method": {"fixed_steps": {"step": step}}});
         Model { family: "load steps", name: format!("steps of {step} kN"), way: Way::Analysis(fields) }
@@ -56,27 +51,50 @@ pub fn collapse(step: Option<f64>) -> Vec<Model> {
 
 /// Models of a scene whose stresses are sought; the base comes first.
 pub fn stress() -> Vec<Model> {
-    meshes().into_iter().chain(STRESS.map(|error| accuracy("stress", error))).collect()
+    meshes(&MESHES).map(|(_, model)| model).chain(STRESS.map(|error| accuracy("stress", error))).collect()
 }
 
 /// A mesh of the program's own choice that keeps an error of what is sought.
 fn accuracy(of: &str, error: f64) -> Model {
     let way = Way::Analysis(json!({"accuracy": {of: error}}));
-    Model { family: "adaptive", name: format!("asked {error}"), way }
+    Model { family: "adaptive", name: format!("asked {error:?}"), way }
 }
 
-/// Fields of a request that cut every voussoir into `n` by `n`.
-pub fn mesh(n: usize, seams: &str) -> Value {
-    json!({"mesh": {"subblocks": {"uniform": {"radial": n, "along": n}}, "seams": seams}})
+/// A family of uniform meshes.
+struct Meshes {
+    /// Its name, and what the name of each mesh of it ends in.
+    name: &'static str,
+    ending: &'static str,
+    /// Subblocks each way.
+    uniform: &'static [usize],
+    /// What the request's `mesh` has besides them.
+    fields: fn() -> Value,
 }
 
-/// Uniform meshes with either kind of seams; one subblock has none.
-fn meshes() -> Vec<Model> {
-    let split = |n| Model { family: "split seams", name: format!("{n} x {n}"), way: Way::Analysis(mesh(n, "split")) };
-    let corners = |n| Model {
-        family: "corner seams",
-        name: format!("{n} x {n}, corner seams"),
-        way: Way::Analysis(mesh(n, "corners")),
+/// Families of uniform meshes; the first mesh of the first is the base. One subblock has no seams.
+const MESHES: [Meshes; 3] = [
+    Meshes { name: "split seams", ending: "", uniform: &UNIFORM, fields: || json!({"seams": "split"}) },
+    Meshes {
+        name: "corner seams",
+        ending: ", corner seams",
+        uniform: UNIFORM.split_at(1).1,
+        fields: || json!({"seams": "corners"}),
+    },
+    Meshes {
+        name: "second order",
+        ending: ", second order",
+        uniform: UNIFORM.split_at(1).1.split_at(3).0,
+        fields: || json!({"order": 2, "lines": "graded"}),
+    },
+];
+
+/// Every mesh of some families, with its subblocks each way.
+fn meshes(families: &'static [Meshes]) -> impl Iterator<Item = (usize, Model)> {
+    let model = |family: &Meshes, n: usize| {
+        let mut mesh = (family.fields)();
+        mesh["subblocks"] = json!({"uniform": {"radial": n, "along": n}});
+        let way = Way::Analysis(json!({"mesh": mesh}));
+        Model { family: family.name, name: format!("{n} x {n}{}", family.ending), way }
     };
-    UNIFORM.map(split).into_iter().chain(UNIFORM[1..].iter().copied().map(corners)).collect()
+    families.iter().flat_map(move |family| family.uniform.iter().map(move |&n| (n, model(family, n))))
 }

@@ -1,13 +1,13 @@
 //! Runs every model on every scene and takes the time.
 
 use super::clock::{Timed, timed};
-use super::models::{self, BASE, Model, Way, mesh};
+use super::models::{self, BASE, Model, Way};
 use super::scenes::{CollapseScene, Scenes, StressScene};
-use super::stress::Stresses;
+use super::stress::{Errors, Reference};
 use super::table::{Kind, Row};
 use serde_json::Value;
 use voussoir::budget::Budget;
-use voussoir::collapse::{self, Analysis, Answer, CollapseReport, Outcome, Question, UpdatedEnd};
+use voussoir::collapse::{self, Analysis, Answer, CollapseReport, Outcome, Question, StressField};
 use voussoir::limit::StaticTheorem;
 use voussoir::wire::read::read_question;
 
@@ -16,12 +16,18 @@ type Found = Result<Measured, String>;
 
 /// An answer held against what is known.
 struct Measured {
-    /// Collapse intensity in the scene's unit, if that is sought.
-    intensity: Option<f64>,
-    /// Its relative error, or that of the stress.
-    error: f64,
-    /// Whether the program itself says that the accuracy asked is not met.
-    unmet: bool,
+    /// What it is held against.
+    errors: Held,
+    /// Whether the program itself says that the accuracy asked is met; none where none was asked.
+    met: Option<bool>,
+}
+
+/// What was sought, and its errors.
+enum Held {
+    /// Collapse intensity in the scene's unit, and its relative error.
+    Intensity(f64, f64),
+    /// Errors of the stress, and that of the reference.
+    Stress(Errors, f64),
 }
 
 /// Runs the chosen models on the chosen scenes, or all where none is chosen; the base always.
@@ -35,11 +41,12 @@ pub fn run(scenes: &Scenes, chosen: Chosen<'_>, told: &mut dyn FnMut(&Row)) -> R
     let mut rows = Vec::new();
     for scene in scenes.collapse.iter().filter(|scene| chosen.takes_scene(&scene.name)) {
         let one = |model: &Model| on_collapse(scene, model);
-        measure(Kind::Collapse, &scene.name, models(models::collapse(scene.step)), one, &mut rows, told)?;
+        let asked = models(models::collapse(scene.step, scene.finest));
+        measure(Kind::Collapse, &scene.name, asked, one, &mut rows, told)?;
     }
     for scene in scenes.stress.iter().filter(|scene| chosen.takes_scene(&scene.name)) {
-        let mut reference = None;
-        let one = |model: &Model| on_stress(scene, model, &mut reference);
+        let reference = Reference::read(&scene.field)?;
+        let one = |model: &Model| on_stress(scene, model, &reference);
         measure(Kind::Stress, &scene.name, models(models::stress()), one, &mut rows, told)?;
     }
     Ok(rows)
@@ -71,7 +78,7 @@ impl Chosen<'_> {
             return Err(format!("there is no scene {name:?}, only {names:?}"));
         }
         let steps = scenes.collapse.iter().find_map(|scene| scene.step);
-        let all = models::collapse(steps).into_iter().chain(models::stress());
+        let all = models::collapse(steps, None).into_iter().chain(models::stress());
         let names: Vec<String> = all.map(|model| model.name).collect();
         match self.models.iter().find(|name| !names.contains(name)) {
             Some(name) => Err(format!("there is no model {name:?}, only {names:?}")),
@@ -85,36 +92,60 @@ fn measure(
     chart: Kind,
     scene: &str,
     models: impl Iterator<Item = Model>,
-    mut one: impl FnMut(&Model) -> Result<(Found, Timed), String>,
+    one: impl Fn(&Model) -> Result<(Found, Timed), String>,
     rows: &mut Vec<Row>,
     told: &mut dyn FnMut(&Row),
 ) -> Result<(), String> {
-    let mut base = None;
     for model in models {
         let (found, timed) = one(&model).map_err(|error| format!("{scene}, {}: {error}", model.name))?;
-        let base_seconds = *base.get_or_insert(timed.seconds);
-        let remark = match &found {
-            Ok(measured) if measured.unmet => "says it is not met; ".to_owned(),
-            Ok(_) => String::new(),
-            Err(why) => format!("{why}; "),
-        };
-        let found = found.ok();
-        let row = Row {
-            chart,
-            scene: scene.to_owned(),
-            family: model.family.to_owned(),
-            model: model.name,
-            intensity: found.as_ref().and_then(|measured| measured.intensity),
-            error: found.map(|measured| measured.error),
-            seconds: timed.seconds,
-            base_seconds,
-            time_ratio: timed.seconds / base_seconds,
-            note: format!("{remark}mean of {}", timed.repetitions),
-        };
+        let row = row(chart, scene, model, found, timed);
         told(&row);
         rows.push(row);
     }
     Ok(())
+}
+
+fn row(chart: Kind, scene: &str, model: Model, found: Found, timed: Timed) -> Row {
+    let [least_seconds, seconds, greatest_seconds] = timed.seconds;
+    let mut row = Row {
+        chart,
+        scene: scene.to_owned(),
+        family: model.family.to_owned(),
+        model: model.name,
+        intensity: None,
+        error: None,
+        error_worst_voussoir: None,
+        error_peak: None,
+        error_of_reference: None,
+        met: None,
+        seconds,
+        least_seconds,
+        greatest_seconds,
+        repetitions: timed.repetitions,
+        base_seconds: None,
+        time_ratio: None,
+        note: String::new(),
+    };
+    match found {
+        Ok(measured) => row.take(measured),
+        Err(why) => row.note = why,
+    }
+    row
+}
+
+impl Row {
+    fn take(&mut self, measured: Measured) {
+        self.met = measured.met;
+        match measured.errors {
+            Held::Intensity(intensity, error) => (self.intensity, self.error) = (Some(intensity), Some(error)),
+            Held::Stress(errors, own) => {
+                self.error = Some(errors.whole);
+                self.error_worst_voussoir = Some(errors.worst_voussoir);
+                self.error_peak = Some(errors.peak);
+                self.error_of_reference = Some(own).filter(|&own| own > 0.0);
+            }
+        }
+    }
 }
 
 /// The scene's request with a model's fields, translated.
@@ -141,27 +172,22 @@ fn on_collapse(scene: &CollapseScene, model: &Model) -> Result<(Found, Timed), S
             let (window, time) =
                 timed(|| Some(StaticTheorem::new(&structure, &fixed, &scaled).ok()?.window(&Budget::unlimited())));
             let highest = window.and_then(Result::ok).and_then(|window| window.ends()).map(|[_, highest]| highest);
-            (highest.map(|highest| (highest, false)).ok_or_else(|| "no window".to_owned()), time)
+            (highest.map(|highest| (highest, None)).ok_or_else(|| "no window".to_owned()), time)
         }
         Way::Analysis(fields) => {
             let analysis = analysis(&scene.request, fields)?;
             let (report, time) = timed(|| collapse::run(&analysis, &Budget::unlimited()));
             (report.map_err(|error| error.to_string()).and_then(|report| first_order(&report)), time)
         }
-        Way::Updated(fields) => {
-            let analysis = analysis(&scene.request, fields)?;
-            let (report, time) = timed(|| collapse::run(&analysis, &Budget::unlimited()));
-            (report.map_err(|error| error.to_string()).and_then(|report| on_moving_geometry(&report)), time)
-        }
     };
-    let measured = |(intensity, unmet)| Measured { intensity: Some(intensity), error: scene.error(intensity), unmet };
+    let measured = |(intensity, met)| Measured { errors: Held::Intensity(intensity, scene.error(intensity)), met };
     Ok((found.map(measured), timed))
 }
 
-/// Whether an accuracy was asked for and, as the report says, not met.
-fn unmet(report: &CollapseReport) -> bool {
-    let mut estimates = report.plan.iter().flat_map(|plan| [plan.collapse_intensity, plan.stress]).flatten();
-    estimates.any(|estimate| !estimate.met)
+/// Whether the accuracy asked for, if one was, is met, as the report says.
+fn met(report: &CollapseReport) -> Option<bool> {
+    let estimates = report.plan.iter().flat_map(|plan| [plan.collapse_intensity, plan.stress]).flatten();
+    estimates.map(|estimate| estimate.met).reduce(|all, one| all && one)
 }
 
 /// Why a report has not what was asked for.
@@ -169,46 +195,31 @@ fn unfinished(report: &CollapseReport) -> String {
     report.notes.iter().fold(format!("{:?}:", report.outcome), |words, note| format!("{words} {note}"))
 }
 
-/// Collapse intensity (the scenes call load factor 1 intensity 1), and whether it is not as accurate as asked.
-fn first_order(report: &CollapseReport) -> Result<(f64, bool), String> {
+/// Collapse intensity (the scenes call load factor 1 intensity 1), and whether it is as accurate as asked.
+fn first_order(report: &CollapseReport) -> Result<(f64, Option<bool>), String> {
     match (&report.end, report.outcome) {
-        (Some(end), Outcome::Collapse) => Ok((end.load_factor, unmet(report))),
+        (Some(end), Outcome::Collapse) => Ok((end.load_factor, met(report))),
         _ => Err(unfinished(report)),
     }
 }
 
-fn on_moving_geometry(report: &CollapseReport) -> Result<(f64, bool), String> {
-    let load = match &report.updated {
-        Some(updated) if updated.end == UpdatedEnd::Collapse => updated.load_factor.ok_or_else(|| "no load".to_owned()),
-        Some(updated) => Err(format!("{:?}", updated.end)),
-        None => Err("not followed".to_owned()),
-    };
-    load.map(|load| (load, false))
-}
-
-/// The reference of an arch is computed when it is first needed, and kept.
-fn on_stress(scene: &StressScene, model: &Model, reference: &mut Option<Stresses>) -> Result<(Found, Timed), String> {
+fn on_stress(scene: &StressScene, model: &Model, reference: &Reference) -> Result<(Found, Timed), String> {
     let Way::Analysis(fields) = &model.way else { return Err("gives no stress".to_owned()) };
     let question = question(&scene.request, fields)?;
     let (answer, timed) = timed(|| collapse::answer(&question, &Budget::unlimited()));
+    let held = |field: &StressField, met| {
+        let errors = reference.errors(field);
+        let told = errors.whole.is_finite().then_some(Held::Stress(errors, reference.own_error));
+        told.map(|errors| Measured { errors, met }).ok_or_else(|| "some stone has no stress".to_owned())
+    };
     let found = match answer {
-        Ok(Answer::CurvedBeam(beam)) => Ok((beam.error, beam.plan.is_some_and(|plan| !plan.stress.met))),
-        Ok(Answer::One(report)) => match Stresses::new(&report) {
-            Some(stresses) => Ok((stresses.error(fine(scene, reference)?), unmet(&report))),
+        Ok(Answer::CurvedBeam(beam)) => held(&beam.field, beam.plan.map(|plan| plan.stress.met)),
+        Ok(Answer::One(report)) => match report.stress_fields.first() {
+            Some(field) => held(field, met(&report)),
             None => Err(unfinished(&report)),
         },
         Ok(_) => return Err("no stress asked for".to_owned()),
         Err(error) => Err(error.to_string()),
     };
-    Ok((found.map(|(error, unmet)| Measured { intensity: None, error, unmet }), timed))
-}
-
-/// The stresses of the finest mesh there is.
-fn fine<'r>(scene: &StressScene, reference: &'r mut Option<Stresses>) -> Result<&'r Stresses, String> {
-    if reference.is_none() {
-        let analysis = analysis(&scene.request, &mesh(super::stress::REFERENCE, "split"))?;
-        let report = collapse::run(&analysis, &Budget::unlimited()).map_err(|error| error.to_string())?;
-        *reference = Stresses::new(&report);
-    }
-    reference.as_ref().ok_or_else(|| "the reference gives no stresses".to_owned())
+    Ok((found, timed))
 }

@@ -1,82 +1,143 @@
-//! Stresses of an arch, held against those of a much finer mesh.
+//! Stresses held against a reference point by point.
 
+use serde::Deserialize;
 use std::collections::BTreeMap;
-use voussoir::collapse::{CollapseReport, SubblockStress};
-use voussoir::geometry::Region;
+use std::path::Path;
+use voussoir::collapse::{StressField, SubblockStress};
+use voussoir::geometry::{Vec2, cross};
 
-/// Subblocks each way of the mesh that the others are held against: the finest that a request may ask for, and divided by all
-/// uniform ones of theirs.
-pub const REFERENCE: usize = 48;
+/// Folder of the tables that `benches/fe` writes.
+const FIELDS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/fe/fields");
 
-/// Stresses in every subblock of an arch.
+/// Steps that find a point's place between four corners.
+const NEWTON_STEPS: usize = 8;
+
+/// Stresses of a scene that another program has found, or theory.
 #[derive(Debug)]
-pub struct Stresses {
-    subblocks: Vec<SubblockStress>,
-    /// Subblocks of every voussoir, radially and along.
-    meshes: BTreeMap<usize, [usize; 2]>,
+pub struct Reference {
+    /// Its points, stone by stone.
+    stones: BTreeMap<usize, Vec<Sample>>,
+    /// What it says of its own relative error.
+    pub own_error: f64,
 }
 
-/// Sum of area times stress, and of area.
-#[derive(Debug, Clone, Copy, Default)]
-struct Mean {
-    stress: [f64; 3],
-    area: f64,
+/// One point of a reference.
+#[derive(Debug, Clone, Copy, Deserialize)]
+struct Sample {
+    voussoir: usize,
+    x_m: f64,
+    y_m: f64,
+    /// The area that it stands for, m2.
+    area_m2: f64,
+    sigma_x_kpa: f64,
+    sigma_y_kpa: f64,
+    tau_xy_kpa: f64,
 }
 
-impl Stresses {
-    /// The first stress field of a report, if it has one.
-    pub fn new(report: &CollapseReport) -> Option<Self> {
-        let subblocks = report.stress_fields.first()?.subblocks.clone();
-        let mut meshes: BTreeMap<usize, [usize; 2]> = BTreeMap::new();
-        for subblock in &subblocks {
-            let mesh = meshes.entry(subblock.voussoir).or_default();
-            *mesh = [0, 1].map(|k| mesh[k].max(subblock.place[k] + 1));
-        }
-        Some(Stresses { subblocks, meshes })
+/// Relative errors of a field: roots of squares, those of the differences over those of the reference.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Errors {
+    /// Over the whole structure, weighted by area.
+    pub whole: f64,
+    /// Over the stone where it is largest, weighted by area.
+    pub worst_voussoir: f64,
+    /// The largest difference in a point, over the largest stress of the reference.
+    pub peak: f64,
+}
+
+impl Reference {
+    /// Reads the table of this name.
+    ///
+    /// # Errors
+    /// When there is none, or when it is none.
+    pub fn read(name: &str) -> Result<Self, String> {
+        let file = Path::new(FIELDS).join(name);
+        let text = std::fs::read_to_string(&file).map_err(|error| format!("{}: {error}", file.display()))?;
+        Reference::parse(&text).map_err(|error| format!("{}: {error}", file.display()))
     }
 
-    /// Relative error against a finer field, as in eq. (5) of the paper: the root of the sum of squares of the differences over
-    /// that of the finer stresses, both weighted by area. The finer stresses count with their mean over each subblock. A
-    /// square is that of the stress tensor.
-    pub fn error(&self, finer: &Stresses) -> f64 {
-        let means = self.means(finer);
-        let (mut different, mut whole) = (0.0, 0.0);
-        for subblock in &self.subblocks {
-            let Some(mean) = means.get(&(subblock.voussoir, subblock.place)) else { continue };
-            let expected = mean.stress.map(|sum| sum / mean.area);
-            different += mean.area * square([0, 1, 2].map(|k| subblock.stress[k] - expected[k]));
-            whole += mean.area * square(expected);
+    fn parse(text: &str) -> Result<Self, String> {
+        let own =
+            text.lines().find_map(|line| line.strip_prefix("# own error: ")?.strip_suffix(" %")?.parse::<f64>().ok());
+        let own_error = own.ok_or("it does not tell its own error")? / 100.0;
+        let mut stones: BTreeMap<usize, Vec<Sample>> = BTreeMap::new();
+        for sample in csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(text.as_bytes()).deserialize() {
+            let sample: Sample = sample.map_err(|error| error.to_string())?;
+            stones.entry(sample.voussoir).or_default().push(sample);
         }
-        (different / whole).sqrt()
+        Ok(Reference { stones, own_error })
     }
 
-    /// Mean stresses of a finer field over every subblock of this one.
-    fn means(&self, finer: &Stresses) -> BTreeMap<(usize, [usize; 2]), Mean> {
-        let mut means: BTreeMap<(usize, [usize; 2]), Mean> = BTreeMap::new();
-        for part in &finer.subblocks {
-            let voussoir = part.voussoir;
-            let (Some(here), Some(there)) = (self.meshes.get(&voussoir), finer.meshes.get(&voussoir)) else { continue };
-            let area = Region::polygon(&part.corners).area;
-            let [radial, along] = [0, 1].map(|k| shares(part.place[k], there[k], here[k]));
-            for &(i, share) in &radial {
-                for &(j, other) in &along {
-                    let mean = means.entry((voussoir, [i, j])).or_default();
-                    let weight = area * share * other;
-                    mean.area += weight;
-                    mean.stress = [0, 1, 2].map(|k| mean.stress[k] + weight * part.stress[k]);
-                }
+    /// Errors of a field, which is taken as it is told: between the corners of every subblock.
+    pub fn errors(&self, field: &StressField) -> Errors {
+        let (mut different, mut whole, mut worst) = (0.0, 0.0, 0.0_f64);
+        let (mut farthest, mut largest) = (0.0_f64, 0.0_f64);
+        for (&voussoir, samples) in &self.stones {
+            let subblocks: Vec<&SubblockStress> = field.subblocks.iter().filter(|s| s.voussoir == voussoir).collect();
+            let (mut here, mut of) = (0.0, 0.0);
+            for sample in samples {
+                let (right, found) = (sample.stress(), stress_at(&subblocks, sample.place()));
+                let [off, size] = [square([0, 1, 2].map(|k| found[k] - right[k])), square(right)];
+                here += sample.area_m2 * off;
+                of += sample.area_m2 * size;
+                (farthest, largest) = (farthest.max(off), largest.max(size));
             }
+            worst = worst.max(here / of);
+            (different, whole) = (different + here, whole + of);
         }
-        means
+        let [whole, worst_voussoir, peak] = [different / whole, worst, farthest / largest].map(f64::sqrt);
+        Errors { whole, worst_voussoir, peak }
     }
 }
 
-/// Which of `here` equal parts of a length the part number `at` of `there` lies in, and with which share of itself.
-fn shares(at: usize, there: usize, here: usize) -> Vec<(usize, f64)> {
-    let (from, to) = (at * here, (at + 1) * here);
-    let parts = from / there..=(to - 1) / there;
-    let inside = |part: usize| to.min((part + 1) * there) - from.max(part * there);
-    parts.map(|part| (part, inside(part) as f64 / here as f64)).collect()
+impl Sample {
+    fn place(&self) -> Vec2 {
+        Vec2::new(self.x_m, self.y_m)
+    }
+
+    /// sigma_x, sigma_y, tau_xy, Pa.
+    fn stress(&self) -> [f64; 3] {
+        [self.sigma_x_kpa, self.sigma_y_kpa, self.tau_xy_kpa].map(|stress| 1e3 * stress)
+    }
+}
+
+/// Stress that a stone's subblocks tell for a point: that of the one in which it lies deepest. Beyond straight sides under an arc
+/// that is the nearest.
+fn stress_at(subblocks: &[&SubblockStress], point: Vec2) -> [f64; 3] {
+    let deepest = subblocks.iter().max_by(|a, b| depth(a, point).total_cmp(&depth(b, point)));
+    deepest.map_or([f64::NAN; 3], |subblock| between_corners(subblock, point))
+}
+
+/// Stress of a subblock at a point, bilinear between those of its four corners; that of the whole of one with other corners.
+fn between_corners(subblock: &SubblockStress, point: Vec2) -> [f64; 3] {
+    let (Ok(corners), Ok(stress)) =
+        (<[Vec2; 4]>::try_from(&subblock.corners[..]), <[[f64; 3]; 4]>::try_from(&subblock.corner_stress[..]))
+    else {
+        return subblock.stress;
+    };
+    let shares = |[x, y]: [f64; 2]| [(1.0 - x) * (1.0 - y), x * (1.0 - y), x * y, (1.0 - x) * y];
+    // By Newton's method, which ends where the subblock is a parallelogram after one step.
+    let mut place = [0.5; 2];
+    for _ in 0..NEWTON_STEPS {
+        let [x, y] = place;
+        let [a, b, c, d] = corners;
+        let (along, across) = ((b - a) * (1.0 - y) + (c - d) * y, (d - a) * (1.0 - x) + (c - b) * x);
+        let miss = corners.iter().zip(shares(place)).fold(point, |miss, (corner, share)| miss - corner * share);
+        let area = cross(along, across);
+        place = [x + cross(miss, across) / area, y + cross(along, miss) / area];
+    }
+    let shares = shares(place.map(|x| x.clamp(0.0, 1.0)));
+    [0, 1, 2].map(|k| stress.iter().zip(shares).map(|(stress, share)| stress[k] * share).sum())
+}
+
+/// How far a point lies inside a subblock, whichever way round its corners go: its distance from the nearest side, m, negative
+/// outside.
+fn depth(subblock: &SubblockStress, point: Vec2) -> f64 {
+    let corners = &subblock.corners;
+    let sides = || corners.iter().zip(corners.iter().cycle().skip(1)).filter(|(from, to)| from != to);
+    let turn: f64 = sides().map(|(from, to)| cross(*from, *to)).sum();
+    let off = |(from, to): (&Vec2, &Vec2)| turn.signum() * cross(to - from, point - from) / (to - from).norm();
+    sides().map(off).fold(f64::INFINITY, f64::min)
 }
 
 /// Square of a stress tensor (sigma_x, sigma_y, tau_xy).
@@ -87,69 +148,95 @@ fn square([x, y, tau]: [f64; 3]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use voussoir::geometry::Vec2;
 
-    /// Two stones of 1 m x 1 m cut into n x m, their stresses given by the place of a subblock's middle.
-    fn stones(meshes: [[usize; 2]; 2], stress: impl Fn(f64, f64) -> [f64; 3]) -> Stresses {
-        let cell = |voussoir: usize, i: usize, j: usize| {
-            let [radial, along] = meshes[voussoir];
-            let at = |i: f64, j: f64| Vec2::new(voussoir as f64 + j / along as f64, i / radial as f64);
-            let (i0, j0) = (i as f64, j as f64);
-            let corners = [at(i0, j0), at(i0, j0 + 1.0), at(i0 + 1.0, j0 + 1.0), at(i0 + 1.0, j0)];
-            let centre = at(i0 + 0.5, j0 + 0.5);
+    /// A stone of 1 m x 1 m cut into n x n, with a stress given by the middle of every subblock.
+    fn stone(n: usize, stress: impl Fn(f64, f64) -> [f64; 3]) -> StressField {
+        let at = |i: usize, j: usize| Vec2::new(j as f64, i as f64) / n as f64;
+        let subblock = |i: usize, j: usize| {
+            let corners = vec![at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)];
+            let centre = (corners[0] + corners[2]) * 0.5;
+            let middle = stress(centre.x, centre.y);
             SubblockStress {
-                voussoir,
+                voussoir: 0,
                 place: [i, j],
                 centre,
-                corners: corners.to_vec(),
-                stress: stress(centre.x, centre.y),
-                corner_stress: corners.map(|corner| stress(corner.x, corner.y)).to_vec(),
+                corner_stress: vec![middle; 4],
+                corners,
+                stress: middle,
             }
         };
-        let places = meshes
-            .iter()
-            .enumerate()
-            .flat_map(|(k, &[radial, along])| (0..along).flat_map(move |j| (0..radial).map(move |i| (k, i, j))));
-        let subblocks = places.map(|(k, i, j)| cell(k, i, j)).collect();
-        Stresses { subblocks, meshes: meshes.into_iter().enumerate().collect() }
+        StressField { load_factor: 1.0, subblocks: (0..n * n).map(|k| subblock(k / n, k % n)).collect() }
+    }
+
+    /// A reference on `n` by `n` points of that stone and as many of another beside it.
+    fn reference(n: usize, stress: impl Fn(f64, f64) -> [f64; 3]) -> Reference {
+        let mut text =
+            String::from("# own error: 0.25 %\nvoussoir,x_m,y_m,area_m2,sigma_x_kpa,sigma_y_kpa,tau_xy_kpa\n");
+        for k in 0..n * n {
+            let [x, y] = [k / n, k % n].map(|i| (i as f64 + 0.5) / n as f64);
+            let [sx, sy, t] = stress(x, y).map(|s| s / 1e3);
+            text += &format!("0,{x},{y},{},{sx},{sy},{t}\n", 1.0 / (n * n) as f64);
+        }
+        Reference::parse(&text).unwrap()
     }
 
     #[test]
-    fn the_means_of_a_linear_field_are_its_values_in_the_middle() {
-        let field = |x: f64, y: f64| [2.0 + x - 3.0 * y, 1.0 - x, y];
-        let fine = stones([[12, 12]; 2], field);
-        // Where the coarse mesh divides the fine one.
-        for meshes in [[[1, 1]; 2], [[3, 2]; 2], [[12, 12]; 2], [[4, 6], [1, 3]]] {
-            assert!(stones(meshes, field).error(&fine) < 1e-14, "{meshes:?}");
+    fn a_table_tells_its_own_error_and_one_that_does_not_is_none() {
+        assert_eq!(reference(1, |_, _| [0.0; 3]).own_error, 0.0025);
+        assert!(Reference::parse("voussoir,x_m\n0,1\n").is_err());
+        assert!(Reference::read("no such table").is_err());
+    }
+
+    /// Of a stress y - 1/2, bending, one value for the stone leaves all of it, and n layers a share 1 / n of it: the variance of
+    /// what is even over a width w is w^2 / 12.
+    #[test]
+    fn constant_stress_in_layers_misses_what_changes_inside_them() {
+        let bending = |_: f64, y: f64| [2e6 * (y - 0.5), 0.0, 0.0];
+        let reference = reference(420, bending);
+        for n in [1, 2, 4, 7] {
+            let errors = reference.errors(&stone(n, bending));
+            let right = 1.0 / n as f64;
+            assert!((errors.whole / right - 1.0).abs() < 1e-3, "{n}: {errors:?}");
+            assert!((errors.worst_voussoir - errors.whole).abs() < 1e-12);
+            assert!((errors.peak / right - 1.0).abs() < 3e-2, "{n}: {errors:?}");
         }
     }
 
     #[test]
-    fn a_fine_subblock_in_two_coarse_ones_counts_in_both() {
-        // Three thirds of a length with 1, 2 and 6: its halves have (1 + 2 / 2) / 1.5 and (2 / 2 + 6) / 1.5.
-        let three = |x: f64| [1.0, 2.0, 6.0][(3.0 * x.fract()) as usize];
-        let two = |x: f64| [4.0 / 3.0, 14.0 / 3.0][(2.0 * x.fract()) as usize];
-        let across = stones([[3, 1], [3, 3]], |_, y| [three(y), 0.0, 0.0]);
-        assert!(stones([[2, 1], [2, 2]], |_, y| [two(y), 0.0, 0.0]).error(&across) < 1e-14);
-        let along = stones([[1, 3], [3, 3]], |x, _| [three(x), 0.0, 0.0]);
-        assert!(stones([[1, 2], [2, 2]], |x, _| [two(x), 0.0, 0.0]).error(&along) < 1e-14);
+    fn stress_between_corners_is_bilinear() {
+        let corners = [[0.0, 0.0], [1.2, 0.1], [1.0, 0.9], [-0.2, 1.1]].map(Vec2::from).to_vec();
+        let field = |at: &Vec2| [2.0 + at.x - 3.0 * at.y, at.y, -at.x];
+        let corner_stress = corners.iter().map(field).collect();
+        let subblock = SubblockStress {
+            voussoir: 0,
+            place: [0, 0],
+            centre: Vec2::new(0.5, 0.5),
+            corners,
+            stress: [f64::NAN; 3],
+            corner_stress,
+        };
+        for point in [[0.3, 0.4], [0.9, 0.8], [0.0, 0.9]].map(Vec2::from) {
+            let found = between_corners(&subblock, point);
+            assert!(found.iter().zip(field(&point)).all(|(a, b)| (a - b).abs() < 1e-12), "{point:?}: {found:?}");
+        }
     }
 
     #[test]
-    fn the_error_is_the_share_that_is_wrong() {
-        let right = |_: f64, _: f64| [3.0, 0.0, 0.0];
-        let fine = stones([[6, 6]; 2], right);
-        assert!((stones([[2, 3]; 2], |_, _| [3.3, 0.0, 0.0]).error(&fine) - 0.1).abs() < 1e-14);
-        // Shear counts twice; one of the two stones is wrong.
-        let sheared = stones([[2, 3]; 2], |x, _| [3.0, 0.0, if x > 1.0 { 0.3 } else { 0.0 }]);
-        assert!((sheared.error(&fine) - 0.1).abs() < 1e-14);
+    fn shear_counts_twice() {
+        let reference = reference(10, |_, _| [3e3, 0.0, 0.0]);
+        let errors = reference.errors(&stone(2, |_, _| [3e3, 0.0, 0.3e3]));
+        assert!((errors.whole - 0.1 * f64::sqrt(2.0)).abs() < 1e-12, "{errors:?}");
     }
 
     #[test]
-    fn parts_share_a_length() {
-        assert_eq!(shares(5, 48, 4), [(0, 1.0)]);
-        assert_eq!(shares(47, 48, 4), [(3, 1.0)]);
-        assert_eq!(shares(1, 3, 2), [(0, 0.5), (1, 0.5)]);
-        assert_eq!(shares(0, 1, 3), [(0, 1.0 / 3.0), (1, 1.0 / 3.0), (2, 1.0 / 3.0)]);
+    fn a_point_beyond_every_side_counts_to_the_nearest_subblock_whichever_way_corners_go() {
+        let mut field = stone(2, |x, y| [x, y, 0.0]);
+        for _ in 0..2 {
+            let subblocks: Vec<&SubblockStress> = field.subblocks.iter().collect();
+            assert_eq!(stress_at(&subblocks, Vec2::new(0.7, 1.01)), [0.75, 0.75, 0.0]);
+            assert_eq!(stress_at(&subblocks, Vec2::new(0.2, 0.4)), [0.25, 0.25, 0.0]);
+            field.subblocks.iter_mut().for_each(|subblock| subblock.corners.reverse());
+        }
+        assert!(stress_at(&[], Vec2::zeros())[0].is_nan());
     }
 }

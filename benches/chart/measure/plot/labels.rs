@@ -3,7 +3,7 @@
 use voussoir::geometry::Vec2;
 
 /// Size of the letters, pixels.
-const SIZE: f64 = 12.0;
+const SIZE: f64 = 13.0;
 /// Space between a mark and its name, pixels.
 const GAP: f64 = 4.0;
 

@@ -1,4 +1,4 @@
-//! Error against time on logarithmic axes: every run a mark, the efficient ones joined.
+//! Runs on logarithmic axes: every run a mark, and the medians and ranges of those that belong together.
 
 mod axis;
 mod labels;
@@ -7,52 +7,71 @@ use axis::Axis;
 use labels::{Labels, text_width};
 use std::f64::consts::TAU;
 use voussoir::geometry::Vec2;
-use voussoir::render::canvas::{Canvas, WIDTH};
+use voussoir::render::canvas::{Canvas, Heading, WIDTH};
 
 /// Edges of the field of decades, pixels.
 const LEFT: f64 = 92.0;
 const RIGHT: f64 = WIDTH - 36.0;
 /// Height of the field of decades, pixels.
-const DEPTH: f64 = 400.0;
-/// Height of a margin, for failed or for exact runs, pixels.
-const MARGIN: f64 = 34.0;
-/// Radius of the mark of a model, and of a single run of it, pixels.
-const RADII: [f64; 2] = [6.5, 3.6];
-/// Half the width of the frontier, pixels.
-const LINE: f64 = 1.0;
-/// Corners of the marks and the turn of the first from the right, share of a full turn. The second six are hollow.
+const DEPTH: f64 = 440.0;
+/// Height of a row in a margin, for failed or for exact runs, and what a margin has besides, pixels.
+const ROW: f64 = 11.0;
+const MARGIN: f64 = 14.0;
+/// Radius of the mark of a run, and of one in the legend, pixels.
+const RADII: [f64; 2] = [5.0, 7.5];
+/// Half the width of a line, pixels.
+const LINE: f64 = 1.5;
+/// Size of the legend's letters and height of its rows, pixels.
+const LEGEND: [f64; 2] = [16.0, 28.0];
+/// Corners of the marks and the turn of the first from the right, share of a full turn.
 const SHAPES: [(usize, f64); 6] = [(20, 0.0), (4, 0.125), (4, 0.0), (3, 0.25), (3, 0.75), (6, 0.0)];
+/// How many marks there are, each of its own colour: [`STYLE`] has them.
+pub const MARKS: usize = 14;
 
-/// Colours of Okabe and Ito, which people who see few colours tell apart.
 const STYLE: &str = "\
 .paper{fill:#fff}
 .margin{fill:#f3f1ec}
 .frame{fill:none;stroke:#93897a;stroke-width:1}
 .grid{stroke:#e4dfd6;stroke-width:1}
-.frontier{fill:none;stroke:#93897a;stroke-width:2;stroke-dasharray:6 4;stroke-linejoin:round}
-.m0{fill:#0072b2}.m1{fill:#56b4e9}.m2{fill:#009e73}.m3{fill:#cc79a7}.m4{fill:#e69f00}.m5{fill:#1d1d1f}
-.m6,.m7,.m8,.m9,.m10,.m11{fill:#fff;fill-opacity:.7;stroke-width:2}
-.m6{stroke:#1d1d1f}.m7{stroke:#d55e00}.m8{stroke:#0072b2}.m9{stroke:#009e73}.m10{stroke:#cc79a7}.m11{stroke:#e69f00}
-.run{opacity:.5}
+.m0{fill:#0072b2;stroke:#0072b2}
+.m1{fill:#d55e00;stroke:#d55e00}
+.m2{fill:#009e73;stroke:#009e73}
+.m3{fill:#88ccee;stroke:#88ccee}
+.m4{fill:#e69f00;stroke:#e69f00}
+.m5{fill:#1d1d1f;stroke:#1d1d1f}
+.m6{fill:#cc79a7;stroke:#cc79a7}
+.m7{fill:#882255;stroke:#882255}
+.m8{fill:#332288;stroke:#332288}
+.m9{fill:#999933;stroke:#999933}
+.m10{fill:#8c6d4f;stroke:#8c6d4f}
+.m11{fill:#7f7f7f;stroke:#7f7f7f}
+.m12{fill:#44aa99;stroke:#44aa99}
+.m13{fill:#cc6677;stroke:#cc6677}
+.run{stroke-width:1.5;opacity:.7}
+.unmet{fill:#fff}
+.range{stroke-width:1;opacity:.6}
+.spread{stroke-width:1.8;stroke-linecap:round}
+.joined{fill:none;stroke-width:2}
 text{font-family:Inter,'Helvetica Neue',Helvetica,Arial,sans-serif;fill:#1d1d1f}
-.title{font-size:19px;font-weight:600}
+.title{font-size:20px;font-weight:600}
 .line{font-size:15px;fill:#55524d}
-.label{font-size:12px;stroke:#fff;stroke-width:3;stroke-linejoin:round;paint-order:stroke}
-.small{font-size:13px;fill:#55524d}
-.centred{font-size:13px;fill:#55524d;text-anchor:middle}
-.before{font-size:13px;fill:#55524d;text-anchor:end}
+.model{font-size:13px;stroke:#fff;stroke-width:3;stroke-linejoin:round;paint-order:stroke}
+.legend{font-size:16px}
+.small{font-size:15px;fill:#55524d}
+.centred{font-size:15px;fill:#55524d;text-anchor:middle}
+.before{font-size:15px;fill:#55524d;text-anchor:end}
 ";
 
 /// Many runs to be drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chart<'a> {
-    /// Stands above; its first line is the title.
-    pub caption: &'a str,
-    /// What the horizontal axis is, with its unit.
-    pub time: &'a str,
-    /// What the vertical axis is, with its unit.
-    pub error: &'a str,
-    /// Runs with a smaller error count as exact.
+    /// The title, and what stands below it.
+    pub title: &'a str,
+    pub below: &'a str,
+    /// What the axes are, with their units.
+    pub across: &'a str,
+    pub up: &'a str,
+    /// Runs below this on the axis upwards count as exact; 0: none does.
     pub exact: f64,
     /// The runs, by family.
     pub series: Vec<Series<'a>>,
@@ -63,22 +82,39 @@ pub struct Chart<'a> {
 pub struct Series<'a> {
     /// Name in the legend.
     pub name: &'a str,
-    /// Which mark, from 0 to 11; those from 6 are hollow.
+    /// Which mark, less than [`MARKS`].
     pub mark: usize,
-    /// What is drawn with it.
-    pub points: Vec<Point>,
+    /// Every run.
+    pub runs: Vec<Run>,
+    /// What the runs of one model come to.
+    pub models: Vec<Spread>,
+    /// Runs to be joined by lines, by their numbers.
+    pub joined: Vec<Vec<usize>>,
 }
 
-/// A model, or one run of it.
+/// The least, the middle and the greatest of some positive values.
+pub type Range = [f64; 3];
+
+/// One run.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Point {
-    /// Time, in the unit of its axis; positive.
-    pub time: f64,
-    /// Relative error, none where the run failed.
-    pub error: Option<f64>,
-    /// Name of a model, which may be left out where there is no room. A single run has none: it is drawn small, and the frontier
-    /// does not count it.
-    pub label: Option<String>,
+pub struct Run {
+    pub across: Range,
+    /// None where the run failed.
+    pub up: Option<Range>,
+    /// False where the program itself says that what was asked is not met: a hollow mark.
+    pub met: bool,
+    /// In which row of a margin it lies, if it does.
+    pub row: usize,
+}
+
+/// A model over all its runs: a cross at the medians, its arms as long as the ranges.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Spread {
+    /// Its name, left out where there is no room.
+    pub label: String,
+    pub across: Range,
+    /// None where no run succeeded.
+    pub up: Option<Range>,
 }
 
 /// Where things are on the sheet.
@@ -89,46 +125,47 @@ struct Field {
     top: f64,
     /// Heights of the margins for failed and for exact runs; 0 where there are none.
     margins: [f64; 2],
+    /// Rows of a margin.
+    rows: usize,
 }
 
 /// Draws the chart.
 pub fn svg(chart: &Chart) -> String {
-    let lines: Vec<&str> = chart.caption.lines().collect();
-    let top = 70.0 + 22.0 * lines.len() as f64;
-    let field = Field::new(chart, top);
-    let legend = field.bottom() + 78.0;
-    let places = legend_places(chart, legend);
-    let height = places.last().map_or(legend, |place| place.y) + 34.0;
+    let heading = Heading::new(chart.title, chart.below);
+    let field = Field::new(chart, heading.height() + 44.0);
+    let entries = legend(chart);
+    let places = legend_places(&entries, field.bottom() + 84.0);
+    let height = places.last().map_or(field.bottom(), |place| place.y) + 30.0;
     let mut canvas = Canvas::blank(height);
-    for (i, line) in lines.iter().enumerate() {
-        canvas.text(if i == 0 { "title" } else { "line" }, Vec2::new(40.0, 40.0 + 22.0 * i as f64), line);
-    }
+    canvas.heading(&heading);
     draw_field(&mut canvas, &field, chart);
-    canvas.path("frontier", &frontier_line(&field, chart));
-    draw_marks(&mut canvas, &field, chart);
-    for (series, place) in chart.series.iter().zip(places) {
-        draw_mark(&mut canvas, series.mark, place - Vec2::new(14.0, 4.5), true);
-        canvas.text("small", place, series.name);
+    draw_runs(&mut canvas, &field, chart);
+    draw_models(&mut canvas, &field, chart);
+    for ((name, mark, met), place) in entries.into_iter().zip(places) {
+        draw_mark(&mut canvas, mark, place - Vec2::new(16.0, 5.5), RADII[1], met);
+        canvas.text("legend", place, name);
     }
-    let title = lines.first().unwrap_or(&"Error against time");
-    canvas.finish("scatter", title, &lines.join(" "), STYLE)
+    canvas.finish("scatter", chart.title, &format!("{} {}", chart.title, chart.below), STYLE)
 }
 
 impl Field {
     fn new(chart: &Chart, top: f64) -> Self {
-        let points = || chart.series.iter().flat_map(|series| &series.points);
-        let errors = points().filter_map(|point| point.error).filter(|&error| error >= chart.exact);
-        let margin = |there: bool| if there { MARGIN } else { 0.0 };
-        let failed = points().any(|point| point.error.is_none());
-        let exact = points().any(|point| point.error.is_some_and(|error| error < chart.exact));
+        let runs = || chart.series.iter().flat_map(|series| &series.runs);
+        let rows = runs().map(|run| run.row + 1).max().unwrap_or(1);
+        let inside = |up: &Range| up[1] >= chart.exact;
+        let margin = |there: bool| if there { MARGIN + ROW * rows as f64 } else { 0.0 };
+        let failed = runs().any(|run| run.up.is_none());
+        let exact = runs().filter_map(|run| run.up).any(|up| !inside(&up));
         let margins = [margin(failed), margin(exact)];
         let upper = top + margins[0];
+        let ups = runs().filter_map(|run| run.up).filter(inside).flatten();
         Field {
-            across: Axis::around(points().map(|point| point.time), [LEFT + 12.0, RIGHT - 12.0]),
-            up: Axis::around(errors, [upper + DEPTH - 6.0, upper + 6.0]),
+            across: Axis::around(runs().flat_map(|run| run.across), [LEFT + 12.0, RIGHT - 12.0]),
+            up: Axis::around(ups, [upper + DEPTH - 6.0, upper + 6.0]),
             exact: chart.exact,
             top,
             margins,
+            rows,
         }
     }
 
@@ -136,13 +173,24 @@ impl Field {
         self.top + DEPTH + self.margins[0] + self.margins[1]
     }
 
-    fn place(&self, time: f64, error: Option<f64>) -> Vec2 {
-        let y = match error {
-            None => self.top + 0.5 * self.margins[0],
-            Some(error) if error < self.exact => self.bottom() - 0.5 * self.margins[1],
-            Some(error) => self.up.place(error),
+    /// Where something lies; `row`: in its row of a margin, or in the middle of that.
+    fn place(&self, across: f64, up: Option<f64>, row: Option<usize>) -> Vec2 {
+        let down = row.map_or(0.0, |row| ROW * (row as f64 - 0.5 * (self.rows - 1) as f64));
+        let y = match up {
+            None => self.top + 0.5 * self.margins[0] + down,
+            Some(up) if up < self.exact => self.bottom() - 0.5 * self.margins[1] + down,
+            Some(up) => self.up.place(up),
         };
-        Vec2::new(self.across.place(time), y)
+        Vec2::new(self.across.place(across), y)
+    }
+
+    fn of(&self, run: &Run) -> Vec2 {
+        self.place(run.across[1], run.up.map(|up| up[1]), Some(run.row))
+    }
+
+    /// Whether something lies between the margins.
+    fn is_between(&self, up: Option<Range>) -> bool {
+        up.is_some_and(|up| up[1] >= self.exact)
     }
 }
 
@@ -150,110 +198,117 @@ fn draw_field(canvas: &mut Canvas, field: &Field, chart: &Chart) {
     let (width, bottom) = (RIGHT - LEFT, field.bottom());
     let [failed, exact] = field.margins;
     let below = format!("below {:e}", field.exact);
-    for (error, height, words) in [(None, failed, "no answer"), (Some(0.0), exact, below.as_str())] {
+    for (up, height, words) in [(None, failed, "no answer"), (Some(0.0), exact, below.as_str())] {
         if height > 0.0 {
-            let middle = field.place(1.0, error).y;
+            let middle = field.place(1.0, up, None).y;
             canvas.rectangle("margin", Vec2::new(LEFT, middle - 0.5 * height), Vec2::new(width, height));
-            canvas.text("before", Vec2::new(LEFT - 10.0, middle + 4.5), words);
+            canvas.text("before", Vec2::new(LEFT - 8.0, middle + 4.5), words);
         }
     }
     for (x, words) in field.across.ticks() {
         canvas.line("grid", Vec2::new(x, field.top), Vec2::new(x, bottom));
-        canvas.text("centred", Vec2::new(x, bottom + 20.0), &words);
+        canvas.text("centred", Vec2::new(x, bottom + 22.0), &words);
     }
     for (y, words) in field.up.ticks() {
         canvas.line("grid", Vec2::new(LEFT, y), Vec2::new(RIGHT, y));
-        canvas.text("before", Vec2::new(LEFT - 10.0, y + 4.5), &words);
+        canvas.text("before", Vec2::new(LEFT - 8.0, y + 4.5), &words);
     }
     canvas.rectangle("frame", Vec2::new(LEFT, field.top), Vec2::new(width, bottom - field.top));
-    canvas.text("small", Vec2::new(40.0, field.top - 14.0), chart.error);
-    canvas.text("centred", Vec2::new(0.5 * (LEFT + RIGHT), bottom + 44.0), chart.time);
+    canvas.text("small", Vec2::new(40.0, field.top - 14.0), chart.up);
+    canvas.text("centred", Vec2::new(0.5 * (LEFT + RIGHT), bottom + 48.0), chart.across);
 }
 
-/// Single runs first, so that models lie on top of them; then the labels, those of efficient models before others.
-fn draw_marks(canvas: &mut Canvas, field: &Field, chart: &Chart) {
+fn draw_runs(canvas: &mut Canvas, field: &Field, chart: &Chart) {
+    for series in &chart.series {
+        for numbers in &series.joined {
+            let line: Vec<Vec2> = numbers.iter().map(|&k| field.of(&series.runs[k])).collect();
+            canvas.path(&format!("m{} joined", series.mark), &line);
+        }
+        for run in &series.runs {
+            draw_range(canvas, field, series.mark, run);
+            draw_mark(canvas, series.mark, field.of(run), RADII[0], run.met);
+        }
+    }
+}
+
+/// From the least to the greatest of a run's repetitions.
+fn draw_range(canvas: &mut Canvas, field: &Field, mark: usize, run: &Run) {
+    let (class, at) = (format!("m{mark} range"), field.of(run));
+    let [from, .., to] = run.across.map(|across| field.across.place(across));
+    canvas.line(&class, Vec2::new(from, at.y), Vec2::new(to, at.y));
+    if let Some([low, _, high]) = run.up.filter(|_| field.is_between(run.up)) {
+        let [low, high] = [low, high].map(|up| field.up.place(up));
+        canvas.line(&class, Vec2::new(at.x, low), Vec2::new(at.x, high));
+    }
+}
+
+/// Crosses on top of all runs, then names where there is room beside them.
+fn draw_models(canvas: &mut Canvas, field: &Field, chart: &Chart) {
     let mut labels = Labels::new([LEFT, RIGHT], [field.top, field.bottom()]);
-    for models in [false, true] {
-        for series in &chart.series {
-            for point in series.points.iter().filter(|point| point.label.is_some() == models) {
-                let at = field.place(point.time, point.error);
-                draw_mark(canvas, series.mark, at, models);
-                labels.keep_clear([at, at], RADII[usize::from(!models)]);
+    for series in &chart.series {
+        for model in &series.models {
+            for arm in arms(field, model) {
+                canvas.line(&format!("m{} spread", series.mark), arm[0], arm[1]);
+                labels.keep_clear(arm, LINE);
             }
         }
     }
-    for ends in frontier_line(field, chart).windows(2) {
-        labels.keep_clear([ends[0], ends[1]], LINE);
-    }
-    let efficient = frontier(&models(chart, field));
-    let mut named: Vec<&Point> =
-        chart.series.iter().flat_map(|s| &s.points).filter(|point| point.label.is_some()).collect();
-    let counts = |point: &Point| efficient.iter().any(|&(time, _)| time == point.time);
-    named.sort_by_key(|point| !counts(point));
-    for point in named {
-        let words = point.label.as_deref().unwrap_or_default();
-        if let Some(at) = labels.find_room(field.place(point.time, point.error), RADII[0], words) {
-            canvas.text("label", at, words);
+    for model in chart.series.iter().flat_map(|series| &series.models) {
+        if let Some(at) = labels.find_room(middle(field, model), LINE, &model.label) {
+            canvas.text("model", at, &model.label);
         }
     }
 }
 
-fn draw_mark(canvas: &mut Canvas, mark: usize, at: Vec2, model: bool) {
+fn middle(field: &Field, model: &Spread) -> Vec2 {
+    field.place(model.across[1], model.up.map(|up| up[1]), None)
+}
+
+/// The arms of a model's cross; in a margin there is but one.
+fn arms(field: &Field, model: &Spread) -> Vec<[Vec2; 2]> {
+    let at = middle(field, model);
+    let [from, .., to] = model.across.map(|across| field.across.place(across));
+    let level = [Vec2::new(from, at.y), Vec2::new(to, at.y)];
+    let upright = model.up.filter(|_| field.is_between(model.up)).map(|[low, _, high]| {
+        let y = |up: f64| field.place(1.0, Some(up), None).y;
+        [Vec2::new(at.x, y(low)), Vec2::new(at.x, y(high))]
+    });
+    [Some(level), upright].into_iter().flatten().collect()
+}
+
+fn draw_mark(canvas: &mut Canvas, mark: usize, at: Vec2, radius: f64, met: bool) {
     let (corners, turn) = SHAPES[mark % SHAPES.len()];
-    let radius = RADII[usize::from(!model)];
     let corner = |k: usize| {
         let (sin, cos) = (TAU * (turn + k as f64 / corners as f64)).sin_cos();
         at + radius * Vec2::new(cos, -sin)
     };
-    let class = if model { format!("m{mark}") } else { format!("m{mark} run") };
+    let class = if met { format!("m{mark} run") } else { format!("m{mark} run unmet") };
     canvas.shape(&class, &(0..corners).map(corner).collect::<Vec<_>>());
 }
 
-/// Time and error of every model that answers; 0 where it is exact.
-fn models(chart: &Chart, field: &Field) -> Vec<(f64, f64)> {
-    let points = chart.series.iter().flat_map(|series| &series.points).filter(|point| point.label.is_some());
-    let exact = |error: f64| if error < field.exact { 0.0 } else { error };
-    points.filter_map(|point| Some((point.time, exact(point.error?)))).collect()
-}
-
-/// Those of which no faster one has as small an error, in the order of time.
-fn frontier(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
-    let mut sorted = points.to_vec();
-    sorted.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
-    let mut least = f64::INFINITY;
-    sorted.retain(|&(_, error)| {
-        let better = error < least;
-        least = least.min(error);
-        better
-    });
-    sorted
-}
-
-/// The least error to be had in a given time: a line of steps that ends at the right edge.
-fn frontier_line(field: &Field, chart: &Chart) -> Vec<Vec2> {
-    let corners = frontier(&models(chart, field)).into_iter().map(|(time, error)| field.place(time, Some(error)));
-    let mut line: Vec<Vec2> = Vec::new();
-    for at in corners {
-        line.extend(line.last().map(|before| Vec2::new(at.x, before.y)));
-        line.push(at);
-    }
-    line.extend(line.last().map(|last| Vec2::new(RIGHT, last.y)));
-    line
+/// Name, mark, and whether it is filled: of every family, and of what is not met.
+fn legend<'a>(chart: &Chart<'a>) -> Vec<(&'a str, usize, bool)> {
+    let mut entries: Vec<_> = chart.series.iter().map(|series| (series.name, series.mark, true)).collect();
+    let unmet = chart.series.iter().find(|series| series.runs.iter().any(|run| !run.met));
+    entries.extend(unmet.map(|series| ("says that the error asked is not met", series.mark, false)));
+    entries
 }
 
 /// Where the words of the legend begin, row by row.
-fn legend_places(chart: &Chart, first: f64) -> Vec<Vec2> {
-    let mut next = Vec2::new(62.0, first);
-    let place = |series: &Series| {
-        let width = text_width(series.name, 13.0) + 46.0;
-        if next.x + width > RIGHT {
-            next = Vec2::new(62.0, next.y + 24.0);
+fn legend_places(entries: &[(&str, usize, bool)], first: f64) -> Vec<Vec2> {
+    let [size, row] = LEGEND;
+    let start = 64.0;
+    let mut next = Vec2::new(start, first);
+    let place = |&(name, ..): &(&str, usize, bool)| {
+        let width = text_width(name, size);
+        if next.x > start && next.x + width > RIGHT {
+            next = Vec2::new(start, next.y + row);
         }
         let at = next;
-        next.x += width;
+        next.x += width + 52.0;
         at
     };
-    chart.series.iter().map(place).collect()
+    entries.iter().map(place).collect()
 }
 
 #[cfg(test)]
