@@ -165,7 +165,8 @@ mod tests {
                 stress: middle,
             }
         };
-        StressField { load_factor: 1.0, subblocks: (0..n * n).map(|k| subblock(k / n, k % n)).collect() }
+        let subblocks = (0..n * n).map(|k| subblock(k / n, k % n)).collect();
+        StressField { load_factor: 1.0, subblocks, roughness: Vec::new() }
     }
 
     /// A reference on `n` by `n` points of that stone and as many of another beside it.
