@@ -3,7 +3,7 @@
 //! All figures are shares of the loads: the sum of the sizes of all forces at the state's load factor.
 
 use super::largest::larger;
-use voussoir::collapse::{Analysis, CollapseReport, ContactPoint, Method, PathEnd, Snapshot};
+use voussoir::collapse::{Analysis, CollapseReport, ContactPoint, Method, Order, PathEnd, Snapshot};
 use voussoir::geometry::Vec2;
 use voussoir::structure::{Joint, JointLaw, PointForce, Structure};
 
@@ -84,8 +84,13 @@ pub fn weight(analysis: &Analysis, factor: f64) -> f64 {
     total(&analysis.fixed) + factor.abs() * total(&analysis.scaled)
 }
 
-/// Judges a state.
-pub fn broken(analysis: &Analysis, state: &Snapshot) -> Broken {
+/// Order of the subblocks that a report is of.
+pub fn order(analysis: &Analysis, report: &CollapseReport) -> Order {
+    report.plan.as_ref().map_or(analysis.mesh.order, |plan| plan.order)
+}
+
+/// Judges a state on subblocks of this order.
+pub fn broken(analysis: &Analysis, order: Order, state: &Snapshot) -> Broken {
     let stones = stones(analysis, state);
     let mut all = Broken { balance: stones[0], stress: stones[1], ..Broken::default() };
     for (element, force) in analysis.structure.passive.iter().zip(&state.soil) {
@@ -95,7 +100,8 @@ pub fn broken(analysis: &Analysis, state: &Snapshot) -> Broken {
     for (k, joint) in analysis.structure.ring().iter().enumerate() {
         let places: Vec<f64> = at_joint(state, k).map(|contact| contact.position).collect();
         for (j, contact) in at_joint(state, k).enumerate() {
-            all = all.join(of_contact(analysis, k, joint, share(&places, j), contact));
+            let share = if order == Order::Second { simpson(&places, j) } else { share(&places, j) };
+            all = all.join(of_contact(analysis, k, joint, share, contact));
         }
     }
     all.over(weight(analysis, state.load_factor))
@@ -111,6 +117,16 @@ fn share(places: &[f64], j: usize) -> f64 {
     let low = if j == 0 { 0.0 } else { 0.5 * (places[j - 1] + places[j]) };
     let high = if j + 1 == places.len() { 1.0 } else { 0.5 * (places[j] + places[j + 1]) };
     high - low
+}
+
+/// The share of a joint that Simpson's rule gives one of its points, which are ends and middles of stretches by turns.
+fn simpson(places: &[f64], j: usize) -> f64 {
+    let stretch = |from: usize, to: usize| (places[to] - places[from]) / 6.0;
+    if j % 2 == 1 {
+        return 4.0 * stretch(j - 1, j + 1);
+    }
+    let before = if j == 0 { 0.0 } else { stretch(j - 2, j) };
+    before + if j + 1 == places.len() { 0.0 } else { stretch(j, j + 2) }
 }
 
 /// Tension, friction and overlap of one contact, N/m.
