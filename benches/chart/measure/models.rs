@@ -1,5 +1,6 @@
 //! The models that every scene is given to.
 
+use super::stress::Reading;
 use serde_json::{Value, json};
 
 /// Uniform meshes, subblocks each way.
@@ -22,6 +23,8 @@ pub struct Model {
     pub name: String,
     /// How the answer is found.
     pub way: Way,
+    /// How its stress is read.
+    pub reading: Reading,
 }
 
 /// How an answer is found.
@@ -38,13 +41,23 @@ pub enum Way {
 pub fn collapse(step: Option<f64>, finest: Option<usize>) -> Vec<Model> {
     let mut models: Vec<Model> =
         meshes(&MESHES[..1]).filter(|(n, _)| finest.is_none_or(|most| *n <= most)).map(|(_, model)| model).collect();
-    models.push(Model { family: "limit window", name: "limit window".to_owned(), way: Way::LimitWindow });
+    models.push(Model {
+        family: "limit window",
+        name: "limit window".to_owned(),
+        way: Way::LimitWindow,
+        reading: Reading::Constant,
+    });
     if finest.is_none() {
         models.push(accuracy("collapse_intensity", INTENSITY));
     }
     models.extend(step.map(|step| {
         let fields = json!({"method": {"fixed_steps": {"step": step}}});
-        Model { family: "load steps", name: format!("steps of {step} kN"), way: Way::Analysis(fields) }
+        Model {
+            family: "load steps",
+            name: format!("steps of {step} kN"),
+            way: Way::Analysis(fields),
+            reading: Reading::Constant,
+        }
     }));
     models
 }
@@ -57,7 +70,7 @@ pub fn stress() -> Vec<Model> {
 /// A mesh of the program's own choice that keeps an error of what is sought.
 fn accuracy(of: &str, error: f64) -> Model {
     let way = Way::Analysis(json!({"accuracy": {of: error}}));
-    Model { family: "adaptive", name: format!("asked {error:?}"), way }
+    Model { family: "adaptive", name: format!("asked {error:?}"), way, reading: Reading::Corners }
 }
 
 /// A family of uniform meshes.
@@ -69,22 +82,45 @@ struct Meshes {
     uniform: &'static [usize],
     /// What the request's `mesh` has besides them.
     fields: fn() -> Value,
+    reading: Reading,
 }
 
 /// Families of uniform meshes; the first mesh of the first is the base. One subblock has no seams.
-const MESHES: [Meshes; 3] = [
-    Meshes { name: "split seams", ending: "", uniform: &UNIFORM, fields: || json!({"seams": "split"}) },
+const MESHES: [Meshes; 5] = [
+    Meshes {
+        name: "split seams",
+        ending: "",
+        uniform: &UNIFORM,
+        fields: || json!({"seams": "split"}),
+        reading: Reading::Constant,
+    },
+    Meshes {
+        name: "recovered",
+        ending: ", recovered",
+        uniform: UNIFORM.split_at(1).1,
+        fields: || json!({"seams": "split"}),
+        reading: Reading::Corners,
+    },
+    Meshes {
+        name: "second order",
+        ending: ", second order",
+        uniform: &UNIFORM,
+        fields: || json!({"order": 2}),
+        reading: Reading::Corners,
+    },
+    Meshes {
+        name: "second order, graded",
+        ending: ", second order, graded",
+        uniform: UNIFORM.split_at(1).1,
+        fields: || json!({"order": 2, "lines": "graded"}),
+        reading: Reading::Corners,
+    },
     Meshes {
         name: "corner seams",
         ending: ", corner seams",
         uniform: UNIFORM.split_at(1).1,
         fields: || json!({"seams": "corners"}),
-    },
-    Meshes {
-        name: "second order",
-        ending: ", second order",
-        uniform: UNIFORM.split_at(1).1.split_at(3).0,
-        fields: || json!({"order": 2, "lines": "graded"}),
+        reading: Reading::Constant,
     },
 ];
 
@@ -94,7 +130,7 @@ fn meshes(families: &'static [Meshes]) -> impl Iterator<Item = (usize, Model)> {
         let mut mesh = (family.fields)();
         mesh["subblocks"] = json!({"uniform": {"radial": n, "along": n}});
         let way = Way::Analysis(json!({"mesh": mesh}));
-        Model { family: family.name, name: format!("{n} x {n}{}", family.ending), way }
+        Model { family: family.name, name: format!("{n} x {n}{}", family.ending), way, reading: family.reading }
     };
     families.iter().flat_map(move |family| family.uniform.iter().map(move |&n| (n, model(family, n))))
 }

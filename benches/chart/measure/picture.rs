@@ -8,9 +8,11 @@ use super::table::{Kind, Row};
 const EXACT: f64 = 1e-9;
 
 /// Families, each with its mark in every picture, and their names in the legend.
-pub const FAMILIES: [(&str, usize, &str); 12] = [
+pub const FAMILIES: [(&str, usize, &str); 14] = [
     ("split seams", 0, "n x n subblocks"),
-    ("second order", 1, "n x n of second order, graded"),
+    ("recovered", 12, "n x n, recovered"),
+    ("second order", 1, "n x n of second order"),
+    ("second order, graded", 13, "n x n of second order, graded"),
     ("corner seams", 3, "n x n, corner seams"),
     ("adaptive", 2, "mesh chosen for an error asked"),
     ("load steps", 4, "fixed load steps, as in the paper"),

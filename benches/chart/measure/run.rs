@@ -208,7 +208,7 @@ fn on_stress(scene: &StressScene, model: &Model, reference: &Reference) -> Resul
     let question = question(&scene.request, fields)?;
     let (answer, timed) = timed(|| collapse::answer(&question, &Budget::unlimited()));
     let held = |field: &StressField, met| {
-        let errors = reference.errors(field);
+        let errors = reference.errors(field, model.reading);
         let told = errors.whole.is_finite().then_some(Held::Stress(errors, reference.own_error));
         told.map(|errors| Measured { errors, met }).ok_or_else(|| "some stone has no stress".to_owned())
     };

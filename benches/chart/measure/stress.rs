@@ -9,7 +9,7 @@ use voussoir::geometry::{Vec2, cross};
 /// Folder of the tables that `benches/fe` writes.
 const FIELDS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/fe/fields");
 
-/// Steps that find a point's place between four corners.
+/// Newton steps to a point's place between four corners: subblocks are next to parallelograms.
 const NEWTON_STEPS: usize = 8;
 
 /// Stresses of a scene that another program has found, or theory.
@@ -32,6 +32,15 @@ struct Sample {
     sigma_x_kpa: f64,
     sigma_y_kpa: f64,
     tau_xy_kpa: f64,
+}
+
+/// How the stress that an answer tells for a subblock is read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reading {
+    /// As constant in it.
+    Constant,
+    /// As bilinear between its corners.
+    Corners,
 }
 
 /// Relative errors of a field: roots of squares, those of the differences over those of the reference.
@@ -68,15 +77,15 @@ impl Reference {
         Ok(Reference { stones, own_error })
     }
 
-    /// Errors of a field, which is taken as it is told: between the corners of every subblock.
-    pub fn errors(&self, field: &StressField) -> Errors {
+    /// Errors of a field, read so.
+    pub fn errors(&self, field: &StressField, reading: Reading) -> Errors {
         let (mut different, mut whole, mut worst) = (0.0, 0.0, 0.0_f64);
         let (mut farthest, mut largest) = (0.0_f64, 0.0_f64);
         for (&voussoir, samples) in &self.stones {
             let subblocks: Vec<&SubblockStress> = field.subblocks.iter().filter(|s| s.voussoir == voussoir).collect();
             let (mut here, mut of) = (0.0, 0.0);
             for sample in samples {
-                let (right, found) = (sample.stress(), stress_at(&subblocks, sample.place()));
+                let (right, found) = (sample.stress(), stress_at(&subblocks, sample.place(), reading));
                 let [off, size] = [square([0, 1, 2].map(|k| found[k] - right[k])), square(right)];
                 here += sample.area_m2 * off;
                 of += sample.area_m2 * size;
@@ -103,31 +112,31 @@ impl Sample {
 
 /// Stress that a stone's subblocks tell for a point: that of the one in which it lies deepest. Beyond straight sides under an arc
 /// that is the nearest.
-fn stress_at(subblocks: &[&SubblockStress], point: Vec2) -> [f64; 3] {
+fn stress_at(subblocks: &[&SubblockStress], point: Vec2, reading: Reading) -> [f64; 3] {
     let deepest = subblocks.iter().max_by(|a, b| depth(a, point).total_cmp(&depth(b, point)));
-    deepest.map_or([f64::NAN; 3], |subblock| between_corners(subblock, point))
+    deepest.map_or([f64::NAN; 3], |subblock| match reading {
+        Reading::Constant => subblock.stress,
+        Reading::Corners => between_corners(subblock, point).unwrap_or(subblock.stress),
+    })
 }
 
-/// Stress of a subblock at a point, bilinear between those of its four corners; that of the whole of one with other corners.
-fn between_corners(subblock: &SubblockStress, point: Vec2) -> [f64; 3] {
-    let (Ok(corners), Ok(stress)) =
-        (<[Vec2; 4]>::try_from(&subblock.corners[..]), <[[f64; 3]; 4]>::try_from(&subblock.corner_stress[..]))
-    else {
-        return subblock.stress;
-    };
-    let shares = |[x, y]: [f64; 2]| [(1.0 - x) * (1.0 - y), x * (1.0 - y), x * y, (1.0 - x) * y];
-    // By Newton's method, which ends where the subblock is a parallelogram after one step.
-    let mut place = [0.5; 2];
+/// Stress at a point, bilinear between four corners; none where there are others.
+fn between_corners(subblock: &SubblockStress, point: Vec2) -> Option<[f64; 3]> {
+    let corners: [Vec2; 4] = subblock.corners.as_slice().try_into().ok()?;
+    let stresses: [[f64; 3]; 4] = subblock.corner_stress.as_slice().try_into().ok()?;
+    let shares = |[s, t]: [f64; 2]| [(1.0 - s) * (1.0 - t), s * (1.0 - t), s * t, (1.0 - s) * t];
+    let mut at = [0.5; 2];
+    // The place of the point, by Newton's method: of parallelograms at once.
     for _ in 0..NEWTON_STEPS {
-        let [x, y] = place;
-        let [a, b, c, d] = corners;
-        let (along, across) = ((b - a) * (1.0 - y) + (c - d) * y, (d - a) * (1.0 - x) + (c - b) * x);
-        let miss = corners.iter().zip(shares(place)).fold(point, |miss, (corner, share)| miss - corner * share);
-        let area = cross(along, across);
-        place = [x + cross(miss, across) / area, y + cross(along, miss) / area];
+        let [s, t] = at;
+        let here = corners.iter().zip(shares(at)).fold(Vec2::zeros(), |sum, (corner, share)| sum + corner * share);
+        let by_s = (corners[1] - corners[0]) * (1.0 - t) + (corners[2] - corners[3]) * t;
+        let by_t = (corners[3] - corners[0]) * (1.0 - s) + (corners[2] - corners[1]) * s;
+        let (off, area) = (point - here, cross(by_s, by_t));
+        at = [s + cross(off, by_t) / area, t + cross(by_s, off) / area];
     }
-    let shares = shares(place.map(|x| x.clamp(0.0, 1.0)));
-    [0, 1, 2].map(|k| stress.iter().zip(shares).map(|(stress, share)| stress[k] * share).sum())
+    let shares = shares(at);
+    Some([0, 1, 2].map(|c| (0..4).map(|k| shares[k] * stresses[k][c]).sum()))
 }
 
 /// How far a point lies inside a subblock, whichever way round its corners go: its distance from the nearest side, m, negative
@@ -155,18 +164,21 @@ mod tests {
         let subblock = |i: usize, j: usize| {
             let corners = vec![at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)];
             let centre = (corners[0] + corners[2]) * 0.5;
-            let middle = stress(centre.x, centre.y);
+            let corner_stress = corners.iter().map(|corner| stress(corner.x, corner.y)).collect();
             SubblockStress {
                 voussoir: 0,
                 place: [i, j],
                 centre,
-                corner_stress: vec![middle; 4],
                 corners,
-                stress: middle,
+                stress: stress(centre.x, centre.y),
+                corner_stress,
             }
         };
-        let subblocks = (0..n * n).map(|k| subblock(k / n, k % n)).collect();
-        StressField { load_factor: 1.0, subblocks, roughness: Vec::new() }
+        StressField {
+            load_factor: 1.0,
+            subblocks: (0..n * n).map(|k| subblock(k / n, k % n)).collect(),
+            roughness: Vec::new(),
+        }
     }
 
     /// A reference on `n` by `n` points of that stone and as many of another beside it.
@@ -195,7 +207,7 @@ mod tests {
         let bending = |_: f64, y: f64| [2e6 * (y - 0.5), 0.0, 0.0];
         let reference = reference(420, bending);
         for n in [1, 2, 4, 7] {
-            let errors = reference.errors(&stone(n, bending));
+            let errors = reference.errors(&stone(n, bending), Reading::Constant);
             let right = 1.0 / n as f64;
             assert!((errors.whole / right - 1.0).abs() < 1e-3, "{n}: {errors:?}");
             assert!((errors.worst_voussoir - errors.whole).abs() < 1e-12);
@@ -204,28 +216,9 @@ mod tests {
     }
 
     #[test]
-    fn stress_between_corners_is_bilinear() {
-        let corners = [[0.0, 0.0], [1.2, 0.1], [1.0, 0.9], [-0.2, 1.1]].map(Vec2::from).to_vec();
-        let field = |at: &Vec2| [2.0 + at.x - 3.0 * at.y, at.y, -at.x];
-        let corner_stress = corners.iter().map(field).collect();
-        let subblock = SubblockStress {
-            voussoir: 0,
-            place: [0, 0],
-            centre: Vec2::new(0.5, 0.5),
-            corners,
-            stress: [f64::NAN; 3],
-            corner_stress,
-        };
-        for point in [[0.3, 0.4], [0.9, 0.8], [0.0, 0.9]].map(Vec2::from) {
-            let found = between_corners(&subblock, point);
-            assert!(found.iter().zip(field(&point)).all(|(a, b)| (a - b).abs() < 1e-12), "{point:?}: {found:?}");
-        }
-    }
-
-    #[test]
     fn shear_counts_twice() {
         let reference = reference(10, |_, _| [3e3, 0.0, 0.0]);
-        let errors = reference.errors(&stone(2, |_, _| [3e3, 0.0, 0.3e3]));
+        let errors = reference.errors(&stone(2, |_, _| [3e3, 0.0, 0.3e3]), Reading::Constant);
         assert!((errors.whole - 0.1 * f64::sqrt(2.0)).abs() < 1e-12, "{errors:?}");
     }
 
@@ -234,10 +227,28 @@ mod tests {
         let mut field = stone(2, |x, y| [x, y, 0.0]);
         for _ in 0..2 {
             let subblocks: Vec<&SubblockStress> = field.subblocks.iter().collect();
-            assert_eq!(stress_at(&subblocks, Vec2::new(0.7, 1.01)), [0.75, 0.75, 0.0]);
-            assert_eq!(stress_at(&subblocks, Vec2::new(0.2, 0.4)), [0.25, 0.25, 0.0]);
+            assert_eq!(stress_at(&subblocks, Vec2::new(0.7, 1.01), Reading::Constant), [0.75, 0.75, 0.0]);
+            assert_eq!(stress_at(&subblocks, Vec2::new(0.2, 0.4), Reading::Constant), [0.25, 0.25, 0.0]);
             field.subblocks.iter_mut().for_each(|subblock| subblock.corners.reverse());
         }
-        assert!(stress_at(&[], Vec2::zeros())[0].is_nan());
+        assert!(stress_at(&[], Vec2::zeros(), Reading::Constant)[0].is_nan());
+    }
+
+    #[test]
+    fn a_linear_stress_is_exact_between_corners_of_any_quadrilateral() {
+        let linear = |x: f64, y: f64| [2e3 * x - 1e3 * y, 500.0 + 3e3 * y, 4e3 * x];
+        assert!(reference(9, linear).errors(&stone(2, linear), Reading::Corners).whole < 1e-12);
+        let corners = vec![Vec2::new(0.0, 0.0), Vec2::new(1.0, 0.1), Vec2::new(0.9, 1.3), Vec2::new(-0.2, 0.8)];
+        let corner_stress = corners.iter().map(|corner| linear(corner.x, corner.y)).collect();
+        let subblock = SubblockStress {
+            voussoir: 0,
+            place: [0, 0],
+            centre: Vec2::zeros(),
+            corners,
+            stress: [0.0; 3],
+            corner_stress,
+        };
+        let found = stress_at(&[&subblock], Vec2::new(0.3, 0.4), Reading::Corners);
+        assert!((0..3).all(|c| (found[c] - linear(0.3, 0.4)[c]).abs() < 1e-9), "{found:?}");
     }
 }
