@@ -145,7 +145,7 @@ fn states(numbers: Vec<u64>) {
             }
         }
         for (name, state) in common::state::states(&report) {
-            let broken = broken(&analysis, state);
+            let broken = broken(&analysis, common::state::order(&analysis, &report), state);
             seen += 1;
             all = all.join(broken);
             if broken.worst() > 1e-6 {
