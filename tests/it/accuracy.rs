@@ -191,11 +191,7 @@ fn stress_next_to_hinges_is_not_said_to_be_better_than_it_is() {
     let had = pointwise_error(&planned.stress_fields[0], &fine.stress_fields[0]);
     let stress = planned.plan.unwrap().stress.unwrap();
     println!("half-arch: asked 0.07, estimated {:.3}, had {had:.3}", stress.estimate.unwrap());
-    // So near collapse it may be a fifth low.
-    assert!(
-        stress.estimate.unwrap() >= 0.8 * had && stress.met == (stress.estimate.unwrap() <= 0.07),
-        "{stress:?}, {had}"
-    );
+    assert!(stress.estimate.unwrap() >= had && stress.met == (stress.estimate.unwrap() <= 0.07), "{stress:?}, {had}");
 }
 
 #[test]

@@ -12,8 +12,6 @@ use voussoir::structure::Joint;
 /// How many random arches, and how many of them at least have to ask a question.
 const ARCHES: u64 = 600;
 const ASKED: usize = 60;
-/// One in so many may have another state than the path has: where points slide, friction lets several be.
-const OTHERS: usize = 40;
 /// Largest difference of a contact's force, over the largest; so near collapse a state follows its load a thousandfold.
 const EQUAL: [f64; 2] = [1e-9, 1e-6];
 
@@ -41,7 +39,7 @@ fn on_path(analysis: &Analysis, chosen: &CollapseReport) -> CollapseReport {
 
 #[test]
 fn they_are_the_states_on_the_path() {
-    let (mut asked, mut followed, mut worst, mut others) = (0, 0, [0f64; 3], Vec::new());
+    let (mut asked, mut followed, mut worst) = (0, 0, [0f64; 3]);
     for seed in 0..ARCHES {
         let mut request = random_arch::request(seed);
         request["accuracy"] = json!({"stress": 0.3, "subblocks": 600});
@@ -77,17 +75,13 @@ fn they_are_the_states_on_the_path() {
                 continue;
             };
             let apart = apart(a, b);
-            if apart < EQUAL[usize::from(k == 2)] {
-                worst[k] = larger(worst[k], apart);
-            } else {
-                others.push((seed, k, apart));
-            }
+            worst[k] = larger(worst[k], apart);
+            assert!(apart < EQUAL[usize::from(k == 2)], "seed {seed}, state {k}: {apart}");
         }
         asked += 1;
     }
     println!(
         "{asked} arches, {followed} more whose path was followed on the mesh; at the start, at load factor 1, near collapse {worst:?}"
     );
-    println!("other states of the law than on the path: {others:?}");
-    assert!(asked >= ASKED && OTHERS * others.len() <= asked, "{asked} arches, {others:?}");
+    assert!(asked >= ASKED, "{asked} arches");
 }

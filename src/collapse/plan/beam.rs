@@ -65,7 +65,7 @@ pub(in super::super) fn solve(beam: &CurvedBeam, budget: &Budget) -> Result<Beam
         meshes.extend(rungs(first, columns, PIECES).into_iter().map(|mesh| (which, mesh)));
     }
     meshes.sort_by_key(|(_, [radial, _])| *radial);
-    let mut series = SERIES.map(|_| Series { coarse: None, errors: FieldErrors::new(1, BEAM_ORDERS) });
+    let mut series = SERIES.map(|_| Series { coarse: None, errors: FieldErrors::new(1, BEAM_ORDERS, false) });
     let (mut tried, mut last) = (Vec::new(), None);
     for (which, subblocks) in meshes {
         let report = beam::solve(&CurvedBeam { subblocks, ..*beam }, budget)?;

@@ -1,6 +1,8 @@
 //! Refines the mesh voussoir by voussoir until the stress is as accurate as asked.
 
-use super::super::{Analysis, AnalysisError, CollapseReport, Estimate, MeshTried, Order, Outcome, PlanReason, verdict};
+use super::super::{
+    Analysis, AnalysisError, CollapseReport, ContactPoint, Estimate, MeshTried, Order, Outcome, PlanReason, verdict,
+};
 use super::estimate::{FieldErrors, Orders, differences};
 use super::mesh::{drawing, ladder};
 use super::states::{Wanted, on_mesh};
@@ -13,6 +15,11 @@ const ORDERS: [Orders; 2] = [[0.4, 1.0], [0.5, 1.5]];
 
 /// Error that a mesh aims at, over the error asked: an estimate may come out a little larger than it was foreseen.
 const AIM: f64 = 0.9;
+
+/// A joint whose thrust passes within this share of its length from an end is a hinge or about to be one; so many of them, in half
+/// an arch so many, make a mechanism.
+const AT_END: f64 = 0.02;
+const HINGES: [usize; 2] = [4, 3];
 
 /// The last mesh and what it gave.
 pub(super) struct Refined {
@@ -68,7 +75,8 @@ pub(super) fn solve(
     if report.outcome == Outcome::CannotTell || report.stress_fields.is_empty() {
         return Ok(Err(PlanReason::CoarsestLost));
     }
-    let mut mesh = Refinement::new(drawing(&analysis.structure).0, ladders, report);
+    let near = |at: f64| is_about_to_fall(whole, analysis.structure.is_half(), at);
+    let mut mesh = Refinement::new(drawing(&analysis.structure).0, ladders, report, near);
     let why = loop {
         let marked = match mesh.told() {
             Some(estimate) if estimate <= asked => break PlanReason::AccurateEnough,
@@ -107,9 +115,10 @@ pub(super) fn solve(
 
 impl Refinement {
     /// The coarsest mesh.
-    fn new(order: Order, ladders: Vec<Vec<[usize; 2]>>, report: CollapseReport) -> Self {
+    fn new(order: Order, ladders: Vec<Vec<[usize; 2]>>, report: CollapseReport, near: impl Fn(f64) -> bool) -> Self {
         let orders = ORDERS[usize::from(order == Order::Second)];
-        let errors = vec![FieldErrors::new(ladders.len(), orders); report.stress_fields.len()];
+        let fields = report.stress_fields.iter();
+        let errors = fields.map(|field| FieldErrors::new(ladders.len(), orders, near(field.load_factor))).collect();
         let levels = vec![0; ladders.len()];
         let mut mesh = Refinement { order, ladders, levels, report, errors, first_yield: None, meshes: Vec::new() };
         if order == Order::Second {
@@ -209,6 +218,19 @@ impl Refinement {
         let contact_points = self.report.at_start.as_ref().map(|start| start.contacts.len());
         self.meshes.push(MeshTried { subblocks: total(&self.subblocks(&self.levels)), contact_points, stress });
     }
+}
+
+/// Whether whole stones have as many hinges, or joints that are about to be some, as a mechanism at this load factor.
+fn is_about_to_fall(whole: &CollapseReport, half: bool, load_factor: f64) -> bool {
+    let states = [&whole.at_start, &whole.at_unit_load, &whole.near_collapse];
+    let Some(state) = states.into_iter().flatten().find(|state| state.load_factor == load_factor) else { return false };
+    let at_end = |of: &[ContactPoint]| {
+        let sums = of.iter().fold([0.0; 2], |[n, m], point| [n + point.normal, m + point.normal * point.position]);
+        let place = sums[1] / sums[0];
+        place < AT_END || place > 1.0 - AT_END
+    };
+    let joints = state.contacts.chunk_by(|a, b| a.joint == b.joint);
+    joints.filter(|joint| at_end(joint)).count() >= HINGES[usize::from(half)]
 }
 
 /// How many subblocks they are together.

@@ -2,8 +2,8 @@
 //!
 //! The collapse load of rigid stones does not depend on the mesh: the path of whole stones has load, mechanism and thrust line. The
 //! states that are reported are solved for on the mesh, from the start on towards collapse and each from the one before. Where one
-//! is not found, where there are several, where joints slide at collapse, on which states depend, or have cohesion, with which they
-//! slide otherwise on another mesh, the path is followed on the mesh.
+//! is not found, where there are several, or may be, as contacts that press have slid in it, where joints slide at collapse, on which
+//! states depend, or have cohesion, with which they slide otherwise on another mesh, the path is followed on the mesh.
 
 use crate::budget::Budget;
 use crate::collapse::discretise::{Discretisation, Model};
@@ -14,10 +14,14 @@ use crate::collapse::verdict::{is_cohesive, notes_on_mesh};
 use crate::collapse::{
     Analysis, AnalysisError, CollapseReport, Cost, Crushing, Note, Outcome, PathEnd, Snapshot, StressField,
 };
-use crate::dda::{Balanced, balanced, direct};
+use crate::dda::{Balanced, Contact, ContactForce, Law, balanced, direct};
 
 /// Share of the way that is left to collapse which is gone at once.
 const STRIDE: f64 = 0.9;
+/// A contact that presses with less than this share of the largest normal force may slide, and nothing else is much changed.
+const SLIGHT: f64 = 1e-4;
+/// A shear that is within this share of its bound has slid.
+const AT_BOUND: f64 = 1e-9;
 
 /// Which states of an answer are wanted besides its stress fields.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -154,8 +158,22 @@ impl States<'_> {
         self.cost.join(Cost { factorisations, block_rows, ..Cost::default() });
         let assembly = &self.model.assembly;
         let forces = assembly.contact_forces(assembly.exact_contacts(), &displacements);
+        if slides(assembly.exact_contacts(), &forces) {
+            return Ok(false);
+        }
         let symmetric = self.model.symmetric && assembly.mirrored(&displacements) == displacements;
         self.found.push(Standing { load_factor, displacements, forces, symmetric });
         Ok(true)
     }
+}
+
+/// Whether some contact that presses has slid: there may be several such states then, and the path tells which one is reached.
+fn slides(contacts: &[Contact], forces: &[ContactForce]) -> bool {
+    let most = forces.iter().map(|force| force.normal).fold(0.0, f64::max);
+    contacts.iter().zip(forces).any(|(contact, force)| match contact.law {
+        Law::Coulomb { friction, cohesion, .. } if friction > 0.0 && force.normal > SLIGHT * most => {
+            force.tangential.abs() >= (1.0 - AT_BOUND) * (friction * force.normal + cohesion)
+        }
+        _ => false,
+    })
 }

@@ -6,6 +6,9 @@ use crate::collapse::discretise::Model;
 use crate::collapse::{AnalysisError, CollapseReport, Doubt, LoadRange, Note, Outcome, PathEnd, Task, ending, motion};
 use crate::dda::Tracer;
 
+/// What slides by less than this share of what hinges open by may only be strained (measured: a thousandth).
+const STRAIN: f64 = 1e-2;
+
 impl Setup<'_> {
     /// The arch did not stand under its loads at the start.
     pub(super) fn fallen(
@@ -19,7 +22,7 @@ impl Setup<'_> {
         let mut fall = ending::at_fall(self.analysis, model, tracer, self.start, load_factor);
         fall.range = self.range_of(&fall);
         let power = motion::power(self.analysis, &fall.mechanism, self.start);
-        let (loose, slides) = (!loaded(self.analysis)[1], !fall.mechanism.slides.is_empty());
+        let (loose, slides) = (!loaded(self.analysis)[1], self.slides_in(&fall));
         let doubt = self.certificate.fallen(self.start, loose, slides, power, self.budget);
         self.budget.check()?;
         let doubt = doubt.or(self.certificate.standing_doubt(fall.residual));
@@ -50,12 +53,19 @@ impl Setup<'_> {
         Some(Attempted { report, doubt: Some(Doubt::SlidesInside) })
     }
 
+    /// Whether joints slide in a fall by more than stones strain that are cut into subblocks.
+    fn slides_in(&self, fall: &PathEnd) -> bool {
+        let joints = &self.analysis.structure.joints;
+        let openings = fall.mechanism.hinges.iter().map(|hinge| hinge.rotation * joints[hinge.joint].length());
+        let least = STRAIN * openings.fold(0.0, f64::max);
+        fall.mechanism.slides.iter().any(|slide| slide.rate.abs() > least)
+    }
+
     /// Where it slides although limit analysis finds equilibrium: the load at which it fell, and the window's end.
     fn range_of(&self, fall: &PathEnd) -> Option<LoadRange> {
         let greatest = self.certificate.end(self.sign).filter(|_| self.certificate.stands_at(fall.load_factor))?;
         let (least, path) = (fall.load_factor, fall.load_factor);
-        let slides = !fall.mechanism.slides.is_empty();
-        slides.then_some(LoadRange { least, greatest, path, mechanisms_tried: 0 })
+        self.slides_in(fall).then_some(LoadRange { least, greatest, path, mechanisms_tried: 0 })
     }
 
     /// The arch stands at load factor 0, and at none beyond it, where it fell.

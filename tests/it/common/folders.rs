@@ -10,10 +10,10 @@ pub fn folders(below: &Path) -> Vec<PathBuf> {
     if inside.iter().any(|path| path.ends_with("request.json")) {
         return vec![below.to_path_buf()];
     }
-    // Beside cases there may be a text about them, a picture, the check of answers, and the chart.
+    // Beside cases there may be a text about them, a picture, the check of answers, the chart, and the marks of the atlas.
     inside.retain(|path| {
         path.extension().is_none_or(|kind| !["md", "svg", "py"].iter().any(|other| kind == *other))
-            && !path.ends_with("chart")
+            && !["chart", "atlas.json"].iter().any(|other| path.ends_with(other))
     });
     inside.iter().for_each(|path| assert!(path.is_dir(), "{} belongs to no case", path.display()));
     inside.iter().flat_map(|folder| folders(folder)).collect()
