@@ -6,9 +6,6 @@ use crate::collapse::discretise::Model;
 use crate::collapse::{AnalysisError, CollapseReport, Doubt, LoadRange, Note, Outcome, PathEnd, Task, ending, motion};
 use crate::dda::Tracer;
 
-/// What slides by less than this share of what hinges open by may only be strained (measured: a thousandth).
-const STRAIN: f64 = 1e-2;
-
 impl Setup<'_> {
     /// The arch did not stand under its loads at the start.
     pub(super) fn fallen(
@@ -53,11 +50,11 @@ impl Setup<'_> {
         Some(Attempted { report, doubt: Some(Doubt::SlidesInside) })
     }
 
-    /// Whether joints slide in a fall by more than stones strain that are cut into subblocks.
+    /// Whether joints slide in a fall by more than stones strain.
     fn slides_in(&self, fall: &PathEnd) -> bool {
         let joints = &self.analysis.structure.joints;
         let openings = fall.mechanism.hinges.iter().map(|hinge| hinge.rotation * joints[hinge.joint].length());
-        let least = STRAIN * openings.fold(0.0, f64::max);
+        let least = ending::STRAIN * openings.fold(0.0, f64::max);
         fall.mechanism.slides.iter().any(|slide| slide.rate.abs() > least)
     }
 
