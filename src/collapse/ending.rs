@@ -126,18 +126,14 @@ pub(super) fn at_criterion(
     PathEnd { load_factor, range: None, residual, mechanism, thrust_line, soil, crushed: Vec::new() }
 }
 
-/// What slides by less than this share of what moves may only be strained (measured: a thousandth).
-pub(super) const STRAIN: f64 = 1e-2;
-
 /// Whether a stone has slid, under pressure, by more than the joint is long: it lies beside its neighbour no more, although small
 /// displacements never take it away from there.
 pub(super) fn slid_out(model: &Model, structure: &Structure, displacements: &[f64]) -> bool {
-    let moved = displacements.iter().fold(0.0, |most: f64, d| most.max(d.abs()));
     let slides = |(joint, p): (usize, usize)| {
         let (contact, [gap, slip]) = (&model.assembly.contacts()[p], model.assembly.gap(p, displacements));
         let force = contact.force(gap, slip);
         let elastic = force.tangential.abs() / contact.stiffness[1];
-        force.normal > 0.0 && slip.abs() - elastic > structure.joints[joint].length().max(STRAIN * moved)
+        force.normal > 0.0 && slip.abs() - elastic > structure.joints[joint].length()
     };
     let dry = (0..model.joints).filter(|&joint| structure.joints[joint].law.coulomb().is_some());
     dry.flat_map(|joint| model.contacts(joint).map(move |p| (joint, p))).any(slides)

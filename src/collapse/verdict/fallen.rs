@@ -6,6 +6,9 @@ use crate::collapse::discretise::Model;
 use crate::collapse::{AnalysisError, CollapseReport, Doubt, LoadRange, Note, Outcome, PathEnd, Task, ending, motion};
 use crate::dda::Tracer;
 
+/// What slides by less than this share of what hinges open by may only be strained (measured: a thousandth).
+const STRAIN: f64 = 1e-2;
+
 impl Setup<'_> {
     /// The arch did not stand under its loads at the start.
     pub(super) fn fallen(
@@ -44,6 +47,9 @@ impl Setup<'_> {
             return None;
         }
         let mut fall = ending::at_criterion(analysis, model, displacements, self.start, tracer.worst_residual());
+        if !self.slides_in(&fall) {
+            return None;
+        }
         (fall.range, fall.thrust_line) = (self.range_of(&fall), Vec::new());
         let mut report = self.blank(before.cost.unknowns);
         (report.notes, report.outcome, report.end) = (before.notes.clone(), Outcome::SlidesAsBuilt, Some(fall));
@@ -54,7 +60,7 @@ impl Setup<'_> {
     fn slides_in(&self, fall: &PathEnd) -> bool {
         let joints = &self.analysis.structure.joints;
         let openings = fall.mechanism.hinges.iter().map(|hinge| hinge.rotation * joints[hinge.joint].length());
-        let least = ending::STRAIN * openings.fold(0.0, f64::max);
+        let least = STRAIN * openings.fold(0.0, f64::max);
         fall.mechanism.slides.iter().any(|slide| slide.rate.abs() > least)
     }
 
