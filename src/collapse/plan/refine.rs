@@ -75,7 +75,9 @@ pub(super) fn solve(
     if report.outcome == Outcome::CannotTell || report.stress_fields.is_empty() {
         return Ok(Err(PlanReason::CoarsestLost));
     }
-    let near = |at: f64| is_about_to_fall(whole, analysis.structure.is_half(), at);
+    // Where nothing grows every load factor has the state at the start.
+    let state_of = |at: f64| if analysis.scaled.is_empty() { whole.start } else { at };
+    let near = |at: f64| is_about_to_fall(whole, analysis.structure.is_half(), state_of(at));
     let mut mesh = Refinement::new(drawing(&analysis.structure).0, ladders, report, near);
     let why = loop {
         let marked = match mesh.told() {

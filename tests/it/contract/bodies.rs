@@ -43,7 +43,7 @@ fn arch() -> Value {
         "joint_overrides": [{
             "joint": 6, "friction_angle_deg": 20, "cohesion_pa": 5, "lost_at_intrados_m": 0.02, "lost_at_extrados_m": 0.03
         }],
-        "mesh": {"subblocks": {"uniform": {"radial": 2, "along": 3}}, "seams": "split"},
+        "mesh": {"subblocks": {"uniform": {"radial": 2, "along": 3}}, "seams": "split", "order": 1, "lines": "graded"},
         "loads": [
             {"load": {"self_weight": {}}, "scaled": false, "coefficient": 1.5, "per_abscissa": false},
             {"load": {"fill_pressure": {
