@@ -31,7 +31,8 @@ subblocks = answer["stress_fields"][0]["subblocks"]
 corners = [(x, y, 0.0) for xs, ys in zip(subblocks["corners_x_m"], subblocks["corners_y_m"]) for x, y in zip(xs, ys)]
 assert np.array_equal(mesh.points, np.array(corners))
 for name, values in subblocks.items():
-    if name.endswith("_pa") or name in ("voussoir", "radial", "along"):
+    # The grid has one stress for every cell, and none at its corners.
+    if name.endswith("_pa") and not name.startswith("corner_") or name in ("voussoir", "radial", "along"):
         read = np.concatenate([np.ravel(part) for part in mesh.cell_data[name]])
         assert np.array_equal(read, np.array(values)), name
 moved, blocks = mesh.point_data["displacement_m"], answer["near_collapse"]["blocks"]

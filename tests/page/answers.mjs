@@ -117,14 +117,15 @@ export async function exportsAreTheServicesBytes(tools) {
     'answer.txt': '?f=text',
     'history.csv': '/history?f=csv',
     'figure.svg': '/figure',
+    'figure.png': '/figure?f=png',
     'stress-near_collapse.csv': '/fields/near_collapse?f=csv',
     'stress-near_collapse.vtu': '/fields/near_collapse?f=vtu',
   };
   assert.equal(await page.locator('.exports button').count(), Object.keys(files).length + 1);
   for (const [name, path] of Object.entries(files)) {
     const [download] = await Promise.all([page.waitForEvent('download'), page.click(`.exports [data-file="${name}"]`)]);
-    const expected = await (await tools.service.call('GET', `/v1/jobs/${id}/results${path}`)).text();
-    assert.equal(readFileSync(await download.path(), 'utf8'), expected, name);
+    const expected = await (await tools.service.call('GET', `/v1/jobs/${id}/results${path}`)).arrayBuffer();
+    assert.ok(readFileSync(await download.path()).equals(Buffer.from(expected)), name);
     assert.equal(download.suggestedFilename(), name);
   }
 }

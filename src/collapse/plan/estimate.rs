@@ -60,7 +60,7 @@ fn area_of(subblock: &SubblockStress) -> f64 {
 const FEW: usize = 3;
 const MARGINS: [f64; 2] = [2.0, 1.15];
 /// So many times as much where hinges are about to form (measured: 1.25, in an arch of nearly the least thickness).
-const ABOUT_TO_FALL: f64 = 1.35;
+const ABOUT_TO_FALL: f64 = 1.3;
 
 /// Slowest and fastest convergence that an estimate counts on, as exponents of the subblocks' size.
 pub(super) type Orders = [f64; 2];

@@ -245,7 +245,7 @@ fn beam() -> Value {
             "inner_radius_m": 0.5, "outer_radius_m": 0.7, "end_shear_n_per_m": 2500, "curved_sides": true
         },
         "stone": arch()["stone"].take(),
-        "mesh": {"subblocks": {"uniform": {"radial": 3, "along": 4}}, "seams": "corners"}
+        "mesh": {"subblocks": {"uniform": {"radial": 3, "along": 4}}, "seams": "corners", "order": 1, "lines": "graded"}
     })
 }
 
