@@ -23,8 +23,10 @@ static LETTERS: LazyLock<Arc<Database>> = LazyLock::new(|| {
 /// # Errors
 /// Why it cannot be painted.
 pub fn png(svg: &str) -> Result<Vec<u8>, String> {
+    // Rules for paper are none for pixels, and the painter warns of them.
+    let svg: String = svg.lines().filter(|line| !line.starts_with("@media")).flat_map(|line| [line, "\n"]).collect();
     let options = Options { fontdb: LETTERS.clone(), ..Options::default() };
-    let tree = Tree::from_str(svg, &options).map_err(|error| error.to_string())?;
+    let tree = Tree::from_str(&svg, &options).map_err(|error| error.to_string())?;
     let [width, height] = [tree.size().width(), tree.size().height()];
     let scale = SHARP.min((MOST_PIXELS / (width * height)).sqrt());
     let [columns, rows] = [width, height].map(|extent| (extent * scale).ceil() as u32);

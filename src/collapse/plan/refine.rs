@@ -229,7 +229,7 @@ fn is_about_to_fall(whole: &CollapseReport, half: bool, load_factor: f64) -> boo
     let at_end = |of: &[ContactPoint]| {
         let sums = of.iter().fold([0.0; 2], |[n, m], point| [n + point.normal, m + point.normal * point.position]);
         let place = sums[1] / sums[0];
-        place < AT_END || place > 1.0 - AT_END
+        [place, 1.0 - place].iter().any(|&from_end| from_end < AT_END)
     };
     let joints = state.contacts.chunk_by(|a, b| a.joint == b.joint);
     joints.filter(|joint| at_end(joint)).count() >= HINGES[usize::from(half)]
