@@ -14,7 +14,7 @@ use voussoir::jobs::{Part, Product};
 use voussoir::wire::fault::Fault;
 use voussoir::wire::format::Format;
 use voussoir::wire::read::read_question;
-use voussoir::wire::rendering::{FIGURE, REPORT, WHOLE, figure, painted, plain, renderings};
+use voussoir::wire::rendering::{self, FIGURE, REPORT, WHOLE, figure, plain, renderings};
 
 /// Exit code for a request that cannot be analysed.
 pub(super) const FAULTY: u8 = 2;
@@ -61,18 +61,21 @@ fn write_files(options: &Solve, product: &Product) -> Result<(), String> {
         }
     }
     if let Some(file) = &options.figure {
-        write(file, &main_drawing(product, file.extension().is_some_and(|kind| kind.eq_ignore_ascii_case("png")))?)?;
+        write(file, &as_named(product, file, FIGURE, [Format::Svg, Format::Png])?)?;
     }
     if let Some(file) = &options.report {
-        write(file, &part(product, REPORT, Format::Html)?)?;
+        write(file, &as_named(product, file, REPORT, [Format::Html, Format::Pdf])?)?;
     }
     Ok(())
 }
 
-/// The main drawing as SVG, or in pixels.
-fn main_drawing(product: &Product, in_pixels: bool) -> Result<Bytes, String> {
-    let svg = part(product, FIGURE, Format::Svg)?;
-    if in_pixels { painted(&Part { body: Ok(svg), packed_from: None }) } else { Ok(svg) }
+/// A part as it is kept, or painted where the file's name says so.
+fn as_named(product: &Product, file: &Path, name: &str, [kept, painted]: [Format; 2]) -> Result<Bytes, String> {
+    let body = part(product, name, kept)?;
+    match file.extension().is_some_and(|kind| kind.eq_ignore_ascii_case(painted.name())) {
+        true => rendering::painted(&Part { body: Ok(body), packed_from: None }, painted),
+        false => Ok(body),
+    }
 }
 
 fn write(file: &Path, bytes: &[u8]) -> Result<(), String> {

@@ -21,8 +21,8 @@ pub struct Solve {
     /// Also write every drawing, as SVG, into this folder, each under its name
     #[arg(long, value_name = "FOLDER")]
     pub figures: Option<PathBuf>,
-    /// Also write a report to be printed, as HTML, into this file
-    #[arg(long, value_name = "OUT.html")]
+    /// Also write a report for the file, as a page in HTML, or on paper, as PDF, into this file
+    #[arg(long, value_name = "OUT.html|OUT.pdf")]
     pub report: Option<PathBuf>,
 }
 

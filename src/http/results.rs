@@ -73,8 +73,8 @@ impl Asked {
         let mut response = match version.known(&headers) {
             Some(response) => response,
             None => match service.store.part(id, part, rendering::kept_as(format)).await? {
-                Some(drawing @ Part { body: Ok(_), .. }) if format == Format::Png => {
-                    let bytes = service.outgoing.hold(&client, service.painter.paint(drawing).await?)?;
+                Some(kept @ Part { body: Ok(_), .. }) if rendering::is_painted(format) => {
+                    let bytes = service.outgoing.hold(&client, service.painter.paint(kept, format).await?)?;
                     version.mark(([(header::CONTENT_TYPE, format.content_type())], Body::from(bytes)))
                 }
                 Some(Part { body: Ok(bytes), packed_from }) => {
@@ -112,11 +112,11 @@ pub(super) fn body(bytes: Bytes, packed_from: Option<usize>, headers: &HeaderMap
     }
 }
 
-/// A drawing in pixels.
+/// A drawing in pixels, or a report on paper.
 #[derive(ToSchema)]
 #[schema(value_type = String, format = Binary)]
 #[allow(dead_code, reason = "only described")]
-struct Picture(Vec<u8>);
+struct Painted(Vec<u8>);
 
 /// A job's results.
 #[utoipa::path(
@@ -194,7 +194,7 @@ pub(super) async fn positions(asked: Asked) -> Result<Response, Problem> {
     params(("id" = String, Path, format = "uuid", description = "Job id")),
     responses(
         (status = 200, description = "The structure in the state that governs, or a safety curve", content(
-            (String = "image/svg+xml"), (String = "text/xml"), (Picture = "image/png"),
+            (String = "image/svg+xml"), (String = "text/xml"), (Painted = "image/png"),
         ), headers(("etag" = String, description = "Names this answer"))),
     )
 )]
@@ -213,7 +213,7 @@ pub(super) async fn figure(asked: Asked) -> Result<Response, Problem> {
             of up to 20000 subblocks; `motion`: moves", example = "structure"),
     ),
     responses(
-        (status = 200, description = "The drawing", content((String = "image/svg+xml"), (String = "text/xml"), (Picture = "image/png")),
+        (status = 200, description = "The drawing", content((String = "image/svg+xml"), (String = "text/xml"), (Painted = "image/png")),
             headers(("etag" = String, description = "Names this answer"))),
     )
 )]
@@ -231,7 +231,9 @@ pub(super) async fn figure_of_name(
     get, path = "/v1/jobs/{id}/results/report", tag = "results", operation_id = "get_report",
     params(("id" = String, Path, format = "uuid", description = "Job id")),
     responses(
-        (status = 200, description = "The page; it has no scripts and fetches nothing", content((String = "text/html")),
+        (status = 200, description = "The page, which has no scripts and fetches nothing; or the same on sheets of paper", content(
+            (String = "text/html"), (Painted = "application/pdf"),
+        ),
             headers(("etag" = String, description = "Names this answer"))),
     )
 )]

@@ -11,6 +11,7 @@ export function exportsOf(id, answer) {
     answer.history?.load_factor.length > 0 && ['Load path', 'CSV', `${results}/history?f=csv`, 'history.csv'],
     (answer.ends?.length > 0 || answer.settlement) && ['Figure', 'SVG', `${results}/figure?f=svg`, 'figure.svg'],
     (answer.ends?.length > 0 || answer.settlement) && ['Figure', 'PNG', `${results}/figure?f=png`, 'figure.png'],
+    !answer.subblocks && ['Report', 'PDF', `${results}/report?f=pdf`, 'report.pdf'],
     ...(answer.stress_fields ?? []).flatMap((field, i) => fieldFiles(answer, i, `${results}/fields`)),
     ['Request', 'JSON', `/v1/jobs/${id}/request`, 'request.json'],
   ].filter(Boolean);

@@ -7,7 +7,11 @@ mod checks;
 pub mod digits;
 pub mod figure;
 mod labels;
+#[cfg(feature = "server")]
+mod letters;
 pub mod motion;
+#[cfg(feature = "server")]
+pub mod pdf;
 #[cfg(feature = "server")]
 pub mod png;
 pub mod stress;

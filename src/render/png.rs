@@ -1,32 +1,19 @@
 //! Drawings as pixels, for those who cannot show SVG.
 
+use super::letters;
 use resvg::tiny_skia::{Pixmap, Transform};
-use resvg::usvg::{Options, Tree, fontdb::Database};
-use std::sync::{Arc, LazyLock};
 
 /// Pixels for each pixel of the drawing.
 const SHARP: f32 = 2.0;
 /// Most pixels in all: 4 bytes each while it is painted.
 const MOST_PIXELS: f32 = 1.6e7;
 
-/// The letters: metrics are those of Arial and Helvetica, by which labels are placed.
-static LETTERS: LazyLock<Arc<Database>> = LazyLock::new(|| {
-    let mut letters = Database::new();
-    letters.load_font_data(include_bytes!("fonts/LiberationSans-Regular.ttf").to_vec());
-    letters.load_font_data(include_bytes!("fonts/LiberationSans-Bold.ttf").to_vec());
-    letters.set_sans_serif_family("Liberation Sans");
-    Arc::new(letters)
-});
-
 /// Paints a drawing; one that moves as it is at rest.
 ///
 /// # Errors
 /// Why it cannot be painted.
 pub fn png(svg: &str) -> Result<Vec<u8>, String> {
-    // Rules for paper are none for pixels, and the painter warns of them.
-    let svg: String = svg.lines().filter(|line| !line.starts_with("@media")).flat_map(|line| [line, "\n"]).collect();
-    let options = Options { fontdb: LETTERS.clone(), ..Options::default() };
-    let tree = Tree::from_str(&svg, &options).map_err(|error| error.to_string())?;
+    let tree = letters::read(svg)?;
     let [width, height] = [tree.size().width(), tree.size().height()];
     let scale = SHARP.min((MOST_PIXELS / (width * height)).sqrt());
     let [columns, rows] = [width, height].map(|extent| (extent * scale).ceil() as u32);

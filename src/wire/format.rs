@@ -19,6 +19,8 @@ pub enum Format {
     Png,
     /// A page to be read or printed.
     Html,
+    /// The same page on sheets of paper.
+    Pdf,
     /// Measurements for Prometheus.
     OpenMetrics,
 }
@@ -32,7 +34,7 @@ pub const FIELD: [Format; 3] = [Format::Json, Format::Csv, Format::Vtu];
 /// Formats of the positions of vehicles.
 pub const POSITIONS: [Format; 2] = [Format::Json, Format::Csv];
 /// Formats of the report.
-pub const REPORT: [Format; 1] = [Format::Html];
+pub const REPORT: [Format; 2] = [Format::Html, Format::Pdf];
 /// Formats of a drawing.
 pub const FIGURE: [Format; 3] = [Format::Svg, Format::Xml, Format::Png];
 
@@ -48,6 +50,7 @@ impl Format {
             Format::Xml => ("xml", "text/xml"),
             Format::Png => ("png", "image/png"),
             Format::Html => ("html", "text/html"),
+            Format::Pdf => ("pdf", "application/pdf"),
             Format::OpenMetrics => ("openmetrics", "application/openmetrics-text"),
         }
     }

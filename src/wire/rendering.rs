@@ -14,6 +14,7 @@ use super::request::{AnalysisRequest, Request, StressFieldRequest};
 use super::response::JobResult;
 use crate::collapse::{Answer, CollapseReport, Question, Snapshot};
 use crate::jobs::{Failure, Part, Product, Rendering};
+use crate::render::pdf::pdf;
 use crate::render::png::png;
 use crate::render::vtu::vtu;
 use bytes::Bytes;
@@ -27,7 +28,7 @@ pub const HISTORY: &str = "history";
 pub const FIGURE: &str = "figure";
 /// Every position of vehicles that was solved, in JSON and CSV.
 pub const POSITIONS: &str = "positions";
-/// The report, in HTML, or why there is none.
+/// The report, in HTML and PDF, or why there is none.
 pub const REPORT: &str = "report";
 
 /// Writes an answer in all its parts and formats; `wall_time` is what finding it took. The first is the whole of it as JSON:
@@ -136,18 +137,27 @@ pub fn figure(name: &str) -> String {
     format!("figures/{name}")
 }
 
-/// The format in which a part that is given out in `format` is kept: a drawing is kept once, goes by two media types, and is painted
-/// when it is asked for in pixels.
+/// The format in which a part that is given out in `format` is kept: a drawing is kept once, and goes by two media types.
 pub fn kept_as(format: Format) -> &'static str {
-    if matches!(format, Format::Xml | Format::Png) { Format::Svg.name() } else { format.name() }
+    match format {
+        Format::Xml | Format::Png => Format::Svg.name(),
+        Format::Pdf => Format::Html.name(),
+        _ => format.name(),
+    }
 }
 
-/// A drawing that is kept as SVG, in pixels.
+/// Whether a format is not kept, but [`painted`] when it is asked for.
+pub fn is_painted(format: Format) -> bool {
+    matches!(format, Format::Png | Format::Pdf)
+}
+
+/// A drawing that is kept as SVG, in pixels; a report that is kept as HTML, on paper.
 ///
 /// # Errors
 /// Why there is none.
-pub fn painted(drawing: &Part) -> Result<Bytes, String> {
-    let svg = plain(drawing)?;
-    let svg = std::str::from_utf8(&svg).map_err(|error| error.to_string())?;
-    png(svg).map(Bytes::from)
+pub fn painted(kept: &Part, format: Format) -> Result<Bytes, String> {
+    let kept = plain(kept)?;
+    let kept = std::str::from_utf8(&kept).map_err(|error| error.to_string())?;
+    let painted = if format == Format::Pdf { pdf(kept) } else { png(kept) };
+    painted.map(Bytes::from)
 }

@@ -1,4 +1,5 @@
-//! The report: all of an answer that an assessment's file needs, as one page to be printed.
+//! The report: all of an answer that an assessment's file needs, as one page to be printed. It is well-formed as XML, too, which is how
+//! it is read again to be laid out on paper.
 
 use super::figures::Figure;
 use super::json::{NotFinite, pretty};
@@ -36,8 +37,8 @@ pub fn report(result: &JobResult, figures: &[Figure]) -> Result<String, String> 
         .collect();
     let verdict = escaped(&verdict);
     Ok(format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" \
-         content=\"width=device-width\">\n<title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<header>\n\
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n<meta name=\"viewport\" \
+         content=\"width=device-width\"/>\n<title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<header>\n\
          <p>Voussoir {VERSION}: report of an analysis</p>\n<h1>{title}</h1>\n<p class=\"verdict\">{verdict}</p>\n</header>\n\
          {sections}</body>\n</html>\n"
     ))
@@ -144,8 +145,9 @@ fn list(items: impl Iterator<Item = String>) -> String {
 
 fn table(table: &Table) -> String {
     let row = |row: &Row, cell: &str| {
-        let cells =
-            row.cell_iter().map(|of| format!("<{cell}>{}</{cell}>", lines(&of.content()).trim().replace('\n', "<br>")));
+        let cells = row
+            .cell_iter()
+            .map(|of| format!("<{cell}>{}</{cell}>", lines(&of.content()).trim().replace('\n', "<br/>")));
         format!("<tr>{}</tr>\n", cells.collect::<String>())
     };
     let head = table.header().map_or(String::new(), |header| row(header, "th"));

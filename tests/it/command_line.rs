@@ -242,6 +242,18 @@ fn solve_draws_in_pixels() {
     assert_eq!(u32::from_be_bytes(drawn[16..20].try_into().unwrap()), 1920);
 }
 
+#[test]
+fn solve_writes_a_report_on_paper() {
+    for name in ["first-arch", "settlement", "wall", "paper/figure-10"] {
+        let file = std::env::temp_dir().join(format!("voussoir-report-{}.pdf", std::process::id()));
+        let output = fed(&["solve", &case(&format!("{name}/request.json")), "--report", file.to_str().unwrap()], "");
+        assert!(output.status.success(), "{name}: {}", String::from_utf8_lossy(&output.stderr));
+        let paper = std::fs::read(&file).unwrap();
+        std::fs::remove_file(&file).unwrap();
+        assert!(paper.starts_with(b"%PDF-"), "{name}");
+    }
+}
+
 /// The summary of a case, changed.
 fn summary(name: &str, change: impl Fn(&mut serde_json::Value)) -> String {
     let mut request: serde_json::Value =

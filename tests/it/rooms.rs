@@ -35,7 +35,11 @@ const TABLE: [(&str, &[&str], &[&str]); 14] = [
             "uuid",
         ],
     ),
-    ("render", &["collapse", "structure", "geometry"], &["resvg", "thiserror"]),
+    (
+        "render",
+        &["collapse", "structure", "geometry"],
+        &["krilla", "krilla_svg", "resvg", "roxmltree", "thiserror", "ttf_parser"],
+    ),
     (
         "wire",
         &["jobs", "render", "arch", "blocks", "bridge", "structure", "collapse", "geometry"],

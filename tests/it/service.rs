@@ -281,6 +281,9 @@ fn results_come_in_parts_and_formats() {
     assert_eq!(report.header("content-type"), Some("text/html; charset=utf-8"));
     assert!(report.header("content-security-policy").unwrap().starts_with("default-src 'none'"));
     assert!(report.text().starts_with("<!DOCTYPE html>") && report.text().contains(&figure.text()));
+    let on_paper = part("/report", "application/pdf");
+    assert_eq!(on_paper.header("content-type"), Some("application/pdf"));
+    assert!(on_paper.bytes().starts_with(b"%PDF-"));
     for (rest, accept, status) in [
         ("", "image/png", 406),
         ("/figure", "text/csv", 406),

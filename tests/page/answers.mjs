@@ -118,6 +118,7 @@ export async function exportsAreTheServicesBytes(tools) {
     'history.csv': '/history?f=csv',
     'figure.svg': '/figure',
     'figure.png': '/figure?f=png',
+    'report.pdf': '/report?f=pdf',
     'stress-near_collapse.csv': '/fields/near_collapse?f=csv',
     'stress-near_collapse.vtu': '/fields/near_collapse?f=vtu',
   };
