@@ -12,8 +12,8 @@ use super::smallest_motion::nearest_motion;
 use super::tolerances;
 use super::{Analysis, Mechanism};
 use crate::budget::Budget;
-use crate::limit::{Equilibrium, Release, Resultant, SoilEnd, StaticTheorem};
-use crate::structure::{Face, PassiveElement, PointForce};
+use crate::limit::{Equilibrium, Release, Resultant, SoilEnd, StaticTheorem, releases};
+use crate::structure::{Face, Joint, PassiveElement, PointForce, Structure};
 use std::collections::BTreeSet;
 
 /// So many motions in turn that give nothing lower end the search.
@@ -26,14 +26,22 @@ const AT_LIMIT: f64 = 1e-9;
 const NEAR_LIMIT: f64 = 1e-6;
 /// Random weights on the joint forces that lead to corners of the least equilibria, and, the larger ones, to others near.
 const TILTS: [f64; 3] = [1e-1, 1e-2, 1e-3];
-/// Random motions of every corner. Their joints cost between 1 and 10 to the power of minus twice the second: what costs much
-/// hardly moves, so that the motions differ.
+/// Random motions of every corner.
 const MOTIONS: usize = 2;
-const COSTS: f64 = 2.0;
+/// Random costs that lie apart are between 1 and 10 to the power of minus twice this.
+const DECADES: f64 = 2.0;
 /// So many corners in turn that give nothing lower, and so many in all, end the search where there are many loops (chosen
 /// on walls 2 and 6 of Ferris and Tin-Loi: with 14 seeds each 8 in turn found nothing more than 6).
 const QUIET_CORNERS: usize = 6;
 const MOST_CORNERS: usize = 48;
+
+/// Random motions of what is at its limits where the search starts.
+const STARTS: usize = 4;
+/// The same of every body by itself or with another, and of all.
+const EACH: usize = 4;
+const EVERYTHING: usize = 50;
+/// Of longer chains of bodies only the motions of joints at their limits are tried (measured: for arches that is enough).
+const MOST_CHAINED: usize = 12;
 
 /// A passive element that moves by less than this share of the fastest body is not run into, and not left behind.
 const STILL: f64 = 1e-7;
@@ -71,10 +79,15 @@ impl Search<'_> {
     pub(super) fn least(&self, at_limits: &[Vec<Released>]) -> (Option<FullSolution>, usize) {
         let mut hunt = Hunt { search: self, seen: BTreeSet::new(), best: None, scatter: Scatter::new(0x51DE) };
         if self.theorem.has_loops() {
-            at_limits.iter().for_each(|released| _ = hunt.tries(released));
+            // Rough rates may fail to close: those of other costs need not.
+            at_limits
+                .iter()
+                .for_each(|released| _ = (0..STARTS).any(|_| hunt.tries(released, Costs::Apart) == Some(Tried::Lower)));
+            hunt.wander();
             hunt.round_corners();
         } else {
             at_limits.iter().for_each(|released| hunt.exchange(released));
+            hunt.wander();
         }
         let solution = hunt.best.map(|Candidate { equilibrium, moving, rates, .. }| FullSolution {
             load_factor: equilibrium.load_factor,
@@ -91,18 +104,16 @@ impl Search<'_> {
         found.ok().flatten().filter(|_| greatest.is_finite()).map(|equilibrium| self.at_limits(&equilibrium))
     }
 
-    /// One of the motions that these releases allow, and in which the scaled loads do work: those that move, at their rates.
-    fn motion(&self, released: &[Released], costs: &mut Scatter) -> Option<(Vec<Released>, Vec<f64>)> {
-        let loops = self.theorem.has_loops();
-        let cost = |random: f64| if loops { 10f64.powf(COSTS * (random - 1.0)) } else { 1.0 + 0.99 * random };
-        let costs: Vec<f64> = released.iter().map(|_| cost(costs.next())).collect();
-        if !loops {
-            let rates = self.free.cheapest_motion(released, &costs, self.sign, self.budget)?;
+    /// One of the motions that these releases allow at such costs, and in which the scaled loads do work: those that move, at their
+    /// rates.
+    fn motion(&self, released: &[Released], costs: &[f64]) -> Option<(Vec<Released>, Vec<f64>)> {
+        if !self.theorem.has_loops() {
+            let rates = self.free.cheapest_motion(released, costs, self.sign, self.budget)?;
             return Some(moving(released, rates));
         }
         let parts = RigidParts::new(&self.analysis.structure, released)?;
         let theorem = StaticTheorem::new(&parts.structure, &[], &parts.loads(&self.analysis.scaled)).ok()?;
-        let rates = theorem.cheapest_motion(&parts.released, &parts.of_parts(&costs), self.sign, self.budget)?;
+        let rates = theorem.cheapest_motion(&parts.released, &parts.of_parts(costs), self.sign, self.budget)?;
         Some(moving(released, parts.of_all(&rates, released.len())))
     }
 
@@ -169,6 +180,15 @@ struct Candidate {
     rates: Vec<f64>,
 }
 
+/// What the motion of a joint costs, at random.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Costs {
+    /// Much the same everywhere.
+    Even,
+    /// What costs much hardly moves, so that the motions differ.
+    Apart,
+}
+
 /// What comes of a motion of some releases.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Tried {
@@ -182,9 +202,14 @@ enum Tried {
 
 impl Hunt<'_> {
     /// Tries one of the motions of these releases; None where nothing moves.
-    fn tries(&mut self, released: &[Released]) -> Option<Tried> {
+    fn tries(&mut self, released: &[Released], costs: Costs) -> Option<Tried> {
         let search = self.search;
-        let (moving, mut rates) = search.motion(released, &mut self.scatter)?;
+        let cost = |random: f64| match costs {
+            Costs::Even => 1.0 + 0.99 * random,
+            Costs::Apart => 10f64.powf(DECADES * (random - 1.0)),
+        };
+        let costs: Vec<f64> = released.iter().map(|_| cost(self.scatter.next())).collect();
+        let (moving, mut rates) = search.motion(released, &costs)?;
         // What moves in a corner of all motions is independent of each other: where everything does, there is no other.
         let vain = if moving.len() == released.len() { Tried::Sole } else { Tried::InVain };
         if !self.seen.insert(key(&moving)) {
@@ -207,13 +232,47 @@ impl Hunt<'_> {
         let (mut released, mut quiet) = (released.to_vec(), 0);
         while quiet < QUIET {
             quiet += 1;
-            match self.tries(&released) {
+            match self.tries(&released, Costs::Even) {
                 None | Some(Tried::Sole) => return,
                 Some(Tried::InVain) => {}
                 Some(Tried::Lower) => {
                     quiet = 0;
                     released = self.best.as_ref().map_or(Vec::new(), |best| self.search.at_limits(&best.equilibrium));
                 }
+            }
+        }
+    }
+
+    /// From motions of a body or of two that touch, and of all, whatever their joints carry: path and window end in few of the mechanisms
+    /// that there are.
+    fn wander(&mut self) {
+        let structure = &self.search.analysis.structure;
+        let loops = self.search.theorem.has_loops();
+        if !loops && structure.joints.len() > MOST_CHAINED {
+            return;
+        }
+        let between: Vec<Vec<usize>> = structure.joints.iter().map(|joint| bodies_beside(joint)).collect();
+        let pairs = between.iter().filter(|bodies| bodies.len() == 2).cloned();
+        let mut some: Vec<Vec<usize>> = (0..structure.bodies.len()).map(|body| vec![body]).chain(pairs).collect();
+        some.sort_unstable();
+        some.dedup();
+        for moving in &some {
+            let touched = |k: &usize| between[*k].iter().any(|body| moving.contains(body));
+            self.roam(&released_at((0..between.len()).filter(touched), structure), EACH);
+        }
+        self.roam(&released_at(0..between.len(), structure), EVERYTHING);
+    }
+
+    /// So many random motions of these releases; from each that is better, on.
+    fn roam(&mut self, released: &[Released], times: usize) {
+        for _ in 0..times {
+            match self.tries(released, Costs::Apart) {
+                Some(Tried::Lower) if !self.search.theorem.has_loops() => {
+                    let next = self.best.as_ref().map_or(Vec::new(), |best| self.search.at_limits(&best.equilibrium));
+                    self.exchange(&next);
+                }
+                Some(Tried::Lower | Tried::InVain) => {}
+                None | Some(Tried::Sole) => return,
             }
         }
     }
@@ -233,13 +292,26 @@ impl Hunt<'_> {
             let mut released = search.at_limits(&corner);
             let missing: Vec<Released> = moving.into_iter().filter(|release| !released.contains(release)).collect();
             released.extend(missing);
-            let lower = (0..MOTIONS).any(|_| self.tries(&released) == Some(Tried::Lower));
+            let lower = (0..MOTIONS).any(|_| self.tries(&released, Costs::Apart) == Some(Tried::Lower));
             quiet = if lower { 0 } else { quiet + 1 };
             if quiet == QUIET_CORNERS || search.budget.ask().is_err() {
                 return;
             }
         }
     }
+}
+
+/// All releases of some joints.
+fn released_at(joints: impl Iterator<Item = usize>, structure: &Structure) -> Vec<Released> {
+    let of = |k: usize| {
+        releases(&structure.joints[k], &Resultant::default(), f64::INFINITY).into_iter().map(move |r| (k, r))
+    };
+    joints.flat_map(of).collect()
+}
+
+/// The bodies beside a joint.
+fn bodies_beside(joint: &Joint) -> Vec<usize> {
+    joint.between.iter().filter_map(|side| side.body()).collect()
 }
 
 /// The releases that move, and their rates.

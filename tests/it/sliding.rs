@@ -79,6 +79,18 @@ fn the_least_is_never_above_a_variant_and_is_the_least_of_all_mechanisms_of_smal
     assert!(slide >= 500 && ranges >= 80 && tried >= 300);
 }
 
+#[test]
+fn the_least_of_blocks_is_that_of_all_mechanisms() {
+    let known: Value = serde_json::from_str(include_str!("sliding/blocks.json")).unwrap();
+    for scene in known["scenes"].as_array().unwrap() {
+        let (what, least) = (&scene["what"], scene["least"].as_f64().unwrap());
+        let end = door::solve(&scene["request"]).end.unwrap();
+        assert!((end.load_factor / least - 1.0).abs() < EXACT, "{what}: {} instead of {least}", end.load_factor);
+        let range = end.range.unwrap();
+        assert!(range.least.abs() <= range.path.abs() && range.mechanisms_tried > 4, "{what}: {range:?}");
+    }
+}
+
 /// Two spans of two rings on a pier, under fill and two axles.
 fn two_rings(penalty_ratio: f64) -> Value {
     let rings = json!([{"thickness_m": 0.35, "voussoirs": 35}, {"thickness_m": 0.35, "voussoirs": 37}]);

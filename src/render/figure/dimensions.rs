@@ -38,7 +38,9 @@ pub fn draw(canvas: &mut Canvas, drawing: &Drawing<'_>, bottom: f64) {
         level(canvas, ends, y, &format!("width {} m", Rounded(high.x - low.x)));
         let x = ends[0].x - 20.0;
         let (a, b) = (Vec2::new(x, canvas.place(high).y), Vec2::new(x, ends[0].y));
-        upright(canvas, a, b, -1.0, &format!("height {} m", Rounded(high.y - low.y)));
+        // Above the arrow: to its left there is no room, to its right stand the blocks.
+        let above = (a + Vec2::new(0.0, -4.0), Vec2::new(0.0, -1.0));
+        upright(canvas, [a, b], above, &format!("height {} m", Rounded(high.y - low.y)));
     }
 }
 
@@ -70,13 +72,13 @@ fn level(canvas: &mut Canvas, [a, b]: [Vec2; 2], y: f64, words: &str) {
     canvas.keep_free(&[from, to], 9.0);
 }
 
-/// An upright measure, its words to the left (-1) or to the right (1) of its middle.
-fn upright(canvas: &mut Canvas, a: Vec2, b: Vec2, side: f64, words: &str) {
+/// An upright measure, its words at a place and in a direction from there.
+fn upright(canvas: &mut Canvas, [a, b]: [Vec2; 2], (at, direction): (Vec2, Vec2), words: &str) {
     let middle = 0.5 * (a + b);
     canvas.arrow("measure", middle, a);
     canvas.arrow("measure", middle, b);
     canvas.keep_free(&[a, b], 5.0);
-    canvas.label(middle + Vec2::new(4.0 * side, 0.0), Vec2::new(side, 0.0), words);
+    canvas.label(at, direction, words);
 }
 
 /// From the middle between the springings up to the highest joint of the intrados.
@@ -87,7 +89,9 @@ fn rise(canvas: &mut Canvas, joints: &[Joint], half: bool) {
     let beside = Vec2::new(if half { -16.0 } else { 0.0 }, 0.0);
     let (a, b) = (canvas.place(top), canvas.place(Vec2::new(top.x, springing)));
     if b.y - a.y > 24.0 {
-        upright(canvas, a + beside, b + beside, 1.0, &format!("rise {} m", Rounded(top.y - springing)));
+        let ends = [a + beside, b + beside];
+        let right = (0.5 * (ends[0] + ends[1]) + Vec2::new(4.0, 0.0), Vec2::new(1.0, 0.0));
+        upright(canvas, ends, right, &format!("rise {} m", Rounded(top.y - springing)));
     }
 }
 
