@@ -6,6 +6,7 @@ mod patch;
 mod places;
 mod points;
 mod spacing;
+mod windows;
 
 use super::{Order, Spacing, SubblockStress};
 use crate::dda::{Block, Bond, Elasticity, Inside, Macroblock, Seam};
@@ -15,6 +16,7 @@ use parts::{is_simple, parts};
 pub(super) use patch::Lines;
 use patch::Patch;
 pub(super) use places::OnSide;
+pub(super) use windows::{Windows, wanted};
 
 /// How subblocks are drawn, whose number is given.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

@@ -4,10 +4,9 @@ use super::discretise::Model;
 use super::farthest::Farthest;
 use super::mirror::{evened_blocks, evened_stresses};
 use super::state::Standing;
-use super::yielding::Yielding;
+use super::yielding::{Averaged, Yielding};
 use super::{
-    Analysis, AnalysisError, BlockState, ContactPoint, ElasticCrushing, FieldAt, HistoryPoint, Method, Snapshot,
-    StressField, mechanism,
+    Analysis, AnalysisError, BlockState, ContactPoint, FieldAt, HistoryPoint, Method, Snapshot, StressField, mechanism,
 };
 use crate::dda::MeanMotion;
 use std::collections::VecDeque;
@@ -48,12 +47,18 @@ pub(super) struct Recorder<'a> {
     pub history: Vec<HistoryPoint>,
     /// Load factors that are asked for, with the displacements there, once passed.
     asked: Vec<(f64, Option<Vec<f64>>)>,
-    yielding: Yielding<'a>,
+    /// Looks for first yield, where it is asked for.
+    pub yielding: Option<Yielding<'a>>,
 }
 
 impl<'a> Recorder<'a> {
     /// A recorder for a path that starts at load factor `start` and goes the way of `sign`.
-    pub(super) fn new(model: &'a Model<'a>, analysis: &Analysis, [start, sign]: [f64; 2]) -> Self {
+    pub(super) fn new(
+        model: &'a Model<'a>,
+        analysis: &Analysis,
+        averaged: Option<Averaged>,
+        [start, sign]: [f64; 2],
+    ) -> Self {
         let fields = analysis.task.fields().iter().filter_map(|field| match field {
             FieldAt::LoadFactor(load_factor) => Some(*load_factor),
             FieldAt::NearCollapse => None,
@@ -74,7 +79,7 @@ impl<'a> Recorder<'a> {
             steps_done: 0,
             history: Vec::new(),
             asked: std::iter::once(1.0).chain(fields).map(|load_factor| (load_factor, None)).collect(),
-            yielding: Yielding::new(model, analysis.structure.strengths()),
+            yielding: averaged.map(|averaged| Yielding::new(model, averaged, &analysis.structure.strengths())),
         }
     }
 
@@ -104,7 +109,9 @@ impl<'a> Recorder<'a> {
         let now = Rc::new((load_factor, displacements.to_vec()));
         if let Some(before) = self.last.take() {
             self.pass(&before, &now);
-            self.yielding.see(Some(&before), &now, true);
+            if let Some(yielding) = &mut self.yielding {
+                yielding.see(Some(&before), &now, true);
+            }
         }
     }
 
@@ -148,19 +155,11 @@ impl<'a> Recorder<'a> {
         asked.and_then(|(_, found)| found.as_deref())
     }
 
-    /// When the stone first yields on the way to the highest load.
-    pub(super) fn first_yield(&self) -> ElasticCrushing {
-        self.yielding.answer()
-    }
-
-    /// The point of the path at which it does.
-    pub(super) fn yields_at(&self) -> Option<&PathPoint> {
-        self.yielding.yields_at()
-    }
-
     fn keep(&mut self, before: Option<Rc<PathPoint>>, now: &Rc<PathPoint>) {
         let highest = self.way(now.0) >= self.way(self.farthest);
-        self.yielding.see(before.as_ref(), now, highest);
+        if let Some(yielding) = &mut self.yielding {
+            yielding.see(before.as_ref(), now, highest);
+        }
         if !highest {
             return self.release(before);
         }

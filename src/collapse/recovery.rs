@@ -128,7 +128,7 @@ fn roughness(grid: &Grid, samples: &[[f64; 3]], pieces: &[Piece]) -> Roughness {
 
 /// Stress at a place of a second-order subblock, from -1 to 1 either way, by what its samples say, in the order of
 /// [`SecondOrder::SAMPLES`](crate::dda::SecondOrder::SAMPLES): bilinear between and beyond them.
-fn through(samples: &[[f64; 3]], [x, y]: [f64; 2]) -> [f64; 3] {
+pub(super) fn through(samples: &[[f64; 3]], [x, y]: [f64; 2]) -> [f64; 3] {
     let root = 3.0f64.sqrt();
     let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
     let shares = corners.map(|[p, q]| 0.25 * (1.0 + p * root * x) * (1.0 + q * root * y));

@@ -4,7 +4,7 @@ use super::discretise::Discretisation;
 use super::tolerances;
 use super::{
     AnalysisError, CollapseReport, Crushing, CrushingKind, CurvePoint, Governs, LimitWindow, Mode, Note, Outcome,
-    Reach, SafetyFactors, SafetyPoint, SafetyZone, TaskReport, UpdatedEnd, UpdatedGeometry, verdict,
+    Reach, SafetyFactors, SafetyPoint, SafetyZone, Task, TaskReport, UpdatedEnd, UpdatedGeometry, verdict,
 };
 
 /// Safety factors over a list of abscissae.
@@ -25,25 +25,25 @@ pub(super) fn curve<'a>(
 }
 
 /// Reads the safety factors off a finished report, whose path started at the full loads if the arch stands under them.
-pub(super) fn judge(report: &mut CollapseReport, counted: CrushingKind) {
+pub(super) fn judge(report: &mut CollapseReport, task: &Task, counted: CrushingKind) {
     let missing = report.crushing.plastic_section.is_none();
     report.notes.extend(missing.then_some(Note::NoPlasticSections));
-    let (instability, elastic) = (instability(report), elastic(&report.crushing));
+    let elastic = task.yields(&report.crushing).then(|| elastic(&report.crushing));
+    let instability = instability(report);
     let plastic_section = plastic(&report.crushing, report.cap);
     // Stresses below the strength everywhere are in equilibrium, so no plastic collapse can come before.
     let end = if let Reach::At(falls) = instability { falls } else { report.cap };
     let too_coarse = match (plastic_section, elastic) {
-        (Reach::At(crushes), Reach::Never) => is_below(crushes, end),
-        (plastic, elastic) => is_before(plastic, elastic),
+        (Reach::At(crushes), Some(Reach::Never)) => is_below(crushes, end),
+        (plastic, elastic) => elastic.is_some_and(|elastic| is_before(plastic, elastic)),
     };
     // Not merely beyond the cap: with dry joints alone every growing load crushes some joint in the end.
-    let window = report.crushing.plastic_section.as_ref().and_then(|plastic| plastic.window);
-    let endless = window.is_some_and(|window| window.highest.is_infinite());
-    let uncrushed = endless && matches!(elastic, Reach::At(_) | Reach::DoesNotStand);
-    report.notes.extend(too_coarse.then_some(Note::YieldTooLate));
+    let uncrushed = report.crushing.never_fails() && elastic != Some(Reach::Never);
+    let length = task.first_yield_length();
+    report.notes.extend(too_coarse.then_some(Note::YieldTooLate { length }));
     report.notes.extend(uncrushed.then_some(Note::SectionsNeverFail));
     let takes_elastic = uncrushed || (counted == CrushingKind::Elastic && !too_coarse);
-    let crushes = if takes_elastic { elastic } else { plastic_section };
+    let crushes = elastic.filter(|_| takes_elastic).unwrap_or(plastic_section);
     let updated = report.updated.as_ref().map(on_moving_geometry);
     report.notes.extend(report.updated.as_ref().and_then(beyond_model));
     let moves_first = updated.is_some_and(|updated| updated == Reach::Unknown || is_before(updated, instability));

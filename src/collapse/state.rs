@@ -4,9 +4,9 @@
 //! [`balanced`]); what cannot be is judged by the law, and doubted where it breaks it.
 
 use super::discretise::Model;
-use super::record::{PathPoint, stress_field};
 use super::tolerances;
-use super::{AnalysisError, CollapseReport, Doubt, ElasticCrushing, Note, OtherStates, SubblockStress};
+use super::yielding::Yielding;
+use super::{AnalysisError, CollapseReport, Doubt, ElasticCrushing, MeanStress, Note, OtherStates};
 use crate::dda::{Balanced, ContactForce, balanced, missing};
 
 /// A gap that differs by more than this share of the largest displacement between a state of the path and the symmetric one
@@ -75,21 +75,18 @@ impl<'m> States<'m> {
         Ok(Some(standing))
     }
 
-    /// First yield of the arch as it is described, next to where the path has it; `at`: the path where a subblock first reaches
-    /// the strength. The secant method on the largest equivalent stress over its body's strength, which is nearly linear.
-    pub(super) fn first_yield(
-        &mut self,
-        on_path: ElasticCrushing,
-        at: Option<&PathPoint>,
-        strengths: &[f64],
-    ) -> Result<ElasticCrushing, AnalysisError> {
-        let Some((first, displacements)) = at.filter(|_| !on_path.at_start) else { return Ok(on_path) };
+    /// First yield of the arch as it is described, next to where the path has it. The secant method on the largest equivalent stress over
+    /// its body's strength, which is nearly linear.
+    pub(super) fn first_yield(&mut self, yielding: &Yielding) -> Result<ElasticCrushing, AnalysisError> {
+        let on_path = yielding.answer();
+        let at = yielding.yields_at().filter(|_| !on_path.at_start);
+        let Some((first, displacements)) = at else { return Ok(on_path) };
         let (mut factor, mut last) = (*first, None);
         for _ in 0..SECANTS {
-            let Some((share, subblock)) = self.largest_share(factor, displacements, strengths)? else { break };
+            let Some((share, place)) = self.largest_share(factor, displacements, yielding)? else { break };
             let excess = share - 1.0;
             if excess.abs() <= YIELDS {
-                return Ok(ElasticCrushing { load_factor: Some(factor), where_largest: Some(subblock), ..on_path });
+                return Ok(ElasticCrushing { load_factor: Some(factor), where_largest: Some(place), ..on_path });
             }
             let slope = last.map_or((1.0 + excess) / factor, |(before, then)| (excess - then) / (factor - before));
             last = Some((factor, excess));
@@ -102,22 +99,19 @@ impl<'m> States<'m> {
         Ok(on_path)
     }
 
-    /// The largest equivalent stress over its body's strength at a load factor, and its subblock; none where no state is found.
+    /// The largest equivalent stress over its body's strength at a load factor, and where; none where no state is found.
     fn largest_share(
         &mut self,
         factor: f64,
         near: &[f64],
-        strengths: &[f64],
-    ) -> Result<Option<(f64, SubblockStress)>, AnalysisError> {
+        yielding: &Yielding,
+    ) -> Result<Option<(f64, MeanStress)>, AnalysisError> {
         let (model, said) = (self.model, self.others.len());
         let found = self.balanced(factor, &model.loads_on_nodes(factor), near)?;
         self.others.truncate(said);
         let Some(displacements) = found else { return Ok(None) };
         let symmetric = model.symmetric && model.assembly.mirrored(&displacements) == displacements;
-        let state = Standing { load_factor: factor, displacements, forces: Vec::new(), symmetric };
-        let field = stress_field(model, factor, &state)?;
-        let share = |subblock: SubblockStress| (subblock.tresca() / strengths[subblock.voussoir], subblock);
-        Ok(field.subblocks.into_iter().map(share).reduce(|most, next| if next.0 > most.0 { next } else { most }))
+        yielding.largest_in(&Standing { load_factor: factor, displacements, forces: Vec::new(), symmetric })
     }
 
     /// Displacements in equilibrium of the arch as it is described: symmetric ones where there are any.

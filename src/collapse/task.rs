@@ -1,6 +1,6 @@
 //! What is asked of a structure: each task with the options that mean something for it, and no others.
 
-use super::{Accuracy, CrushingKind, Direction, FieldAt, Geometry, MotionAsked, SupportMovement};
+use super::{Accuracy, Crushing, CrushingKind, Direction, FieldAt, Geometry, MotionAsked, SupportMovement};
 use crate::structure::{PointForce, Structure};
 use std::sync::Arc;
 
@@ -147,11 +147,14 @@ pub struct StatesAsked {
     pub share: f64,
     /// Where stress fields are reported.
     pub fields: Vec<FieldAt>,
+    /// Length over which stress is averaged both ways where first yield is reported, m; None: it is not, but in a [`SafetyTask`] in which
+    /// it counts, by subblocks.
+    pub first_yield_length: Option<f64>,
 }
 
 impl Default for StatesAsked {
     fn default() -> Self {
-        StatesAsked { share: Self::SHARE, fields: Vec::new() }
+        StatesAsked { share: Self::SHARE, fields: Vec::new(), first_yield_length: None }
     }
 }
 
@@ -203,9 +206,16 @@ impl Task {
         if let Task::Collapse(task) = self { task.motion.filter(|_| !self.crushes_on_path()) } else { None }
     }
 
-    /// Whether it is asked when the stone first yields on the way.
-    pub(super) fn yields(&self) -> bool {
-        matches!(self, Task::Safety(SafetyTask { crushing: CrushingKind::Elastic, .. }))
+    /// Whether first yield is looked for on the way: where a length is given for it, and where it is what counts as crushing, as it is
+    /// where plastic sections never fail.
+    pub(super) fn yields(&self, crushing: &Crushing) -> bool {
+        let counts = |task: &SafetyTask| task.crushing == CrushingKind::Elastic || crushing.never_fails();
+        self.first_yield_length().is_some() || matches!(self, Task::Safety(task) if counts(task))
+    }
+
+    /// Length over which stress is averaged where first yield is looked for, m; none: over every subblock.
+    pub fn first_yield_length(&self) -> Option<f64> {
+        self.states().and_then(|states| states.first_yield_length)
     }
 
     /// Whether the answer is about loads that grow.

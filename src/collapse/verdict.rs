@@ -135,7 +135,7 @@ impl<'a> Setup<'a> {
         report.updated = self.updated(&mut report, built)?;
         match &analysis.task {
             Task::Collapse(_) => safety::crushed(&mut report, analysis.task.crushes_on_path()),
-            Task::Safety(task) => safety::judge(&mut report, task.crushing),
+            Task::Safety(task) => safety::judge(&mut report, &analysis.task, task.crushing),
             Task::Settlement(task) => self.settle(&mut report, &task.movements, built)?,
             Task::GeometricSafety(task) => {
                 geometric::judge(&mut report, analysis, &self.certificate.theorem, task, budget)

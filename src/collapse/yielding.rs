@@ -1,12 +1,19 @@
-//! First yield: where on the path the equivalent stress of some subblock reaches the strength of its stone.
+//! First yield: where on the path the equivalent stress of mean stress, of some subblock or of a window of the length asked for, reaches
+//! the strength of its stone.
+//!
+//! The mean of a subblock is a parameter of the mesh: next to a hinge, where stress grows without end towards the joint's end, it grows with
+//! every refinement. That of windows of one length comes to a limit.
 
+mod averaged;
 mod below;
 
 use super::discretise::Model;
 use super::record::PathPoint;
 use super::report::tresca;
-use super::{ElasticCrushing, SubblockStress};
+use super::state::Standing;
+use super::{AnalysisError, ElasticCrushing, MeanStress};
 use crate::budget::Stopped;
+pub(super) use averaged::Averaged;
 use below::Below;
 use std::rc::Rc;
 
@@ -18,16 +25,17 @@ const ROUNDED: f64 = 1.0 - 1e-12;
 struct YieldPoint {
     at: Rc<PathPoint>,
     voussoir: usize,
-    subblock: usize,
+    /// Number of the subblock, or of the window.
+    mean: usize,
 }
 
-/// The largest equivalent stress over its strength, its subblock, and what is needed of the point of the path to know its stress.
+/// The largest equivalent stress over its strength, where it is, and what is needed of the point of the path to know its stress.
 #[derive(Debug, Clone)]
 struct Largest {
     share: f64,
     load_factor: f64,
     voussoir: usize,
-    subblock: usize,
+    mean: usize,
     /// Displacements of the body's nodes.
     nodes: Vec<f64>,
 }
@@ -43,23 +51,24 @@ struct SoFar {
 }
 
 /// What was found at one point of the path: the largest share of a strength, and where on the way from the point before a strength is
-/// first reached (infinite: nowhere), each with its voussoir and subblock.
+/// first reached (infinite: nowhere), each with its voussoir and the number of its mean there.
 struct Found {
     largest: (f64, usize, usize),
     crossing: (f64, usize, usize),
 }
 
-/// Looks at the stress in every subblock along a path.
+/// Looks at the mean stress of subblocks or windows along a path.
 ///
 /// Between two points of the path stresses are linear, and the equivalent stress of Tresca is a convex function of them;
 /// so it is largest at one of the two, and passes the strength at most once on the way up.
 pub(super) struct Yielding<'a> {
     model: &'a Model<'a>,
+    averaged: Averaged,
     /// Strength of every body that is told of, Pa, and the work of finding its stress.
     bodies: Vec<(f64, usize)>,
-    /// What of bodies need not be looked at.
-    below: Below,
-    /// Stress of every subblock of a body, three numbers each: here, and at the point before.
+    /// What of bodies need not be looked at; none where bounds on subblocks do not hold.
+    below: Option<Below>,
+    /// Mean stresses of a body, three numbers each: here, and at the point before.
     here: Vec<f64>,
     before: Vec<f64>,
     seen: SoFar,
@@ -68,10 +77,11 @@ pub(super) struct Yielding<'a> {
 }
 
 impl<'a> Yielding<'a> {
-    pub(super) fn new(model: &'a Model<'a>, strengths: Vec<f64>) -> Self {
-        let bodies = (0..model.bodies).map(|body| (strengths[body], model.work_of_stresses(body))).collect();
+    pub(super) fn new(model: &'a Model<'a>, averaged: Averaged, strengths: &[f64]) -> Self {
+        let bodies = (0..model.bodies).map(|body| (strengths[body], averaged.work(model, body))).collect();
+        let below = averaged.is_bounded(model).then(Below::default);
         let (here, before) = (Vec::new(), Vec::new());
-        Yielding { model, bodies, below: Below::default(), here, before, seen: SoFar::default(), answer: None }
+        Yielding { model, averaged, bodies, below, here, before, seen: SoFar::default(), answer: None }
     }
 
     /// Takes in the next point of the path; `highest`: no point before had a higher load.
@@ -94,18 +104,28 @@ impl<'a> Yielding<'a> {
     /// What was found up to the highest load.
     pub(super) fn answer(&self) -> ElasticCrushing {
         let SoFar { first, at_start, largest } = self.found();
-        let of_first = |f: &YieldPoint| self.subblock(f.voussoir, f.subblock, f.at.0, &f.at.1);
         let where_largest = match (first, largest) {
-            (Some(first), _) => of_first(first),
+            (Some(first), _) => Some(self.averaged.told(self.model, (first.voussoir, first.mean), &first.at)),
             (None, Some(largest)) => {
                 let assembly = &self.model.assembly;
                 let mut displacements = vec![0.0; assembly.node_unknowns()];
                 displacements[assembly.nodes_of(largest.voussoir)].copy_from_slice(&largest.nodes);
-                self.subblock(largest.voussoir, largest.subblock, largest.load_factor, &displacements)
+                let at = (largest.load_factor, displacements);
+                Some(self.averaged.told(self.model, (largest.voussoir, largest.mean), &at))
             }
             (None, None) => None,
         };
-        ElasticCrushing { load_factor: first.as_ref().map(|f| f.at.0), at_start: *at_start, where_largest }
+        let load_factor = first.as_ref().map(|f| f.at.0);
+        ElasticCrushing { load_factor, at_start: *at_start, length: self.averaged.length(), where_largest }
+    }
+
+    /// The largest share of its strength that mean stress has in a state, and where.
+    ///
+    /// # Errors
+    /// When stopped.
+    pub(super) fn largest_in(&self, state: &Standing) -> Result<Option<(f64, MeanStress)>, AnalysisError> {
+        let strengths: Vec<f64> = self.bodies.iter().map(|(strength, _)| *strength).collect();
+        self.averaged.largest(self.model, state, &strengths)
     }
 
     /// Where on the way to the highest load the stone first yields.
@@ -116,73 +136,70 @@ impl<'a> Yielding<'a> {
     fn look(&mut self, before: Option<&Rc<PathPoint>>, now: &Rc<PathPoint>) {
         // The path is stopped at the end of this event.
         let Ok(Found { largest, crossing }) = self.look_at_all(before, now) else { return };
-        let (share, voussoir, subblock) = largest;
+        let (share, voussoir, mean) = largest;
         if share > self.seen.largest.as_ref().map_or(f64::NEG_INFINITY, |largest| largest.share) {
             let nodes = now.1[self.model.assembly.nodes_of(voussoir)].to_vec();
-            self.seen.largest = Some(Largest { share, load_factor: now.0, voussoir, subblock, nodes });
+            self.seen.largest = Some(Largest { share, load_factor: now.0, voussoir, mean, nodes });
         }
-        let (share, voussoir, subblock) = crossing;
+        let (share, voussoir, mean) = crossing;
         if share.is_finite() {
             let at = before.map_or_else(|| Rc::clone(now), |before| Rc::new(between(before, now, share)));
             self.seen.at_start = before.is_none();
-            self.seen.first = Some(YieldPoint { at, voussoir, subblock });
+            self.seen.first = Some(YieldPoint { at, voussoir, mean });
         }
     }
 
     /// Looks for what is above all that was seen, and for the strength.
     fn look_at_all(&mut self, before: Option<&Rc<PathPoint>>, now: &Rc<PathPoint>) -> Result<Found, Stopped> {
-        let (model, loads) = (self.model, self.model.loads_at(now.0));
         let most = self.seen.largest.as_ref().map_or(f64::NEG_INFINITY, |largest| largest.share);
         let mut found = Found { largest: (most, 0, 0), crossing: (f64::INFINITY, 0, 0) };
-        for (voussoir, &(strength, work)) in self.bodies.iter().enumerate() {
-            if self.below.is_below(model, (voussoir, strength), now, found.largest.0.min(1.0)) {
+        for voussoir in 0..self.bodies.len() {
+            let (strength, work) = self.bodies[voussoir];
+            let below = |below: &Below| below.is_below(self.model, (voussoir, strength), now, found.largest.0.min(1.0));
+            if self.below.as_ref().is_some_and(below) {
                 continue;
             }
-            model.budget.work(work)?;
-            let mut worth = found.largest.0.min(1.0) * strength;
-            let whole = model.assembly.stress_of_whole(voussoir, &now.1, &loads);
-            let stresses = match &whole {
-                Some(stress) => std::slice::from_ref(stress),
-                None => {
-                    model.assembly.stresses_in_frame(voussoir, &now.1, &loads, &mut self.here);
-                    let stresses = self.here.as_chunks::<3>().0;
-                    self.below.looked(model, voussoir, now, stresses.iter().map(|&s| tresca(s) / strength));
-                    stresses
-                }
-            };
-            for (subblock, stress) in stresses.iter().enumerate() {
-                if !may_exceed(*stress, worth) {
-                    continue;
-                }
-                let equivalent = tresca(*stress);
-                if equivalent / strength > found.largest.0 {
-                    found.largest = (equivalent / strength, voussoir, subblock);
-                    worth = found.largest.0.min(1.0) * strength;
-                }
-                if equivalent >= strength {
-                    let share = before.map_or(0.0, |before| {
-                        let loads = model.loads_at(before.0);
-                        model.assembly.stresses_in_frame(voussoir, &before.1, &loads, &mut self.before);
-                        reaches(&self.before[3 * subblock..3 * subblock + 3], stress, strength)
-                    });
-                    found.crossing =
-                        if share < found.crossing.0 { (share, voussoir, subblock) } else { found.crossing };
-                }
-            }
+            self.model.budget.work(work)?;
+            self.look_at(voussoir, before, now, &mut found);
         }
         Ok(found)
     }
 
-    fn subblock(
-        &self,
-        voussoir: usize,
-        subblock: usize,
-        load_factor: f64,
-        displacements: &[f64],
-    ) -> Option<SubblockStress> {
-        let stresses = self.model.stresses(voussoir, load_factor, displacements);
-        let corners = self.model.told(voussoir, load_factor, displacements).corners;
-        self.model.grids[voussoir].field(voussoir, &stresses, corners).into_iter().nth(subblock)
+    /// The same in one body.
+    fn look_at(&mut self, voussoir: usize, before: Option<&Rc<PathPoint>>, now: &PathPoint, found: &mut Found) {
+        let (model, strength) = (self.model, self.bodies[voussoir].0);
+        let whole = self.averaged.of_whole(model, voussoir, now);
+        let stresses = match &whole {
+            Some(stress) => std::slice::from_ref(stress),
+            None => {
+                self.averaged.of(model, voussoir, now, &mut self.here);
+                let stresses = self.here.as_chunks::<3>().0;
+                if let Some(below) = &mut self.below {
+                    below.looked(model, voussoir, now, stresses.iter().map(|&s| tresca(s) / strength));
+                }
+                stresses
+            }
+        };
+        let (mut worth, mut looked_back) = (found.largest.0.min(1.0) * strength, false);
+        for (k, stress) in stresses.iter().enumerate() {
+            if !may_exceed(*stress, worth) {
+                continue;
+            }
+            let equivalent = tresca(*stress);
+            if equivalent / strength > found.largest.0 {
+                found.largest = (equivalent / strength, voussoir, k);
+                worth = found.largest.0.min(1.0) * strength;
+            }
+            if equivalent >= strength {
+                let share = before.map_or(0.0, |before| {
+                    if !std::mem::replace(&mut looked_back, true) {
+                        self.averaged.of(model, voussoir, before, &mut self.before);
+                    }
+                    reaches(&self.before[3 * k..3 * k + 3], stress, strength)
+                });
+                found.crossing = if share < found.crossing.0 { (share, voussoir, k) } else { found.crossing };
+            }
+        }
     }
 }
 
@@ -240,51 +257,4 @@ fn first_root([c, b, a]: [f64; 3]) -> Option<f64> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn at(a: [f64; 3], b: [f64; 3], share: f64) -> [f64; 3] {
-        [0, 1, 2].map(|i| a[i] + (b[i] - a[i]) * share)
-    }
-
-    #[test]
-    fn the_equivalent_stress_is_that_of_equation_4() {
-        assert_eq!(tresca([-3.0, -1.0, 0.0]), 3.0);
-        assert_eq!(tresca([-3.0, 1.0, 0.0]), 4.0);
-        assert_eq!(tresca([0.0, 0.0, 2.0]), 4.0);
-        assert_eq!(tresca([5.0, 2.0, 0.0]), 5.0);
-    }
-
-    #[test]
-    fn what_may_not_exceed_a_stress_is_below_it() {
-        let stresses =
-            [[-3.0, -1.0, 0.0], [-3.0, 1.0, 0.0], [0.0, 0.0, 2.0], [5.0, 2.0, 0.1], [1.0, -2.5, 0.7], [0.0; 3]];
-        for stress in stresses {
-            let equivalent = tresca(stress);
-            for share in [0.0, 0.3, 0.999, 1.0] {
-                assert!(may_exceed(stress, share * equivalent), "{stress:?} {share}");
-            }
-            for share in [1.0 + 1e-9, 1.001, 2.0] {
-                assert!(equivalent == 0.0 || !may_exceed(stress, share * equivalent), "{stress:?} {share}");
-            }
-            assert!(may_exceed(stress, f64::NEG_INFINITY));
-        }
-    }
-
-    #[test]
-    fn it_reaches_the_strength_where_the_root_says() {
-        let ways = [
-            ([0.1, -0.2, 0.3], [-4.0, -1.0, 0.5]),
-            ([0.0, 0.0, 0.0], [1.0, -2.0, 3.0]),
-            ([-0.5, 0.5, -0.2], [6.0, 5.0, 1.0]),
-            ([-1.5, -1.5, 0.0], [-1.5, -9.0, 0.0]),
-            ([0.0, 0.0, 0.0], [0.0, 0.0, -8.0]),
-        ];
-        for (a, b) in ways {
-            let share = reaches(&a, &b, 2.0);
-            assert!((tresca(at(a, b, share)) - 2.0).abs() < 1e-12, "{a:?} {b:?}: {share}");
-            // Nowhere before.
-            assert!((0..1000).all(|i| tresca(at(a, b, share * f64::from(i) / 1000.0)) < 2.0));
-        }
-    }
-}
+mod tests;

@@ -35,6 +35,14 @@ function factsOf(answer) {
   return [...facts, ...others(answer, of)];
 }
 
+/** What the stress is averaged over that first yield goes by. */
+function averagedOver({length_m: length, subblock}) {
+  if (length !== null) return `averaged over ${figures(length)} m`;
+  return subblock
+    ? `in a subblock of ${figures(subblock.size_across_m)} m x ${figures(subblock.size_along_m)} m`
+    : 'in a subblock';
+}
+
 function others(answer, of) {
   const {
     safety,
@@ -74,8 +82,8 @@ function others(answer, of) {
     yields && [
       'First yield',
       yields.load_factor === null
-        ? `not reached; largest stress ${mega(yields.subblock?.tresca_pa)} MPa`
-        : of(yields.intensity),
+        ? `not reached; largest stress ${mega(yields.subblock?.tresca_pa)} MPa, ${averagedOver(yields)}`
+        : `${of(yields.intensity)}, ${averagedOver(yields)}`,
     ],
   ].filter(Boolean);
 }

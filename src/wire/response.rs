@@ -38,7 +38,7 @@ pub use settlement::{
 };
 pub use stress::{
     CrushedSubblock, CrushingBody, ElasticCrushingBody, PlasticCrushingBody, StressFieldBody, SubblockColumns,
-    mesh_in_words,
+    extent_in_words, mesh_in_words,
 };
 pub use structure::{BodyBody, JointBody, LawWord, LoadOnBody, PassiveElementBody, StructureBody};
 pub use survey_tolerance::{LimitBody, MovedPointBody, MovedPointColumns, SurveyToleranceBody};

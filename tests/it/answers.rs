@@ -4,10 +4,10 @@ use serde_json::{Value, json};
 use std::time::Duration;
 use voussoir::collapse::{
     Answer, BeamReport, CollapseReport, Cost, CrushedJoint, Crushing, Direction, ElasticCrushing, Face, FallingMotion,
-    Governs, Hinge, HistoryPoint, LiftOff, LimitWindow, LoadRange, Mechanism, Mode, MotionContact, MotionEnd,
-    MotionFrame, Note, OpenHinge, Outcome, PathEnd, PlasticCrushing, Reach, SafetyFactors, SafetyPoint, SafetyZone,
-    SettlementEnd, SettlementPath, SettlementPoint, SettlementReport, Slid, Slide, StressField, SubblockStress,
-    TaskReport, Thrust,
+    Governs, Hinge, HistoryPoint, LiftOff, LimitWindow, LoadRange, MeanStress, Mechanism, Mode, MotionContact,
+    MotionEnd, MotionFrame, Note, OpenHinge, Outcome, PathEnd, PlasticCrushing, Reach, SafetyFactors, SafetyPoint,
+    SafetyZone, SettlementEnd, SettlementPath, SettlementPoint, SettlementReport, Slid, Slide, StressField,
+    SubblockStress, TaskReport, Thrust,
 };
 use voussoir::geometry::Vec2;
 use voussoir::wire::json::NotFinite;
@@ -48,7 +48,7 @@ fn factors() -> SafetyFactors {
     SafetyFactors {
         updated: Some(Reach::At(2.25)),
         instability: Reach::At(2.5),
-        elastic: Reach::Never,
+        elastic: Some(Reach::Never),
         plastic_section: Reach::DoesNotStand,
         governing: Reach::Unknown,
         governed_by: Governs::Instability,
@@ -59,7 +59,10 @@ fn factors() -> SafetyFactors {
 
 fn report() -> CollapseReport {
     let window = LimitWindow { lowest: f64::NEG_INFINITY, highest: 3.0 };
-    let elastic = ElasticCrushing { load_factor: Some(1.5), at_start: false, where_largest: Some(subblock()) };
+    let SubblockStress { voussoir, place, centre, stress, .. } = subblock();
+    let largest = MeanStress { voussoir, place, centre, sizes: [2.0, 1.0], stress };
+    let elastic =
+        ElasticCrushing { load_factor: Some(1.5), at_start: false, length: None, where_largest: Some(largest) };
     let plastic = PlasticCrushing { window: Some(window), joints: [vec![], vec![2, 5]], ends: [None, None] };
     CollapseReport {
         outcome: Outcome::Crushes,
@@ -129,11 +132,13 @@ fn crushing_and_safety_are_served() {
     let crushing = &answer["crushing"];
     assert_eq!(crushing["strength_pa"], 1e7);
     let mut elastic = crushing["elastic"].clone();
-    assert!(elastic["note"].take().as_str().unwrap().contains("2 x 3 subblocks"));
+    let note = elastic["note"].take();
+    let said = ["2 x 3 subblocks", "averaged over every subblock, this one of 2 m x 1 m"];
+    assert!(said.iter().all(|words| note.as_str().unwrap().contains(words)), "{note}");
     let subblock = json!({"voussoir": 4, "radial": 1, "along": 2, "centre_x_m": 0.5, "centre_y_m": 1.0,
-                          "tresca_pa": 10.0});
-    let expected =
-        json!({"load_factor": 1.5, "intensity": 15.0, "at_start": false, "subblock": subblock, "note": null});
+                          "size_across_m": 2.0, "size_along_m": 1.0, "tresca_pa": 10.0});
+    let expected = json!({"load_factor": 1.5, "intensity": 15.0, "at_start": false, "length_m": null,
+                          "subblock": subblock, "note": null});
     assert_eq!(elastic, expected);
     let plastic = json!({"window": [null, 30.0], "window_load_factor": [null, 3.0], "joints_at_lowest": [],
                          "joints_at_highest": [2, 5]});
@@ -163,16 +168,27 @@ fn what_was_not_found_is_null() {
 }
 
 #[test]
+fn first_yield_of_a_length_says_so() {
+    let mut report = report();
+    report.crushing.elastic.as_mut().unwrap().length = Some(0.25);
+    let answer = served(&request(json!({"safety": {}})), &Answer::One(Box::new(report)));
+    let elastic = &answer["crushing"]["elastic"];
+    assert_eq!(elastic["length_m"], 0.25);
+    assert!(elastic["note"].as_str().unwrap().contains("averaged over 0.25 m both ways"), "{elastic}");
+}
+
+#[test]
 fn a_curve_is_served_point_by_point() {
     let curve = json!({"abscissae": [0.5, 2], "unit": "m"});
     let request = request(json!({"safety": {"crushing": "elastic", "curve": curve}}));
-    let point = |abscissa, factors| SafetyPoint { abscissa, factors, notes: vec![Note::YieldTooLate] };
+    let too_late = Note::YieldTooLate { length: None };
+    let point = |abscissa, factors| SafetyPoint { abscissa, factors, notes: vec![too_late.clone()] };
     let second = SafetyFactors { mode: None, zone: None, ..factors() };
     let answer = served(&request, &Answer::Curve(vec![point(0.5, factors()), point(2.0, second)]));
     assert_eq!((&answer["unit"], &answer["crushing"]), (&json!("m"), &json!("elastic")));
     let mut first = safety();
     first["abscissa"] = json!(0.5);
-    first["notes"] = json!([Note::YieldTooLate.to_string()]);
+    first["notes"] = json!([too_late.to_string()]);
     assert_eq!(answer["points"][0], first);
     assert_eq!(answer["points"][1]["abscissa"], 2.0);
     assert!(answer["points"][1]["mode"].is_null() && answer["points"][1]["zone"].is_null());

@@ -156,6 +156,7 @@ fn one_wrong_value_is_pointed_at_and_nothing_else() {
         ("/method/fixed_steps/hinges".into(), json!(99)),
         ("/report/share_of_collapse".into(), json!(1)),
         ("/report/share_of_collapse".into(), json!(0)),
+        ("/report/first_yield_length_m".into(), json!(0)),
         ("/reports".into(), json!({})),
         ("/a~1b~0c".into(), json!(1)),
     ];
@@ -482,6 +483,7 @@ fn what_does_not_go_with_crushing_in_the_path_is_refused() {
         ("/mesh", json!({"subblocks": {"uniform": {"radial": 2, "along": 2}}})),
         ("/accuracy", json!({"collapse_intensity": 0.1})),
         ("/motion", json!({})),
+        ("/report/first_yield_length_m", json!(0.2)),
     ] {
         let mut request = request.clone();
         set(&mut request, pointer, value);
@@ -514,6 +516,7 @@ fn what_a_settlement_makes_no_use_of_is_refused() {
         ("/accuracy", json!({"collapse_intensity": 1e-6})),
         ("/crushing_in_path", json!(true)),
         ("/motion", json!({})),
+        ("/report/first_yield_length_m", json!(0.2)),
     ] {
         let mut request = request.clone();
         set(&mut request, pointer, value);

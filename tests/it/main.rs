@@ -60,6 +60,8 @@ mod figures;
 #[cfg(feature = "server")]
 mod fill;
 #[cfg(feature = "server")]
+mod first_yield;
+#[cfg(feature = "server")]
 mod fixed_steps;
 #[cfg(feature = "postgres")]
 mod fleet;

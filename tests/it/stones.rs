@@ -176,6 +176,7 @@ fn first_yield_is_that_of_the_stone_that_yields() {
                 "polygons": [block(0, stones[0]), block(1, stones[1]), block(2, stones[2])],
                 "supports": [{"name": "ground", "sides": [{"block": "b0", "side": 0}]}]
             },
+            "analysis": {"safety": {"crushing": "elastic"}},
             // The last is of no block.
             "stones": [named("hard", 4e6), named("soft", 3e6), named("chalk", 1e3)],
             "loads": [{"load": {"self_weight": {}}}, {"load": {"point_force": {

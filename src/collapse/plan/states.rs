@@ -44,7 +44,7 @@ pub(super) fn on_mesh(
     wanted: Wanted,
     budget: &Budget,
 ) -> Result<Option<CollapseReport>, AnalysisError> {
-    if analysis.task.yields() || is_cohesive(analysis) || !will_do(whole) {
+    if analysis.task.yields(&whole.crushing) || is_cohesive(analysis) || !will_do(whole) {
         return Ok(None);
     }
     let mut built = Discretisation::new(budget);

@@ -4,7 +4,7 @@
 //! the right half are the mirror image of those of the left.
 
 use super::super::{
-    BlockState, CollapseReport, ContactPoint, Crushing, HistoryPoint, Snapshot, StressField, SubblockStress,
+    BlockState, CollapseReport, ContactPoint, Crushing, HistoryPoint, Note, Snapshot, StressField, SubblockStress,
 };
 use crate::geometry::{Vec2, mirrored};
 use crate::structure::Structure;
@@ -22,7 +22,10 @@ pub(super) fn subblocks(structure: &Structure, half: &[[usize; 2]]) -> Vec<[usiz
 pub(super) fn whole(structure: &Structure, half: CollapseReport, rigid: &CollapseReport) -> CollapseReport {
     let snapshot = |snapshot: Option<Snapshot>| snapshot.map(|left| unfolded(structure, &left));
     let mut notes = rigid.notes.clone();
-    notes.extend(half.notes.into_iter().filter(|note| !rigid.notes.contains(note)));
+    // Of whole stones, which tell of no length.
+    notes.retain(|note| !matches!(note, Note::TooCoarseToYield { .. }));
+    let more: Vec<Note> = half.notes.into_iter().filter(|note| !notes.contains(note)).collect();
+    notes.extend(more);
     CollapseReport {
         near_collapse: snapshot(half.near_collapse),
         at_unit_load: snapshot(half.at_unit_load),

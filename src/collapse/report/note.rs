@@ -66,8 +66,20 @@ pub enum Note {
     },
     /// The limit window with plastic sections could not be computed.
     NoPlasticSections,
-    /// First yield comes after plastic collapse: the mesh is too coarse.
-    YieldTooLate,
+    /// First yield comes after plastic collapse: the mesh is too coarse, or the length over which stress is averaged too large.
+    YieldTooLate {
+        /// That length, m; None: the subblocks of the mesh.
+        length: Option<f64>,
+    },
+    /// The mesh is too coarse to tell of first yield with stress averaged over a length.
+    TooCoarseToYield {
+        /// That length, m.
+        length: f64,
+        /// The least that the mesh tells of, m; None where it tells of none.
+        least: Option<f64>,
+        /// Subblocks, from intrados to extrados and along, of a mesh that tells of it; None where none does.
+        wanted: Option<[usize; 2]>,
+    },
     /// A geometric safety factor could not be computed.
     NoGeometricSafety,
     /// Plastic sections never fail, so first yield counts.

@@ -76,8 +76,32 @@ pub struct ElasticCrushing {
     pub load_factor: Option<f64>,
     /// True where it has already at the start of the path.
     pub at_start: bool,
-    /// The subblock where it does, or that with the largest equivalent stress over its strength on the path, at the load factor it has it.
-    pub where_largest: Option<SubblockStress>,
+    /// Length over which stress is averaged both ways, m; None: over every subblock, so that it depends on the mesh.
+    pub length: Option<f64>,
+    /// Where it does, or where the equivalent stress over the strength is largest on the path, at the load factor at which it is.
+    pub where_largest: Option<MeanStress>,
+}
+
+/// Mean stress of a subblock, or of a window of the length asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeanStress {
+    /// In which body.
+    pub voussoir: usize,
+    /// The subblock that it is, or in which the window's middle lies: place from the intrados, and from the joint before it, both from 0.
+    pub place: [usize; 2],
+    /// Its middle, m.
+    pub centre: Vec2,
+    /// Its size across the body, from face to face, and along it, m.
+    pub sizes: [f64; 2],
+    /// sigma_x, sigma_y, tau_xy, Pa, compression negative.
+    pub stress: [f64; 3],
+}
+
+impl MeanStress {
+    /// Equivalent stress, Pa.
+    pub fn tresca(&self) -> f64 {
+        tresca(self.stress)
+    }
 }
 
 /// Limit analysis with joints of finite strength.
@@ -96,10 +120,18 @@ pub struct PlasticCrushing {
 pub struct Crushing {
     /// Compressive strength, Pa.
     pub strength: f64,
-    /// First yield of a subblock, as in the paper; None where no path was followed.
+    /// First yield; None where it is not asked for, where no path was followed, or where the mesh is too coarse for the length asked for.
     pub elastic: Option<ElasticCrushing>,
     /// Collapse with plastic sections; None where it could not be computed.
     pub plastic_section: Option<PlasticCrushing>,
+}
+
+impl Crushing {
+    /// Whether joints of this strength bear scaled loads of any size.
+    pub(in crate::collapse) fn never_fails(&self) -> bool {
+        let window = self.plastic_section.as_ref().and_then(|plastic| plastic.window);
+        window.is_some_and(|window| window.highest.is_infinite())
+    }
 }
 
 /// A safety factor for one way to fail.
@@ -150,8 +182,8 @@ pub struct SafetyFactors {
     pub instability: Reach,
     /// The same on moving geometry, where asked.
     pub updated: Option<Reach>,
-    /// Against first yield of a subblock.
-    pub elastic: Reach,
+    /// Against first yield; None where it is not asked for.
+    pub elastic: Option<Reach>,
     /// Against collapse with plastic sections.
     pub plastic_section: Reach,
     /// The first of instability, on moving geometry too where asked, and that kind of crushing which the request counts.
@@ -169,7 +201,7 @@ impl SafetyFactors {
     pub const UNKNOWN: SafetyFactors = SafetyFactors {
         instability: Reach::Unknown,
         updated: None,
-        elastic: Reach::Unknown,
+        elastic: None,
         plastic_section: Reach::Unknown,
         governing: Reach::Unknown,
         governed_by: Governs::Unknown,

@@ -8,6 +8,7 @@ use crate::collapse::record::{MOST_FIXED_STEPS, Recorder, snapshot};
 use crate::collapse::sliding::Search;
 use crate::collapse::state::States;
 use crate::collapse::tolerances;
+use crate::collapse::yielding::Averaged;
 use crate::collapse::{Analysis, AnalysisError, CollapseReport, Cost, Doubt, LoadRange, Method, Note, Outcome};
 use crate::dda::Tracer;
 use crate::limit::StaticTheorem;
@@ -24,14 +25,17 @@ impl Setup<'_> {
         progress: &mut OnEvent,
     ) -> Result<Option<Doubt>, AnalysisError> {
         let (analysis, model) = (self.analysis, states.model);
-        let mut recorder = Recorder::new(model, analysis, [self.start, sign]);
+        let averaged = Averaged::asked(analysis, &self.crushing, model).unwrap_or_else(|note| {
+            report.notes.extend((sign == self.sign).then_some(note));
+            None
+        });
+        let mut recorder = Recorder::new(model, analysis, averaged, [self.start, sign]);
         let before = Cost::of(tracer);
         let leg = follow(tracer, fixed, self.cap, &mut recorder, progress);
         report.cost.add(tracer, before);
         let at_unit_load = recorder.at(1.0).map(|d| states.find(1.0, d)).transpose()?.flatten();
         report.at_unit_load = at_unit_load.map(|state| snapshot(model, &state)).transpose()?;
-        let (first_yield, at) = (recorder.first_yield(), recorder.yields_at());
-        report.crushing.elastic = Some(states.first_yield(first_yield, at, &self.analysis.structure.strengths())?);
+        report.crushing.elastic = recorder.yielding.as_ref().map(|found| states.first_yield(found)).transpose()?;
         let residual = tracer.worst_residual();
         let mut peak_load = None;
         let (ending, turned_back) = match leg {

@@ -117,7 +117,7 @@ pub fn safety(result: &SafetyCurveResult) -> Chart {
     let all = [
         of("instability", true, &|safety| Some(safety.instability)),
         of("joints crush (plastic sections)", true, &|safety| Some(safety.plastic_section)),
-        of("first yield", true, &|safety| Some(safety.elastic)),
+        of("first yield", true, &|safety| safety.elastic),
         of("instability on moving geometry", true, &|safety| safety.updated_geometry),
     ];
     let told = |curve: &Curve| curve.points.iter().any(|point| point.1.is_some());

@@ -88,13 +88,14 @@ pub fn points(result: &SafetyCurveResult) -> Option<Table> {
     let abscissa = if result.unit == "-" { "abscissa".to_owned() } else { format!("abscissa, {}", result.unit) };
     let moving = result.points.iter().any(|point| point.safety.updated_geometry.is_some());
     let moving = moving.then_some("on moving geometry");
-    let crushing = ["first yield", "plastic section", "safety factor", "governed by", "mode", "zone"];
-    table.set_header([abscissa.as_str(), "instability"].into_iter().chain(moving).chain(crushing));
+    let yields = result.points.iter().any(|point| point.safety.elastic.is_some()).then_some("first yield");
+    let crushing = ["plastic section", "safety factor", "governed by", "mode", "zone"];
+    table.set_header([abscissa.as_str(), "instability"].into_iter().chain(moving).chain(yields).chain(crushing));
     table.add_rows(result.points.iter().map(|point| {
         let safety = &point.safety;
-        let moving = moving.map(|_| safety.updated_geometry.map_or("-".to_owned(), reach));
+        let told = |factor: Option<ReachBody>| factor.map_or("-".to_owned(), reach);
+        let (moving, yields) = (moving.map(|_| told(safety.updated_geometry)), yields.map(|_| told(safety.elastic)));
         let crushing = [
-            reach(safety.elastic),
             reach(safety.plastic_section),
             reach(safety.governing),
             word(&safety.governed_by),
@@ -102,7 +103,7 @@ pub fn points(result: &SafetyCurveResult) -> Option<Table> {
             zone(safety.zone).to_owned(),
         ];
         let before = [Digits(point.abscissa).to_string(), reach(safety.instability)];
-        before.into_iter().chain(moving).chain(crushing).collect::<Vec<_>>()
+        before.into_iter().chain(moving).chain(yields).chain(crushing).collect::<Vec<_>>()
     }));
     (!result.points.is_empty()).then_some(table)
 }

@@ -1,6 +1,6 @@
 //! What the mechanics have to say of an answer, in sentences.
 
-use super::{Digits, geometric, positions, settlement, survey};
+use super::{Digits, first_yield, geometric, positions, settlement, survey};
 use crate::collapse::{Doubt, FieldAt, LimitWindow, LoadRange, Note, OtherStates, Unfollowed, Unreached};
 use std::fmt;
 
@@ -60,7 +60,10 @@ impl fmt::Display for Note {
             Note::UnbentStones => UNBENT_STONES.into(),
             Note::NoGeometricSafety => geometric::MISSING.into(),
             Note::NoPlasticSections => NO_PLASTIC_SECTIONS.into(),
-            Note::YieldTooLate => YIELD_TOO_LATE.into(),
+            Note::YieldTooLate { length } => first_yield::too_late(length.map(Digits)),
+            Note::TooCoarseToYield { length, least, wanted } => {
+                first_yield::too_coarse(Digits(*length), least.map(Digits), *wanted)
+            }
             Note::SectionsNeverFail => SECTIONS_NEVER_FAIL.into(),
             Note::MotionLost => MOTION_LOST.into(),
             Note::MotionRestsBeyond { load_factor, limit, bodies } => rests_beyond([*load_factor, *limit], bodies),
@@ -86,8 +89,6 @@ const COHESION_BY_POINT: &str = "Cohesion is shared out to a joint's contact poi
 const UNBENT_STONES: &str = "On moving geometry stones that are one subblock thick do not bend; only their joints give. With \
      soft stone the arch then seems stronger than it is: compare a mesh of at least 2 x 2.";
 const NO_PLASTIC_SECTIONS: &str = "Rounding kept the limit window with plastic sections from being computed.";
-const YIELD_TOO_LATE: &str = "First yield comes after collapse with plastic sections, which cannot be: the mesh is too \
-     coarse to see the highest stress, so its first yield means nothing.";
 const SECTIONS_NEVER_FAIL: &str =
     "Plastic sections never fail, since bonded joints are taken not to crush; first yield counts instead.";
 const MOTION_LOST: &str = "The motion could not be followed to one of its ends: no further step was found.";

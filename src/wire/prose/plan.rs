@@ -75,7 +75,7 @@ const SLIDES_AT_COLLAPSE: &str = "Joints slide at collapse: the load may be any 
 const LOAD_NEEDS_NO_MESH: &str =
     "The collapse load of stones that do not slide does not depend on the mesh: path and limit window give it.";
 const HALF_MODELLED: &str = "Arch, loads and mechanism are symmetric: half the arch is modelled for the stress.";
-const STATES_ONE_BY_ONE: &str = "The states on this mesh were solved for one by one. The load path is that of whole stones: no history and no first \
-     yield on the mesh are told.";
+const STATES_ONE_BY_ONE: &str = "The states on this mesh were solved for one by one. The load path is that of whole stones: no history \
+     on the mesh is told.";
 const WHOLE_MODELLED: &str =
     "Arch, loads or mechanism are not symmetric, or joints slide: the whole arch is modelled for the stress.";

@@ -2,12 +2,12 @@
 
 use super::given;
 use super::wording::{self, word};
-use crate::collapse::{CrushingKind, Governs, Order, SafetyZone, Seams};
+use crate::collapse::{Governs, Order, SafetyZone, Seams};
 use crate::wire::prose::{Digits, Rounded};
-use crate::wire::request::{AimRequest, MeshRequest, Subblocks, SubblocksRequest};
+use crate::wire::request::{MeshRequest, Subblocks, SubblocksRequest};
 use crate::wire::response::{
     AnalysisResult, CrushedSubblock, CrushingBody, ElasticCrushingBody, PlasticCrushingBody, ReachBody, SafetyBody,
-    mesh_in_words,
+    extent_in_words, mesh_in_words,
 };
 
 /// The mesh; none where every voussoir is one block.
@@ -26,10 +26,7 @@ pub fn mesh(mesh: &MeshRequest) -> Option<String> {
 
 /// One sentence.
 pub fn headline(result: &AnalysisResult, safety: &SafetyBody) -> String {
-    let kind = match &result.request.analysis {
-        AimRequest::Safety(request) if request.crushing == CrushingKind::Elastic => "first yield",
-        _ => "plastic section",
-    };
+    let kind = if safety.elastic == Some(safety.governing) { "first yield" } else { "plastic section" };
     let what = match safety.governed_by {
         Governs::Crushing => format!("its stone crushes ({kind})"),
         _ => "it falls".to_owned(),
@@ -90,13 +87,13 @@ pub fn facts(result: &AnalysisResult) -> Vec<(&'static str, String)> {
 
 fn factors(safety: &SafetyBody) -> String {
     let zone = safety.zone.map(|_| format!(", zone {}", zone(safety.zone))).unwrap_or_default();
-    let [governing, instability, elastic, plastic] =
-        [safety.governing, safety.instability, safety.elastic, safety.plastic_section].map(reach);
+    let [governing, instability, plastic] = [safety.governing, safety.instability, safety.plastic_section].map(reach);
+    let yields = safety.elastic.map(|at| format!("; first yield: {}", reach(at))).unwrap_or_default();
     let governs = word(&safety.governed_by);
     let moving = safety.updated_geometry.map(|at| format!("; on moving geometry: {}", reach(at))).unwrap_or_default();
     format!(
         "{governing}, governed by: {governs}{zone}\n\
-         (instability: {instability}{moving}; first yield: {elastic}; plastic section: {plastic})"
+         (instability: {instability}{moving}{yields}; plastic section: {plastic})"
     )
 }
 
@@ -113,18 +110,29 @@ fn crushing_facts(lines: &mut Vec<(&'static str, String)>, result: &AnalysisResu
 /// What the answers about crushing mean, where there are any.
 pub fn explanation(result: &AnalysisResult) -> Option<String> {
     let crushing = result.crushing.as_ref()?;
-    let said = [(crushing.elastic.is_some(), FIRST_YIELD), (crushing.plastic_section.is_some(), PLASTIC_SECTION)];
-    let said: Vec<&str> = said.iter().filter(|(told, _)| *told).map(|(_, means)| *means).collect();
+    let yields = crushing.elastic.as_ref().map(|elastic| match elastic.length_m {
+        Some(length) => format!(
+            "First yield: the equivalent stress of Tresca, of stress averaged over {} m, reaches the strength.",
+            Digits(length)
+        ),
+        None => FIRST_YIELD.to_owned(),
+    });
+    let plastic = crushing.plastic_section.as_ref().map(|_| PLASTIC_SECTION.to_owned());
+    let said: Vec<String> = yields.into_iter().chain(plastic).collect();
     (!said.is_empty()).then(|| said.join(" "))
 }
 
-const FIRST_YIELD: &str =
-    "First yield: the equivalent stress of Tresca reaches the strength in some subblock; it depends on the mesh.";
+const FIRST_YIELD: &str = "First yield: the equivalent stress of Tresca, of stress averaged over a subblock, reaches the strength; it \
+     depends on the mesh.";
 const PLASTIC_SECTION: &str =
     "Plastic section: what limit analysis allows where no joint carries more than the strength.";
 
 fn first_yield(result: &AnalysisResult, elastic: &ElasticCrushingBody) -> String {
-    let at = elastic.subblock.as_ref().map(|subblock| format!(", in {}", place(result, subblock))).unwrap_or_default();
+    let at = elastic
+        .subblock
+        .as_ref()
+        .map(|subblock| format!(", in {}", place(result, elastic, subblock)))
+        .unwrap_or_default();
     match (elastic.at_start, elastic.intensity) {
         (true, _) => format!("at the start of the path already{at}"),
         (false, Some(intensity)) => format!("at {} {}{at}", Digits(intensity), wording::unit(result)),
@@ -135,18 +143,25 @@ fn first_yield(result: &AnalysisResult, elastic: &ElasticCrushingBody) -> String
                     true => "largest equivalent stress",
                     false => "equivalent stress nearest to it",
                 };
-                format!("not reached; {which} {stress} MPa, in {}", place(result, largest))
+                format!("not reached; {which} {stress} MPa, in {}", place(result, elastic, largest))
             }
             None => "not reached".to_owned(),
         },
     }
 }
 
-fn place(result: &AnalysisResult, subblock: &CrushedSubblock) -> String {
-    if let Some(body) = result.named().and_then(|structure| structure.bodies.get(subblock.voussoir)) {
-        return body.name.clone();
+fn place(result: &AnalysisResult, elastic: &ElasticCrushingBody, at: &CrushedSubblock) -> String {
+    let size = extent_in_words([at.size_across_m, at.size_along_m]);
+    let stone = match result.named().and_then(|structure| structure.bodies.get(at.voussoir)) {
+        Some(body) => body.name.clone(),
+        None => format!("voussoir {}", at.voussoir),
+    };
+    match elastic.length_m {
+        Some(_) => {
+            format!("{stone}, over {size} about x = {}, y = {} m", Rounded(at.centre_x_m), Rounded(at.centre_y_m))
+        }
+        None => format!("{stone}, over subblock {}, {} (radial, along) of {size}", at.radial, at.along),
     }
-    format!("voussoir {}, subblock {}, {} (radial, along)", subblock.voussoir, subblock.radial, subblock.along)
 }
 
 fn plastic_section(result: &AnalysisResult, plastic: &PlasticCrushingBody) -> String {

@@ -90,8 +90,9 @@ pub struct MovementRequest {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(default)]
 pub struct SafetyRequest {
-    /// Which of the two answers about crushing counts; both are given. `plastic_section`: no equilibrium keeps every joint within
-    /// its strength. `elastic`: the equivalent stress reaches the strength in some subblock; depends on the mesh.
+    /// Which of the two answers about crushing counts. `plastic_section`: no equilibrium keeps every joint within its strength.
+    /// `elastic`: first yield, where the equivalent stress reaches the strength; of stress averaged over `report.first_yield_length_m`,
+    /// or, where that is left out, over every subblock, as in the paper: then it depends on the mesh.
     pub crushing: CrushingKind,
     /// Asks for a curve: the safety factor at every abscissa of a list.
     pub curve: Option<CurveRequest>,
@@ -120,11 +121,16 @@ pub struct ReportRequest {
     /// Where on the path the stress in every subblock is shown; fields times subblocks come to at most 400,000. Not with a curve.
     #[schema(max_items = 16)]
     pub stress_fields: Vec<StressFieldRequest>,
+    /// Asks for first yield, with stress averaged over this length both ways inside every stone, m; over the stone where that is shorter.
+    /// Two subblocks at least have to lie in it either way. Left out: first yield is given only where it counts as crushing in a safety
+    /// analysis, by the mean stress of every subblock.
+    #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
+    pub first_yield_length_m: Option<f64>,
 }
 
 impl Default for ReportRequest {
     fn default() -> Self {
-        ReportRequest { share_of_collapse: 0.999, stress_fields: Vec::new() }
+        ReportRequest { share_of_collapse: 0.999, stress_fields: Vec::new(), first_yield_length_m: None }
     }
 }
 

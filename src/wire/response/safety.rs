@@ -43,8 +43,9 @@ pub struct SafetyBody {
     pub instability: ReachBody,
     /// Until the arch becomes a mechanism on moving geometry; null where `geometry` does not ask for it.
     pub updated_geometry: Option<ReachBody>,
-    /// Until the equivalent stress reaches the strength in some subblock; depends on the mesh.
-    pub elastic: ReachBody,
+    /// Until first yield; null where it neither counts nor has a `report.first_yield_length_m`. `crushing.elastic` says over what stress is
+    /// averaged.
+    pub elastic: Option<ReachBody>,
     /// Until joints of finite strength can no longer be in equilibrium; does not depend on the mesh.
     pub plastic_section: ReachBody,
     /// The first of instability, on moving geometry too where asked, and the kind of crushing that counts; with `partial_factors` the
@@ -65,7 +66,7 @@ impl SafetyBody {
         SafetyBody {
             instability: point.instability.into(),
             updated_geometry: point.updated.map(Into::into),
-            elastic: point.elastic.into(),
+            elastic: point.elastic.map(Into::into),
             plastic_section: point.plastic_section.into(),
             governing: point.governing.into(),
             governed_by: point.governed_by,

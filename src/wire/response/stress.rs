@@ -2,7 +2,10 @@
 
 use super::Scale;
 use super::columns::column;
-use crate::collapse::{Crushing, ElasticCrushing, Order, PlasticCrushing, Spacing, StressField, SubblockStress};
+use crate::collapse::{
+    Crushing, ElasticCrushing, MeanStress, Order, PlasticCrushing, Spacing, StressField, SubblockStress,
+};
+use crate::wire::prose::Rounded;
 use crate::wire::request::{MeshRequest, SubblocksRequest};
 use serde::Serialize;
 use utoipa::ToSchema;
@@ -98,7 +101,8 @@ impl SubblockColumns {
 pub struct CrushingBody {
     /// Compressive strength of the weakest stone, over its partial factor.
     pub strength_pa: f64,
-    /// First yield of a subblock, as in the paper; null where no path was followed.
+    /// First yield; null where it is not asked for by `report.first_yield_length_m` and does not count in a safety analysis, where no path
+    /// was followed, and where the mesh is too coarse for the length asked for.
     pub elastic: Option<ElasticCrushingBody>,
     /// Collapse with joints of finite strength; null where it could not be computed.
     pub plastic_section: Option<PlasticCrushingBody>,
@@ -115,7 +119,7 @@ impl CrushingBody {
     }
 }
 
-/// When the equivalent stress of Tresca first reaches the strength in some subblock.
+/// When the equivalent stress of Tresca, of stress averaged over a length or over a subblock, first reaches the strength.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct ElasticCrushingBody {
     /// Load factor at which it does; null where it does not on the path.
@@ -124,26 +128,49 @@ pub struct ElasticCrushingBody {
     pub intensity: Option<f64>,
     /// True where it has at the start of the path already.
     pub at_start: bool,
-    /// The subblock where it does, or that with the largest equivalent stress over its stone's strength on the path.
+    /// Length over which stress is averaged both ways inside every stone, `report.first_yield_length_m`; null where that is left out, and
+    /// stress averaged over every subblock.
+    pub length_m: Option<f64>,
+    /// The subblock or the window of that length where it does, or where the equivalent stress over the stone's strength is largest on the
+    /// path.
     pub subblock: Option<CrushedSubblock>,
-    /// How this depends on the mesh.
+    /// What this number is, and on what it depends.
     pub note: String,
 }
 
 impl ElasticCrushingBody {
     fn new(elastic: &ElasticCrushing, mesh: &str, scale: &Scale<'_>) -> Self {
-        let note = format!(
-            "First yield depends on the mesh, here {mesh}: the mean stress of a subblock counts, so a finer mesh comes closer \
-             to the peaks at pressed corners and yields at a lower load."
-        );
+        let note = match (elastic.length, elastic.where_largest) {
+            (Some(length), _) => format!(
+                "Stress is averaged over {} m both ways inside every stone, or over the stone where that is shorter: first yield \
+                 depends on this length. A shorter one comes closer to the peaks at pressed corners and yields at a lower load. Next \
+                 to a hinge a mesh with but two subblocks in the length gives several per cent too much; this one has {mesh}.",
+                Rounded(length)
+            ),
+            (None, place) => {
+                let size =
+                    place.map(|place| format!(", this one of {}", extent_in_words(place.sizes))).unwrap_or_default();
+                format!(
+                    "First yield depends on the mesh, here {mesh}: stress is averaged over every subblock{size}, so a finer mesh \
+                     comes closer to the peaks at pressed corners and yields at a lower load, next to hinges without end. With \
+                     report.first_yield_length_m it is averaged over a length."
+                )
+            }
+        };
         ElasticCrushingBody {
             load_factor: elastic.load_factor,
             intensity: elastic.load_factor.map(|factor| scale.intensity(factor)),
             at_start: elastic.at_start,
+            length_m: elastic.length,
             subblock: elastic.where_largest.as_ref().map(Into::into),
             note,
         }
     }
+}
+
+/// What stress is averaged over, as `0.2 m x 0.3 m`: across the stone and along it.
+pub fn extent_in_words([across, along]: [f64; 2]) -> String {
+    format!("{} m x {} m", Rounded(across), Rounded(along))
 }
 
 /// A mesh as `4 x 8 subblocks (radial x along)`.
@@ -178,28 +205,40 @@ pub fn counts_in_words(
     format!("{radial} x {along} subblocks (radial x along), by voussoir")
 }
 
-/// One subblock under stress.
+/// A subblock, or a window of a length, under stress.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct CrushedSubblock {
     /// Which voussoir, from 0 on the left.
     pub voussoir: usize,
-    /// Place from the intrados, from 0.
+    /// Place of the subblock from the intrados, from 0; of a window that in which its middle lies.
     pub radial: usize,
-    /// Place from the joint before the voussoir, from 0.
+    /// Its place from the joint before the voussoir, from 0.
     pub along: usize,
-    /// Centroid, to the right.
+    /// Middle, to the right.
     pub centre_x_m: f64,
-    /// Centroid, upwards.
+    /// Middle, upwards.
     pub centre_y_m: f64,
-    /// Its equivalent stress.
+    /// Size across the stone, from intrados to extrados.
+    pub size_across_m: f64,
+    /// Size along it.
+    pub size_along_m: f64,
+    /// Equivalent stress of its mean stress.
     pub tresca_pa: f64,
 }
 
-impl From<&SubblockStress> for CrushedSubblock {
-    fn from(stress: &SubblockStress) -> Self {
-        let [radial, along] = stress.place;
-        let (centre_x_m, centre_y_m) = (stress.centre.x, stress.centre.y);
-        CrushedSubblock { voussoir: stress.voussoir, radial, along, centre_x_m, centre_y_m, tresca_pa: stress.tresca() }
+impl From<&MeanStress> for CrushedSubblock {
+    fn from(stress: &MeanStress) -> Self {
+        let ([radial, along], [size_across_m, size_along_m]) = (stress.place, stress.sizes);
+        CrushedSubblock {
+            voussoir: stress.voussoir,
+            radial,
+            along,
+            centre_x_m: stress.centre.x,
+            centre_y_m: stress.centre.y,
+            size_across_m,
+            size_along_m,
+            tresca_pa: stress.tresca(),
+        }
     }
 }
 

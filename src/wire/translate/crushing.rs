@@ -37,6 +37,11 @@ pub fn check(request: &AnalysisRequest, subblocks: &[[usize; 2]], faults: &mut F
             "joints that crush lie between stones of one stress each: set order to 1",
         ),
         (
+            "/report/first_yield_length_m",
+            request.report.first_yield_length_m.is_none(),
+            "where stones are whole no stress is averaged over a length: leave it out",
+        ),
+        (
             "/accuracy",
             request.accuracy.is_none(),
             "where joints crush the error of a mesh is not estimated: leave accuracy out",

@@ -138,7 +138,11 @@ impl<'a> Unloaded<'a> {
             (None, Geometry::Updated) => Path::Updated,
             (None, Geometry::FirstOrder) => Path::FirstOrder,
         };
-        let states = StatesAsked { share: request.report.share_of_collapse, fields: self.fields.clone() };
+        let states = StatesAsked {
+            share: request.report.share_of_collapse,
+            fields: self.fields.clone(),
+            first_yield_length: request.report.first_yield_length_m,
+        };
         Some(match &request.analysis {
             AimRequest::Collapse | AimRequest::WorstPosition(_) | AimRequest::SurveyTolerance(_) => {
                 Task::Collapse(CollapseTask {
