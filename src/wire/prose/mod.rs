@@ -2,6 +2,7 @@
 
 mod beam;
 pub(super) mod curve;
+mod doubts;
 mod geometric;
 mod given;
 pub(super) mod joints;

@@ -26,12 +26,8 @@ pub fn mesh(mesh: &MeshRequest) -> Option<String> {
 
 /// One sentence.
 pub fn headline(result: &AnalysisResult, safety: &SafetyBody) -> String {
-    let kind = match &result.request.analysis {
-        AimRequest::Safety(request) if request.crushing == CrushingKind::Elastic => "first yield",
-        _ => "plastic section",
-    };
     let what = match safety.governed_by {
-        Governs::Crushing => format!("its stone crushes ({kind})"),
+        Governs::Crushing => format!("its stone crushes ({})", crushing_that_governs(result, safety)),
         _ => "it falls".to_owned(),
     };
     match safety.governing {
@@ -54,6 +50,13 @@ pub fn headline(result: &AnalysisResult, safety: &SafetyBody) -> String {
         },
         ReachBody::Unknown => "No safety factor: it cannot be told. The notes say why.".to_owned(),
     }
+}
+
+/// Which of the two answers about crushing the governing factor is: the one that counts, unless that is left aside.
+fn crushing_that_governs(result: &AnalysisResult, safety: &SafetyBody) -> &'static str {
+    let counts = matches!(&result.request.analysis, AimRequest::Safety(of) if of.crushing == CrushingKind::Elastic);
+    let [elastic, plastic] = [safety.elastic, safety.plastic_section].map(|of| of == safety.governing);
+    if elastic && (counts || !plastic) { "first yield" } else { "plastic section" }
 }
 
 /// A safety factor, briefly.
@@ -105,9 +108,8 @@ fn crushing_facts(lines: &mut Vec<(&'static str, String)>, result: &AnalysisResu
     if let Some(elastic) = &crushing.elastic {
         lines.push(("first yield", first_yield(result, elastic)));
     }
-    if let Some(plastic) = &crushing.plastic_section {
-        lines.push(("plastic section", plastic_section(result, plastic)));
-    }
+    let plastic = crushing.plastic_section.as_ref().map(|plastic| plastic_section(result, plastic));
+    lines.push(("plastic section", plastic.unwrap_or_else(|| NO_PLASTIC_SECTION.to_owned())));
 }
 
 /// What the answers about crushing mean, where there are any.
@@ -118,6 +120,7 @@ pub fn explanation(result: &AnalysisResult) -> Option<String> {
     (!said.is_empty()).then(|| said.join(" "))
 }
 
+const NO_PLASTIC_SECTION: &str = "not known: limit analysis gave no answer; no collapse load told here counts crushing";
 const FIRST_YIELD: &str =
     "First yield: the equivalent stress of Tresca reaches the strength in some subblock; it depends on the mesh.";
 const PLASTIC_SECTION: &str =
