@@ -58,7 +58,8 @@ class Structure:
         return drives and max(hindered) <= 1e-6 * fastest
 
 def check(answer):
-    if "structure" not in answer: return False, "without a proof: an answer of one structure has one, a curve and a curved beam have none"
+    why = "limit analysis gave no answer" if "structure" in answer else "an answer of one structure has one, a curve and a curved beam have none"
+    if not answer.get("proof"): return False, f"without a proof: {why}"
     structure, proof, window = Structure(answer["structure"]), answer["proof"], answer["limit_window_load_factor"]
     if window is None: return proof["falls"] and structure.falls(rows(proof["falls"]), 0, 0), "no load factor is borne"
     same, good, said = lambda a, b: math.isclose(a, b, rel_tol=1e-6, abs_tol=1e-9), [], f"borne from {window[0]} to {window[1]}"

@@ -225,6 +225,11 @@ impl Certificate {
         (residual > tolerances::RESIDUAL).then_some(Doubt::Unbalanced(residual))
     }
 
+    /// The path stands where the window, if it is known, is not.
+    pub(super) fn outside(&self) -> Doubt {
+        if self.solved { Doubt::StandsOutside } else { Doubt::NoCertificate }
+    }
+
     /// Nothing happened up to the cap; that is believed if the window says so too.
     pub(super) fn endless(&self, sign: f64, cap: f64) -> Option<Doubt> {
         let limit = self.end(sign).unwrap_or(0.0);
@@ -274,7 +279,8 @@ pub(super) fn mesh_notes(slenderness: f64, several: bool, cohesive: bool) -> Vec
 /// Note on a load at which joints slide: whether it is the only one found.
 pub(super) fn range_note(range: &LoadRange) -> Note {
     let LoadRange { least, greatest, .. } = *range;
-    match (greatest - least).abs() <= tolerances::AGREEMENT * greatest.abs().max(least.abs()) {
+    let one = (greatest - least).abs() <= tolerances::AGREEMENT * greatest.abs().max(least.abs());
+    match one && greatest.is_finite() {
         true => Note::SoleSlidingLoad(*range),
         false => Note::ManySlidingLoads(*range),
     }

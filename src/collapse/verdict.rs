@@ -235,7 +235,7 @@ impl<'a> Setup<'a> {
         match end {
             dda::End::Stopped => return Err(self.budget.stopped().into()),
             dda::End::Reached if self.certificate.stands_at(self.start) => {}
-            dda::End::Reached => return Ok(Attempted { report, doubt: Some(Doubt::StandsOutside) }),
+            dda::End::Reached => return Ok(Attempted { report, doubt: Some(self.certificate.outside()) }),
             dda::End::Mechanism => return self.fallen(report, model, &tracer),
             dda::End::Rising | dda::End::Lost => return Ok(Attempted { report, doubt: Some(Doubt::NotLoaded) }),
         }

@@ -4,9 +4,10 @@
 //! that t - 2 |e| >= N / f. With N_i = N (1/2 - e / t) and N_e = N (1/2 + e / t) this is N_i, N_e >= N^2 / (2 f t):
 //! two parabolas a joint, which bound a convex set. Where unknowns are few, tangents of them are added to the linear programme of
 //! the rigid arch until its answer lies on or within every parabola (cutting planes, Kelley 1960). Where they are many, or
-//! tangents so close together that rounding confuses them defeat it, the parabolas are cones of the interior point method.
+//! tangents so close together that rounding confuses them defeat it, the parabolas are cones of the interior point method; of not
+//! too many unknowns tangents help where rounding defeats that one.
 
-use super::programme::{Objective, Programme, ProgrammeOutcome};
+use super::programme::{MOST_DENSE, Objective, Programme, ProgrammeOutcome};
 use super::resultant::Resultant;
 use super::static_theorem::{Equilibrium, Limit};
 use super::{StaticTheorem, Unsolved};
@@ -113,12 +114,7 @@ impl StaticTheorem {
         let mut window = CrushingWindow { ends, ..CrushingWindow::default() };
         for (end, sign) in [-1.0, 1.0].into_iter().enumerate().filter(|(end, _)| wanted[*end]) {
             let objective = Objective::load_factor(sign);
-            let few = self.has_few_unknowns();
-            let outcome =
-                if few { cut_until_inside(&objective, &mut cut, &sections, budget) } else { ProgrammeOutcome::Lost };
-            let outcome =
-                if outcome == ProgrammeOutcome::Lost { conic.maximise_sparsely(&objective, budget) } else { outcome };
-            match outcome {
+            match self.crushing_end(&objective, &mut cut, &conic, budget) {
                 ProgrammeOutcome::At(equilibrium, dual) => {
                     window.ends[end] = equilibrium.load_factor;
                     window.motions[end] = self.motion(&dual, &cut.limits);
@@ -131,6 +127,29 @@ impl StaticTheorem {
             }
         }
         Ok(Some(window))
+    }
+
+    /// By tangents where unknowns are few, by cones where they are many; where rounding keeps that from an answer, by the other.
+    fn crushing_end(
+        &self,
+        objective: &Objective,
+        cut: &mut Programme,
+        conic: &Programme,
+        budget: &Budget,
+    ) -> ProgrammeOutcome {
+        let few = self.has_few_unknowns();
+        let first = match few {
+            true => cut_until_inside(objective, cut, &conic.sections, budget),
+            false => conic.maximise_sparsely(objective, budget),
+        };
+        match first {
+            ProgrammeOutcome::Lost if few => conic.maximise_sparsely(objective, budget),
+            // Where nothing crushes, the programme without strength is the same.
+            ProgrammeOutcome::Lost if self.unknowns() <= MOST_DENSE && !conic.sections.is_empty() => {
+                cut_until_inside(objective, cut, &conic.sections, budget)
+            }
+            first => first,
+        }
     }
 
     /// Whether any joint of these strengths, Pa, crushes under loads in reach.

@@ -64,7 +64,19 @@ impl StaticTheorem {
         if share < 1.0 {
             programme.limits = (0..self.joints()).flat_map(|k| self.within(k, share)).collect();
         }
-        match programme.maximise(&Objective::load_factor(0.0), budget) {
+        let objective = Objective::load_factor(0.0);
+        match self.admissible(&programme, programme.maximise(&objective, budget)) {
+            // The exact method may end far out, where forces without bound leave nothing of the loads.
+            Err(Unsolved) if self.has_few_unknowns() => {
+                self.admissible(&programme, programme.maximise_sparsely(&objective, budget))
+            }
+            found => found,
+        }
+    }
+
+    /// Forces that violate no limit; none where there are none.
+    fn admissible(&self, programme: &Programme, found: ProgrammeOutcome) -> Result<Option<Vec<Resultant>>, Unsolved> {
+        match found {
             ProgrammeOutcome::At(equilibrium, _) => {
                 let slack = |limit: &Limit| limit.slack(&equilibrium.forces);
                 let least = self.limits.iter().chain(&programme.limits).map(slack).fold(f64::INFINITY, f64::min);

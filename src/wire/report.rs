@@ -6,7 +6,7 @@ use super::json::{NotFinite, pretty};
 use super::prose::{self, Digits, curve, joints, moving, summary};
 use super::request::{AnalysisRequest, Request};
 use super::response::{AnalysisResult, JobResult, SafetyCurveResult};
-use crate::collapse::WhichEnd;
+use crate::collapse::{Outcome, WhichEnd};
 use crate::render::canvas::escaped;
 use comfy_table::{Row, Table};
 
@@ -98,24 +98,30 @@ fn checks(result: &AnalysisResult) -> String {
     let [lowest, highest] = result.limit_window_load_factor.unwrap_or([None, None]);
     for end in &result.ends {
         let limit = if end.which == WhichEnd::Lowest { lowest } else { highest };
-        if let (Some(path), Some(limit)) = (&end.instability, limit) {
-            let apart =
-                (path.load_factor - limit).abs() / limit.abs().max(path.load_factor.abs()).max(f64::MIN_POSITIVE);
+        // Nothing is in equilibrium where it falls as its first loads come on.
+        if matches!(result.outcome, Outcome::FallsAsBuilt | Outcome::SlidesAsBuilt) {
+            continue;
+        }
+        let path = end.range.as_ref().map(|range| range.path_load_factor);
+        if let (Some(path), Some(limit)) = (path.or(end.instability.map(|path| path.load_factor)), limit) {
+            let apart = (path - limit).abs() / limit.abs().max(path.abs()).max(f64::MIN_POSITIVE);
             all.push(format!(
                 "Of stone that does not crush, the load path ends at load factor {} and the window of limit analysis, found \
                  independently, at {}: {apart:.0e} apart.",
-                Digits(path.load_factor),
+                Digits(path),
                 Digits(limit)
             ));
         }
         all.push(format!("Equilibrium holds to {:.0e} at the {}.", end.residual, prose::name_of_end(end)));
     }
     if result.proof.is_some() {
-        all.push(
-            "The limit window is proved by forces in equilibrium and by motions that no joint hinders: both are in the \
-             answer as JSON, under proof, to be checked with structure alone."
-                .to_owned(),
-        );
+        let proved = match result.limit_window {
+            Some(_) => {
+                "The limit window is proved by forces in equilibrium and by motions that no joint hinders: both are"
+            }
+            None => "That no load factor is borne is proved by a motion that no joint hinders: it is",
+        };
+        all.push(format!("{proved} in the answer as JSON, under proof, to be checked with structure alone."));
     }
     all.push(prose::in_its_words(&result.request, summary::explanation(result)));
     list(all.into_iter())

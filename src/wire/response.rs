@@ -6,6 +6,7 @@ mod beam;
 mod columns;
 mod falling;
 mod favourable;
+mod force_unit;
 mod geometric;
 mod mechanism;
 mod plan;

@@ -324,3 +324,30 @@ fn a_survey_of_the_intrados_and_a_thickness() {
     twice["arch"]["profile"]["surveyed"]["intrados_m"][4] = json!(intrados[3]);
     refused(&twice, "/arch/profile/surveyed/intrados_m: points");
 }
+
+/// Four stones between bonded springings bear any thrust: however short the joints, it stands.
+#[test]
+fn a_wedged_arch_stands_on_joints_as_short_as_any() {
+    let request = json!({
+        "arch": {
+            "profile": {"circular": {"span_m": 170.729455785387, "rise_m": 84.37998731994041}}, "line": "intrados", "voussoirs": 4,
+            "thickness": {"extrados_circle": {"radius_m": 121.48443243973098, "centre_y_m": -13.287657329735495}},
+            "relative_lengths": [0.6731857189191855, 0.6068460098962225, 1.0701228372254579, 1.43916027932173],
+            "springing_joints": "bonded"
+        },
+        "stone": {"friction_angle_deg": 40, "compressive_strength_pa": 1e30},
+        "backfill": {
+            "surface_height_m": 115.72720915614971, "backing": {"height_m": 71.8112876030885, "density_kg_m3": 2200},
+            "lateral_ratio": 0.33769070359454917, "dispersal": {"uniform": {"spread": 0.0954868247650098}}
+        },
+        "loads": [
+            {"load": {"self_weight": {}}},
+            {"load": {"patch_load": {
+                "centre_x_m": 112.12008157709329, "width_m": 2.9515369855059594, "force_n_per_m": 5171859.903539777, "dispersal": {}
+            }}},
+        ],
+        "analysis": {"geometric_safety": {}}
+    });
+    let held = &solved(&request)["geometric_safety"]["loads_held"];
+    assert_eq!((&held["least_share"], &held["factor"]), (&json!(0.01), &Value::Null));
+}

@@ -107,6 +107,8 @@ mod rooms;
 #[cfg(feature = "server")]
 mod safety;
 #[cfg(feature = "server")]
+mod said;
+#[cfg(feature = "server")]
 mod scene;
 #[cfg(feature = "server")]
 mod second_order;

@@ -123,6 +123,7 @@ def forgeries(answer):
         "soil elsewhere": changed(lambda of: [e["at_m"].__setitem__(1, e["at_m"][1] + 0.1) for e in of["structure"]["passive_elements"]]),
     } if pressing else {}
     return crushing | soil | {
+        "no proof": changed(lambda of: of.update(proof=None, limit_window=None, limit_window_load_factor=None)),
         "a higher end": changed(lambda of: load(of, 1.01 * end)),
         "a lower end": changed(lambda of: load(of, 0.99 * end)),
         "a window wider than its proof": changed(lambda of: of["limit_window_load_factor"].__setitem__(1, 1.01 * end)),

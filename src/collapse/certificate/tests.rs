@@ -53,3 +53,12 @@ fn a_load_may_fall_shortly_before_joints_that_slide_are_at_their_limits() {
     let short = certificate(33.0).compare(&slid(49.0, 30.0), 1.0);
     assert_eq!(short, Ok(true));
 }
+
+#[test]
+fn a_load_is_the_only_one_where_the_window_ends_there_and_not_where_it_has_no_end() {
+    let note = |greatest| range_note(&LoadRange { least: 12.0, greatest, path: 12.0, mechanisms_tried: 3 });
+    assert!(matches!(note(12.0), Note::SoleSlidingLoad(_)));
+    for greatest in [13.0, f64::INFINITY, f64::NEG_INFINITY] {
+        assert!(matches!(note(greatest), Note::ManySlidingLoads(_)), "{greatest}");
+    }
+}

@@ -86,6 +86,11 @@ pub struct Mechanism {
 impl Mechanism {
     /// Whether faces move along each other, pressed or parted: the load need not be that of limit analysis then.
     pub fn slips(&self) -> bool {
-        !self.slides.is_empty() || self.lift_offs.iter().any(|lift_off| lift_off.along != 0.0)
+        !self.slides.is_empty() || self.slips_parted().next().is_some()
+    }
+
+    /// Joints that part altogether and whose faces move along each other too.
+    pub fn slips_parted(&self) -> impl Iterator<Item = usize> {
+        self.lift_offs.iter().filter(|lift_off| lift_off.along != 0.0).map(|lift_off| lift_off.joint)
     }
 }

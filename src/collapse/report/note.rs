@@ -39,6 +39,8 @@ pub enum Note {
     SoleSlidingLoad(LoadRange),
     /// Joints slide beside passive elements: the load path, and with it the mechanisms tried, depends on how soon they are mobilised.
     SlidesBesideSoil,
+    /// No pressed joint slides: it is these, which part altogether, that move along each other too.
+    SlidesParted(Vec<usize>),
     /// Joints slide, and the arch may fall at any load of a range.
     ManySlidingLoads(LoadRange),
     /// The collapse load was read at whole steps.

@@ -96,7 +96,10 @@ impl Setup<'_> {
             }
         };
         report.notes.extend(ending.later.then_some(Note::LaterMechanism));
-        report.notes.extend(ending.end.range.as_ref().map(range_note));
+        let range = ending.end.range.as_ref().map(range_note);
+        let parted = matches!(range, Some(Note::ManySlidingLoads(_))) && ending.end.mechanism.slides.is_empty();
+        report.notes.extend(range);
+        report.notes.extend(parted.then(|| Note::SlidesParted(ending.end.mechanism.slips_parted().collect())));
         let beside_soil = ending.end.range.is_some() && !self.analysis.structure.passive.is_empty();
         report.notes.extend(beside_soil.then_some(Note::SlidesBesideSoil));
         let slides = self.analysis.task.crushes_on_path() && ending.end.mechanism.slips();

@@ -1,4 +1,4 @@
-use super::super::scenes::{blocks, bridge};
+use super::super::scenes::{blocks, bridge, ring, sector};
 use super::super::static_theorem::tests::{arch, loads};
 use super::*;
 use crate::geometry::Vec2;
@@ -63,4 +63,15 @@ fn shorter_joints_stand_as_far() {
         };
         assert!(stands(found.share * (1.0 + 1e-7)) && !stands(found.share * (1.0 - 1e-6)), "{}", found.share);
     }
+}
+
+/// Bonded springings bear any thrust, so the forces of a wedge of four stones have no bound.
+#[test]
+fn where_thrust_has_no_bound_no_joint_is_too_short() {
+    let ends = sector(Vec2::zeros(), [4.0, 6.0], [2.9, 0.2], 4);
+    let mut wedge = ring(&ends, JointLaw::Dry { friction: 0.84, cohesion: 0.0 });
+    for springing in [0, 4] {
+        wedge.joints[springing].law = JointLaw::Bonded;
+    }
+    assert_eq!(least(&wedge, &weight(&wedge)).unwrap().share, 1e-3);
 }

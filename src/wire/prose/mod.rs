@@ -2,6 +2,7 @@
 
 mod beam;
 pub(super) mod curve;
+mod doubts;
 mod first_yield;
 mod geometric;
 mod given;

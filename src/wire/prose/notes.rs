@@ -1,6 +1,6 @@
 //! What the mechanics have to say of an answer, in sentences.
 
-use super::{Digits, first_yield, geometric, positions, settlement, survey};
+use super::{Digits, doubts, first_yield, geometric, positions, settlement, survey};
 use crate::collapse::{Doubt, FieldAt, LimitWindow, LoadRange, Note, OtherStates, Unfollowed, Unreached};
 use std::fmt;
 
@@ -19,11 +19,12 @@ impl Note {
 impl fmt::Display for Note {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         out.write_str(&match self {
-            Note::Doubt(doubt) => doubted(doubt),
+            Note::Doubt(doubt) => doubts::doubted(doubt),
             Note::StandsOnlyWithin { window, why } => stands_only(window, *why),
             Note::SoleSlidingLoad(range) => sole_load(range),
             Note::SlidesBesideSoil => SLIDES_BESIDE_SOIL.into(),
             Note::ManySlidingLoads(range) => many_loads(range),
+            Note::SlidesParted(joints) => slides_parted(joints),
             Note::CrushesAtStart { strength, start, window } => crushes([*strength, *start].map(Digits), *window),
             Note::SeveralStates { given, load_factors, joints } => several(*given, load_factors, joints),
             Note::ReadAtSteps { step, limit } => read_at_steps([*step, *limit].map(Digits)),
@@ -52,7 +53,7 @@ impl fmt::Display for Note {
             Note::CracksShared(count) => settlement::shared(*count),
             Note::PointsUnknown(count) => survey::unknown(*count),
             Note::FallsFromZero => FALLS_FROM_ZERO.into(),
-            Note::NothingGrows => "Nothing grows with the load factor: the answer says only that the arch stands.".into(),
+            Note::NothingGrows => "Nothing grows with the load factor: the answer says only whether the arch stands.".into(),
             Note::LaterMechanism => LATER_MECHANISM.into(),
             Note::CrushesAndSlides => CRUSHES_AND_SLIDES.into(),
             Note::CrushesAndDilates => CRUSHES_AND_DILATES.into(),
@@ -134,13 +135,22 @@ fn many_loads(LoadRange { least, greatest, path, mechanisms_tried }: &LoadRange)
     )
 }
 
+fn slides_parted(joints: &[usize]) -> String {
+    let number = listed(joints.iter().map(usize::to_string));
+    let part = if joints.len() == 1 { format!("Joint {number} parts") } else { format!("Joints {number} part") };
+    format!(
+        "No pressed joint slides. {part} altogether, with faces that move along each other by more than dilation lets them: limit \
+         analysis may allow more for that."
+    )
+}
+
 fn crushes([strength, start]: [Digits; 2], window: Option<LimitWindow>) -> String {
     let left = window.map_or_else(
-        || "at no load factor".into(),
-        |window| format!("only from {} to {}", Digits(window.lowest), Digits(window.highest)),
+        || "nor at any other".into(),
+        |window| format!("but only from {} to {}", Digits(window.lowest), Digits(window.highest)),
     );
     format!(
-        "With joints of plastic sections and a strength of {strength} Pa the arch does not stand at load factor {start}, but {left}. \
+        "With joints of plastic sections and a strength of {strength} Pa the arch does not stand at load factor {start}, {left}. \
          No stress within the strength is in equilibrium either, however fine the mesh. Collapse, hinges and stresses are those of \
          stone that does not crush."
     )
@@ -212,49 +222,6 @@ fn no_field(at: FieldAt, falls: bool) -> String {
     }
 }
 
-fn doubted(doubt: &Doubt) -> String {
-    match doubt {
-        Doubt::Slender { thickness, share } => format!(
-            "The arch is too slender for its load path to be followed: its thickest joint is {} m, {} of its size, and rounding \
-             would decide. Check the unit of its thickness.",
-            Digits(*thickness),
-            Digits(*share)
-        ),
-        Doubt::NotLoaded => "The loads at the start could not be brought on.".into(),
-        Doubt::NoCertificate => "The limit window could not be computed, so nothing certifies the load path.".into(),
-        Doubt::Unbalanced(share) => {
-            format!("Equilibrium was kept to {} of the loads only, too coarse to be trusted.", Digits(*share))
-        }
-        Doubt::BreaksLaw { load_factor, joint, amount } => format!(
-            "At load factor {} the state on the load path breaks the contact law: at joint {joint} forces of {} of the loads \
-             are missing.",
-            Digits(*load_factor),
-            Digits(*amount)
-        ),
-        Doubt::Lost => "The load path could not be followed to its end.".into(),
-        Doubt::StandsOutside => "The load path stands where limit analysis finds no equilibrium.".into(),
-        Doubt::FallsInside => "The load path falls without sliding where limit analysis finds equilibrium.".into(),
-        Doubt::SlidesInside => SLIDES_INSIDE.into(),
-        Doubt::LooseStones => LOOSE_STONES.into(),
-        Doubt::TurnedBack(highest) => turned_back(Digits(*highest)),
-        Doubt::Stray { path, limit } => stray(Digits(*path), *limit),
-        Doubt::Above { path, limit } => {
-            format!("The load path passes the limit window (load factor {} against {}).", Digits(*path), Digits(*limit))
-        }
-        Doubt::Short { path, limit } => format!(
-            "The load path ends at load factor {} without sliding, short of the limit window's end {}.",
-            Digits(*path),
-            Digits(*limit)
-        ),
-    }
-}
-
-const SLIDES_INSIDE: &str = "The arch falls by sliding as its loads come on. Limit analysis, which lets sliding joints dilate \
-     (associated friction), finds equilibrium; joints that do not dilate need not reach it. Whether it stands depends on how \
-     it was built.";
-const LOOSE_STONES: &str = "Stones that carry neither weight nor load are free to move, so the load path cannot be followed. \
-     Give the arch its self weight.";
-
 fn softer([asked, taken]: [Digits; 2], turned_back: Option<Digits>) -> String {
     let why = match turned_back {
         Some(farthest) => format!("joints slide and jam at load factor {farthest}, and the load path turns back there"),
@@ -263,24 +230,6 @@ fn softer([asked, taken]: [Digits; 2], turned_back: Option<Digits>) -> String {
     format!(
         "With penalty_ratio {asked} {why}. This is the answer with penalty_ratio {taken}: the load is that of rigid stones as well, \
          displacements are those of softer joints."
-    )
-}
-
-fn turned_back(highest: Digits) -> String {
-    format!(
-        "After load factor {highest}, its farthest, the load path runs back past its start: joints slide and jam there, and no \
-         mechanism was found in which the arch falls. It may bear more, up to the limit window's end."
-    )
-}
-
-fn stray(path: Digits, limit: f64) -> String {
-    let allows = match limit.is_infinite() {
-        true => "never lets the arch fall".into(),
-        false => format!("allows {}", Digits(limit)),
-    };
-    format!(
-        "The load path turns back at load factor {path} and ends in sliding joints that are not at the limit of their friction \
-         there; limit analysis {allows}."
     )
 }
 

@@ -26,9 +26,8 @@ pub fn mesh(mesh: &MeshRequest) -> Option<String> {
 
 /// One sentence.
 pub fn headline(result: &AnalysisResult, safety: &SafetyBody) -> String {
-    let kind = if safety.elastic == Some(safety.governing) { "first yield" } else { "plastic section" };
     let what = match safety.governed_by {
-        Governs::Crushing => format!("its stone crushes ({kind})"),
+        Governs::Crushing => format!("its stone crushes ({})", crushing_that_governs(safety)),
         _ => "it falls".to_owned(),
     };
     match safety.governing {
@@ -51,6 +50,11 @@ pub fn headline(result: &AnalysisResult, safety: &SafetyBody) -> String {
         },
         ReachBody::Unknown => "No safety factor: it cannot be told. The notes say why.".to_owned(),
     }
+}
+
+/// Which crushing a safety factor is that of.
+fn crushing_that_governs(safety: &SafetyBody) -> &'static str {
+    if safety.elastic == Some(safety.governing) { "first yield" } else { "plastic section" }
 }
 
 /// A safety factor, briefly.
@@ -102,9 +106,8 @@ fn crushing_facts(lines: &mut Vec<(&'static str, String)>, result: &AnalysisResu
     if let Some(elastic) = &crushing.elastic {
         lines.push(("first yield", first_yield(result, elastic)));
     }
-    if let Some(plastic) = &crushing.plastic_section {
-        lines.push(("plastic section", plastic_section(result, plastic)));
-    }
+    let plastic = crushing.plastic_section.as_ref().map(|plastic| plastic_section(result, plastic));
+    lines.push(("plastic section", plastic.unwrap_or_else(|| NO_PLASTIC_SECTION.to_owned())));
 }
 
 /// What the answers about crushing mean, where there are any.
@@ -122,6 +125,7 @@ pub fn explanation(result: &AnalysisResult) -> Option<String> {
     (!said.is_empty()).then(|| said.join(" "))
 }
 
+const NO_PLASTIC_SECTION: &str = "not known: limit analysis gave no answer; no collapse load told here counts crushing";
 const FIRST_YIELD: &str = "First yield: the equivalent stress of Tresca, of stress averaged over a subblock, reaches the strength; it \
      depends on the mesh.";
 const PLASTIC_SECTION: &str =

@@ -78,6 +78,7 @@ fn of_an_arch(result: &AnalysisResult) -> String {
         }
         (outcome, _) => format!("Outcome: {}.", word(&outcome)),
     };
+    let sentence = sentence + without_crushing(result).unwrap_or_default();
     let worst = result.worst_position.as_ref();
     let worst = worst.map(|worst| format!(" The vehicle stands worst at x = {} m.", Rounded(worst.x_m)));
     let survey = result.survey_tolerance.as_ref().map(|of| survey::sentence(of, unit(result)));
@@ -88,6 +89,13 @@ fn of_an_arch(result: &AnalysisResult) -> String {
             format!("{sentence} (By fixed steps and an opening criterion, for comparison only.)")
         }
     }
+}
+
+/// A sentence on loads in which crushing is missing.
+fn without_crushing(result: &AnalysisResult) -> Option<&'static str> {
+    let told = matches!(result.outcome, Outcome::Collapse | Outcome::StandsInWindow | Outcome::Stands);
+    let missing = told && result.crushing.as_ref().is_some_and(|crushing| crushing.plastic_section.is_none());
+    missing.then_some(" That is of stone that does not crush: whether its joints crush before could not be computed.")
 }
 
 fn collapses(result: &AnalysisResult, end: &EndBody) -> String {
@@ -110,19 +118,22 @@ fn collapses(result: &AnalysisResult, end: &EndBody) -> String {
 
 /// A sentence on what it may bear beyond the least load at which joints slide; nothing where that is the same.
 fn may_stand(end: &EndBody, range: &RangeBody, unit: &str) -> String {
+    let slide = slide(end);
     if let Some(crushing) = crushes_within(end, range) {
-        return format!(
-            " As its joints slide, it may also stand as far as {} {unit}, where they crush.",
-            Rounded(crushing)
-        );
+        return format!(" As its {slide}, it may also stand as far as {} {unit}, where they crush.", Rounded(crushing));
     }
     match range.greatest {
-        None => " As its joints slide, it may also stand at any load beyond.".to_owned(),
+        None => format!(" As its {slide}, it may also stand at any load beyond."),
         Some(greatest) if differs(Rounded, range.least, greatest) => {
-            format!(" As its joints slide, it may also stand as far as {} {unit}.", Rounded(greatest))
+            format!(" As its {slide}, it may also stand as far as {} {unit}.", Rounded(greatest))
         }
         Some(_) => String::new(),
     }
+}
+
+/// What joints do at an end that sliding governs: none may slide but those that part altogether.
+fn slide(end: &EndBody) -> &'static str {
+    if end.fall.mechanism.slides.is_empty() { "joints part and slip" } else { "joints slide" }
 }
 
 /// The intensity within the range at which joints of the stone's strength crush: no more is possible.
@@ -133,14 +144,14 @@ fn crushes_within(end: &EndBody, range: &RangeBody) -> Option<f64> {
 
 /// Both ends of the range of an end in a table of facts; none where they are the same.
 pub fn sliding_range(end: &EndBody, unit: &str) -> Option<String> {
-    let range = end.range.as_ref()?;
+    let (range, slide) = (end.range.as_ref()?, slide(end));
     if let Some(crushing) = crushes_within(end, range) {
-        return Some(format!("{} to {} {unit}, as joints slide, then crush", Digits(range.least), Digits(crushing)));
+        return Some(format!("{} to {} {unit}, as {slide}, then crush", Digits(range.least), Digits(crushing)));
     }
     match range.greatest {
         Some(greatest) => differs(Digits, range.least, greatest)
-            .then(|| format!("{} to {} {unit}, as joints slide", Digits(range.least), Digits(greatest))),
-        None => Some(format!("{} {unit} and beyond, as joints slide", Digits(range.least))),
+            .then(|| format!("{} to {} {unit}, as {slide}", Digits(range.least), Digits(greatest))),
+        None => Some(format!("{} {unit} and beyond, as {slide}", Digits(range.least))),
     }
 }
 
@@ -253,9 +264,12 @@ pub fn explain(
     lines.iter().for_each(|line| paragraph(text, &in_its_words(request, line)));
 }
 
-/// What limit analysis allows.
+/// What limit analysis allows, where it has an answer.
 pub fn window(result: &AnalysisResult) -> String {
-    range(result.limit_window, unit(result))
+    match result.proof {
+        None => "not known: limit analysis gave no answer".to_owned(),
+        Some(_) => range(result.limit_window, unit(result)),
+    }
 }
 
 /// From where to where an arch stands.

@@ -1,5 +1,6 @@
 //! Notes on what a request means without saying it.
 
+use super::force_unit;
 use super::structure::StructureBody;
 use crate::collapse::Geometry;
 use crate::wire::prose::{Digits, smoothed};
@@ -23,6 +24,10 @@ const STIFF_CONTACTS: &str = "Contacts are stiffer than the default of a bridge 
 const NO_WEIGHT: &str =
     "The stones weigh nothing: no load is their self weight. If they do, add {\"load\": {\"self_weight\": {}}}.";
 
+/// Note on stones whose weight is given twice, which may be meant.
+const WEIGHS_TWICE: &str = "Self weight is given twice, fixed and scaled, and both act. If the stones weigh no more than their \
+     density says, leave one of the two out.";
+
 /// Note on soil that presses without mass, and acceleration.
 const MASSLESS_IS_SHAKEN: &str = "A lateral pressure has no mass: in the acceleration it presses as before. Soil that shakes with \
      the structure is a fill_pressure with its density.";
@@ -41,6 +46,9 @@ const BODIES_NAMED: usize = 6;
 pub(super) fn assumptions(request: &AnalysisRequest, structure: &StructureBody) -> Vec<String> {
     let any = |fits: fn(&LoadRequest) -> bool| request.loads.iter().any(|LoadEntry { load, .. }| fits(load));
     let weight = any(|load| matches!(load, LoadRequest::SelfWeight(_)));
+    let weighs = |scaled: bool| {
+        request.loads.iter().any(|entry| entry.scaled == scaled && matches!(entry.load, LoadRequest::SelfWeight(_)))
+    };
     let shaken = any(|load| matches!(load, LoadRequest::BodyAcceleration(_)));
     let fill = any(|load| matches!(load, LoadRequest::FillPressure(_)));
     let massless = any(|load| matches!(load, LoadRequest::LateralPressure(_)));
@@ -49,14 +57,22 @@ pub(super) fn assumptions(request: &AnalysisRequest, structure: &StructureBody) 
     let notes = [
         (stiff, STIFF_CONTACTS),
         (!weight, NO_WEIGHT),
+        (weighs(true) && weighs(false), WEIGHS_TWICE),
         (shaken && (fill || request.backfill.is_some()), FILL_IS_SHAKEN),
         (shaken && massless, MASSLESS_IS_SHAKEN),
         (shaken && resists, SOIL_IS_SHAKEN),
     ];
     let notes = notes.into_iter().filter(|(holds, _)| *holds).map(|(_, note)| note.to_owned());
     let others = uncut(request, structure).into_iter().chain(units(request, structure)).chain(beyond(structure));
+    let label = force_unit::note(request);
     let survey = smoothing(request).map(|smoothing| smoothed(&smoothing));
-    notes.chain(survey).chain(factored(request)).chain(others).chain(mobilised(request, structure)).collect()
+    notes
+        .chain(label)
+        .chain(survey)
+        .chain(factored(request))
+        .chain(others)
+        .chain(mobilised(request, structure))
+        .collect()
 }
 
 /// How far stones have to move into fill until all of its resistance is there.

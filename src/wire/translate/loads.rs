@@ -99,8 +99,26 @@ pub fn loads(
         }
     }
     inertia::check(entries, faults);
+    check_twice(entries, faults);
     check_reach(entries, whole, &all, faults);
     all
+}
+
+/// What is given again, both fixed or both scaled, would count twice.
+fn check_twice(entries: &[LoadEntry], faults: &mut Faults) {
+    for (i, entry) in entries.iter().enumerate() {
+        let remedy = match entry.load {
+            LoadRequest::SelfWeight(_) => "leave it out; stones that weigh more have a greater density_kg_m3",
+            LoadRequest::FillPressure(_) => "leave it out; fill that weighs more has a greater density",
+            _ => continue,
+        };
+        let is_this = |other: &LoadEntry| {
+            (&other.load, other.scaled, other.per_abscissa) == (&entry.load, entry.scaled, entry.per_abscissa)
+        };
+        if let Some(first) = entries[..i].iter().position(is_this) {
+            faults.add(format!("/loads/{i}"), format!("this is loads[{first}] again and would count twice: {remedy}"));
+        }
+    }
 }
 
 /// Of every load that may come down beside the structure, its number and the share of its force that comes down on it.
