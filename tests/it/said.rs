@@ -200,6 +200,9 @@ fn weight_given_twice_is_refused_unless_one_is_fixed_and_one_scaled() {
     assert_eq!(faults.len(), 1);
     assert_eq!(faults[0].pointer, "/loads/2");
     assert!(faults[0].detail.contains("loads[0] again") && faults[0].detail.contains("density_kg_m3"));
+    // Parts may be meant.
+    request["loads"][2]["coefficient"] = json!(0.1);
+    assert!(read_analysis(request.to_string().as_bytes()).is_ok());
     request["loads"][2]["scaled"] = json!(true);
     assert!(notes(&request).contains("Self weight is given twice"));
     let fill = json!({"load": {"fill_pressure": {"fill_height_m": 12}}});

@@ -104,7 +104,7 @@ pub fn loads(
     all
 }
 
-/// What is given again, both fixed or both scaled, would count twice.
+/// What is given again as a whole, both fixed or both scaled, would count twice; parts of it may be meant.
 fn check_twice(entries: &[LoadEntry], faults: &mut Faults) {
     for (i, entry) in entries.iter().enumerate() {
         let remedy = match entry.load {
@@ -114,6 +114,7 @@ fn check_twice(entries: &[LoadEntry], faults: &mut Faults) {
         };
         let is_this = |other: &LoadEntry| {
             (&other.load, other.scaled, other.per_abscissa) == (&entry.load, entry.scaled, entry.per_abscissa)
+                && [other.coefficient, entry.coefficient] == [1.0; 2]
         };
         if let Some(first) = entries[..i].iter().position(is_this) {
             faults.add(format!("/loads/{i}"), format!("this is loads[{first}] again and would count twice: {remedy}"));
