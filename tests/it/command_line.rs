@@ -244,7 +244,7 @@ fn solve_draws_in_pixels() {
 
 #[test]
 fn solve_writes_a_report_on_paper() {
-    for name in ["first-arch", "settlement", "wall", "paper/figure-10"] {
+    for name in ["first-arch", "settlement", "wall", "paper/figure-13"] {
         let file = std::env::temp_dir().join(format!("voussoir-report-{}.pdf", std::process::id()));
         let output = fed(&["solve", &case(&format!("{name}/request.json")), "--report", file.to_str().unwrap()], "");
         assert!(output.status.success(), "{name}: {}", String::from_utf8_lossy(&output.stderr));
