@@ -42,6 +42,8 @@ const STARTS: usize = 4;
 const EACH: usize = 4;
 const EVERYTHING: usize = 50;
 const FEW: usize = 12;
+/// Of more groups of bodies some are left out: programmes of large structures take long.
+const MOST_GROUPS: usize = 60;
 /// Of longer chains of bodies only the motions of joints at their limits are tried (measured: for arches that is enough).
 const MOST_CHAINED: usize = 12;
 
@@ -253,7 +255,11 @@ impl Hunt<'_> {
             return;
         }
         let between: Vec<Vec<usize>> = structure.joints.iter().map(bodies_beside).collect();
-        for together in touching(structure.bodies.len(), &between) {
+        let groups = touching(structure.bodies.len(), &between);
+        for together in groups.iter().step_by(groups.len().div_ceil(MOST_GROUPS)) {
+            if self.search.budget.ask().is_err() {
+                return;
+            }
             let touched = |k: &usize| between[*k].iter().any(|body| together.contains(body));
             self.roam(&released_at((0..between.len()).filter(touched), structure), EACH);
         }
