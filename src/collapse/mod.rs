@@ -13,6 +13,7 @@ mod geometric;
 mod grid;
 mod mechanism;
 mod mirror;
+mod model;
 mod motion;
 mod path;
 mod plan;
@@ -41,6 +42,7 @@ mod worst_position;
 mod yielding;
 
 pub use grid::{can_be_cut, can_bend, subblocks_of};
+pub use model::*;
 pub use plan::{LOAD_PIECES, can_be_refined};
 pub use position::*;
 pub use report::*;
@@ -53,9 +55,6 @@ use crate::geometry::Vec2;
 use crate::structure::{PointForce, Stone, Structure};
 use discretise::Discretisation;
 
-/// Contact penalty as a multiple of Young's modulus in Table 1 of the paper (1e10 N/m over 1e9 Pa).
-pub const DEFAULT_PENALTY_RATIO: f64 = 10.0;
-
 /// Which way the load factor goes.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "server", derive(serde::Serialize, serde::Deserialize, utoipa::ToSchema))]
@@ -66,17 +65,6 @@ pub enum Direction {
     Increase,
     /// From 0 downwards.
     Decrease,
-}
-
-/// Plane stress (no stress across the arch) or plane strain (no strain across it).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "server", derive(serde::Serialize, serde::Deserialize, utoipa::ToSchema))]
-#[cfg_attr(feature = "server", serde(rename_all = "snake_case"))]
-pub enum PlaneModel {
-    /// Plane stress.
-    Stress,
-    /// Plane strain.
-    Strain,
 }
 
 /// Whether equilibrium is that of the arch as built, or of the arch where its loads have moved it.
@@ -116,60 +104,6 @@ pub enum CrushingKind {
     /// is left, and no other equilibrium avoids it. Does not depend on the mesh.
     #[default]
     PlasticSection,
-}
-
-/// What holds subblocks of one voussoir together.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "server", derive(serde::Serialize, serde::Deserialize, utoipa::ToSchema))]
-#[cfg_attr(feature = "server", serde(rename_all = "snake_case"))]
-pub enum Seams {
-    /// A stiff pair of springs in the middle of every seam, and weak ones on what is linear along it.
-    #[default]
-    Split,
-    /// Stiff pairs of springs at both ends, as the paper's text reads; for comparison only, it locks in bending.
-    Corners,
-}
-
-/// How displacements vary in a subblock.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum Order {
-    /// Linearly: strain is constant, as in the paper.
-    #[default]
-    First,
-    /// As polynomials of second order that go on from subblock to subblock.
-    Second,
-}
-
-/// Where the lines of a mesh lie.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "server", derive(serde::Serialize, serde::Deserialize, utoipa::ToSchema))]
-#[cfg_attr(feature = "server", serde(rename_all = "snake_case"))]
-pub enum Spacing {
-    /// Evenly.
-    #[default]
-    Even,
-    /// Close together at joints and faces, where stress changes most: at (1 - cos) / 2 of even shares of half a turn.
-    Graded,
-}
-
-/// How the voussoirs are cut into subblocks.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Mesh {
-    /// Subblocks of every voussoir from intrados to extrados, and along the arch.
-    pub subblocks: Vec<[usize; 2]>,
-    /// What holds them together, where they are of first order.
-    pub seams: Seams,
-    /// How displacements vary in them.
-    pub order: Order,
-    /// Where their lines lie.
-    pub spacing: Spacing,
-}
-
-impl Mesh {
-    /// So many subblocks, as in the paper but for the seams.
-    pub fn of(subblocks: Vec<[usize; 2]>) -> Self {
-        Mesh { subblocks, seams: Seams::default(), order: Order::default(), spacing: Spacing::default() }
-    }
 }
 
 /// Where on the path a stress field is reported.

@@ -5,6 +5,8 @@
 //! is a linear programme (see [`crate::limit`]). At its optimum more joints are at their limits, so that other mechanisms can
 //! move there, each with a programme of its own: mechanisms are exchanged until none is found that gives less.
 
+mod groups;
+
 use super::mechanism::{Released, all_releases, columns, describe, motions, unknowns};
 use super::rigid_parts::RigidParts;
 use super::scatter::Scatter;
@@ -13,7 +15,7 @@ use super::tolerances;
 use super::{Analysis, Mechanism};
 use crate::budget::Budget;
 use crate::limit::{Equilibrium, Release, Resultant, SoilEnd, StaticTheorem, releases};
-use crate::structure::{Face, Joint, PassiveElement, PointForce, Structure};
+use crate::structure::{Face, PassiveElement, PointForce, Structure};
 use std::collections::BTreeSet;
 
 /// So many motions in turn that give nothing lower end the search.
@@ -37,13 +39,10 @@ const MOST_CORNERS: usize = 48;
 
 /// Random motions of what is at its limits where the search starts.
 const STARTS: usize = 4;
-/// The same of every body by itself or with others, of all, and up to how many bodies they are with two others (measured on random
-/// structures of up to 7 blocks against all mechanisms: without these motions 18 of 514 loads were too high, with them 5 of 392).
+/// The same of every group of bodies, and of all (measured on random structures of up to 7 blocks against all mechanisms: without
+/// these motions 18 of 514 loads were too high, with them 5 of 392).
 const EACH: usize = 4;
 const EVERYTHING: usize = 50;
-const FEW: usize = 12;
-/// Of more groups of bodies some are left out: programmes of large structures take long.
-const MOST_GROUPS: usize = 60;
 /// Of longer chains of bodies only the motions of joints at their limits are tried (measured: for arches that is enough).
 const MOST_CHAINED: usize = 12;
 
@@ -254,16 +253,13 @@ impl Hunt<'_> {
         if !self.search.theorem.has_loops() && structure.joints.len() > MOST_CHAINED {
             return;
         }
-        let between: Vec<Vec<usize>> = structure.joints.iter().map(bodies_beside).collect();
-        let groups = touching(structure.bodies.len(), &between);
-        for together in groups.iter().step_by(groups.len().div_ceil(MOST_GROUPS)) {
+        for joints in groups::joints_beside(structure) {
             if self.search.budget.ask().is_err() {
                 return;
             }
-            let touched = |k: &usize| between[*k].iter().any(|body| together.contains(body));
-            self.roam(&released_at((0..between.len()).filter(touched), structure), EACH);
+            self.roam(&released_at(joints, structure), EACH);
         }
-        self.roam(&released_at(0..between.len(), structure), EVERYTHING);
+        self.roam(&released_at(0..structure.joints.len(), structure), EVERYTHING);
     }
 
     /// So many random motions of these releases; from each that is better, on.
@@ -305,33 +301,11 @@ impl Hunt<'_> {
 }
 
 /// All releases of some joints.
-fn released_at(joints: impl Iterator<Item = usize>, structure: &Structure) -> Vec<Released> {
+fn released_at(joints: impl IntoIterator<Item = usize>, structure: &Structure) -> Vec<Released> {
     let of = |k: usize| {
         releases(&structure.joints[k], &Resultant::default(), f64::INFINITY).into_iter().map(move |r| (k, r))
     };
-    joints.flat_map(of).collect()
-}
-
-/// Every body by itself and with one that it touches; where there are few, with two, too. `between`: the bodies beside every joint.
-fn touching(bodies: usize, between: &[Vec<usize>]) -> BTreeSet<Vec<usize>> {
-    let pairs: BTreeSet<Vec<usize>> =
-        between.iter().filter(|beside| beside.len() == 2).map(|beside| joined(beside, &[])).collect();
-    let mut all: BTreeSet<Vec<usize>> = (0..bodies).map(|body| vec![body]).chain(pairs.iter().cloned()).collect();
-    if bodies <= FEW {
-        let threes = pairs.iter().flat_map(|a| pairs.iter().map(|b| joined(a, b)));
-        all.extend(threes.filter(|bodies| bodies.len() == 3));
-    }
-    all
-}
-
-/// Bodies of two groups, in order and each once.
-fn joined(a: &[usize], b: &[usize]) -> Vec<usize> {
-    BTreeSet::from_iter(a.iter().chain(b).copied()).into_iter().collect()
-}
-
-/// The bodies beside a joint.
-fn bodies_beside(joint: &Joint) -> Vec<usize> {
-    joint.between.iter().filter_map(|side| side.body()).collect()
+    joints.into_iter().flat_map(of).collect()
 }
 
 /// The releases that move, and their rates.

@@ -1,32 +1,31 @@
 //! The assembly: bodies joined to each other and to the ground at interfaces, by contact points.
 
 mod build;
+mod inside_bodies;
 mod law;
+mod loads;
 mod mirror;
 mod places;
 mod strain;
 
 pub use build::{AssemblyBuilder, Touch};
 pub(super) use build::{has_core, interfaces_of};
+pub use inside_bodies::MeanMotion;
+pub use loads::{Loads, Push};
 
 use super::condense::{Condensed, Node};
 use super::contact::Contact;
 use super::elements::{Elements, Pattern};
 use super::inside::{Inside, Stress};
-use super::panels::{ThreeOfEight, add_applied_columns, three_of_eight};
+use super::panels::ThreeOfEight;
 use super::tree::Tree;
-use crate::budget::{Budget, Stopped};
+use crate::budget::Budget;
 use crate::geometry::{Vec2, cross, perpendicular};
 use mirror::Mirror;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 use std::cell::OnceCell;
 use std::ops::Range;
 use strain::Strain;
-
-/// Work of putting a force on a subblock, in multiplications; and of solving for the inside of a body, over the number of
-/// entries of its response to the nodes.
-const PUSHED: usize = 1000;
-const SOLVED: usize = 4;
 
 /// A body of the assembly: where its frame is, and which condensed macroblock it is a copy of.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,48 +69,6 @@ pub enum Beside {
 struct Site {
     at: Vec2,
     normal: Vec2,
-}
-
-/// Loads on an assembly.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Loads {
-    /// What they are worth on the nodes, N/m.
-    pub on_nodes: Vec<f64>,
-    /// Mean displacement and rotation of every body with its nodes held, in the body's frame.
-    mean: Vec<[f64; 3]>,
-    /// Mean stress of its subblocks with its nodes held, in the body's frame, three numbers each; and that at their samples, of
-    /// second-order ones.
-    stress: Vec<Vec<f64>>,
-    samples: Vec<Vec<[f64; 3]>>,
-}
-
-impl Loads {
-    /// The most that the mean displacement of any body is with its nodes held, m.
-    pub fn most_shift(&self) -> f64 {
-        self.mean.iter().map(|[x, y, _]| x.hypot(*y)).fold(0.0, f64::max)
-    }
-}
-
-/// A force on a body.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Push {
-    /// Which body.
-    pub body: usize,
-    /// On which of its subblocks; none: spread evenly over all of it.
-    pub subblock: Option<usize>,
-    /// Where it acts, be it as a resultant, m.
-    pub at: Vec2,
-    /// Force, N/m.
-    pub force: Vec2,
-}
-
-/// Mean motion of a body.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MeanMotion {
-    /// Mean displacement, m: that of the centroid of a body of one subblock.
-    pub displacement: Vec2,
-    /// Mean rotation, counter-clockwise positive, rad.
-    pub rotation: f64,
 }
 
 /// Bodies and the interfaces between two of them, or one and the rigid ground.
@@ -253,148 +210,6 @@ impl Assembly {
                 forces[i + 1] += sign * shear;
             }
         }
-    }
-
-    /// Condenses forces on subblocks onto the nodes.
-    ///
-    /// # Errors
-    /// When stopped.
-    pub fn loads(&self, pushes: impl IntoIterator<Item = Push>, budget: &Budget) -> Result<Loads, Stopped> {
-        let mut loads = Loads::default();
-        for (body, load) in self.bodies.iter().zip(self.on_blocks(pushes, budget)?) {
-            let kind = &self.kinds[body.kind];
-            let inner = kind.condensed.inner(&load);
-            loads.on_nodes.extend(kind.condensed.on_nodes(&load, &inner).iter());
-            let mean = &kind.mean * &inner;
-            loads.mean.push([mean[0], mean[1], mean[2]]);
-            loads.stress.push(kind.stress.mean(inner.as_slice()).as_slice().to_vec());
-            loads.samples.push(kind.stress.samples(inner.as_slice()));
-            budget.work(SOLVED * load.len() * 2 * kind.nodes.len())?;
-        }
-        Ok(loads)
-    }
-
-    /// What forces are worth on the nodes with every one turned by -90 degrees, N/m: what bodies that turn see of them.
-    ///
-    /// # Errors
-    /// When stopped.
-    pub fn turned_loads(&self, pushes: impl IntoIterator<Item = Push>, budget: &Budget) -> Result<Vec<f64>, Stopped> {
-        let turned = pushes.into_iter().map(|push| Push { force: -perpendicular(push.force), ..push });
-        let mut loads = Vec::new();
-        for (body, load) in self.bodies.iter().zip(self.on_blocks(turned, budget)?) {
-            let kind = &self.kinds[body.kind];
-            loads.extend(kind.condensed.on_nodes(&load, &kind.condensed.inner(&load)).iter());
-            budget.work(SOLVED * load.len() * 2 * kind.nodes.len())?;
-        }
-        Ok(loads)
-    }
-
-    /// Generalised loads on the subblocks of every body, in its frame.
-    fn on_blocks(&self, pushes: impl IntoIterator<Item = Push>, budget: &Budget) -> Result<Vec<DVector<f64>>, Stopped> {
-        let zeros = |b: &Instance| DVector::zeros(self.kinds[b.kind].inside.unknowns());
-        let mut on_blocks: Vec<DVector<f64>> = self.bodies.iter().map(zeros).collect();
-        for push in pushes {
-            let body = &self.bodies[push.body];
-            let (at, force) = (body.turned(push.at - body.origin), body.turned(push.force));
-            let (inside, loads) = (&self.kinds[body.kind].inside, &mut on_blocks[push.body]);
-            match push.subblock {
-                Some(subblock) => inside.add_load(subblock, at, force, loads),
-                None => inside.add_spread(at, force, loads),
-            }
-            budget.work(PUSHED * push.subblock.map_or(inside.subblocks(), |_| 1))?;
-        }
-        Ok(on_blocks)
-    }
-
-    /// Mean motion of body `i` for node displacements (or velocities) `d` and what loads, each times its factor, add
-    /// between the nodes.
-    pub fn mean_motion(&self, i: usize, d: &[f64], loads: &[(&Loads, f64)]) -> MeanMotion {
-        let mean = self.mean_in_frame(i, d, loads);
-        MeanMotion { displacement: self.bodies[i].turned_back(Vec2::new(mean[0], mean[1])), rotation: mean[2] }
-    }
-
-    /// Mean displacement and rotation of body `i` in its own frame.
-    fn mean_in_frame(&self, i: usize, d: &[f64], loads: &[(&Loads, f64)]) -> [f64; 3] {
-        let (kind, d) = (&self.kinds[self.bodies[i].kind], &d[self.nodes[i].clone()]);
-        let mut mean = [0.0; 3];
-        match (&kind.whole, d.as_array()) {
-            (Some([of_nodes, _]), Some(d)) => mean = three_of_eight(of_nodes, d),
-            _ => add_applied_columns(kind.mean_of_nodes.as_slice(), d, &mut mean),
-        }
-        for (loads, factor) in loads {
-            (0..3).for_each(|c| mean[c] += loads.mean[i][c] * factor);
-        }
-        mean
-    }
-
-    /// Size of the mean displacement of body `i`, m.
-    pub fn shift(&self, i: usize, d: &[f64], loads: &[(&Loads, f64)]) -> f64 {
-        // As long in every frame.
-        let [x, y, _] = self.mean_in_frame(i, d, loads);
-        x.hypot(y)
-    }
-
-    /// The most that the mean displacement of any body changes by where no unknown of its nodes does by more than 1 m.
-    pub fn most_shift(&self) -> f64 {
-        let most = |kind: &Kind| {
-            let row = |i: usize| kind.mean_of_nodes.row(i).iter().map(|entry| entry.abs()).sum::<f64>();
-            row(0).hypot(row(1))
-        };
-        self.kinds.iter().map(most).fold(0.0, f64::max)
-    }
-
-    /// Mean stress (sigma_x, sigma_y, tau_xy) in every subblock of body `i`, three numbers each in the body's own frame, Pa.
-    pub fn stresses_in_frame(&self, i: usize, d: &[f64], loads: &[(&Loads, f64)], into: &mut Vec<f64>) {
-        let (kind, d) = (&self.kinds[self.bodies[i].kind], &d[self.nodes[i].clone()]);
-        into.clear();
-        match &kind.stress_of_nodes {
-            Some(of_nodes) => {
-                into.resize(of_nodes.nrows(), 0.0);
-                add_applied_columns(of_nodes.as_slice(), d, into);
-            }
-            None => into.extend(&kind.stress.mean(kind.condensed.displaced(d).as_slice())),
-        }
-        for (loads, factor) in loads {
-            into.iter_mut().zip(&loads.stress[i]).for_each(|(sum, stress)| *sum += stress * factor);
-        }
-    }
-
-    /// The same of a body of one subblock between two joints of two contact points; none of any other.
-    #[inline]
-    pub fn stress_of_whole(&self, i: usize, d: &[f64], loads: &[(&Loads, f64)]) -> Option<[f64; 3]> {
-        let [_, of_nodes] = self.kinds[self.bodies[i].kind].whole.as_ref()?;
-        let mut stress = three_of_eight(of_nodes, d[self.nodes[i].clone()].as_array()?);
-        for (loads, factor) in loads {
-            let of_load = loads.stress[i].as_array::<3>()?;
-            (0..3).for_each(|c| stress[c] += of_load[c] * factor);
-        }
-        Some(stress)
-    }
-
-    /// Mean stress (sigma_x, sigma_y, tau_xy) in every subblock of body `i`, Pa, for node displacements `d` under loads, each
-    /// times its factor.
-    pub fn stresses(&self, i: usize, d: &[f64], loads: &[(&Loads, f64)]) -> Vec<[f64; 3]> {
-        let mut in_frame = Vec::new();
-        self.stresses_in_frame(i, d, loads, &mut in_frame);
-        in_frame.chunks_exact(3).map(|s| self.bodies[i].stress_turned_back([s[0], s[1], s[2]])).collect()
-    }
-
-    /// The same at the samples of the subblocks: one of a constant-strain one, those of [`SecondOrder::SAMPLES`] of another.
-    ///
-    /// [`SecondOrder::SAMPLES`]: super::SecondOrder::SAMPLES
-    pub fn samples(&self, i: usize, d: &[f64], loads: &[(&Loads, f64)]) -> Vec<[f64; 3]> {
-        let body = &self.bodies[i];
-        let kind = &self.kinds[body.kind];
-        if let Stress::Constant(_) = kind.stress {
-            return self.stresses(i, d, loads);
-        }
-        let mut samples = kind.stress.samples(kind.condensed.displaced(&d[self.nodes_of(i)]).as_slice());
-        for (loads, factor) in loads {
-            for (sum, of_load) in samples.iter_mut().zip(&loads.samples[i]) {
-                (0..3).for_each(|c| sum[c] += of_load[c] * factor);
-            }
-        }
-        samples.into_iter().map(|stress| body.stress_turned_back(stress)).collect()
     }
 }
 

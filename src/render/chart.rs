@@ -1,7 +1,8 @@
 //! Curves over an abscissa, with axes, zones and places that are pointed out.
 
-use super::canvas::{Canvas, Heading, WIDTH};
+use super::canvas::{Canvas, WIDTH};
 use super::digits::Digits;
+use super::heading::Heading;
 use super::labels::extent;
 use crate::geometry::Vec2;
 

@@ -10,7 +10,8 @@ mod style;
 mod supports;
 mod thrust;
 
-use super::canvas::{Canvas, Heading, Space};
+use super::canvas::{Canvas, Space};
+use super::heading::Heading;
 use crate::collapse::{PathEnd, SettlementPath, Thrust};
 use crate::geometry::Vec2;
 use crate::structure::load::Fill;

@@ -1,6 +1,7 @@
 //! A motion after collapse as a drawing that moves.
 
-use super::canvas::{Canvas, Heading, Space};
+use super::canvas::{Canvas, Space};
+use super::heading::Heading;
 use crate::collapse::FallingMotion;
 use crate::geometry::Vec2;
 use crate::structure::{Body, Structure};

@@ -1,7 +1,8 @@
 //! A stress field as a map: every subblock in the colour of its equivalent stress, with a scale.
 
-use super::canvas::{Canvas, Heading, Space, WIDTH};
+use super::canvas::{Canvas, Space, WIDTH};
 use super::digits::Rounded;
+use super::heading::Heading;
 use crate::collapse::{StressField, SubblockStress};
 use crate::geometry::Vec2;
 

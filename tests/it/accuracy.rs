@@ -157,11 +157,17 @@ fn an_estimate_is_about_the_error_and_not_below_it() {
             json!({"load_factor": {"cap": 250}, "report": {"stress_fields": [{"load_factor": share * 243.125}]}});
         semicircle(27, &more)
     };
-    for (name, request, finer) in [("closed", closed, 0.003), ("half-way", at(0.5), 0.02), ("0.9", at(0.9), 0.02)] {
+    // The chart has more: these take the least time that still tells.
+    let scenes = [
+        ("closed", closed, 0.003, vec![0.2, 0.1, 0.05]),
+        ("half-way", at(0.5), 0.02, vec![0.2, 0.1, 0.05]),
+        ("0.9", at(0.9), 0.03, vec![0.2, 0.1]),
+    ];
+    for (name, request, finer, all_asked) in scenes {
         let to =
             |asked: f64| door::solve(&with(request.clone(), "accuracy", json!({"stress": asked, "subblocks": 8000})));
         let exact = to(finer);
-        for asked in [0.2, 0.1, 0.05] {
+        for asked in all_asked {
             let planned = to(asked);
             let plan = planned.plan.as_ref().unwrap();
             let (stress, tried) = (plan.stress.unwrap(), plan.meshes.iter().map(|mesh| mesh.subblocks));

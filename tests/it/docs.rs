@@ -6,6 +6,7 @@ mod tables;
 
 pub use examples::examples;
 
+use crate::common::folders;
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs;
@@ -34,9 +35,21 @@ fn with_table(words: &str, name: &str, table: &str) -> String {
     format!("{before}{marker}\n{table}\n<!-- end -->{after}")
 }
 
+/// That `file` has these tables; asked to, writes them.
+fn holds_tables(file: &Path, tables: &[(&str, String)]) {
+    let found = text(file);
+    let expected = tables.iter().fold(found.clone(), |words, (name, table)| with_table(&words, name, table));
+    if std::env::var_os("UPDATE_DOCS").is_some() {
+        fs::write(file, expected).unwrap();
+    } else {
+        let stale = expected.lines().find(|line| !found.lines().any(|other| other == *line)).unwrap_or("other rows");
+        assert!(expected == found, "stale: run `UPDATE_DOCS=1 cargo test --test it docs::`; expected {stale}");
+    }
+}
+
 #[test]
 fn the_tables_of_the_reference_are_those_of_the_interface() {
-    let (document, found) = (document(), text(&reference()));
+    let document = document();
     let tables = [
         ("request", Tables::request(&document).sections("Request", "AnalysisRequest")),
         ("beam request", Tables::request(&document).one("BeamRequest")),
@@ -45,13 +58,34 @@ fn the_tables_of_the_reference_are_those_of_the_interface() {
         ("beam answer", Tables::answer(&document).one("BeamResult")),
         ("job", Tables::answer(&document).one("JobStatus")),
     ];
-    let expected = tables.iter().fold(found.clone(), |words, (name, table)| with_table(&words, name, table));
-    if std::env::var_os("UPDATE_DOCS").is_some() {
-        fs::write(reference(), expected).unwrap();
-    } else {
-        let stale = expected.lines().find(|line| !found.lines().any(|other| other == *line)).unwrap_or("other rows");
-        assert!(expected == found, "stale: run `UPDATE_DOCS=1 cargo test --test it docs::`; expected {stale}");
-    }
+    holds_tables(&reference(), &tables);
+}
+
+#[test]
+fn the_loads_of_the_guide_are_those_of_the_interface() {
+    let document = document();
+    let choices = document["components"]["schemas"]["LoadRequest"]["oneOf"].as_array().unwrap();
+    let row = |choice: &Value| {
+        let (name, words) = (choice["required"][0].as_str().unwrap(), choice["description"].as_str().unwrap());
+        format!("| `{name}` | {} |\n", words.replace('\n', " "))
+    };
+    let table = "| load | what |\n|---|---|\n".to_owned() + &choices.iter().map(row).collect::<String>();
+    holds_tables(&Path::new(ROOT).join("docs/guide.md"), &[("loads", table)]);
+}
+
+#[test]
+fn the_cases_listed_are_those_that_are_there() {
+    let cases = folders::cases();
+    let row = |folder: &PathBuf| {
+        let expected: Value = serde_json::from_str(&text(&folder.join("expected.json"))).unwrap();
+        let [what, load, from] =
+            ["what", "expected", "from"].map(|word| expected["listed"][word].as_str().unwrap().to_owned());
+        format!("| `{}` | {what} | {load} | {from} |\n", folders::name(folder))
+    };
+    let listed: String =
+        folders::folders(&cases).iter().filter(|folder| folder.parent() == Some(&cases)).map(row).collect();
+    let table = "| case | what | expected | where from |\n|---|---|---|---|\n".to_owned() + &listed;
+    holds_tables(&cases.join("README.md"), &[("cases", table)]);
 }
 
 #[test]

@@ -41,22 +41,23 @@ pub struct LoadEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum LoadRequest {
-    /// Weight of the stones.
+    /// Weight of the stones, given once; without it they weigh nothing.
     SelfWeight(SelfWeight),
-    /// Fill and embankment on the extrados.
+    /// Fill and embankment on the extrados and on top of backing, pressing down and, if asked, sideways on the flanks of the arch;
+    /// never on the plumb backs of abutments and backing. A road that is not level, layers and dispersal belong in `backfill`.
     FillPressure(FillPressure),
-    /// Horizontal pressure in bands of height.
+    /// Horizontal pressure in bands of height, on both flanks or one.
     LateralPressure(LateralPressure),
-    /// A force at one point of the extrados.
+    /// A force at one point of the extrados, downwards or inclined.
     PointLoad(PointLoad),
-    /// A force in any direction at a point of a block.
-    PointForce(PointForceLoad),
-    /// A tie that pulls two points of blocks towards each other.
-    Tie(TieLoad),
-    /// A vertical force spread over a plan width.
+    /// A vertical force spread over a width in plan: of the extrados or, with `dispersal`, of the surface of fill.
     PatchLoad(PatchLoad),
-    /// A vehicle: axles at fixed distances.
+    /// Axles at fixed distances on an effective width, given one by one or as a group of CS 454; on and beyond the structure.
     Vehicle(VehicleLoad),
+    /// A force in any direction at a point of a block; of an arch the block is `voussoir 3`.
+    PointForce(PointForceLoad),
+    /// A tie of a given force between two points of blocks.
+    Tie(TieLoad),
     /// An inertia force on stones and fill: their mass times an acceleration.
     BodyAcceleration(BodyAcceleration),
 }
