@@ -55,9 +55,11 @@ pub(super) fn at_peak(
         mechanism::from_statics(turning, acting, &slipping, &driving, tolerances::CORNER_POLISHED, model.budget);
     let found = found.filter(|mechanism| soil_allows(&analysis.structure, &soil, mechanism));
     let later = found.is_none();
-    let mut mechanism = found.unwrap_or_else(|| {
-        from_direction(model, turning, if fall.turned_back { &peak.direction } else { &fall.direction })
-    });
+    let mut mechanism = found
+        .unwrap_or_else(|| {
+            from_direction(model, turning, if fall.turned_back { &peak.direction } else { &fall.direction })
+        })
+        .under(&analysis.scaled, structure);
     let crushed = crushed::at_peak(model, structure, peak);
     if !crushed.is_empty() && mechanism::released(&mechanism).is_empty() {
         mechanism.mode = Mode::Crushing;
@@ -107,6 +109,7 @@ pub(super) fn at_fall(analysis: &Analysis, model: &Model, tracer: &Tracer, start
     let smallest = mechanism::from_statics(structure, &carried, &none, &driving, tolerances::CORNER_ON_PATH, budget);
     let allowed = |m: &Mechanism| !m.slips() && soil_allows(&analysis.structure, &soil, m);
     let mechanism = smallest.filter(|m| !along_path.slips() && allowed(m)).unwrap_or(along_path);
+    let mechanism = mechanism.under(&analysis.scaled, structure);
     let (residual, crushed) = (tracer.worst_residual(), crushed::crushed(model, structure, |p| forces[p][0]));
     PathEnd { load_factor, range: None, residual, mechanism, thrust_line: Vec::new(), soil, crushed }
 }
@@ -119,7 +122,8 @@ pub(super) fn at_criterion(
     load_factor: f64,
     residual: f64,
 ) -> PathEnd {
-    let mechanism = from_direction(model, &analysis.structure, displacements);
+    let structure = &analysis.structure;
+    let mechanism = from_direction(model, structure, displacements).under(&analysis.scaled, structure);
     let forces = model.assembly.contact_forces(model.assembly.contacts(), displacements);
     let carried = resultants(model, |p| [forces[p].normal, forces[p].tangential]);
     let (thrust_line, soil) = (thrust_line(&analysis.structure, &carried), pressing(model, |p| forces[p].normal));
@@ -160,7 +164,8 @@ pub(super) fn at_rates(analysis: &Analysis, model: &Model, tracer: &Tracer) -> M
     let apart = |joint: usize| model.contacts(joint).all(|p| forces[p][0] <= 0.0);
     let joints = || 0..structure.ring().len();
     let (rates, apart): (Vec<_>, Vec<_>) = (joints().map(rates).collect(), joints().map(apart).collect());
-    mechanism::from_rates(structure, &motions(model, structure, tracer.direction()), &rates, &apart)
+    let motions = motions(model, structure, tracer.direction());
+    mechanism::from_rates(structure, &motions, &rates, &apart).under(&analysis.scaled, structure)
 }
 
 /// The thrust line of what the contacts carry now.

@@ -216,6 +216,19 @@ fn assemble(
 }
 
 impl Mechanism {
+    /// With the mode of the span that carries the most of the scaled loads, where there are several.
+    pub(super) fn under(mut self, scaled: &[PointForce], structure: &Structure) -> Self {
+        let by_crown = matches!(self.mode, Mode::CrownRises | Mode::CrownDescends | Mode::Sway);
+        if by_crown && structure.spans.len() > 1 && !scaled.is_empty() {
+            let velocity = crown(structure, scaled).map(|body| {
+                let [x, y, _] = self.velocities[body];
+                Vec2::new(x, y)
+            });
+            self.mode = way(structure, 0.5 * (velocity[0] + velocity[1]));
+        }
+        self
+    }
+
     /// With the places of the joints in `structure`, but those that they turn about.
     pub(super) fn placed_in(mut self, structure: &Structure) -> Self {
         for hinge in &mut self.hinges {
@@ -249,7 +262,11 @@ fn crown_mode(structure: &Structure, motions: &[Motion]) -> Mode {
         0.5 * (motions[a].at(top) + motions[b].at(top))
     };
     let faster = |most: Vec2, next: Vec2| if next.norm() > most.norm() { next } else { most };
-    let velocity = crowns(structure).map(velocity).fold(Vec2::zeros(), faster);
+    way(structure, crowns(structure).map(velocity).fold(Vec2::zeros(), faster))
+}
+
+/// The mode of a crown that moves like this.
+fn way(structure: &Structure, velocity: Vec2) -> Mode {
     if velocity.x.abs() > velocity.y.abs() && !structure.is_half() {
         Mode::Sway
     } else if velocity.y > 0.0 {

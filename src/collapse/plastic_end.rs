@@ -30,7 +30,7 @@ pub(super) fn at(
     let (forces, soil, motion) = state;
     let residual = theorem.unbalanced(window.ends[end], &forces, &soil);
     let crushed: Vec<_> = window.joints[end].iter().map(|&k| block(structure, k, &forces[k])).collect();
-    let mut mechanism = turning(structure, &motion);
+    let mut mechanism = turning(structure, &motion).under(&analysis.scaled, structure);
     if !crushed.is_empty() && mechanism::released(&mechanism).is_empty() {
         mechanism.mode = Mode::Crushing;
     }

@@ -96,7 +96,8 @@ impl Search<'_> {
             load_factor: equilibrium.load_factor,
             forces: self.theorem.resultants(&equilibrium),
             soil: self.theorem.soil(&equilibrium),
-            mechanism: describe(&self.analysis.structure, self.theorem.loops(), &moving, &rates),
+            mechanism: describe(&self.analysis.structure, self.theorem.loops(), &moving, &rates)
+                .under(&self.analysis.scaled, &self.analysis.structure),
         });
         (solution, hunt.seen.len())
     }

@@ -6,7 +6,7 @@ pub mod chart;
 mod checks;
 pub mod digits;
 pub mod figure;
-mod heading;
+pub mod heading;
 mod labels;
 #[cfg(feature = "server")]
 mod letters;

@@ -6,7 +6,7 @@ use crate::common::dice::Dice;
 use crate::common::door;
 use serde_json::{Value, json};
 use voussoir::budget::Budget;
-use voussoir::collapse::{CollapseReport, Note, Outcome, PathEnd};
+use voussoir::collapse::{CollapseReport, Mode, Note, Outcome, PathEnd};
 use voussoir::geometry::Vec2;
 use voussoir::structure::{Joint, Structure};
 
@@ -297,4 +297,28 @@ fn every_cannot_tell_has_a_reason() {
         }
     }
     assert!(told > 20, "{told}");
+}
+
+/// Two spans on a slender pier: the loaded one goes down, the other one up, and nearly as fast.
+#[test]
+fn the_mode_is_that_of_the_loaded_span() {
+    let span = json!({
+        "profile": {"circular": {"span_m": 10, "rise_m": 3}}, "rings": [{"thickness_m": 0.6, "voussoirs": 31}]
+    });
+    for (load, crown) in [(-5.8, 15), (5.8, 46)] {
+        let patch = json!({"centre_x_m": load, "width_m": 1, "force_n_per_m": 1000, "dispersal": {}});
+        let report = door::solve(&json!({
+            "bridge": {"spans": [span, span], "piers": [{"top_width_m": 1.6, "height_m": 9, "courses": 9}]},
+            "stone": {"density_kg_m3": 2200, "friction_angle_deg": 35, "compressive_strength_pa": 6e6},
+            "backfill": {"surface_height_m": 4.2, "density_kg_m3": 1800},
+            "loads": [{"load": {"self_weight": {}}}, {"load": {"patch_load": patch}, "scaled": true}],
+        }));
+        for end in report.ends() {
+            let states = [Some(end.state), end.uncrushed];
+            for mechanism in states.into_iter().flatten().map(|state| &state.mechanism) {
+                let down = mechanism.velocities[crown][1];
+                assert!(mechanism.mode == Mode::CrownDescends && down < 0.0, "{load}: {:?}, {down}", mechanism.mode);
+            }
+        }
+    }
 }

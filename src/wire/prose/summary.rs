@@ -5,7 +5,6 @@ use super::wording::{self, word};
 use super::{geometric, given, joints, moving, plan, safety, survey};
 use crate::collapse::{GovernedBy, Outcome};
 use crate::wire::prose::Digits;
-use crate::wire::request::LoadRequest;
 use crate::wire::response::{AnalysisResult, EndBody, PassiveElementBody, WorstPositionBody};
 use comfy_table::{Table, presets};
 use std::fmt::Write;
@@ -137,11 +136,6 @@ fn over_width(result: &AnalysisResult, width: f64) -> String {
     let scaled = |end: &EndBody| {
         let [x, y] = [end.scaled_load.x_kn?, end.scaled_load.y_kn?].map(Digits);
         let at = if result.outcome == Outcome::StandsInWindow { wording::name(end) } else { "collapse" };
-        // A vehicle stands on its own width.
-        let vehicles = result.request.loads.iter().any(|entry| matches!(entry.load, LoadRequest::Vehicle(_)));
-        if vehicles {
-            return None;
-        }
         let factored = if result.request.partial_factors.is_some() { "factored " } else { "" };
         Some(format!("; {factored}scaled loads at {at} ({x}, {y}) kN"))
     };

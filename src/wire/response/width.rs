@@ -3,7 +3,7 @@
 use super::ThrustColumns;
 use super::structure::StructureBody;
 use crate::collapse::{Thrust, ThrustRange};
-use crate::wire::request::AnalysisRequest;
+use crate::wire::request::{AnalysisRequest, LoadEntry, LoadRequest};
 use serde::Serialize;
 use utoipa::ToSchema;
 
@@ -14,9 +14,10 @@ pub struct ScaledLoadBody {
     pub x_kn_per_m: f64,
     /// Upwards, kN per metre of width.
     pub y_kn_per_m: f64,
-    /// To the right, kN over the whole width; null where the request gives no `width_m`.
+    /// To the right, kN over the whole width; null where the request gives no `width_m`, and where a vehicle is scaled, which
+    /// stands on a width of its own.
     pub x_kn: Option<f64>,
-    /// Upwards, kN over the whole width; null where the request gives no `width_m`.
+    /// Upwards, kN over the whole width; null as `x_kn` is.
     pub y_kn: Option<f64>,
 }
 
@@ -27,7 +28,8 @@ impl ScaledLoadBody {
         let (x, y) = (loads().map(|load| load.x_n_per_m).sum::<f64>(), loads().map(|load| load.y_n_per_m).sum::<f64>());
         // The other half has the mirror image of the loads.
         let [x, y] = if request.half() { [0.0, 2.0 * y] } else { [x, y] };
-        let width = request.width_m;
+        let vehicle = |entry: &LoadEntry| entry.scaled && matches!(entry.load, LoadRequest::Vehicle(_));
+        let width = request.width_m.filter(|_| !request.loads.iter().any(vehicle));
         let [x_kn, y_kn] = [x, y].map(|force| width.map(|width| force / 1e3 * width));
         ScaledLoadBody { x_kn_per_m: x / 1e3, y_kn_per_m: y / 1e3, x_kn, y_kn }
     }

@@ -4,7 +4,8 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 
 /// Units as the ends of names tell them, the longer ends first.
-const UNITS: [(&str, &str); 12] = [
+const UNITS: [(&str, &str); 14] = [
+    ("_kn_per_m", "kN/m"),
     ("_kg_m3", "kg/m3"),
     ("_n_per_m", "N/m"),
     ("_j_per_m", "J/m"),
@@ -15,6 +16,7 @@ const UNITS: [(&str, &str); 12] = [
     ("_rad", "rad"),
     ("_pa", "Pa"),
     ("_m", "m"),
+    ("_kn", "kN"),
     ("_n", "N"),
     ("_g", "g"),
 ];

@@ -7,7 +7,8 @@ use axis::Axis;
 use labels::{Labels, text_width};
 use std::f64::consts::TAU;
 use voussoir::geometry::Vec2;
-use voussoir::render::canvas::{Canvas, Heading, WIDTH};
+use voussoir::render::canvas::{Canvas, WIDTH};
+use voussoir::render::heading::Heading;
 
 /// Edges of the field of decades, pixels.
 const LEFT: f64 = 92.0;
