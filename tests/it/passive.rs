@@ -203,8 +203,10 @@ fn bolton(passive: &Value) -> Value {
 fn the_documents_have_the_loads_of_bridges_that_were_tested() {
     let documents = std::fs::read_to_string(folders::cases().join("../docs/verification.md")).unwrap();
     let fill = |angle: f64, cohesion: f64| json!({"friction_angle_deg": angle, "cohesion_pa": cohesion, "factor": 1, "cohesion_factor": 1});
-    let tests: [(fn(&Value) -> Value, f64, f64, Value); 2] =
-        [(prestwood, 3.8, 4.5e6, fill(30.0, 5e3)), (bolton, 2.88, 26.8e6, fill(55.0, 1e3))];
+    let tests = [
+        (prestwood as fn(&Value) -> Value, 3.8, 4.5e6, fill(30.0, 5e3)),
+        (bolton as fn(&Value) -> Value, 2.88, 26.8e6, fill(55.0, 1e3)),
+    ];
     for (request, width, strength, stated) in tests {
         for soil in [json!({"factor": 0}), json!({}), stated] {
             let (analysis, report) = answered(&request(&soil));
