@@ -130,7 +130,7 @@ fn against(limit: f64, end: &EndBody) -> Option<String> {
     // Where joints slide and crushing governs, the least load is told, and not where the path ended.
     if slips && end.range.is_none() {
         return Some(format!(
-            "Of stone that does not crush, the least load factor found at which joints slide is {found}; limit analysis, found \
+            "Of stone that does not crush, the least load factor found at which joints slide or part is {found}; limit analysis, found \
              independently, in which sliding joints dilate, allows {window}."
         ));
     }
