@@ -13,8 +13,8 @@ use std::ops::ControlFlow;
 pub(super) const FALLEN: f64 = 0.1;
 pub(super) const MOVED: [f64; 2] = [0.002, 0.01];
 
-/// Scaled loads whose resultants on every stone are below this share of their sizes cancel.
-const CANCELS: f64 = 1e-12;
+/// Scaled loads whose resultants on every stone are below this share of their sizes cancel: limit analysis sees none.
+const CANCELS: f64 = 1e-9;
 
 /// True where nothing on any stone grows with the load factor; `size` is the sum of the scaled forces' sizes, N/m.
 pub(super) fn nothing_grows(model: &Model, size: f64) -> bool {

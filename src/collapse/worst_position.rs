@@ -44,6 +44,8 @@ pub(super) fn find(question: &PositionQuestion, budget: &Budget) -> Result<Colla
     let unknown = report.curve.iter().filter(|point| point.instability.is_none() || point.crushing.is_none()).count();
     answer.notes.push(Note::PositionsBetween { solved: report.curve.len(), tolerance: question.tolerance });
     answer.notes.extend((unknown > 0).then_some(Note::PositionsUnknown(unknown)));
+    let slides = answer.end.as_ref().is_some_and(|end| end.mechanism.slips());
+    answer.notes.extend(slides.then_some(Note::PositionsSlide));
     answer.task = TaskReport::WorstPosition(Box::new(report));
     Ok(answer)
 }

@@ -10,6 +10,9 @@ const AS_BUILT = ['falls_as_built', 'slides_as_built'];
 const loadOf = ({outcome, safety}) =>
   outcome === 'crushes' && !safety ? 'Collapse, if its stone did not crush' : 'Collapse';
 
+/** Where no joint slides some part altogether. */
+const slide = ({slides}) => (slides.length > 0 ? 'joints slide' : 'joints part and slip');
+
 /** [term, value] of what there is. */
 function factsOf(answer) {
   const {unit} = answer,
@@ -28,7 +31,7 @@ function factsOf(answer) {
     if (end.governed_by === 'crushing' && end.instability)
       facts.push([`Without crushing${which}`, of(end.instability.intensity, end.unit)]);
     if (end.range)
-      facts.push([`Range, as joints slide${which}`, range([end.range.least, end.range.greatest], end.unit)]);
+      facts.push([`Range, as ${slide(end)}${which}`, range([end.range.least, end.range.greatest], end.unit)]);
     if (typeof end.adequacy_factor === 'number') facts.push([`Adequacy factor${which}`, figures(end.adequacy_factor)]);
   }
   if (answer.limit_window?.some(end => end !== null)) facts.push(['Limit window', range(answer.limit_window)]);

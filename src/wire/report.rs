@@ -5,7 +5,7 @@ use super::figures::Figure;
 use super::json::{NotFinite, pretty};
 use super::prose::{self, Digits, curve, joints, moving, summary};
 use super::request::{AnalysisRequest, Request};
-use super::response::{AnalysisResult, JobResult, SafetyCurveResult};
+use super::response::{AnalysisResult, EndBody, JobResult, SafetyCurveResult};
 use crate::collapse::{Outcome, WhichEnd};
 use crate::render::canvas::escaped;
 use comfy_table::{Row, Table};
@@ -102,16 +102,7 @@ fn checks(result: &AnalysisResult) -> String {
         if matches!(result.outcome, Outcome::FallsAsBuilt | Outcome::SlidesAsBuilt) {
             continue;
         }
-        let path = end.range.as_ref().map(|range| range.path_load_factor);
-        if let (Some(path), Some(limit)) = (path.or(end.instability.map(|path| path.load_factor)), limit) {
-            let apart = (path - limit).abs() / limit.abs().max(path.abs()).max(f64::MIN_POSITIVE);
-            all.push(format!(
-                "Of stone that does not crush, the load path ends at load factor {} and the window of limit analysis, found \
-                 independently, at {}: {apart:.0e} apart.",
-                Digits(path),
-                Digits(limit)
-            ));
-        }
+        all.extend(limit.and_then(|limit| against(limit, end)));
         all.push(format!("Equilibrium holds to {:.0e} at the {}.", end.residual, prose::name_of_end(end)));
     }
     if result.proof.is_some() {
@@ -125,6 +116,29 @@ fn checks(result: &AnalysisResult) -> String {
     }
     all.push(prose::in_its_words(&result.request, summary::explanation(result)));
     list(all.into_iter())
+}
+
+/// The end of a load path of stone that does not crush against the `limit` of limit analysis.
+fn against(limit: f64, end: &EndBody) -> Option<String> {
+    let fall = &end.without_crushing.as_ref().unwrap_or(&end.fall).mechanism;
+    let slips = !fall.slides.is_empty() || !fall.lift_offs.is_empty();
+    let path = match &end.range {
+        Some(range) => range.path_load_factor,
+        None => end.instability?.load_factor,
+    };
+    let (found, window) = (Digits(path), Digits(limit));
+    // Where joints slide and crushing governs, the least load is told, and not where the path ended.
+    if slips && end.range.is_none() {
+        return Some(format!(
+            "Of stone that does not crush, the least load factor found at which joints slide or part is {found}; limit analysis, found \
+             independently, in which sliding joints dilate, allows {window}."
+        ));
+    }
+    let apart = (path - limit).abs() / limit.abs().max(path.abs()).max(f64::MIN_POSITIVE);
+    Some(format!(
+        "Of stone that does not crush, the load path ends at load factor {found} and the window of limit analysis, found \
+         independently, at {window}: {apart:.0e} apart."
+    ))
 }
 
 fn request(request: &AnalysisRequest) -> Result<String, NotFinite> {

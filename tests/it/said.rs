@@ -144,6 +144,37 @@ fn the_report_tells_where_the_path_ended_and_not_the_least_load() {
     assert!((said / path - 1.0).abs() < 1e-5, "{said} is not {path}");
 }
 
+#[test]
+fn the_report_calls_the_least_load_by_its_name_where_crushing_governs() {
+    let mut request: Value = serde_json::from_str(include_str!("../../cases/sliding-range/request.json")).unwrap();
+    request["stone"]["compressive_strength_pa"] = json!(2e6);
+    let found = solved(&request);
+    let end = &found["ends"][0];
+    assert_eq!((&end["governed_by"], &end["range"]), (&json!("crushing"), &Value::Null));
+    assert_ne!(end["without_crushing"]["slides"], json!([]));
+    let page = report(&request);
+    assert!(!page.contains("the load path ends at"), "{page}");
+    let words = "the least load factor found at which joints slide or part is ";
+    let said: f64 = page.split_once(words).unwrap().1.split(';').next().unwrap().parse().unwrap();
+    assert!((said / end["instability"]["load_factor"].as_f64().unwrap() - 1.0).abs() < 1e-5, "{said}");
+}
+
+/// By a billionth of two opposite inertia forces a column falls at half a billion; limit analysis calls that none.
+#[test]
+fn loads_that_all_but_cancel_are_said_to() {
+    let said = |other: f64| {
+        let wall = json!([{"name": "column", "corners_m": [[0, 0], [1, 0], [1, 2], [0, 2]]}]);
+        let push = |x: f64| json!({"load": {"body_acceleration": {"x_g": x}}, "scaled": true});
+        notes(&json!({
+            "blocks": {"polygons": wall, "supports": [{"name": "ground", "segments_m": [[[-1, 0], [2, 0]]]}]},
+            "loads": [{"load": {"self_weight": {}}}, push(1.0), push(other)],
+        }))
+    };
+    let words = "the scaled loads cancel on every stone";
+    assert!(said(-1.0 + 1e-9).contains(words) && said(-1.0).contains(words));
+    assert!(!said(-1.0 + 1e-7).contains(words));
+}
+
 /// An arch of stones of many lengths, held by a tie; a joint near its left springing parts under a pressure from there.
 fn parting() -> Value {
     let lengths = [

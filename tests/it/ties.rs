@@ -111,6 +111,29 @@ fn a_tie_is_two_forces_and_its_note_tells_which_way_they_act() {
 }
 
 #[test]
+fn half_an_arch_says_of_its_ties_what_the_whole_one_says() {
+    let said = |half: bool, voussoirs: usize, direction: &str| {
+        let mut request = arch(2.4e5, true);
+        let last = voussoirs - 5;
+        request["arch"]["half"] = json!(half);
+        request["arch"]["voussoirs"] = json!(voussoirs);
+        request["loads"][1]["load"]["point_load"]["x_m"] = json!(0);
+        request["loads"][2]["load"]["tie"]["to"]["block"] = json!(format!("voussoir {last}"));
+        request["load_factor"]["direction"] = json!(direction);
+        let answer = solved(&request);
+        let notes = answer["notes"].as_array().unwrap().iter().filter_map(Value::as_str);
+        notes.filter(|note| note.starts_with("The tie of loads[2]")).map(str::to_owned).collect::<Vec<_>>()
+    };
+    for (direction, words) in [("increase", "is stretched"), ("decrease", "goes slack")] {
+        for voussoirs in [27, 28] {
+            let [half, whole] = [true, false].map(|half| said(half, voussoirs, direction));
+            assert_eq!(half, whole, "{voussoirs} voussoirs, {direction}");
+            assert!(whole.len() == 1 && whole[0].contains(words), "{whole:?}");
+        }
+    }
+}
+
+#[test]
 fn ties_that_hold_nothing_are_refused() {
     let good = frame(tie(2e4, false));
     let at = |field: &str| format!("/loads/1/load/tie/{field}");

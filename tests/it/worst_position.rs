@@ -158,6 +158,22 @@ fn what_stands_beyond_the_springings_is_told() {
     assert!(words.contains("effective width 2.5 m (as measured)"), "{words}");
 }
 
+#[test]
+fn where_joints_slide_the_worst_position_is_said_to_be_that_of_limit_analysis() {
+    for (friction, slides) in [(15.0, true), (40.0, false)] {
+        let axle = vehicle(&json!([{"offset_m": 0, "force_n": 2500, "length_m": 0.3}]));
+        let mut request = bridge(&[axle], 1e30);
+        request["arch"]["thickness"]["constant_m"] = json!(0.35);
+        request["arch"]["voussoirs"] = json!(20);
+        request["stone"]["friction_angle_deg"] = json!(friction);
+        request["analysis"] = json!({"worst_position": {"step_m": 0.5, "to_m": 0}});
+        let answer = solved(&request);
+        let slid = end(&answer, "highest")["slides"].as_array().unwrap();
+        assert_eq!(!slid.is_empty(), slides, "{slid:?}");
+        assert_eq!(answer["notes"].to_string().contains("may be lower at another"), slides, "{}", answer["notes"]);
+    }
+}
+
 fn faults(request: &Value) -> Vec<Fault> {
     read_question(request.to_string().as_bytes()).err().unwrap_or_default()
 }

@@ -131,6 +131,8 @@ pub enum Note {
     },
     /// At so many positions rounding kept limit analysis from one of its two answers, or from both.
     PositionsUnknown(usize),
+    /// Joints slide at the worst position, where alone the least load of those that do not dilate is looked for.
+    PositionsSlide,
     /// Surveyed points were moved within their tolerances, and limit analysis asked of each survey.
     PointsMoved {
         /// Surveys solved.

@@ -2,6 +2,10 @@
 
 use super::Digits;
 
+/// Where joints slide at the worst of them.
+pub const SLIDE: &str = "Joints slide as the structure falls there. Positions are compared by limit analysis, in which they dilate; the \
+     least load at which they slide without dilating is looked for at that position only, and may be lower at another.";
+
 /// What was looked at between positions solved.
 pub fn between(solved: usize, tolerance: Digits) -> String {
     format!(

@@ -9,8 +9,9 @@ use utoipa::ToSchema;
 /// horizontally, towards the structure, between `least` and `(factor Kp q_v + cohesion_factor 2 c sqrt Kp)` times the side's height,
 /// as hard as it can where the stone moves into it and as little as it may where the stone moves away; `Kp = (1 + sin phi) /
 /// (1 - sin phi)` after Rankine, and q_v the vertical pressure of the fill's own weight in the middle of the side, where the force
-/// acts. Loads on the surface add nothing to it. Fill behind it stands still. There is none towards another span, where the fill would
-/// move along, and none where the surface falls below the side within the wedge that would resist, `sqrt Kp` times the depth wide.
+/// acts. Loads on the surface add nothing to it. Fill behind it stands still. There is none on a level side, as at the crown; none
+/// towards another span, nor in a dip of the extrados and on what rises behind it, where the fill would move along; and none where the
+/// surface falls below the side within the wedge that would resist, `sqrt Kp` times the depth wide.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(default)]
 pub struct PassiveRequest {

@@ -16,6 +16,10 @@ const FILL_IS_SHAKEN: &str = "Fill has mass: in the acceleration the column of f
 const SOIL_IS_SHAKEN: &str = "The backfill resists in the acceleration as it does at rest. In an earthquake it resists less: give \
      backfill.passive a lower factor.";
 
+/// Note on fill over the piers.
+const BETWEEN_SPANS: &str = "Fill between two spans weighs and disperses loads, and does not resist: it would move along with them. The \
+     backfill resists before the first span and beyond the last.";
+
 /// Note on contacts stiffer than the default, where joints slide.
 const STIFF_CONTACTS: &str = "Contacts are stiffer than the default of a bridge and of blocks. Where joints slide, such as those \
      between rings, the load path may end elsewhere than with penalty_ratio 1 or less: compare the two.";
@@ -53,6 +57,7 @@ pub(super) fn assumptions(request: &AnalysisRequest, structure: &StructureBody) 
     let fill = any(|load| matches!(load, LoadRequest::FillPressure(_)));
     let massless = any(|load| matches!(load, LoadRequest::LateralPressure(_)));
     let resists = !structure.passive_elements.is_empty();
+    let spans = request.bridge.as_ref().map_or(1, |bridge| bridge.spans.len());
     let stiff = request.arch.is_none() && request.stone.penalty_ratio.is_some_and(|ratio| ratio > 1.0);
     let notes = [
         (stiff, STIFF_CONTACTS),
@@ -61,6 +66,7 @@ pub(super) fn assumptions(request: &AnalysisRequest, structure: &StructureBody) 
         (shaken && (fill || request.backfill.is_some()), FILL_IS_SHAKEN),
         (shaken && massless, MASSLESS_IS_SHAKEN),
         (shaken && resists, SOIL_IS_SHAKEN),
+        (resists && spans > 1, BETWEEN_SPANS),
     ];
     let notes = notes.into_iter().filter(|(holds, _)| *holds).map(|(_, note)| note.to_owned());
     let others = uncut(request, structure).into_iter().chain(units(request, structure)).chain(beyond(structure));
