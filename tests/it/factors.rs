@@ -201,7 +201,7 @@ fn only_with_factors_an_end_has_an_adequacy_factor() {
         "partial factor 1.2 times: 1.1 times: self weight",
         "partial factor 1.35 times: 0.2 m of embankment",
         "partial factor 1.35 times: backfill of 2040 kg/m3",
-        "what it resists with is over the partial factor 1.6",
+        "its resistance is divided by the partial factor 1.6",
         "partial factor 1.9 times: 20 kN/m, spread",
         "4.5 MPa / 2.1; brick: 3 MPa / 2.1",
         "; factored scaled loads at collapse",

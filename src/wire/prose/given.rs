@@ -181,7 +181,7 @@ pub fn loads(request: &AnalysisRequest, scaled: bool) -> String {
     if let Some(backfill) = backfill.filter(|_| !scaled) {
         let over = match factors.soil_resistance {
             1.0 => String::new(),
-            factor => format!("; what it resists with is over the partial factor {}", Digits(factor)),
+            factor => format!("; its resistance is divided by the partial factor {}", Digits(factor)),
         };
         lines.insert(0, format!("{}{}{over}", factored(factors.fill), backfill.words()));
     }

@@ -9,6 +9,9 @@ use crate::collapse::{SettlementEnd, UpdatedEnd};
 use crate::wire::prose::{Digits, Rounded};
 use crate::wire::response::{AnalysisResult, EndBody, SettlementBody, SettlementPathBody, UpdatedBody};
 
+/// Moving geometry that leaves so much of the first-order load takes nothing off it that matters.
+const WORTH_TELLING: f64 = 0.995;
+
 /// One sentence on supports that move.
 pub fn headline(settlement: &SettlementBody) -> String {
     let path = settlement.updated_geometry.as_ref().unwrap_or(&settlement.first_order);
@@ -65,7 +68,14 @@ pub fn before(result: &AnalysisResult, end: &EndBody) -> String {
         }
         _ => String::new(),
     };
-    snap.unwrap_or_default() + &falls
+    let softened = updated.over_first_order.filter(|share| end.without_crushing.is_some() && *share < WORTH_TELLING);
+    let apart = softened.map(|share| {
+        format!(
+            " Moving geometry leaves out crushing, and no figure has both: alone it takes {} % off the load of stone that does not crush.",
+            Rounded(100.0 * (1.0 - share))
+        )
+    });
+    snap.unwrap_or_default() + &falls + &apart.unwrap_or_default()
 }
 
 /// What the ground carries, and where the structure turns, as its supports move.
@@ -122,9 +132,12 @@ pub fn facts(result: &AnalysisResult) -> Vec<(&'static str, String)> {
 
 fn on_moving_geometry(result: &AnalysisResult, updated: &UpdatedBody) -> String {
     let at = updated.intensity.map(|at| format!("{} {}", Digits(at), wording::unit(result))).unwrap_or_default();
+    let crushes = result.ends.iter().any(|end| end.without_crushing.is_some());
+    let uncrushed = if crushes { " of stone that does not crush" } else { "" };
     match updated.end {
         UpdatedEnd::Collapse => {
-            let over = updated.over_first_order.map(|over| format!(", {} of the first-order load", Digits(over)));
+            let over =
+                updated.over_first_order.map(|over| format!(", {} of the first-order load{uncrushed}", Digits(over)));
             let snap =
                 updated.snap_intensity.map(|at| format!("; snaps first at {} {}", Digits(at), wording::unit(result)));
             let mode = updated.mechanism.as_ref().map(|of| format!(" ({})", word(&of.mode))).unwrap_or_default();

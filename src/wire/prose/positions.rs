@@ -9,8 +9,8 @@ pub const SLIDE: &str = "Joints slide as the structure falls there. Positions ar
 /// What was looked at between positions solved.
 pub fn between(solved: usize, tolerance: Digits) -> String {
     format!(
-        "The worst position is that of {solved} solved by limit analysis, in which sliding joints dilate. In none of their mechanisms \
-         does the structure fall at a load lower by more than {tolerance} of it, wherever the vehicle stands. A mechanism that \
+        "The worst position is that of {solved} solved by limit analysis, in which sliding joints dilate. None of the \
+         mechanisms found there gives a load lower by more than {tolerance} of it at any other position. A mechanism that \
          governs between two neighbouring positions only is not seen: take a smaller step_m to look closer."
     )
 }

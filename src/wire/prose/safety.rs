@@ -128,8 +128,7 @@ pub fn explanation(result: &AnalysisResult) -> Option<String> {
 const NO_PLASTIC_SECTION: &str = "not known: limit analysis gave no answer; no collapse load told here counts crushing";
 const FIRST_YIELD: &str = "First yield: the equivalent stress of Tresca, of stress averaged over a subblock, reaches the strength; it \
      depends on the mesh.";
-const PLASTIC_SECTION: &str =
-    "Plastic section: what limit analysis allows where no joint carries more than the strength.";
+const PLASTIC_SECTION: &str = "Plastic section: what limit analysis allows where every joint bears its force on a rectangular block of stress at the strength.";
 
 fn first_yield(result: &AnalysisResult, elastic: &ElasticCrushingBody) -> String {
     let at = elastic

@@ -198,7 +198,7 @@ pub fn soil(forces: &[f64], result: &AnalysisResult) -> Option<String> {
     };
     let [right, left] = [1.0, -1.0].map(side);
     let full = elements.iter().zip(forces).filter(|(element, force)| **force >= (1.0 - FULL) * element.most_n_per_m);
-    let full = format!("{} of {} elements with all they have", full.count(), elements.len());
+    let full = format!("{} of {} elements at their limit", full.count(), elements.len());
     (!forces.is_empty()).then(|| format!("{right} kN/m to the right, {left} kN/m to the left; {full}"))
 }
 

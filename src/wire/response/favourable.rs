@@ -26,7 +26,7 @@ pub(super) fn note(request: &AnalysisRequest, structure: &StructureBody, report:
     };
     Some(format!(
         "As the arch falls its fixed loads as a whole {does}: partial factors {change} on weight (dead {}, fill {}) let it bear more. \
-         Ask with 1, too, and rely on the lower.",
+         Repeat the request with factors of 1 on both, and rely on the lower answer.",
         Digits(dead),
         Digits(fill)
     ))
