@@ -123,7 +123,7 @@ impl Demand {
 
 /// One analysis, and limit analysis at every position of the grid, whose loads are kept with those between.
 fn of_positions(question: &PositionQuestion, budget: &Budget) -> Result<Demand, Stopped> {
-    let (grid, forces) = worst_position::size(question);
+    let (grid, forces) = worst_position::size(question, budget)?;
     let joints = question.analysis.structure.joints.len();
     let kept = grid * (PLACE * forces + MOTION * joints);
     let demand = of(&question.analysis, budget)?.and(kept, Share::Points);
