@@ -9,6 +9,7 @@
 mod kinds;
 
 use super::discretise::{grids, touching};
+use super::record::most_kept;
 use super::strips::MOST_POINTS;
 use super::{
     Analysis, CurvedBeam, Geometry, Order, PositionQuestion, Question, SurveyQuestion, Task, plan, worst_position,
@@ -79,8 +80,6 @@ const FEW_LOOPS: usize = 19;
 const PLACE: usize = 400;
 const MOTION: usize = 60;
 const SOLVED: usize = 1000;
-/// Events of a path for every contact point, and more than were seen.
-const EVENTS: f64 = 2.0;
 /// Bytes of a stress field for every subblock, in the answer and in all that is written of it at once.
 const FIELD: usize = 2800;
 /// Bytes of a frame of a motion for every body.
@@ -123,7 +122,7 @@ impl Demand {
 
 /// One analysis, and limit analysis at every position of the grid, whose loads are kept with those between.
 fn of_positions(question: &PositionQuestion, budget: &Budget) -> Result<Demand, Stopped> {
-    let (grid, forces) = worst_position::size(question);
+    let (grid, forces) = worst_position::size(question, budget)?;
     let joints = question.analysis.structure.joints.len();
     let kept = grid * (PLACE * forces + MOTION * joints);
     let demand = of(&question.analysis, budget)?.and(kept, Share::Points);
@@ -248,9 +247,7 @@ fn following(analysis: &Analysis, size: &AssemblySize, unknowns: usize, contacts
     let ways = if matches!(analysis.task, Task::Collapse(_)) { 2 } else { 1 };
     let moving = if size.plain.is_some() { matrix } else { 0 };
     let matrices = ways * (matrix + all) + (matrix + towards) + moving + 2 * tree.largest;
-    // Points of the path between the share asked for and its end: they crowd before the end, and contacts come and go.
-    let kept = (1.0 - analysis.task.share()).max(0.0).sqrt() * EVENTS * contacts as f64;
-    NUMBER * (matrices + (kept as usize + 16) * unknowns)
+    NUMBER * (matrices + most_kept(analysis.task.share(), contacts) * unknowns)
 }
 
 /// Bytes of what is reported and written: stress fields, a motion, a settlement.

@@ -15,8 +15,18 @@ use std::rc::Rc;
 /// Most fixed steps of one path. The paper takes about fifty; more than this is a mistake in the step.
 pub(super) const MOST_FIXED_STEPS: usize = 10_000;
 
+/// Events of a path for every contact point, and more than were seen.
+const EVENTS: f64 = 2.0;
+/// Fewest points of a path that are kept where many come after the share asked for.
+const FEWEST_KEPT: usize = 16;
+
 /// Work of looking at a gap, in multiplications.
 const GAP_WORK: usize = 10;
+
+/// Most points of a path that are kept after the share asked for: they crowd before the end, and contacts come and go.
+pub(super) fn most_kept(share: f64, contacts: usize) -> usize {
+    ((1.0 - share).max(0.0).sqrt() * EVENTS * contacts as f64) as usize + FEWEST_KEPT
+}
 
 /// A point of the path: load factor and displacements of the nodes.
 pub(super) type PathPoint = (f64, Vec<f64>);
@@ -33,6 +43,8 @@ pub(super) struct Recorder<'a> {
     crown: [usize; 2],
     /// Points from which the one at `share` of the way to the highest load factor so far can be interpolated.
     recent: VecDeque<Rc<PathPoint>>,
+    /// Most of them.
+    most_recent: usize,
     /// Memory of points that nobody asks for any more.
     spare: Vec<Vec<f64>>,
     /// Load factor beyond which, up or down, nothing is symmetric.
@@ -71,6 +83,7 @@ impl<'a> Recorder<'a> {
             sign,
             crown: mechanism::crown(&analysis.structure, &analysis.scaled),
             recent: VecDeque::new(),
+            most_recent: most_kept(analysis.task.share(), model.assembly.contacts().len()),
             spare: Vec::new(),
             lopsided: model.assembly.lopsided_beyond(&model.fixed.on_nodes, &model.scaled.on_nodes),
             farthest_moved: [(); 2].map(|()| Farthest::new(model)),
@@ -174,6 +187,21 @@ impl<'a> Recorder<'a> {
         while self.recent.len() > 2 && self.way(self.recent[1].0) <= wanted {
             let passed = self.recent.pop_front();
             self.release(passed);
+        }
+        if self.recent.len() > self.most_recent {
+            self.thin_out();
+        }
+    }
+
+    /// Gives up every other point but the last two: states between those that are left are found from places less near.
+    fn thin_out(&mut self) {
+        let last = self.recent.len() - 2;
+        for (k, point) in std::mem::take(&mut self.recent).into_iter().enumerate() {
+            if k % 2 == 0 || k >= last {
+                self.recent.push_back(point);
+            } else {
+                self.release(Some(point));
+            }
         }
     }
 
@@ -282,3 +310,6 @@ pub(super) fn stress_field(model: &Model, load_factor: f64, state: &Standing) ->
     }
     Ok(StressField { load_factor, subblocks, roughness })
 }
+
+#[cfg(test)]
+mod tests;

@@ -14,7 +14,7 @@ use super::{
     Analysis, AnalysisError, CollapseReport, Governs, Note, PositionQuestion, PositionReport, Sweep, TaskReport,
     verdict,
 };
-use crate::budget::Budget;
+use crate::budget::{Budget, Stopped};
 use crate::limit::{StaticTheorem, UpperEnd};
 use crate::structure::{PointForce, Structure};
 use bound::Bound;
@@ -51,11 +51,15 @@ pub(super) fn find(question: &PositionQuestion, budget: &Budget) -> Result<Colla
 }
 
 /// Positions on the grid, and about how many forces there are at most at one.
-pub(super) fn size(question: &PositionQuestion) -> (usize, usize) {
+///
+/// # Errors
+/// When stopped.
+pub(super) fn size(question: &PositionQuestion, budget: &Budget) -> Result<(usize, usize), Stopped> {
     let coarse = question.sweeps.iter().map(|sweep| Sweep { step: (sweep.to - sweep.from) / 8.0, ..*sweep }).collect();
     let few = PositionQuestion { sweeps: coarse, ..question.clone() };
-    let forces = places(&few, 0).iter().map(|place| place.fixed.len() + place.scaled.len()).max();
-    (question.sweeps.iter().map(|sweep| sweep.parts() + 1).sum(), forces.unwrap_or(0))
+    let forces = places(&few, 0, budget).iter().map(|place| place.fixed.len() + place.scaled.len()).max();
+    budget.check()?;
+    Ok((question.sweeps.iter().map(|sweep| sweep.parts() + 1).sum(), forces.unwrap_or(0)))
 }
 
 struct Search<'q> {
@@ -71,7 +75,7 @@ impl<'q> Search<'q> {
     fn new(question: &'q PositionQuestion, budget: &'q Budget<'q>) -> Self {
         let structure = &question.analysis.structure;
         let strengths = structure.joints.iter().map(|joint| structure.strength_at(joint)).collect();
-        Search { question, budget, strengths, places: places(question, BETWEEN), bounds: Vec::new() }
+        Search { question, budget, strengths, places: places(question, BETWEEN, budget), bounds: Vec::new() }
     }
 
     fn structure(&self) -> &'q Structure {
@@ -80,6 +84,7 @@ impl<'q> Search<'q> {
 
     /// Solves the positions of the grid.
     fn scan(&mut self) -> Result<(), AnalysisError> {
+        self.budget.check()?;
         let grid: Vec<usize> = (0..self.places.len()).filter(|&i| self.places[i].on_grid).collect();
         for (done, &place) in grid.iter().enumerate() {
             self.budget.done(done, grid.len());
@@ -96,7 +101,7 @@ impl<'q> Search<'q> {
             if !least.is_finite() {
                 return Ok(());
             }
-            let Some((after, place)) = self.lowest_dip(least) else { return Ok(()) };
+            let Some((after, place)) = self.lowest_dip(least) else { return Ok(self.budget.check()?) };
             self.places.insert(after, place);
             self.solve(after)?;
         }
@@ -130,7 +135,7 @@ impl<'q> Search<'q> {
     /// Where a bound is least between two abscissae, by the golden section.
     fn dip(&self, bound: &Bound, [mut from, mut to]: [f64; 2], reversed: bool) -> Option<Place> {
         let golden = 0.5 * (5f64.sqrt() - 1.0);
-        let at = |x: f64| Place::new(self.question, x, reversed).map(|place| (bound.at(&place), place));
+        let at = |x: f64| Place::new(self.question, x, reversed, self.budget).map(|place| (bound.at(&place), place));
         let mut inner = [at(to - golden * (to - from))?, at(from + golden * (to - from))?];
         for _ in 0..NARROWED {
             let [left, right] = inner;

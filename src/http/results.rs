@@ -52,13 +52,13 @@ impl FromRequestParts<Service> for Asked {
 impl Asked {
     /// A part of the answer in the format the client wants, unless it has it already; `missing` says why an answer has none.
     async fn give(self, part: &str, offered: &[Format], missing: &str) -> Result<Response, Problem> {
-        let Asked { service, job: Job { id, state, .. }, f, headers, client } = self;
+        let Asked { service, job: Job { id, state, .. }, f, headers, .. } = &self;
         let none = |kind, detail: String| Err(Problem::of(kind, detail));
         match state {
             JobState::Successful => {}
             JobState::Failed(failure) => {
-                service.store.seen(id).await?;
-                return Err((&failure).into());
+                service.store.seen(*id).await?;
+                return Err(failure.into());
             }
             JobState::Dismissed => {
                 return none(kinds::DISMISSED, format!("job {id} was dismissed and has no result; submit it again"));
@@ -68,23 +68,11 @@ impl Asked {
                 return none(kinds::RESULT_NOT_READY, detail);
             }
         }
-        let format = accept::choose(f.as_deref(), &headers, offered)?;
+        let format = accept::choose(f.as_deref(), headers, offered)?;
         let version = Version::of((id, part, format));
-        let mut response = match version.known(&headers) {
+        let mut response = match version.known(headers) {
             Some(response) => response,
-            None => match service.store.part(id, part, rendering::kept_as(format)).await? {
-                Some(kept @ Part { body: Ok(_), .. }) if rendering::is_painted(format) => {
-                    let bytes = service.outgoing.hold(&client, service.painter.paint(kept, format).await?)?;
-                    version.mark(([(header::CONTENT_TYPE, format.content_type())], Body::from(bytes)))
-                }
-                Some(Part { body: Ok(bytes), packed_from }) => {
-                    let bytes = service.outgoing.hold(&client, bytes)?;
-                    let content_type = [(header::CONTENT_TYPE, format.content_type())];
-                    version.mark((content_type, body(bytes, packed_from, &headers)))
-                }
-                Some(Part { body: Err(reason), .. }) => return none(kinds::NO_SUCH_PART, reason),
-                None => return none(kinds::NO_SUCH_PART, missing.to_owned()),
-            },
+            None => version.mark(self.read(part, format, missing).await?),
         };
         if matches!(format, Format::Html | Format::Svg) {
             // What a client has written stands in them, and rules of style of their own.
@@ -94,6 +82,28 @@ impl Asked {
         }
         response.headers_mut().append(header::VARY, HeaderValue::from_static("accept, accept-encoding"));
         Ok(response)
+    }
+
+    /// A part of the answer in this format, as it is kept or painted from that.
+    async fn read(&self, part: &str, format: Format, missing: &str) -> Result<Response, Problem> {
+        let Asked { service, job, headers, client, .. } = self;
+        // Who waits for a turn holds nothing of the answer meanwhile.
+        let turn = match rendering::is_painted(format) {
+            true => Some(service.painter.turn(client).await?),
+            false => None,
+        };
+        let none = |reason: String| Problem::of(kinds::NO_SUCH_PART, reason);
+        let kept = service.store.part(job.id, part, rendering::kept_as(format)).await?;
+        let Part { body: kept, packed_from } = kept.ok_or_else(|| none(missing.to_owned()))?;
+        let kept = kept.map_err(none)?;
+        let written = match turn {
+            Some(turn) => {
+                let painted = turn.paint(Part { body: Ok(kept), packed_from }, format).await?;
+                Body::from(service.outgoing.hold(client, painted)?).into_response()
+            }
+            None => body(service.outgoing.hold(client, kept)?, packed_from, headers),
+        };
+        Ok(([(header::CONTENT_TYPE, format.content_type())], written).into_response())
     }
 }
 

@@ -45,7 +45,7 @@ pub use structure::{BodyBody, JointBody, LawWord, LoadOnBody, PassiveElementBody
 pub use survey_tolerance::{LimitBody, MovedPointBody, MovedPointColumns, SurveyToleranceBody};
 pub use updated::UpdatedBody;
 pub use width::{ScaledLoadBody, ThrustRangeBody};
-pub use words::MethodWord;
+pub use words::{KindWord, MethodWord};
 pub use worst_position::{PositionColumns, WorstPositionBody};
 
 use super::json::{NotFinite, line};
@@ -61,6 +61,8 @@ use utoipa::ToSchema;
 /// The answer to a request for one analysis of a structure.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct AnalysisResult {
+    /// What this is the answer of: it tells the answers from each other.
+    pub kind: KindWord,
     /// What happens to the structure, in one word.
     pub outcome: Outcome,
     /// How the load path was followed, as the request asks.
@@ -185,6 +187,7 @@ impl AnalysisResult {
         let favourable = favourable::note(request, &structure, report);
         let ties = ties::notes(request, &structure, report);
         Some(AnalysisResult {
+            kind: KindWord::Analysis,
             outcome: report.outcome,
             method: (&request.method).into(),
             unit: scale.unit.to_owned(),

@@ -216,6 +216,14 @@ fn what_cannot_be_is_refused() {
         assert!(found.iter().any(|fault| fault.pointer == pointer), "{set} = {value}: {found:?}");
         assert!(found.iter().all(|fault| fault.detail.len() > 20), "{found:?}");
     }
+    // Many positions of many axles are refused at once, not looked at one by one.
+    let mut many = request.clone();
+    many["arch"]["voussoirs"] = json!(1000);
+    many["analysis"]["worst_position"] = json!({"step_m": 0.01, "directions": "as_given"});
+    let axle = |k: i32| json!({"offset_m": 0.02 * f64::from(k), "force_n": 1000, "length_m": 0.3});
+    many["loads"][2]["load"]["vehicle"]["axles"] = (0..50).map(axle).collect();
+    let found = faults(&many);
+    assert!(found.len() == 1 && found[0].detail.contains("upper faces come to"), "{found:?}");
     let mut lacks = request.clone();
     lacks["loads"][2]["load"]["vehicle"].as_object_mut().unwrap().remove("effective_width_rule");
     assert_eq!(faults(&lacks)[0].pointer, format!("{load}/effective_width_rule"));

@@ -1,8 +1,12 @@
 //! Positions of the vehicles, with their loads and what is known of them.
 
 use super::super::{PositionPoint, PositionQuestion, Sweep};
+use crate::budget::Budget;
 use crate::structure::PointForce;
 use crate::structure::load::Load;
+
+/// Multiplications of finding what of an axle comes down on a face.
+const LOOK: usize = 50;
 
 /// The vehicles at one position.
 #[derive(Debug, Clone)]
@@ -23,13 +27,13 @@ pub(super) struct Place {
     pub found: Option<[Option<f64>; 2]>,
 }
 
-/// All positions of the grid, with so many between every two of them.
-pub(super) fn places(question: &PositionQuestion, between: usize) -> Vec<Place> {
+/// All positions of the grid, with so many between every two of them; fewer when stopped.
+pub(super) fn places(question: &PositionQuestion, between: usize, budget: &Budget) -> Vec<Place> {
     let of_sweep = |sweep: &Sweep| {
         let (parts, reversed) = (sweep.parts() * (between + 1), sweep.reversed);
         let place = move |i: usize| {
             let x = sweep.from + (sweep.to - sweep.from) * (i as f64 / parts as f64);
-            let place = Place::new(question, x, reversed)?;
+            let place = Place::new(question, x, reversed, budget)?;
             Some(Place { on_grid: i.is_multiple_of(between + 1), ..place })
         };
         (0..=parts).filter_map(place).collect::<Vec<_>>()
@@ -38,8 +42,10 @@ pub(super) fn places(question: &PositionQuestion, between: usize) -> Vec<Place> 
 }
 
 impl Place {
-    /// None where a vehicle does not fit the structure.
-    pub fn new(question: &PositionQuestion, x: f64, reversed: bool) -> Option<Self> {
+    /// None where a vehicle does not fit the structure, and when stopped.
+    pub fn new(question: &PositionQuestion, x: f64, reversed: bool, budget: &Budget) -> Option<Self> {
+        let axles: usize = question.vehicles.iter().map(|moving| moving.vehicle.patches().count()).sum();
+        budget.work(LOOK * axles * question.analysis.structure.surfaces.len()).ok()?;
         let [mut fixed, mut scaled] = [Vec::new(), Vec::new()];
         let (mut whole, mut arriving) = (0.0, 0.0);
         for moving in &question.vehicles {

@@ -199,3 +199,23 @@ fn every_direction_is_looked_at_and_a_fixed_axle_drives_along() {
         report.curve.iter().all(|point| point.load_factor().unwrap() >= worst.load_factor().unwrap() * (1.0 - 1e-8))
     );
 }
+
+#[test]
+fn positions_are_laid_out_no_longer_than_allowed() {
+    let (structure, fixed, surface) = bridge([6.55, 1.428, 0.22], 30, 4.5e6, 0.165);
+    let dispersal = Dispersal {
+        surface: SurfaceLine::level(surface),
+        distribution: Distribution::Boussinesq { cut_off: std::f64::consts::FRAC_PI_6 },
+    };
+    let question = question(structure, fixed, axles(&[[0.0, 1e4], [1.3, 5e3]], Some(dispersal)), 0.01, &[false]);
+    let asked = std::cell::Cell::new(0);
+    let stop = |_| {
+        asked.set(asked.get() + 1);
+        std::ops::ControlFlow::Break(())
+    };
+    let budget = Budget::new(&stop);
+    let mut search = Search::new(&question, &budget);
+    let all: usize = question.sweeps.iter().map(|sweep| (BETWEEN + 1) * sweep.parts() + 1).sum();
+    assert!(asked.get() == 1 && search.places.len() < all, "{} of {all} places", search.places.len());
+    assert!(search.scan().is_err() && size(&question, &budget).is_err());
+}

@@ -17,7 +17,8 @@ pub struct WorstPositionRequest {
     /// Last abscissa of the reference, m; above `from_m`. Left out: as far as any of it comes down there.
     #[schema(minimum = -1e5, maximum = 1e5)]
     pub to_m: Option<f64>,
-    /// Largest distance of two positions that are solved in any case, m. At most 2000 positions in all.
+    /// Largest distance of two positions that are solved in any case, m. At most 2000 positions in all; times axles times upper faces of
+    /// the structure at most 4,000,000.
     #[schema(minimum = 1e-6, maximum = 1e5)]
     pub step_m: f64,
     /// By how much the load factor may be lower in any mechanism found, as a share of the least one given.

@@ -2,6 +2,7 @@
 
 use super::plan::BeamPlanBody;
 use super::stress::SubblockColumns;
+use super::words::KindWord;
 use crate::collapse::BeamReport;
 use crate::wire::request::BeamRequest;
 use serde::Serialize;
@@ -10,6 +11,8 @@ use utoipa::ToSchema;
 /// The curved beam held against the theory of elasticity.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct BeamResult {
+    /// What this is the answer of: it tells the answers from each other.
+    pub kind: KindWord,
     /// Error e_N of eq. (5) of the paper, per cent.
     pub error_percent: f64,
     /// Strain energy per metre of width.
@@ -34,6 +37,7 @@ impl BeamResult {
     pub fn new(request: &BeamRequest, report: &BeamReport) -> Self {
         let [energy_j_per_m, exact_energy_j_per_m] = report.energy;
         BeamResult {
+            kind: KindWord::CurvedBeam,
             error_percent: 100.0 * report.error,
             energy_j_per_m,
             exact_energy_j_per_m,

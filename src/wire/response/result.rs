@@ -10,6 +10,11 @@ use utoipa::ToSchema;
 /// The answer to a request: of one analysis, of a safety curve or of the curved beam.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 #[serde(untagged)]
+#[schema(discriminator(property_name = "kind", mapping(
+    ("analysis" = "#/components/schemas/AnalysisResult"),
+    ("safety_curve" = "#/components/schemas/SafetyCurveResult"),
+    ("curved_beam" = "#/components/schemas/BeamResult"),
+)))]
 pub enum JobResult {
     /// Of one analysis of a structure.
     Analysis(Box<AnalysisResult>),

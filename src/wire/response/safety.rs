@@ -2,6 +2,7 @@
 
 use super::StructureBody;
 use super::assumptions::assumptions;
+use super::words::KindWord;
 use crate::collapse::{CrushingKind, Governs, Mode, Note, Reach, SafetyFactors, SafetyPoint, SafetyZone};
 use crate::wire::prose::in_its_words;
 use crate::wire::request::{Abscissa, AimRequest, AnalysisRequest, SafetyRequest};
@@ -80,6 +81,8 @@ impl SafetyBody {
 /// Safety factors over a list of abscissae.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct SafetyCurveResult {
+    /// What this is the answer of: it tells the answers from each other.
+    pub kind: KindWord,
     /// Unit of the abscissae.
     pub unit: String,
     /// Which kind of crushing counts.
@@ -113,6 +116,7 @@ impl SafetyCurveResult {
             CurvePointBody { abscissa, safety }
         };
         Some(SafetyCurveResult {
+            kind: KindWord::SafetyCurve,
             unit: curve.unit.to_string(),
             crushing: *crushing,
             points: points.iter().zip(&curve.abscissae).map(body).collect(),

@@ -4,6 +4,18 @@ use crate::wire::request::MethodRequest;
 use serde::Serialize;
 use utoipa::ToSchema;
 
+/// What an answer is of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum KindWord {
+    /// Of one analysis of a structure.
+    Analysis,
+    /// Of a safety curve.
+    SafetyCurve,
+    /// Of the curved beam.
+    CurvedBeam,
+}
+
 /// How the load path was read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]

@@ -12,6 +12,8 @@ use crate::wire::request::{
 
 /// Most positions of the grid.
 const MOST_POSITIONS: usize = 2000;
+/// Most looks at what of an axle comes down on a face, at all of them: some tenths of a second.
+const MOST_LOOKS: usize = 4_000_000;
 
 const HERE: &str = "/analysis/worst_position";
 
@@ -121,6 +123,13 @@ fn check_positions(
     let positions: usize = sweeps.iter().map(|sweep| sweep.parts() + 1).sum();
     let detail = format!("{positions} positions are too many: keep to {MOST_POSITIONS} by a larger step_m");
     if !faults.require(positions <= MOST_POSITIONS, format!("{HERE}/step_m"), detail) {
+        return;
+    }
+    let axles: usize = moving.iter().map(|moving| moving.vehicle.patches().count()).sum();
+    let looks = positions * axles * structure.surfaces.len();
+    let detail =
+        format!("positions times axles times upper faces come to {looks}: keep to {MOST_LOOKS} by a larger step_m");
+    if !faults.require(looks <= MOST_LOOKS, format!("{HERE}/step_m"), detail) {
         return;
     }
     let numbers = vehicles(request).map(|(i, _)| i).filter(|&i| moves(&request.loads[i]));
