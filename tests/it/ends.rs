@@ -250,6 +250,15 @@ fn forces_over_the_width_are_those_per_metre_times_the_width() {
         assert!(close(4.0 * number(thrust, per_metre), number(thrust, over_all), 1e-12), "{thrust}");
     }
     assert!(text(&request).contains("scaled loads at collapse (0, -"), "{}", text(&request));
+    // A vehicle has a width of its own.
+    let mut driven = request.clone();
+    let vehicle = json!({
+        "standard": "cs454_single", "length_m": 0.25, "effective_width_m": 2, "effective_width_rule": "one lane", "x_m": 0, "dispersal": {}
+    });
+    driven["loads"][1]["load"] = json!({ "vehicle": vehicle });
+    driven["backfill"] = json!({"surface_height_m": 11});
+    let load = &solved(&driven)["ends"][0]["scaled_load"];
+    assert!(load["y_kn"].is_null() && load["x_kn"].is_null() && number(load, "/y_kn_per_m") < 0.0, "{load}");
     // What falls as built has no load at which it falls.
     let mut thin = request.clone();
     thin["arch"]["thickness"]["constant_m"] = json!(0.9);

@@ -278,3 +278,17 @@ fn what_is_no_single_force_may_have_any_intensity() {
     request["loads"][1]["load"] = patch;
     assert!(!notes(&request).contains("Is the unit right?"));
 }
+
+#[test]
+fn moving_geometry_is_said_to_leave_out_the_crushing_that_governs() {
+    let mut request = semicircle(27, &json!({"geometry": "updated"}));
+    let soft = text(&request);
+    assert!(soft.contains("Moving geometry leaves out crushing, and no figure has both: alone it takes"), "{soft}");
+    assert!(soft.contains("of the first-order load of stone that does not crush"), "{soft}");
+    // Stone that hardly gives, and stone that does not crush.
+    request["stone"] = json!({"youngs_modulus_pa": 1e12});
+    assert!(!text(&request).contains("no figure has both"));
+    request["stone"] = json!({"compressive_strength_pa": 1e30});
+    let strong = text(&request);
+    assert!(!strong.contains("no figure has both") && !strong.contains("first-order load of stone"), "{strong}");
+}

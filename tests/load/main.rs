@@ -7,6 +7,7 @@ mod cancel;
 mod client;
 mod clients;
 mod connections;
+mod crowd;
 #[cfg(feature = "postgres")]
 #[path = "../it/common/database.rs"]
 mod database;
@@ -48,6 +49,7 @@ const SCENARIOS: &[(&str, Scenario)] = &[
     ("connections", connections::run),
     ("sigterm", sigterm::run),
     ("heaviest", heaviest::run),
+    ("crowd", crowd::run),
     #[cfg(feature = "postgres")]
     ("shared", shared::run),
 ];

@@ -54,7 +54,7 @@ pub enum LoadRequest {
     PatchLoad(PatchLoad),
     /// Axles at fixed distances on an effective width, given one by one or as a group of CS 454; on and beyond the structure.
     Vehicle(VehicleLoad),
-    /// A force in any direction at a point of a block; of an arch the block is `voussoir 3`.
+    /// A force in any direction at a point of a block; those of an arch are called `voussoir 3`.
     PointForce(PointForceLoad),
     /// A tie of a given force between two points of blocks.
     Tie(TieLoad),
@@ -62,11 +62,11 @@ pub enum LoadRequest {
     BodyAcceleration(BodyAcceleration),
 }
 
-/// Weight of the stones from their density, with g = 9.81 m/s2. Without this load they weigh nothing. It has no fields.
+/// Weight of the stones, given once; without it they weigh nothing. It comes from their density, with g = 9.81 m/s2, and has no fields.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct SelfWeight {}
 
-/// Horizontal pressure in bands of height, towards the arch, on the vertical projection of the extrados.
+/// Horizontal pressure in bands of height, on both flanks or one. It acts towards the arch, on the vertical projection of the extrados.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct LateralPressure {
     /// Bands of height; where bands overlap they add up.
@@ -91,7 +91,7 @@ pub struct PressureBand {
     pub pressure_pa: f64,
 }
 
-/// A force at one point of the extrados: at an abscissa, or in the middle of a voussoir.
+/// A force at one point of the extrados, downwards or inclined. The point is at an abscissa, or in the middle of a voussoir.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct PointLoad {
     /// Force per metre of width, N/m, downwards positive; not 0.
@@ -108,7 +108,7 @@ pub struct PointLoad {
     pub voussoir: Option<usize>,
 }
 
-/// A force in any direction at a point of a block.
+/// A force in any direction at a point of a block; those of an arch are called `voussoir 3`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct PointForceLoad {
     /// The block's name: that of `blocks.polygons`, or of a body of the bridge or a voussoir of the arch as `structure.bodies` of an

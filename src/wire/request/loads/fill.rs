@@ -10,11 +10,12 @@ use utoipa::ToSchema;
 /// A `lateral_ratio` this close to that of the friction angle given with it is the same.
 const SAME_RATIO: f64 = 1e-3;
 
-/// Fill and embankment on the extrados; beside a `backfill` an embankment only, which stands on that. They press, eq. (7) of the
-/// paper: `q_v = (H - y) g rho_f + h_e g rho_e` on the plan projection of the extrados and `q_h = K q_v` on its vertical
-/// projection. In a `body_acceleration` they push with their mass as well: the column over every part of the extrados that looks
-/// up, fill and embankment each at half its own height, carried by the stone below; what lies beside the arch does not push.
-/// Scaled fill in a scaled acceleration is refused.
+/// Fill and embankment on the extrados and on top of backing, pressing down and, if asked, sideways on the flanks of the arch;
+/// never on the plumb backs of abutments and backing. A road that is not level, layers and dispersal belong in `backfill`. Beside
+/// one there is an embankment only, which stands on it. They press, eq. (7) of the paper: `q_v = (H - y) g rho_f + h_e g rho_e` on
+/// the plan projection of the extrados and `q_h = K q_v` on its vertical projection. In a `body_acceleration` they push with their
+/// mass as well: the column over every part of the extrados that looks up, fill and embankment each at half its own height, carried
+/// by the stone below; what lies beside the arch does not push. Scaled fill in a scaled acceleration is refused.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(default)]
 pub struct FillPressure {

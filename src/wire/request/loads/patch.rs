@@ -8,8 +8,8 @@ use crate::wire::request::BackfillRequest;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-/// A vertical force spread evenly over a plan width. Without `dispersal` it stands on the extrados itself: every voussoir takes the
-/// share that lies over it, in the middle of that share on its extrados side.
+/// A vertical force spread over a width in plan: of the extrados or, with `dispersal`, of the surface of fill. On the extrados itself
+/// every voussoir takes the share that lies over it, in the middle of that share on its extrados side.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct PatchLoad {
     /// Abscissa of the middle, m.

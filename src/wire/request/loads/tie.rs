@@ -8,9 +8,9 @@ use crate::wire::request::{Point, Text};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-/// A tie that pulls two points of blocks towards each other with a given force, on the straight line between them: that of a jack, of
-/// prestress, or the one at which a ductile bar yields. It neither stiffens the structure nor grows as that moves. A note tells
-/// whether it is stretched as the structure falls. Scaled, it answers how much a tie has to pull.
+/// A tie of a given force between two points of blocks. It pulls them towards each other, on the straight line between them; its force
+/// is that of a jack, of prestress, or the one at which a ductile bar yields. It neither stiffens the structure nor grows as that
+/// moves. A note tells whether it is stretched as the structure falls. Scaled, it answers how much a tie has to pull.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct TieLoad {
     /// Its force per metre of width, N/m.

@@ -9,8 +9,9 @@ use crate::wire::prose::Digits;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-/// A vehicle: axles at fixed distances, given one by one or as a group of a standard. Every axle is a strip as of a `patch_load`;
-/// what of it lies beyond the springings goes to the ground. Its force over the effective width is its force per metre of width.
+/// Axles at fixed distances on an effective width, given one by one or as a group of CS 454; on and beyond the structure. Every axle
+/// is a strip as of a `patch_load`; what of it lies beyond the springings goes to the ground. Its force over the effective width is its
+/// force per metre of width.
 /// Where some axles grow with the load factor and others do not, they are two entries of `loads`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct VehicleLoad {
