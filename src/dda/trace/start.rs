@@ -10,7 +10,7 @@ impl<'a> Tracer<'a> {
     /// A tracer at parameter 0 with zero displacements, every contact closed and stuck.
     ///
     /// `size` is the assembly's extent in m, `load_scale` a load in N/m (its weight) that residuals are measured against.
-    /// The drive must be in equilibrium there: `base` balances the offset's contact forces (see [`covering`]).
+    /// The drive must be in equilibrium there: `base` balances the offset's contact forces (see [`covering`](super::covering)).
     ///
     /// `budget` is asked between the calls of what sees a path go by, wherever it takes long from one to the next.
     pub fn new(assembly: &'a Assembly, drive: Drive, size: f64, load_scale: f64, budget: &'a Budget<'a>) -> Self {
