@@ -30,7 +30,10 @@ impl Tracer<'_> {
             let Some(corrected) = self.corrected(worst) else { return false };
             worst = corrected;
         }
-        self.worst_residual = self.worst_residual.max(worst / self.loads_grown());
+        // Loads that have grown make a share of them less, so this is no new worst where it is none already.
+        if worst > self.worst_residual {
+            self.worst_residual = self.worst_residual.max(worst / self.loads_grown());
+        }
         worst < GIVE_UP
     }
 
@@ -75,9 +78,9 @@ impl Tracer<'_> {
         if found.is_err() {
             return f64::INFINITY;
         }
-        // `max` passes over NaN, which must not pass for equilibrium.
-        let entries = self.residual.iter().map(|r| if r.is_finite() { r.abs() } else { f64::INFINITY });
-        entries.fold(0.0, f64::max) / self.load_scale
+        // NaN must not pass for equilibrium.
+        let finite = self.residual.iter().fold(true, |all, r| all & r.is_finite());
+        if finite { largest_of(&self.residual) / self.load_scale } else { f64::INFINITY }
     }
 
     fn find_moving_residual(&mut self, moving: &mut Placed) -> Result<(), Stopped> {
@@ -93,9 +96,8 @@ impl Tracer<'_> {
     }
 
     fn find_first_order_residual(&mut self) -> Result<(), Stopped> {
-        for (i, r) in self.residual.iter_mut().enumerate() {
-            *r = self.drive.base[i] + self.drive.rate[i] * self.parameter;
-        }
+        let loads = self.drive.base.iter().zip(&self.drive.rate).map(|(base, rate)| base + rate * self.parameter);
+        self.residual.iter_mut().zip(loads).for_each(|(r, load)| *r = load);
         self.assembly.subtract_elastic(&self.displacements, &mut self.residual, self.budget)?;
         for p in 0..self.states.len() {
             let ([gap, slip], settling) = (self.assembly.gap(p, &self.displacements), self.settling[p]);
