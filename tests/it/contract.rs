@@ -206,10 +206,12 @@ fn mutations(body: &Value, place: &str) -> Vec<Value> {
 #[test]
 fn schema_and_reader_refuse_the_same() {
     let validator = validator();
-    let (mut count, mut refused) = (0, 0);
+    let (mut count, mut refused, mut spoilt) = (0, 0, BTreeSet::new());
     for body in bodies() {
         let mut all = Vec::new();
         places(&body, "", &mut all);
+        // What another body has just so was spoilt there.
+        all.retain(|place| spoilt.insert(format!("{place} {}", body.pointer(place).unwrap())));
         for place in all {
             for request in mutations(&body, &place) {
                 let text = request.to_string();
