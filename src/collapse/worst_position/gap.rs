@@ -8,7 +8,7 @@ use crate::budget::Budget;
 const PARTS: usize = 5;
 /// What is no more than this share above the least load factor there may dip below it between two of them.
 const MAY_DIP: f64 = 0.02;
-/// Narrowings, by the golden section, of where the load factor may be lowest: to 2e-4 of a gap.
+/// Narrowings, by the golden section, of where the load factor may be lowest: to 5e-4 of a gap.
 const NARROWED: usize = 14;
 
 /// Between two neighbouring positions a and b that were solved.
@@ -38,12 +38,12 @@ pub(super) struct Estimate {
     pub place: Place,
     /// Where in the gap it is, 0 to 1.
     t: f64,
-    /// The load factor is hardly lower.
+    /// The load factor is not lower, as far as the mechanisms of both ends tell.
     pub load_factor: f64,
 }
 
 impl<'q> Gap<'q> {
-    /// None where nothing is known of an end, they are none of the same direction, or neither load factor has an end.
+    /// None where nothing is known of an end, the two are of different directions, or neither load factor has an end.
     pub fn new(question: &'q PositionQuestion, ends: [&'q Place; 2], budget: &'q Budget<'q>) -> Option<Self> {
         let [a, b] = ends;
         let solved = [a.load_factor()?, b.load_factor()?];
@@ -62,6 +62,7 @@ impl<'q> Gap<'q> {
         self.narrowed([lowest.t - part(1), lowest.t + part(1)])
     }
 
+    /// At this share of the way from one end to the other.
     pub fn at(&self, t: f64) -> Option<Estimate> {
         let [a, b] = self.ends;
         let place = Place::new(self.question, between([a.x, b.x], t), a.reversed, self.budget)?;

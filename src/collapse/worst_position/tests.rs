@@ -143,7 +143,7 @@ fn the_worst_position_is_that_of_a_fine_scan() {
     assert!(all <= 95 && most <= Some(&9), "{all} positions solved beside the grid, at most {most:?} of one bridge");
 }
 
-/// A bridge and the two axles that drive over it, as far apart as `step`.
+/// Two axles that drive over a bridge in such steps.
 fn bogie(step: f64) -> PositionQuestion {
     let (structure, fixed, surface) = bridge([6.55, 1.428, 0.22], 30, 4.5e6, 0.165);
     let dispersal = Dispersal {
