@@ -75,7 +75,7 @@ const LOST: usize = 16;
 const LIMIT: [usize; 2] = [8000, 30_000];
 /// Loops up to which there are few.
 const FEW_LOOPS: usize = 19;
-/// Bytes of the places between two positions of vehicles, for every force, and of the mechanisms found at one, for every joint; and
+/// Bytes of the place between two positions of vehicles, for every force, and of the mechanisms found at one, for every joint; and
 /// multiplications of limit analysis there for every joint, at least.
 const PLACE: usize = 400;
 const MOTION: usize = 60;

@@ -14,7 +14,7 @@ pub struct PositionQuestion {
     pub pieces: Vec<usize>,
     /// Where it is looked for.
     pub sweeps: Vec<Sweep>,
-    /// How much lower than the one found the least load factor may be, as a share of it.
+    /// How much lower than the one found the least load factor may be by what mechanisms say of positions between, as a share of it.
     pub tolerance: f64,
 }
 

@@ -1,11 +1,11 @@
 //! The worst position of vehicles: where the load factor of collapse is least.
 //!
-//! Limit analysis alone looks for it: every position on a grid is solved, and with it a mechanism is found. The load factor at
-//! which that mechanism moves under the vehicles at any other position is an upper bound of the load factor there (kinematic
-//! theorem), for the price of the loads' work. Positions between those of the grid are solved only where such a bound is lower than
-//! the least load factor found so far, so that every one that is solved lowers it. Then the analysis is done at the worst position.
+//! Limit analysis alone looks for it: every position on a grid is solved, and with it a mechanism is found. What the loads of
+//! positions between do in the mechanisms on either side tells how low the load factor may be there. Where it may be lower than the
+//! least found so far it is solved, and so on. Then the analysis is done at the worst position.
 
-mod bound;
+mod gap;
+mod mechanism;
 mod places;
 
 use super::discretise::Discretisation;
@@ -17,19 +17,17 @@ use super::{
 use crate::budget::{Budget, Stopped};
 use crate::limit::{StaticTheorem, UpperEnd};
 use crate::structure::{PointForce, Structure};
-use bound::Bound;
+use gap::{Estimate, Gap};
+use mechanism::Mechanism;
 use places::{Place, places};
 
-/// Positions between two of the grid at which bounds are looked at.
-const BETWEEN: usize = 4;
-/// A bound that is no more than this share above the least load factor may dip below it between two such positions.
-const MAY_DIP: f64 = 0.02;
-/// Halvings, by the golden section, of where a bound dips.
-const NARROWED: usize = 14;
-/// Most positions besides the grid; seen: ten.
+/// Between positions no farther apart than this share of the grid's step nothing is looked for: where an axle leaps from body to body
+/// what is said of the two sides of the leap would never agree.
+const NARROWEST: f64 = 1e-3;
+/// Most positions besides the grid; seen: twelve.
 const MOST_REFINED: usize = 500;
-/// Multiplications of a force's work.
-const WORK: usize = 8;
+/// Multiplications of a force's work in the mechanisms of a gap.
+const WORK: usize = 200;
 /// Load factors that differ by this share are the same: of equal ones the leftmost counts.
 const SAME: f64 = 1e-9;
 
@@ -37,12 +35,12 @@ const SAME: f64 = 1e-9;
 pub(super) fn find(question: &PositionQuestion, budget: &Budget) -> Result<CollapseReport, AnalysisError> {
     let mut search = Search::new(question, budget);
     search.scan()?;
-    search.refine()?;
+    let tolerance = search.refine()?;
     let (worst, report) = search.report();
     let analysis = search.loaded(&search.places[worst]);
     let mut answer = verdict::run(&analysis, &mut Discretisation::new(budget))?;
     let unknown = report.curve.iter().filter(|point| point.instability.is_none() || point.crushing.is_none()).count();
-    answer.notes.push(Note::PositionsBetween { solved: report.curve.len(), tolerance: question.tolerance });
+    answer.notes.push(Note::PositionsBetween { solved: report.curve.len(), tolerance });
     answer.notes.extend((unknown > 0).then_some(Note::PositionsUnknown(unknown)));
     let slides = answer.end.as_ref().is_some_and(|end| end.mechanism.slips());
     answer.notes.extend(slides.then_some(Note::PositionsSlide));
@@ -57,7 +55,7 @@ pub(super) fn find(question: &PositionQuestion, budget: &Budget) -> Result<Colla
 pub(super) fn size(question: &PositionQuestion, budget: &Budget) -> Result<(usize, usize), Stopped> {
     let coarse = question.sweeps.iter().map(|sweep| Sweep { step: (sweep.to - sweep.from) / 8.0, ..*sweep }).collect();
     let few = PositionQuestion { sweeps: coarse, ..question.clone() };
-    let forces = places(&few, 0, budget).iter().map(|place| place.fixed.len() + place.scaled.len()).max();
+    let forces = places(&few, budget).iter().map(Place::forces).max();
     budget.check()?;
     Ok((question.sweeps.iter().map(|sweep| sweep.parts() + 1).sum(), forces.unwrap_or(0)))
 }
@@ -66,16 +64,15 @@ struct Search<'q> {
     question: &'q PositionQuestion,
     budget: &'q Budget<'q>,
     strengths: Vec<f64>,
-    /// Of every direction those from left to right.
+    /// Of every direction those of the grid from left to right, then those between as they are solved.
     places: Vec<Place>,
-    bounds: Vec<Bound>,
 }
 
 impl<'q> Search<'q> {
     fn new(question: &'q PositionQuestion, budget: &'q Budget<'q>) -> Self {
         let structure = &question.analysis.structure;
         let strengths = structure.joints.iter().map(|joint| structure.strength_at(joint)).collect();
-        Search { question, budget, strengths, places: places(question, BETWEEN, budget), bounds: Vec::new() }
+        Search { question, budget, strengths, places: places(question, budget) }
     }
 
     fn structure(&self) -> &'q Structure {
@@ -85,90 +82,67 @@ impl<'q> Search<'q> {
     /// Solves the positions of the grid.
     fn scan(&mut self) -> Result<(), AnalysisError> {
         self.budget.check()?;
-        let grid: Vec<usize> = (0..self.places.len()).filter(|&i| self.places[i].on_grid).collect();
-        for (done, &place) in grid.iter().enumerate() {
-            self.budget.done(done, grid.len());
+        let grid = self.places.len();
+        for place in 0..grid {
+            self.budget.done(place, grid);
             self.budget.ask()?;
             self.solve(place)?;
         }
         Ok(())
     }
 
-    /// Solves positions between those of the grid until no bound is lower than the least load factor, to the tolerance.
-    fn refine(&mut self) -> Result<(), AnalysisError> {
+    /// Solves positions between those of the grid until between no two the load factor may be lower than the least by more than the
+    /// tolerance. By what share of it it still may be.
+    fn refine(&mut self) -> Result<f64, AnalysisError> {
+        let tolerance = self.question.tolerance;
+        let known: Vec<usize> = (0..self.places.len()).filter(|&i| self.places[i].load_factor().is_some()).collect();
+        let mut gaps = Vec::new();
+        for pair in known.windows(2) {
+            gaps.extend(self.gap([pair[0], pair[1]])?);
+        }
         for _ in 0..MOST_REFINED {
-            let Some(least) = self.worst().and_then(|worst| self.places[worst].load_factor()) else { return Ok(()) };
-            if !least.is_finite() {
-                return Ok(());
+            let Some((lowest, off)) = self.lowest(&gaps) else { return Ok(tolerance) };
+            if off <= tolerance {
+                return Ok(tolerance);
             }
-            let Some((after, place)) = self.lowest_dip(least) else { return Ok(self.budget.check()?) };
-            self.places.insert(after, place);
-            self.solve(after)?;
+            let ([from, to], estimate) = gaps.swap_remove(lowest);
+            let between = self.places.len();
+            self.places.push(estimate.place);
+            self.solve(between)?;
+            gaps.extend(self.gap([from, between])?);
+            gaps.extend(self.gap([between, to])?);
         }
-        Ok(())
+        Ok(self.lowest(&gaps).map_or(tolerance, |(_, off)| off.max(tolerance)))
     }
 
-    /// Where some bound is lowest, if that is lower than the least load factor by more than the tolerance; and behind which
-    /// places it stands.
-    fn lowest_dip(&self, least: f64) -> Option<(usize, Place)> {
-        let bar = least - self.question.tolerance * least.abs();
-        let mut lowest: Option<(f64, usize, Place)> = None;
-        for i in 0..self.places.len() {
-            let Some((bound, value)) = self.places[i].bound else { continue };
-            let same = |j: usize| self.places.get(j).filter(|place| place.reversed == self.places[i].reversed);
-            let beside = [i.checked_sub(1).and_then(same), same(i + 1)];
-            let higher =
-                |place: &Option<&Place>| place.and_then(|place| place.bound).is_none_or(|(_, other)| other >= value);
-            if value > least + MAY_DIP * least.abs() || !beside.iter().all(higher) {
-                continue;
-            }
-            let ends = beside.map(|place| place.map_or(self.places[i].x, |place| place.x));
-            let Some(dip) = self.dip(&self.bounds[bound], ends, self.places[i].reversed) else { continue };
-            let value = self.bounds[bound].at(&dip);
-            if value < bar && lowest.as_ref().is_none_or(|(other, ..)| is_less(value, *other)) {
-                lowest = Some((value, if dip.x < self.places[i].x { i } else { i + 1 }, dip));
-            }
-        }
-        lowest.map(|(_, after, place)| (after, place))
+    /// Two neighbouring places, and where between them the load factor may be lowest; none where nothing is to be looked for.
+    fn gap(&self, ends: [usize; 2]) -> Result<Option<([usize; 2], Estimate)>, AnalysisError> {
+        let [from, to] = ends.map(|end| &self.places[end]);
+        self.budget.work(WORK * (from.forces() + to.forces()))?;
+        let steps = self.question.sweeps.iter().map(|sweep| (sweep.to - sweep.from) / sweep.parts() as f64);
+        let step = steps.fold(f64::INFINITY, f64::min);
+        let Some(least) = self.least().filter(|_| to.x - from.x > NARROWEST * step) else { return Ok(None) };
+        let lowest = Gap::new(self.question, [from, to], self.budget).and_then(|gap| gap.lowest(least));
+        self.budget.check()?;
+        Ok(lowest.map(|lowest| (ends, lowest)))
     }
 
-    /// Where a bound is least between two abscissae, by the golden section.
-    fn dip(&self, bound: &Bound, [mut from, mut to]: [f64; 2], reversed: bool) -> Option<Place> {
-        let golden = 0.5 * (5f64.sqrt() - 1.0);
-        let at = |x: f64| Place::new(self.question, x, reversed, self.budget).map(|place| (bound.at(&place), place));
-        let mut inner = [at(to - golden * (to - from))?, at(from + golden * (to - from))?];
-        for _ in 0..NARROWED {
-            let [left, right] = inner;
-            inner = if left.0 <= right.0 {
-                to = right.1.x;
-                [at(to - golden * (to - from))?, left]
-            } else {
-                from = left.1.x;
-                [right, at(from + golden * (to - from))?]
-            };
-        }
-        let [left, right] = inner;
-        Some(if left.0 <= right.0 { left.1 } else { right.1 })
+    /// Which gap has the lowest estimate, and by what share that is below the least load factor.
+    fn lowest(&self, gaps: &[([usize; 2], Estimate)]) -> Option<(usize, f64)> {
+        let least = self.least()?;
+        let load_factor = |i: usize| gaps[i].1.load_factor;
+        let lowest = (0..gaps.len()).min_by(|&a, &b| load_factor(a).total_cmp(&load_factor(b)))?;
+        Some((lowest, 1.0 - load_factor(lowest) / least))
     }
 
-    /// Finds the load factors of a place, and bounds of all others.
+    /// Finds the load factors of a place, and in which mechanisms it collapses.
     fn solve(&mut self, place: usize) -> Result<(), AnalysisError> {
-        let [instability, crushing] = self.ends(&self.places[place])?;
-        let value = |end: &Option<UpperEnd>| end.as_ref().map(|(load_factor, _)| *load_factor);
-        self.places[place].found = Some([value(&instability), value(&crushing)]);
-        for (load_factor, motion) in [instability, crushing].into_iter().flatten() {
-            let Some(motion) = motion else { continue };
-            let bound = Bound::new(self.structure(), &self.question.analysis, &self.places[place], load_factor, motion);
-            let number = self.bounds.len();
-            self.budget.work(self.places.iter().map(|place| WORK * (place.scaled.len() + place.fixed.len())).sum())?;
-            self.places.iter_mut().for_each(|place| place.lower(number, bound.at(place)));
-            self.bounds.push(bound);
-        }
-        // A place that was inserted has not seen the others.
-        for number in 0..self.bounds.len() {
-            let value = self.bounds[number].at(&self.places[place]);
-            self.places[place].lower(number, value);
-        }
+        let ends = self.ends(&self.places[place])?;
+        let [_, scaled] = self.forces(&self.places[place]);
+        let mechanism = |end: &UpperEnd| Some(Mechanism::new(self.structure(), end.0, &scaled, end.1.clone()?));
+        let mechanisms = ends.iter().flatten().filter_map(mechanism).collect();
+        self.places[place].found = Some(ends.map(|end| end.map(|(load_factor, _)| load_factor)));
+        self.places[place].mechanisms = mechanisms;
         Ok(())
     }
 
@@ -202,7 +176,7 @@ impl<'q> Search<'q> {
         Analysis { fixed, scaled, ..self.question.analysis.clone() }
     }
 
-    /// The place of the least load factor; none where it is known at none.
+    /// The place of the least load factor, the leftmost of equal ones; none where it is known at none.
     fn worst(&self) -> Option<usize> {
         let mut worst: Option<(usize, f64)> = None;
         for (i, place) in self.places.iter().enumerate() {
@@ -214,9 +188,17 @@ impl<'q> Search<'q> {
         worst.map(|(i, _)| i)
     }
 
+    /// The least load factor, where that is one: loads bring down what stands without them.
+    fn least(&self) -> Option<f64> {
+        let least = self.worst().and_then(|worst| self.places[worst].load_factor());
+        least.filter(|least| *least > 0.0 && least.is_finite())
+    }
+
     /// The worst place, and what is told of all that were solved. Where no load factor has an end, the place on which most of the
     /// vehicles stands.
-    fn report(&self) -> (usize, PositionReport) {
+    fn report(&mut self) -> (usize, PositionReport) {
+        let first = self.places.first().is_some_and(|place| place.reversed);
+        self.places.sort_by(|a, b| (a.reversed != first).cmp(&(b.reversed != first)).then(a.x.total_cmp(&b.x)));
         let finite = self.worst().filter(|&worst| self.places[worst].load_factor() != Some(f64::INFINITY));
         let most =
             || (0..self.places.len()).max_by(|&a, &b| self.places[a].arriving.total_cmp(&self.places[b].arriving));

@@ -122,11 +122,11 @@ pub enum Note {
         /// Bodies that press there on what they have no joint with, or across the end of a joint.
         bodies: Vec<usize>,
     },
-    /// The worst position is looked for on a grid, and by mechanisms between.
+    /// The worst position is looked for on a grid, and where mechanisms say so between.
     PositionsBetween {
         /// Positions solved.
         solved: usize,
-        /// How much lower the least load factor may be in the mechanisms found, as a share of it.
+        /// How much lower it may be between, by what the mechanisms on either side say, as a share of the least load factor.
         tolerance: f64,
     },
     /// At so many positions rounding kept limit analysis from one of its two answers, or from both.

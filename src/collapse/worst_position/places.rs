@@ -1,6 +1,7 @@
 //! Positions of the vehicles, with their loads and what is known of them.
 
 use super::super::{PositionPoint, PositionQuestion, Sweep};
+use super::Mechanism;
 use crate::budget::Budget;
 use crate::structure::PointForce;
 use crate::structure::load::Load;
@@ -14,29 +15,21 @@ pub(super) struct Place {
     /// Abscissa of their reference, m.
     pub x: f64,
     pub reversed: bool,
-    /// Whether its curve is told of it in any case.
-    pub on_grid: bool,
     /// Their forces that stay, and that are scaled.
     pub fixed: Vec<PointForce>,
     pub scaled: Vec<PointForce>,
     /// Share of their force that comes down on the structure.
     pub arriving: f64,
-    /// The lowest bound of the load factor, and which that is.
-    pub bound: Option<(usize, f64)>,
     /// Load factors of collapse of stone that does not crush and of stone that does, where they were looked for and found.
     pub found: Option<[Option<f64>; 2]>,
+    /// In which it collapses at these.
+    pub mechanisms: Vec<Mechanism>,
 }
 
-/// All positions of the grid, with so many between every two of them; fewer when stopped.
-pub(super) fn places(question: &PositionQuestion, between: usize, budget: &Budget) -> Vec<Place> {
+/// All positions of the grid; fewer when stopped.
+pub(super) fn places(question: &PositionQuestion, budget: &Budget) -> Vec<Place> {
     let of_sweep = |sweep: &Sweep| {
-        let (parts, reversed) = (sweep.parts() * (between + 1), sweep.reversed);
-        let place = move |i: usize| {
-            let x = sweep.from + (sweep.to - sweep.from) * (i as f64 / parts as f64);
-            let place = Place::new(question, x, reversed, budget)?;
-            Some(Place { on_grid: i.is_multiple_of(between + 1), ..place })
-        };
-        (0..=parts).filter_map(place).collect::<Vec<_>>()
+        sweep.positions().filter_map(|x| Place::new(question, x, sweep.reversed, budget)).collect::<Vec<_>>()
     };
     question.sweeps.iter().flat_map(of_sweep).collect()
 }
@@ -56,14 +49,12 @@ impl Place {
             arriving += forces.iter().map(|force| force.force.y.abs()).sum::<f64>();
             if moving.scaled { &mut scaled } else { &mut fixed }.extend(forces);
         }
-        Some(Place { x, reversed, on_grid: false, fixed, scaled, arriving: arriving / whole, bound: None, found: None })
+        Some(Place { x, reversed, fixed, scaled, arriving: arriving / whole, found: None, mechanisms: Vec::new() })
     }
 
-    /// Takes a bound where it is lower.
-    pub fn lower(&mut self, number: usize, value: f64) {
-        if value.is_finite() && self.bound.is_none_or(|(_, lowest)| value < lowest) {
-            self.bound = Some((number, value));
-        }
+    /// How many forces its vehicles have.
+    pub fn forces(&self) -> usize {
+        self.fixed.len() + self.scaled.len()
     }
 
     /// The lower of the two load factors that were found.

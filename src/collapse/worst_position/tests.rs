@@ -108,6 +108,7 @@ fn value(question: &PositionQuestion, x: f64, reversed: bool) -> f64 {
 #[test]
 fn the_worst_position_is_that_of_a_fine_scan() {
     let dice = &mut Dice(17);
+    let mut beside = Vec::new();
     for number in 0..50 {
         let span = dice.between(3.0, 12.0);
         let shape = [span, span * dice.between(0.15, 0.45), span * dice.between(0.04, 0.09)];
@@ -134,37 +135,109 @@ fn the_worst_position_is_that_of_a_fine_scan() {
             (ours / attained - 1.0).abs() < 1e-9 && ours > scanned * (1.0 - 1e-3),
             "bridge {number}: {ours}, {attained}"
         );
-        // Bounds leave little to solve beside the grid, whose positions are a hundred times as far apart as those of the scan.
         let grid: usize = question.sweeps.iter().map(|sweep| sweep.parts() + 1).sum();
-        assert!(
-            report.curve.len() <= grid + 5,
-            "bridge {number}: {} positions solved, {grid} on the grid",
-            report.curve.len()
-        );
+        beside.push(report.curve.len() - grid);
     }
+    // Little is solved beside the grid, whose positions are a hundred times as far apart as those of the scan.
+    let (all, most) = (beside.iter().sum::<usize>(), beside.iter().max());
+    assert!(all <= 95 && most <= Some(&9), "{all} positions solved beside the grid, at most {most:?} of one bridge");
 }
 
-/// At a position other than its own a mechanism gives an upper bound, and its own load factor at its own.
-#[test]
-fn mechanisms_bound_all_other_positions() {
+/// Two axles that drive over a bridge in such steps.
+fn bogie(step: f64) -> PositionQuestion {
     let (structure, fixed, surface) = bridge([6.55, 1.428, 0.22], 30, 4.5e6, 0.165);
     let dispersal = Dispersal {
         surface: SurfaceLine::level(surface),
         distribution: Distribution::Boussinesq { cut_off: std::f64::consts::FRAC_PI_6 },
     };
-    let question = question(structure, fixed, axles(&[[0.0, 1e4], [1.3, 5e3]], Some(dispersal)), 0.25, &[false]);
-    let budget = Budget::unlimited();
+    question(structure, fixed, axles(&[[0.0, 1e4], [1.3, 5e3]], Some(dispersal)), step, &[false])
+}
+
+/// At a position other than its own a mechanism gives an upper bound, and its own load factor at its own (kinematic theorem).
+#[test]
+fn mechanisms_bound_all_other_positions() {
+    let (question, budget) = (bogie(0.25), Budget::unlimited());
     let mut search = Search::new(&question, &budget);
     search.scan().unwrap();
     let mut tight = 0;
-    for place in search.places.iter().filter(|place| place.on_grid) {
+    for place in &search.places {
         let load_factor = place.load_factor().unwrap();
-        for bound in search.bounds.iter().map(|bound| bound.at(place)) {
-            assert!(bound >= load_factor * (1.0 - 1e-9), "{bound} is below {load_factor} at {}", place.x);
-            tight += usize::from(bound < load_factor * (1.0 + 1e-9));
+        if load_factor.is_infinite() {
+            continue;
+        }
+        for mechanism in search.places.iter().flat_map(|place| &place.mechanisms) {
+            let driven = mechanism.driven(place, load_factor);
+            assert!(driven <= 1.0 + 1e-9, "{driven} at {}", place.x);
+            tight += usize::from(driven > 1.0 - 1e-9);
         }
     }
     assert!(tight >= 20, "{tight}");
+}
+
+/// Near the worst position no load factor between two that were solved is lower than is said, and most are hardly higher.
+#[test]
+fn what_is_said_between_two_positions_is_lower() {
+    let (question, budget) = (bogie(0.1), Budget::unlimited());
+    let mut search = Search::new(&question, &budget);
+    search.scan().unwrap();
+    let least = search.least().unwrap();
+    let (mut sagging, mut tight, mut all) = (0, 0, 0);
+    for pair in search.places.windows(2) {
+        let lower_end = pair[0].load_factor().unwrap().min(pair[1].load_factor().unwrap());
+        if lower_end > 1.1 * least {
+            continue;
+        }
+        let gap = Gap::new(&question, [&pair[0], &pair[1]], &budget).unwrap();
+        for i in 1..8 {
+            let estimate = gap.at(f64::from(i) / 8.0).unwrap();
+            let load_factor = value(&question, estimate.place.x, false);
+            let off = load_factor / estimate.load_factor - 1.0;
+            assert!(off > -1e-5, "{off} at {}", estimate.place.x);
+            all += 1;
+            tight += usize::from(off < 1e-3);
+            sagging += usize::from(load_factor < lower_end * (1.0 - 1e-5));
+        }
+    }
+    assert!(sagging >= 10 && 2 * tight >= all, "of {all} places {sagging} are below both ends, {tight} as is said");
+}
+
+/// Where every axle stays on one stone the loads are linear in the position: nothing sags, and 1 / lambda is below its chord.
+#[test]
+fn nothing_sags_while_axles_stay_on_their_stones() {
+    let (structure, fixed, _) = bridge([6.0, 2.0, 0.4], 9, 1e7, 0.2);
+    let stone = structure.surfaces.iter().map(|surface| surface.ends).find(|ends| ends[0].x * ends[1].x < 0.0).unwrap();
+    let [from, to] = [stone[0].x.min(stone[1].x) + 0.006, stone[0].x.max(stone[1].x) - 0.006];
+    let mut vehicle = axles(&[[0.0, 1e4]], None);
+    vehicle.axles[0].length = 0.01;
+    let mut question = question(structure, fixed, vehicle, 1.0, &[false]);
+    question.sweeps = vec![Sweep { from, to, step: to - from, reversed: false }];
+    let budget = Budget::unlimited();
+    let mut search = Search::new(&question, &budget);
+    search.scan().unwrap();
+    let [a, b] = &search.places[..] else { panic!("two places") };
+    let [at_a, at_b] = [a, b].map(|place| place.load_factor().unwrap());
+    let gap = Gap::new(&question, [a, b], &budget).unwrap();
+    for t in [0.1, 0.3, 0.5, 0.9] {
+        let (estimate, chord) = (gap.at(t).unwrap(), 1.0 / ((1.0 - t) / at_a + t / at_b));
+        assert!((estimate.load_factor / chord - 1.0).abs() < 1e-12, "{} for {chord}", estimate.load_factor);
+        assert!(value(&question, estimate.place.x, false) >= chord * (1.0 - 1e-9));
+    }
+    assert_eq!(found(&question).curve.len(), 2);
+}
+
+/// An axle of hardly any length leaps from stone to stone, and the load factor with it.
+#[test]
+fn an_axle_on_a_point_is_worst_at_the_edge_of_a_stone() {
+    let (structure, fixed, _) = bridge([5.0, 1.2, 0.3], 15, 1e7, 0.2);
+    let mut vehicle = axles(&[[0.0, 1e4]], None);
+    vehicle.axles[0].length = 1e-6;
+    let edges: Vec<f64> = structure.surfaces.iter().flat_map(|surface| surface.ends.map(|end| end.x)).collect();
+    let question = question(structure, fixed, vehicle, 0.1, &[false]);
+    let report = found(&question);
+    let beside = edges.iter().flat_map(|edge| [edge - 1e-6, edge + 1e-6]).map(|x| value(&question, x, false));
+    let (least, beside) = (report.worst.load_factor().unwrap(), beside.fold(f64::INFINITY, f64::min));
+    assert!((least / beside - 1.0).abs() < 1e-4, "{least} for {beside}");
+    assert!(report.curve.len() <= question.sweeps[0].parts() + 4, "{} positions", report.curve.len());
 }
 
 #[test]
@@ -202,12 +275,7 @@ fn every_direction_is_looked_at_and_a_fixed_axle_drives_along() {
 
 #[test]
 fn positions_are_laid_out_no_longer_than_allowed() {
-    let (structure, fixed, surface) = bridge([6.55, 1.428, 0.22], 30, 4.5e6, 0.165);
-    let dispersal = Dispersal {
-        surface: SurfaceLine::level(surface),
-        distribution: Distribution::Boussinesq { cut_off: std::f64::consts::FRAC_PI_6 },
-    };
-    let question = question(structure, fixed, axles(&[[0.0, 1e4], [1.3, 5e3]], Some(dispersal)), 0.01, &[false]);
+    let question = bogie(0.002);
     let asked = std::cell::Cell::new(0);
     let stop = |_| {
         asked.set(asked.get() + 1);
@@ -215,7 +283,7 @@ fn positions_are_laid_out_no_longer_than_allowed() {
     };
     let budget = Budget::new(&stop);
     let mut search = Search::new(&question, &budget);
-    let all: usize = question.sweeps.iter().map(|sweep| (BETWEEN + 1) * sweep.parts() + 1).sum();
+    let all: usize = question.sweeps.iter().map(|sweep| sweep.parts() + 1).sum();
     assert!(asked.get() == 1 && search.places.len() < all, "{} of {all} places", search.places.len());
     assert!(search.scan().is_err() && size(&question, &budget).is_err());
 }

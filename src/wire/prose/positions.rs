@@ -9,9 +9,10 @@ pub const SLIDE: &str = "Joints slide as the structure falls there. Positions ar
 /// What was looked at between positions solved.
 pub fn between(solved: usize, tolerance: Digits) -> String {
     format!(
-        "The worst position is that of {solved} solved by limit analysis, in which sliding joints dilate. None of the \
-         mechanisms found there gives a load lower by more than {tolerance} of it at any other position. A mechanism that \
-         governs between two neighbouring positions only is not seen: take a smaller step_m to look closer."
+        "The worst position is that of {solved} solved by limit analysis, in which sliding joints dilate. By the \
+         mechanisms found there the load is lower by no more than {tolerance} of it at any position between. A mechanism that \
+         governs between two neighbouring positions only, and is not like theirs, is not seen: take a smaller step_m to look \
+         closer."
     )
 }
 

@@ -6,8 +6,8 @@ use utoipa::ToSchema;
 /// Where vehicles stand worst, and all that is told of a collapse there. The position is that of every `vehicle` load without `x_m`,
 /// all by the same reference; at least one of them is scaled, and the load factor increases. Limit analysis looks for the least load
 /// factor at which the structure falls or joints of the stone's strength give way: at positions at most `step_m` apart, and between
-/// them wherever a mechanism found at any position says that it may be lower. What stands only a little way off a position that
-/// was solved is seen by its mechanisms; a mechanism that governs between two neighbouring positions and at neither is not.
+/// them wherever it may be lower by the mechanisms found on either side. A mechanism that governs between two positions only is
+/// seen where it is like those; of steps longer than the stones it may not be.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(default)]
 pub struct WorstPositionRequest {
@@ -21,7 +21,7 @@ pub struct WorstPositionRequest {
     /// the structure at most 4,000,000.
     #[schema(minimum = 1e-6, maximum = 1e5)]
     pub step_m: f64,
-    /// By how much the load factor may be lower in any mechanism found, as a share of the least one given.
+    /// By how much the load factor may be lower between positions by what mechanisms say, as a share of the least one given.
     #[schema(minimum = 1e-9, maximum = 0.1)]
     pub tolerance: f64,
     /// Which way the vehicles drive.
