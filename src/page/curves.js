@@ -13,15 +13,16 @@ export function curvesOf(answer) {
 
 /** The load that governs, where there is one to hold the load path against. */
 function governing({outcome, ends, safety, request, updated_geometry: updated}) {
-  const first = updated ? ' at first order' : '';
+  // A safety factor counts moving geometry, where that is asked for.
   if (safety?.governing.state === 'at')
     return [
       {
         y: safety.governing.load_factor * request.load_factor.intensity_per_unit,
-        name: `${words(safety.governed_by)} governs${first}`,
+        name: `${words(safety.governed_by)} governs`,
       },
     ];
   if (safety || !['collapse', 'stands_in_window'].includes(outcome)) return [];
+  const first = updated ? ' at first order' : '';
   return [{y: ends[0].intensity, name: `${words(ends[0].governed_by)} governs${first}`}];
 }
 

@@ -6,13 +6,14 @@ import {figures} from './number.js';
 const HEIGHT = 260;
 const EDGE = {left: 58, right: 14, top: 26, bottom: 40};
 
-/** `curves`: [{name, points: [[x, y]]}], the first in the accent colour; `levels`: [{name, y}], heights that are pointed out. */
+/** `curves`: [{name, points: [[x, y]]}], the first in the accent colour; `levels`: [{name, y}], heights pointed out. */
 export function plot({title, x, y, curves, levels = []}) {
   const drawn = curves
     .map(curve => ({...curve, points: curve.points.filter(point => point.every(Number.isFinite))}))
     .filter(curve => curve.points.length > 0);
   if (drawn.length === 0) return null;
-  const picture = svg('svg', {class: 'plot', role: 'img', 'aria-label': [`${title}: ${y} over ${x}`, ...levels.map(toldLevel)].join('; ')});
+  const label = [`${title}: ${y} over ${x}`, ...levels.map(toldLevel)].join('; ');
+  const picture = svg('svg', {class: 'plot', role: 'img', 'aria-label': label});
   const told = el('p', {class: 'readout'}, 'Point at a curve for its values.');
   // Long curves have long tables, which few open.
   const values = el('div', {class: 'scroll', tabindex: 0, role: 'region', 'aria-label': `Values: ${title}`});

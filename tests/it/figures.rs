@@ -201,6 +201,13 @@ fn curves_point_out_what_the_answer_says() {
     assert!(share < 0.95 && (sheet.heights("level")[0] - first - share * (last - first)).abs() < 0.1, "{share}");
     let curve = all["load_displacement"].lines("curve1");
     assert_eq!(curve[0].len(), rows(&answer, "/history/intensity").len());
+    let mut safe: Value = serde_json::from_str(include_str!("../../cases/first-arch/request.json")).unwrap();
+    (safe["analysis"], safe["geometry"]) = (json!({"safety": {}}), json!("updated"));
+    safe["loads"][1]["load"]["point_load"]["force_n_per_m"] = json!(1e5);
+    let (answer, all) = drawn(&safe.to_string());
+    let least = Rounded(number(&answer, "/safety/governing/load_factor"));
+    let words = all["load_displacement"].words();
+    assert!(words.contains(&format!("crushing governs at {least} kN/m").as_str()), "{words:?}");
     let (_, all) = case("paper/figure-13");
     assert!(all["safety_curve"].says("II: crushing") && all["safety_curve"].says("abscissa, kN"));
 }

@@ -58,15 +58,16 @@ pub fn load_displacement(result: &AnalysisResult, title: &str) -> Option<Chart> 
 /// The intensity that governs, and in words which it is, where there is one to hold the load path against.
 fn governing(result: &AnalysisResult) -> Option<(f64, String)> {
     let end = result.ends.first()?;
+    let first = if result.updated_geometry.is_some() { " governs at first order" } else { " governs" };
     let (at, governs) = match (&result.safety, result.outcome) {
+        // A safety factor counts moving geometry, where that is asked for.
         (Some(SafetyBody { governing: ReachBody::At { load_factor }, governed_by, .. }), _) => {
-            (load_factor * result.request.load_factor.intensity_per_unit, prose::word(governed_by))
+            (load_factor * result.request.load_factor.intensity_per_unit, prose::word(governed_by) + " governs")
         }
-        (None, Outcome::Collapse | Outcome::StandsInWindow) => (end.intensity, prose::word(&end.governed_by)),
+        (None, Outcome::Collapse | Outcome::StandsInWindow) => (end.intensity, prose::word(&end.governed_by) + first),
         _ => return None,
     };
-    let first = if result.updated_geometry.is_some() { " at first order" } else { "" };
-    Some((at, format!("{governs} governs{first} at {} {}", Rounded(at), prose::unit(result))))
+    Some((at, format!("{governs} at {} {}", Rounded(at), prose::unit(result))))
 }
 
 /// Intensities beyond so many times the least are not drawn: vehicles that are hardly on the structure may be of any weight.
