@@ -1,5 +1,6 @@
 // The curves that an answer has: its load path, a safety curve, positions of vehicles, the movement of supports.
 
+import {words} from './number.js';
 import {plot} from './plot.js';
 
 const pairs = (xs, ys, by = 1) => (xs ?? []).map((x, i) => [x * by, ys?.[i]]);
@@ -10,12 +11,29 @@ export function curvesOf(answer) {
   return [path(answer), positions(answer), ...movements(answer)].filter(Boolean);
 }
 
-function path({history, unit}) {
+/** The load that governs, where there is one to hold the load path against. */
+function governing({outcome, ends, safety, request, updated_geometry: updated}) {
+  // A safety factor counts moving geometry, where that is asked for.
+  if (safety?.governing.state === 'at')
+    return [
+      {
+        y: safety.governing.load_factor * request.load_factor.intensity_per_unit,
+        name: `${words(safety.governed_by)} governs`,
+      },
+    ];
+  if (safety || !['collapse', 'stands_in_window'].includes(outcome)) return [];
+  const first = updated ? ' at first order' : '';
+  return [{y: ends[0].intensity, name: `${words(ends[0].governed_by)} governs${first}`}];
+}
+
+function path(answer) {
+  const {history, unit} = answer;
   if (!(history?.load_factor.length > 1)) return null;
   return plot({
     title: 'Load path',
     x: 'displacement, mm',
     y: inUnit('intensity', unit),
+    levels: governing(answer),
     curves: [
       {name: 'largest displacement', points: pairs(history.largest_m, history.intensity, 1e3)},
       {name: 'crown, upwards', points: pairs(history.crown_y_m, history.intensity, 1e3)},

@@ -13,6 +13,16 @@ const loadOf = ({outcome, safety}) =>
 /** Where no joint slides some part altogether. */
 const slide = ({slides}) => (slides.length > 0 ? 'joints slide' : 'joints part and slip');
 
+/** The limit window, from 0 where its lower end is one at which vehicles would have to pull up. */
+function toldWindow({limit_window: [low, high], request}) {
+  const vehicle = request.loads.some(({load, scaled, coefficient}) => load.vehicle && scaled && coefficient > 0);
+  const below = (low === null || low < 0) && (high === null || high >= 0);
+  return vehicle && below && request.load_factor.direction === 'increase' ? [0, high] : [low, high];
+}
+
+/** Whether fill resists stones that move into it. */
+const resists = ({passive_elements: soil}) => soil.some(({most_n_per_m: most}) => most > 0);
+
 /** [term, value] of what there is. */
 function factsOf(answer) {
   const {unit} = answer,
@@ -34,7 +44,7 @@ function factsOf(answer) {
       facts.push([`Range, as ${slide(end)}${which}`, range([end.range.least, end.range.greatest], end.unit)]);
     if (typeof end.adequacy_factor === 'number') facts.push([`Adequacy factor${which}`, figures(end.adequacy_factor)]);
   }
-  if (answer.limit_window?.some(end => end !== null)) facts.push(['Limit window', range(answer.limit_window)]);
+  if (answer.limit_window?.some(end => end !== null)) facts.push(['Limit window', range(toldWindow(answer))]);
   return [...facts, ...others(answer, of)];
 }
 
@@ -79,7 +89,7 @@ function others(answer, of) {
       `${words(settlement.updated_geometry.end)}, ${figures(100 * settlement.updated_geometry.share_of_movement, 3)} %`,
     ],
     thrust && [
-      'Thrust under fixed loads',
+      `Thrust under fixed loads${resists(answer.structure) ? ', with soil that resists' : ''}`,
       `${figures(thrust.lowest_kn_per_m)} to ${figures(thrust.highest_kn_per_m)} kN/m`,
     ],
     yields && [

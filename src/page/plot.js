@@ -6,13 +6,14 @@ import {figures} from './number.js';
 const HEIGHT = 260;
 const EDGE = {left: 58, right: 14, top: 26, bottom: 40};
 
-/** `curves`: [{name, points: [[x, y]]}], the first in the accent colour. */
-export function plot({title, x, y, curves}) {
+/** `curves`: [{name, points: [[x, y]]}], the first in the accent colour; `levels`: [{name, y}], heights pointed out. */
+export function plot({title, x, y, curves, levels = []}) {
   const drawn = curves
     .map(curve => ({...curve, points: curve.points.filter(point => point.every(Number.isFinite))}))
     .filter(curve => curve.points.length > 0);
   if (drawn.length === 0) return null;
-  const picture = svg('svg', {class: 'plot', role: 'img', 'aria-label': `${title}: ${y} over ${x}`});
+  const label = [`${title}: ${y} over ${x}`, ...levels.map(toldLevel)].join('; ');
+  const picture = svg('svg', {class: 'plot', role: 'img', 'aria-label': label});
   const told = el('p', {class: 'readout'}, 'Point at a curve for its values.');
   // Long curves have long tables, which few open.
   const values = el('div', {class: 'scroll', tabindex: 0, role: 'region', 'aria-label': `Values: ${title}`});
@@ -46,11 +47,13 @@ export function plot({title, x, y, curves}) {
       values,
     ),
   );
-  const paint = () => draw(picture, drawn, {x, y});
+  const paint = () => draw(picture, drawn, {x, y, levels});
   new ResizeObserver(paint).observe(picture);
-  picture.addEventListener('pointermove', event => point(picture, event, told, drawn, {x, y}));
+  picture.addEventListener('pointermove', event => point(picture, event, told, drawn, {x, y, levels}));
   return node;
 }
+
+const toldLevel = ({name, y}) => `${name} at ${figures(y)}`;
 
 function valueTable(curves, x, y) {
   return table(
@@ -71,7 +74,7 @@ export function ticks(low, high, wished = 5) {
   return Array.from({length: last - first + 1}, (_, i) => Number(((first + i) * step).toPrecision(12)));
 }
 
-function frame(picture, curves) {
+function frame(picture, curves, levels) {
   const width = picture.clientWidth;
   const of = i => curves.flatMap(({points}) => points.map(point => point[i]));
   const range = values =>
@@ -79,16 +82,16 @@ function frame(picture, curves) {
       values.reduce((a, b) => Math.min(a, b), 0),
       values.reduce((a, b) => Math.max(a, b), -Infinity),
     );
-  const [xs, ys] = [range(of(0)), range(of(1))];
+  const [xs, ys] = [range(of(0)), range([...of(1), ...levels.map(level => level.y)])];
   const across = value => EDGE.left + ((value - xs[0]) / (xs.at(-1) - xs[0])) * (width - EDGE.left - EDGE.right);
   const up = value =>
     HEIGHT - EDGE.bottom - ((value - ys[0]) / (ys.at(-1) - ys[0])) * (HEIGHT - EDGE.top - EDGE.bottom);
   return {width, xs, ys, across, up};
 }
 
-function draw(picture, curves, {x, y}) {
+function draw(picture, curves, {x, y, levels}) {
   if (picture.clientWidth === 0) return;
-  const {width, xs, ys, across, up} = frame(picture, curves);
+  const {width, xs, ys, across, up} = frame(picture, curves, levels);
   picture.setAttribute('viewBox', `0 0 ${width} ${HEIGHT}`);
   const bottom = HEIGHT - EDGE.bottom,
     few = xs.filter((_, i) => xs.length < 5 || width > 480 || i % 2 === 0);
@@ -104,6 +107,10 @@ function draw(picture, curves, {x, y}) {
     ]),
     svg('text', {x: width - EDGE.right, y: HEIGHT - 5, class: 'end'}, x),
     svg('text', {x: 2, y: 14}, y),
+    levels.map(level => [
+      svg('path', {class: 'level', d: `M${EDGE.left} ${up(level.y)}H${width - EDGE.right}`}),
+      svg('text', {x: width - EDGE.right, y: up(level.y) - 5, class: 'end'}, toldLevel(level)),
+    ]),
     curves.map(({points}, i) => [
       svg('path', {
         class: `curve c${i}`,
@@ -115,8 +122,8 @@ function draw(picture, curves, {x, y}) {
   );
 }
 
-function point(picture, event, told, curves, {x, y}) {
-  const {across, up} = frame(picture, curves),
+function point(picture, event, told, curves, {x, y, levels}) {
+  const {across, up} = frame(picture, curves, levels),
     box = picture.getBoundingClientRect();
   const at = [event.clientX - box.left, event.clientY - box.top];
   let best = null;

@@ -135,6 +135,9 @@ fn title(result: &AnalysisResult) -> String {
     result.request.name.as_deref().unwrap_or(kind).to_owned()
 }
 
+/// What least and greatest thrust count, where there is soil that resists.
+const THRUST_WITH_SOIL: &str = "Thrusts with soil that resists, pressing up to its limits.";
+
 fn drawing<'a>(
     analysis: &'a Analysis,
     result: &AnalysisResult,
@@ -143,6 +146,10 @@ fn drawing<'a>(
     caption: String,
 ) -> Drawing<'a> {
     let structure = &analysis.structure;
+    let caption = match &state {
+        State::Stands(_) if result.structure.soil_resists() => format!("{caption}\n{THRUST_WITH_SOIL}"),
+        _ => caption,
+    };
     let (fills, loads) = acting::on(result, structure, load_factor);
     let altered = result.request.joint_overrides.iter().map(|joint| joint.joint).collect();
     let (title, description) = (title(result), String::new());

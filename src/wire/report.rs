@@ -3,6 +3,7 @@
 
 use super::figures::Figure;
 use super::json::{NotFinite, pretty};
+use super::prose::assumptions::{DEFAULTS, assumptions};
 use super::prose::{self, Digits, curve, joints, moving, summary};
 use super::request::{AnalysisRequest, Request};
 use super::response::{AnalysisResult, EndBody, JobResult, SafetyCurveResult};
@@ -53,12 +54,8 @@ fn of_analysis(result: &AnalysisResult, figures: &[Figure]) -> Result<Vec<Sectio
     let mut found = table(&summary::facts(result, None));
     let named = result.named();
     for mechanism in result.ends.iter().map(|end| &end.fall.mechanism) {
-        for (title, rows) in [
-            ("Hinges", joints::hinges(&mechanism.hinges, named)),
-            ("Sliding joints", joints::slides(&mechanism.slides, named)),
-            ("Joints that part altogether", joints::lift_offs(&mechanism.lift_offs, named)),
-        ] {
-            found += &rows.map_or(String::new(), |rows| format!("<h3>{title}</h3>\n{}", table(&rows)));
+        for (title, rows) in joints::tables("", mechanism, named) {
+            found += &format!("<h3>{}</h3>\n{}", escaped(&title), table(&rows));
         }
     }
     let mut ground = String::new();
@@ -72,7 +69,8 @@ fn of_analysis(result: &AnalysisResult, figures: &[Figure]) -> Result<Vec<Sectio
     Ok(vec![
         ("Drawings", drawn(figures)),
         ("What was given and found", found),
-        ("Assumptions and notes", list(result.notes.iter().cloned())),
+        ("Assumptions", assumed(&result.request)),
+        ("Notes", list(result.notes.iter().cloned())),
         ("Checks", checks(result)),
         ("For the file", FILE.to_owned()),
         ("The request", request(&result.request)?),
@@ -86,10 +84,16 @@ fn of_curve(result: &SafetyCurveResult, figures: &[Figure]) -> Result<Vec<Sectio
         ("Drawings", drawn(figures)),
         ("What was given", table(&curve::facts(result, None))),
         ("What was found", points),
-        ("Assumptions and notes", list(notes.iter().map(|(note, at)| format!("Abscissa {at}: {note}")))),
+        ("Assumptions", assumed(&result.request)),
+        ("Notes", list(notes.iter().map(|(note, at)| format!("Abscissa {at}: {note}")))),
         ("For the file", FILE.to_owned()),
         ("The request", request(&result.request)?),
     ])
+}
+
+/// What somebody has to answer for who relies on the answer.
+fn assumed(request: &AnalysisRequest) -> String {
+    format!("<p>{DEFAULTS}</p>\n{}", list(assumptions(request).into_iter()))
 }
 
 /// How the answer was checked against itself, and how it can be checked anew.
@@ -114,7 +118,7 @@ fn checks(result: &AnalysisResult) -> String {
         };
         all.push(format!("{proved} in the answer as JSON, under proof, to be checked with structure alone."));
     }
-    all.push(prose::in_its_words(&result.request, summary::explanation(result)));
+    all.push(prose::in_its_words(&result.request, &summary::explanation(result)));
     list(all.into_iter())
 }
 

@@ -73,7 +73,8 @@ pub struct AnalysisResult {
     /// where nothing collapses. Where `outcome` is `crushes` in an analysis of the collapse: of stone that does not crush.
     pub ends: Vec<EndBody>,
     /// Lowest and highest intensity at which the static theorem finds equilibrium, each null where unbounded; null where
-    /// nothing stands, and where `proof` is null: then limit analysis gave no answer.
+    /// nothing stands, and where `proof` is null: then limit analysis gave no answer. Below 0 the scaled loads are reversed, which no
+    /// vehicle can be: texts tell the window of one from 0.
     pub limit_window: Option<[Option<f64>; 2]>,
     /// `limit_window` as load factors.
     pub limit_window_load_factor: Option<[Option<f64>; 2]>,

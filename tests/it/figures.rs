@@ -163,6 +163,8 @@ fn soil_is_drawn_with_its_force() {
     let directions = rows(&answer, "/structure/passive_elements").iter().map(|element| number(element, "/direction"));
     let left: f64 = forces.zip(directions).filter(|(_, way)| *way < 0.0).map(|(force, _)| force).sum();
     assert!(all["structure"].says(&format!("soil {} kN/m", Rounded(left / 1e3))));
+    let words = "with soil that resists, pressing up to its limits";
+    assert!(all["standing"].description.contains(words) && !all["structure"].description.contains(words));
 }
 
 #[test]
@@ -186,10 +188,26 @@ fn curves_point_out_what_the_answer_says() {
     assert!(sheet.says(&format!("{} kN/m at {} m", Rounded(least), Rounded(x))));
     assert_eq!(sheet.count("mark"), 1);
     let (answer, all) = case("first-arch");
-    let collapse = format!("collapse at {} kN/m", Rounded(number(&answer, "/ends/0/intensity")));
-    assert!(all["load_displacement"].says(&collapse));
+    let governs = format!("crushing governs at {} kN/m", Rounded(number(&answer, "/ends/0/intensity")));
+    let sheet = &all["load_displacement"];
+    assert!(sheet.says(&governs), "{:?}", sheet.words());
+    let meaning = format!("the load that governs: {governs}. What of the curves lies beyond it is not borne.");
+    assert!(sheet.description.contains(&meaning), "{}", sheet.description);
+    // The path of stone that does not crush goes on past it.
+    let curve = &sheet.lines("curve1")[0];
+    let path = rows(&answer, "/history/intensity").iter().map(|at| at.as_f64().unwrap()).collect::<Vec<_>>();
+    let (first, last) = (curve[0][1], curve[curve.len() - 1][1]);
+    let share = (number(&answer, "/ends/0/intensity") - path[0]) / (path[path.len() - 1] - path[0]);
+    assert!(share < 0.95 && (sheet.heights("level")[0] - first - share * (last - first)).abs() < 0.1, "{share}");
     let curve = all["load_displacement"].lines("curve1");
     assert_eq!(curve[0].len(), rows(&answer, "/history/intensity").len());
+    let mut safe: Value = serde_json::from_str(include_str!("../../cases/first-arch/request.json")).unwrap();
+    (safe["analysis"], safe["geometry"]) = (json!({"safety": {}}), json!("updated"));
+    safe["loads"][1]["load"]["point_load"]["force_n_per_m"] = json!(1e5);
+    let (answer, all) = drawn(&safe.to_string());
+    let least = Rounded(number(&answer, "/safety/governing/load_factor"));
+    let words = all["load_displacement"].words();
+    assert!(words.contains(&format!("crushing governs at {least} kN/m").as_str()), "{words:?}");
     let (_, all) = case("paper/figure-13");
     assert!(all["safety_curve"].says("II: crushing") && all["safety_curve"].says("abscissa, kN"));
 }

@@ -139,4 +139,6 @@ mod survey;
 #[cfg(feature = "server")]
 mod ties;
 #[cfg(feature = "server")]
+mod worded;
+#[cfg(feature = "server")]
 mod worst_position;

@@ -13,7 +13,7 @@ use voussoir::wire::rendering::{REPORT, renderings};
 use voussoir::wire::response::{AnalysisResult, JobResult};
 
 /// A good request's answer, changed, in words on one line.
-fn told(request: &Value, change: impl Fn(&mut AnalysisResult)) -> String {
+pub fn told(request: &Value, change: impl Fn(&mut AnalysisResult)) -> String {
     let mut job = result(request);
     let JobResult::Analysis(answer) = &mut job else { panic!("{request}") };
     change(answer);
@@ -21,7 +21,7 @@ fn told(request: &Value, change: impl Fn(&mut AnalysisResult)) -> String {
 }
 
 /// The report of a request, as HTML.
-fn report(request: &Value) -> String {
+pub fn report(request: &Value) -> String {
     let (request, question) = read_question(request.to_string().as_bytes()).unwrap();
     let found = answer(&question, &Budget::unlimited()).unwrap();
     let all = renderings(&request, &question, &found, Duration::ZERO).unwrap();

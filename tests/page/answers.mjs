@@ -150,7 +150,7 @@ export async function otherAnswers(tools) {
   for (const [name, seen] of [
     ['paper/figure-13', 'does not stand'],
     ['paper/table-4', 'stands only between'],
-    ['settlement', 'follows its springings'],
+    ['settlement', 'follows its right springing'],
     ['geometric-safety', ''],
     ['resisting-backfill', 'collapses'],
   ]) {

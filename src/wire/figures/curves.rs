@@ -26,14 +26,18 @@ pub fn load_displacement(result: &AnalysisResult, title: &str) -> Option<Chart> 
         dotted: false,
     };
     let unit_of_load = prose::unit(result);
-    let ends = result.ends.first().filter(|_| result.outcome == Outcome::Collapse);
-    let level = |word: &str, at: f64| (at, format!("{word} at {} {unit_of_load}", Rounded(at)));
-    let governs = ends.map(|end| level("collapse", end.intensity));
+    let governs = governing(result);
+    let words = governs.as_ref().map_or(String::new(), |(_, words)| {
+        format!(
+            " A horizontal line marks the load that governs: {words}. What of the curves lies beyond it is not borne."
+        )
+    });
+    let stone = if result.request.crushing_in_path { "whose joints crush" } else { "that does not crush" };
     Some(Chart {
         title: title.to_owned(),
-        caption:
-            "Load, and displacement from the structure without any load, on the load path of stone that does not crush."
-                .to_owned(),
+        caption: format!(
+            "Load, and displacement from the structure without any load, on the load path of stone {stone}."
+        ),
         abscissa: format!("displacement, {unit}"),
         ordinate: format!("intensity, {unit_of_load}"),
         curves: vec![
@@ -42,13 +46,28 @@ pub fn load_displacement(result: &AnalysisResult, title: &str) -> Option<Chart> 
         ],
         levels: governs.into_iter().collect(),
         description: format!(
-            "Intensity from {} to {} {unit_of_load}; the largest displacement of a stone grows to {} {unit}.",
+            "Intensity from {} to {} {unit_of_load}; the largest displacement of a stone grows to {} {unit}.{words}",
             Rounded(history.intensity[0]),
             Rounded(history.intensity[history.intensity.len() - 1]),
             Rounded(per_metre * largest)
         ),
         ..Chart::default()
     })
+}
+
+/// The intensity that governs, and in words which it is, where there is one to hold the load path against.
+fn governing(result: &AnalysisResult) -> Option<(f64, String)> {
+    let end = result.ends.first()?;
+    let first = if result.updated_geometry.is_some() { " governs at first order" } else { " governs" };
+    let (at, governs) = match (&result.safety, result.outcome) {
+        // A safety factor counts moving geometry, where that is asked for.
+        (Some(SafetyBody { governing: ReachBody::At { load_factor }, governed_by, .. }), _) => {
+            (load_factor * result.request.load_factor.intensity_per_unit, prose::word(governed_by) + " governs")
+        }
+        (None, Outcome::Collapse | Outcome::StandsInWindow) => (end.intensity, prose::word(&end.governed_by) + first),
+        _ => return None,
+    };
+    Some((at, format!("{governs} at {} {}", Rounded(at), prose::unit(result))))
 }
 
 /// Intensities beyond so many times the least are not drawn: vehicles that are hardly on the structure may be of any weight.

@@ -66,6 +66,7 @@ pub fn facts(result: &SafetyCurveResult, wall_time: Option<Duration>) -> Table {
     };
     let (name, structure) = given::structure(request);
     fact(name, structure);
+    fact("stone", given::stone(request));
     if let Some(mesh) = mesh(&request.mesh) {
         fact("mesh", mesh);
     }

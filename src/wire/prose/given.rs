@@ -4,7 +4,7 @@ use super::noun::noun;
 use crate::wire::prose::Digits;
 use crate::wire::request::{
     AnalysisRequest, ArchRequest, BridgeRequest, JointOverride, LoadEntry, LoadRequest, NamedStone, ProfileRequest,
-    StoneOf,
+    StoneOf, StoneRequest,
 };
 use crate::wire::response::{AnalysisResult, JointBody};
 
@@ -61,15 +61,28 @@ fn arch(arch: &ArchRequest) -> String {
 /// Most runs of voussoirs of other stones that are listed.
 const STONES_LISTED: usize = 6;
 
+/// What marks a value that is the default.
+pub fn mark(value: f64, default: f64) -> &'static str {
+    if value == default { " (default)" } else { "" }
+}
+
+/// A value in words, marked where it is the default.
+pub fn or_default(words: impl Fn(f64) -> String, value: f64, default: f64) -> String {
+    format!("{}{}", words(value), mark(value, default))
+}
+
 /// The stone, and others in what they differ from it; strengths stand elsewhere.
 pub fn stone(request: &AnalysisRequest) -> String {
-    let stone = &request.stone;
+    let (stone, default) = (&request.stone, StoneRequest::default());
     let density = |density: f64| format!("{} kg/m3", Digits(density));
     let modulus = |modulus: f64| format!("Young's modulus {} GPa", Digits(modulus / 1e9));
     let friction = |angle: f64| format!("friction of joints {} deg", Digits(angle));
     let cohesion = |cohesion: f64| format!("cohesion {} kPa", Digits(cohesion / 1e3));
-    let mut of_most = vec![density(stone.density_kg_m3), modulus(stone.youngs_modulus_pa)];
-    of_most.push(friction(stone.friction_angle_deg));
+    let mut of_most = vec![
+        or_default(density, stone.density_kg_m3, default.density_kg_m3),
+        or_default(modulus, stone.youngs_modulus_pa, default.youngs_modulus_pa),
+        or_default(friction, stone.friction_angle_deg, default.friction_angle_deg),
+    ];
     of_most.extend((stone.cohesion_pa > 0.0).then(|| cohesion(stone.cohesion_pa)));
     let other = |other: &NamedStone| {
         let parts = [
@@ -88,19 +101,25 @@ pub fn stone(request: &AnalysisRequest) -> String {
 /// Strength beyond that of any matter, Pa: the request means none.
 const NO_LIMIT_PA: f64 = 1e15;
 
+/// Whether a stone of this strength crushes at all.
+pub fn crushes(strength: f64) -> bool {
+    strength < NO_LIMIT_PA
+}
+
 /// Compressive strength of the stone, and of others that have one of their own.
 pub fn strengths(request: &AnalysisRequest) -> String {
     let over = match request.factors().stone_strength {
         1.0 => String::new(),
         factor => format!(" / {}", Digits(factor)),
     };
-    let words = |strength: f64| match strength < NO_LIMIT_PA {
-        true => format!("{} MPa{over}", Digits(strength / 1e6)),
+    let words = |strength: f64, mark: &str| match crushes(strength) {
+        true => format!("{} MPa{mark}{over}", Digits(strength / 1e6)),
         false => "not limited".to_owned(),
     };
-    let other = |stone: &NamedStone| Some(format!("; {}: {}", stone.name, words(stone.compressive_strength_pa?)));
+    let other = |stone: &NamedStone| Some(format!("; {}: {}", stone.name, words(stone.compressive_strength_pa?, "")));
     let others: String = request.stones.iter().filter_map(other).collect();
-    format!("{}{others}", words(request.stone.compressive_strength_pa))
+    let (strength, default) = (request.stone.compressive_strength_pa, StoneRequest::default().compressive_strength_pa);
+    format!("{}{others}", words(strength, mark(strength, default)))
 }
 
 /// Span, rise and joints of a whole arch, as they were set out.

@@ -43,7 +43,7 @@ pub fn table<const N: usize>(header: [&str; N], rows: Vec<[String; N]>) -> Optio
     some.then_some(table)
 }
 
-pub fn hinges(hinges: &[HingeBody], structure: Option<&StructureBody>) -> Option<Table> {
+fn hinges(hinges: &[HingeBody], structure: Option<&StructureBody>) -> Option<Table> {
     if let Some(structure) = structure {
         let row = |h: &HingeBody| [h.joint.to_string(), between(structure, h.joint), place(h.at_m), rate(h.rotation)];
         return table(["joint", "between", "turns about", "rotation"], hinges.iter().map(row).collect());
@@ -68,7 +68,7 @@ pub fn crushed(joints: &[CrushedJointBody]) -> String {
     joints.iter().map(of).collect::<Vec<_>>().join(", ")
 }
 
-pub fn slides(slides: &[SlideBody], structure: Option<&StructureBody>) -> Option<Table> {
+fn slides(slides: &[SlideBody], structure: Option<&StructureBody>) -> Option<Table> {
     if let Some(structure) = structure {
         let row = |s: &SlideBody| [s.joint.to_string(), between(structure, s.joint), place(s.at_m), rate(s.rate)];
         return table(["joint", "between", "middle", "rate"], slides.iter().map(row).collect());
@@ -76,7 +76,7 @@ pub fn slides(slides: &[SlideBody], structure: Option<&StructureBody>) -> Option
     table(["joint", "rate"], slides.iter().map(|slide| [slide.joint.to_string(), rate(slide.rate)]).collect())
 }
 
-pub fn lift_offs(lift_offs: &[LiftOffBody], structure: Option<&StructureBody>) -> Option<Table> {
+fn lift_offs(lift_offs: &[LiftOffBody], structure: Option<&StructureBody>) -> Option<Table> {
     if let Some(structure) = structure {
         let row = |l: &LiftOffBody| {
             let joint = structure.joints.get(l.joint).map_or([l.at_m; 2], |joint| joint.ends_m);
@@ -90,16 +90,33 @@ pub fn lift_offs(lift_offs: &[LiftOffBody], structure: Option<&StructureBody>) -
     table(["joint", "opens at intrados", "opens at extrados"], lift_offs.iter().map(row).collect())
 }
 
-/// Tables of the joints that move, each under its title.
+/// What rates of a mechanism are relative to.
+fn scale(moving: &MechanismBody) -> &'static str {
+    match (moving.hinges.is_empty(), moving.slides.is_empty()) {
+        (false, _) => "rates in m per radian of the fastest hinge",
+        (true, false) => "rates as multiples of the fastest slide",
+        (true, true) => "rates as multiples of the fastest opening",
+    }
+}
+
+/// Tables of the joints that move, each with its title; `at` says when they do.
+pub fn tables(at: &str, moving: &MechanismBody, structure: Option<&StructureBody>) -> Vec<(String, Table)> {
+    let angles = if structure.is_none() { "angles about the middle between the springing joints; " } else { "" };
+    let scale = scale(moving);
+    let all = [
+        (format!("Hinges{at} ({angles}the fastest rotation is 1)"), hinges(&moving.hinges, structure)),
+        (
+            format!("Sliding joints{at} (positive: what lies after goes towards the extrados; {scale})"),
+            slides(&moving.slides, structure),
+        ),
+        (format!("Joints that part altogether{at} ({scale})"), lift_offs(&moving.lift_offs, structure)),
+    ];
+    all.into_iter().filter_map(|(title, table)| Some((title, table?))).collect()
+}
+
+/// The same as text.
 pub fn moving(text: &mut String, at: &str, moving: &MechanismBody, result: &AnalysisResult) {
-    let structure = result.named();
-    append(text, &format!("Hinges{at}"), hinges(&moving.hinges, structure));
-    append(
-        text,
-        &format!("Sliding joints{at} (positive: what lies after goes towards the extrados)"),
-        slides(&moving.slides, structure),
-    );
-    append(text, &format!("Joints that part altogether{at}"), lift_offs(&moving.lift_offs, structure));
+    tables(at, moving, result.named()).into_iter().for_each(|(title, table)| append(text, &title, Some(table)));
 }
 
 /// Forces of the ground, or of an arch's springings, at an end.

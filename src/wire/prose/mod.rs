@@ -1,5 +1,6 @@
 //! An answer in words.
 
+pub(super) mod assumptions;
 mod beam;
 pub(super) mod curve;
 mod doubts;
@@ -16,12 +17,13 @@ mod safety;
 mod settlement;
 pub(super) mod summary;
 mod survey;
+mod window;
 mod wording;
 
 pub use crate::render::digits::{Digits, Rounded};
 pub use noun::{in_its_words, noun};
 pub use survey::smoothed;
-pub use wording::{headline, motion, name as name_of_end, unit};
+pub use wording::{headline, motion, name as name_of_end, unit, word};
 
 use super::response::JobResult;
 use std::time::Duration;

@@ -2,32 +2,36 @@
 
 use super::joints;
 use super::noun::in_its_words;
-use super::settlement::{movements, open_joints};
+use super::settlement::{movements, movers, open_joints};
 use super::summary::{append, soil};
 use super::wording::{self, word};
 use crate::collapse::{SettlementEnd, UpdatedEnd};
 use crate::wire::prose::{Digits, Rounded};
+use crate::wire::request::AnalysisRequest;
 use crate::wire::response::{AnalysisResult, EndBody, SettlementBody, SettlementPathBody, UpdatedBody};
 
 /// Moving geometry that leaves so much of the first-order load takes nothing off it that matters.
 const WORTH_TELLING: f64 = 0.995;
 
 /// One sentence on supports that move.
-pub fn headline(settlement: &SettlementBody) -> String {
+pub fn headline(request: &AnalysisRequest, settlement: &SettlementBody) -> String {
     let path = settlement.updated_geometry.as_ref().unwrap_or(&settlement.first_order);
     let share = format!("{} %", Rounded(100.0 * path.share_of_movement));
+    let (who, several) = movers(request);
+    let [have, their, they, moves] =
+        if several { ["have", "their", "they", "move"] } else { ["has", "its", "that", "moves"] };
     match (path.end, &settlement.updated_geometry) {
         (SettlementEnd::Follows, Some(_)) => {
-            format!("The arch follows its springings through their whole movement{}.", snaps(path))
+            format!("The arch follows {who} through the whole movement{}.", snaps(path))
         }
         (SettlementEnd::Follows, None) => {
-            "At first order the arch follows its springings; only on updated geometry can they bring it down.".into()
+            format!("At first order the arch follows {who}; only on updated geometry can {they} bring it down.")
         }
         (SettlementEnd::Collapse, _) => {
-            format!("The arch falls when its springings have done {share} of their movement{}.", snaps(path))
+            format!("The arch falls when {who} {have} done {share} of {their} movement{}.", snaps(path))
         }
         (SettlementEnd::FallsAsLoaded, _) => {
-            "On updated geometry the arch falls under its loads before its springings move.".into()
+            format!("On updated geometry the arch falls under its loads before {who} {moves}.")
         }
         (SettlementEnd::CannotTell, _) => {
             let safe = Rounded(100.0 * path.safe_share_of_movement);
@@ -55,10 +59,9 @@ pub fn before(result: &AnalysisResult, end: &EndBody) -> String {
     let unit = wording::unit(result);
     let lower =
         |at: f64| at.abs() < end.intensity.abs() && Rounded(at).to_string() != Rounded(end.intensity).to_string();
-    let snap = updated
-        .snap_intensity
-        .filter(|at| lower(*at))
-        .map(|at| format!(" On moving geometry it first snaps into another shape, at {} {unit}.", Rounded(at)));
+    let snap = updated.snap_intensity.filter(|at| lower(*at)).map(|at| {
+        format!(" Before it falls, on moving geometry it snaps into another shape at {} {unit}.", Rounded(at))
+    });
     let falls = match (updated.end, updated.intensity) {
         (UpdatedEnd::FallsAsLoaded, _) => {
             " On moving geometry it falls before the loads at the start of its path are on in full.".to_owned()
@@ -75,7 +78,7 @@ pub fn before(result: &AnalysisResult, end: &EndBody) -> String {
             Rounded(100.0 * (1.0 - share))
         )
     });
-    snap.unwrap_or_default() + &falls + &apart.unwrap_or_default()
+    falls + &apart.unwrap_or_default() + &snap.unwrap_or_default()
 }
 
 /// What the ground carries, and where the structure turns, as its supports move.
@@ -166,5 +169,5 @@ fn path(path: &SettlementPathBody) -> String {
     };
     let safe = Digits(100.0 * path.safe_share_of_movement);
     let snap = if path.snap_share_of_movement.is_some() { format!("; snaps first at {safe} %") } else { String::new() };
-    format!("{end}{snap}{}", thrust.unwrap_or_default())
+    format!("{end}{}{snap}", thrust.unwrap_or_default())
 }

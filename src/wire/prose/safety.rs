@@ -1,7 +1,7 @@
 //! Crushing and safety in words.
 
-use super::given;
 use super::wording::{self, word};
+use super::{given, window};
 use crate::collapse::{Governs, Order, SafetyZone, Seams};
 use crate::wire::prose::{Digits, Rounded};
 use crate::wire::request::{MeshRequest, Subblocks, SubblocksRequest};
@@ -172,10 +172,12 @@ fn plastic_section(result: &AnalysisResult, plastic: &PlasticCrushingBody) -> St
         let carry = if plastic.window.is_some() { "carry" } else { "do not carry" };
         return format!("joints of this strength {carry} the loads");
     }
-    let range = wording::range(plastic.window, wording::unit(result));
+    let range = window::range(result, plastic.window);
+    let from_zero = plastic.window.is_some_and(|ends| window::pulls_up(result, ends));
     let ends = [("lowest", &plastic.joints_at_lowest), ("highest", &plastic.joints_at_highest)];
     let crushed: Vec<String> = ends
         .iter()
+        .skip(usize::from(from_zero))
         .filter(|(_, joints)| !joints.is_empty())
         .map(|(end, joints)| {
             let list: Vec<_> = joints.iter().map(usize::to_string).collect();

@@ -3,7 +3,7 @@
 use super::joints::{place, table};
 use super::wording::word;
 use crate::wire::prose::Digits;
-use crate::wire::request::{AimRequest, AnalysisRequest};
+use crate::wire::request::{AimRequest, AnalysisRequest, MovementRequest};
 use crate::wire::response::OpenJointBody;
 use comfy_table::Table;
 
@@ -24,6 +24,20 @@ pub fn movements(request: &AnalysisRequest) -> Option<String> {
         )
     });
     Some(of_side.chain(of_support).collect::<Vec<_>>().join("\n"))
+}
+
+/// Whose movement it is, and whether that is more than one.
+pub fn movers(request: &AnalysisRequest) -> (&'static str, bool) {
+    let AimRequest::Settlement(settlement) = &request.analysis else { return ("its springings", true) };
+    let moves = |by: &MovementRequest| *by != MovementRequest::default();
+    let moving = settlement.supports.iter().filter(|by| [by.rightwards_m, by.downwards_m, by.rotation_deg] != [0.0; 3]);
+    // The other half of half an arch moves as its mirror image.
+    match (moves(&settlement.left), moves(&settlement.right), moving.count()) {
+        (true, false, 0) if !request.half() => ("its left springing", false),
+        (false, true, 0) => ("its right springing", false),
+        (false, false, 1) => ("its moving support", false),
+        _ => ("its springings", true),
+    }
 }
 
 /// A movement in words: positive, negative and how much; none where it is still.

@@ -2,7 +2,7 @@
 
 use super::noun::in_its_words;
 use super::wording::{self, word};
-use super::{geometric, given, joints, moving, plan, safety, survey};
+use super::{geometric, given, joints, moving, plan, safety, survey, window};
 use crate::collapse::{GovernedBy, Outcome};
 use crate::wire::prose::Digits;
 use crate::wire::response::{AnalysisResult, EndBody, PassiveElementBody, WorstPositionBody};
@@ -52,7 +52,7 @@ pub fn summary(result: &AnalysisResult, wall_time: Duration) -> String {
     for note in result.notes.iter().chain(of_safety.filter(|note| !result.notes.contains(note))) {
         paragraph(&mut text, &format!("Note: {note}"));
     }
-    paragraph(&mut text, &in_its_words(&result.request, explanation(result)));
+    paragraph(&mut text, &in_its_words(&result.request, &explanation(result)));
     if result.geometric_safety.is_some() {
         paragraph(&mut text, &in_its_words(&result.request, geometric::EXPLANATION));
     }
@@ -100,10 +100,11 @@ pub fn facts(result: &AnalysisResult, wall_time: Option<Duration>) -> Table {
     for (name, value) in result.ends.iter().flat_map(|end| end_facts(result, end)) {
         fact(name, value);
     }
-    fact("limit window", wording::window(result));
+    fact("limit window", window::window(result));
     if let Some(range) = &result.thrust_range {
         let range = [range.lowest_kn_per_m, range.highest_kn_per_m];
-        fact("thrust range", format!("{} kN/m", from_to(range)));
+        let soil = if result.structure.soil_resists() { ", with soil that resists" } else { "" };
+        fact("thrust range", format!("{} kN/m{soil}", from_to(range)));
     }
     if let Some(width) = result.request.width_m {
         fact("over the width", over_width(result, width));
@@ -203,15 +204,19 @@ pub fn soil(forces: &[f64], result: &AnalysisResult) -> Option<String> {
 }
 
 /// What words in the facts mean.
-pub fn explanation(result: &AnalysisResult) -> &'static str {
-    match &result.thrust_range {
-        Some(_) => {
-            "Limit window: what rigid-block limit analysis allows. Thrust range: horizontal force with which the left \
-             springing pushes the arch to the right under the fixed loads alone; negative means to the left."
-        }
-        None => "Limit window: what rigid-block limit analysis allows.",
-    }
+pub fn explanation(result: &AnalysisResult) -> String {
+    let thrust = match (&result.thrust_range, result.structure.soil_resists()) {
+        (None, _) => String::new(),
+        (Some(_), false) => THRUST_RANGE.to_owned(),
+        (Some(_), true) => format!("{THRUST_RANGE} {THRUST_WITH_SOIL}"),
+    };
+    format!("{} {thrust}", window::explanation(result)).trim_end().to_owned()
 }
+
+const THRUST_RANGE: &str = "Thrust range: horizontal force with which the left springing pushes the arch to the right under the \
+     fixed loads alone; negative means to the left.";
+const THRUST_WITH_SOIL: &str = "Soil that resists presses in it as equilibrium needs, up to its limits: without that resistance the \
+     range is no wider, and may be empty.";
 
 /// A table without lines.
 pub fn bare() -> Table {

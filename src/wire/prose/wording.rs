@@ -2,6 +2,7 @@
 
 use super::noun::in_its_words;
 use super::summary::paragraph;
+use super::window::window;
 use super::{geometric, moving, safety, survey};
 use crate::collapse::{Direction, GovernedBy, Mode, Outcome, SafetyZone, WhichEnd};
 use crate::wire::prose::{Digits, Rounded};
@@ -54,7 +55,7 @@ fn of_an_arch(result: &AnalysisResult) -> String {
         return safety::headline(result, safety);
     }
     if let Some(settlement) = result.settlement.as_ref().filter(|_| result.outcome != Outcome::Crushes) {
-        return moving::headline(settlement);
+        return moving::headline(&result.request, settlement);
     }
     if let Some(safety) = &result.geometric_safety {
         return geometric::headline(safety);
@@ -262,25 +263,6 @@ pub fn explain(
     };
     let lines: BTreeSet<String> = modes.map(of_mode).chain(zones.map(of_zone)).collect();
     lines.iter().for_each(|line| paragraph(text, &in_its_words(request, line)));
-}
-
-/// What limit analysis allows, where it has an answer.
-pub fn window(result: &AnalysisResult) -> String {
-    match result.proof {
-        None => "not known: limit analysis gave no answer".to_owned(),
-        Some(_) => range(result.limit_window, unit(result)),
-    }
-}
-
-/// From where to where an arch stands.
-pub fn range(ends: Option<[Option<f64>; 2]>, unit: &str) -> String {
-    match ends.map(|ends| ends.map(|end| end.map(Digits))) {
-        None => "finds no equilibrium at any intensity".to_owned(),
-        Some([Some(low), Some(high)]) => format!("stands from {low} to {high} {unit}"),
-        Some([Some(low), None]) => format!("stands from {low} {unit} upwards without end"),
-        Some([None, Some(high)]) => format!("stands up to {high} {unit}, and downwards without end"),
-        Some([None, None]) => "stands at any intensity".to_owned(),
-    }
 }
 
 /// The unit of intensities; the bare sign for none means the load factor itself, unless that is scaled.

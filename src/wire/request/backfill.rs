@@ -28,7 +28,8 @@ pub struct BackfillRequest {
     /// Layers from the surface downwards, such as surfacing. They follow the surface.
     #[schema(max_items = 20)]
     pub layers: Vec<FillLayerRequest>,
-    /// Fill of another density up to a level, below the layers. Left out: none.
+    /// Fill of another density up to a level, below the layers. Left out: none. It is soil that weighs and may resist; masonry
+    /// that bears on the rings by joints, as blocks do, is `bridge.backing`.
     pub backing: Option<FillBackingRequest>,
     /// Ratio K of horizontal to vertical pressure, a pure number: pressure at rest, on the vertical projection of the extrados.
     #[schema(minimum = 0.0, exclusive_maximum = 1e12)]

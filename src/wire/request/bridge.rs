@@ -17,7 +17,8 @@ pub struct BridgeRequest {
     pub piers: Vec<PierRequest>,
     /// Blocks under the first and the last springing.
     pub abutments: Option<BridgeAbutments>,
-    /// Masonry over the haunches. Left out: none.
+    /// Masonry over the haunches. Left out: none. It is blocks, with joints that bear and may slide; loose fill of another density,
+    /// which no joint holds, is `backfill.backing`.
     pub backing: Option<BackingRequest>,
     /// Friction angle between two rings of a span, degrees; there is no cohesion between them. Left out: that of `stone`.
     #[schema(minimum = 0.0, exclusive_maximum = 90.0)]

@@ -123,10 +123,11 @@ pub struct HingeBody {
     pub opens: Face,
     /// The point that it turns about, [x, y]: the joint's end on `face`, or that of the block that is crushed there.
     pub at_m: [f64; 2],
-    /// Position: angle of its middle from that of the nearer springing joint of its span, about the middle between both; null of a
-    /// joint of no span.
+    /// Position: angle between the joint's middle and that of the nearer springing joint of its span, seen from the point midway
+    /// between the middles of both springing joints, which in general is not the centre of a curve; null of a joint of no span.
     pub angle_from_springing_deg: Option<f64>,
-    /// Position: angle from the crown of its span, negative on the left; null of a joint of no span.
+    /// Position: angle of the joint's middle from the vertical through that same point, negative on the left; null of a joint of no
+    /// span.
     pub angle_from_crown_deg: Option<f64>,
     /// Relative rotation rate in the mechanism; the largest of all hinges is 1.
     pub rotation: f64,

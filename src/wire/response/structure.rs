@@ -107,6 +107,11 @@ pub enum LawWord {
 }
 
 impl StructureBody {
+    /// Whether fill resists stones that move into it.
+    pub(in crate::wire) fn soil_resists(&self) -> bool {
+        self.passive_elements.iter().any(|element| element.most_n_per_m > 0.0)
+    }
+
     /// What `request` describes; none where it has faults.
     pub(super) fn new(request: &AnalysisRequest) -> Option<Self> {
         let (analysis, layout) = analysed(request)?;

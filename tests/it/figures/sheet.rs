@@ -114,6 +114,12 @@ impl Sheet {
         lines.map(|line| places(line.get("points").unwrap())).collect()
     }
 
+    /// Heights at which straight lines of a class begin.
+    pub fn heights(&self, class: &str) -> Vec<f64> {
+        let lines = self.elements.iter().filter(|element| element.name == "line" && element.is(class));
+        lines.map(|line| line.number("y1")).collect()
+    }
+
     /// From metres to the sheet, as the outlines of the bodies have it.
     pub fn placed(&self, answer: &Value) -> impl Fn([f64; 2]) -> [f64; 2] {
         let number = |value: &Value| value.as_f64().unwrap();

@@ -132,8 +132,12 @@ impl DispersalRequest {
         let surface = || Some(backfill?.surface()?.height(x?));
         let height =
             self.surface_height_m.or_else(surface).map_or(String::new(), |y| format!(" at y = {} m", Digits(y)));
-        let how = self.distribution(backfill).map_or(String::new(), DistributionRequest::words);
-        format!(" on the surface{height}, dispersed by the fill {how}")
+        format!(" on the surface{height}, dispersed by the fill {}", self.how(backfill))
+    }
+
+    /// How the stress spreads.
+    pub fn how(&self, backfill: Option<&BackfillRequest>) -> String {
+        self.distribution(backfill).map_or(String::new(), DistributionRequest::words)
     }
 }
 
