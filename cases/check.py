@@ -6,7 +6,7 @@ do more work than the joints take, in some motion that no joint hinders (kinemat
 what moves into it, and what closes in an end that crushes does so against the strength)."""
 import json, math, sys
 
-NEAR = {"instability": 1e-6, "sliding": 1e-6, "crushing": 1e-6, "crushing on the path": 1e-3}  # of largest force, work or velocity
+NEAR, NEAR_ON_PATH = 1e-6, 1e-3  # of all loads together; where joints may crush on the path, whose contacts are springs
 LAW = ("law", "friction_coefficient", "cohesion_n_per_m", "compressive_strength_pa")
 rows, cross = lambda columns: list(zip(*columns.values())), lambda a, b: (a.conjugate() * b).imag
 
@@ -27,7 +27,7 @@ class Structure:
     # Whether forces balance these factors of the two loads and break no law; bodies with unknown ones are left out.
     def borne(self, factors, forces, soil, why="instability"):
         parts = [[[factor * x for x in load] for factor, load in zip(factors, loads)] for loads in self.loads]
-        size, broken = max(abs(x) for of in (*sum(parts, []), *filter(None, forces)) for x in of), []
+        size, broken = sum(math.hypot(*load[:2]) for of in parts for load in of), []
         sums = [[f + s for f, s in zip(*both)] for both in parts]
         for (k, way, height, most), force in zip(self.soil, soil):
             sums[k] = [of + x for of, x in zip(sums[k], (way * force, 0, -height * way * force))]
@@ -39,7 +39,7 @@ class Structure:
                 sums[k] = [of + x * u for of, u in zip(sums[k], unit)]
             crushed, beyond = (law in ("dry", "wall") and "crushing" in why) * (i + e) ** 2 / (2 * strength * length), abs(t) - friction * (i + e)
             broken += [crushed - i, crushed - e] * (law in ("dry", "wall")) + [beyond - abs(factors[0]) * cohesion] * (law != "bonded")
-        return max([abs(x) for k, of in enumerate(sums) for x in of if k not in unknown] + broken) <= NEAR[why] * size
+        return max([abs(x) for k, of in enumerate(sums) for x in of if k not in unknown] + broken) <= (NEAR_ON_PATH if "path" in why else NEAR) * size
 
     # Whether no joint hinders the motion, and loads beyond `at` (sign 0: all) do more work in it than the joints take.
     def falls(self, motion, at, sign, crushes=False):
@@ -48,7 +48,7 @@ class Structure:
         for law, friction, cohesion, strength, length, effects in self.joints:
             a, b, slip = (sum(f * v for k, unit in effect for f, v in zip(unit, motion[k])) for effect in effects)
             low, high = min(a, b) - friction * abs(slip), max(a, b) - friction * abs(slip)
-            taken, closes = taken + cohesion * abs(slip), crushes and law in ("dry", "wall") and low < 0
+            taken, closes = taken + cohesion * abs(slip), crushes and law in ("dry", "wall") and low < -1e-12 * fastest
             taken += closes and strength * length * (-(low + high) / 2 if high <= 0 else low ** 2 / 2 / (high - low))
             hindered += [-low * (not closes)] if law in ("dry", "wall") else [abs(a), abs(b), abs(slip) * (law == "bonded")]
         for k, way, height, most in self.soil:
@@ -69,11 +69,13 @@ def check(answer):
                  same(value, end["load_factor"]) and end["motion"] and structure.falls(rows(end["motion"]), value, sign)]
     for end in answer["ends"] if answer["outcome"] in ("collapse", "stands_in_window") else []:
         at, which = end["load_factor"], ("lowest", "highest").index(end["which"])
-        why = end["governed_by"] + " on the path" * (end["governed_by"] == "crushing" and answer["request"].get("crushing_in_path", False))
+        why = end["governed_by"] + " on the path" * answer["request"].get("crushing_in_path", False)
         exact = window[which] is not None and same(at, window[which]) or why == "crushing"
+        inside = window[which] is None or same(at, window[which]) or (at < window[which]) == (which == 1)
         line = {k: (n * (0.5 - off / structure.joints[k][4]), n * (0.5 + off / structure.joints[k][4]), t)
                 for k, n, t, off, *_ in rows(end["thrust_line"])}
-        good += [structure.borne((1, at), [line.get(k) for k in range(len(structure.joints))], end["passive_n_per_m"], why), exact or why != "instability",
+        good += [structure.borne((1, at), [line.get(k) for k in range(len(structure.joints))], end["passive_n_per_m"], why),
+                 inside, exact or why != "instability",
                  why != "crushing" or structure.falls(rows(end["velocities"]) + [(0, 0, 0)] * 2, at, 2 * which - 1, True)]
         said += f"; falls at {at} by {why}" + ("" if exact else ": borne there, but an upper bound is not claimed")
     return all(good), said

@@ -11,6 +11,8 @@ use inverse::invert_transposed;
 
 /// Unknowns are looked for within this box; the rows are expected to be scaled so that answers are of order one.
 const BOX: f64 = 1e9;
+/// And within these in turn, where walls hold the point that was found and others are as good.
+const SMALLER_BOXES: [f64; 3] = [1e1, 1e3, 1e6];
 /// A row (of unit length) may be violated by this, relative to the size of the point.
 const TOLERANCE: f64 = 1e-12;
 /// Weights of the entering row below this are none.
@@ -47,8 +49,22 @@ pub enum Optimum {
 /// until none is violated. Ties are broken lexicographically, as if the objective were perturbed by (e, e^2, e^3, ...),
 /// so that the method cannot cycle (Dantzig, Orden and Wolfe 1955). Of the multipliers at most as many as there are unknowns
 /// are not zero.
+///
+/// Of many points that are as good, as where wedged stones may press on each other as they like, one near by is told: in others what
+/// is of order one would be lost to rounding.
 pub fn maximise(objective: &[f64], half_spaces: &HalfSpaces, budget: &Budget) -> Optimum {
     let mut basis = Basis::new(objective, half_spaces);
+    let found = climb(&mut basis, budget);
+    if !matches!(found, Optimum::At(..)) || !basis.walls().any(|_| true) {
+        return found;
+    }
+    // Multipliers do not depend on the size of the box: the method goes on from where it is.
+    let nearer = |size| if basis.resize(size) { climb(&mut basis, budget) } else { Optimum::Lost };
+    SMALLER_BOXES.into_iter().map(nearer).find(|nearer| matches!(nearer, Optimum::At(..))).unwrap_or(found)
+}
+
+/// Exchanges constraints until none is violated.
+fn climb(basis: &mut Basis, budget: &Budget) -> Optimum {
     for pivot in 1..=MOST_PIVOTS {
         if budget.ask().is_err() {
             return Optimum::Lost;
@@ -92,7 +108,7 @@ pub fn maximise(objective: &[f64], half_spaces: &HalfSpaces, budget: &Budget) ->
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Facet {
     Row(usize),
-    /// sign x + BOX >= 0 for this unknown.
+    /// sign x >= - half the box for this unknown.
     Wall(usize, f64),
 }
 
@@ -106,6 +122,8 @@ enum MostViolated {
 struct Basis<'p> {
     objective: &'p [f64],
     half_spaces: &'p HalfSpaces,
+    /// The largest an unknown may be.
+    size: f64,
     constraints: Vec<Facet>,
     /// Columns of the inverse of the matrix of the constraints' rows, one after the other.
     inverse: Vec<f64>,
@@ -131,6 +149,7 @@ impl<'p> Basis<'p> {
         let mut basis = Basis {
             objective,
             half_spaces,
+            size: BOX,
             constraints,
             inverse,
             point,
@@ -154,7 +173,7 @@ impl<'p> Basis<'p> {
     fn entry(&self, constraint: Facet, j: usize) -> f64 {
         match constraint {
             Facet::Row(row) => self.half_spaces.entry(row, j),
-            Facet::Wall(_, _) if j == self.half_spaces.unknowns => BOX,
+            Facet::Wall(_, _) if j == self.half_spaces.unknowns => self.size,
             Facet::Wall(unknown, sign) => {
                 if j == unknown {
                     sign
@@ -189,7 +208,7 @@ impl<'p> Basis<'p> {
             }
         }
         for (unknown, x) in self.point.iter().enumerate() {
-            let value = BOX - x.abs();
+            let value = self.size - x.abs();
             if value < worst && value < -TOLERANCE * (1.0 + x.abs()) {
                 (worst, found) = (value, MostViolated::Worst(Facet::Wall(unknown, -x.signum())));
             }
@@ -293,18 +312,28 @@ impl<'p> Basis<'p> {
         rows.collect()
     }
 
-    fn optimum(self) -> Optimum {
+    /// Multipliers of the walls of the box that are in the basis.
+    fn walls(&self) -> impl Iterator<Item = f64> {
         let is_wall = |constraint: &Facet| matches!(constraint, Facet::Wall(..));
-        let pairs = || self.constraints.iter().zip(&self.dual);
-        if pairs().any(|(constraint, &y)| is_wall(constraint) && y > TOLERANCE) {
-            return Optimum::Unbounded(self.point);
+        self.constraints.iter().zip(&self.dual).filter(move |(constraint, _)| is_wall(constraint)).map(|(_, &y)| y)
+    }
+
+    /// The point where the same constraints meet in a box of another size; false where they depend on each other.
+    fn resize(&mut self, size: f64) -> bool {
+        self.size = size;
+        self.refresh()
+    }
+
+    fn optimum(&self) -> Optimum {
+        let point = self.point.clone();
+        if self.walls().any(|y| y > TOLERANCE) {
+            return Optimum::Unbounded(point);
         }
-        let held = pairs().filter_map(|(constraint, &y)| match *constraint {
+        let held = self.constraints.iter().zip(&self.dual).filter_map(|(constraint, &y)| match *constraint {
             Facet::Row(row) if y > 0.0 => Some((row, y)),
             _ => None,
         });
-        let held = held.collect();
-        Optimum::At(dot(self.objective, &self.point), self.point, held)
+        Optimum::At(dot(self.objective, &point), point, held.collect())
     }
 }
 

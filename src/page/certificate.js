@@ -3,8 +3,10 @@
 // (kinematic theorem: joints that slide dilate in it, soil resists what moves into it, and what closes in an end that crushes does so
 // against the strength). It needs `structure`, `proof`, `limit_window_load_factor` and `ends`, and no word of the service.
 
-/** Of the largest force, work or velocity. */
-const NEAR = {instability: 1e-6, sliding: 1e-6, crushing: 1e-6, onPath: 1e-3};
+/** Of all loads together. */
+const NEAR = 1e-6;
+/** The same where joints may crush on the path, whose contacts are springs. */
+const NEAR_ON_PATH = 1e-3;
 
 const presses = law => law === 'dry' || law === 'wall';
 const largest = (list, first = 0) => list.reduce((most, x) => (x > most || Number.isNaN(x) ? x : most), first);
@@ -59,7 +61,7 @@ class Structure {
   /** Whether these forces (null: unknown; then so are the sums of its bodies) balance the loads times `factors` and break no law. */
   borne(factors, forces, soil, near, crushes = false) {
     const parts = this.loads.map(loads => loads.map((load, i) => load.map(x => factors[i] * x)));
-    const size = largest([...parts.flat(2), ...forces.filter(Boolean).flat()].map(Math.abs));
+    const size = parts.flat().reduce((sum, [x, y]) => sum + Math.hypot(x, y), 0);
     const sums = parts.map(([fixed, scaled]) => fixed.map((x, i) => x + scaled[i]));
     const unknown = new Set(),
       broken = [];
@@ -102,7 +104,7 @@ class Structure {
       const dilates = joint.friction * Math.abs(slip),
         low = Math.min(a, b) - dilates,
         high = Math.max(a, b) - dilates;
-      const closes = crushes && presses(joint.law) && low < 0;
+      const closes = crushes && presses(joint.law) && low < -1e-12 * fastest;
       taken += joint.cohesion * Math.abs(slip);
       if (closes)
         taken += joint.strength * joint.length * (high <= 0 ? -(low + high) / 2 : low ** 2 / 2 / (high - low));
@@ -162,13 +164,13 @@ function windowEnd(structure, {proof, limit_window_load_factor: window}, which) 
   const word = which ? 'highest' : 'lowest',
     none = structure.soil.map(() => 0);
   const borne = {
-    holds: structure.borne([1, end.load_factor], forceRows(end.forces), end.passive_n_per_m, NEAR.instability),
+    holds: structure.borne([1, end.load_factor], forceRows(end.forces), end.passive_n_per_m, NEAR),
     text: `Load factor ${end.load_factor} (${word}) is borne: the forces of the proof balance every body and break no joint.`,
   };
   const beyond =
     value === null
       ? {
-          holds: end.ray !== null && structure.borne([0, sign], forceRows(end.ray), none, NEAR.instability),
+          holds: end.ray !== null && structure.borne([0, sign], forceRows(end.ray), none, NEAR),
           text: `The ${word} load factor has no end: forces that bear the scaled loads alone can be added without end.`,
         }
       : {
@@ -185,7 +187,7 @@ function collapse(structure, answer, end) {
     which = ['lowest', 'highest'].indexOf(end.which),
     bound = answer.limit_window_load_factor[which];
   const crushing = end.governed_by === 'crushing',
-    onPath = crushing && answer.request.crushing_in_path === true;
+    onPath = answer.request.crushing_in_path === true;
   const line = end.thrust_line,
     forces = structure.joints.map(() => null);
   line.joint.forEach((k, i) => {
@@ -193,17 +195,18 @@ function collapse(structure, answer, end) {
       off = line.eccentricity_m[i] / structure.joints[k].length;
     forces[k] = [normal * (0.5 - off), normal * (0.5 + off), line.shear_n_per_m[i]];
   });
-  const near = onPath ? NEAR.onPath : NEAR[end.governed_by];
+  const near = onPath ? NEAR_ON_PATH : NEAR;
   const exact = (bound !== null && same(at, bound)) || (crushing && !onPath);
+  const inside = bound === null || same(at, bound) || at < bound === (which === 1);
   const claims = [
     {
-      holds: structure.borne([1, at], forces, end.passive_n_per_m, near, crushing),
+      holds: inside && structure.borne([1, at], forces, end.passive_n_per_m, near, crushing),
       text:
         `The joint forces at collapse, load factor ${at} (${end.governed_by}), are in equilibrium and break no joint` +
         `${exact ? '' : '; an upper bound is not claimed'}.`,
     },
   ];
-  if (end.governed_by === 'instability')
+  if (end.governed_by === 'instability' && !onPath)
     claims.push({holds: exact, text: 'The collapse load is the end of the window.'});
   if (crushing && !onPath)
     claims.push({

@@ -248,5 +248,5 @@ fn random_structures_crush_on_the_path_within_plastic_sections() {
     }
     println!("{crushed} crush, {slid} slide, {cannot_tell} cannot tell; short by {worst:.1e} at most");
     assert!(complaints.is_empty(), "{} complaints:\n{}", complaints.len(), complaints.join("\n"));
-    assert!(crushed >= STRUCTURES && cannot_tell <= STRUCTURES / 10);
+    assert!(crushed >= STRUCTURES && cannot_tell <= 2);
 }

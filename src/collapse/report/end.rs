@@ -24,7 +24,7 @@ pub enum WhichEnd {
 pub enum GovernedBy {
     /// A mechanism of rigid stones.
     Instability,
-    /// Such a mechanism in which joints slide: the least load of its range counts.
+    /// Such a mechanism in which joints slide: the least load of its range counts, where there is one.
     Sliding,
     /// A mechanism in which joints crush, at a lower load than stone bears that does not crush.
     Crushing,
@@ -82,7 +82,7 @@ impl CollapseReport {
         let (governed_by, state) = match (crushes, path) {
             (Some(state), _) => (GovernedBy::Crushing, state),
             (None, Some(path)) if in_path => (GovernedBy::Crushing, path),
-            (None, Some(path)) if path.range.is_some() => (GovernedBy::Sliding, path),
+            (None, Some(path)) if path.range.is_some() || path.mechanism.slips() => (GovernedBy::Sliding, path),
             (None, path) => (GovernedBy::Instability, path?),
         };
         Some(End { which, governed_by, state, uncrushed: path.filter(|_| !in_path), crushing, motion })

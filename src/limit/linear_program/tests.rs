@@ -42,6 +42,20 @@ fn tells_empty_and_unbounded_sets() {
 }
 
 #[test]
+fn of_many_optima_one_near_by_is_told() {
+    // x0 at most 1, 1 + x1 and 1 + x2: all beyond 0 of the others is as good. And with x1 above what the smallest boxes hold.
+    for least in [0.0, 50.0, 5e4] {
+        let below = |i: usize| std::array::from_fn(|j| f64::from(j == i) - f64::from(j == 0));
+        let rows = [(unit(0, -1.0), 1.0), (below(1), 1.0), (below(2), 1.0), (unit(1, 1.0), -least)];
+        let found = maximise(&unit(0, 1.0), &half_spaces(&rows), &Budget::unlimited());
+        let Optimum::At(value, point, held) = found else { panic!("{found:?}") };
+        assert!((value - 1.0).abs() < 1e-12 && held.len() == 1, "{value} {held:?}");
+        let size = point.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        assert!(size <= (40.0 * least).max(10.0), "{point:?}");
+    }
+}
+
+#[test]
 fn a_heavily_tied_vertex_does_not_cycle() {
     // A cone of 400 half spaces through one point, the objective along its axis.
     let cone = |i: i32| {
