@@ -63,7 +63,8 @@ pub(super) async fn events(
 #[utoipa::path(
     get, path = "/v1/events", tag = "jobs", operation_id = "get_events_of_many",
     params(
-        ("job" = Vec<String>, Query, min_items = 1, max_items = 100, description = "Ids of jobs, a parameter each"),
+        ("job" = Vec<String>, Query, min_items = 1, max_items = 100, description = "Ids of jobs, a parameter each; one named twice is \
+            followed once"),
         ("last-event-id" = Option<String>, Header, description = "Id of the last event seen of the same jobs: how all stand is told \
             but of those whose end was"),
     ),
@@ -79,16 +80,16 @@ pub(super) async fn events_of_many(
     query: Result<Query<Vec<(String, String)>>, QueryRejection>,
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
-    let Query(query) = query.map_err(|rejection| query_fault(&rejection))?;
-    let count = query.len();
-    let once = query.iter().collect::<BTreeSet<_>>().len() == count;
-    if !(1..=MOST_FOLLOWED).contains(&count) || query.iter().any(|(name, _)| name != "job") || !once {
-        let detail = format!("name 1 to {MOST_FOLLOWED} jobs, each once, as in job=ID&job=ID, and nothing else");
+    let Query(mut query) = query.map_err(|rejection| query_fault(&rejection))?;
+    let mut named = BTreeSet::new();
+    query.retain(|job| named.insert(job.clone()));
+    if !(1..=MOST_FOLLOWED).contains(&query.len()) || query.iter().any(|(name, _)| name != "job") {
+        let detail = format!("name 1 to {MOST_FOLLOWED} jobs, as in job=ID&job=ID, and nothing else");
         return Err(Problem::of(kinds::BAD_QUERY, detail));
     }
     // Bits of those whose ends were told.
     let mut ended = last_event_id(&headers).and_then(|id| u128::from_str_radix(id, 16).ok()).unwrap_or(0);
-    let mut all = Vec::with_capacity(count);
+    let mut all = Vec::with_capacity(query.len());
     for (place, (_, id)) in query.iter().enumerate().filter(|(place, _)| ended & (1 << place) == 0) {
         let job = known(&state, &client, &Method::GET, id).await?;
         all.push(Box::pin(follow(state.0.clone(), job, None).map(move |told| (place, told))));

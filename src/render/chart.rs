@@ -1,6 +1,6 @@
 //! Curves over an abscissa, with axes, zones and places that are pointed out.
 
-use super::canvas::{Canvas, WIDTH};
+use super::canvas::{Canvas, LETTERS, WIDTH};
 use super::digits::Digits;
 use super::heading::Heading;
 use super::labels::extent;
@@ -142,7 +142,8 @@ pub fn svg(chart: &Chart) -> String {
     for (height, words) in &chart.levels {
         let [from, to] = axes.x.map(|x| axes.at((x, *height)));
         canvas.line("level", from, to);
-        canvas.label(to - Vec2::new(60.0, 0.0), Vec2::new(0.0, -1.0), words);
+        let half = 0.5 * extent(words, LETTERS).x + 8.0;
+        canvas.label(to - Vec2::new(half, 0.0), Vec2::new(0.0, -1.0), words);
     }
     for (kind, curve) in chart.curves.iter().enumerate() {
         draw_curve(&mut canvas, &axes, curve, kind % KINDS);

@@ -9,8 +9,8 @@ use utoipa::openapi::example::{Example, ExampleBuilder};
 use utoipa::openapi::schema::{AdditionalProperties, ArrayItems, Components};
 use utoipa::openapi::{OpenApi, RefOr, Schema};
 
-/// The schema of a body.
-const BODY: &str = "Request";
+/// The schemas of bodies.
+const BODIES: [&str; 2] = ["Request", "LinkRequest"];
 
 /// Ready requests, by name.
 const EXAMPLES: [(&str, &str); 9] = [
@@ -63,7 +63,7 @@ fn require(name: &str, schema: &mut RefOr<Schema>) {
 
 /// Unknown fields are refused in every object of a body; the names of what a body is made of.
 fn close_objects(components: &mut Components) -> BTreeSet<String> {
-    let (mut open, mut seen) = (vec![BODY.to_owned()], BTreeSet::new());
+    let (mut open, mut seen) = (BODIES.map(str::to_owned).to_vec(), BTreeSet::new());
     while let Some(name) = open.pop() {
         if let Some(schema) = components.schemas.get_mut(&name)
             && seen.insert(name)

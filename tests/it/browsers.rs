@@ -136,7 +136,8 @@ fn one_stream_tells_of_many_jobs_and_no_end_twice() {
     let server = Server::start(2, 10);
     let jobs = [server.submit(&trouble(ENDLESS)), server.submit(&request()), server.submit(&trouble(ERROR))];
     let query = jobs.iter().map(|job| format!("job={}", id(job))).collect::<Vec<_>>().join("&");
-    let path = format!("/v1/events?{query}");
+    // One is named twice.
+    let path = format!("/v1/events?{query}&job={}", id(&jobs[0]));
     for job in &jobs[1..] {
         server.until(job, &["successful", "failed"]);
     }
@@ -176,9 +177,7 @@ fn a_stream_follows_so_many_jobs_and_counts_as_one() {
     let jobs: Vec<_> = (0..101).map(|_| server.submit(&trouble(ENDLESS))).collect();
     let named = |jobs: &[String]| jobs.iter().map(|job| format!("job={}", id(job))).collect::<Vec<_>>().join("&");
     let many = |count: usize| format!("/v1/events?{}", named(&jobs[..count]));
-    for path in
-        ["/v1/events", &many(101), &format!("{}&limit=3", many(1)), &format!("{}&{}", many(1), named(&jobs[..1]))]
-    {
+    for path in ["/v1/events", &many(101), &format!("{}&limit=3", many(1))] {
         assert_eq!(server.get(path).problem(400)["type"], kinds::BAD_QUERY.uri, "{path}");
     }
     server.get("/v1/events?job=nobody").problem(404);

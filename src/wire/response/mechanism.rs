@@ -126,8 +126,8 @@ pub struct HingeBody {
     /// Position: angle between the joint's middle and that of the nearer springing joint of its span, seen from the point midway
     /// between the middles of both springing joints, which in general is not the centre of a curve; null of a joint of no span.
     pub angle_from_springing_deg: Option<f64>,
-    /// Position: angle of the joint's middle from the vertical through that same point, negative on the left; null of a joint of no
-    /// span.
+    /// Position: the same seen from the vertical through the point that `angle_from_springing_deg` names, negative on the left; null of
+    /// a joint of no span.
     pub angle_from_crown_deg: Option<f64>,
     /// Relative rotation rate in the mechanism; the largest of all hinges is 1.
     pub rotation: f64,
