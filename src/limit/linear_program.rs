@@ -48,17 +48,15 @@ pub enum Optimum {
 /// Dual simplex from a corner of a large box: of the constraints in the basis one leaves for the most violated one,
 /// until none is violated. Ties are broken lexicographically, as if the objective were perturbed by (e, e^2, e^3, ...),
 /// so that the method cannot cycle (Dantzig, Orden and Wolfe 1955). Of the multipliers at most as many as there are unknowns
-/// are not zero.
-///
-/// Of many points that are as good, as where wedged stones may press on each other as they like, one near by is told: in others what
-/// is of order one would be lost to rounding.
+/// are not zero. Of many points that are as good, as where wedged stones may press on each other as they like, one near by is told:
+/// in others what is of order one would be lost to rounding.
 pub fn maximise(objective: &[f64], half_spaces: &HalfSpaces, budget: &Budget) -> Optimum {
     let mut basis = Basis::new(objective, half_spaces);
     let found = climb(&mut basis, budget);
     if !matches!(found, Optimum::At(..)) || !basis.walls().any(|_| true) {
         return found;
     }
-    // Multipliers do not depend on the size of the box: the method goes on from where it is.
+    // Multipliers do not depend on the size: the method goes on from where it is.
     let nearer = |size| if basis.resize(size) { climb(&mut basis, budget) } else { Optimum::Lost };
     SMALLER_BOXES.into_iter().map(nearer).find(|nearer| matches!(nearer, Optimum::At(..))).unwrap_or(found)
 }
@@ -174,13 +172,8 @@ impl<'p> Basis<'p> {
         match constraint {
             Facet::Row(row) => self.half_spaces.entry(row, j),
             Facet::Wall(_, _) if j == self.half_spaces.unknowns => self.size,
-            Facet::Wall(unknown, sign) => {
-                if j == unknown {
-                    sign
-                } else {
-                    0.0
-                }
-            }
+            Facet::Wall(unknown, sign) if j == unknown => sign,
+            Facet::Wall(..) => 0.0,
         }
     }
 
@@ -314,8 +307,8 @@ impl<'p> Basis<'p> {
 
     /// Multipliers of the walls of the box that are in the basis.
     fn walls(&self) -> impl Iterator<Item = f64> {
-        let is_wall = |constraint: &Facet| matches!(constraint, Facet::Wall(..));
-        self.constraints.iter().zip(&self.dual).filter(move |(constraint, _)| is_wall(constraint)).map(|(_, &y)| y)
+        let pairs = self.constraints.iter().zip(&self.dual);
+        pairs.filter(|(constraint, _)| matches!(constraint, Facet::Wall(..))).map(|(_, &y)| y)
     }
 
     /// The point where the same constraints meet in a box of another size; false where they depend on each other.

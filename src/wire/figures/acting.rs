@@ -96,16 +96,6 @@ impl Entry<'_> {
                 };
                 bands.iter().map(band).collect()
             }
-            Load::Point(..) | Load::Force { .. } => {
-                let forces = load.on(structure, self.factor).unwrap_or_default();
-                let whole: Vec2 = forces.iter().map(|part| part.force).sum();
-                let words = format!("{} kN/m", Rounded(whole.norm() / 1e3));
-                let first = forces.first().filter(|_| whole != Vec2::zeros());
-                first
-                    .map(|part| here(Mark::Force { at: part.at, along: whole.normalize() }, words))
-                    .into_iter()
-                    .collect()
-            }
             Load::Patch(patch) => self.strip(patch, 1.0, "kN/m", structure).into_iter().collect(),
             Load::Vehicle(vehicle) => {
                 let LoadRequest::Vehicle(VehicleLoad { effective_width_m: width, .. }) = &self.entry.load else {
@@ -117,6 +107,17 @@ impl Entry<'_> {
                 let force = self.factor / GRAVITY * acceleration;
                 let words = format!("{} g on all masses", Rounded(force.norm()));
                 (force != Vec2::zeros()).then(|| here(Mark::Inertia(force.normalize()), words)).into_iter().collect()
+            }
+            // Any other is drawn as its whole force.
+            _ => {
+                let forces = load.on(structure, self.factor).unwrap_or_default();
+                let whole: Vec2 = forces.iter().map(|part| part.force).sum();
+                let words = format!("{} kN/m", Rounded(whole.norm() / 1e3));
+                let first = forces.first().filter(|_| whole != Vec2::zeros());
+                first
+                    .map(|part| here(Mark::Force { at: part.at, along: whole.normalize() }, words))
+                    .into_iter()
+                    .collect()
             }
         }
     }
