@@ -7,9 +7,6 @@ use serde::Serialize;
 use serde::ser::{self, Serializer};
 use std::fmt::Display;
 
-/// Bytes that most lines have room in: the answer on an arch of 27 stones has 70,000.
-const LINE: usize = 128 << 10;
-
 /// Why a value is not written.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{0} is not a finite number")]
@@ -53,11 +50,7 @@ pub fn pretty(value: &impl Serialize) -> Result<String, NotFinite> {
 /// # Errors
 /// Where a number is not finite.
 pub fn line(value: &impl Serialize) -> Result<Vec<u8>, NotFinite> {
-    value.serialize(Finite)?;
-    let mut line = Vec::with_capacity(LINE);
-    serde_json::to_writer(&mut line, value).map_err(<NotFinite as ser::Error>::custom)?;
-    line.push(b'\n');
-    Ok(line)
+    compact(value).map(|text| (text + "\n").into_bytes())
 }
 
 type Checked = Result<(), NotFinite>;
