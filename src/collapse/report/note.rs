@@ -86,6 +86,8 @@ pub enum Note {
     NoGeometricSafety,
     /// Plastic sections never fail, so first yield counts.
     SectionsNeverFail,
+    /// Joints crush before the load at which this doubt arises: what stone would bear that does not crush is not told.
+    UnknownBeyondCrushing(Doubt),
     /// With plastic sections the arch does not stand at the start of the load path.
     CrushesAtStart {
         /// Compressive strength, Pa.

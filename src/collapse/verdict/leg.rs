@@ -9,7 +9,9 @@ use crate::collapse::sliding::Search;
 use crate::collapse::state::States;
 use crate::collapse::tolerances;
 use crate::collapse::yielding::Averaged;
-use crate::collapse::{Analysis, AnalysisError, CollapseReport, Cost, Doubt, LoadRange, Method, Note, Outcome};
+use crate::collapse::{
+    Analysis, AnalysisError, CollapseReport, Cost, Doubt, LoadRange, Method, Note, Outcome, PathEnd, Task,
+};
 use crate::dda::Tracer;
 use crate::limit::StaticTheorem;
 
@@ -95,6 +97,14 @@ impl Setup<'_> {
                 }
             }
         };
+        if let Some(doubt @ (Doubt::TurnedBack(_) | Doubt::Stray { .. })) = &doubt
+            && self.crushes_before(&ending.end, sign)
+        {
+            report.near_collapse = None;
+            report.outcome = Outcome::Stands;
+            report.notes.push(Note::UnknownBeyondCrushing(doubt.clone()));
+            return Ok(None);
+        }
         report.notes.extend(ending.later.then_some(Note::LaterMechanism));
         let range = ending.end.range.as_ref().map(range_note);
         let parted = matches!(range, Some(Note::ManySlidingLoads(_))) && ending.end.mechanism.slides.is_empty();
@@ -107,6 +117,17 @@ impl Setup<'_> {
         report.outcome = Outcome::Collapse;
         report.end = Some(ending.end);
         Ok(doubt)
+    }
+
+    /// Whether joints of the stone's strength give way at a load below all that the path says of its end, so that what is doubtful
+    /// there decides nothing.
+    fn crushes_before(&self, end: &PathEnd, sign: f64) -> bool {
+        let side = usize::from(sign > 0.0);
+        let crushes = self.crushing.plastic_section.as_ref().and_then(|plastic| plastic.ends[side].as_ref());
+        let path = end.on_path();
+        let least = end.range.as_ref().map_or(path, |range| sign * (sign * range.least).min(sign * path));
+        let before = |at: &PathEnd| sign * (least - at.load_factor) > tolerances::SAME_FAILURE * least.abs();
+        matches!(self.analysis.task, Task::Collapse(_)) && crushes.is_some_and(before)
     }
 
     /// Where joints slide, takes the least load at which they let the arch fall for the end.

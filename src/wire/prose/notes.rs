@@ -20,6 +20,9 @@ impl fmt::Display for Note {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         out.write_str(&match self {
             Note::Doubt(doubt) => doubts::doubted(doubt),
+            Note::UnknownBeyondCrushing(doubt) => {
+                format!("What it would bear if its stone did not crush is not known. {}", doubts::doubted(doubt))
+            }
             Note::StandsOnlyWithin { window, why } => stands_only(window, *why),
             Note::SoleSlidingLoad(range) => sole_load(range),
             Note::SlidesBesideSoil => SLIDES_BESIDE_SOIL.into(),

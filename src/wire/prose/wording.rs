@@ -139,7 +139,7 @@ fn slide(end: &EndBody) -> &'static str {
 
 /// The intensity within the range at which joints of the stone's strength crush: no more is possible.
 fn crushes_within(end: &EndBody, range: &RangeBody) -> Option<f64> {
-    let crushing = end.crushing.map(|figure| figure.intensity)?;
+    let crushing = end.crushing.map(|figure| figure.intensity).filter(|crushing| crushing.abs() > range.least.abs())?;
     range.greatest.is_none_or(|greatest| differs(Rounded, crushing, greatest)).then_some(crushing)
 }
 
