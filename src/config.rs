@@ -300,6 +300,7 @@ impl Serve {
             links,
             hosts: if any { Hosts::default() } else { Hosts::only(requests.hosts.clone()) },
             origins: requests.origins.clone(),
+            grace: Duration::from_secs(self.grace),
             store: self.job_limits(),
         })
     }

@@ -50,7 +50,7 @@ fn run(options: &Serve) -> io::Result<()> {
     listener.set_nonblocking(true)?;
     let address = listener.local_addr()?;
     let (limits, work, settings) = (options.job_limits(), options.work(), options.settings(address)?);
-    let request_time = settings.limits.request_time;
+    let (request_time, grace) = (settings.limits.request_time, settings.grace);
     if let Some(file) = &options.requests.token_file {
         take_tokens(&settings.tokens, file)?;
     }
@@ -69,7 +69,7 @@ fn run(options: &Serve) -> io::Result<()> {
         if let Some(file) = options.requests.token_file.clone() {
             tokio::spawn(follow_tokens(tokens, file));
         }
-        let ending = tokio::spawn(end(service.clone(), handle.clone(), Duration::from_secs(options.grace)));
+        let ending = tokio::spawn(end(service.clone(), handle.clone(), grace));
         let door = Door { connections: options.connections(), patience: request_time };
         let mut server = axum_server::from_tcp(listener)?.acceptor(door).handle(handle);
         connections::bound(server.http_builder(), request_time);

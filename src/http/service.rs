@@ -16,7 +16,7 @@ use crate::wire::rendering::renderings;
 use axum::body::Bytes;
 use axum::http::HeaderValue;
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 use tokio_util::sync::CancellationToken;
 
 /// The mechanics, or what stands in for them in a test.
@@ -35,6 +35,8 @@ pub struct Settings {
     pub hosts: Hosts,
     /// Pages of which origins may ask.
     pub origins: Vec<HeaderValue>,
+    /// How long jobs may end, and their answers be read, when it is told to stop.
+    pub grace: Duration,
     /// What the store takes on, for those who watch it.
     pub store: Limits,
 }

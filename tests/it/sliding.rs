@@ -4,7 +4,7 @@
 use crate::common::sliding::{Checked, EXHAUSTED, SAME, check};
 use crate::common::{door, exhaustive, sliding_arch};
 use serde_json::{Value, json};
-use voussoir::collapse::{LoadRange, Note, Outcome};
+use voussoir::collapse::{Doubt, GovernedBy, LoadRange, Note, Outcome};
 
 /// Random arches, from seed 0; the bench `sliding` takes more.
 const ARCHES: u64 = 1000;
@@ -129,4 +129,37 @@ fn contacts_that_jam_are_no_collapse() {
         });
         assert!(said, "{:?}", report.notes);
     }
+}
+
+/// A pointed bridge of three rings whose backfill resists.
+fn three_rings(strength: f64) -> Value {
+    let ring = |thickness: f64, voussoirs: usize| json!({"thickness_m": thickness, "voussoirs": voussoirs});
+    let profile = json!({"pointed": {"span_m": 5.5, "rise_m": 3.6}});
+    json!({
+        "bridge": {
+            "spans": [{"profile": profile, "rings": [ring(0.3, 7), ring(0.36, 7), ring(0.3, 6)]}], "piers": [],
+            "abutments": {"left": {"height_m": 1.5, "width_m": 3.8}}, "backing": {"level_m": 1.0},
+        },
+        "stone": {"friction_angle_deg": 40, "compressive_strength_pa": strength},
+        "loads": [
+            {"load": {"self_weight": {}}},
+            {"load": {"point_load": {"x_m": -0.6, "force_n_per_m": 10000}}, "scaled": true},
+        ],
+        "backfill": {"surface_height_m": 5.5, "passive": {}},
+    })
+}
+
+#[test]
+fn what_a_path_comes_to_beyond_crushing_decides_nothing() {
+    let report = door::solve(&three_rings(3e6));
+    let [end] = &report.ends()[..] else { panic!("{report:?}") };
+    assert_eq!((report.outcome, end.governed_by, end.uncrushed), (Outcome::Collapse, GovernedBy::Crushing, None));
+    let load = end.state.load_factor;
+    let beyond =
+        |note: &Note| matches!(note, Note::UnknownBeyondCrushing(Doubt::Stray { path, .. }) if *path > 2.0 * load);
+    assert!(report.notes.iter().any(beyond), "{:?}", report.notes);
+    // Stone ten times as strong crushes beyond the end of the path, which tells nothing of its collapse.
+    let stronger = door::solve(&three_rings(3e7));
+    assert_eq!(stronger.outcome, Outcome::CannotTell);
+    assert!(stronger.notes.iter().any(|note| matches!(note, Note::Doubt(Doubt::Stray { .. }))), "{:?}", stronger.notes);
 }

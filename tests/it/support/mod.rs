@@ -125,6 +125,7 @@ pub fn settings() -> Settings {
         links: LinkKey::random().unwrap(),
         hosts: Hosts::default(),
         origins: vec![],
+        grace: Duration::from_secs(10),
         store: self::limits(10),
     }
 }
