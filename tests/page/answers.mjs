@@ -133,7 +133,7 @@ export async function exportsAreTheServicesBytes(tools) {
 
 /** Progress comes by itself, until the job is cancelled. */
 export async function progressIsLive(tools) {
-  const {job_id: id} = await tools.service.submit(long(tools.request('worst-position')), 0);
+  const {job_id: id} = await tools.service.submit(long(tools.request('first-arch')), 0);
   const page = await tools.page(`/#/jobs/${id}`);
   const share = () => page.evaluate(() => document.querySelector('.live progress').value);
   await page.waitForFunction(() => document.querySelector('.live progress').value > 0);

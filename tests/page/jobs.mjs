@@ -8,7 +8,7 @@ const row = (page, id) => page.locator(`.job[data-id="${id}"]`);
 /** A job is followed, cancelled, cloned and edited from the list. */
 export async function cancelCloneAndEdit(tools) {
   const service = await tools.serve();
-  const running = await service.submit(long(tools.request('worst-position')), 0);
+  const running = await service.submit(long(tools.request('first-arch')), 0);
   const waiting = await service.submit({...SMALL, name: 'Waiting'}, 0);
   const page = await tools.page('/', {service});
   await text(page, `[data-id="${running.job_id}"] .words`, '%');
@@ -39,7 +39,7 @@ export async function cancelCloneAndEdit(tools) {
 /** A job that fails says why. */
 export async function aFailureSaysWhy(tools) {
   const service = await tools.serve('--job-time', '1');
-  const {job_id: id} = await service.submit(long(tools.request('worst-position')), 0);
+  const {job_id: id} = await service.submit(long(tools.request('first-arch')), 0);
   const page = await tools.page(`/#/jobs/${id}`, {service});
   await text(page, '.badge', 'failed');
   assert.ok((await page.textContent('.problem')).includes('1 s'));
@@ -53,7 +53,7 @@ export async function theServiceIsKilledAndComesBack(tools) {
   await page.click('#analyse');
   await page.waitForSelector('#headline');
   const id = page.url().split('/').at(-1);
-  const other = await service.submit(long(tools.request('worst-position')), 0);
+  const other = await service.submit(long(tools.request('first-arch')), 0);
   await page.click('.top nav a[href="#/"]');
   await text(page, `[data-id="${other.job_id}"] .words`, '%');
   await service.kill();
@@ -77,7 +77,7 @@ export async function theServiceIsKilledAndComesBack(tools) {
 /** Of a thousand jobs the newest are listed in less than a second, and all of them on demand. */
 export async function aThousandJobs(tools) {
   const service = await tools.serve('--queue', '4000');
-  await service.submit(long(tools.request('worst-position')), 0);
+  await service.submit(long(tools.request('first-arch')), 0);
   for (let i = 0; i < 1000; i += 20) {
     await Promise.all(Array.from({length: 20}, (_, k) => service.submit({...SMALL, name: `Job ${i + k}`}, 0)));
   }

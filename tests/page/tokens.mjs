@@ -32,7 +32,7 @@ export async function aTokenIsAskedForOnce(tools) {
   ]);
   assert.ok(readFileSync(await download.path(), 'utf8').startsWith('<svg'));
   const authorised = {authorization: `Bearer ${TOKEN}`};
-  const answer = await service.call('POST', '/v1/jobs', long(tools.request('worst-position')), authorised);
+  const answer = await service.call('POST', '/v1/jobs', long(tools.request('first-arch')), authorised);
   const {job_id: id} = await answer.json();
   await page.evaluate(id => {
     location.hash = `#/jobs/${id}`;

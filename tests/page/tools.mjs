@@ -166,12 +166,14 @@ export const SMALL = {
   loads: [{load: {self_weight: {}}}, {load: {point_load: {force_n_per_m: 1000, x_m: -1}}, scaled: true}],
 };
 
-/** One that takes long, and says how far it has come: many positions of a vehicle. */
+/** One that takes long, and says how far it has come: safety at as many abscissae as there may be, of an arch with a load that grows. */
 export function long(request) {
+  const [weight, load] = request.loads;
   return {
     ...request,
     name: 'Long',
-    arch: {...request.arch, voussoirs: 400},
-    analysis: {worst_position: {step_m: 0.0035, from_m: -3, to_m: 3}},
+    arch: {...request.arch, voussoirs: 490},
+    loads: [weight, {...load, per_abscissa: true}],
+    analysis: {safety: {curve: {abscissae: Array.from({length: 500}, (_, i) => 1 + i / 4), unit: 'kN/m'}}},
   };
 }
