@@ -99,7 +99,7 @@ pub(super) fn sampled(beam: &CurvedBeam, budget: &Budget) -> Result<(Grid, Vec<[
     budget.ask()?;
     let [stresses, samples] = body.stresses(&displacements);
     let samples = if samples.is_empty() { stresses.clone() } else { samples };
-    let field = grid.field(0, &stresses, recovery::tell(&grid, &samples).corners);
+    let field = grid.field(0, &stresses, recovery::tell(&grid, &samples, &[]).corners);
     let field = StressField { load_factor: 1.0, subblocks: field, roughness: Vec::new() };
     let exact_tresca: Vec<f64> = field.subblocks.iter().map(|s| tresca_at(&exact, s)).collect();
     let squares = |of: &dyn Fn(usize) -> f64| (0..exact_tresca.len()).map(|i| of(i).powi(2)).sum::<f64>().sqrt();

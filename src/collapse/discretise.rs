@@ -3,6 +3,7 @@
 mod touches;
 
 use super::grid::{Cut, Grid};
+use super::near_point::{NearPoint, near_points};
 use super::path::Attempt;
 use super::recovery::{self, Told};
 use super::scatter::Scatter;
@@ -11,7 +12,7 @@ use super::{Analysis, AnalysisError, Geometry, Mesh, PlaneModel, Seams};
 use crate::budget::Budget;
 use crate::dda::{Assembly, AssemblyBuilder, Beside, Bond, Elasticity, Loads, MeanMotion, Push, Touch};
 use crate::geometry::Vec2;
-use crate::structure::{Body, PointForce, Side, Stone, Structure};
+use crate::structure::{ActsOn, Body, PointForce, Side, Stone, Structure};
 use touches::{around, passive, penalties, points, touches};
 
 /// Work of cutting out a subblock with its seams, in multiplications.
@@ -42,6 +43,8 @@ pub(super) struct Model<'p> {
     /// Loads that stay, and those that the load factor multiplies.
     pub fixed: Loads,
     pub scaled: Loads,
+    /// What is near their forces on points, body by body.
+    near: Vec<Vec<NearPoint>>,
     /// Both with every force turned by -90 degrees, on the nodes; only where the path on moving geometry is asked for.
     pub turned: [Vec<f64>; 2],
 }
@@ -118,6 +121,7 @@ fn discretise<'p>(analysis: &Analysis, strips: &Strips, budget: &'p Budget<'p>) 
         symmetric: !structure.is_half() && assembly.is_symmetric(),
         fixed: Loads::default(),
         scaled: Loads::default(),
+        near: Vec::new(),
         turned: Default::default(),
         budget,
         bodies: structure.voussoirs().len(),
@@ -204,7 +208,7 @@ pub(super) fn grids(analysis: &Analysis) -> Vec<Grid> {
 /// A force on a body as forces on its subblocks.
 fn pushes(force: &PointForce, grids: &[Grid]) -> Vec<Push> {
     let (grid, body) = (&grids[force.body], force.body);
-    if force.spread {
+    if force.acts_on == ActsOn::Body {
         return vec![Push { body, subblock: None, at: force.at, force: force.force }];
     }
     let push = |(subblock, share)| Push { body, subblock: Some(subblock), at: force.at, force: force.force * share };
@@ -231,6 +235,7 @@ impl Model<'_> {
         let [fixed, scaled] = [straight(&analysis.fixed)?, straight(&analysis.scaled)?];
         let turned = [turned(&analysis.fixed)?, turned(&analysis.scaled)?];
         (self.fixed, self.scaled, self.turned) = (fixed, scaled, turned);
+        self.near = near_points(analysis);
         Ok(())
     }
 
@@ -277,7 +282,7 @@ impl Model<'_> {
     /// Stress at the corners of the subblocks of a body, and how rough it is.
     pub(super) fn told(&self, body: usize, load_factor: f64, displacements: &[f64]) -> Told {
         let samples = self.assembly.samples(body, displacements, &self.loads_at(load_factor));
-        recovery::tell(&self.grids[body], &samples)
+        recovery::tell(&self.grids[body], &samples, &self.near[body])
     }
 
     /// Mean stress in a body, Pa.

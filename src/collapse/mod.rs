@@ -15,6 +15,7 @@ mod mechanism;
 mod mirror;
 mod model;
 mod motion;
+mod near_point;
 mod path;
 mod plan;
 mod plastic_end;

@@ -15,6 +15,7 @@ pub(super) use beam::solve as beam;
 pub use mesh::{LOAD_PIECES, can_be_refined};
 pub(super) use mesh::{MOST_EACH_WAY, around};
 
+use super::near_point::near_points;
 use super::{
     Accuracy, Analysis, AnalysisError, CollapseReport, Direction, Estimate, Mesh, Outcome, PathEnd, Plan, PlanReason,
     verdict,
@@ -87,6 +88,7 @@ fn on_finer_meshes(
     found.report.cost.join(rigid.cost);
     plan.why.extend([why_half(analysis, half.is_some()), found.why]);
     plan.why.extend(found.one_by_one.then_some(PlanReason::StatesOneByOne));
+    plan.why.extend(near_points(modelled).iter().any(|near| !near.is_empty()).then_some(PlanReason::NearPointsLeftOut));
     (plan.order, plan.spacing) = mesh::drawing(&modelled.structure);
     (plan.stress, plan.first_yield, plan.meshes) = (Some(found.stress), found.first_yield, found.meshes);
     (plan.half, plan.subblocks) = match half {

@@ -7,6 +7,7 @@
 //! as much as that is off (Zienkiewicz and Zhu 1992).
 
 use super::grid::Grid;
+use super::near_point::NearPoint;
 use super::report::{Roughness, tresca};
 use super::{Order, SubblockStress};
 use crate::geometry::{Vec2, mirrored};
@@ -50,8 +51,8 @@ impl Piece {
     }
 }
 
-/// The field of a stone with these stresses at the samples of its subblocks.
-pub(super) fn tell(grid: &Grid, samples: &[[f64; 3]]) -> Told {
+/// The field of a stone with these stresses at the samples of its subblocks; how rough it is leaves out what is near forces on points.
+pub(super) fn tell(grid: &Grid, samples: &[[f64; 3]], near: &[NearPoint]) -> Told {
     let pieces = recovered(grid, samples);
     match grid.order {
         Order::First => {
@@ -64,7 +65,7 @@ pub(super) fn tell(grid: &Grid, samples: &[[f64; 3]]) -> Told {
             let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
             let of_subblock = |of: &[[f64; 3]]| corners.map(|local| through(of, local)).to_vec();
             let corners = samples.chunks_exact(4).map(of_subblock).collect();
-            Told { corners, roughness: roughness(grid, samples, &pieces) }
+            Told { corners, roughness: roughness(grid, samples, &pieces, near) }
         }
     }
 }
@@ -114,10 +115,11 @@ fn fitted(samples: &[([f64; 2], [f64; 3])], most: [usize; 2], together: usize) -
 }
 
 /// How far the smooth field of a stone is from the one that goes through the samples of its subblocks.
-fn roughness(grid: &Grid, samples: &[[f64; 3]], pieces: &[Piece]) -> Roughness {
-    let mut sum = Roughness { columns: grid.columns(), ..Roughness::default() };
+fn roughness(grid: &Grid, samples: &[[f64; 3]], pieces: &[Piece], near: &[NearPoint]) -> Roughness {
+    let mut sum = Roughness { columns: grid.columns(), near_point: !near.is_empty(), ..Roughness::default() };
     for ((of, (i, j)), piece) in samples.chunks_exact(4).zip(grid.cells()).zip(pieces) {
-        for (local, place, area) in grid.quadrature(i, j) {
+        let counts = |place: &[f64; 2]| near.is_empty() || !near.iter().any(|near| near.has(grid.point(j, *place)));
+        for (local, place, area) in grid.quadrature(i, j).into_iter().filter(|(_, place, _)| counts(place)) {
             let (here, smooth) = (tresca(through(of, local)), tresca(piece.at(place)));
             sum.apart += area * (smooth - here).powi(2);
             sum.whole += area * here * here;

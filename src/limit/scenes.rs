@@ -1,7 +1,7 @@
 //! Structures built by hand for the tests of this room.
 
 use crate::geometry::{Region, Vec2};
-use crate::structure::{Body, Joint, JointLaw, PointForce, Side, Sides, Structure};
+use crate::structure::{ActsOn, Body, Joint, JointLaw, PointForce, Side, Sides, Structure};
 
 /// Bodies of straight sides on so many supports.
 pub fn structure(polygons: &[Vec<Vec2>], joints: Vec<Joint>, supports: usize) -> Structure {
@@ -148,7 +148,7 @@ pub fn per_area(structure: &Structure, force: Vec2) -> Vec<PointForce> {
         body,
         at: b.region.centroid,
         force: force * b.region.area,
-        spread: true,
+        acts_on: ActsOn::Body,
     };
     structure.bodies.iter().enumerate().map(load).collect()
 }

@@ -2,7 +2,7 @@
 //!
 //! Of a structure of one ring, with the abutment blocks beside it.
 
-use super::{Body, Joint, JointLaw, PointForce, Side, Sides, Span, Structure, Surface};
+use super::{ActsOn, Body, Joint, JointLaw, PointForce, Side, Sides, Span, Structure, Surface};
 use crate::geometry::{Region, Vec2, cross, mirrored};
 
 impl Structure {
@@ -94,7 +94,7 @@ impl Structure {
                 return *force;
             }
             // The mirror image of what acts right of the axis acts left of it; half of either is half of both.
-            let (at, push) = if force.spread {
+            let (at, push) = if force.acts_on == ActsOn::Body {
                 (half.bodies[force.body].region.centroid, force.force)
             } else if force.at.x > axis {
                 (mirrored(force.at, axis), mirrored(force.force, 0.0))

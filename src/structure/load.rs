@@ -11,7 +11,7 @@ mod passive;
 mod patch;
 mod vehicle;
 
-use super::{Body, GRAVITY, PointForce, Structure, Surface};
+use super::{ActsOn, Body, GRAVITY, PointForce, Structure, Surface};
 use crate::geometry::{Vec2, distance_from_segment, lies_inside};
 pub use dispersal::{Dispersal, Distribution};
 pub use fill::{Fill, FillBacking, Layer, SurfaceLine};
@@ -209,7 +209,7 @@ fn body_force(structure: &Structure, acceleration: Vec2) -> Vec<PointForce> {
         body: k,
         at: body.region.centroid,
         force: structure.stone_of(k).density * body.region.area * acceleration,
-        spread: true,
+        acts_on: ActsOn::Body,
     };
     structure.bodies.iter().enumerate().map(force).collect()
 }
@@ -240,7 +240,7 @@ fn lateral(sides: &[LoadedSide], bands: &[Band], flanks: Flanks) -> Vec<PointFor
         for band in bands {
             if let Some((a, b)) = clip(a, b, band.from, band.to) {
                 let force = Vec2::new(band.pressure * (b.y - a.y), 0.0);
-                forces.push(PointForce { body, at: 0.5 * (a + b), force, spread: false });
+                forces.push(PointForce { body, at: 0.5 * (a + b), force, acts_on: ActsOn::Side });
             }
         }
     }
@@ -257,7 +257,7 @@ fn middle_load(structure: &Structure, force: Vec2, body: usize) -> Result<PointF
         return Err(LoadFault::NoSuchVoussoir { last });
     };
     let [a, b] = surface.ends;
-    Ok(PointForce { body, at: 0.5 * (a + b), force, spread: false })
+    Ok(PointForce { body, at: 0.5 * (a + b), force, acts_on: ActsOn::Point })
 }
 
 fn force_on(structure: &Structure, body: usize, at: Vec2, force: Vec2) -> Result<PointForce, LoadFault> {
@@ -266,7 +266,7 @@ fn force_on(structure: &Structure, body: usize, at: Vec2, force: Vec2) -> Result
     let longest = sides().map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
     let near = || sides().any(|(&a, &b)| distance_from_segment(at, a, b) <= ON_THE_BODY * longest);
     if lies_inside(at, corners) || near() {
-        Ok(PointForce { body, at, force, spread: false })
+        Ok(PointForce { body, at, force, acts_on: ActsOn::Point })
     } else {
         let none = [f64::INFINITY, f64::NEG_INFINITY].map(Vec2::repeat);
         let [low, high] = corners.iter().fold(none, |[low, high], corner| [low.inf(corner), high.sup(corner)]);
@@ -324,7 +324,10 @@ fn point_load(structure: &Structure, force: Vec2, x: f64) -> Result<Vec<PointFor
     bearers.extend(under.iter().filter(stands_too).map(|&(i, _)| i));
     bearers.sort_unstable();
     let (at, share) = (Vec2::new(x, y), force / bearers.len() as f64);
-    Ok(bearers.into_iter().map(|i| PointForce { body: surfaces[i].body, at, force: share, spread: false }).collect())
+    Ok(bearers
+        .into_iter()
+        .map(|i| PointForce { body: surfaces[i].body, at, force: share, acts_on: ActsOn::Point })
+        .collect())
 }
 
 #[cfg(test)]

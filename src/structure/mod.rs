@@ -315,15 +315,26 @@ pub fn resultants(bodies: usize, loads: &[PointForce], origin: Vec2) -> Vec<[f64
     sums
 }
 
-/// A force on one body: at one point, or spread evenly over it.
+/// What of a body a force acts on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ActsOn {
+    /// All of it, evenly.
+    Body,
+    /// A piece of a side: with others it makes up a pressure.
+    Side,
+    /// A point.
+    Point,
+}
+
+/// A force on one body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PointForce {
     /// Which body.
     pub body: usize,
-    /// Where it acts, m; the body's centroid if it is spread.
+    /// Where it acts, be it as a resultant, m; the body's centroid if it acts on all of it.
     pub at: Vec2,
     /// Force per metre of width, N/m.
     pub force: Vec2,
-    /// True for a body force, spread evenly over the body's area.
-    pub spread: bool,
+    /// What of the body it acts on.
+    pub acts_on: ActsOn,
 }

@@ -3,7 +3,7 @@
 //! Associated plasticity: an element presses as hard as it can where the body moves into it, and not at all where the body moves
 //! away. Its force is a function of where the body is: what it has given way by comes back when the body does.
 
-use super::PointForce;
+use super::{ActsOn, PointForce};
 use crate::geometry::Vec2;
 
 /// A horizontal force on a body, between 0 and a limit, that soil takes up.
@@ -24,7 +24,7 @@ pub struct PassiveElement {
 impl PassiveElement {
     /// A force of this size of it, N/m.
     pub fn force(&self, size: f64) -> PointForce {
-        PointForce { body: self.body, at: self.at, force: Vec2::new(self.way * size, 0.0), spread: false }
+        PointForce { body: self.body, at: self.at, force: Vec2::new(self.way * size, 0.0), acts_on: ActsOn::Point }
     }
 
     /// Velocity into the soil of a body with this velocity of its centroid and this spin.

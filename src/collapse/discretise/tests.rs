@@ -52,8 +52,12 @@ fn another_attempt_other_loads_and_another_abscissa_condense_no_stone_again() {
     let weighed = |push: f64| {
         let stones = semicircle(9, [1, 1], false);
         let on = |force: Vec2| move |body: usize| (body, force);
-        let at =
-            |(body, force)| PointForce { body, at: stones.structure.bodies[body].region.centroid, force, spread: true };
+        let at = |(body, force)| PointForce {
+            body,
+            at: stones.structure.bodies[body].region.centroid,
+            force,
+            acts_on: ActsOn::Body,
+        };
         let fixed = (0..9).map(on(Vec2::new(0.0, -1e4))).map(at).collect();
         let scaled = [on(Vec2::new(push, -1e3))(3)].map(at).to_vec();
         Analysis { task: Task::Safety(SafetyTask::default()), fixed, scaled, ..stones }

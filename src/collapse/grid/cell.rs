@@ -2,7 +2,7 @@
 
 use super::{Grid, Order, places};
 use crate::dda::{GAUSS_3, SecondOrder};
-use crate::geometry::cross;
+use crate::geometry::{Vec2, cross};
 
 /// Step of the central differences that stand for the derivatives of a part's map.
 const DIFFERENCE: f64 = 1e-5;
@@ -58,6 +58,11 @@ impl Grid {
             ([x, y], [xi, eta], 0.25 * w * v * sizes[0] * sizes[1] * cross(by_xi, by_eta))
         })
         .collect()
+    }
+
+    /// The point at a place in the part that has column `j`, m.
+    pub(in super::super) fn point(&self, j: usize, [xi, eta]: [f64; 2]) -> Vec2 {
+        self.patches[j / self.columns()].point(xi, eta)
     }
 
     /// The place in its part of a place in subblock (i, j), from -1 to 1.

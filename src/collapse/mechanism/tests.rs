@@ -1,7 +1,7 @@
 use super::*;
 use crate::arch::{assemble, straight_voussoirs};
 use crate::collapse::motion::motion_at;
-use crate::structure::Stone;
+use crate::structure::{ActsOn, Stone};
 
 fn semicircle(n: usize) -> Structure {
     let law = JointLaw::Dry { friction: 0.7, cohesion: 0.0 };
@@ -26,8 +26,12 @@ fn resultants(n: usize, hinges: &[(usize, Face)]) -> Vec<Resultant> {
 
 fn crown_load(structure: &Structure) -> Vec<PointForce> {
     let n = structure.voussoirs().len();
-    let down =
-        |voussoir| PointForce { body: voussoir, at: Vec2::new(0.0, 1.1), force: Vec2::new(0.0, -1.0), spread: false };
+    let down = |voussoir| PointForce {
+        body: voussoir,
+        at: Vec2::new(0.0, 1.1),
+        force: Vec2::new(0.0, -1.0),
+        acts_on: ActsOn::Point,
+    };
     vec![down((n - 1) / 2), down(n / 2)]
 }
 

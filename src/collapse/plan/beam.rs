@@ -32,7 +32,7 @@ impl Series {
     /// The estimated error on the next mesh; none on the first.
     fn take(&mut self, fine: &StressField) -> Option<f64> {
         let coarse = self.coarse.replace(fine.clone())?;
-        self.errors.take(&differences(&coarse, fine, 1), &[true]);
+        self.errors.take(&differences(&coarse, fine, &[Vec::new()]), &[true]);
         Some(self.errors.shares(0).sum::<f64>().sqrt() + off_centre(fine))
     }
 }

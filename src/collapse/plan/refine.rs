@@ -8,6 +8,7 @@ use super::mesh::{drawing, ladder};
 use super::states::{Wanted, on_mesh};
 use super::with_mesh;
 use crate::budget::Budget;
+use crate::collapse::near_point::{NearPoint, near_points};
 
 /// How stress of first order converges next to joints that open, and to forces on points (measured: 0.3 next to a hinge, 1.1
 /// elsewhere); and that of second order, graded (0.8 to 1.5).
@@ -42,6 +43,8 @@ struct Refinement {
     /// Subblocks that every voussoir can have, from coarse to fine, and which of them it has.
     ladders: Vec<Vec<[usize; 2]>>,
     levels: Vec<usize>,
+    /// What is near forces on points, body by body: the errors leave it out.
+    near_points: Vec<Vec<NearPoint>>,
     report: CollapseReport,
     /// Of every stress field.
     errors: Vec<FieldErrors>,
@@ -78,7 +81,8 @@ pub(super) fn solve(
     // Where nothing grows every load factor has the state at the start.
     let state_of = |at: f64| if analysis.scaled.is_empty() { whole.start } else { at };
     let near = |at: f64| is_about_to_fall(whole, analysis.structure.is_half(), state_of(at));
-    let mut mesh = Refinement::new(drawing(&analysis.structure).0, ladders, report, near);
+    let near_points = near_points(analysis);
+    let mut mesh = Refinement::new(drawing(&analysis.structure).0, ladders, near_points, report, near);
     let why = loop {
         let marked = match mesh.told() {
             Some(estimate) if estimate <= asked => break PlanReason::AccurateEnough,
@@ -117,12 +121,19 @@ pub(super) fn solve(
 
 impl Refinement {
     /// The coarsest mesh.
-    fn new(order: Order, ladders: Vec<Vec<[usize; 2]>>, report: CollapseReport, near: impl Fn(f64) -> bool) -> Self {
+    fn new(
+        order: Order,
+        ladders: Vec<Vec<[usize; 2]>>,
+        near_points: Vec<Vec<NearPoint>>,
+        report: CollapseReport,
+        near: impl Fn(f64) -> bool,
+    ) -> Self {
         let orders = ORDERS[usize::from(order == Order::Second)];
         let fields = report.stress_fields.iter();
         let errors = fields.map(|field| FieldErrors::new(ladders.len(), orders, near(field.load_factor))).collect();
         let levels = vec![0; ladders.len()];
-        let mut mesh = Refinement { order, ladders, levels, report, errors, first_yield: None, meshes: Vec::new() };
+        let mut mesh =
+            Refinement { order, ladders, levels, near_points, report, errors, first_yield: None, meshes: Vec::new() };
         if order == Order::Second {
             for (errors, field) in mesh.errors.iter_mut().zip(&mesh.report.stress_fields) {
                 errors.take_rough(&field.roughness, &vec![false; mesh.levels.len()]);
@@ -162,7 +173,7 @@ impl Refinement {
         let fields = self.report.stress_fields.iter().zip(&report.stress_fields);
         for (errors, (coarse, fine)) in self.errors.iter_mut().zip(fields) {
             match self.order {
-                Order::First => errors.take(&differences(coarse, fine, refined.len()), &refined),
+                Order::First => errors.take(&differences(coarse, fine, &self.near_points), &refined),
                 Order::Second => errors.take_rough(&fine.roughness, &refined),
             }
         }

@@ -5,7 +5,7 @@ use crate::collapse::discretise::Discretisation;
 use crate::collapse::path::Attempt;
 use crate::collapse::{CollapseTask, StatesAsked, Task};
 use crate::geometry::Vec2;
-use crate::structure::{JointLaw, PointForce, Stone};
+use crate::structure::{ActsOn, JointLaw, PointForce, Stone};
 
 /// A semicircle of so many stones with a load on one, of which the state at this share of the way to collapse is asked for.
 fn arch(stones: usize, share: f64) -> Analysis {
@@ -16,7 +16,7 @@ fn arch(stones: usize, share: f64) -> Analysis {
     let law = JointLaw::Dry { friction: 0.6, cohesion: 0.0 };
     let structure = assemble(&ends, straight_voussoirs(&ends).unwrap(), Stone::default(), law);
     let at = structure.bodies[1].region.centroid;
-    let scaled = vec![PointForce { body: 1, at, force: Vec2::new(0.0, -1e3), spread: true }];
+    let scaled = vec![PointForce { body: 1, at, force: Vec2::new(0.0, -1e3), acts_on: ActsOn::Body }];
     let states = StatesAsked { share, ..StatesAsked::default() };
     let task = Task::Collapse(CollapseTask { states, ..CollapseTask::default() });
     Analysis { task, ..Analysis::new(structure, Vec::new(), scaled) }

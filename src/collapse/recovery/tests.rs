@@ -1,7 +1,7 @@
 use super::*;
 use crate::collapse::Spacing;
 use crate::collapse::grid::{Cut, Lines};
-use crate::geometry::Region;
+use crate::geometry::{Region, Vec2};
 
 /// A quarter of a ring in so many subblocks.
 fn ring(subblocks: [usize; 2], order: Order, spacing: Spacing) -> Grid {
@@ -25,7 +25,7 @@ fn samples(grid: &Grid, degree: i32) -> Vec<[f64; 3]> {
 fn a_smooth_field_is_recovered_exactly_at_all_corners() {
     for spacing in [Spacing::Even, Spacing::Graded] {
         let grid = ring([4, 3], Order::First, spacing);
-        let told = tell(&grid, &samples(&grid, 2));
+        let told = tell(&grid, &samples(&grid, 2), &[]);
         for ((i, j), corners) in grid.cells().zip(&told.corners) {
             for (place, found) in grid.corners(i, j).into_iter().zip(corners) {
                 let exact = stress(place, 2);
@@ -40,7 +40,7 @@ fn a_field_as_smooth_as_its_subblocks_is_not_rough_and_any_other_is_by_what_they
     for spacing in [Spacing::Even, Spacing::Graded] {
         let rough = |n: usize, degree: i32| {
             let grid = ring([n, n], Order::Second, spacing);
-            let Roughness { apart, whole, columns } = tell(&grid, &samples(&grid, degree)).roughness;
+            let Roughness { apart, whole, columns, .. } = tell(&grid, &samples(&grid, degree), &[]).roughness;
             assert_eq!(columns, n);
             (apart / whole).sqrt()
         };
@@ -62,4 +62,21 @@ fn stress_goes_through_the_samples() {
     // The area is that of the ring.
     let area: f64 = grid.cells().flat_map(|(i, j)| grid.quadrature(i, j)).map(|(.., area)| area).sum();
     assert!((area / (0.5 * 0.96 * 0.8) - 1.0).abs() < 1e-8, "{area}");
+}
+
+/// Stress as one over the distance from a corner: with more subblocks, the part near it is as rough as ever.
+#[test]
+fn what_is_near_a_force_on_a_point_is_not_rough() {
+    let centre = Vec2::new(1.2f64.cos(), 1.2f64.sin()) * 1.4;
+    let rough = |n: usize, near: &[NearPoint]| {
+        let grid = ring([n, n], Order::Second, Spacing::Even);
+        let places = grid.cells().flat_map(|(i, j)| grid.samples(i, j).into_iter().map(move |place| (j, place)));
+        let stress: Vec<_> =
+            places.map(|(j, place)| [-1.0 / (grid.point(j, place) - centre).norm(), 0.0, 0.0]).collect();
+        tell(&grid, &stress, near).roughness.apart
+    };
+    let near = NearPoint { centre, radius: 0.15 };
+    let [all, rest] = [&[][..], &[near][..]].map(|near| [8, 16].map(|n| rough(n, near)));
+    assert!((all[0] / all[1]).log2().abs() < 0.5, "{all:?}");
+    assert!((rest[0] / rest[1]).log2() > 3.0, "{rest:?}");
 }

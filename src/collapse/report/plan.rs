@@ -76,6 +76,8 @@ pub enum PlanReason {
     AccurateEnough,
     /// States on the mesh were solved for one by one; the load path is that of whole stones.
     StatesOneByOne,
+    /// The error leaves out what is near forces on points.
+    NearPointsLeftOut,
 }
 
 /// An accuracy asked for, and what was had.

@@ -22,7 +22,8 @@ pub struct SubblockStress {
     pub corner_stress: Vec<[f64; 3]>,
 }
 
-/// What a smooth field in a body differs by from one of second order: squares of the equivalent stress, integrated over the body, Pa2 m2.
+/// What a smooth field in a body differs by from one of second order: squares of the equivalent stress, integrated over the body but for
+/// what is near forces on points, Pa2 m2.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Roughness {
     /// Of the difference.
@@ -31,6 +32,8 @@ pub struct Roughness {
     pub whole: f64,
     /// Subblocks along each part of the body: few leave little to differ by.
     pub columns: usize,
+    /// Whether some of the body is near a force on a point.
+    pub near_point: bool,
 }
 
 impl SubblockStress {

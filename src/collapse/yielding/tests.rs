@@ -8,7 +8,7 @@ use crate::collapse::{
     Task, run,
 };
 use crate::geometry::{Vec2, cross};
-use crate::structure::{JointLaw, PointForce, Stone};
+use crate::structure::{ActsOn, JointLaw, PointForce, Stone};
 
 fn at(a: [f64; 3], b: [f64; 3], share: f64) -> [f64; 3] {
     [0, 1, 2].map(|i| a[i] + (b[i] - a[i]) * share)
@@ -79,7 +79,7 @@ fn hinging(mesh: Mesh, first_yield_length: Option<f64>) -> Analysis {
     let structure = assemble(&ends, straight_voussoirs(&ends).unwrap(), stone, law);
     let weight = |body: usize| {
         let region = structure.bodies[body].region;
-        PointForce { body, at: region.centroid, force: Vec2::new(0.0, -23e3 * region.area), spread: true }
+        PointForce { body, at: region.centroid, force: Vec2::new(0.0, -23e3 * region.area), acts_on: ActsOn::Body }
     };
     let fixed = (0..VOUSSOIRS).map(weight).collect();
     let loaded = PointForce { force: Vec2::new(0.0, -1e3), ..weight(3) };

@@ -3,7 +3,7 @@ use super::super::static_theorem::tests::{arch, loads};
 use super::*;
 use crate::budget::Budget;
 use crate::geometry::Vec2;
-use crate::structure::{JointLaw, PointForce};
+use crate::structure::{ActsOn, JointLaw, PointForce};
 
 /// Strength at which nothing crushes, Pa.
 const HARD: f64 = 1e30;
@@ -18,7 +18,7 @@ fn evenly(theorem: &StaticTheorem, strength: f64) -> Result<Option<CrushingWindo
 fn column(off: f64, strength: f64) -> CrushingWindow {
     let law = JointLaw::Dry { friction: 1e-3, cohesion: 0.0 };
     let structure = ring(&[0.0, 1.0].map(|y| [Vec2::new(0.5, y), Vec2::new(-0.5, y)]), law);
-    let load = PointForce { body: 0, at: Vec2::new(off, 0.5), force: Vec2::new(0.0, -1.0), spread: false };
+    let load = PointForce { body: 0, at: Vec2::new(off, 0.5), force: Vec2::new(0.0, -1.0), acts_on: ActsOn::Point };
     evenly(&StaticTheorem::new(&structure, &[], &[load]).unwrap(), strength).unwrap().unwrap()
 }
 

@@ -2,7 +2,7 @@ use super::super::scenes::{blocks, bridge, ring, sector};
 use super::super::static_theorem::tests::{arch, loads};
 use super::*;
 use crate::geometry::Vec2;
-use crate::structure::{JointLaw, PointForce, Structure};
+use crate::structure::{ActsOn, JointLaw, PointForce, Structure};
 
 const DRY: JointLaw = JointLaw::Dry { friction: 0.7, cohesion: 0.0 };
 
@@ -11,7 +11,7 @@ fn weight(structure: &Structure) -> Vec<PointForce> {
         body,
         at: b.region.centroid,
         force: Vec2::new(0.0, -b.region.area),
-        spread: true,
+        acts_on: ActsOn::Body,
     };
     structure.bodies.iter().enumerate().map(of).collect()
 }
@@ -26,7 +26,8 @@ fn a_pushed_column() {
     // Weight 2 on a base of 1; a push of 0.3 at height 1 moves the resultant by 0.15 from the middle, where 0.5 is the end.
     let column = blocks(&[[0.0, 0.0, 1.0, 2.0]], DRY);
     let mut fixed = weight(&column);
-    let push = |x: f64| PointForce { body: 0, at: Vec2::new(0.5, 1.0), force: Vec2::new(x, 0.0), spread: false };
+    let push =
+        |x: f64| PointForce { body: 0, at: Vec2::new(0.5, 1.0), force: Vec2::new(x, 0.0), acts_on: ActsOn::Point };
     fixed.push(push(0.3));
     let found = least(&column, &fixed).unwrap();
     assert!((found.share - 0.3).abs() < 1e-8, "{}", found.share);

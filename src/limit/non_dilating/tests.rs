@@ -2,7 +2,7 @@ use super::super::scenes::ring;
 use super::*;
 use crate::budget::Budget;
 use crate::geometry::Vec2;
-use crate::structure::{PointForce, Side};
+use crate::structure::{ActsOn, PointForce, Side};
 
 const FRICTION: f64 = 0.5;
 
@@ -16,7 +16,7 @@ fn wedged(cohesion: f64) -> StaticTheorem {
     let ends = [0.0, 1.0].map(|x| [Vec2::new(x, 0.0), Vec2::new(x, 1.0)]);
     let structure = ring(&ends, law);
     let push = |force: f64| {
-        vec![PointForce { body: 0, at: Vec2::new(0.5, 0.5), force: Vec2::new(0.0, -force), spread: false }]
+        vec![PointForce { body: 0, at: Vec2::new(0.5, 0.5), force: Vec2::new(0.0, -force), acts_on: ActsOn::Point }]
     };
     StaticTheorem::new(&structure, &push(100.0), &push(1.0)).unwrap()
 }

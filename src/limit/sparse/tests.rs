@@ -3,7 +3,7 @@ use super::super::static_theorem::tests::{arch, ferris_tin_loi, loads};
 use super::*;
 use crate::budget::Budget;
 use crate::limit::Release;
-use crate::structure::{Face, JointLaw, PointForce, Structure};
+use crate::structure::{ActsOn, Face, JointLaw, PointForce, Structure};
 
 const DRY: JointLaw = JointLaw::Dry { friction: 0.6, cohesion: 0.0 };
 
@@ -41,8 +41,12 @@ fn both_solvers_agree() {
         let bridge = bridge(spans, stones, 1.5, DRY);
         agree(&bridge, &seismic(&bridge));
         let [fixed, _] = seismic(&bridge);
-        let point =
-            PointForce { at: bridge.bodies[1].region.centroid, force: Vec2::new(0.0, -1.0), spread: false, ..fixed[1] };
+        let point = PointForce {
+            at: bridge.bodies[1].region.centroid,
+            force: Vec2::new(0.0, -1.0),
+            acts_on: ActsOn::Point,
+            ..fixed[1]
+        };
         agree(&bridge, &[fixed, vec![point]]);
     }
     for rows in [2, 3, 4, 5] {

@@ -2,7 +2,7 @@ use super::super::scenes::{self, bridge, mirrored, per_area, ring, seismic, wall
 use super::*;
 use crate::budget::Budget;
 use crate::geometry::cross;
-use crate::structure::Side;
+use crate::structure::{ActsOn, Side};
 
 const DRY: JointLaw = JointLaw::Dry { friction: 0.7, cohesion: 0.0 };
 
@@ -23,7 +23,7 @@ pub(in crate::limit) fn loads(arch: &Structure) -> [Vec<PointForce>; 2] {
         body: i,
         at: arch.bodies[i].region.centroid,
         force: Vec2::new(x, y),
-        spread: false,
+        acts_on: ActsOn::Point,
     };
     [
         (0..4).map(|i| force(i, 0.1, -5.0)).collect(),

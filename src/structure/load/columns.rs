@@ -3,7 +3,7 @@
 //! Over every point of a surface that looks up stands a column of fill. In an acceleration it pushes with its mass times the
 //! acceleration, at its own centre of mass, and the body below carries that. Surfaces that overhang carry no column.
 
-use super::super::{PointForce, Structure};
+use super::super::{ActsOn, PointForce, Structure};
 use super::fill::Stretch;
 use super::{Fill, GAUSS_2, LoadFault, pieces_of};
 use crate::geometry::{Vec2, perpendicular};
@@ -64,7 +64,7 @@ impl Fill {
             let at = a + share * (b - a);
             let mass = 0.5 * (b.x - a.x) * self.mass(at);
             let pressed = 0.5 * (b - a).norm() * slope * along.dot(&(at - middle)) * perpendicular(along);
-            PointForce { body, at, force: mass * acceleration + pressed, spread: false }
+            PointForce { body, at, force: mass * acceleration + pressed, acts_on: ActsOn::Side }
         })
     }
 

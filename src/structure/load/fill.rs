@@ -5,7 +5,7 @@
 //! straight side q_v is linear between the abscissae at which the line bends and the points where the side meets a boundary of
 //! layers, or where the top of the backing does; two Gauss points on every such stretch give force and moment exactly.
 
-use super::super::{GRAVITY, PointForce, Structure, Surface};
+use super::super::{ActsOn, GRAVITY, PointForce, Structure, Surface};
 use super::{GAUSS_2, LoadFault, LoadedSide, plan};
 use crate::geometry::Vec2;
 
@@ -203,7 +203,7 @@ impl Fill {
             let at = a + share * (b - a);
             let vertical = 0.5 * self.pressure(at);
             let force = Vec2::new(self.lateral_ratio * vertical * (b.y - a.y), -vertical * (b.x - a.x));
-            PointForce { body, at, force, spread: false }
+            PointForce { body, at, force, acts_on: ActsOn::Side }
         })
     }
 }

@@ -1,6 +1,6 @@
 //! A vertical force on a strip: evenly on the surfaces below it, or dispersed by the fill between.
 
-use super::super::{PointForce, Structure};
+use super::super::{ActsOn, PointForce, Structure};
 use super::dispersal::Dispersal;
 use super::{LoadFault, LoadedSide, down, plan};
 use crate::geometry::Vec2;
@@ -42,7 +42,12 @@ impl Patch {
             Some(dispersal) => Ok(dispersal
                 .shares(self, (from, to), sides)?
                 .into_iter()
-                .map(|(body, at, share)| PointForce { body, at, force: down(share * self.force), spread: false })
+                .map(|(body, at, share)| PointForce {
+                    body,
+                    at,
+                    force: down(share * self.force),
+                    acts_on: ActsOn::Side,
+                })
                 .collect()),
         }
     }
@@ -59,7 +64,7 @@ impl Patch {
                 let x = 0.5 * (from + to);
                 let at = Vec2::new(x, a.y + (b.y - a.y) * ((x - a.x) / (b.x - a.x)));
                 let force = down(self.force * (to - from) / self.width);
-                forces.push(PointForce { body, at, force, spread: false });
+                forces.push(PointForce { body, at, force, acts_on: ActsOn::Side });
             }
         }
         (forces, covered)

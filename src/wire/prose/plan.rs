@@ -61,9 +61,10 @@ impl fmt::Display for PlanReason {
             PlanReason::WholeModelled => WHOLE_MODELLED,
             PlanReason::CoarsestLost => "On the coarsest mesh that bends the load path could not be followed.",
             PlanReason::NextLost => "On the next mesh the load path could not be followed to the same fields.",
-            PlanReason::Finest => "No finer mesh is left: next to a hinge, or a force on a point, stress has no bound.",
+            PlanReason::Finest => "No finer mesh is left: next to a hinge, stress has no bound.",
             PlanReason::AccurateEnough => "The stress is as accurate as asked.",
             PlanReason::StatesOneByOne => STATES_ONE_BY_ONE,
+            PlanReason::NearPointsLeftOut => NEAR_POINTS_LEFT_OUT,
         })
     }
 }
@@ -77,5 +78,7 @@ const LOAD_NEEDS_NO_MESH: &str =
 const HALF_MODELLED: &str = "Arch, loads and mechanism are symmetric: half the arch is modelled for the stress.";
 const STATES_ONE_BY_ONE: &str = "The states on this mesh were solved for one by one. The load path is that of whole stones: no history \
      on the mesh is told.";
+const NEAR_POINTS_LEFT_OUT: &str = "Next to a force on a point, stress has no bound: the error leaves out what is nearer to it than a quarter of \
+     the body's least width.";
 const WHOLE_MODELLED: &str =
     "Arch, loads or mechanism are not symmetric, or joints slide: the whole arch is modelled for the stress.";

@@ -3,8 +3,9 @@
 
 use super::masonry::polygon;
 use std::collections::BTreeMap;
-use voussoir::collapse::{StressField, SubblockStress};
+use voussoir::collapse::{Analysis, StressField, SubblockStress};
 use voussoir::geometry::{Vec2, cross};
+use voussoir::structure::ActsOn;
 
 /// Subblocks of one voussoir, radial and along, and what is in each.
 struct Stone<'a> {
@@ -67,15 +68,35 @@ fn bilinear(subblock: &SubblockStress, place: [f64; 2]) -> [f64; 3] {
     of.fold([0.0; 3], |sum, (stress, share)| [0, 1, 2].map(|c| sum[c] + share * stress[c]))
 }
 
-/// Root of the mean square, by area, of the error of the equivalent stress over that of the stress itself, point by point: stress is
-/// bilinear between the corners of subblocks.
-pub fn pointwise_error(coarse: &StressField, fine: &StressField) -> f64 {
+/// Places of forces on points, by voussoir, and how far around them stress is not counted, m: a quarter of the least width.
+fn left_out(analysis: &Analysis) -> Vec<(usize, Vec2, f64)> {
+    let loads = analysis.fixed.iter().chain(&analysis.scaled).filter(|load| load.acts_on == ActsOn::Point);
+    let soil = analysis.structure.passive.iter().map(|element| (element.body, element.at));
+    let near = |(body, at): (usize, Vec2)| {
+        let corners = &analysis.structure.bodies[body].corners;
+        let lengths = corners.iter().flat_map(|a| corners.iter().map(move |b| (b - a).norm()));
+        let area = polygon(&corners.iter().map(|corner| (*corner).into()).collect::<Vec<_>>()).0;
+        (body, at, 0.25 * area / lengths.fold(0.0, f64::max))
+    };
+    loads.map(|load| (load.body, load.at)).chain(soil).map(near).collect()
+}
+
+/// Root of the mean square, by area, of the error of the equivalent stress over that of the stress itself, point by point but for
+/// what is near forces on points: stress is bilinear between the corners of subblocks.
+pub fn pointwise_error(analysis: &Analysis, coarse: &StressField, fine: &StressField) -> f64 {
     let (mut apart, mut whole) = (0.0, 0.0);
+    let left_out = left_out(analysis);
     let coarse = stones(coarse);
     for reference in &fine.subblocks {
         let here = &coarse[&reference.voussoir].subblocks;
         for ((x, w), (y, v)) in GAUSS_3.iter().flat_map(|x| GAUSS_3.iter().map(move |y| (*x, *y))) {
             let at: Vec2 = reference.corners.iter().zip(shares([x, y])).map(|(corner, share)| corner * share).sum();
+            let near = |(voussoir, of, radius): &(usize, Vec2, f64)| {
+                *voussoir == reference.voussoir && (at - of).norm() < *radius
+            };
+            if left_out.iter().any(near) {
+                continue;
+            }
             let [a, b] = tangents(&reference.corners, [x, y]);
             let places = here.iter().map(|subblock| (subblock, place(&subblock.corners, at)));
             let deepest = |place: [f64; 2]| place[0].abs().max(place[1].abs());

@@ -5,7 +5,7 @@
 use super::largest::larger;
 use voussoir::collapse::{Analysis, CollapseReport, ContactPoint, Method, Order, PathEnd, Snapshot};
 use voussoir::geometry::Vec2;
-use voussoir::structure::{Joint, JointLaw, PointForce, Structure};
+use voussoir::structure::{ActsOn, Joint, JointLaw, PointForce, Structure};
 
 /// Gap at which cohesion is lost, as a multiple of cohesion over the contact's own stiffness (docs/method.md has the figure).
 const REACH: f64 = 10.0;
@@ -223,7 +223,10 @@ fn loads_on(analysis: &Analysis, stone: usize, factor: f64) -> impl Iterator<Ite
     })
     // What is spread over the stone does no work in a uniform strain about its centroid.
     .map(move |(load, times)| {
-        (if load.spread { analysis.structure.bodies[stone].region.centroid } else { load.at }, load.force * times)
+        (
+            if load.acts_on == ActsOn::Body { analysis.structure.bodies[stone].region.centroid } else { load.at },
+            load.force * times,
+        )
     })
 }
 

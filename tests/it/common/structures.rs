@@ -7,7 +7,7 @@ use voussoir::blocks::{Blocks, Joints, Polygon, Rest, Support};
 use voussoir::budget::Budget;
 use voussoir::collapse::{Analysis, CollapseReport, Outcome, PathEnd, run};
 use voussoir::geometry::Vec2;
-use voussoir::structure::{PointForce, Stone};
+use voussoir::structure::{ActsOn, PointForce, Stone};
 
 /// Load factors that differ by this share of the larger, or of 1, are the same.
 const SAME: f64 = 1e-7;
@@ -63,11 +63,14 @@ pub fn analysis(scene: &Scene) -> Analysis {
     let structure = blocks.build().unwrap_or_else(|faults| panic!("{faults:?}"));
     let problem = scene.problem();
     let forces = |pushes: &[Push]| {
-        let force = |push: &Push| PointForce {
-            body: push.block,
-            at: point(&push.at),
-            force: point(&push.force),
-            spread: (structure.bodies[push.block].region.centroid - point(&push.at)).norm() < 1e-9,
+        let force = |push: &Push| {
+            let middle = (structure.bodies[push.block].region.centroid - point(&push.at)).norm() < 1e-9;
+            PointForce {
+                body: push.block,
+                at: point(&push.at),
+                force: point(&push.force),
+                acts_on: if middle { ActsOn::Body } else { ActsOn::Point },
+            }
         };
         pushes.iter().map(force).collect()
     };
