@@ -219,7 +219,8 @@ fn square(body: &Body, across: usize) -> Result<[usize; 2], String> {
         4 => (apart(0, 1) + apart(2, 3)) / (apart(0, 3) + apart(1, 2)),
         _ => 1.0,
     };
-    let wanted = [across, (along * across as f64).round().clamp(2.0, 48.0) as usize];
+    // An even number: a force in the middle of a side acts where subblocks meet.
+    let wanted = [across, 2 * (0.5 * along * across as f64).round().clamp(1.0, 24.0) as usize];
     let subblocks = subblocks_of(body, wanted, Order::Second).filter(|_| can_bend(body));
     subblocks.ok_or("a body cannot be of second order".into())
 }
