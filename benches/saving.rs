@@ -30,8 +30,9 @@ const FINE: usize = 16;
 const EVEN: usize = 24;
 /// Uniform meshes that are tried, subblocks each way.
 const UNIFORM: [usize; 5] = [2, 4, 8, 12, 16];
-/// Structures with more bodies take long to be found exactly.
+/// Structures with more bodies, or so many subblocks in the fine mesh, take long to be found exactly.
 const MOST_BODIES: usize = 33;
+const MOST_FINE: usize = 10_000;
 /// Most subblocks that a mesh is found with.
 const MOST_SUBBLOCKS: usize = 5000;
 
@@ -148,16 +149,17 @@ impl Scene {
     /// Or why there is no such stress.
     fn new(analysis: Analysis) -> Result<Self, String> {
         let bodies = analysis.structure.voussoirs();
-        if bodies.len() > MOST_BODIES {
-            return Err(format!("{} bodies, more than {MOST_BODIES}", bodies.len()));
+        let across = |count: usize| bodies.iter().map(|body| square(body, count)).collect::<Result<Vec<_>, _>>();
+        let count: usize = across(FINE)?.iter().map(|[radial, along]| radial * along).sum();
+        if bodies.len() > MOST_BODIES || count > MOST_FINE {
+            return Err(format!("{} bodies, of {count} subblocks in the fine mesh", bodies.len()));
         }
         let rigid = solved(&asking(&analysis, Path::FirstOrder, Vec::new())?)?;
         let end = rigid.end.as_ref().ok_or(format!("{:?}", rigid.outcome))?;
         let at = 0.5 * (rigid.start + end.load_factor);
-        let analysis = asking(&analysis, Path::FirstOrder, vec![FieldAt::LoadFactor(at)])?;
-        let fine = |spacing: Spacing, across: usize| {
-            let bodies = analysis.structure.voussoirs().iter().map(|body| square(body, across));
-            on_mesh(&analysis, Mesh { order: Order::Second, spacing, ..Mesh::of(bodies.collect::<Result<_, _>>()?) })
+        let half_way = asking(&analysis, Path::FirstOrder, vec![FieldAt::LoadFactor(at)])?;
+        let fine = |spacing: Spacing, count: usize| {
+            on_mesh(&half_way, Mesh { order: Order::Second, spacing, ..Mesh::of(across(count)?) })
         };
         let mut exact = fine(Spacing::Graded, FINE)?;
         // Beside a force in the middle of a side graded subblocks are long and low.
@@ -170,7 +172,7 @@ impl Scene {
             exact.subblocks.retain(|subblock| !loaded(subblock.voussoir));
             exact.subblocks.extend(even.subblocks.into_iter().filter(|subblock| loaded(subblock.voussoir)));
         }
-        Ok(Scene { analysis, exact })
+        Ok(Scene { analysis: half_way, exact })
     }
 
     fn bodies(&self) -> usize {
