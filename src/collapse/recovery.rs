@@ -118,7 +118,7 @@ fn fitted(samples: &[([f64; 2], [f64; 3])], most: [usize; 2], together: usize) -
 fn roughness(grid: &Grid, samples: &[[f64; 3]], pieces: &[Piece], near: &[NearPoint]) -> Roughness {
     let mut sum = Roughness { columns: grid.columns(), near_point: !near.is_empty(), ..Roughness::default() };
     for ((of, (i, j)), piece) in samples.chunks_exact(4).zip(grid.cells()).zip(pieces) {
-        let counts = |place: &[f64; 2]| near.is_empty() || !near.iter().any(|near| near.has(grid.point(j, *place)));
+        let counts = |place: &[f64; 2]| !near.iter().any(|near| near.has(grid.point(j, *place)));
         for (local, place, area) in grid.quadrature(i, j).into_iter().filter(|(_, place, _)| counts(place)) {
             let (here, smooth) = (tresca(through(of, local)), tresca(piece.at(place)));
             sum.apart += area * (smooth - here).powi(2);

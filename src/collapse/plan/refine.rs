@@ -10,8 +10,8 @@ use super::with_mesh;
 use crate::budget::Budget;
 use crate::collapse::near_point::{NearPoint, near_points};
 
-/// How stress of first order converges next to joints that open, and to forces on points (measured: 0.3 next to a hinge, 1.1
-/// elsewhere); and that of second order, graded (0.8 to 1.5).
+/// How stress of first order converges next to joints that open (measured: 0.3 next to a hinge, 1.1 elsewhere); and that of second
+/// order, graded (0.8 to 1.5).
 const ORDERS: [Orders; 2] = [[0.4, 1.0], [0.5, 1.5]];
 
 /// Error that a mesh aims at, over the error asked: an estimate may come out a little larger than it was foreseen.
