@@ -143,9 +143,9 @@ fn first_yield_of_a_length_is_said_with_it_and_left_out_where_nobody_asks() {
 
 #[test]
 fn with_an_accuracy_first_yield_is_that_on_the_mesh_found() {
-    let first_yield = |accuracy: bool| {
+    let first_yield = |accuracy: bool, length: f64| {
         let report = oval(|request| {
-            request["report"] = json!({"first_yield_length_m": 0.8});
+            request["report"] = json!({"first_yield_length_m": length});
             request["mesh"] = json!({"subblocks": {"uniform": {"radial": 16, "along": 24}}});
             if accuracy {
                 request.as_object_mut().unwrap().remove("mesh");
@@ -155,11 +155,13 @@ fn with_an_accuracy_first_yield_is_that_on_the_mesh_found() {
         assert!(!report.notes.iter().any(|note| matches!(note, Note::TooCoarseToYield { .. })), "{:?}", report.notes);
         (report.crushing.elastic.unwrap(), report.plan)
     };
-    let (found, plan) = first_yield(true);
-    let (fine, _) = first_yield(false);
+    let (found, plan) = first_yield(true, 0.8);
+    let (fine, _) = first_yield(false, 0.8);
     println!("{:?} {:?} {plan:?}", found.load_factor, fine.load_factor);
     assert!(plan.unwrap().half && found.length == Some(0.8));
     assert!((found.load_factor.unwrap() / fine.load_factor.unwrap() - 1.0).abs() < 0.01);
+    // A length takes a finer mesh than the accuracy does.
+    assert_eq!(first_yield(true, 0.3).0.length, Some(0.3));
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Meshes of one body that nest, from coarse to fine, of subblocks that are about square.
 
-use super::super::grid::{can_be_cut, can_bend, extents, subblocks_of};
-use super::super::{Order, Spacing};
+use super::super::grid::{Cut, Grid, can_be_cut, can_bend, extents, subblocks_of};
+use super::super::{Analysis, Order, Spacing};
 use crate::structure::{Body, Joint, JointLaw, Side, Structure};
 
 /// Into how many pieces the loads on the extrados side of every voussoir have to be cut for any of these meshes: their
@@ -10,7 +10,7 @@ pub const LOAD_PIECES: usize = 96;
 
 /// Subblocks from intrados to extrados in a voussoir's first mesh, of first and of second order: the least that bend, and the least
 /// whose error can be told.
-const FIRST_RADIAL: [usize; 2] = [2, 4];
+const FIRST_RADIAL: [usize; 2] = [2, 3];
 /// Least subblocks along over those across, and least of each part of a body either way, of second order: one leaves nothing to differ by.
 const SECOND_COLUMNS: f64 = 0.5;
 const SECOND_EACH: usize = 2;
@@ -28,9 +28,23 @@ pub(in super::super) fn drawing(structure: &Structure) -> (Order, Spacing) {
     if structure.bodies.iter().all(can_bend) { (Order::Second, Spacing::Graded) } else { Default::default() }
 }
 
+/// The ladders of all bodies, from the first mesh on that tells of the length over which stress is averaged, where one is given.
+pub(super) fn ladders(analysis: &Analysis) -> Vec<Vec<[usize; 2]>> {
+    let (structure, length) = (&analysis.structure, analysis.task.first_yield_length());
+    let (order, spacing) = drawing(structure);
+    let telling = |(k, body): (usize, &Body)| {
+        let mut ladder = ladder(structure, k);
+        let grid = |mesh: &[usize; 2]| Grid::of(body, *mesh, Cut { order, spacing });
+        let first = length.and_then(|length| ladder.iter().position(|mesh| grid(mesh).windows(length).is_some()));
+        ladder.drain(..first.unwrap_or(0));
+        ladder
+    };
+    structure.voussoirs().iter().enumerate().map(telling).collect()
+}
+
 /// Subblocks, radial and along, of ever finer meshes of body `k`: each has whole subblocks of the next in every one of
 /// its own.
-pub(super) fn ladder(structure: &Structure, k: usize) -> Vec<[usize; 2]> {
+fn ladder(structure: &Structure, k: usize) -> Vec<[usize; 2]> {
     let mirrored = |joint: &Joint| joint.law == JointLaw::Mirror && joint.between.contains(&Side::Body(k));
     // A stone that is cut in two on the axis has half of the pieces.
     let pieces = if structure.joints.iter().any(mirrored) { LOAD_PIECES / 2 } else { LOAD_PIECES };

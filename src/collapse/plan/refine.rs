@@ -4,7 +4,7 @@ use super::super::{
     Analysis, AnalysisError, CollapseReport, ContactPoint, Estimate, MeshTried, Order, Outcome, PlanReason, verdict,
 };
 use super::estimate::{FieldErrors, Orders, differences};
-use super::mesh::{drawing, ladder};
+use super::mesh::{drawing, ladders};
 use super::states::{Wanted, on_mesh};
 use super::with_mesh;
 use crate::budget::Budget;
@@ -61,7 +61,7 @@ pub(super) fn solve(
     asked: f64,
     budget: &Budget,
 ) -> Result<Result<Refined, PlanReason>, AnalysisError> {
-    let ladders: Vec<_> = (0..analysis.structure.voussoirs().len()).map(|k| ladder(&analysis.structure, k)).collect();
+    let ladders = ladders(analysis);
     let coarsest: Vec<_> = ladders.iter().map(|ladder| ladder[0]).collect();
     let fewest = total(&coarsest);
     if fewest > most {
