@@ -6,7 +6,7 @@ use crate::common::largest::larger;
 use crate::common::semicircle::{mesh, semicircle};
 use crate::common::{door, random_arch};
 use serde_json::{Value, json};
-use voussoir::collapse::{CollapseReport, Direction, Outcome, PlanReason, Snapshot, StressField};
+use voussoir::collapse::{CollapseReport, Direction, Note, Outcome, PlanReason, Snapshot, StressField};
 
 /// How many random arches.
 const ARCHES: u64 = 250;
@@ -296,6 +296,12 @@ fn no_model_has_more_subblocks_than_allowed() {
     assert_eq!(report.stress_fields[0].subblocks.len(), plan.meshes.last().unwrap().subblocks);
     let plan = door::solve(&with(request, "accuracy", json!({"stress": 0.1, "subblocks": 20}))).plan.unwrap();
     assert!(plan.meshes.is_empty() && plan.stress.unwrap().estimate.is_none(), "{plan:?}");
+    // First yield over a length that takes more than allowed is no reason to tell nothing.
+    let short = json!({"accuracy": {"stress": 0.3, "subblocks": 500}, "report": {"first_yield_length_m": 0.1}});
+    let report = door::solve(&semicircle(15, &short));
+    let plan = report.plan.unwrap();
+    assert!(plan.stress.unwrap().met && plan.meshes.iter().all(|mesh| mesh.subblocks <= 500), "{plan:?}");
+    assert!(report.notes.iter().any(|note| matches!(note, Note::TooCoarseToYield { .. })), "{:?}", report.notes);
 }
 
 #[test]

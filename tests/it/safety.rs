@@ -160,7 +160,7 @@ fn with_an_accuracy_first_yield_is_that_on_the_mesh_found() {
     println!("{:?} {:?} {plan:?}", found.load_factor, fine.load_factor);
     assert!(plan.unwrap().half && found.length == Some(0.8));
     assert!((found.load_factor.unwrap() / fine.load_factor.unwrap() - 1.0).abs() < 0.01);
-    // A length takes a finer mesh than the accuracy does.
+    // This length takes a finer mesh than the accuracy does.
     assert_eq!(first_yield(true, 0.3).0.length, Some(0.3));
 }
 

@@ -28,18 +28,23 @@ pub(in super::super) fn drawing(structure: &Structure) -> (Order, Spacing) {
     if structure.bodies.iter().all(can_bend) { (Order::Second, Spacing::Graded) } else { Default::default() }
 }
 
-/// The ladders of all bodies, from the first mesh on that tells of the length over which stress is averaged, where one is given.
-pub(super) fn ladders(analysis: &Analysis) -> Vec<Vec<[usize; 2]>> {
-    let (structure, length) = (&analysis.structure, analysis.task.first_yield_length());
+/// The ladders of all bodies. Where a length is given over which stress is averaged, they begin with meshes that tell of it, if these
+/// have at most so many subblocks.
+pub(super) fn ladders(analysis: &Analysis, most: usize) -> Vec<Vec<[usize; 2]>> {
+    let structure = &analysis.structure;
+    let ladders: Vec<_> = (0..structure.voussoirs().len()).map(|k| ladder(structure, k)).collect();
+    let Some(length) = analysis.task.first_yield_length() else { return ladders };
     let (order, spacing) = drawing(structure);
-    let telling = |(k, body): (usize, &Body)| {
-        let mut ladder = ladder(structure, k);
-        let grid = |mesh: &[usize; 2]| Grid::of(body, *mesh, Cut { order, spacing });
-        let first = length.and_then(|length| ladder.iter().position(|mesh| grid(mesh).windows(length).is_some()));
-        ladder.drain(..first.unwrap_or(0));
-        ladder
+    // Two meshes of first order tell an error, one of second does.
+    let needed = if order == Order::First { 2 } else { 1 };
+    let telling = |(ladder, body): (&Vec<[usize; 2]>, &Body)| {
+        let tells = |mesh: &[usize; 2]| Grid::of(body, *mesh, Cut { order, spacing }).windows(length).is_some();
+        let first = ladder.iter().position(tells).unwrap_or(0);
+        ladder[first.min(ladder.len().saturating_sub(needed))..].to_vec()
     };
-    structure.voussoirs().iter().enumerate().map(telling).collect()
+    let telling: Vec<_> = ladders.iter().zip(structure.voussoirs()).map(telling).collect();
+    let fewest: usize = telling.iter().map(|ladder| ladder[0][0] * ladder[0][1]).sum();
+    if fewest <= most { telling } else { ladders }
 }
 
 /// Subblocks, radial and along, of ever finer meshes of body `k`: each has whole subblocks of the next in every one of

@@ -61,7 +61,7 @@ pub(super) fn solve(
     asked: f64,
     budget: &Budget,
 ) -> Result<Result<Refined, PlanReason>, AnalysisError> {
-    let ladders = ladders(analysis);
+    let ladders = ladders(analysis, most);
     let coarsest: Vec<_> = ladders.iter().map(|ladder| ladder[0]).collect();
     let fewest = total(&coarsest);
     if fewest > most {
