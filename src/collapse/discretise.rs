@@ -110,8 +110,15 @@ fn same_loads(a: &Analysis, b: &Analysis) -> bool {
     a.task.geometry() == b.task.geometry() && a.fixed == b.fixed && a.scaled == b.scaled
 }
 
-/// Cuts every body of the structure into the subblocks of a macroblock, and condenses it.
-fn discretise<'p>(analysis: &Analysis, strips: &Strips, budget: &'p Budget<'p>) -> Result<Model<'p>, AnalysisError> {
+/// Cuts every body of the structure into the subblocks of a macroblock, and condenses it; contacts are not scattered.
+///
+/// # Errors
+/// When a stone is loose, or when stopped.
+pub(super) fn discretise<'p>(
+    analysis: &Analysis,
+    strips: &Strips,
+    budget: &'p Budget<'p>,
+) -> Result<Model<'p>, AnalysisError> {
     let structure = &analysis.structure;
     let grids = grids(analysis);
     let assembly = assembly(analysis, &grids, strips, budget)?;

@@ -5,7 +5,7 @@ use super::super::{
 };
 use super::estimate::{FieldErrors, Orders, differences};
 use super::mesh::{drawing, ladders};
-use super::states::{Wanted, on_mesh};
+use super::states::States;
 use super::with_mesh;
 use crate::budget::Budget;
 use crate::collapse::near_point::{NearPoint, near_points};
@@ -67,14 +67,15 @@ pub(super) fn solve(
     if fewest > most {
         return Ok(Err(PlanReason::CoarsestTooLarge { subblocks: fewest, allowed: most }));
     }
-    let solve = |subblocks: Vec<[usize; 2]>, wanted: Wanted| {
-        let analysis = with_mesh(analysis, subblocks);
-        match on_mesh(&analysis, whole, wanted, budget)? {
-            Some(report) => Ok((report, true)),
-            None => verdict::solve(&analysis, budget).map(|report| (report, false)),
+    let on_path = |subblocks: &[[usize; 2]]| verdict::solve(&with_mesh(analysis, subblocks.to_vec()), budget);
+    let solve = |subblocks: &[[usize; 2]]| {
+        let analysis = with_mesh(analysis, subblocks.to_vec());
+        match States::solve(&analysis, whole, budget)? {
+            Some(mut states) => states.report(&analysis, whole).map(|report| (report, Some(states))),
+            None => on_path(subblocks).map(|report| (report, None)),
         }
     };
-    let (report, mut one_by_one) = solve(coarsest, Wanted::Start)?;
+    let (report, mut states) = solve(&coarsest)?;
     if report.outcome == Outcome::CannotTell || report.stress_fields.is_empty() {
         return Ok(Err(PlanReason::CoarsestLost));
     }
@@ -93,20 +94,24 @@ pub(super) fn solve(
         if let Some(why) = mesh.last_before(&levels, most) {
             break why;
         }
-        let (report, by_itself) = solve(mesh.subblocks(&levels), Wanted::Start)?;
+        let (report, found) = solve(&mesh.subblocks(&levels))?;
         if report.outcome == Outcome::CannotTell || report.stress_fields.len() != mesh.errors.len() {
             break PlanReason::NextLost;
         }
         mesh.take(levels, report);
-        one_by_one = by_itself;
+        states = found;
     };
     let estimate = mesh.told();
     let stress = Estimate { asked, estimate, met: estimate.is_some_and(|estimate| estimate <= asked) };
     let subblocks = mesh.subblocks(&mesh.levels);
-    if one_by_one {
-        let (mut report, by_itself) = solve(subblocks.clone(), Wanted::All)?;
-        report.cost.join(mesh.report.cost);
-        (mesh.report, one_by_one) = (report, by_itself);
+    let mut one_by_one = false;
+    if let Some(mut states) = states {
+        one_by_one = states.complete(&mut mesh.report, whole)?;
+        if !one_by_one {
+            let mut report = on_path(&subblocks)?;
+            report.cost.join(mesh.report.cost);
+            mesh.report = report;
+        }
     }
     Ok(Ok(Refined {
         report: mesh.report,
@@ -240,10 +245,12 @@ fn is_about_to_fall(whole: &CollapseReport, half: bool, load_factor: f64) -> boo
     let at_end = |of: &[ContactPoint]| {
         let sums = of.iter().fold([0.0; 2], |[n, m], point| [n + point.normal, m + point.normal * point.position]);
         let place = sums[1] / sums[0];
-        [place, 1.0 - place].iter().any(|&from_end| from_end < AT_END)
+        [place, 1.0 - place].iter().position(|&from_end| from_end < AT_END)
     };
-    let joints = state.contacts.chunk_by(|a, b| a.joint == b.joint);
-    joints.filter(|joint| at_end(joint)).count() >= HINGES[usize::from(half)]
+    let mut ends: Vec<_> = state.contacts.chunk_by(|a, b| a.joint == b.joint).map(at_end).collect();
+    // Neighbours that turn about the same side are one hinge, as beside a crown stone.
+    ends.dedup();
+    ends.iter().flatten().count() >= HINGES[usize::from(half)]
 }
 
 /// How many subblocks they are together.
