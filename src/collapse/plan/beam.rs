@@ -1,7 +1,7 @@
 //! The curved beam on the least mesh that is as accurate as asked.
 
 use super::super::{AnalysisError, BeamPlan, BeamReport, CurvedBeam, Estimate, MeshTried, StressField, beam};
-use super::estimate::{FieldErrors, Orders, differences};
+use super::estimate::{FieldErrors, Hinged, Orders, differences};
 use super::mesh::rungs;
 use crate::budget::Budget;
 use std::f64::consts::FRAC_PI_4;
@@ -65,7 +65,7 @@ pub(in super::super) fn solve(beam: &CurvedBeam, budget: &Budget) -> Result<Beam
         meshes.extend(rungs(first, columns, PIECES).into_iter().map(|mesh| (which, mesh)));
     }
     meshes.sort_by_key(|(_, [radial, _])| *radial);
-    let mut series = SERIES.map(|_| Series { coarse: None, errors: FieldErrors::new(1, BEAM_ORDERS, false) });
+    let mut series = SERIES.map(|_| Series { coarse: None, errors: FieldErrors::new(1, BEAM_ORDERS, Hinged::Less) });
     let (mut tried, mut last) = (Vec::new(), None);
     for (which, subblocks) in meshes {
         let report = beam::solve(&CurvedBeam { subblocks, ..*beam }, budget)?;

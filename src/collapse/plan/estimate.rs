@@ -60,9 +60,20 @@ fn area_of(subblock: &SubblockStress) -> f64 {
 /// What an error is taken to be over the roughness, where there are fewer than so many subblocks along, and where there are more.
 const FEW: usize = 3;
 const MARGINS: [f64; 2] = [2.0, 1.15];
-/// So many times as much where hinges are about to form (measured on five meshes of an arch of nearly the least thickness: 1.7 where
-/// most have few subblocks along, 1.4 and less where most have more).
-const ABOUT_TO_FALL: [f64; 2] = [1.85, 1.5];
+/// How near to a mechanism the hinges make a structure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Hinged {
+    /// It has fewer than a mechanism.
+    Less,
+    /// It has as many, but some are neighbours, one hinge that is spread.
+    Widely,
+    /// It has as many.
+    Mechanism,
+}
+
+/// So many times as much for that, with few subblocks along and with more (measured on five meshes of an arch of nearly the least
+/// thickness: 1.8 and 1.5 at most).
+const HINGED: [[f64; 2]; 3] = [[1.0, 1.0], [1.3, 1.3], [1.85, 1.5]];
 /// The same beside a force on a point, where graded subblocks are long and low (measured: 1.9).
 const NEAR_POINT: f64 = 2.0;
 
@@ -85,17 +96,17 @@ struct Error {
 pub(super) struct FieldErrors {
     voussoirs: Vec<Error>,
     orders: Orders,
-    /// Whether the field is one at which hinges are about to form.
-    near_collapse: bool,
+    /// The hinges in the state of the field.
+    hinged: Hinged,
     /// Root of the squared equivalent stress, integrated over all voussoirs, Pa m.
     norm: f64,
 }
 
 impl FieldErrors {
     /// Nothing is known.
-    pub(super) fn new(voussoirs: usize, orders: Orders, near_collapse: bool) -> Self {
+    pub(super) fn new(voussoirs: usize, orders: Orders, hinged: Hinged) -> Self {
         let voussoirs = vec![Error { change: None, order: None, error: 0.0 }; voussoirs];
-        FieldErrors { voussoirs, orders, near_collapse, norm: 0.0 }
+        FieldErrors { voussoirs, orders, hinged, norm: 0.0 }
     }
 
     /// Takes in what changed from one mesh to the next, on which the voussoirs that are `refined` have finer subblocks.
@@ -124,7 +135,7 @@ impl FieldErrors {
         self.norm = roughness.iter().map(|rough| rough.whole).sum::<f64>().sqrt();
         for ((known, rough), refined) in self.voussoirs.iter_mut().zip(roughness).zip(refined) {
             let many = usize::from(rough.columns >= FEW);
-            let more = if self.near_collapse { ABOUT_TO_FALL[many] } else { 1.0 };
+            let more = HINGED[self.hinged as usize][many];
             let more = if rough.near_point { more * NEAR_POINT } else { more };
             let error = more * MARGINS[many] * rough.apart.sqrt();
             if *refined {

@@ -3,7 +3,7 @@
 use super::super::{
     Analysis, AnalysisError, CollapseReport, ContactPoint, Estimate, MeshTried, Order, Outcome, PlanReason, verdict,
 };
-use super::estimate::{FieldErrors, Orders, differences};
+use super::estimate::{FieldErrors, Hinged, Orders, differences};
 use super::mesh::{drawing, ladders};
 use super::states::States;
 use super::with_mesh;
@@ -81,7 +81,7 @@ pub(super) fn solve(
     }
     // Where nothing grows every load factor has the state at the start.
     let state_of = |at: f64| if analysis.scaled.is_empty() { whole.start } else { at };
-    let near = |at: f64| is_about_to_fall(whole, analysis.structure.is_half(), state_of(at));
+    let near = |at: f64| hinged(whole, analysis.structure.is_half(), state_of(at));
     let near_points = near_points(analysis);
     let mut mesh = Refinement::new(drawing(&analysis.structure).0, ladders, near_points, report, near);
     let why = loop {
@@ -131,7 +131,7 @@ impl Refinement {
         ladders: Vec<Vec<[usize; 2]>>,
         near_points: Vec<Vec<NearPoint>>,
         report: CollapseReport,
-        near: impl Fn(f64) -> bool,
+        near: impl Fn(f64) -> Hinged,
     ) -> Self {
         let orders = ORDERS[usize::from(order == Order::Second)];
         let fields = report.stress_fields.iter();
@@ -238,19 +238,27 @@ impl Refinement {
     }
 }
 
-/// Whether whole stones have as many hinges, or joints that are about to be some, as a mechanism at this load factor.
-fn is_about_to_fall(whole: &CollapseReport, half: bool, load_factor: f64) -> bool {
+/// How near whole stones are to a mechanism at this load factor: how many hinges they have, or joints that are about to be some.
+fn hinged(whole: &CollapseReport, half: bool, load_factor: f64) -> Hinged {
     let states = [&whole.at_start, &whole.at_unit_load, &whole.near_collapse];
-    let Some(state) = states.into_iter().flatten().find(|state| state.load_factor == load_factor) else { return false };
+    let Some(state) = states.into_iter().flatten().find(|state| state.load_factor == load_factor) else {
+        return Hinged::Less;
+    };
     let at_end = |of: &[ContactPoint]| {
         let sums = of.iter().fold([0.0; 2], |[n, m], point| [n + point.normal, m + point.normal * point.position]);
         let place = sums[1] / sums[0];
         [place, 1.0 - place].iter().position(|&from_end| from_end < AT_END)
     };
     let mut ends: Vec<_> = state.contacts.chunk_by(|a, b| a.joint == b.joint).map(at_end).collect();
+    let are_enough = |ends: &[Option<usize>]| ends.iter().flatten().count() >= HINGES[usize::from(half)];
+    let enough = are_enough(&ends);
     // Neighbours that turn about the same side are one hinge, as beside a crown stone.
     ends.dedup();
-    ends.iter().flatten().count() >= HINGES[usize::from(half)]
+    match enough {
+        true if are_enough(&ends) => Hinged::Mechanism,
+        true => Hinged::Widely,
+        false => Hinged::Less,
+    }
 }
 
 /// How many subblocks they are together.
