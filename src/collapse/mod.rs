@@ -37,6 +37,7 @@ mod survey_tolerance;
 mod tally;
 mod task;
 mod tolerances;
+mod uniqueness;
 mod updated;
 mod verdict;
 mod worst_position;

@@ -36,6 +36,9 @@ pub(super) struct Attempt {
 /// stiffness does not move a rigid limit load, and 1e-4 is far below what anyone knows of a joint.
 const STIFFNESS_SCATTER: f64 = 1e-4;
 
+/// Seed of the first attempt.
+const FIRST_SEED: u64 = 1;
+
 /// Attempts made before a path is given up. The disturbance grows, since a tie that survives one may need a larger.
 pub(super) const ATTEMPTS: usize = 6;
 
@@ -43,10 +46,15 @@ pub(super) const ATTEMPTS: usize = 6;
 const MOVING_ATTEMPTS: usize = 3;
 
 impl Attempt {
+    /// Whether none was made before.
+    pub(super) fn is_first(&self) -> bool {
+        self.seed == FIRST_SEED
+    }
+
     pub(super) fn number(i: usize) -> Self {
         let disturbance = 1e-9 * 30f64.powi(i.saturating_sub(1).min(2) as i32);
         // Where joints slide, paths that part early may end where others do not.
-        Attempt { seed: 1 + i as u64, disturbance, scatter: STIFFNESS_SCATTER * 10f64.powi(i as i32 / 2) }
+        Attempt { seed: FIRST_SEED + i as u64, disturbance, scatter: STIFFNESS_SCATTER * 10f64.powi(i as i32 / 2) }
     }
 }
 
@@ -223,17 +231,30 @@ pub(super) enum Leg {
     Lost,
 }
 
-/// Follows the load factor from the recorder's start, the way it looks, to collapse or to the cap.
+/// A tracer at the state `displacements` at load factor `from`, with the contacts that a path meets; `load_scale` as for [`Tracer::new`].
+pub(super) fn from_state<'a>(
+    model: &'a Model<'a>,
+    fixed: &[f64],
+    from: f64,
+    load_scale: f64,
+    displacements: &[f64],
+) -> Tracer<'a> {
+    let loads = at(model, fixed, from);
+    let drive = Drive { rate: vec![0.0; loads.len()], base: loads, ..Drive::default() };
+    Tracer::starting_at(&model.assembly, drive, displacements, model.size, load_scale, model.budget)
+}
+
+/// Follows the load factor on from where the tracer is, at load factor `from`, the way the recorder looks, to collapse or to the cap.
 pub(super) fn follow(
     tracer: &mut Tracer,
     fixed: &[f64],
-    cap: f64,
+    [from, cap]: [f64; 2],
     recorder: &mut Recorder,
     see: &mut dyn FnMut(&Tracer, f64) -> ControlFlow<()>,
 ) -> Leg {
     let (start, sign) = (recorder.start, recorder.sign);
     let rate = recorder.model.scaled.on_nodes.iter().map(|s| s * sign).collect();
-    tracer.drive_on(Drive { base: fixed.to_vec(), rate, ..Drive::default() }, sign * start);
+    tracer.drive_on(Drive { base: fixed.to_vec(), rate, ..Drive::default() }, sign * from);
     let mut met = None;
     let end = tracer.trace(cap, &mut |tracer| {
         met = recorder.see(sign * tracer.parameter(), tracer.displacements(), tracer.travelled());

@@ -22,6 +22,7 @@ use super::{
 };
 use crate::budget::Budget;
 use crate::structure::is_symmetric;
+use states::States;
 
 /// Velocities of a mechanism, as a share of the largest, that differ by less are the same.
 const SAME_VELOCITY: f64 = 1e-6;
@@ -56,6 +57,21 @@ pub(super) fn refined(
         accuracy.collapse_intensity.map(|asked| intensity(&report, analysis.task.direction(), asked));
     report.plan = Some(plan);
     Ok(report)
+}
+
+/// The answer on the mesh given, its states solved for one by one from those of whole stones; none where it is one of whole stones, or
+/// the path has to be followed on it.
+pub(super) fn on_given_mesh(analysis: &Analysis, budget: &Budget) -> Result<Option<CollapseReport>, AnalysisError> {
+    let is_whole = |subblocks: &[usize; 2]| *subblocks == [1, 1];
+    let refined = analysis.task.accuracy().is_some_and(|accuracy| accuracy.stress.is_some());
+    if refined || analysis.mesh.subblocks.iter().all(is_whole) || !States::may_solve(analysis) {
+        return Ok(None);
+    }
+    let whole = verdict::solve(&of_whole_stones(analysis), budget)?;
+    let Some(mut states) = States::solve(analysis, &whole, budget)? else { return Ok(None) };
+    let mut report = states.report(analysis, &whole)?;
+    report.cost.join(whole.cost);
+    Ok(states.complete(&mut report, &whole)?.then_some(report))
 }
 
 /// The answer on the least mesh whose stress is accurate enough; `rigid` where there is none.

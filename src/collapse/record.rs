@@ -55,8 +55,9 @@ pub(super) struct Recorder<'a> {
     farthest: f64,
     last: Option<Rc<PathPoint>>,
     steps_done: usize,
-    /// Load-displacement history.
+    /// Load-displacement history, where it is asked for.
     pub history: Vec<HistoryPoint>,
+    tells_history: bool,
     /// Load factors that are asked for, with the displacements there, once passed.
     asked: Vec<(f64, Option<Vec<f64>>)>,
     /// Looks for first yield, where it is asked for.
@@ -91,6 +92,7 @@ impl<'a> Recorder<'a> {
             last: None,
             steps_done: 0,
             history: Vec::new(),
+            tells_history: analysis.task.history(),
             asked: std::iter::once(1.0).chain(fields).map(|load_factor| (load_factor, None)).collect(),
             yielding: averaged.map(|averaged| Yielding::new(model, averaged, &analysis.structure.strengths())),
         }
@@ -110,11 +112,26 @@ impl<'a> Recorder<'a> {
                 return Some(load_factor);
             }
         }
-        let point = self.history_point(load_factor, displacements, travelled);
-        self.history.push(point);
+        if self.tells_history {
+            let point = self.history_point(load_factor, displacements, travelled);
+            self.history.push(point);
+        }
         self.keep(before, &now);
         self.last = Some(now);
         None
+    }
+
+    /// Takes in a state that is known without the path.
+    pub(super) fn know(&mut self, load_factor: f64, displacements: &[f64]) {
+        for (_, found) in self.asked.iter_mut().filter(|(asked, _)| *asked == load_factor) {
+            *found = Some(displacements.to_vec());
+        }
+    }
+
+    /// Load factors that are asked for between the start of the path and `end`.
+    pub(super) fn asked_before(&self, end: f64) -> Vec<f64> {
+        let on_the_way = |at: f64| self.way(at) >= 0.0 && self.way(at) <= self.way(end);
+        self.asked.iter().map(|(asked, _)| *asked).filter(|&asked| on_the_way(asked)).collect()
     }
 
     /// Takes in the end of a path that nothing stops: it is no event, and not part of the history.

@@ -108,6 +108,18 @@ pub struct Snapshot {
     pub soil: Vec<f64>,
 }
 
+/// How the states of a structure were found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "server", derive(serde::Serialize, utoipa::ToSchema))]
+#[cfg_attr(feature = "server", serde(rename_all = "snake_case"))]
+pub enum StatesFrom {
+    /// Each by itself, from the equations of equilibrium and the contact law; the load path was followed on whole stones from near
+    /// collapse to collapse.
+    DirectSolution,
+    /// On the load path, followed from the unstressed structure on.
+    LoadPath,
+}
+
 /// One point of the load-displacement history.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HistoryPoint {
@@ -246,7 +258,9 @@ pub struct CollapseReport {
     pub updated: Option<UpdatedGeometry>,
     /// What the task asked for besides.
     pub task: TaskReport,
-    /// The path, event by event; nothing where the states of a refined mesh were solved for one by one.
+    /// How its states were found.
+    pub states_from: StatesFrom,
+    /// The path, event by event, where that is asked for.
     pub history: Vec<HistoryPoint>,
     /// How the arch moves on from `end`, where asked.
     pub motion: Option<FallingMotion>,

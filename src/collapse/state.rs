@@ -5,9 +5,10 @@
 
 use super::discretise::Model;
 use super::tolerances;
+use super::uniqueness::may_be_another;
 use super::yielding::Yielding;
 use super::{AnalysisError, CollapseReport, Doubt, ElasticCrushing, MeanStress, Note, OtherStates};
-use crate::dda::{Balanced, ContactForce, balanced, missing};
+use crate::dda::{Balanced, ChainState, ContactForce, Loaded, balanced, missing, out_of_balance};
 
 /// A gap that differs by more than this share of the largest displacement between a state of the path and the symmetric one
 /// was not decided by the scatter of stiffness, which is a hundred times smaller.
@@ -18,6 +19,13 @@ const YIELDS: f64 = 1e-12;
 const SECANTS: usize = 8;
 /// First yield lies within this share of the load factor at which the path has it.
 const NEARBY: f64 = 1e-2;
+
+/// A state found without its path that is out of balance by no more than this share of the loads is what Newton's method would end in
+/// (measured: displacements change by as small a share).
+const REGULAR: f64 = 1e-11;
+
+/// Displacements that differ by no more than this share of the largest are the same.
+const SAME: f64 = 1e-9;
 
 /// A state that is reported.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,9 +40,18 @@ pub(super) struct Standing {
     pub symmetric: bool,
 }
 
+/// Displacements of the nodes, and the forces of all contacts.
+type Found = (Vec<f64>, Vec<ContactForce>);
+
 /// Finds the states of a report, and what has to be said of them.
 pub(super) struct States<'m> {
     pub model: &'m Model<'m>,
+    /// What finds them without a path, where it is to.
+    chain: Option<Loaded<'m>>,
+    /// The state that it has found last.
+    last: Option<ChainState>,
+    /// Whether it has not found one that it should have, or may have found another than the path's.
+    missed: bool,
     found: Vec<Standing>,
     /// Load factors at which there are other states, with the joints that differ.
     others: Vec<(f64, OtherStates, Vec<usize>)>,
@@ -45,7 +62,36 @@ pub(super) struct States<'m> {
 
 impl<'m> States<'m> {
     pub(super) fn new(model: &'m Model<'m>) -> Self {
-        States { model, found: Vec::new(), others: Vec::new(), work: [0; 2], doubt: None }
+        States {
+            model,
+            chain: None,
+            last: None,
+            missed: false,
+            found: Vec::new(),
+            others: Vec::new(),
+            work: [0; 2],
+            doubt: None,
+        }
+    }
+
+    /// Finds states without a path, of this chain with its exact contacts.
+    pub(super) fn of_chain(model: &'m Model<'m>, chain: Loaded<'m>) -> Self {
+        States { chain: Some(chain), ..States::new(model) }
+    }
+
+    /// The state of the chain at a load factor, where it finds states without a path and no joint slides on the way from `start` to there.
+    pub(super) fn on_the_way(&mut self, start: f64, load_factor: f64) -> Result<Option<ChainState>, AnalysisError> {
+        let (Some(chain), budget) = (&self.chain, self.model.budget) else { return Ok(None) };
+        let Some(from) = chain.state(start, self.last.as_ref(), budget)? else { return Ok(None) };
+        let Some(to) = chain.state(load_factor, Some(&from), budget)? else { return Ok(None) };
+        let sticks = chain.sticks_between(&from, &to, budget)?;
+        self.last = Some(to.clone());
+        Ok(sticks.then_some(to))
+    }
+
+    /// Whether some state was not found without the path, or may be another than the path's.
+    pub(super) fn missed_some(&self) -> bool {
+        self.missed || self.doubt.is_some()
     }
 
     /// The state at a load factor at which the path passes `on_path`; none where that breaks the law, which leaves a doubt.
@@ -55,8 +101,11 @@ impl<'m> States<'m> {
         }
         let (model, assembly) = (self.model, &self.model.assembly);
         let loads = model.loads_on_nodes(load_factor);
-        let (displacements, contacts) = match self.balanced(load_factor, &loads, on_path)? {
-            Some(displacements) => (displacements, assembly.exact_contacts()),
+        if self.chain.is_some() {
+            return self.find_directly(load_factor, &loads);
+        }
+        let ((displacements, _), contacts) = match self.balanced(load_factor, &loads, on_path)? {
+            Some(found) => (found, assembly.exact_contacts()),
             None => {
                 let broken = missing(assembly, &loads, on_path, model.budget);
                 let (amount, interface) = broken?;
@@ -65,14 +114,48 @@ impl<'m> States<'m> {
                     self.doubt.get_or_insert(Doubt::BreaksLaw { load_factor, joint, amount });
                     return Ok(None);
                 }
-                (on_path.to_vec(), assembly.contacts())
+                ((on_path.to_vec(), false), assembly.contacts())
             }
         };
         let forces = assembly.contact_forces(contacts, &displacements);
-        let symmetric = model.symmetric && assembly.mirrored(&displacements) == displacements;
+        Ok(Some(self.take(load_factor, displacements, forces)))
+    }
+
+    /// The state at a load factor with these loads on the nodes, by the force method; none, which is remembered, where it is not found or
+    /// may be one of several.
+    fn find_directly(&mut self, load_factor: f64, loads: &[f64]) -> Result<Option<Standing>, AnalysisError> {
+        let found = self.solve_directly(load_factor, loads)?;
+        self.missed |= found.is_none();
+        Ok(found.map(|(displacements, forces)| self.take(load_factor, displacements, forces)))
+    }
+
+    fn solve_directly(&mut self, load_factor: f64, loads: &[f64]) -> Result<Option<Found>, AnalysisError> {
+        let (model, assembly) = (self.model, &self.model.assembly);
+        let contacts = assembly.exact_contacts();
+        let Some(chain) = &self.chain else { return Ok(None) };
+        let Some(state) = chain.state(load_factor, self.last.as_ref(), model.budget)? else { return Ok(None) };
+        let mut found = chain.displacements(&state);
+        self.last = Some(state);
+        let symmetric = model.is_symmetric_under(loads);
+        let even = !symmetric || is_near(&assembly.mirrored(&found), &found);
+        if symmetric && even {
+            found = assembly.symmetrised(&found);
+        }
+        let forces = assembly.contact_forces(contacts, &found);
+        let regular = out_of_balance(assembly, loads, &found, model.budget)? <= REGULAR;
+        if even && regular && !may_be_another(assembly, &forces) {
+            return Ok(Some((found, forces)));
+        }
+        let Some((found, false)) = self.balanced(load_factor, loads, &found)? else { return Ok(None) };
+        let forces = assembly.contact_forces(contacts, &found);
+        Ok((!may_be_another(assembly, &forces)).then_some((found, forces)))
+    }
+
+    fn take(&mut self, load_factor: f64, displacements: Vec<f64>, forces: Vec<ContactForce>) -> Standing {
+        let symmetric = self.model.symmetric && self.model.assembly.mirrored(&displacements) == displacements;
         let standing = Standing { load_factor, displacements, forces, symmetric };
         self.found.push(standing.clone());
-        Ok(Some(standing))
+        standing
     }
 
     /// First yield of the arch as it is described, next to where the path has it. The secant method on the largest equivalent stress over
@@ -109,18 +192,19 @@ impl<'m> States<'m> {
         let (model, said) = (self.model, self.others.len());
         let found = self.balanced(factor, &model.loads_on_nodes(factor), near)?;
         self.others.truncate(said);
-        let Some(displacements) = found else { return Ok(None) };
+        let Some((displacements, _)) = found else { return Ok(None) };
         let symmetric = model.symmetric && model.assembly.mirrored(&displacements) == displacements;
         yielding.largest_in(&Standing { load_factor: factor, displacements, forces: Vec::new(), symmetric })
     }
 
-    /// Displacements in equilibrium of the arch as it is described: symmetric ones where there are any.
+    /// Displacements in equilibrium of the arch as it is described: symmetric ones where there are any; and whether they are others, and
+    /// free.
     fn balanced(
         &mut self,
         load_factor: f64,
         loads: &[f64],
         on_path: &[f64],
-    ) -> Result<Option<Vec<f64>>, AnalysisError> {
+    ) -> Result<Option<(Vec<f64>, bool)>, AnalysisError> {
         let symmetric = self.model.is_symmetric_under(loads);
         if symmetric && let Some(Balanced { displacements, free, .. }) = self.newton(loads, on_path, true)? {
             let joints = self.joints_apart(&displacements, on_path);
@@ -128,11 +212,11 @@ impl<'m> States<'m> {
                 let other = if free { OtherStates::Free } else { OtherStates::Leaning };
                 self.others.push((load_factor, other, joints));
             }
-            return Ok(Some(displacements));
+            return Ok(Some((displacements, false)));
         }
-        let found = self.newton(loads, on_path, false)?.map(|found| found.displacements);
+        let found = self.newton(loads, on_path, false)?.map(|found| (found.displacements, found.free));
         if symmetric {
-            let state = found.as_deref().unwrap_or(on_path);
+            let state = found.as_ref().map_or(on_path, |(found, _)| found);
             let joints = self.joints_apart(state, &self.model.assembly.mirrored(state));
             self.others.push((load_factor, OtherStates::Lopsided, joints));
         }
@@ -173,4 +257,10 @@ impl<'m> States<'m> {
         }
         self.doubt
     }
+}
+
+/// Whether displacements are the same but for rounding.
+fn is_near(a: &[f64], b: &[f64]) -> bool {
+    let largest = b.iter().fold(0.0f64, |most, d| most.max(d.abs()));
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() <= SAME * largest)
 }

@@ -150,11 +150,13 @@ pub struct StatesAsked {
     /// Length over which stress is averaged both ways where first yield is reported, m; None: it is not, but in a [`SafetyTask`] in which
     /// it counts, by subblocks.
     pub first_yield_length: Option<f64>,
+    /// Whether the load path is reported event by event. Else states are solved for one by one wherever they can be.
+    pub history: bool,
 }
 
 impl Default for StatesAsked {
     fn default() -> Self {
-        StatesAsked { share: Self::SHARE, fields: Vec::new(), first_yield_length: None }
+        StatesAsked { share: Self::SHARE, fields: Vec::new(), first_yield_length: None, history: false }
     }
 }
 
@@ -216,6 +218,11 @@ impl Task {
     /// Length over which stress is averaged where first yield is looked for, m; none: over every subblock.
     pub fn first_yield_length(&self) -> Option<f64> {
         self.states().and_then(|states| states.first_yield_length)
+    }
+
+    /// Whether the load path is reported event by event.
+    pub fn history(&self) -> bool {
+        self.states().is_some_and(|states| states.history)
     }
 
     /// Whether the answer is about loads that grow.

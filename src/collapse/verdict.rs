@@ -1,5 +1,7 @@
 //! From the limit window and the load path to one answer, or to saying that we cannot tell.
 
+mod blank;
+mod directly;
 mod fallen;
 mod leg;
 mod mesh;
@@ -11,13 +13,13 @@ use super::certificate::{Certificate, ThrustLines, loaded};
 use super::discretise::{Discretisation, Model};
 use super::path::{ATTEMPTS, Attempt, disturbed, nothing_grows, stand, total};
 use super::record::snapshot;
-use super::state::States;
+use super::state::{Standing, States};
 use super::strips::Strips;
 use super::updated::{self, Course};
 use super::{
-    Analysis, AnalysisError, CollapseReport, Cost, Crushing, Doubt, End, Geometry, GovernedBy, LimitWindow, Method,
-    Note, Order, Outcome, SafetyFactors, SettlementEnd, SupportMovement, Task, TaskReport, ThrustRange,
-    UpdatedGeometry, cracks, falling, geometric, plan, rounding, safety, settlement,
+    Analysis, AnalysisError, CollapseReport, Cost, Crushing, Doubt, End, Geometry, GovernedBy, Method, Note, Order,
+    Outcome, SettlementEnd, SupportMovement, Task, TaskReport, ThrustRange, UpdatedGeometry, cracks, falling,
+    geometric, plan, rounding, safety, settlement,
 };
 use crate::budget::Budget;
 use crate::dda::{self, Tracer};
@@ -122,7 +124,10 @@ impl<'a> Setup<'a> {
     /// Limit window, load path and all that follows from them.
     fn answer(&self, built: &mut Discretisation<'a>) -> Result<CollapseReport, AnalysisError> {
         let (analysis, budget) = (self.analysis, self.budget);
-        let mut report = self.solve(built)?;
+        let mut report = match plan::on_given_mesh(analysis, budget)? {
+            Some(report) => report,
+            None => self.solve(built)?,
+        };
         if let Some(accuracy) = analysis.task.accuracy() {
             report = plan::refined(analysis, accuracy, report, budget)?;
         }
@@ -209,6 +214,11 @@ impl<'a> Setup<'a> {
         let model = built.crushing(self.analysis, strips, attempt)?;
         let fixed = disturbed(model, self.start, attempt);
         let mut progress = |tracer: &Tracer, load_factor: f64| self.budget.step(load_factor, tracer.events());
+        if attempt.is_first()
+            && let Some(report) = self.directly(model, &fixed, &mut progress)?
+        {
+            return Ok(Attempted { report, doubt: None });
+        }
         let mut report = self.blank(model.assembly.unknowns());
         report.notes = notes_on_mesh(self.analysis, model);
         let (tracer, end) =
@@ -243,16 +253,11 @@ impl<'a> Setup<'a> {
         let at_start = states.find(self.start, tracer.displacements())?;
         report.at_start = at_start.as_ref().map(|state| snapshot(model, state)).transpose()?;
         if nothing_grows(model, total(&analysis.scaled)) {
-            report.outcome = Outcome::Stands;
-            at_start.map(|state| report.fields_at_rest(analysis, model, &state)).transpose()?;
-            if analysis.task.grows() {
-                report.notes.push(Note::NothingGrows);
-            }
+            self.stands_still(&mut report, model, at_start)?;
             let doubt = states.tell(&mut report);
             return Ok(Attempted { report, doubt });
         }
-        let both_ways = matches!(analysis.task, Task::Collapse(_)) && !self.certificate.stands_at(0.0);
-        let back = both_ways.then(|| tracer.clone());
+        let back = self.goes_both_ways().then(|| tracer.clone());
         let mut doubt = self.leg(&mut report, &mut states, &mut tracer, fixed, self.sign, progress)?;
         if let Some(mut back) = back {
             report.outcome = Outcome::StandsInWindow;
@@ -262,6 +267,24 @@ impl<'a> Setup<'a> {
         }
         let doubt = doubt.or(states.tell(&mut report));
         Ok(Attempted { report, doubt })
+    }
+
+    /// Whether the structure falls under too little load and under too much.
+    fn goes_both_ways(&self) -> bool {
+        matches!(self.analysis.task, Task::Collapse(_)) && !self.certificate.stands_at(0.0)
+    }
+
+    /// The answer where nothing grows: the state at the start is all there is.
+    fn stands_still(
+        &self,
+        report: &mut CollapseReport,
+        model: &Model,
+        at_start: Option<Standing>,
+    ) -> Result<(), AnalysisError> {
+        report.outcome = Outcome::Stands;
+        at_start.map(|state| report.fields_at_rest(self.analysis, model, &state)).transpose()?;
+        report.notes.extend(self.analysis.task.grows().then_some(Note::NothingGrows));
+        Ok(())
     }
 
     /// The answer on moving geometry, where it is asked for and the arch stands at first order.
@@ -305,41 +328,5 @@ impl<'a> Setup<'a> {
         }
         report.task = TaskReport::Settlement(settlement.map(Box::new));
         Ok(())
-    }
-
-    /// A report of nothing but the limit window, on a model of so many `unknowns`.
-    fn blank(&self, unknowns: usize) -> CollapseReport {
-        let window = self.rigid;
-        CollapseReport {
-            outcome: Outcome::CannotTell,
-            direction: self.analysis.task.direction(),
-            limit_window: window.map(|[lowest, highest]| LimitWindow { lowest, highest }),
-            proof: self.certificate.proof.clone(),
-            thrust_range: self.thrust.0,
-            thrust_range_lines: self.thrust.1.clone(),
-            end: None,
-            other_end: None,
-            start: self.start,
-            cap: self.cap,
-            share: self.analysis.task.share(),
-            near_collapse: None,
-            at_unit_load: None,
-            at_start: None,
-            stress_fields: Vec::new(),
-            crushing: self.crushing.clone(),
-            updated: None,
-            task: match self.analysis.task {
-                Task::Collapse(_) => TaskReport::Collapse,
-                Task::Safety(_) => TaskReport::Safety(SafetyFactors::UNKNOWN),
-                Task::Settlement(_) => TaskReport::Settlement(None),
-                Task::GeometricSafety(_) => TaskReport::GeometricSafety(None),
-            },
-            history: Vec::new(),
-            motion: None,
-            other_motion: None,
-            plan: None,
-            cost: Cost { unknowns, ..Cost::default() },
-            notes: Vec::new(),
-        }
     }
 }

@@ -174,6 +174,11 @@ impl Assembly {
         self.beside.len()
     }
 
+    /// What lies before and after interface `k`.
+    pub(super) fn beside(&self, k: usize) -> [Beside; 2] {
+        self.beside[k]
+    }
+
     /// Unknowns of the faces before and after interface `k`; none where the ground is.
     pub fn faces(&self, k: usize) -> [Option<Range<usize>>; 2] {
         self.faces[k].map(|face| face.map(|face| self.pattern.range(face)))

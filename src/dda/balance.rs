@@ -151,6 +151,17 @@ pub fn missing(assembly: &Assembly, loads: &[f64], d: &[f64], budget: &Budget) -
     Ok(all.fold((0.0, 0), |worst, here| if here.0 > worst.0 { here } else { worst }))
 }
 
+/// Largest force that is missing on a node under `loads` on the nodes, as a share of the sum of those; of an assembly at displacements
+/// `d` with its exact contacts.
+///
+/// # Errors
+/// When stopped.
+pub fn out_of_balance(assembly: &Assembly, loads: &[f64], d: &[f64], budget: &Budget) -> Result<f64, Stopped> {
+    let mut residual = vec![0.0; d.len()];
+    assembly.unbalance(assembly.exact_contacts(), loads, d, &mut residual, budget)?;
+    Ok(share_of(&residual, loads))
+}
+
 /// Largest entry of a residual over the sum of the loads.
 fn share_of(residual: &[f64], loads: &[f64]) -> f64 {
     // `max` passes over NaN, which must not pass for equilibrium.

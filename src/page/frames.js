@@ -60,19 +60,25 @@ function loadPath(answer, size) {
     .map(state => ({at: state.load_factor, moves: stateMoves(state)}));
   known.sort((a, b) => Math.abs(a.at - answer.start_load_factor) - Math.abs(b.at - answer.start_load_factor));
   const largest = largestOf(known.at(-1)?.moves ?? []);
-  if (largest === 0 || history.load_factor.length === 0) return {stops: [], note: '', last: null};
+  if (largest === 0) return {stops: [], note: '', last: null};
   const times = round(Math.max((DRAWN_ON_PATH * size) / largest, 1e-9));
+  const stop = (factor, largest, moves) => ({
+    text:
+      `${figures(factor * request.load_factor.intensity_per_unit)}${unit === '-' ? '' : ` ${unit}`}, load factor ${figures(factor)}` +
+      `; largest displacement ${figures(1e3 * largest, 3)} mm`,
+    moves: scaled(moves, times),
+  });
   const events = thinned(
-    history.load_factor.map((_, i) => i),
+    history.load_factor.map((factor, i) => [factor, history.largest_m[i]]),
     MOST_STOPS,
   );
-  const stops = events.map(i => ({
-    text:
-      `${figures(history.intensity[i])}${unit === '-' ? '' : ` ${unit}`}, load factor ${figures(history.load_factor[i])}` +
-      `; largest displacement ${figures(1e3 * history.largest_m[i], 3)} mm`,
-    moves: scaled(between(known, history.largest_m[i], history.load_factor[i]), times),
-  }));
-  const note = `On the load path displacements are drawn ${inWords(times)}; between the load factors at which the answer has them, in proportion to the largest.`;
+  const stops = events.length
+    ? events.map(([factor, largest]) => stop(factor, largest, between(known, largest, factor)))
+    : known.map(({at, moves}) => stop(at, largestOf(moves), moves));
+  const between_states = events.length
+    ? 'between the load factors at which the answer has them, in proportion to the largest'
+    : 'at the load factors at which the answer has them (ask for the history to see those between)';
+  const note = `On the load path displacements are drawn ${inWords(times)}; ${between_states}.`;
   const crushes = ends.some(end => end.governed_by === 'crushing') && !request.crushing_in_path;
   return {
     stops,

@@ -58,6 +58,7 @@ export function answerFields(draft) {
     ]),
     number(draft, '/mesh/subblocks/uniform/radial', 'Subblocks through the thickness', '1 to 48', {usual: '1'}),
     number(draft, '/mesh/subblocks/uniform/along', 'Subblocks along each stone', '1 to 48', {usual: '1'}),
+    tick(draft, '/report/history', 'Load path, event by event'),
     tick(draft, '/report/stress_fields', 'Stress near collapse', {on: ['near_collapse']}),
     number(draft, '/report/first_yield_length_m', 'First yield, of stress averaged over', 'm', {usual: 'not looked for'}),
     number(draft, '/width_m', 'Width across the drawing', 'm', {usual: 'results per metre'}),

@@ -10,7 +10,7 @@ const arch = {
   loads: [weight, push(-2.5)],
   load_factor: unit,
   mesh: {subblocks: {uniform: {radial: 4, along: 3}}},
-  report: {stress_fields: ['near_collapse']},
+  report: {history: true, stress_fields: ['near_collapse']},
 };
 
 const span = {profile: {circular: {span_m: 6, rise_m: 1.5}}, rings: [{thickness_m: 0.4, voussoirs: 21}]};
@@ -20,6 +20,7 @@ const bridge = {
   stone: {friction_angle_deg: 40},
   loads: [weight, push(-5)],
   load_factor: unit,
+  report: {history: true},
 };
 
 /** Six courses of bricks in running bond. */
@@ -63,6 +64,7 @@ const blocks = {
   stone: {friction_angle_deg: 35},
   loads: [weight, {load: {body_acceleration: {x_g: 1}}, scaled: true}],
   load_factor: {unit: 'g', intensity_per_unit: 1},
+  report: {history: true},
 };
 
 export const STARTERS = {

@@ -52,7 +52,7 @@ use super::json::{NotFinite, line};
 use super::prose::in_its_words;
 use super::request::AnalysisRequest;
 use super::translate::placed;
-use crate::collapse::{CollapseReport, Cost, End, LimitWindow, Note, Outcome, Reach};
+use crate::collapse::{CollapseReport, Cost, End, LimitWindow, Note, Outcome, Reach, StatesFrom};
 use columns::column;
 use serde::Serialize;
 use settlement::Grounds;
@@ -115,7 +115,9 @@ pub struct AnalysisResult {
     pub worst_position: Option<WorstPositionBody>,
     /// How the load factor moves with the points of a survey, where `analysis` asks for it.
     pub survey_tolerance: Option<SurveyToleranceBody>,
-    /// The load path, event by event; empty where an accuracy of the stress is asked for, whose states are solved for one by one.
+    /// How the states of the structure were found.
+    pub states_from: StatesFrom,
+    /// The load path, event by event, where `report.history` asks for it; else empty.
     pub history: HistoryColumns,
     /// What was modelled, and how accurate it is, where `accuracy` is asked for.
     pub plan: Option<PlanBody>,
@@ -220,6 +222,7 @@ impl AnalysisResult {
             }),
             worst_position: report.worst_position().map(|position| WorstPositionBody::new(position, &scale)),
             survey_tolerance: report.survey_tolerance().map(|survey| SurveyToleranceBody::new(survey, &scale)),
+            states_from: report.states_from,
             history: HistoryColumns::new(&report.history, &scale),
             plan,
             cost: report.cost,

@@ -6,7 +6,7 @@ use voussoir::collapse::{
     Answer, BeamReport, CollapseReport, Cost, CrushedJoint, Crushing, Direction, ElasticCrushing, Face, FallingMotion,
     Governs, Hinge, HistoryPoint, LiftOff, LimitWindow, LoadRange, MeanStress, Mechanism, Mode, MotionContact,
     MotionEnd, MotionFrame, Note, OpenHinge, Outcome, PathEnd, PlasticCrushing, Reach, SafetyFactors, SafetyPoint,
-    SafetyZone, SettlementEnd, SettlementPath, SettlementPoint, SettlementReport, Slid, Slide, StressField,
+    SafetyZone, SettlementEnd, SettlementPath, SettlementPoint, SettlementReport, Slid, Slide, StatesFrom, StressField,
     SubblockStress, TaskReport, Thrust,
 };
 use voussoir::geometry::Vec2;
@@ -83,6 +83,7 @@ fn report() -> CollapseReport {
         crushing: Crushing { strength: 1e7, elastic: Some(elastic), plastic_section: Some(plastic) },
         updated: None,
         task: TaskReport::Safety(factors()),
+        states_from: StatesFrom::LoadPath,
         history: vec![],
         motion: None,
         other_motion: None,

@@ -44,6 +44,8 @@ mod crushing_path;
 #[cfg(feature = "server")]
 mod determinism;
 #[cfg(feature = "server")]
+mod directly;
+#[cfg(feature = "server")]
 mod dispersal;
 #[cfg(feature = "server")]
 mod docs;

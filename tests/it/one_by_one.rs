@@ -1,6 +1,7 @@
 //! States on a refined mesh, solved for one by one, against those on the path that is followed on the same mesh.
 
 use crate::common::largest::larger;
+use crate::common::snapshots::apart;
 use crate::common::structures::{self, FAMILIES};
 use crate::common::{door, random_arch};
 use serde_json::json;
@@ -20,24 +21,13 @@ const STRUCTURES: u64 = 24;
 const EQUAL: [f64; 2] = [1e-9, 1e-6];
 const FOLLOWS: f64 = 2e3;
 
-/// Largest difference of a contact's force over the largest, and of a stone's displacement over the largest.
-fn apart(a: &Snapshot, b: &Snapshot) -> f64 {
-    assert_eq!((a.contacts.len(), a.blocks.len()), (b.contacts.len(), b.blocks.len()));
-    let most = b.contacts.iter().map(|contact| contact.normal).fold(0.0, f64::max);
-    let far = b.blocks.iter().map(|block| block.displacement.norm()).fold(0.0, f64::max);
-    let forces = a.contacts.iter().zip(&b.contacts);
-    let forces = forces.map(|(a, b)| (a.normal - b.normal).hypot(a.tangential - b.tangential) / most);
-    let blocks = a.blocks.iter().zip(&b.blocks).map(|(a, b)| (a.displacement - b.displacement).norm() / far);
-    forces.chain(blocks).fold(0.0, larger)
-}
-
 /// The same question, with the path followed on the mesh that was chosen.
 fn on_path(analysis: &Analysis, chosen: &CollapseReport) -> CollapseReport {
     let mut analysis = analysis.clone();
     let plan = chosen.plan.as_ref().unwrap();
     analysis.mesh = Mesh { order: plan.order, spacing: plan.spacing, ..Mesh::of(plan.subblocks.clone()) };
     let Task::Collapse(task) = &analysis.task else { unreachable!() };
-    let states = StatesAsked { fields: task.states.fields.clone(), ..task.states };
+    let states = StatesAsked { fields: task.states.fields.clone(), history: true, ..task.states };
     analysis.task = Task::Collapse(CollapseTask { method: Method::default(), states, ..*task });
     run(&analysis, &Budget::unlimited()).unwrap()
 }

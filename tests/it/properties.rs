@@ -25,7 +25,9 @@ proptest! {
     /// Residual, history, window: the promises of every report, sliding or not.
     #[test]
     fn every_path_keeps_its_promises(scene in surveyed(ANY)) {
-        let solved = Solved::new(&scene.request);
+        let mut request = scene.request.clone();
+        request["report"]["history"] = json!(true);
+        let solved = Solved::new(&request);
         prop_assume!(solved.falls());
         let window = solved.report.limit_window.unwrap();
         for (end, sign) in solved.ends() {

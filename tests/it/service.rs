@@ -27,7 +27,7 @@ fn done(server: &Server, request: &Value) -> String {
 fn stressed() -> Value {
     let mut request = request();
     request["mesh"] = json!({"subblocks": {"uniform": {"radial": 2, "along": 3}}});
-    request["report"] = json!({"stress_fields": ["near_collapse", {"load_factor": 2.5}]});
+    request["report"] = json!({"history": true, "stress_fields": ["near_collapse", {"load_factor": 2.5}]});
     request
 }
 

@@ -20,7 +20,11 @@ async function slide(page, to) {
 
 /** From as built along the load path and through the collapse. */
 export async function theSliderMovesTheStructure(tools) {
-  const {job_id: id} = await tools.service.submit({...tools.request('first-arch'), motion: {most_frames: 40}});
+  const {job_id: id} = await tools.service.submit({
+    ...tools.request('first-arch'),
+    motion: {most_frames: 40},
+    report: {history: true},
+  });
   const page = await tools.page(`/#/jobs/${id}`);
   await page.waitForSelector('#headline');
   assert.equal(

@@ -11,18 +11,16 @@ use crate::collapse::discretise::{Model, discretise};
 use crate::collapse::record::{snapshot, stress_field};
 use crate::collapse::state::Standing;
 use crate::collapse::strips::Strips;
+use crate::collapse::uniqueness::may_be_another;
 use crate::collapse::verdict::{is_cohesive, notes_on_mesh};
 use crate::collapse::{
-    Analysis, AnalysisError, CollapseReport, Cost, Crushing, Note, Outcome, PathEnd, Snapshot, StressField,
+    Analysis, AnalysisError, BlockState, CollapseReport, Cost, Crushing, Method, Note, Outcome, PathEnd, Snapshot,
+    StatesFrom, StressField,
 };
-use crate::dda::{Balanced, Contact, ContactForce, Law, balanced, direct};
+use crate::dda::{Balanced, MeanMotion, balanced, direct};
 
 /// Share of the way that is left to collapse which is gone at once.
 const STRIDE: f64 = 0.9;
-/// A shear that is within this share of its bound has slid.
-const AT_BOUND: f64 = 1e-9;
-/// A gap that is less than this share of the largest is about to close.
-const ABOUT_TO_CLOSE: f64 = 1e-9;
 
 /// Where a path leads, in load factors: to an end or on and on.
 #[derive(Debug, Clone, Copy)]
@@ -35,6 +33,8 @@ struct Way {
 pub(super) struct States<'p> {
     model: Model<'p>,
     way: Way,
+    /// Those of whole stones, as displacements of the nodes: load factors with what is near the states on the mesh there.
+    whole: Vec<(f64, Vec<f64>)>,
     /// Those found so far.
     found: Vec<Standing>,
     cost: Cost,
@@ -49,6 +49,12 @@ fn will_do(report: &CollapseReport) -> bool {
 }
 
 impl<'p> States<'p> {
+    /// Whether states may be solved for one by one: nothing is asked of the path itself, and joints do not lose cohesion on it.
+    pub(super) fn may_solve(analysis: &Analysis) -> bool {
+        let exact = matches!(analysis.task.method(), Method::EventPath(_));
+        exact && !analysis.task.history() && analysis.task.first_yield_length().is_none() && !is_cohesive(analysis)
+    }
+
     /// Solves for the state at the start and for those of the stress fields of `whole`, the answer of whole stones. None where the path
     /// has to be followed on the mesh.
     ///
@@ -59,12 +65,15 @@ impl<'p> States<'p> {
         whole: &CollapseReport,
         budget: &'p Budget<'p>,
     ) -> Result<Option<Self>, AnalysisError> {
-        if analysis.task.yields(&whole.crushing) || is_cohesive(analysis) || !will_do(whole) {
+        if !Self::may_solve(analysis) || analysis.task.yields(&whole.crushing) || !will_do(whole) {
             return Ok(None);
         }
         let model = discretise(analysis, &Strips::default(), budget)?;
         let way = Way { start: whole.start, end: whole.end.as_ref().map(PathEnd::on_path) };
-        let mut states = States { model, way, found: Vec::new(), cost: Cost::default() };
+        let told = [&whole.at_start, &whole.at_unit_load, &whole.near_collapse].into_iter().flatten();
+        let near = told.filter(|told| told.blocks.len() == model.assembly.bodies());
+        let near = near.map(|told| (told.load_factor, on_nodes(&model, told))).collect();
+        let mut states = States { model, way, whole: near, found: Vec::new(), cost: Cost::default() };
         let fields = whole.stress_fields.iter().map(|field| field.load_factor);
         let found = states.reach_all(whole.at_start.iter().map(|told| told.load_factor).chain(fields).collect())?;
         Ok(found.then_some(states))
@@ -84,6 +93,7 @@ impl<'p> States<'p> {
             at_unit_load: None,
             near_collapse: None,
             stress_fields: fields?.into_iter().flatten().collect(),
+            states_from: StatesFrom::DirectSolution,
             history: Vec::new(),
             crushing: Crushing { elastic: None, ..whole.crushing.clone() },
             cost: Cost { unknowns: self.model.assembly.unknowns(), ..std::mem::take(&mut self.cost) },
@@ -116,6 +126,9 @@ impl<'p> States<'p> {
     fn reach_all(&mut self, mut wanted: Vec<f64>) -> Result<bool, AnalysisError> {
         wanted.sort_by(|&a, &b| self.way.to(a).total_cmp(&self.way.to(b)));
         for load_factor in wanted {
+            if self.at(load_factor).is_none() {
+                self.find_beside_whole(load_factor)?;
+            }
             while self.at(load_factor).is_none() {
                 let next = self.next(load_factor);
                 if !self.find(next)? && !self.trace(load_factor)? {
@@ -153,6 +166,15 @@ impl<'p> States<'p> {
         if (load_factor - last.load_factor).abs() > (far - last.load_factor).abs() { far } else { load_factor }
     }
 
+    /// Solves for the state at a load factor from that of whole stones; false where that fails.
+    fn find_beside_whole(&mut self, load_factor: f64) -> Result<bool, AnalysisError> {
+        let Model { assembly, budget, size, .. } = &self.model;
+        let Some((_, near)) = self.whole.iter().find(|(at, _)| *at == load_factor) else { return Ok(false) };
+        let loads = self.model.loads_on_nodes(load_factor);
+        let found = direct(assembly, *size, &loads, Some(near), self.model.is_symmetric_under(&loads), budget)?;
+        self.take(load_factor, found)
+    }
+
     /// Solves for the state at a load factor, from the last one before; false where that fails.
     fn find(&mut self, load_factor: f64) -> Result<bool, AnalysisError> {
         let Model { assembly, budget, size, .. } = &self.model;
@@ -178,11 +200,7 @@ impl<'p> States<'p> {
         self.cost.join(Cost { factorisations, block_rows, ..Cost::default() });
         let assembly = &self.model.assembly;
         let forces = assembly.contact_forces(assembly.exact_contacts(), &displacements);
-        let slides = |k: usize| {
-            let points = assembly.at_interface(k);
-            slides(&assembly.exact_contacts()[points.clone()], &forces[points])
-        };
-        if (0..assembly.interfaces()).any(slides) || is_about_to_close(&forces) {
+        if may_be_another(assembly, &forces) {
             return Ok(false);
         }
         let symmetric = self.model.symmetric && assembly.mirrored(&displacements) == displacements;
@@ -191,28 +209,15 @@ impl<'p> States<'p> {
     }
 }
 
+/// A state of whole stones as displacements of the nodes of a mesh.
+fn on_nodes(model: &Model, whole: &Snapshot) -> Vec<f64> {
+    let motion = |block: &BlockState| MeanMotion { displacement: block.displacement, rotation: block.rotation };
+    model.assembly.carried_by(&whole.blocks.iter().map(motion).collect::<Vec<_>>())
+}
+
 impl Way {
     /// How far it is from the start to a load factor.
     fn to(self, load_factor: f64) -> f64 {
         (load_factor - self.start).abs()
     }
-}
-
-/// Whether a joint of these contacts has slid as a whole: there may be several such states then, and the path tells which one is
-/// reached (measured: 2 of 72 such states were others, and none of 5,674 without such a joint had other forces, whatever single contacts did).
-fn slides(contacts: &[Contact], forces: &[ContactForce]) -> bool {
-    let (mut shear, mut bound) = (0.0, 0.0);
-    for (contact, force) in contacts.iter().zip(forces) {
-        let Law::Coulomb { friction, cohesion, .. } = contact.law else { return false };
-        shear += force.tangential;
-        bound += if force.normal > 0.0 { friction * force.normal + cohesion } else { 0.0 };
-    }
-    bound > 0.0 && shear.abs() >= (1.0 - AT_BOUND) * bound
-}
-
-/// Whether some contact is about to close or to open. Such a state may be the end of a motion that changes no force, as of a stone that
-/// is free to turn between its neighbours by a little: any other state of that motion would do as well.
-fn is_about_to_close(forces: &[ContactForce]) -> bool {
-    let widest = forces.iter().map(|force| force.gap).fold(0.0, f64::max);
-    forces.iter().any(|force| force.gap.abs() < ABOUT_TO_CLOSE * widest)
 }

@@ -1,5 +1,7 @@
 use super::*;
-use crate::collapse::{Cost, Crushing, Direction, HistoryPoint, LimitWindow, Reach, SafetyFactors, TaskReport};
+use crate::collapse::{
+    Cost, Crushing, Direction, HistoryPoint, LimitWindow, Reach, SafetyFactors, StatesFrom, TaskReport,
+};
 use crate::geometry::Vec2;
 
 /// A report of nothing but its limit window.
@@ -23,6 +25,7 @@ fn blank() -> CollapseReport {
         crushing: Crushing { strength: 1e7, elastic: None, plastic_section: None },
         updated: None,
         task: TaskReport::Safety(SafetyFactors::UNKNOWN),
+        states_from: StatesFrom::LoadPath,
         history: Vec::new(),
         motion: None,
         other_motion: None,

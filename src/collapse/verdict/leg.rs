@@ -15,8 +15,15 @@ use crate::collapse::{
 use crate::dda::Tracer;
 use crate::limit::StaticTheorem;
 
+/// Where a leg starts, under these fixed loads on the nodes, and what is known of the path as far.
+pub(super) struct LegStart<'l> {
+    pub load_factor: f64,
+    pub fixed: &'l [f64],
+    pub recorder: Recorder<'l>,
+}
+
 impl Setup<'_> {
-    /// Follows the path one way and writes down what was seen; returns a doubt where path and certificate disagree.
+    /// Follows the path one way from the start and writes down what was seen; returns a doubt where path and certificate disagree.
     pub(super) fn leg(
         &self,
         report: &mut CollapseReport,
@@ -31,9 +38,22 @@ impl Setup<'_> {
             report.notes.extend((sign == self.sign).then_some(note));
             None
         });
-        let mut recorder = Recorder::new(model, analysis, averaged, [self.start, sign]);
+        let recorder = Recorder::new(model, analysis, averaged, [self.start, sign]);
+        self.leg_from(LegStart { load_factor: self.start, fixed, recorder }, report, states, tracer, progress)
+    }
+
+    /// The same of a path that is known to where the leg starts.
+    pub(super) fn leg_from(
+        &self,
+        LegStart { load_factor, fixed, mut recorder }: LegStart,
+        report: &mut CollapseReport,
+        states: &mut States,
+        tracer: &mut Tracer,
+        progress: &mut OnEvent,
+    ) -> Result<Option<Doubt>, AnalysisError> {
+        let (analysis, model, sign) = (self.analysis, states.model, recorder.sign);
         let before = Cost::of(tracer);
-        let leg = follow(tracer, fixed, self.cap, &mut recorder, progress);
+        let leg = follow(tracer, fixed, [load_factor, self.cap], &mut recorder, progress);
         report.cost.add(tracer, before);
         let at_unit_load = recorder.at(1.0).map(|d| states.find(1.0, d)).transpose()?.flatten();
         report.at_unit_load = at_unit_load.map(|state| snapshot(model, &state)).transpose()?;

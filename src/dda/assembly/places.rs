@@ -43,6 +43,22 @@ impl Assembly {
         self.sites[p].normal
     }
 
+    /// Displacements of the nodes where every body moves as a rigid one does, by these mean motions.
+    pub fn carried_by(&self, motions: &[MeanMotion]) -> Vec<f64> {
+        let mut displacements = vec![0.0; self.unknowns];
+        for (p, site) in self.sites.iter().enumerate() {
+            for (beside, place) in self.beside[self.interface[p]].iter().zip(self.places[p]) {
+                let (Beside::Body(body), Some(i)) = (beside, place) else { continue };
+                let (instance, motion) = (&self.bodies[*body], &motions[*body]);
+                let middle = self.kinds[instance.kind].inside.centroid();
+                let arm = site.at - instance.origin - instance.turned_back(middle);
+                let moved = motion.displacement + perpendicular(arm) * motion.rotation;
+                displacements[i..i + 2].copy_from_slice(&along(site.normal, moved));
+            }
+        }
+        displacements
+    }
+
     /// Vector from the first contact of interface `k` to its last, along their axes, m.
     pub(in crate::dda) fn line(&self, k: usize) -> [f64; 2] {
         let points = &self.sites[self.at_interface(k)];

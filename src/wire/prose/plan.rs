@@ -76,8 +76,8 @@ const SLIDES_AT_COLLAPSE: &str = "Joints slide at collapse: the load may be any 
 const LOAD_NEEDS_NO_MESH: &str =
     "The collapse load of stones that do not slide does not depend on the mesh: path and limit window give it.";
 const HALF_MODELLED: &str = "Arch, loads and mechanism are symmetric: half the arch is modelled for the stress.";
-const STATES_ONE_BY_ONE: &str = "The states on this mesh were solved for one by one. The load path is that of whole stones: no history \
-     on the mesh is told.";
+const STATES_ONE_BY_ONE: &str = "The states on this mesh were solved for one by one. The load path is that of \
+     whole stones.";
 const NEAR_POINTS_LEFT_OUT: &str = "Next to a force on a point, stress has no bound: the error leaves out what is nearer to it than a quarter of \
      the body's least width.";
 const WHOLE_MODELLED: &str =

@@ -3,7 +3,7 @@
 use super::noun::in_its_words;
 use super::wording::{self, word};
 use super::{geometric, given, joints, moving, plan, safety, survey, window};
-use crate::collapse::{GovernedBy, Outcome};
+use crate::collapse::{Cost, GovernedBy, Outcome, StatesFrom};
 use crate::wire::prose::Digits;
 use crate::wire::response::{AnalysisResult, EndBody, PassiveElementBody, WorstPositionBody};
 use comfy_table::{Table, presets};
@@ -116,9 +116,11 @@ pub fn facts(result: &AnalysisResult, wall_time: Option<Duration>) -> Table {
     for (name, value) in result.geometric_safety.iter().flat_map(geometric::facts) {
         fact(name, value);
     }
-    let cost = &result.cost;
-    let counts = (cost.events, cost.factorisations, cost.unknowns);
-    fact("cost", format!("{} events, {} factorisations, {} unknowns", counts.0, counts.1, counts.2));
+    if result.states_from == StatesFrom::DirectSolution {
+        fact("states", "solved for one by one; the load path is followed from near collapse on".to_owned());
+    }
+    let Cost { events, factorisations, unknowns, .. } = &result.cost;
+    fact("cost", format!("events: {events}, factorisations: {factorisations}, unknowns: {unknowns}"));
     if let Some(time) = wall_time {
         fact("time", format!("{:.3} ms", time.as_secs_f64() * 1e3));
     }

@@ -37,8 +37,8 @@ impl AimRequest {
 pub struct GeometricSafetyRequest {}
 
 /// What becomes of the structure as its supports move, its loads staying as they are. The supports move in proportion to where
-/// these fields say. No load may be scaled; `load_factor.direction`, `load_factor.cap` and `report.share_of_collapse` keep their
-/// defaults.
+/// these fields say. No load may be scaled; `load_factor.direction`, `load_factor.cap`, `report.share_of_collapse` and
+/// `report.history` keep their defaults.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(default)]
 pub struct SettlementRequest {
@@ -126,11 +126,19 @@ pub struct ReportRequest {
     /// analysis, by the mean stress of every subblock.
     #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub first_yield_length_m: Option<f64>,
+    /// Asks for `history`, the load path event by event, which is followed all the way then. Left out: states are solved for one by one
+    /// wherever they can be, which is quicker, and `history` is empty.
+    pub history: bool,
 }
 
 impl Default for ReportRequest {
     fn default() -> Self {
-        ReportRequest { share_of_collapse: 0.999, stress_fields: Vec::new(), first_yield_length_m: None }
+        ReportRequest {
+            share_of_collapse: 0.999,
+            stress_fields: Vec::new(),
+            first_yield_length_m: None,
+            history: false,
+        }
     }
 }
 

@@ -84,7 +84,8 @@ pub fn check_idle(request: &AnalysisRequest, then: &str, what: &str, faults: &mu
     let detail = format!("{what} shows nothing on the way to collapse: leave this out");
     let same = request.report.share_of_collapse == usual.share_of_collapse;
     faults.require(same, "/report/share_of_collapse", detail.clone());
-    faults.require(request.report.first_yield_length_m.is_none(), "/report/first_yield_length_m", detail);
+    faults.require(request.report.first_yield_length_m.is_none(), "/report/first_yield_length_m", detail.clone());
+    faults.require(!request.report.history, "/report/history", detail);
 }
 
 fn check_movement(here: &str, shift: [(&str, f64); 2], size: Option<f64>, faults: &mut Faults) {

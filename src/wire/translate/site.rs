@@ -142,6 +142,7 @@ impl<'a> Unloaded<'a> {
             share: request.report.share_of_collapse,
             fields: self.fields.clone(),
             first_yield_length: request.report.first_yield_length_m,
+            history: request.report.history,
         };
         Some(match &request.analysis {
             AimRequest::Collapse | AimRequest::WorstPosition(_) | AimRequest::SurveyTolerance(_) => {

@@ -33,6 +33,7 @@ pub mod settled;
 pub mod sliding;
 #[cfg(feature = "server")]
 pub mod sliding_arch;
+pub mod snapshots;
 pub mod state;
 pub mod structures;
 #[cfg(feature = "server")]

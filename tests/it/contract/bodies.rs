@@ -69,7 +69,7 @@ fn arch() -> Value {
         "method": {"fixed_steps": {"step": 1, "opening_m": 0.01, "hinges": 3}},
         "geometry": "first_order",
         "crushing_in_path": false,
-        "report": {"share_of_collapse": 0.99, "stress_fields": [{"load_factor": 2}, "unit_load", "near_collapse"], "first_yield_length_m": 5},
+        "report": {"share_of_collapse": 0.99, "stress_fields": [{"load_factor": 2}, "unit_load", "near_collapse"], "first_yield_length_m": 5, "history": true},
         "motion": {"most_frames": 10, "share_of_span": 0.1, "ground_level_m": -50}
     })
 }
