@@ -22,7 +22,7 @@ const NEARBY: f64 = 1e-2;
 
 /// A state found without its path that is out of balance by no more than this share of the loads is what Newton's method would end in
 /// (measured: displacements change by as small a share).
-const REGULAR: f64 = 1e-11;
+const REGULAR: f64 = 1e-10;
 
 /// Displacements that differ by no more than this share of the largest are the same.
 const SAME: f64 = 1e-9;

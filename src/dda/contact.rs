@@ -199,6 +199,19 @@ impl Contact {
         ContactForce { normal, tangential, gap }
     }
 
+    /// The most shear of a contact that never slides, N/m: none where it can carry none.
+    pub(super) fn unbounded_shear(&self) -> f64 {
+        if self.frictionless() { 0.0 } else { f64::INFINITY }
+    }
+
+    /// The most shear at a gap, N/m.
+    pub(super) fn bears(&self, gap: f64) -> f64 {
+        if self.law == Law::Bonded {
+            return f64::INFINITY;
+        }
+        if gap > self.reach { 0.0 } else { self.capacity(self.zone_at(gap), gap).max(0.0) }
+    }
+
     /// State of a point at a gap and a slip, by the law itself.
     pub fn state_at(&self, [gap, slip]: [f64; 2]) -> State {
         if self.law == Law::Bonded {

@@ -1,9 +1,11 @@
 //! The state of equilibrium under given loads, without the path that leads to it.
 //!
-//! Three laws, each started from the state that the one before ends in:
+//! Laws that come nearer and nearer to the true one, each started from the state that the one before ends in; the second at once from
+//! displacements that are near:
 //! 1. Contacts press or they do not, and never slide, not even where they are open. Equilibrium then makes the least of a convex
 //!    energy. Newton's method with a search along every step ends there from wherever it starts.
-//! 2. Open contacts carry no shear.
+//! 2. Contacts slide at a shear that their normal force in the state before bears (Tresca's friction, 0 where they were open): as convex.
+//!    Until no contact changes its state.
 //! 3. The law itself, as [`balanced`] solves it.
 //!
 //! Slip is measured from the unstressed start, so the law has no memory, and where there is but one state it is that of the path.
@@ -15,8 +17,11 @@ use crate::budget::{Budget, Stopped};
 use crate::dda::assembly::Assembly;
 use crate::dda::contact::{Contact, Law, State};
 
-/// Most steps under the first law and under the second (measured: 30 and 5 where they end at all).
-const STEPS: [usize; 2] = [40, 12];
+/// Most steps under one law (measured: 30 where they end at all), and most bounds of shear (measured: 10).
+const STEPS: usize = 40;
+const BOUNDS: usize = 25;
+/// Most steps under one law from displacements that are near (measured: 10).
+const FEW_STEPS: usize = 20;
 /// A tangent is singular below this pivot ratio. Contacts that are open are then pressed by this share of their stiffness, less
 /// by the first of these factors after every full step and more by the second after short ones, within these bounds.
 const SINGULAR: f64 = 1e-8;
@@ -46,14 +51,17 @@ pub fn direct(
     symmetric: bool,
     budget: &Budget,
 ) -> Result<Option<Balanced>, Stopped> {
-    let displacements = near.map_or_else(|| vec![0.0; loads.len()], <[f64]>::to_vec);
-    let factored = Factored::new(assembly, loads, budget);
-    let contacts = assembly.exact_contacts();
-    let mut search = Direct { assembly, contacts, loads, symmetric, budget, factored, displacements };
-    if !search.least_energy()? {
-        return Ok(None);
+    let start = near.map_or_else(|| vec![0.0; loads.len()], <[f64]>::to_vec);
+    let (factored, contacts) = (Factored::new(assembly, loads, budget), assembly.exact_contacts());
+    let (displacements, bounds) = (start.clone(), Vec::new());
+    let mut search = Direct { assembly, contacts, loads, symmetric, budget, factored, displacements, bounds };
+    if near.is_none() || !search.let_slide(FEW_STEPS)? {
+        (search.displacements, search.bounds) = (start, contacts.iter().map(Contact::unbounded_shear).collect());
+        if !search.least_energy(STEPS)? {
+            return Ok(None);
+        }
+        search.let_slide(STEPS)?;
     }
-    search.let_go()?;
     let Direct { factored, displacements, .. } = search;
     let found = match near {
         // A path from a state near by is as good as one from here.
@@ -78,36 +86,37 @@ struct Direct<'a> {
     budget: &'a Budget<'a>,
     factored: Factored<'a>,
     displacements: Vec<f64>,
+    /// The most shear that every contact bears, N/m.
+    bounds: Vec<f64>,
 }
 
-/// Contacts of the first law: normal and tangential force at a gap and a slip, N/m.
-fn held_force(contact: &Contact, [gap, slip]: [f64; 2]) -> [f64; 2] {
+/// Contacts that bear so much shear at most: normal and tangential force at a gap and a slip, N/m.
+fn bounded_force(contact: &Contact, [gap, slip]: [f64; 2], bound: f64) -> [f64; 2] {
     let [k_n, k_t] = contact.stiffness;
     let normal = if contact.law == Law::Bonded { -k_n * gap } else { (-k_n * gap).clamp(0.0, contact.cap()) };
-    [normal, if contact.frictionless() { 0.0 } else { -k_t * slip }]
+    [normal, (-k_t * slip).clamp(-bound, bound)]
 }
 
 /// And their tangent stiffness.
-fn held_tangent(contact: &Contact, gap: f64) -> [f64; 4] {
+fn bounded_tangent(contact: &Contact, [gap, slip]: [f64; 2], bound: f64) -> [f64; 4] {
     let [k_n, k_t] = contact.stiffness;
     let presses = gap <= 0.0 && -k_n * gap <= contact.cap();
     let normal = if presses || contact.law == Law::Bonded { k_n } else { 0.0 };
-    [normal, 0.0, 0.0, if contact.frictionless() { 0.0 } else { k_t }]
+    [normal, 0.0, 0.0, if (k_t * slip).abs() < bound { k_t } else { 0.0 }]
 }
 
 impl Direct<'_> {
-    /// Goes to the least energy under the first law; false where that takes too long.
-    fn least_energy(&mut self) -> Result<bool, Stopped> {
+    /// Goes to the least energy with shear bounded as it is; false where that takes more than `most` steps.
+    fn least_energy(&mut self, most: usize) -> Result<bool, Stopped> {
         let mut gaps = self.gaps();
         let (mut residual, mut propped) = (self.residual(&gaps)?, PROPPED);
-        for _ in 0..STEPS[0] {
+        for _ in 0..most {
             let step = self.newton_step(&gaps, &residual, propped)?;
             let share = self.search(&gaps, &residual, &step)?;
             self.displacements.iter_mut().zip(&step).for_each(|(d, s)| *d += share * s);
             let before = std::mem::replace(&mut gaps, self.gaps());
             residual = self.residual(&gaps)?;
-            let tangent = |gaps: &[[f64; 2]], p: usize| held_tangent(&self.contacts[p], gaps[p][0]);
-            if share == 1.0 && (0..gaps.len()).all(|p| tangent(&gaps, p) == tangent(&before, p)) {
+            if share == 1.0 && self.tangents(&gaps) == self.tangents(&before) {
                 return Ok(true);
             }
             let by = match share {
@@ -126,22 +135,28 @@ impl Direct<'_> {
         gaps
     }
 
-    /// Loads minus resistance under the first law.
+    fn tangents(&self, gaps: &[[f64; 2]]) -> Vec<[f64; 4]> {
+        let contacts = self.contacts.iter().zip(gaps).zip(&self.bounds);
+        contacts.map(|((contact, &gap), &bound)| bounded_tangent(contact, gap, bound)).collect()
+    }
+
+    /// Loads minus resistance with shear bounded as it is.
     fn residual(&self, gaps: &[[f64; 2]]) -> Result<Vec<f64>, Stopped> {
         let mut residual = self.loads.to_vec();
         self.assembly.subtract_elastic(&self.displacements, &mut residual, self.budget)?;
         for (p, contact) in self.contacts.iter().enumerate() {
-            self.assembly.push(p, held_force(contact, gaps[p]), &mut residual);
+            self.assembly.push(p, bounded_force(contact, gaps[p], self.bounds[p]), &mut residual);
         }
         Ok(residual)
     }
 
     fn newton_step(&mut self, gaps: &[[f64; 2]], residual: &[f64], propped: f64) -> Result<Vec<f64>, Stopped> {
-        let mut tangents: Vec<_> = self.contacts.iter().zip(gaps).map(|(c, gap)| held_tangent(c, gap[0])).collect();
+        let mut tangents = self.tangents(gaps);
         let mut step = self.factored.solve(&tangents, residual, self.budget)?;
         if self.factored.pivot_ratio() < SINGULAR {
-            let normal = tangents.iter_mut().zip(self.contacts);
-            normal.for_each(|(tangent, contact)| tangent[0] = tangent[0].max(propped * contact.stiffness[0]));
+            for (tangent, contact) in tangents.iter_mut().zip(self.contacts) {
+                [0, 3].iter().zip(contact.stiffness).for_each(|(&i, k)| tangent[i] = tangent[i].max(propped * k));
+            }
             step = self.factored.solve(&tangents, residual, self.budget)?;
         }
         Ok(if self.symmetric { self.assembly.symmetrised(&step) } else { step })
@@ -154,11 +169,13 @@ impl Direct<'_> {
         let mut resistance = vec![0.0; step.len()];
         self.assembly.subtract_elastic(step, &mut resistance, self.budget)?;
         let work = |share: f64| -> f64 {
-            let of = |(contact, ([gap, slip], [opens, slides])): (&Contact, (&[f64; 2], &[f64; 2]))| {
-                let [normal, shear] = held_force(contact, [gap + share * opens, slip + share * slides]);
+            let of = |(p, contact): (usize, &Contact)| {
+                let ([gap, slip], [opens, slides]) = (gaps[p], rates[p]);
+                let [normal, shear] =
+                    bounded_force(contact, [gap + share * opens, slip + share * slides], self.bounds[p]);
                 normal * opens + shear * slides
             };
-            self.contacts.iter().zip(gaps.iter().zip(&rates)).map(of).sum()
+            self.contacts.iter().enumerate().map(of).sum()
         };
         let dot = |a: &[f64]| a.iter().zip(step).map(|(a, s)| a * s).sum::<f64>();
         let (at_rest, stiffness) = (work(0.0) - dot(residual), -dot(&resistance));
@@ -166,32 +183,26 @@ impl Direct<'_> {
         Ok(zero_of_rising(|share| at_rest + share * stiffness - work(share)))
     }
 
-    /// Lets open contacts go; where that leads nowhere, the displacements stay those of the first law.
-    fn let_go(&mut self) -> Result<(), Stopped> {
-        let (held, mut states) = (self.displacements.clone(), Vec::new());
-        for _ in 0..STEPS[1] {
-            let (gaps, mut residual) = (self.gaps(), self.loads.to_vec());
-            self.assembly.subtract_elastic(&self.displacements, &mut residual, self.budget)?;
-            let stuck = |contact: &Contact, gap: [f64; 2]| match contact.state_at(gap) {
-                State::Slip { zone, .. } if !contact.frictionless() => State::Stick(zone),
-                state => state,
-            };
-            let now: Vec<State> = self.contacts.iter().zip(&gaps).map(|(contact, &gap)| stuck(contact, gap)).collect();
-            for (p, contact) in self.contacts.iter().enumerate() {
-                self.assembly.push(p, contact.force_in(now[p], gaps[p][0], gaps[p][1]), &mut residual);
-            }
+    /// Lets contacts slide at what they bear in the state before, until none changes its state any more; where that leads nowhere, false, and
+    /// the displacements stay those before.
+    fn let_slide(&mut self, most: usize) -> Result<bool, Stopped> {
+        let mut states = Vec::new();
+        for _ in 0..BOUNDS {
+            let gaps = self.gaps();
+            let law = self.contacts.iter().zip(&gaps);
+            let now: Vec<State> = law.clone().map(|(contact, &gap)| contact.state_at(gap)).collect();
             if now == states {
-                return Ok(());
+                return Ok(true);
             }
-            let tangents: Vec<_> =
-                self.contacts.iter().zip(&now).map(|(c, &state)| c.tangent_stiffness(state)).collect();
-            let step = self.factored.solve(&tangents, &residual, self.budget)?;
-            let step = if self.symmetric { self.assembly.symmetrised(&step) } else { step };
-            self.displacements.iter_mut().zip(&step).for_each(|(d, s)| *d += s);
+            self.bounds = law.map(|(contact, gap)| contact.bears(gap[0])).collect();
+            let before = self.displacements.clone();
+            if !self.least_energy(most)? {
+                self.displacements = before;
+                return Ok(false);
+            }
             states = now;
         }
-        self.displacements = held;
-        Ok(())
+        Ok(false)
     }
 }
 

@@ -7,16 +7,17 @@ fn contacts() -> [Contact; 4] {
 }
 
 #[test]
-fn the_tangent_is_the_slope_of_the_first_law() {
+fn the_tangent_is_the_slope_of_a_law_of_bounded_shear() {
     // Open, pressed and, where there is a cap, capped.
     for contact in contacts() {
-        for gap in [1e-4, -5e-5, -1e-3] {
+        // A shear of 3e4 N/m.
+        for (gap, bound) in [(1e-4, f64::INFINITY), (-5e-5, 4e4), (-5e-5, 2e4), (-1e-3, 0.0)] {
             let (slip, by) = (3e-5, 1e-9);
-            let [normal, shear] = held_force(&contact, [gap, slip]);
+            let [normal, shear] = bounded_force(&contact, [gap, slip], bound);
             let slope = |[n, t]: [f64; 2]| [(normal - n) / by, (shear - t) / by];
-            let of_gap = slope(held_force(&contact, [gap + by, slip]));
-            let of_slip = slope(held_force(&contact, [gap, slip + by]));
-            let tangent = held_tangent(&contact, gap);
+            let of_gap = slope(bounded_force(&contact, [gap + by, slip], bound));
+            let of_slip = slope(bounded_force(&contact, [gap, slip + by], bound));
+            let tangent = bounded_tangent(&contact, [gap, slip], bound);
             for (found, by_differences) in tangent.into_iter().zip([of_gap[0], of_slip[0], of_gap[1], of_slip[1]]) {
                 assert!((found - by_differences).abs() < 1e-4 * 2e9, "{contact:?} {gap}: {found} {by_differences}");
             }
