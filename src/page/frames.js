@@ -75,10 +75,10 @@ function loadPath(answer, size) {
   const stops = events.length
     ? events.map(([factor, largest]) => stop(factor, largest, between(known, largest, factor)))
     : known.map(({at, moves}) => stop(at, largestOf(moves), moves));
-  const between_states = events.length
+  const betweenStates = events.length
     ? 'between the load factors at which the answer has them, in proportion to the largest'
     : 'at the load factors at which the answer has them (ask for the history to see those between)';
-  const note = `On the load path displacements are drawn ${inWords(times)}; ${between_states}.`;
+  const note = `On the load path displacements are drawn ${inWords(times)}; ${betweenStates}.`;
   const crushes = ends.some(end => end.governed_by === 'crushing') && !request.crushing_in_path;
   return {
     stops,
