@@ -112,7 +112,7 @@ export async function theJointTableIsCopied(tools) {
 export async function exportsAreTheServicesBytes(tools) {
   const {job_id: id} = await tools.service.submit({
     ...tools.request('first-arch'),
-    report: {stress_fields: ['near_collapse']},
+    report: {history: true, stress_fields: ['near_collapse']},
   });
   const page = await tools.page(`/#/jobs/${id}`);
   await page.waitForSelector('.exports');
