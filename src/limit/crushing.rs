@@ -7,6 +7,7 @@
 //! tangents so close together that rounding confuses them defeat it, the parabolas are cones of the interior point method; of not
 //! too many unknowns tangents help where rounding defeats that one.
 
+use super::linear_program::Basis;
 use super::programme::{MOST_DENSE, Objective, Programme, ProgrammeOutcome};
 use super::resultant::Resultant;
 use super::static_theorem::{Equilibrium, Limit};
@@ -28,8 +29,8 @@ const BLOCK: f64 = 0.01;
 const HARD: f64 = 1e12;
 /// Rounds of cuts after which the method has failed (it needs five to thirty).
 const MOST_ROUNDS: usize = 300;
-/// Normal forces N / (f t) of the first tangents. The last says N_i, N_e <= f t / 2 and so bounds every force.
-const FIRST_CUTS: [f64; 3] = [0.25, 0.5, 1.0];
+/// Normal force N / (f t) of the last tangent: it says N_i, N_e <= f t / 2, which no larger force satisfies.
+const LAST_TANGENT: f64 = 1.0;
 
 /// Load factors in equilibrium with joints of finite strength.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -64,9 +65,17 @@ impl Section {
             .map(|weights| theorem.limit(self.joint, weights, 0.5 * at * at * self.capacity))
     }
 
-    /// Tangents at an equilibrium's normal force; their slack there is that of the parabola.
+    /// Tangents at an equilibrium's normal force, whose slack there is that of the parabola; of larger forces the last.
     fn tangents_at(&self, equilibrium: &Equilibrium, theorem: &StaticTheorem) -> [Limit; 2] {
-        self.tangents(equilibrium.forces[self.joint].normal() / self.capacity, theorem)
+        let at = equilibrium.forces[self.joint].normal() / self.capacity;
+        self.tangents(at.min(LAST_TANGENT), theorem)
+    }
+
+    /// Whether an equilibrium violates either parabola at all.
+    fn is_violated(&self, equilibrium: &Equilibrium) -> bool {
+        let forces = &equilibrium.forces[self.joint];
+        let least = forces.normal() * forces.normal() / (2.0 * self.capacity);
+        forces.intrados.min(forces.extrados) < least
     }
 }
 
@@ -106,8 +115,6 @@ impl StaticTheorem {
         }
         let sections = self.sections(strengths);
         let [mut cut, mut conic] = [Programme::new(self), Programme::new(self)];
-        let first = |section: &Section| FIRST_CUTS.map(|at| section.tangents(at, self));
-        cut.limits = sections.iter().flat_map(first).flatten().collect();
         conic.sections = sections.clone();
         conic.errors[1] = NEARLY_SOLVED;
         let ends = [f64::NEG_INFINITY, f64::INFINITY];
@@ -207,28 +214,28 @@ impl StaticTheorem {
     }
 }
 
-/// Maximises over the limits and the parabolas, adding the tangents that this takes.
+/// Maximises over the limits and the parabolas, adding the tangents that this takes: from the end of stone that does not crush on.
 fn cut_until_inside(
     objective: &Objective,
     programme: &mut Programme,
     sections: &[Section],
     budget: &Budget,
 ) -> ProgrammeOutcome {
-    let mut rows = programme.dense_rows();
+    let theorem = programme.theorem;
+    let (mut rows, objective) = (programme.dense_rows(), programme.over_unknowns(objective));
+    let mut basis = Basis::new(&objective);
     for _ in 0..MOST_ROUNDS {
-        let outcome = programme.solve(objective, &rows, budget);
+        let outcome = programme.go_on(&mut basis, &rows, budget);
         let (ProgrammeOutcome::At(equilibrium, _) | ProgrammeOutcome::Unbounded(equilibrium)) = &outcome else {
             return outcome;
         };
-        let tangents = sections.iter().flat_map(|section| section.tangents_at(equilibrium, programme.theorem));
-        let violated = |tangent: &Limit| {
-            tangent.slack(&equilibrium.forces) < 0.0 && slack(tangent, equilibrium, programme.theorem) < -VIOLATED
-        };
-        let cuts: Vec<Limit> = tangents.filter(violated).collect();
+        let beyond = sections.iter().filter(|section| section.is_violated(equilibrium));
+        let tangents = beyond.flat_map(|section| section.tangents_at(equilibrium, theorem));
+        let cuts: Vec<Limit> = tangents.filter(|cut| slack(cut, equilibrium, theorem) < -VIOLATED).collect();
         if cuts.is_empty() {
             return outcome;
         }
-        cuts.iter().for_each(|cut| rows.push(programme.theorem, cut, true));
+        cuts.iter().for_each(|cut| rows.push(theorem, cut, true));
         programme.limits.extend(cuts);
     }
     ProgrammeOutcome::Lost

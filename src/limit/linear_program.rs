@@ -43,45 +43,27 @@ pub enum Optimum {
     Lost,
 }
 
-/// Maximises `objective . x` over all `half_spaces`.
-///
-/// Dual simplex from a corner of a large box: of the constraints in the basis one leaves for the most violated one,
-/// until none is violated. Ties are broken lexicographically, as if the objective were perturbed by (e, e^2, e^3, ...),
-/// so that the method cannot cycle (Dantzig, Orden and Wolfe 1955). Of the multipliers at most as many as there are unknowns
-/// are not zero. Of many points that are as good, as where wedged stones may press on each other as they like, one near by is told:
-/// in others what is of order one would be lost to rounding.
-pub fn maximise(objective: &[f64], half_spaces: &HalfSpaces, budget: &Budget) -> Optimum {
-    let mut basis = Basis::new(objective, half_spaces);
-    let found = climb(&mut basis, budget);
-    if !matches!(found, Optimum::At(..)) || !basis.walls().any(|_| true) {
-        return found;
-    }
-    // Multipliers do not depend on the size: the method goes on from where it is.
-    let nearer = |size| if basis.resize(size) { climb(&mut basis, budget) } else { Optimum::Lost };
-    SMALLER_BOXES.into_iter().map(nearer).find(|nearer| matches!(nearer, Optimum::At(..))).unwrap_or(found)
-}
-
 /// Exchanges constraints until none is violated.
-fn climb(basis: &mut Basis, budget: &Budget) -> Optimum {
+fn climb(basis: &mut Basis, half_spaces: &HalfSpaces, budget: &Budget) -> Optimum {
     for pivot in 1..=MOST_PIVOTS {
         if budget.ask().is_err() {
             return Optimum::Lost;
         }
-        let found = basis.most_violated();
+        let found = basis.most_violated(half_spaces);
         let MostViolated::Worst(entering) = found else {
             match found {
                 MostViolated::NotANumber => return Optimum::Lost,
                 _ if basis.fresh => return basis.optimum(),
                 _ => {}
             }
-            if !basis.refresh() {
+            if !basis.refresh(half_spaces) {
                 return Optimum::Lost;
             }
             continue;
         };
-        basis.weigh(entering);
+        basis.weigh(entering, half_spaces);
         if basis.is_doubtful() {
-            if !basis.refresh() {
+            if !basis.refresh(half_spaces) {
                 return Optimum::Lost;
             }
             continue;
@@ -90,12 +72,12 @@ fn climb(basis: &mut Basis, budget: &Budget) -> Optimum {
             Some(leaving) => basis.exchange(leaving, entering),
             None if basis.fresh => return Optimum::Infeasible(basis.contradiction(entering)),
             None => {
-                if !basis.refresh() {
+                if !basis.refresh(half_spaces) {
                     return Optimum::Lost;
                 }
             }
         }
-        if pivot % REFRESH == 0 && !basis.refresh() {
+        if pivot % REFRESH == 0 && !basis.refresh(half_spaces) {
             return Optimum::Lost;
         }
     }
@@ -117,9 +99,11 @@ enum MostViolated {
 }
 
 /// As many constraints as there are unknowns, the point where they meet, and scratch memory.
-struct Basis<'p> {
+///
+/// Their multipliers stay what they are where half spaces are added, so that the method goes on from it.
+#[derive(Debug)]
+pub struct Basis<'p> {
     objective: &'p [f64],
-    half_spaces: &'p HalfSpaces,
     /// The largest an unknown may be.
     size: f64,
     constraints: Vec<Facet>,
@@ -139,14 +123,13 @@ struct Basis<'p> {
 
 impl<'p> Basis<'p> {
     /// The corner of the box where every unknown is at the bound that its (perturbed) objective pushes it to.
-    fn new(objective: &'p [f64], half_spaces: &'p HalfSpaces) -> Self {
-        let n = half_spaces.unknowns;
+    pub fn new(objective: &'p [f64]) -> Self {
+        let n = objective.len();
         let constraints = (0..n).map(|i| Facet::Wall(i, -corner_sign(objective[i]))).collect();
         let [inverse, matrix] = [(); 2].map(|()| vec![0.0; n * n]);
         let [point, dual, row, weights] = [(); 4].map(|()| vec![0.0; n]);
         let mut basis = Basis {
             objective,
-            half_spaces,
             size: BOX,
             constraints,
             inverse,
@@ -167,19 +150,40 @@ impl<'p> Basis<'p> {
         basis
     }
 
+    /// Maximises `objective . x` over all `half_spaces`: those that it was last asked about, and any behind them.
+    ///
+    /// Dual simplex, first from a corner of a large box: of the constraints in the basis one leaves for the most violated one,
+    /// until none is violated. Ties are broken lexicographically, as if the objective were perturbed by (e, e^2, e^3, ...),
+    /// so that the method cannot cycle (Dantzig, Orden and Wolfe 1955). Of the multipliers at most as many as there are unknowns
+    /// are not zero. Of many points that are as good, as where wedged stones may press on each other as they like, one near by is
+    /// told: in others what is of order one would be lost to rounding.
+    pub fn go_on(&mut self, half_spaces: &HalfSpaces, budget: &Budget) -> Optimum {
+        if self.size != BOX && !self.resize(BOX, half_spaces) {
+            return Optimum::Lost;
+        }
+        let found = climb(self, half_spaces, budget);
+        if !matches!(found, Optimum::At(..)) || !self.walls().any(|_| true) {
+            return found;
+        }
+        // Multipliers do not depend on the size: the method goes on from where it is.
+        let nearer =
+            |size| if self.resize(size, half_spaces) { climb(self, half_spaces, budget) } else { Optimum::Lost };
+        SMALLER_BOXES.into_iter().map(nearer).find(|nearer| matches!(nearer, Optimum::At(..))).unwrap_or(found)
+    }
+
     /// Coefficient `j` of a constraint, its constant if `j` is the number of unknowns.
-    fn entry(&self, constraint: Facet, j: usize) -> f64 {
+    fn entry(&self, half_spaces: &HalfSpaces, constraint: Facet, j: usize) -> f64 {
         match constraint {
-            Facet::Row(row) => self.half_spaces.entry(row, j),
-            Facet::Wall(_, _) if j == self.half_spaces.unknowns => self.size,
+            Facet::Row(row) => half_spaces.entry(row, j),
+            Facet::Wall(_, _) if j == self.objective.len() => self.size,
             Facet::Wall(unknown, sign) if j == unknown => sign,
             Facet::Wall(..) => 0.0,
         }
     }
 
-    fn most_violated(&mut self) -> MostViolated {
-        let (n, mut worst, mut found) = (self.half_spaces.unknowns, 0.0, MostViolated::None);
-        for (number, tile) in self.half_spaces.tiles.chunks_exact(n + 1).enumerate() {
+    fn most_violated(&mut self, half_spaces: &HalfSpaces) -> MostViolated {
+        let (n, mut worst, mut found) = (self.objective.len(), 0.0, MostViolated::None);
+        for (number, tile) in half_spaces.tiles.chunks_exact(n + 1).enumerate() {
             let mut values = tile[n];
             for (column, x) in tile.iter().zip(&self.point) {
                 for lane in 0..LANES {
@@ -211,10 +215,10 @@ impl<'p> Basis<'p> {
     }
 
     /// Weights with which the entering row is a combination of the rows in the basis.
-    fn weigh(&mut self, entering: Facet) {
-        let n = self.half_spaces.unknowns;
+    fn weigh(&mut self, entering: Facet, half_spaces: &HalfSpaces) {
+        let n = self.objective.len();
         for j in 0..n {
-            self.row[j] = self.entry(entering, j);
+            self.row[j] = self.entry(half_spaces, entering, j);
         }
         for (weight, column) in self.weights.iter_mut().zip(self.inverse.chunks_exact(n)) {
             *weight = dot(column, &self.row);
@@ -230,7 +234,7 @@ impl<'p> Basis<'p> {
 
     /// The constraint that leaves: the smallest ratio of multiplier over weight, ties broken lexicographically.
     fn leaving(&self) -> Option<usize> {
-        let n = self.half_spaces.unknowns;
+        let n = self.objective.len();
         let largest = self.weights.iter().fold(1.0, |largest: f64, weight| largest.max(weight.abs()));
         // The multiplier itself, then those of the perturbations of the objective.
         let ratio = |i: usize, k: usize| {
@@ -253,7 +257,7 @@ impl<'p> Basis<'p> {
 
     /// Puts the entering constraint in the place of the leaving one.
     fn exchange(&mut self, leaving: usize, entering: Facet) {
-        let n = self.half_spaces.unknowns;
+        let n = self.objective.len();
         let pivot = 1.0 / self.weights[leaving];
         let (before, rest) = self.inverse.split_at_mut(leaving * n);
         let (column, after) = rest.split_at_mut(n);
@@ -273,11 +277,11 @@ impl<'p> Basis<'p> {
     }
 
     /// Computes inverse, point and multipliers from the rows themselves; false where the rows depend on each other.
-    fn refresh(&mut self) -> bool {
-        let n = self.half_spaces.unknowns;
+    fn refresh(&mut self, half_spaces: &HalfSpaces) -> bool {
+        let n = self.objective.len();
         for i in 0..n {
             for j in 0..n {
-                self.matrix[i * n + j] = self.entry(self.constraints[i], j);
+                self.matrix[i * n + j] = self.entry(half_spaces, self.constraints[i], j);
             }
         }
         if !invert_transposed(&mut self.matrix, &mut self.inverse, n) {
@@ -285,7 +289,7 @@ impl<'p> Basis<'p> {
         }
         self.point.fill(0.0);
         for i in 0..n {
-            let constant = self.entry(self.constraints[i], n);
+            let constant = self.entry(half_spaces, self.constraints[i], n);
             let column = &self.inverse[i * n..(i + 1) * n];
             self.point.iter_mut().zip(column).for_each(|(x, c)| *x -= constant * c);
             self.dual[i] = -dot(column, self.objective);
@@ -312,9 +316,9 @@ impl<'p> Basis<'p> {
     }
 
     /// The point where the same constraints meet in a box of another size; false where they depend on each other.
-    fn resize(&mut self, size: f64) -> bool {
+    fn resize(&mut self, size: f64, half_spaces: &HalfSpaces) -> bool {
         self.size = size;
-        self.refresh()
+        self.refresh(half_spaces)
     }
 
     fn optimum(&self) -> Optimum {

@@ -1,7 +1,7 @@
 //! Linear programmes over the forces of all joints in equilibrium with the loads, and the solver that suits them.
 
 use super::crushing::Section;
-use super::linear_program::{self, HalfSpaces, Optimum, norm};
+use super::linear_program::{Basis, HalfSpaces, Optimum, norm};
 use super::static_theorem::{Equilibrium, Limit, StaticTheorem};
 use crate::budget::Budget;
 
@@ -152,20 +152,30 @@ impl<'t> Programme<'t> {
     }
 
     /// Over these rows, which are those of all limits.
-    pub(super) fn solve(&self, objective: &Objective, rows: &Rows, budget: &Budget) -> ProgrammeOutcome {
+    fn solve(&self, objective: &Objective, rows: &Rows, budget: &Budget) -> ProgrammeOutcome {
+        self.go_on(&mut Basis::new(&self.over_unknowns(objective)), rows, budget)
+    }
+
+    /// An objective over the unknowns.
+    pub(super) fn over_unknowns(&self, objective: &Objective) -> Vec<f64> {
         let (theorem, n) = (self.theorem, self.theorem.unknowns());
-        if let Some(limit) = rows.contradicted(self.slack) {
-            return ProgrammeOutcome::Infeasible(Dual::of_one(limit, rows.given));
-        }
         let mut row = vec![0.0; n + 1];
         objective.forces.iter().for_each(|&(joint, weights)| theorem.add_row(joint, weights, &mut row));
         row.iter_mut().for_each(|x| *x /= theorem.force);
+        row.truncate(n);
         row[n - 1] += objective.load_factor;
-        match linear_program::maximise(&row[..n], &rows.half_spaces, budget) {
-            Optimum::At(_, point, held) => {
-                ProgrammeOutcome::At(theorem.equilibrium(&point, self.complete), rows.dual(&held))
-            }
-            Optimum::Unbounded(point) => ProgrammeOutcome::Unbounded(theorem.equilibrium(&point, self.complete)),
+        row
+    }
+
+    /// From a basis of the first of these rows, which are those of all limits.
+    pub(super) fn go_on(&self, basis: &mut Basis, rows: &Rows, budget: &Budget) -> ProgrammeOutcome {
+        if let Some(limit) = rows.contradicted(self.slack) {
+            return ProgrammeOutcome::Infeasible(Dual::of_one(limit, rows.given));
+        }
+        let at = |point: &[f64]| self.theorem.equilibrium(point, self.complete);
+        match basis.go_on(&rows.half_spaces, budget) {
+            Optimum::At(_, point, held) => ProgrammeOutcome::At(at(&point), rows.dual(&held)),
+            Optimum::Unbounded(point) => ProgrammeOutcome::Unbounded(at(&point)),
             Optimum::Infeasible(held) => ProgrammeOutcome::Infeasible(rows.dual(&held)),
             Optimum::Lost => ProgrammeOutcome::Lost,
         }

@@ -9,6 +9,10 @@ fn half_spaces(rows: &[([f64; UNKNOWNS], f64)]) -> HalfSpaces {
     all
 }
 
+fn maximise(objective: &[f64], half_spaces: &HalfSpaces, budget: &Budget) -> Optimum {
+    Basis::new(objective).go_on(half_spaces, budget)
+}
+
 fn unit(i: usize, value: f64) -> [f64; UNKNOWNS] {
     std::array::from_fn(|j| if i == j { value } else { 0.0 })
 }
@@ -92,4 +96,32 @@ fn many_unknowns_are_solved_as_four() {
         let Optimum::At(value, ..) = maximise(&vec![1.0; n], &half_spaces, &Budget::unlimited()) else { panic!("{n}") };
         assert!((value / (n as f64).sqrt() - 1.0).abs() < 1e-12, "{n}: {value}");
     }
+}
+
+/// Tangents of a disc added one by one to where the method is: every time the optimum over all of them.
+#[test]
+fn goes_on_from_where_it_is() {
+    let tangent = |k: usize| {
+        let angle = 2.4 * k as f64;
+        ([-angle.cos(), -angle.sin(), 0.0, 0.0], 1.0)
+    };
+    let mut all =
+        half_spaces(&(0..2).flat_map(|i| [(unit(2 + i, 1.0), 1.0), (unit(2 + i, -1.0), 1.0)]).collect::<Vec<_>>());
+    let objective = [0.3, 0.8, 0.1, -0.2];
+    let mut basis = Basis::new(&objective);
+    for k in 0..200 {
+        let (row, constant) = tangent(k);
+        all.push(&row, constant);
+        let [warm, cold] = [basis.go_on(&all, &Budget::unlimited()), maximise(&objective, &all, &Budget::unlimited())];
+        match (warm, cold) {
+            (Optimum::At(warm, ..), Optimum::At(cold, ..)) => {
+                assert!((warm - cold).abs() < 1e-12, "{k}: {warm} {cold}")
+            }
+            (Optimum::Unbounded(_), Optimum::Unbounded(_)) => assert!(k < 4, "{k}"),
+            others => panic!("{k}: {others:?}"),
+        }
+    }
+    let Optimum::At(value, ..) = maximise(&objective, &all, &Budget::unlimited()) else { panic!() };
+    let disc = 0.3 + 0.73f64.sqrt();
+    assert!(value >= disc && value < disc + 1e-3, "{value} {disc}");
 }
