@@ -295,6 +295,9 @@ impl Model<'_> {
     /// Mean stress in a body, Pa.
     pub(super) fn mean_stress(&self, body: usize, load_factor: f64, displacements: &[f64]) -> [f64; 3] {
         let stresses = self.stresses(body, load_factor, displacements);
+        if let [of_whole] = stresses[..] {
+            return of_whole;
+        }
         let grid = &self.grids[body];
         let areas: Vec<f64> = grid.cells().map(|(i, j)| grid.region(i, j).area).collect();
         let total: f64 = areas.iter().sum();

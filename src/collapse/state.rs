@@ -24,7 +24,7 @@ const NEARBY: f64 = 1e-2;
 /// (measured: displacements change by as small a share).
 const REGULAR: f64 = 1e-10;
 
-/// Displacements that differ by no more than this share of the largest are the same.
+/// Forces that differ by no more than this share of the largest are the same.
 const SAME: f64 = 1e-9;
 
 /// A state that is reported.
@@ -80,13 +80,17 @@ impl<'m> States<'m> {
     }
 
     /// The state of the chain at a load factor, where it finds states without a path and no joint slides on the way from `start` to there.
-    pub(super) fn on_the_way(&mut self, start: f64, load_factor: f64) -> Result<Option<ChainState>, AnalysisError> {
+    pub(super) fn on_the_way(&mut self, start: f64, load_factor: f64) -> Result<Option<&ChainState>, AnalysisError> {
         let (Some(chain), budget) = (&self.chain, self.model.budget) else { return Ok(None) };
-        let Some(from) = chain.state(start, self.last.as_ref(), budget)? else { return Ok(None) };
+        let from = match self.last.take() {
+            Some(last) if last.load_factor == start => Some(last),
+            last => chain.state(start, last.as_ref(), budget)?,
+        };
+        let Some(from) = from else { return Ok(None) };
         let Some(to) = chain.state(load_factor, Some(&from), budget)? else { return Ok(None) };
         let sticks = chain.sticks_between(&from, &to, budget)?;
-        self.last = Some(to.clone());
-        Ok(sticks.then_some(to))
+        self.last = Some(to);
+        Ok(self.last.as_ref().filter(|_| sticks))
     }
 
     /// Whether some state was not found without the path, or may be another than the path's.
@@ -134,17 +138,17 @@ impl<'m> States<'m> {
         let contacts = assembly.exact_contacts();
         let Some(chain) = &self.chain else { return Ok(None) };
         let Some(state) = chain.state(load_factor, self.last.as_ref(), model.budget)? else { return Ok(None) };
-        let mut found = chain.displacements(&state);
+        let found = chain.displacements(&state);
         self.last = Some(state);
-        let symmetric = model.is_symmetric_under(loads);
-        let even = !symmetric || is_near(&assembly.mirrored(&found), &found);
-        if symmetric && even {
-            found = assembly.symmetrised(&found);
-        }
-        let forces = assembly.contact_forces(contacts, &found);
-        let regular = out_of_balance(assembly, loads, &found, model.budget)? <= REGULAR;
-        if even && regular && !may_be_another(assembly, &forces) {
-            return Ok(Some((found, forces)));
+        // Between a state and its mirror image lie others, where nothing slides.
+        let given = if model.is_symmetric_under(loads) { assembly.symmetrised(&found) } else { found.clone() };
+        let (forces, joints) = (assembly.contact_forces(contacts, &given), self.joints_apart(&given, &found));
+        let alike = || joints.is_empty() || bears_alike(&forces, &assembly.contact_forces(contacts, &found));
+        let regular = out_of_balance(assembly, loads, &given, model.budget)? <= REGULAR;
+        if regular && !may_be_another(assembly, &forces) && alike() {
+            // Where joints are apart, it can move from one state to the other without any change of force.
+            self.others.extend((!joints.is_empty()).then_some((load_factor, OtherStates::Free, joints)));
+            return Ok(Some((given, forces)));
         }
         let Some((found, false)) = self.balanced(load_factor, loads, &found)? else { return Ok(None) };
         let forces = assembly.contact_forces(contacts, &found);
@@ -259,8 +263,11 @@ impl<'m> States<'m> {
     }
 }
 
-/// Whether displacements are the same but for rounding.
-fn is_near(a: &[f64], b: &[f64]) -> bool {
-    let largest = b.iter().fold(0.0f64, |most, d| most.max(d.abs()));
-    a.iter().zip(b).all(|(a, b)| (a - b).abs() <= SAME * largest)
+/// Whether contacts bear the same in two states.
+fn bears_alike(a: &[ContactForce], b: &[ContactForce]) -> bool {
+    let largest = b.iter().fold(0.0f64, |most, force| most.max(force.normal.abs()));
+    let differ = |(a, b): (&ContactForce, &ContactForce)| {
+        (a.normal - b.normal).abs().max((a.tangential - b.tangential).abs()) > SAME * largest
+    };
+    !a.iter().zip(b).any(differ)
 }

@@ -23,7 +23,7 @@ mod statics;
 use super::assembly::{Assembly, Beside};
 use super::contact::{Contact, Law};
 use crate::budget::{Budget, Stopped};
-use compatibility::Compatibility;
+use compatibility::{Compatibility, Reduced};
 use friction::Split;
 use openings::Opening;
 use statics::Statics;
@@ -56,6 +56,8 @@ pub struct ChainState {
     redundants: Three,
     splits: Vec<Split>,
     open: Vec<Opening>,
+    /// The splits by the redundants, as they are here.
+    reduced: Reduced,
 }
 
 fn dot(a: &Three, b: &Three) -> f64 {
@@ -138,8 +140,8 @@ impl Loaded<'_> {
             let Some(redundants) = self.find_openings(&reduced.gradient, load_factor, &mut open) else {
                 return Ok(None);
             };
-            let state = ChainState { load_factor, redundants, splits, open };
-            let next = self.renewed(&reduced, &state);
+            let state = ChainState { load_factor, redundants, splits, open, reduced };
+            let next = self.renewed(&state);
             if next == state.splits {
                 return Ok((!self.slides(&state)).then_some(state));
             }

@@ -80,7 +80,7 @@ impl Setup<'_> {
         let mut recorder = Recorder::new(model, self.analysis, None, [self.start, sign]);
         recorder.asked_before(near).into_iter().for_each(|at| recorder.know(at, &[]));
         let Some(state) = states.on_the_way(self.start, near)? else { return Ok(false) };
-        let Some(state) = on_path.state(near, Some(&state), self.budget)? else { return Ok(false) };
+        let Some(state) = on_path.state(near, Some(state), self.budget)? else { return Ok(false) };
         let [fixed, _] = on_path.loads();
         let mut tracer = from_state(model, fixed, near, self.weight, &on_path.displacements(&state));
         let start = LegStart { load_factor: near, fixed, recorder };

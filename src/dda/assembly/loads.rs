@@ -1,6 +1,6 @@
 //! Loads: forces on subblocks, condensed onto the nodes.
 
-use super::{Assembly, Instance};
+use super::Assembly;
 use crate::budget::{Budget, Stopped};
 use crate::geometry::{Vec2, perpendicular};
 use nalgebra::DVector;
@@ -18,7 +18,7 @@ pub struct Loads {
     /// Mean displacement and rotation of every body with its nodes held, in the body's frame.
     pub(super) mean: Vec<[f64; 3]>,
     /// Mean stress of its subblocks with its nodes held, in the body's frame, three numbers each; and that at their samples, of
-    /// second-order ones.
+    /// second-order ones that are loaded.
     pub(super) stress: Vec<Vec<f64>>,
     pub(super) samples: Vec<Vec<[f64; 3]>>,
 }
@@ -52,13 +52,21 @@ impl Assembly {
         let mut loads = Loads::default();
         for (body, load) in self.bodies.iter().zip(self.on_blocks(pushes, budget)?) {
             let kind = &self.kinds[body.kind];
+            let columns = 2 * kind.nodes.len();
+            let Some(load) = load else {
+                loads.on_nodes.extend(std::iter::repeat_n(0.0, columns));
+                loads.mean.push([0.0; 3]);
+                loads.stress.push(vec![0.0; 3 * kind.inside.subblocks()]);
+                loads.samples.push(Vec::new());
+                continue;
+            };
             let inner = kind.condensed.inner(&load);
             loads.on_nodes.extend(kind.condensed.on_nodes(&load, &inner).iter());
             let mean = &kind.mean * &inner;
             loads.mean.push([mean[0], mean[1], mean[2]]);
             loads.stress.push(kind.stress.mean(inner.as_slice()).as_slice().to_vec());
             loads.samples.push(kind.stress.samples(inner.as_slice()));
-            budget.work(SOLVED * load.len() * 2 * kind.nodes.len())?;
+            budget.work(SOLVED * load.len() * columns)?;
         }
         Ok(loads)
     }
@@ -72,20 +80,29 @@ impl Assembly {
         let mut loads = Vec::new();
         for (body, load) in self.bodies.iter().zip(self.on_blocks(turned, budget)?) {
             let kind = &self.kinds[body.kind];
+            let columns = 2 * kind.nodes.len();
+            let Some(load) = load else {
+                loads.extend(std::iter::repeat_n(0.0, columns));
+                continue;
+            };
             loads.extend(kind.condensed.on_nodes(&load, &kind.condensed.inner(&load)).iter());
-            budget.work(SOLVED * load.len() * 2 * kind.nodes.len())?;
+            budget.work(SOLVED * load.len() * columns)?;
         }
         Ok(loads)
     }
 
-    /// Generalised loads on the subblocks of every body, in its frame.
-    fn on_blocks(&self, pushes: impl IntoIterator<Item = Push>, budget: &Budget) -> Result<Vec<DVector<f64>>, Stopped> {
-        let zeros = |b: &Instance| DVector::zeros(self.kinds[b.kind].inside.unknowns());
-        let mut on_blocks: Vec<DVector<f64>> = self.bodies.iter().map(zeros).collect();
+    /// Generalised loads on the subblocks of every body, in its frame; none where nothing acts.
+    fn on_blocks(
+        &self,
+        pushes: impl IntoIterator<Item = Push>,
+        budget: &Budget,
+    ) -> Result<Vec<Option<DVector<f64>>>, Stopped> {
+        let mut on_blocks = vec![None; self.bodies.len()];
         for push in pushes {
             let body = &self.bodies[push.body];
             let (at, force) = (body.turned(push.at - body.origin), body.turned(push.force));
-            let (inside, loads) = (&self.kinds[body.kind].inside, &mut on_blocks[push.body]);
+            let inside = &self.kinds[body.kind].inside;
+            let loads = on_blocks[push.body].get_or_insert_with(|| DVector::zeros(inside.unknowns()));
             match push.subblock {
                 Some(subblock) => inside.add_load(subblock, at, force, loads),
                 None => inside.add_spread(at, force, loads),

@@ -53,6 +53,7 @@ pub struct Loaded<'m> {
 }
 
 /// Splits, and the gradient by the redundants, with some splits prescribed.
+#[derive(Debug, Clone)]
 pub(super) struct Reduced {
     pub splits: Vec<Linear>,
     pub gradient: [Linear; 3],

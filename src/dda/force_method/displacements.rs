@@ -31,8 +31,7 @@ impl Loaded<'_> {
 
     /// Normal and tangential force, N/m, and gap and slip, m, of both points of every interface.
     fn forces_and_gaps(&self, state: &ChainState) -> (Vec<[f64; 4]>, Vec<[f64; 4]>) {
-        let ChainState { load_factor, redundants, splits, open } = state;
-        let reduced = self.reduced(splits);
+        let ChainState { load_factor, redundants, splits, open, reduced } = state;
         let (mut forces, mut gaps) = (Vec::with_capacity(splits.len()), Vec::with_capacity(splits.len()));
         for (k, split) in splits.iter().enumerate() {
             let (normals, shear) = self.method.statics[k].at(&self.resultant(k, redundants, *load_factor));

@@ -1,6 +1,5 @@
 //! Friction: which point of an interface slides, so that the split of its shear is prescribed.
 
-use super::compatibility::Reduced;
 use super::{ChainState, Linear, Loaded, Three, is_smooth, value};
 use crate::budget::{Budget, Stopped};
 use crate::dda::contact::{Contact, Law};
@@ -58,8 +57,8 @@ impl Loaded<'_> {
     }
 
     /// The splits as the law has them in a state that was found with others.
-    pub(super) fn renewed(&self, reduced: &Reduced, state: &ChainState) -> Vec<Split> {
-        let ChainState { load_factor, redundants, splits, open } = state;
+    pub(super) fn renewed(&self, state: &ChainState) -> Vec<Split> {
+        let ChainState { load_factor, redundants, splits, open, reduced } = state;
         let renewed = |(k, &split): (usize, &Split)| {
             if split == Split::Smooth {
                 return split;
@@ -152,8 +151,7 @@ impl Loaded<'_> {
 
     /// How much more shear either way every interface could bear, N/m, and the change of that with the load factor.
     fn reserves(&self, state: &ChainState) -> Vec<[f64; 2]> {
-        let ChainState { load_factor, redundants, splits, open } = state;
-        let reduced = self.reduced(splits);
+        let ChainState { load_factor, redundants, splits, open, reduced } = state;
         let Some(rate) = self.rate(&reduced.gradient, open) else { return vec![[f64::NEG_INFINITY; 2]; splits.len()] };
         let mut reserves = Vec::with_capacity(2 * splits.len());
         for k in (0..splits.len()).filter(|&k| splits[k] != Split::Smooth) {
