@@ -298,6 +298,7 @@ fn curves_that_cannot_be() {
             ("/analysis/safety/curve/from", json!(0), "/analysis/safety/curve/from", "no field"),
             ("/loads/1/per_abscissa", json!(false), asked, "per_abscissa"),
             ("/report", json!({"stress_fields": ["unit_load"]}), "/report/stress_fields", "without a curve"),
+            ("/report", json!({"history": true}), "/report/history", "without a curve"),
         ],
     );
     // 500 abscissae, 12 voussoirs of 169 subblocks.

@@ -127,7 +127,7 @@ pub struct ReportRequest {
     #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub first_yield_length_m: Option<f64>,
     /// Asks for `history`, the load path event by event, which is followed all the way then. Left out: states are solved for one by one
-    /// wherever they can be, which is quicker, and `history` is empty.
+    /// wherever they can be, which is quicker, and `history` is empty. Not with a curve.
     pub history: bool,
 }
 

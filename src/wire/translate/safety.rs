@@ -48,6 +48,8 @@ pub fn check_flags(request: &AnalysisRequest, curve: Option<&CurveRequest>, faul
     faults.require(request.loads.is_empty() || flagged().next().is_some(), CURVE, detail);
     let detail = "a curve shows no stress fields: leave them out, or ask for one safety factor without a curve";
     faults.require(request.report.stress_fields.is_empty(), "/report/stress_fields", detail);
+    let detail = "a curve shows no history: leave it out, or ask for one safety factor without a curve";
+    faults.require(!request.report.history, "/report/history", detail);
 }
 
 /// The analysis at every abscissa; what is wrong with the loads at several of them is said once.

@@ -78,6 +78,7 @@ fn safety() -> Value {
     let curve = json!({"abscissae": [1, 2], "unit": "m"});
     let request = with(arch(), "/analysis", json!({"safety": {"crushing": "elastic", "curve": curve}}));
     let request = with(with(request, "/method", json!("event_path")), "/report/stress_fields", json!([]));
+    let request = with(request, "/report/history", json!(false));
     without(with(request, "/loads/0/per_abscissa", json!(true)), "/motion")
 }
 
