@@ -56,12 +56,12 @@ fn the_python_client_works() {
 #[test]
 fn the_curl_lines_work() {
     let served = Served::start();
-    let lines = block("docs/service.md", "sh", "results/history").replace("http://127.0.0.1:8080", &served.1);
+    let lines = block("docs/service.md", "sh", "results/fields").replace("http://127.0.0.1:8080", &served.1);
     let place = std::env::temp_dir().join(format!("voussoir-readme-{}", std::process::id()));
     std::fs::create_dir_all(&place).unwrap();
     std::os::unix::fs::symlink(format!("{ROOT}/cases"), place.join("cases")).unwrap();
     let output = run("bash", &["-euo", "pipefail", "-c", &lines], &place);
-    let files = ["history.csv", "figure.svg"].map(|file| std::fs::read_to_string(place.join(file)).unwrap_or_default());
+    let files = ["field.csv", "figure.svg"].map(|file| std::fs::read_to_string(place.join(file)).unwrap_or_default());
     std::fs::remove_dir_all(&place).unwrap();
     let Some(output) = output.filter(|_| Command::new("curl").arg("--version").output().is_ok()) else { return };
     let printed = String::from_utf8(output.stdout).unwrap();
@@ -69,7 +69,7 @@ fn the_curl_lines_work() {
     for words in ["\"status\":\"successful\"", "The arch collapses at", "event: end", "invalid-request", "\"jobs\":["] {
         assert!(printed.contains(words), "{words}: {printed}");
     }
-    assert!(files[0].starts_with("load_factor,intensity") && files[1].starts_with("<svg"), "{files:?}");
+    assert!(files[0].starts_with("voussoir,radial,along") && files[1].starts_with("<svg"), "{files:?}");
 }
 
 #[test]
