@@ -43,8 +43,13 @@ pub(super) fn ladders(analysis: &Analysis, most: usize) -> Vec<Vec<[usize; 2]>> 
         ladder[first.min(ladder.len().saturating_sub(needed))..].to_vec()
     };
     let telling: Vec<_> = ladders.iter().zip(structure.voussoirs()).map(telling).collect();
-    let fewest: usize = telling.iter().map(|ladder| ladder[0][0] * ladder[0][1]).sum();
-    if fewest <= most { telling } else { ladders }
+    let coarsest: Vec<[usize; 2]> = telling.iter().map(|ladder| ladder[0]).collect();
+    if total(&coarsest) <= most { telling } else { ladders }
+}
+
+/// How many subblocks they are together.
+pub(super) fn total(subblocks: &[[usize; 2]]) -> usize {
+    subblocks.iter().map(|[radial, along]| radial * along).sum()
 }
 
 /// Subblocks, radial and along, of ever finer meshes of body `k`: each has whole subblocks of the next in every one of

@@ -4,7 +4,7 @@ use super::super::{
     Analysis, AnalysisError, CollapseReport, ContactPoint, Estimate, MeshTried, Order, Outcome, PlanReason, verdict,
 };
 use super::estimate::{FieldErrors, Hinged, Orders, differences};
-use super::mesh::{drawing, ladders};
+use super::mesh::{drawing, ladders, total};
 use super::states::States;
 use super::with_mesh;
 use crate::budget::Budget;
@@ -259,9 +259,4 @@ fn hinged(whole: &CollapseReport, half: bool, load_factor: f64) -> Hinged {
         true => Hinged::Widely,
         false => Hinged::Less,
     }
-}
-
-/// How many subblocks they are together.
-fn total(subblocks: &[[usize; 2]]) -> usize {
-    subblocks.iter().map(|[radial, along]| radial * along).sum()
 }

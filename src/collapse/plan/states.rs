@@ -166,13 +166,13 @@ impl<'p> States<'p> {
         if (load_factor - last.load_factor).abs() > (far - last.load_factor).abs() { far } else { load_factor }
     }
 
-    /// Solves for the state at a load factor from that of whole stones; false where that fails.
-    fn find_beside_whole(&mut self, load_factor: f64) -> Result<bool, AnalysisError> {
+    /// Solves for the state at a load factor from that of whole stones, where that is known and leads there.
+    fn find_beside_whole(&mut self, load_factor: f64) -> Result<(), AnalysisError> {
         let Model { assembly, budget, size, .. } = &self.model;
-        let Some((_, near)) = self.whole.iter().find(|(at, _)| *at == load_factor) else { return Ok(false) };
+        let Some((_, near)) = self.whole.iter().find(|(at, _)| *at == load_factor) else { return Ok(()) };
         let loads = self.model.loads_on_nodes(load_factor);
         let found = direct(assembly, *size, &loads, Some(near), self.model.is_symmetric_under(&loads), budget)?;
-        self.take(load_factor, found)
+        self.take(load_factor, found).map(|_| ())
     }
 
     /// Solves for the state at a load factor, from the last one before; false where that fails.
