@@ -4,7 +4,7 @@
 use super::grid::Grid;
 use super::recovery::mirrored_corners;
 use super::{BlockState, SubblockStress};
-use crate::geometry::mirrored;
+use crate::geometry::{Vec2, mirrored};
 
 impl BlockState {
     /// Of the stone on the other side of a symmetric structure.
@@ -24,6 +24,11 @@ impl BlockState {
 
 fn mean(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|i| 0.5 * (a[i] + b[i]))
+}
+
+/// Displacements of the bodies of a symmetric structure, each the mean of itself and the mirror image of its partner's.
+pub(super) fn evened(shifts: &[Vec2], images: &[usize]) -> Vec<Vec2> {
+    shifts.iter().zip(images).map(|(here, &there)| 0.5 * (here + mirrored(shifts[there], 0.0))).collect()
 }
 
 /// States of the bodies of a symmetric structure, each the mean of itself and the mirror image of its partner.

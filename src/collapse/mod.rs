@@ -2,6 +2,7 @@
 
 mod beam;
 mod certificate;
+mod chain_path;
 pub mod cost;
 mod cracks;
 mod crushed;

@@ -91,7 +91,7 @@ pub(super) fn disturbed(model: &Model, start: f64, attempt: Attempt) -> Vec<f64>
 }
 
 /// Loads on the nodes at a load factor.
-fn at(model: &Model, fixed: &[f64], load_factor: f64) -> Vec<f64> {
+pub(super) fn at(model: &Model, fixed: &[f64], load_factor: f64) -> Vec<f64> {
     fixed.iter().zip(&model.scaled.on_nodes).map(|(f, s)| f + s * load_factor).collect()
 }
 

@@ -2,13 +2,14 @@
 
 use super::discretise::Model;
 use super::farthest::Farthest;
-use super::mirror::{evened_blocks, evened_stresses};
+use super::mirror::{evened, evened_blocks, evened_stresses};
 use super::state::Standing;
 use super::yielding::{Averaged, Yielding};
 use super::{
     Analysis, AnalysisError, BlockState, ContactPoint, FieldAt, HistoryPoint, Method, Snapshot, StressField, mechanism,
 };
 use crate::dda::MeanMotion;
+use crate::geometry::Vec2;
 use std::collections::VecDeque;
 use std::rc::Rc;
 
@@ -57,7 +58,8 @@ pub(super) struct Recorder<'a> {
     steps_done: usize,
     /// Load-displacement history, where it is asked for.
     pub history: Vec<HistoryPoint>,
-    tells_history: bool,
+    /// Whether it is.
+    pub tells_history: bool,
     /// Load factors that are asked for, with the displacements there, once passed.
     asked: Vec<(f64, Option<Vec<f64>>)>,
     /// Looks for first yield, where it is asked for.
@@ -239,13 +241,37 @@ impl<'a> Recorder<'a> {
         Some((wanted, displacements))
     }
 
+    /// Takes in the next point of a path whose states are found without it, with the mean displacements of all bodies for its history.
+    pub(super) fn see_bodies(&mut self, load_factor: f64, bodies: Option<Vec<Vec2>>) {
+        let now = Rc::new((load_factor, Vec::new()));
+        let before = self.last.take();
+        if let Some(before) = &before {
+            self.pass(before, &now);
+        }
+        if let Some(mut bodies) = bodies {
+            if self.is_symmetric_at(load_factor)
+                && let Some((images, _)) = self.model.assembly.images_of_bodies()
+            {
+                bodies = evened(&bodies, images);
+            }
+            let crown = 0.5 * (bodies[self.crown[0]] + bodies[self.crown[1]]);
+            let largest = bodies.iter().map(|shift| shift.norm_squared()).fold(0.0, f64::max).sqrt();
+            self.history.push(HistoryPoint { load_factor, crown, largest });
+        }
+        self.keep(before, &now);
+        self.last = Some(now);
+    }
+
+    /// Of two states at a load factor that are each other's mirror image, as near as the scatter of stiffness lets them be, the mean is told.
+    fn is_symmetric_at(&self, load_factor: f64) -> bool {
+        let symmetric = || self.model.is_symmetric_under(&self.model.loads_on_nodes(load_factor));
+        let told = self.model.symmetric && load_factor.abs() <= self.lopsided && symmetric();
+        debug_assert_eq!(told, symmetric());
+        told
+    }
+
     fn history_point(&mut self, load_factor: f64, displacements: &[f64], travelled: f64) -> HistoryPoint {
-        // Of two states that are each other's mirror image, as near as the scatter of stiffness lets them be.
-        let symmetric = self.model.symmetric
-            && load_factor.abs() <= self.lopsided
-            && self.model.is_symmetric_under(&self.model.loads_on_nodes(load_factor));
-        debug_assert_eq!(symmetric, self.model.is_symmetric_under(&self.model.loads_on_nodes(load_factor)));
-        let symmetric = symmetric.then(|| self.model.assembly.symmetrised(displacements));
+        let symmetric = self.is_symmetric_at(load_factor).then(|| self.model.assembly.symmetrised(displacements));
         let displacements = symmetric.as_deref().unwrap_or(displacements);
         let of = |voussoir: usize| self.model.motion(voussoir, load_factor, displacements).displacement;
         let crown = 0.5 * (of(self.crown[0]) + of(self.crown[1]));

@@ -19,13 +19,16 @@ use super::elements::{Elements, Pattern};
 use super::inside::{Inside, Stress};
 use super::panels::ThreeOfEight;
 use super::tree::Tree;
-use crate::budget::Budget;
+use crate::budget::{Budget, Stopped};
 use crate::geometry::{Vec2, cross, perpendicular};
 use mirror::Mirror;
 use nalgebra::DMatrix;
 use std::cell::OnceCell;
 use std::ops::Range;
 use strain::Strain;
+
+/// The tree of so many interfaces takes less time than anybody who waits would notice.
+const SOON: usize = 300;
 
 /// A body of the assembly: where its frame is, and which condensed macroblock it is a copy of.
 #[derive(Debug, Clone, PartialEq)]
@@ -99,9 +102,11 @@ pub struct Assembly {
     nodes: Vec<Range<usize>>,
     /// Bodies and interfaces as elements of a matrix over the faces: first all bodies, then all interfaces.
     pattern: Pattern,
-    /// The tree with bodies' cores, where there are any, and that of bodies as their faces alone, once it has been asked for.
-    tree: Tree,
+    /// The tree with bodies' cores, where there are any, and that of bodies as their faces alone, once they have been asked for.
+    tree: OnceCell<Tree>,
     plain_tree: OnceCell<Tree>,
+    /// Elements that are left out of the tree: bodies that have cores, in order.
+    cored: Vec<usize>,
     /// Unknowns of all nodes.
     unknowns: usize,
     /// Elastic stiffness of the bodies; nothing in the interfaces.
@@ -133,14 +138,30 @@ impl Assembly {
 
     /// In which order unknowns are eliminated.
     pub(super) fn tree(&self) -> &Tree {
-        &self.tree
+        // Nobody who waits for a small one could be told to stop meanwhile.
+        let made = || Tree::new(&self.pattern, |element| self.is_eliminated(element), &Budget::unlimited());
+        self.tree.get_or_init(|| made().unwrap_or_default())
+    }
+
+    /// Whether an element is part of the tree: not a body that has a core.
+    fn is_eliminated(&self, element: usize) -> bool {
+        self.cored.binary_search(&element).is_err()
+    }
+
+    /// Makes the tree at once where that takes long.
+    fn prepare(&self, budget: &Budget) -> Result<(), Stopped> {
+        if self.faces.len() > SOON {
+            let tree = Tree::new(&self.pattern, |element| self.is_eliminated(element), budget)?;
+            self.tree.get_or_init(|| tree);
+        }
+        Ok(())
     }
 
     /// The same where bodies are their faces alone, as on moving geometry; none where stopped.
     pub(super) fn plain_tree(&self, budget: &Budget) -> Option<&Tree> {
         let elements = self.bodies.len() + self.faces.len();
         if self.pattern.faces.len() == elements {
-            return Some(&self.tree);
+            return Some(self.tree());
         }
         if self.plain_tree.get().is_none() {
             let tree = Tree::new(&self.pattern, |element| element < elements, budget).ok()?;

@@ -142,12 +142,10 @@ fn traced(
 pub fn missing(assembly: &Assembly, loads: &[f64], d: &[f64], budget: &Budget) -> Result<(f64, usize), Stopped> {
     let mut residual = vec![0.0; d.len()];
     assembly.unbalance(assembly.contacts(), loads, d, &mut residual, budget)?;
-    let at = |k: usize| {
-        let faces = assembly.faces(k).into_iter().flatten();
-        let entries = faces.flat_map(|face| &residual[face]);
-        share_of(&entries.copied().collect::<Vec<_>>(), loads)
-    };
-    let all = (0..assembly.interfaces()).map(|k| (at(k), k));
+    let total = total(loads);
+    let at =
+        |k: usize| assembly.faces(k).into_iter().flatten().map(|face| largest(&residual[face])).fold(0.0, f64::max);
+    let all = (0..assembly.interfaces()).map(|k| (at(k) / total, k));
     Ok(all.fold((0.0, 0), |worst, here| if here.0 > worst.0 { here } else { worst }))
 }
 
@@ -164,9 +162,13 @@ pub fn out_of_balance(assembly: &Assembly, loads: &[f64], d: &[f64], budget: &Bu
 
 /// Largest entry of a residual over the sum of the loads.
 fn share_of(residual: &[f64], loads: &[f64]) -> f64 {
+    largest(residual) / total(loads)
+}
+
+fn largest(residual: &[f64]) -> f64 {
     // `max` passes over NaN, which must not pass for equilibrium.
     let size = |r: &f64| if r.is_finite() { r.abs() } else { f64::INFINITY };
-    residual.iter().map(size).fold(0.0, f64::max) / total(loads)
+    residual.iter().map(size).fold(0.0, f64::max)
 }
 
 /// Sum of the sizes of all loads.

@@ -6,6 +6,8 @@
 //! V / 2 + t and V / 2 - t. Redundants and splits make the complementary energy of bodies and contacts stationary. A split meets
 //! those of its neighbours only, so that a state takes the solution of a tridiagonal system and one of three equations, a few times.
 //!
+//! States are found one by one ([`Loaded::state`]), and one after the other along the load path ([`ChainPath`]).
+//!
 //! - *Openings.* No point pulls: N >= 0, each with its gap for a multiplier. Three redundants hold at most three points at N = 0.
 //! - *Friction.* A point that slides has its shear prescribed, T = s mu N, and so the split of its interface; what the split's equation
 //!   is then off by is the slip. Shear works against no normal force, for sliding does not dilate: virtual forces leave the shear
@@ -18,17 +20,23 @@ mod compatibility;
 mod displacements;
 mod friction;
 mod openings;
+mod path;
+mod reduced;
+mod shifts;
 mod statics;
 
 use super::assembly::{Assembly, Beside};
 use super::contact::{Contact, Law};
 use crate::budget::{Budget, Stopped};
-use compatibility::{Compatibility, Reduced};
+use compatibility::Compatibility;
 use friction::Split;
 use openings::Opening;
+use reduced::Reduced;
 use statics::Statics;
 
 pub use compatibility::Loaded;
+pub use path::{ChainPath, ChainStep};
+pub use shifts::Shifts;
 
 /// Most times that splits are renewed for one state (measured: 2 to 25 where they settle at all).
 const ROUNDS: usize = 60;

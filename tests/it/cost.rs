@@ -96,9 +96,10 @@ fn driven(voussoirs: usize, step: f64) -> Value {
 fn no_analysis_takes_more_than_its_estimate() {
     let fields = json!(["near_collapse", {"load_factor": 1.0}]);
     let motion = json!({"motion": {"most_frames": 1600, "share_of_span": 1.0}});
+    let sticky = json!({"stone": {"cohesion_pa": 1.0}, "report": {"share_of_collapse": 0.001}});
     for (name, request) in [
         ("few stones", semicircle(27, &json!({}))),
-        ("many stones", semicircle(1000, &json!({"report": {"share_of_collapse": 0.001}}))),
+        ("many stones, path traced", semicircle(1000, &sticky)),
         ("stones of many subblocks", uneven(11, &json!({"mesh": mesh(16, 16)}))),
         ("wide joints", uneven(9, &json!({"mesh": mesh(40, 1)}))),
         ("long stones, stress", uneven(60, &json!({"mesh": mesh(1, 48), "report": {"stress_fields": fields}}))),

@@ -1,5 +1,5 @@
-//! Answers whose states were solved for one by one against those on the load path from the unstressed structure, which is followed where
-//! its history is asked for.
+//! Answers whose states were solved for one by one, and load paths that the force method follows, against the load path that is traced
+//! from the unstressed structure, as it is where first yield is looked for.
 
 use crate::common::door;
 use crate::common::folders;
@@ -10,28 +10,58 @@ use crate::common::snapshots::apart;
 use crate::common::structures::{self, FAMILIES};
 use serde_json::json;
 use voussoir::budget::Budget;
-use voussoir::collapse::{Analysis, CollapseReport, Outcome, Question, StatesFrom, Task, run};
+use voussoir::collapse::{
+    Analysis, CollapseReport, HistoryPoint, Outcome, Question, StatesAsked, StatesFrom, Task, run,
+};
 use voussoir::wire::read::read_question;
 
 /// How many random arches and structures of every family, and how many arches at least have to be solved directly.
 const ARCHES: u64 = 5000;
 const DIRECT: usize = 1300;
+/// How many of those arches at least have to have a history that is told without the tracer.
+const TOLD: usize = 1200;
 const STRUCTURES: u64 = 40;
 /// Largest difference of a force or displacement at the start, at load factor 1 and near collapse, where a state follows its load a
 /// thousandfold.
 const EQUAL: [f64; 3] = [1e-9, 1e-9, 1e-6];
+/// Largest differences of an event of the history: of its load factor, and of a displacement.
+const SAME_EVENT: [f64; 2] = [1e-8, 1e-6];
+/// Length over which stress is averaged where first yield is looked for, m.
+const LENGTH: f64 = 5.0;
 /// Largest difference of the collapse load, as a share.
 const SAME_LOAD: f64 = 1e-9;
 
-/// The same question, with the whole load path.
+/// The same question, with the history of its load path.
 fn with_history(analysis: &Analysis) -> Analysis {
     let mut analysis = analysis.clone();
-    match &mut analysis.task {
-        Task::Collapse(task) => task.states.history = true,
-        Task::Safety(task) => task.states.history = true,
-        Task::Settlement(_) | Task::GeometricSafety(_) => {}
-    }
+    states(&mut analysis).into_iter().for_each(|states| states.history = true);
     analysis
+}
+
+/// The same, with the load path traced.
+fn traced(analysis: &Analysis) -> Analysis {
+    let mut analysis = with_history(analysis);
+    states(&mut analysis).into_iter().for_each(|states| states.first_yield_length = Some(LENGTH));
+    analysis
+}
+
+fn states(analysis: &mut Analysis) -> Option<&mut StatesAsked> {
+    match &mut analysis.task {
+        Task::Collapse(task) => Some(&mut task.states),
+        Task::Safety(task) => Some(&mut task.states),
+        Task::Settlement(_) | Task::GeometricSafety(_) => None,
+    }
+}
+
+/// How far two histories are apart: load factors as a share of the last, displacements of the largest at the event; infinitely where they
+/// have other events.
+fn histories_apart(a: &[HistoryPoint], b: &[HistoryPoint]) -> [f64; 2] {
+    let Some(last) = b.last().filter(|_| a.len() == b.len()) else { return [f64::INFINITY; 2] };
+    let apart = a.iter().zip(b).map(|(a, b)| {
+        let moved = (a.crown - b.crown).norm().max((a.largest - b.largest).abs()) / b.largest;
+        [(a.load_factor - b.load_factor).abs() / last.load_factor.abs(), moved]
+    });
+    apart.fold([0.0; 2], |most, here| [0, 1].map(|i| larger(most[i], here[i])))
 }
 
 /// How often a path passes a load factor.
@@ -48,6 +78,10 @@ struct Compared {
     /// States at load factors that the path passes more than once: there is another then.
     passed_again: usize,
     worst: [f64; 3],
+    /// Histories that were told without the tracer, those of them that it tells otherwise, and how far the others are apart.
+    told: usize,
+    told_otherwise: usize,
+    histories: [f64; 2],
 }
 
 impl Compared {
@@ -58,7 +92,8 @@ impl Compared {
             return;
         }
         assert!(report.history.is_empty(), "{name}");
-        let path = run(&with_history(analysis), &Budget::unlimited()).unwrap();
+        let path = run(&traced(analysis), &Budget::unlimited()).unwrap();
+        let told = run(&with_history(analysis), &Budget::unlimited()).unwrap();
         if path.outcome == Outcome::CannotTell {
             // Where the path breaks off in rounding, states without it may be found.
             return;
@@ -74,6 +109,16 @@ impl Compared {
             assert!(loads_apart <= SAME_LOAD * b.load_factor.abs(), "{name}: {} and {}", a.load_factor, b.load_factor);
             let hinges = [a, b].map(|end| end.mechanism.hinges.iter().map(|hinge| hinge.joint).collect::<Vec<_>>());
             assert_eq!(hinges[0], hinges[1], "{name}");
+        }
+        if !told.history.is_empty() && told.cost.factorisations < path.cost.events {
+            let apart = histories_apart(&told.history, &path.history);
+            self.told += 1;
+            if apart[0] > SAME_EVENT[0] || apart[1] > SAME_EVENT[1] {
+                println!("{name}: histories are apart by {apart:?}");
+                self.told_otherwise += 1;
+            } else {
+                self.histories = [0, 1].map(|i| larger(self.histories[i], apart[i]));
+            }
         }
         let states = |report: &CollapseReport| {
             [&report.at_start, &report.at_unit_load, &report.near_collapse].map(|state| state.clone())
@@ -104,6 +149,8 @@ fn random_arches_have_the_states_of_their_paths() {
     }
     println!("{compared:?}");
     assert!(compared.direct >= DIRECT && compared.passed_again <= compared.direct / 500, "{compared:?}");
+    // At one load factor a momentary mechanism may be passed otherwise, and a tie at the start be broken otherwise.
+    assert!(compared.told >= TOLD && compared.told_otherwise <= compared.told / 300, "{compared:?}");
 }
 
 #[test]
@@ -116,7 +163,7 @@ fn so_has_every_case() {
         }
     }
     println!("{compared:?}");
-    assert!(compared.direct >= 20, "{compared:?}");
+    assert!(compared.direct >= 20 && compared.told >= 20 && compared.told_otherwise == 0, "{compared:?}");
 }
 
 #[test]

@@ -1,11 +1,13 @@
-//! The answer without the load path: states solved for one by one, and only the last of the way to collapse followed.
+//! The answer by the force method: states solved for one by one, and of the load path only the last of the way to collapse, or all of it
+//! where its history is asked for.
 //!
-//! Limit analysis says how far the loads go. The states that are reported are found by the force method; the load path is followed from
-//! the one near collapse on, by the contact law alone, and has to end where limit analysis says, without sliding. Where anything is
-//! missed or in doubt, or joints slide, on which states depend, the path from the unstressed start tells.
+//! Limit analysis says how far the loads go. The path is followed by the contact law alone, and has to end where limit analysis says,
+//! without sliding; its last way is traced where the force method does not tell it. Where anything is missed or in doubt, or joints
+//! slide, on which states depend, the path that is traced from the unstressed start tells.
 
 use super::leg::LegStart;
 use super::{OnEvent, Setup};
+use crate::collapse::chain_path::follow_chain;
 use crate::collapse::discretise::Model;
 use crate::collapse::path::{from_state, nothing_grows, total};
 use crate::collapse::record::{Recorder, snapshot};
@@ -25,7 +27,7 @@ impl Setup<'_> {
         let analysis = self.analysis;
         let exact = matches!(analysis.task.method(), Method::EventPath(_));
         let stands = self.certificate.solved && self.certificate.stands_at(self.start);
-        if analysis.task.history() || analysis.task.yields(&self.crushing) || !exact || !stands {
+        if analysis.task.yields(&self.crushing) || !exact || !stands {
             return Ok(None);
         }
         let Some(method) = ForceMethod::new(&model.assembly, self.budget)? else { return Ok(None) };
@@ -33,8 +35,8 @@ impl Setup<'_> {
         let chain = method.loaded(model.assembly.exact_contacts(), loads);
         let on_path = method.loaded(model.assembly.contacts(), [fixed, loads[1]]);
         let mut states = States::of_chain(model, chain);
-        let mut report =
-            CollapseReport { states_from: StatesFrom::DirectSolution, ..self.blank(model.assembly.unknowns()) };
+        let states_from = if analysis.task.history() { StatesFrom::LoadPath } else { StatesFrom::DirectSolution };
+        let mut report = CollapseReport { states_from, ..self.blank(model.assembly.unknowns()) };
         report.notes = notes_on_mesh(analysis, model);
         let at_start = states.find(self.start, &[])?;
         report.at_start = at_start.as_ref().map(|state| snapshot(model, state)).transpose()?;
@@ -77,14 +79,26 @@ impl Setup<'_> {
         if sign * (near - self.start) <= 0.0 {
             return Ok(false);
         }
-        let mut recorder = Recorder::new(model, self.analysis, None, [self.start, sign]);
-        recorder.asked_before(near).into_iter().for_each(|at| recorder.know(at, &[]));
+        let (analysis, history) = (self.analysis, self.analysis.task.history());
+        let recorder = || {
+            let mut recorder = Recorder::new(model, analysis, None, [self.start, sign]);
+            recorder.asked_before(near).into_iter().for_each(|at| recorder.know(at, &[]));
+            recorder
+        };
         let Some(state) = states.on_the_way(self.start, near)? else { return Ok(false) };
-        let Some(state) = on_path.state(near, Some(state), self.budget)? else { return Ok(false) };
-        let [fixed, _] = on_path.loads();
-        let mut tracer = from_state(model, fixed, near, self.weight, &on_path.displacements(&state));
-        let start = LegStart { load_factor: near, fixed, recorder };
-        let doubt = self.leg_from(start, report, states, &mut tracer, progress)?;
+        let (from, state) = if history { (self.start, None) } else { (near, Some(state)) };
+        let Some(state) = on_path.state(from, state, self.budget)? else { return Ok(false) };
+        let mut seen = recorder();
+        let doubt = match follow_chain(model, on_path, &state, self.cap, &mut seen)? {
+            Some(followed) => self.end_of_leg(followed, seen, report, states)?,
+            None if history => return Ok(false),
+            None => {
+                let [fixed, _] = on_path.loads();
+                let mut tracer = from_state(model, fixed, from, self.weight, &on_path.displacements(&state));
+                let start = LegStart { load_factor: from, fixed, recorder: recorder() };
+                self.leg_from(start, report, states, &mut tracer, progress)?
+            }
+        };
         let falls = report.end.as_ref().is_some_and(|end| end.range.is_none() && !end.mechanism.slips());
         Ok(doubt.is_none() && falls && !states.missed_some())
     }

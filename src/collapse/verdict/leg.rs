@@ -2,6 +2,7 @@
 
 use super::{OnEvent, Setup};
 use crate::collapse::certificate::range_note;
+use crate::collapse::chain_path::Followed;
 use crate::collapse::ending::{self, Ending};
 use crate::collapse::path::{Leg, follow};
 use crate::collapse::record::{MOST_FIXED_STEPS, Recorder, snapshot};
@@ -51,14 +52,26 @@ impl Setup<'_> {
         tracer: &mut Tracer,
         progress: &mut OnEvent,
     ) -> Result<Option<Doubt>, AnalysisError> {
-        let (analysis, model, sign) = (self.analysis, states.model, recorder.sign);
         let before = Cost::of(tracer);
         let leg = follow(tracer, fixed, [load_factor, self.cap], &mut recorder, progress);
-        report.cost.add(tracer, before);
+        let mut cost = Cost::default();
+        cost.add(tracer, before);
+        self.end_of_leg(Followed { leg, residual: tracer.worst_residual(), cost }, recorder, report, states)
+    }
+
+    /// Writes down what was seen on a leg that has been followed to its end.
+    pub(super) fn end_of_leg(
+        &self,
+        Followed { leg, residual, cost }: Followed,
+        recorder: Recorder,
+        report: &mut CollapseReport,
+        states: &mut States,
+    ) -> Result<Option<Doubt>, AnalysisError> {
+        let (analysis, model, sign) = (self.analysis, states.model, recorder.sign);
+        report.cost.join(cost);
         let at_unit_load = recorder.at(1.0).map(|d| states.find(1.0, d)).transpose()?.flatten();
         report.at_unit_load = at_unit_load.map(|state| snapshot(model, &state)).transpose()?;
         report.crushing.elastic = recorder.yielding.as_ref().map(|found| states.first_yield(found)).transpose()?;
-        let residual = tracer.worst_residual();
         let mut peak_load = None;
         let (ending, turned_back) = match leg {
             Leg::Stopped => return Err(self.budget.stopped().into()),

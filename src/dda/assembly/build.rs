@@ -7,7 +7,6 @@ use crate::dda::contact::{Contact, Law};
 use crate::dda::elements::{Elements, Pattern};
 use crate::dda::inside::Inside;
 use crate::dda::panels::ThreeOfEight;
-use crate::dda::tree::Tree;
 use crate::geometry::{Vec2, cross, perpendicular};
 use nalgebra::{DMatrix, DVectorView};
 use std::cell::OnceCell;
@@ -142,8 +141,9 @@ impl AssemblyBuilder {
             sites: touches().map(|t| Site { at: t.at, normal: t.normal }).collect(),
             interface: self.interfaces.iter().enumerate().flat_map(of_contact).collect(),
             beside: self.interfaces.iter().map(|interface| interface.between).collect(),
-            tree: Tree::new(&pattern, |element| cored.binary_search(&element).is_err(), budget)?,
+            tree: OnceCell::new(),
             plain_tree: OnceCell::new(),
+            cored,
             unknowns,
             bodies,
             kinds,
@@ -157,6 +157,7 @@ impl AssemblyBuilder {
         };
         assembly.places = (0..assembly.contacts.len()).map(|p| assembly.find_places(p)).collect();
         assembly.mirror = assembly.find_mirror();
+        assembly.prepare(budget)?;
         Ok(assembly)
     }
 }

@@ -18,13 +18,25 @@ impl Assembly {
     /// Mean motion of body `i` for node displacements (or velocities) `d` and what loads, each times its factor, add
     /// between the nodes.
     pub fn mean_motion(&self, i: usize, d: &[f64], loads: &[(&Loads, f64)]) -> MeanMotion {
-        let mean = self.mean_in_frame(i, d, loads);
+        let mean = self.mean_in_frame(i, &d[self.nodes[i].clone()], loads);
         MeanMotion { displacement: self.bodies[i].turned_back(Vec2::new(mean[0], mean[1])), rotation: mean[2] }
     }
 
-    /// Mean displacement and rotation of body `i` in its own frame.
+    /// Mean displacement of body `i` for displacements of its own nodes, m.
+    pub(in crate::dda) fn mean_of_nodes(&self, i: usize, nodes: &[f64]) -> Vec2 {
+        let [x, y, _] = self.mean_in_frame(i, nodes, &[]);
+        self.bodies[i].turned_back(Vec2::new(x, y))
+    }
+
+    /// Mean displacement of body `i` under loads with its nodes held, m.
+    pub(in crate::dda) fn mean_of_held(&self, i: usize, loads: &Loads) -> Vec2 {
+        let [x, y, _] = loads.mean[i];
+        self.bodies[i].turned_back(Vec2::new(x, y))
+    }
+
+    /// Mean displacement and rotation of body `i` in its own frame, for displacements of its own nodes.
     fn mean_in_frame(&self, i: usize, d: &[f64], loads: &[(&Loads, f64)]) -> [f64; 3] {
-        let (kind, d) = (&self.kinds[self.bodies[i].kind], &d[self.nodes[i].clone()]);
+        let kind = &self.kinds[self.bodies[i].kind];
         let mut mean = [0.0; 3];
         match (&kind.whole, d.as_array()) {
             (Some([of_nodes, _]), Some(d)) => mean = three_of_eight(of_nodes, d),
@@ -39,7 +51,7 @@ impl Assembly {
     /// Size of the mean displacement of body `i`, m.
     pub fn shift(&self, i: usize, d: &[f64], loads: &[(&Loads, f64)]) -> f64 {
         // As long in every frame.
-        let [x, y, _] = self.mean_in_frame(i, d, loads);
+        let [x, y, _] = self.mean_in_frame(i, &d[self.nodes[i].clone()], loads);
         x.hypot(y)
     }
 

@@ -1,6 +1,5 @@
 //! Compatibility: the gradient of the complementary energy by redundants and splits.
 
-use super::friction::Split;
 use super::statics::{self, Statics};
 use super::{ForceMethod, Linear, Three, dot, is_smooth, plus};
 use crate::budget::{Budget, Stopped};
@@ -30,13 +29,13 @@ pub(super) struct Compatibility {
 
 /// The gradient of the complementary energy; symmetric, so that columns are rows.
 #[derive(Debug, Clone)]
-struct Gradient {
+pub(super) struct Gradient {
     /// By the redundants, per unit of each, m/N.
-    redundants: [Three; 3],
+    pub redundants: [Three; 3],
     /// By every split, per unit of itself, of the next one and of the redundants.
-    own: Vec<f64>,
-    next: Vec<f64>,
-    mixed: Vec<Three>,
+    pub own: Vec<f64>,
+    pub next: Vec<f64>,
+    pub mixed: Vec<Three>,
 }
 
 /// A chain with contacts, under loads that stay and loads that grow.
@@ -45,18 +44,11 @@ pub struct Loaded<'m> {
     pub(super) method: &'m ForceMethod<'m>,
     pub(super) contacts: &'m [Contact],
     pub(super) loads: [&'m [f64]; 2],
-    gradient: Gradient,
+    pub(super) gradient: Gradient,
     /// By the redundants and by every split, per unit of either loads.
-    of_loads: ([Three; 2], Vec<[f64; 2]>),
+    pub(super) of_loads: ([Three; 2], Vec<[f64; 2]>),
     /// What every interface carries more than the first, of either loads.
-    carried: Vec<[Three; 2]>,
-}
-
-/// Splits, and the gradient by the redundants, with some splits prescribed.
-#[derive(Debug, Clone)]
-pub(super) struct Reduced {
-    pub splits: Vec<Linear>,
-    pub gradient: [Linear; 3],
+    pub(super) carried: Vec<[Three; 2]>,
 }
 
 /// Forces of a split on the points of its interface, normal and tangential.
@@ -165,7 +157,7 @@ impl<'a> ForceMethod<'a> {
 }
 
 /// Forces on the nodes of a body under `loads` on them and what its two interfaces carry of all loads, N/m.
-fn under_loads(statics: &[Statics], carried: [&Three; 2], loads: &[f64]) -> SVector<f64, 8> {
+pub(super) fn under_loads(statics: &[Statics], carried: [&Three; 2], loads: &[f64]) -> SVector<f64, 8> {
     let mut forces = SVector::<f64, 8>::from_column_slice(loads);
     for (side, sign) in [(0, 1.0), (1, -1.0)] {
         let ([first, second], shear) = statics[side].at(carried[side]);
@@ -220,73 +212,5 @@ impl<'m> Loaded<'m> {
     pub(super) fn resultant(&self, k: usize, redundants: &Three, load_factor: f64) -> Three {
         let [fixed, scaled] = &self.carried[k];
         std::array::from_fn(|c| redundants[c] + fixed[c] + load_factor * scaled[c])
-    }
-
-    /// The gradient by split `k`, its own and its neighbours' parts left out.
-    fn right(&self, k: usize) -> Linear {
-        let ([a, b, c], [fixed, scaled]) = (self.gradient.mixed[k], self.of_loads.1[k]);
-        [a, b, c, fixed, scaled]
-    }
-
-    /// Splits by the redundants, these prescribed and all others compatible.
-    pub(super) fn reduced(&self, prescribed: &[Split]) -> Reduced {
-        let Gradient { own, next, .. } = &self.gradient;
-        let n = prescribed.len();
-        // Elimination from the first split on: each by the next one.
-        let (mut by_next, mut splits) = (vec![0.0; n], Vec::with_capacity(n));
-        let mut before = ([0.0; 5], 0.0, 0.0);
-        for k in 0..n {
-            let split = match self.prescribed(k, prescribed[k]) {
-                Some(row) => row,
-                None => {
-                    let (split_before, by_this, tie) = before;
-                    let pivot = 1.0 / (own[k] + tie * by_this);
-                    by_next[k] = -next[k] * pivot;
-                    let right = self.right(k);
-                    std::array::from_fn(|c| -(right[c] + tie * split_before[c]) * pivot)
-                }
-            };
-            before = (split, by_next[k], next[k]);
-            splits.push(split);
-        }
-        for k in (0..n - 1).rev() {
-            let after: Linear = splits[k + 1];
-            (0..5).for_each(|c| splits[k][c] += by_next[k] * after[c]);
-        }
-        Reduced { gradient: self.by_redundants(prescribed, &splits), splits }
-    }
-
-    /// The gradient by the redundants, points that do not stick left without virtual shear.
-    fn by_redundants(&self, prescribed: &[Split], splits: &[Linear]) -> [Linear; 3] {
-        let (redundants, [fixed, scaled]) = (&self.gradient.redundants, &self.of_loads.0);
-        let mut sum: [Linear; 3] =
-            std::array::from_fn(|a| [redundants[a][0], redundants[a][1], redundants[a][2], fixed[a], scaled[a]]);
-        let mut add = |by: &Three, of: &Linear| {
-            for (row, by) in sum.iter_mut().zip(by) {
-                (0..5).for_each(|c| row[c] += by * of[c]);
-            }
-        };
-        for (k, split) in prescribed.iter().enumerate() {
-            add(&self.gradient.mixed[k], &splits[k]);
-            if let Some(by) = self.virtual_split(k, *split) {
-                add(&by, &self.off(k, splits));
-            }
-        }
-        sum
-    }
-
-    /// The gradient by split `k`: what a point that does not stick has slipped by, m.
-    pub(super) fn off(&self, k: usize, splits: &[Linear]) -> Linear {
-        let Gradient { own, next, .. } = &self.gradient;
-        let mut sum = self.right(k);
-        let mut add = |by: f64, split: Option<&Linear>| {
-            split.into_iter().for_each(|split| (0..5).for_each(|c| sum[c] += by * split[c]));
-        };
-        add(own[k], splits.get(k));
-        add(next[k], splits.get(k + 1));
-        if k > 0 {
-            add(next[k - 1], splits.get(k - 1));
-        }
-        sum
     }
 }

@@ -152,7 +152,9 @@ impl Loaded<'_> {
     /// How much more shear either way every interface could bear, N/m, and the change of that with the load factor.
     fn reserves(&self, state: &ChainState) -> Vec<[f64; 2]> {
         let ChainState { load_factor, redundants, splits, open, reduced } = state;
-        let Some(rate) = self.rate(&reduced.gradient, open) else { return vec![[f64::NEG_INFINITY; 2]; splits.len()] };
+        let Some((rate, _)) = self.rates(&reduced.gradient, open) else {
+            return vec![[f64::NEG_INFINITY; 2]; splits.len()];
+        };
         let mut reserves = Vec::with_capacity(2 * splits.len());
         for k in (0..splits.len()).filter(|&k| splits[k] != Split::Smooth) {
             let bears = [0, 1].map(|p| friction(&self.contacts[2 * k + p]));

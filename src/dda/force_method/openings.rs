@@ -24,6 +24,8 @@ pub(super) struct Opening {
     pub gap: f64,
 }
 
+/// The gaps of points that are open, those first.
+pub(super) type Gaps = [f64; MOST];
 /// A small system, its right-hand side behind every row.
 type System = [[f64; MOST + 1]; MOST];
 
@@ -48,8 +50,7 @@ impl Loaded<'_> {
     /// The redundants with which points in `open` do not press; those that would overlap are let go.
     fn with_gaps(&self, gradient: &[Linear; 3], load_factor: f64, open: &mut Vec<Opening>) -> Option<Three> {
         loop {
-            let right = gradient.each_ref().map(|row| -row[3] - row[4] * load_factor);
-            let (redundants, gaps) = self.bordered(gradient, right, [1.0, load_factor], open)?;
+            let (redundants, gaps) = self.balanced(gradient, load_factor, open)?;
             open.iter_mut().zip(gaps).for_each(|(opening, gap)| opening.gap = gap);
             let worst = (0..open.len()).min_by(|&a, &b| open[a].gap.total_cmp(&open[b].gap));
             match worst.filter(|&worst| open[worst].gap < 0.0) {
@@ -93,10 +94,43 @@ impl Loaded<'_> {
         Some(())
     }
 
-    /// Change of the redundants with the load factor, all points staying as they are.
-    pub(super) fn rate(&self, gradient: &[Linear; 3], open: &[Opening]) -> Option<Three> {
+    /// The redundants with which points in `open` do not press, and the gaps of these.
+    pub(super) fn balanced(&self, gradient: &[Linear; 3], load_factor: f64, open: &[Opening]) -> Option<(Three, Gaps)> {
+        let right = gradient.each_ref().map(|row| -row[3] - row[4] * load_factor);
+        self.bordered(gradient, right, [1.0, load_factor], open)
+    }
+
+    /// Change of redundants and gaps with the load factor, all points staying as they are.
+    pub(super) fn rates(&self, gradient: &[Linear; 3], open: &[Opening]) -> Option<(Three, Gaps)> {
         let right = gradient.each_ref().map(|row| -row[4]);
-        self.bordered(gradient, right, [0.0, 1.0], open).map(|(rate, _)| rate)
+        self.bordered(gradient, right, [0.0, 1.0], open)
+    }
+
+    /// Whether the chain can take on load with these points open.
+    pub(super) fn holds(&self, open: &[Opening]) -> bool {
+        open.len() + usize::from(self.smooth().is_some()) <= 3
+    }
+
+    /// How gaps go on where one point more is open than the chain holds with, that of the last by 1; none where that is no motion of them all.
+    pub(super) fn mechanism(&self, open: &[Opening]) -> Option<Vec<f64>> {
+        let (last, others) = open.split_last()?;
+        let columns: Vec<Linear> = others.iter().map(|opening| self.normal(opening)).chain(self.smooth()).collect();
+        if columns.len() != 3 {
+            return None;
+        }
+        let (mut system, right): (System, _) = ([[0.0; MOST + 1]; MOST], self.normal(last));
+        for a in 0..3 {
+            columns.iter().enumerate().for_each(|(c, column)| system[a][c] = column[a]);
+            system[a][MOST] = -right[a];
+        }
+        let gaps = solve(&mut system, 3)?;
+        Some(gaps[..others.len()].iter().copied().chain([1.0]).collect())
+    }
+
+    /// The shear through the last interface, where it is smooth.
+    fn smooth(&self) -> Option<Linear> {
+        let last = self.method.statics.len() - 1;
+        is_smooth(&self.contacts[2 * last]).then(|| self.linear(last, &self.method.statics[last].shear))
     }
 
     /// Normal force of a point.
@@ -131,10 +165,8 @@ impl Loaded<'_> {
         right: Three,
         loads: [f64; 2],
         open: &[Opening],
-    ) -> Option<(Three, [f64; MOST])> {
-        let last = self.method.statics.len() - 1;
-        let smooth = is_smooth(&self.contacts[2 * last]).then(|| self.linear(last, &self.method.statics[last].shear));
-        let borders = open.iter().map(|opening| self.normal(opening)).chain(smooth);
+    ) -> Option<(Three, Gaps)> {
+        let borders = open.iter().map(|opening| self.normal(opening)).chain(self.smooth());
         let mut system: System = [[0.0; MOST + 1]; MOST];
         let mut n = 3;
         for border in borders {

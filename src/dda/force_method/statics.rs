@@ -74,13 +74,13 @@ pub(super) fn carried(assembly: &Assembly, loads: &[f64]) -> Vec<Three> {
 }
 
 /// Where moments are taken about, and what they are measured in.
-struct Frame {
-    middle: Vec2,
-    size: f64,
+pub(super) struct Frame {
+    pub middle: Vec2,
+    pub size: f64,
 }
 
 impl Frame {
-    fn new(assembly: &Assembly) -> Self {
+    pub(super) fn new(assembly: &Assembly) -> Self {
         let places = (0..assembly.contacts().len()).map(|p| assembly.place(p));
         let (low, high) = places
             .fold((Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY)), |(low, high), at| {

@@ -1,6 +1,6 @@
 use super::compatibility::on_nodes;
 use super::*;
-use crate::dda::{AssemblyBuilder, Block, Elasticity, Touch, out_of_balance};
+use crate::dda::{AssemblyBuilder, Block, Elasticity, Push, Touch, out_of_balance};
 use crate::geometry::{Region, Vec2, cross, perpendicular};
 use crate::largest::largest;
 use nalgebra::SVector;
@@ -9,7 +9,7 @@ const YOUNGS_MODULUS: f64 = 1e9;
 /// Of a contact and of the links on either side of it.
 const STIFFNESS: [f64; 2] = [4e9, 3e9];
 const LINK: [f64; 2] = [9e9, 8e9];
-const DRY: Law = Law::Coulomb { friction: 0.6, cohesion: 0.0, cap: f64::INFINITY };
+pub(super) const DRY: Law = Law::Coulomb { friction: 0.6, cohesion: 0.0, cap: f64::INFINITY };
 
 /// Blocks between neighbouring joints, given by their ends; the first and the last joint are on the ground.
 fn chain(joints: &[[Vec2; 2]], law: Law) -> Assembly {
@@ -38,7 +38,7 @@ fn chain(joints: &[[Vec2; 2]], law: Law) -> Assembly {
 }
 
 /// Half a ring from left to right.
-fn ring(stones: usize, law: Law) -> Assembly {
+pub(super) fn ring(stones: usize, law: Law) -> Assembly {
     let ray = |k: usize| {
         let (sin, cos) = (std::f64::consts::PI * (1.0 - k as f64 / stones as f64)).sin_cos();
         [9.25, 10.75].map(|r| Vec2::new(r * cos, r * sin))
@@ -47,7 +47,7 @@ fn ring(stones: usize, law: Law) -> Assembly {
 }
 
 /// Loads on the nodes: downwards on every body, and one more on body `pushed`.
-fn loads(assembly: &Assembly, pushed: usize) -> [Vec<f64>; 2] {
+pub(super) fn loads(assembly: &Assembly, pushed: usize) -> [Vec<f64>; 2] {
     let on = |body: usize, force: f64| {
         let mut loads = vec![0.0; assembly.node_unknowns()];
         let nodes = assembly.nodes_of(body);
@@ -63,7 +63,7 @@ fn loads(assembly: &Assembly, pushed: usize) -> [Vec<f64>; 2] {
     [all.reduce(sum).unwrap(), on(pushed, 1e3)]
 }
 
-fn method(assembly: &Assembly) -> ForceMethod<'_> {
+pub(super) fn method(assembly: &Assembly) -> ForceMethod<'_> {
     ForceMethod::new(assembly, &Budget::unlimited()).unwrap().unwrap()
 }
 
@@ -205,4 +205,35 @@ fn other_assemblies_are_no_chains() {
     let dry = |friction, cohesion, cap| Law::Coulomb { friction, cohesion, cap };
     assert!(of(DRY) && of(Law::Bonded));
     assert!(!of(dry(0.0, 0.0, f64::INFINITY)) && !of(dry(0.6, 1e3, f64::INFINITY)) && !of(dry(0.6, 0.0, 1e6)));
+}
+
+#[test]
+fn bodies_are_displaced_as_their_nodes_have_it() {
+    let (assembly, budget) = (ring(27, DRY), Budget::unlimited());
+    let pushes = |on: Vec<(usize, f64)>| {
+        let push = |(body, down): (usize, f64)| {
+            let points = assembly.at_interface(body).chain(assembly.at_interface(body + 1));
+            let at = points.map(|p| assembly.place(p)).sum::<Vec2>() / 4.0;
+            Push { body, subblock: None, at, force: Vec2::new(0.1 * down, -down) }
+        };
+        assembly.loads(on.into_iter().map(push).collect::<Vec<_>>(), &budget).unwrap()
+    };
+    let (fixed, scaled) = (pushes((0..27).map(|body| (body, 1e4)).collect()), pushes(vec![(6, 1e3)]));
+    let method = method(&assembly);
+    let chain = method.loaded(assembly.exact_contacts(), [&fixed.on_nodes, &scaled.on_nodes]);
+    let shifts = Shifts::new(&chain, [&fixed, &scaled]);
+    let (mut last, mut opened) = (None, 0);
+    for load_factor in [0.0, 1.0, 3.0, 4.5, 5.5] {
+        let state = chain.state(load_factor, last.as_ref(), &budget).unwrap().unwrap();
+        let displacements = chain.displacements(&state);
+        let farthest = largest(displacements.iter().copied());
+        for (i, found) in shifts.at(&state).into_iter().enumerate() {
+            let expected =
+                assembly.mean_motion(i, &displacements, &[(&fixed, 1.0), (&scaled, load_factor)]).displacement;
+            assert!((found - expected).norm() < 1e-10 * farthest, "{load_factor}, body {i}: {found} {expected}");
+        }
+        opened = opened.max(state.open.len());
+        last = Some(state);
+    }
+    assert_eq!(opened, 3);
 }

@@ -1,0 +1,296 @@
+//! The load path of a chain, from one change of state to the next.
+//!
+//! Between changes everything is linear in the load factor. A change at one interface touches the splits of those near it, as far as
+//! rounding lets them feel it, and the three redundants; what every other point has left before its own change follows from those. The
+//! path is followed while the load factor goes its way, to the mechanism in which four points open (three, before a smooth
+//! interface). Where it turns back, or a whole interface slides, it is not followed: that is left to the tracer.
+
+use super::friction::Split;
+use super::openings::Opening;
+use super::reduced::Elimination;
+use super::{ChainState, Linear, Loaded, Three, value};
+use crate::budget::{Budget, Stopped};
+use crate::dda::contact::{Law, State, Zone};
+
+/// Work of looking at an interface, and of renewing one, in multiplications.
+const LOOK: usize = 40;
+const RENEWED: usize = 100;
+/// Most changes of state for every point; real paths have about one.
+const MOST_EVENTS: usize = 20;
+/// Gaps of a mechanism that change by less than this share of the fastest do so by rounding.
+const STILL: f64 = 1e-9;
+
+/// Four functions of redundants and loads that are positive while an interface stays as it is; coefficient by coefficient.
+type Borders = [[f64; 4]; 5];
+
+/// A function that never changes sign.
+const NEVER: Linear = [0.0, 0.0, 0.0, 1.0, 0.0];
+
+/// Where a path is, and how it goes on.
+#[derive(Debug)]
+pub struct ChainPath<'l> {
+    chain: &'l Loaded<'l>,
+    state: ChainState,
+    elimination: Elimination,
+    borders: Vec<Borders>,
+    /// +1 where the load factor increases, -1 where it decreases.
+    sign: f64,
+    going: Going,
+    events: usize,
+}
+
+/// Change along the path: of redundants and load factor, and of the gaps of open points.
+#[derive(Debug, Clone, PartialEq)]
+struct Going {
+    redundants: Three,
+    load_factor: f64,
+    gaps: Vec<f64>,
+}
+
+/// What changes next.
+#[derive(Debug, Clone, Copy)]
+enum Change {
+    /// A function of an interface comes to nought.
+    Border { interface: usize, which: usize },
+    /// An open point closes: its place among those that are open.
+    Closes(usize),
+}
+
+/// How a step along the path ended.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ChainStep {
+    /// A point has changed its state.
+    Event,
+    /// Nothing changes any more: it moves on as a mechanism.
+    Mechanism,
+    /// The load factor came to where it was to go.
+    Reached,
+    /// The path turns back, or a whole interface slides.
+    Untold,
+}
+
+impl<'l> ChainPath<'l> {
+    /// The path from a state on, the way of `sign`; none where it does not go that way.
+    pub fn new(chain: &'l Loaded, state: &ChainState, sign: f64) -> Option<Self> {
+        let elimination = Elimination::new(chain, &state.splits, &state.reduced);
+        let interfaces = state.splits.len();
+        let going = Going { redundants: [0.0; 3], load_factor: 0.0, gaps: Vec::new() };
+        let (state, borders) = (state.clone(), Vec::new());
+        let mut path = ChainPath { chain, state, elimination, borders, sign, going, events: 0 };
+        path.borders = (0..interfaces).map(|k| path.border(k)).collect();
+        path.going = path.goes_on()?;
+        Some(path)
+    }
+
+    /// Changes of state so far.
+    pub fn events(&self) -> usize {
+        self.events
+    }
+
+    /// The state reached.
+    pub fn state(&self) -> &ChainState {
+        &self.state
+    }
+
+    /// Goes to the next change of state, or to a load factor.
+    ///
+    /// # Errors
+    /// When stopped.
+    pub fn step(&mut self, target: f64, budget: &Budget) -> Result<ChainStep, Stopped> {
+        budget.work(LOOK * self.borders.len())?;
+        let loads = self.going.load_factor != 0.0;
+        let to_target = if loads { self.sign * (target - self.state.load_factor) } else { f64::INFINITY };
+        let Some((step, change)) = self.next_change().filter(|(step, _)| *step < to_target) else {
+            if !loads {
+                return Ok(ChainStep::Mechanism);
+            }
+            self.advance(to_target);
+            self.state.load_factor = target;
+            return Ok(ChainStep::Reached);
+        };
+        self.advance(step);
+        self.events += 1;
+        let crosses = self.events <= MOST_EVENTS * 2 * self.borders.len() && self.cross(change, budget)?;
+        Ok(if crosses { ChainStep::Event } else { ChainStep::Untold })
+    }
+
+    /// The nearest change on the way, and how far it is.
+    fn next_change(&self) -> Option<(f64, Change)> {
+        let Going { redundants: [dx, dy, dz], load_factor: dl, ref gaps } = self.going;
+        let ([x, y, z], l) = (self.state.redundants, self.state.load_factor);
+        let (mut nearest, mut step) = (None, f64::INFINITY);
+        for (interface, [a, b, c, d, e]) in self.borders.iter().enumerate() {
+            for which in 0..4 {
+                let rate = a[which] * dx + b[which] * dy + c[which] * dz + e[which] * dl;
+                let here = a[which] * x + b[which] * y + c[which] * z + d[which] + e[which] * l;
+                // Without dividing: most are far from their borders.
+                if rate < 0.0 && here < -rate * step {
+                    (step, nearest) = ((here / -rate).max(0.0), Some(Change::Border { interface, which }));
+                }
+            }
+        }
+        for (j, (opening, rate)) in self.state.open.iter().zip(gaps).enumerate() {
+            if *rate < 0.0 && opening.gap < -rate * step {
+                (step, nearest) = ((opening.gap / -rate).max(0.0), Some(Change::Closes(j)));
+            }
+        }
+        nearest.map(|change| (step, change))
+    }
+
+    fn advance(&mut self, step: f64) {
+        let Going { redundants, load_factor, gaps } = &self.going;
+        (0..3).for_each(|a| self.state.redundants[a] += step * redundants[a]);
+        self.state.load_factor += step * load_factor;
+        self.state.open.iter_mut().zip(gaps).for_each(|(opening, rate)| opening.gap += step * rate);
+    }
+
+    /// Changes the state of a point and turns into the new one; false where that is not told.
+    fn cross(&mut self, change: Change, budget: &Budget) -> Result<bool, Stopped> {
+        let Some((interface, split, back)) = self.after(change) else { return Ok(false) };
+        let before = std::mem::replace(&mut self.state.splits[interface], split);
+        if before != split {
+            let ChainState { splits, reduced, .. } = &mut self.state;
+            let changed = self.elimination.renew(self.chain, splits, interface, reduced);
+            budget.work(RENEWED * changed.len())?;
+            changed.for_each(|k| self.borders[k] = self.border(k));
+        }
+        self.settle();
+        let Some(going) = self.goes_on() else { return Ok(false) };
+        self.going = going;
+        // It goes on away from the border it has crossed.
+        Ok(match back {
+            Some(which) => self.rate(interface, which) > 0.0,
+            None => self.going.gaps.last().is_some_and(|rate| *rate > 0.0),
+        })
+    }
+
+    /// The interface that a change is at, how its shear is split after that, and which of its functions then rises from nought; none
+    /// where it is the gap of the point that has opened last. Nothing where a whole interface slides.
+    fn after(&mut self, change: Change) -> Option<(usize, Split, Option<usize>)> {
+        match change {
+            Change::Closes(j) => {
+                let Opening { interface, point, .. } = self.state.open.remove(j);
+                let split = match self.state.splits[interface] {
+                    Split::Open(_) => Split::Slides(point, self.way_of_slip(interface, point)),
+                    split => split,
+                };
+                Some((interface, split, Some(if split == Split::Smooth { point } else { 0 })))
+            }
+            Change::Border { interface, which } => {
+                let (split, back) = match (self.state.splits[interface], which) {
+                    (Split::Held, _) => (Split::Slides(which / 2, [1.0, -1.0][which % 2]), Some(1)),
+                    (Split::Slides(point, _), 0) => (Split::Open(point), None),
+                    (Split::Slides(point, sign), 1) => (Split::Held, Some(2 * point + usize::from(sign < 0.0))),
+                    (Split::Smooth, _) => (Split::Smooth, None),
+                    _ => return None,
+                };
+                if back.is_none() {
+                    let point = if let Split::Open(point) = split { point } else { which };
+                    self.state.open.push(Opening { interface, point, gap: 0.0 });
+                }
+                Some((interface, split, back))
+            }
+        }
+    }
+
+    /// The sign of the shear with which a point closes, by how far it has slipped from where it would stick.
+    fn way_of_slip(&self, interface: usize, point: usize) -> f64 {
+        let off = self.chain.off(interface, &self.state.reduced.splits);
+        let off = value(&off, &self.state.redundants, self.state.load_factor);
+        // The shear of the second point is the less the more the split is.
+        if (off < 0.0) == (point == 0) { 1.0 } else { -1.0 }
+    }
+
+    /// Takes what rounding has left out of redundants and gaps.
+    fn settle(&mut self) {
+        let ChainState { load_factor, redundants, open, reduced, .. } = &mut self.state;
+        if self.chain.holds(open)
+            && let Some((settled, gaps)) = self.chain.balanced(&reduced.gradient, *load_factor, open)
+        {
+            *redundants = settled;
+            open.iter_mut().zip(gaps).for_each(|(opening, gap)| opening.gap = gap);
+        }
+    }
+
+    /// How the path goes on in the present state; none where that is not told.
+    fn goes_on(&self) -> Option<Going> {
+        let open = &self.state.open;
+        if self.chain.holds(open) {
+            let (rate, gaps) = self.chain.rates(&self.state.reduced.gradient, open)?;
+            let (redundants, gaps) =
+                (rate.map(|x| self.sign * x), gaps[..open.len()].iter().map(|gap| self.sign * gap));
+            return Some(Going { redundants, load_factor: self.sign, gaps: gaps.collect() });
+        }
+        // Nothing resists: forces stay, until a gap closes.
+        let mut gaps = self.chain.mechanism(open)?;
+        let fastest = gaps.iter().fold(0.0f64, |most, gap| most.max(gap.abs()));
+        gaps.iter_mut().filter(|gap| gap.abs() < STILL * fastest).for_each(|gap| *gap = 0.0);
+        Some(Going { redundants: [0.0; 3], load_factor: 0.0, gaps })
+    }
+
+    /// Change of a function of an interface along the path.
+    fn rate(&self, interface: usize, which: usize) -> f64 {
+        let ([a, b, c, _, e], Going { redundants: [dx, dy, dz], load_factor, .. }) =
+            (&self.borders[interface], &self.going);
+        a[which] * dx + b[which] * dy + c[which] * dz + e[which] * load_factor
+    }
+
+    /// The functions of an interface in its present state. Of one that sticks: how much more shear either way its points bear, first point
+    /// first. Of one with a point that slides: that point's normal force, how far it has slipped, and what the other point bears, or nothing
+    /// but that where the one is open.
+    fn border(&self, k: usize) -> Borders {
+        let (chain, splits) = (self.chain, &self.state.reduced.splits);
+        let statics = &chain.method.statics[k];
+        let normals = statics.normals.each_ref().map(|normal| chain.linear(k, normal));
+        let shear = chain.linear(k, &statics.shear);
+        let bears = |point: usize| -> [Linear; 2] {
+            let Law::Coulomb { friction, .. } = chain.contacts[2 * k + point].law else { return [NEVER; 2] };
+            let side = if point == 0 { 1.0 } else { -1.0 };
+            let sheared: Linear = std::array::from_fn(|c| 0.5 * shear[c] + side * splits[k][c]);
+            [1.0, -1.0].map(|sign| std::array::from_fn(|c| friction * normals[point][c] - sign * sheared[c]))
+        };
+        let functions: [Linear; 4] = match self.state.splits[k] {
+            Split::Held => {
+                let ([a, b], [c, d]) = (bears(0), bears(1));
+                [a, b, c, d]
+            }
+            Split::Slides(point, sign) => {
+                let way = if point == 0 { -sign } else { sign };
+                let slip = chain.off(k, splits).map(|off| way * off);
+                let [a, b] = bears(1 - point);
+                [normals[point], slip, a, b]
+            }
+            Split::Open(point) => {
+                let [a, b] = bears(1 - point);
+                [NEVER, NEVER, a, b]
+            }
+            Split::Smooth => [normals[0], normals[1], NEVER, NEVER],
+        };
+        std::array::from_fn(|c| functions.each_ref().map(|function| function[c]))
+    }
+
+    /// State of every contact.
+    pub fn states(&self) -> Vec<State> {
+        let mut states: Vec<State> = self.chain.contacts.iter().map(|contact| contact.pressed_state()).collect();
+        for (k, split) in self.state.splits.iter().enumerate() {
+            if let Split::Slides(point, sign) = *split {
+                states[2 * k + point] = State::Slip { sign, zone: Zone::Pressed };
+            }
+        }
+        self.state.open.iter().for_each(|opening| states[2 * opening.interface + opening.point] = State::Open);
+        states
+    }
+
+    /// Displacements of the nodes in which a mechanism moves, the largest 1 m.
+    pub fn motion(&self) -> Vec<f64> {
+        let gaps: Vec<Opening> =
+            self.state.open.iter().zip(&self.going.gaps).map(|(opening, &gap)| Opening { gap, ..*opening }).collect();
+        let mut motion = self.chain.moved_by(&gaps);
+        let largest = motion.iter().fold(f64::MIN_POSITIVE, |most, d| most.max(d.abs()));
+        motion.iter_mut().for_each(|d| *d /= largest);
+        motion
+    }
+}
+
+#[cfg(test)]
+mod tests;
