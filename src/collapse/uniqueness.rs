@@ -4,8 +4,9 @@ use crate::dda::{Assembly, Contact, ContactForce, Law};
 
 /// A shear that is within this share of its bound has slid.
 const AT_BOUND: f64 = 1e-9;
-/// A gap that is less than this share of the largest is about to close.
-const ABOUT_TO_CLOSE: f64 = 1e-9;
+/// A gap that is less than the first of these shares of the largest closure, and the second of the largest gap, which is what rounding
+/// leaves of it, is about to close.
+const ABOUT_TO_CLOSE: [f64; 2] = [1e-9, 1e-13];
 
 /// Whether a state of these forces at the exact contacts may be one of several.
 pub(super) fn may_be_another(assembly: &Assembly, forces: &[ContactForce]) -> bool {
@@ -31,6 +32,7 @@ fn slides(contacts: &[Contact], forces: &[ContactForce]) -> bool {
 /// Whether some contact is about to close or to open. Such a state may be the end of a motion that changes no force, as of a stone that
 /// is free to turn between its neighbours by a little: any other state of that motion would do as well.
 fn is_about_to_close(forces: &[ContactForce]) -> bool {
-    let widest = forces.iter().map(|force| force.gap).fold(0.0, f64::max);
-    forces.iter().any(|force| force.gap.abs() < ABOUT_TO_CLOSE * widest)
+    let [deepest, widest] = [-1.0, 1.0].map(|sign| forces.iter().map(|force| sign * force.gap).fold(0.0, f64::max));
+    let least = ABOUT_TO_CLOSE[0] * deepest + ABOUT_TO_CLOSE[1] * widest;
+    forces.iter().any(|force| force.gap.abs() < least)
 }
