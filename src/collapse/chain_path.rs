@@ -1,30 +1,31 @@
-//! The last of the way to collapse, followed by the force method.
+//! The load path of a chain, or the last of it, followed to collapse by the force method.
 
 use super::discretise::Model;
-use super::path::{Fall, Leg, at};
+use super::path::{Fall, Leg, at, largest};
 use super::record::Recorder;
 use super::{AnalysisError, Cost};
 use crate::dda::{ChainPath, ChainState, ChainStep, Loaded, Peak, Shifts, missing};
 
-/// A path whose end is out of balance by more than this share of the loads is left to the tracer, which corrects its states.
+/// A path whose end is out of balance by more than this share of its loads is left to the tracer, which corrects its states.
 const BALANCED: f64 = 1e-10;
 
 /// How a path was followed to its end.
 pub(super) struct Followed {
     /// How it ended.
     pub leg: Leg,
-    /// Largest residual, as a share of the loads.
+    /// Largest residual, as [`Tracer::worst_residual`](crate::dda::Tracer::worst_residual) has it.
     pub residual: f64,
     /// What it took.
     pub cost: Cost,
 }
 
 /// Follows the path of a chain from a state on to collapse, the way the recorder looks; none where the force method does not tell it.
+/// `load_scale` as for [`Tracer::new`](crate::dda::Tracer::new).
 pub(super) fn follow_chain(
     model: &Model,
     chain: &Loaded,
     from: &ChainState,
-    cap: f64,
+    [cap, load_scale]: [f64; 2],
     recorder: &mut Recorder,
 ) -> Result<Option<Followed>, AnalysisError> {
     let end = recorder.sign * cap;
@@ -48,10 +49,11 @@ pub(super) fn follow_chain(
     let (state, direction, states) = (path.state(), path.motion(), path.states());
     let (displacements, forces) = (chain.displacements(state), chain.forces(state));
     let loads = at(model, chain.loads()[0], state.load_factor);
-    let (residual, _) = missing(&model.assembly, &loads, &displacements, model.budget)?;
-    if residual > BALANCED {
+    let (share, _) = missing(&model.assembly, &loads, &displacements, model.budget)?;
+    if share > BALANCED {
         return Ok(None);
     }
+    let residual = share * loads.iter().map(|load| load.abs()).sum::<f64>() / load_scale.max(largest(&loads));
     let peak = Peak {
         parameter: state.load_factor,
         rests: vec![0.0; displacements.len()],

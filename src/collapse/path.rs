@@ -79,7 +79,7 @@ pub(super) fn total(loads: &[PointForce]) -> f64 {
 }
 
 /// Largest load on any node, N/m.
-fn largest(loads: &[f64]) -> f64 {
+pub(super) fn largest(loads: &[f64]) -> f64 {
     loads.iter().map(|l| l.abs()).fold(0.0, f64::max)
 }
 

@@ -162,8 +162,9 @@ pub struct PathEnd {
     pub load_factor: f64,
     /// Where joints slide: between what the load lies.
     pub range: Option<LoadRange>,
-    /// Largest equilibrium residual of any block at any event, with forces by the contact law alone, as a share of the arch's
-    /// weight, or of the largest load at a point where that is more.
+    /// Largest equilibrium residual of any block at any event of a path that was traced, or at the end of one that the force method has
+    /// followed, with forces by the contact law alone, as a share of the arch's weight, or of the largest load at a point where that is
+    /// more.
     pub residual: f64,
     /// The mechanism.
     pub mechanism: Mechanism,

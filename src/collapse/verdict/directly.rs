@@ -89,7 +89,7 @@ impl Setup<'_> {
         let (from, state) = if history { (self.start, None) } else { (near, Some(state)) };
         let Some(state) = on_path.state(from, state, self.budget)? else { return Ok(false) };
         let mut seen = recorder();
-        let doubt = match follow_chain(model, on_path, &state, self.cap, &mut seen)? {
+        let doubt = match follow_chain(model, on_path, &state, [self.cap, self.weight], &mut seen)? {
             Some(followed) => self.end_of_leg(followed, seen, report, states)?,
             None if history => return Ok(false),
             None => {
