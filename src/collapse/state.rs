@@ -79,8 +79,12 @@ impl<'m> States<'m> {
         States { chain: Some(chain), ..States::new(model) }
     }
 
-    /// The state of the chain at a load factor, where it finds states without a path and no joint slides on the way from `start` to there.
-    pub(super) fn on_the_way(&mut self, start: f64, load_factor: f64) -> Result<Option<&ChainState>, AnalysisError> {
+    /// The states of the chain at `start` and at a load factor, where it finds states without a path and no joint slides on the way.
+    pub(super) fn on_the_way(
+        &mut self,
+        start: f64,
+        load_factor: f64,
+    ) -> Result<Option<[ChainState; 2]>, AnalysisError> {
         let (Some(chain), budget) = (&self.chain, self.model.budget) else { return Ok(None) };
         let from = match self.last.take() {
             Some(last) if last.load_factor == start => Some(last),
@@ -89,8 +93,8 @@ impl<'m> States<'m> {
         let Some(from) = from else { return Ok(None) };
         let Some(to) = chain.state(load_factor, Some(&from), budget)? else { return Ok(None) };
         let sticks = chain.sticks_between(&from, &to, budget)?;
-        self.last = Some(to);
-        Ok(self.last.as_ref().filter(|_| sticks))
+        self.last = Some(to.clone());
+        Ok(sticks.then_some([from, to]))
     }
 
     /// Whether some state was not found without the path, or may be another than the path's.

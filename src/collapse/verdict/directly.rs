@@ -85,9 +85,10 @@ impl Setup<'_> {
             recorder.asked_before(near).into_iter().for_each(|at| recorder.know(at, &[]));
             recorder
         };
-        let Some(state) = states.on_the_way(self.start, near)? else { return Ok(false) };
-        let (from, state) = if history { (self.start, None) } else { (near, Some(state)) };
-        let Some(state) = on_path.state(from, state, self.budget)? else { return Ok(false) };
+        let Some([at_start, close]) = states.on_the_way(self.start, near)? else { return Ok(false) };
+        let exact = if history { at_start } else { close };
+        let from = exact.load_factor;
+        let Some(state) = on_path.state(from, Some(&exact), self.budget)? else { return Ok(false) };
         let mut seen = recorder();
         let doubt = match follow_chain(model, on_path, &state, [self.cap, self.weight], &mut seen)? {
             Some(followed) => self.end_of_leg(followed, seen, report, states)?,

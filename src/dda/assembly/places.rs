@@ -46,12 +46,12 @@ impl Assembly {
     /// Displacements of the nodes where every body moves as a rigid one does, by these mean motions.
     pub fn carried_by(&self, motions: &[MeanMotion]) -> Vec<f64> {
         let mut displacements = vec![0.0; self.unknowns];
+        let middles: Vec<Vec2> = self.kinds.iter().map(|kind| kind.inside.centroid()).collect();
         for (p, site) in self.sites.iter().enumerate() {
             for (beside, place) in self.beside[self.interface[p]].iter().zip(self.places[p]) {
                 let (Beside::Body(body), Some(i)) = (beside, place) else { continue };
                 let (instance, motion) = (&self.bodies[*body], &motions[*body]);
-                let middle = self.kinds[instance.kind].inside.centroid();
-                let arm = site.at - instance.origin - instance.turned_back(middle);
+                let arm = site.at - instance.origin - instance.turned_back(middles[instance.kind]);
                 let moved = motion.displacement + perpendicular(arm) * motion.rotation;
                 displacements[i..i + 2].copy_from_slice(&along(site.normal, moved));
             }
