@@ -31,6 +31,7 @@ mod scatter;
 mod settlement;
 mod sliding;
 mod smallest_motion;
+mod snapshot;
 mod state;
 mod strips;
 mod survey;

@@ -1,7 +1,8 @@
 //! Filling in a report: work done, stress fields, the other end.
 
 use super::discretise::Model;
-use super::record::{PathPoint, Recorder, stress_field};
+use super::record::{PathPoint, Recorder};
+use super::snapshot::stress_field;
 use super::state::{Standing, States};
 use super::{Analysis, AnalysisError, CollapseReport, Cost, FieldAt, Note, StressField};
 use crate::dda::Tracer;

@@ -12,7 +12,7 @@ pub(super) use mesh::{is_cohesive, notes_on_mesh};
 use super::certificate::{Certificate, ThrustLines, loaded};
 use super::discretise::{Discretisation, Model};
 use super::path::{ATTEMPTS, Attempt, disturbed, nothing_grows, stand, total};
-use super::record::snapshot;
+use super::snapshot::snapshot;
 use super::state::{Standing, States};
 use super::strips::Strips;
 use super::updated::{self, Course};

@@ -138,21 +138,18 @@ impl Assembly {
 
     /// In which order unknowns are eliminated.
     pub(super) fn tree(&self) -> &Tree {
-        // Nobody who waits for a small one could be told to stop meanwhile.
-        let made = || Tree::new(&self.pattern, |element| self.is_eliminated(element), &Budget::unlimited());
-        self.tree.get_or_init(|| made().unwrap_or_default())
+        // It is a small one: nobody who waits could be told to stop meanwhile.
+        self.tree.get_or_init(|| self.new_tree(&Budget::unlimited()).unwrap_or_default())
     }
 
-    /// Whether an element is part of the tree: not a body that has a core.
-    fn is_eliminated(&self, element: usize) -> bool {
-        self.cored.binary_search(&element).is_err()
+    fn new_tree(&self, budget: &Budget) -> Result<Tree, Stopped> {
+        Tree::new(&self.pattern, |element| self.cored.binary_search(&element).is_err(), budget)
     }
 
     /// Makes the tree at once where that takes long.
-    fn prepare(&self, budget: &Budget) -> Result<(), Stopped> {
+    fn prepare(&mut self, budget: &Budget) -> Result<(), Stopped> {
         if self.faces.len() > SOON {
-            let tree = Tree::new(&self.pattern, |element| self.is_eliminated(element), budget)?;
-            self.tree.get_or_init(|| tree);
+            self.tree = self.new_tree(budget)?.into();
         }
         Ok(())
     }

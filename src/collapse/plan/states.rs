@@ -8,7 +8,7 @@
 
 use crate::budget::Budget;
 use crate::collapse::discretise::{Model, discretise};
-use crate::collapse::record::{snapshot, stress_field};
+use crate::collapse::snapshot::{snapshot, stress_field};
 use crate::collapse::state::Standing;
 use crate::collapse::strips::Strips;
 use crate::collapse::uniqueness::may_be_another;

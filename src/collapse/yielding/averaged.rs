@@ -2,7 +2,8 @@
 
 use crate::collapse::discretise::Model;
 use crate::collapse::grid::{Grid, Windows, wanted};
-use crate::collapse::record::{PathPoint, stress_field};
+use crate::collapse::record::PathPoint;
+use crate::collapse::snapshot::stress_field;
 use crate::collapse::state::Standing;
 use crate::collapse::{Analysis, AnalysisError, Crushing, MeanStress, Note, Order, report::tresca};
 

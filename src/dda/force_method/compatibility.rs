@@ -20,7 +20,7 @@ type Five = SMatrix<f64, 8, 5>;
 #[derive(Debug)]
 pub(super) struct Compatibility {
     /// Of every body, displacements of its nodes, but for a rigid motion.
-    given: Vec<Five>,
+    pub given: Vec<Five>,
     /// Flexibility of every kind of body.
     flexibilities: Vec<Option<Eight>>,
     /// Of bodies alone.

@@ -4,7 +4,7 @@
 //! resultant works on it: force by displacement, moment by turn. A body moves rigidly by the sum so far, and by the mean of what it
 //! gives. Both are linear in redundants, splits and loads, but for what opens and slides.
 
-use super::compatibility::{on_nodes, under_loads};
+use super::compatibility::under_loads;
 use super::displacements::Rigid;
 use super::friction::Split;
 use super::statics::Frame;
@@ -106,17 +106,15 @@ impl<'l> Shifts<'l> {
 impl Loaded<'_> {
     /// What body `i` gives, but for a rigid motion.
     fn given(&self, i: usize) -> Given {
-        let (assembly, statics) = (self.method.assembly, &self.method.statics[i..i + 2]);
-        let forces = on_nodes(&statics[0], &statics[1]);
-        let nodes = assembly.nodes_of(i);
-        let loads = [0, 1].map(|which| {
-            let carried = [i, i + 1].map(|k| &self.carried[k][which]);
-            under_loads(statics, carried, &self.loads[which][nodes.clone()])
+        let Loaded { method, carried, loads, .. } = self;
+        let by_loads = [0, 1].map(|which| {
+            let carried = [i, i + 1].map(|k| &carried[k][which]);
+            let nodes = method.assembly.nodes_of(i);
+            let forces = under_loads(&method.statics[i..i + 2], carried, &loads[which][nodes]);
+            SVector::from(method.compatibility.gives(method.assembly, i, forces.into()))
         });
-        let columns = (0..5).map(|c| forces.column(c).into_owned()).chain(loads);
-        let gives = |forces: SVector<f64, 8>| self.method.compatibility.gives(assembly, i, forces.into());
-        let columns: Vec<SVector<f64, 8>> = columns.map(|forces| gives(forces).into()).collect();
-        Given::from_columns(&columns)
+        let by_splits = method.compatibility.given[i].column_iter().map(|column| column.into_owned());
+        Given::from_columns(&by_splits.chain(by_loads).collect::<Vec<_>>())
     }
 
     /// The rigid motion that interface `k` adds: by redundants, the splits before it, of it and after it, and either loads.
