@@ -78,7 +78,7 @@ pub(super) fn on_given_mesh(analysis: &Analysis, budget: &Budget) -> Result<Opti
     if whole.end.is_some() && half_of(analysis, &whole).is_some() {
         return Ok(None);
     }
-    let Some(mut states) = States::solve(analysis, &whole, budget)? else { return Ok(None) };
+    let Some(mut states) = States::solve(analysis, &whole, None, budget)? else { return Ok(None) };
     let mut report = states.report(analysis, &whole)?;
     report.cost.join(whole.cost);
     Ok(states.complete(&mut report, &whole)?.then_some(report))

@@ -68,14 +68,14 @@ pub(super) fn solve(
         return Ok(Err(PlanReason::CoarsestTooLarge { subblocks: fewest, allowed: most }));
     }
     let on_path = |subblocks: &[[usize; 2]]| verdict::solve(&with_mesh(analysis, subblocks.to_vec()), budget);
-    let solve = |subblocks: &[[usize; 2]]| {
+    let solve = |subblocks: &[[usize; 2]], coarser: Option<&States>| {
         let analysis = with_mesh(analysis, subblocks.to_vec());
-        match States::solve(&analysis, whole, budget)? {
+        match States::solve(&analysis, whole, coarser, budget)? {
             Some(mut states) => states.report(&analysis, whole).map(|report| (report, Some(states))),
             None => on_path(subblocks).map(|report| (report, None)),
         }
     };
-    let (report, mut states) = solve(&coarsest)?;
+    let (report, mut states) = solve(&coarsest, None)?;
     if report.outcome == Outcome::CannotTell || report.stress_fields.is_empty() {
         return Ok(Err(PlanReason::CoarsestLost));
     }
@@ -94,7 +94,7 @@ pub(super) fn solve(
         if let Some(why) = mesh.last_before(&levels, most) {
             break why;
         }
-        let (report, found) = solve(&mesh.subblocks(&levels))?;
+        let (report, found) = solve(&mesh.subblocks(&levels), states.as_ref())?;
         if report.outcome == Outcome::CannotTell || report.stress_fields.len() != mesh.errors.len() {
             break PlanReason::NextLost;
         }

@@ -33,8 +33,8 @@ struct Way {
 pub(super) struct States<'p> {
     model: Model<'p>,
     way: Way,
-    /// Those of whole stones, as displacements of the nodes: load factors with what is near the states on the mesh there.
-    whole: Vec<(f64, Vec<f64>)>,
+    /// Load factors, with displacements of the nodes that are near those of the states there.
+    near: Vec<(f64, Vec<f64>)>,
     /// Those found so far.
     found: Vec<Standing>,
     cost: Cost,
@@ -55,14 +55,15 @@ impl<'p> States<'p> {
         exact && !analysis.task.history() && analysis.task.first_yield_length().is_none() && !is_cohesive(analysis)
     }
 
-    /// Solves for the state at the start and for those of the stress fields of `whole`, the answer of whole stones. None where the path
-    /// has to be followed on the mesh.
+    /// Solves for the state at the start and for those of the stress fields of `whole`, the answer of whole stones, from those on a
+    /// `coarser` mesh where there are any. None where the path has to be followed on the mesh.
     ///
     /// # Errors
     /// When a stone is loose, or when stopped.
     pub(super) fn solve(
         analysis: &Analysis,
         whole: &CollapseReport,
+        coarser: Option<&States<'_>>,
         budget: &'p Budget<'p>,
     ) -> Result<Option<Self>, AnalysisError> {
         if !Self::may_solve(analysis) || analysis.task.yields(&whole.crushing) || !will_do(whole) {
@@ -71,9 +72,9 @@ impl<'p> States<'p> {
         let model = discretise(analysis, &Strips::default(), budget)?;
         let way = Way { start: whole.start, end: whole.end.as_ref().map(PathEnd::on_path) };
         let told = [&whole.at_start, &whole.at_unit_load, &whole.near_collapse].into_iter().flatten();
-        let near = told.filter(|told| told.blocks.len() == model.assembly.bodies());
-        let near = near.map(|told| (told.load_factor, on_nodes(&model, told))).collect();
-        let mut states = States { model, way, whole: near, found: Vec::new(), cost: Cost::default() };
+        let told = told.filter(|told| told.blocks.len() == model.assembly.bodies());
+        let near = told.map(|told| (told.load_factor, on_nodes(&model, told, coarser))).collect();
+        let mut states = States { model, way, near, found: Vec::new(), cost: Cost::default() };
         let fields = whole.stress_fields.iter().map(|field| field.load_factor);
         let found = states.reach_all(whole.at_start.iter().map(|told| told.load_factor).chain(fields).collect())?;
         Ok(found.then_some(states))
@@ -127,7 +128,7 @@ impl<'p> States<'p> {
         wanted.sort_by(|&a, &b| self.way.to(a).total_cmp(&self.way.to(b)));
         for load_factor in wanted {
             if self.at(load_factor).is_none() {
-                self.find_beside_whole(load_factor)?;
+                self.find_near(load_factor)?;
             }
             while self.at(load_factor).is_none() {
                 let next = self.next(load_factor);
@@ -166,10 +167,10 @@ impl<'p> States<'p> {
         if (load_factor - last.load_factor).abs() > (far - last.load_factor).abs() { far } else { load_factor }
     }
 
-    /// Solves for the state at a load factor from that of whole stones, where that is known and leads there.
-    fn find_beside_whole(&mut self, load_factor: f64) -> Result<(), AnalysisError> {
+    /// Solves for the state at a load factor from what is near it, where that is known and leads there.
+    fn find_near(&mut self, load_factor: f64) -> Result<(), AnalysisError> {
         let Model { assembly, budget, size, .. } = &self.model;
-        let Some((_, near)) = self.whole.iter().find(|(at, _)| *at == load_factor) else { return Ok(()) };
+        let Some((_, near)) = self.near.iter().find(|(at, _)| *at == load_factor) else { return Ok(()) };
         let loads = self.model.loads_on_nodes(load_factor);
         let found = direct(assembly, *size, &loads, Some(near), self.model.is_symmetric_under(&loads), budget)?;
         self.take(load_factor, found).map(|_| ())
@@ -209,10 +210,18 @@ impl<'p> States<'p> {
     }
 }
 
-/// A state of whole stones as displacements of the nodes of a mesh.
-fn on_nodes(model: &Model, whole: &Snapshot) -> Vec<f64> {
-    let motion = |block: &BlockState| MeanMotion { displacement: block.displacement, rotation: block.rotation };
-    model.assembly.carried_by(&whole.blocks.iter().map(motion).collect::<Vec<_>>())
+/// A state of whole stones as displacements of the nodes of a mesh; better that on a coarser mesh, where it is known.
+fn on_nodes(model: &Model, whole: &Snapshot, coarser: Option<&States>) -> Vec<f64> {
+    let on_coarser = coarser.and_then(|coarser| Some((&coarser.model.assembly, coarser.at(whole.load_factor)?)));
+    match on_coarser {
+        Some((mesh, state)) if mesh.interfaces() == model.assembly.interfaces() => {
+            model.assembly.interpolated(mesh, &state.displacements)
+        }
+        _ => {
+            let motion = |block: &BlockState| MeanMotion { displacement: block.displacement, rotation: block.rotation };
+            model.assembly.carried_by(&whole.blocks.iter().map(motion).collect::<Vec<_>>())
+        }
+    }
 }
 
 impl Way {

@@ -1,6 +1,6 @@
 //! Where bodies and contact points of an assembly are.
 
-use super::{Assembly, Beside, MeanMotion, Node};
+use super::{Assembly, Beside, MeanMotion, Node, Site};
 use crate::dda::moving::{Turn, Twofold, twofold_dot};
 use crate::dda::panels::add_applied_columns;
 use crate::geometry::{Vec2, perpendicular};
@@ -57,6 +57,27 @@ impl Assembly {
             }
         }
         displacements
+    }
+
+    /// Displacements of the nodes that follow those of the same bodies and interfaces on another mesh: along every face linearly from
+    /// node to node.
+    pub fn interpolated(&self, other: &Assembly, displacements: &[f64]) -> Vec<f64> {
+        let mut here = vec![0.0; self.unknowns];
+        for k in 0..self.interfaces() {
+            let there = other.at_interface(k);
+            for p in self.at_interface(k) {
+                let (beside, share) = along_sites(&other.sites[there.clone()], self.sites[p].at);
+                let ends = beside.map(|i| other.places[there.start + i]);
+                for (side, place) in self.places[p].iter().enumerate() {
+                    let (Some(i), [Some(a), Some(b)]) = (place, ends.map(|places| places[side])) else { continue };
+                    for axis in 0..2 {
+                        let [a, b] = [a, b].map(|node| displacements[node + axis]);
+                        here[i + axis] = a + share * (b - a);
+                    }
+                }
+            }
+        }
+        here
     }
 
     /// Vector from the first contact of interface `k` to its last, along their axes, m.
@@ -124,4 +145,17 @@ impl Assembly {
 /// Components of a vector along a normal and its tangent.
 fn along(normal: Vec2, v: Vec2) -> [f64; 2] {
     [normal.dot(&v), perpendicular(normal).dot(&v)]
+}
+
+/// The two of several contact points in a row, one or more, between which a place is, or is nearest to; and what share of the way from one
+/// to the other.
+pub(super) fn along_sites(sites: &[Site], at: Vec2) -> ([usize; 2], f64) {
+    let last = sites.len() - 1;
+    let line = sites[last].at - sites[0].at;
+    let way = |at: Vec2| (at - sites[0].at).dot(&line);
+    let second = sites.partition_point(|site| way(site.at) < way(at)).clamp(last.min(1), last);
+    let first = second.saturating_sub(1);
+    let [start, end] = [first, second].map(|i| way(sites[i].at));
+    let share = if end > start { (way(at) - start) / (end - start) } else { 0.0 };
+    ([first, second], share)
 }

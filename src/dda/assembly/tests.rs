@@ -1,3 +1,4 @@
+use super::places::along_sites;
 use super::*;
 use crate::budget::Budget;
 use crate::dda::contact::Law;
@@ -57,4 +58,48 @@ fn a_body_moves_by_its_core_as_by_its_faces() {
     let (a, b) = (solved(cored), solved(plain));
     let largest = b.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
     assert!(a.iter().zip(&b).all(|(a, b)| (a - b).abs() < 1e-9 * largest));
+}
+
+/// Two unit squares, one on the other and on the ground, with contact points there.
+fn stack(points: usize) -> Assembly {
+    let elasticity = Elasticity { youngs_modulus: 1e9, poissons_ratio: 0.25, plane_strain: false };
+    let block = |y: f64| Block::new(Region { area: 1.0, centroid: Vec2::new(0.5, y) }, elasticity).into();
+    let mut builder = AssemblyBuilder::new(vec![block(0.5), block(1.5)]);
+    let mut join = |between: [Beside; 2], y: f64, points: usize| {
+        let touch = |i: usize| Touch {
+            at: Vec2::new((i as f64 + 0.5) / points as f64, y),
+            normal: Vec2::y(),
+            stiffness: [2e9, 1e9],
+            link: [8e9, 4e9],
+            law: Law::Bonded,
+            before: [(0, 1.0), (0, 0.0)],
+            after: [(0, 1.0), (0, 0.0)],
+        };
+        builder.join(between, (0..points).map(touch));
+    };
+    join([Beside::Ground(0), Beside::Body(0)], 0.0, points);
+    join([Beside::Body(0), Beside::Body(1)], 1.0, points);
+    builder.finish(&Budget::unlimited()).unwrap()
+}
+
+#[test]
+fn what_moves_as_rigid_stones_do_goes_over_to_any_mesh() {
+    let motions = [([3e-3, -1e-3], 2e-3), ([-2e-3, 4e-3], -5e-3)]
+        .map(|([x, y], rotation)| MeanMotion { displacement: Vec2::new(x, y), rotation });
+    let (coarse, fine) = (stack(3), stack(7));
+    let (there, wanted) = (coarse.carried_by(&motions), fine.carried_by(&motions));
+    let here = fine.interpolated(&coarse, &there);
+    assert!(here.iter().zip(&wanted).all(|(a, b)| (a - b).abs() < 1e-15), "{here:?} {wanted:?}");
+    assert!(coarse.interpolated(&fine, &here).iter().zip(&there).all(|(a, b)| (a - b).abs() < 1e-15));
+}
+
+#[test]
+fn a_place_is_told_by_the_points_beside_it() {
+    let sites =
+        |xs: &[f64]| -> Vec<Site> { xs.iter().map(|&x| Site { at: Vec2::new(x, 1.0), normal: Vec2::y() }).collect() };
+    let of = |xs: &[f64], x: f64| along_sites(&sites(xs), Vec2::new(x, 1.0));
+    assert_eq!(of(&[0.0, 1.0, 3.0], 2.0), ([1, 2], 0.5));
+    // Beyond the last, and of one alone.
+    assert_eq!(of(&[3.0, 1.0, 0.0], -1.0), ([1, 2], 2.0));
+    assert_eq!(of(&[0.5], 2.0), ([0, 0], 0.0));
 }
