@@ -75,9 +75,9 @@ impl<'l> ChainPath<'l> {
         let elimination = Elimination::new(chain, &state.splits, &state.reduced);
         let interfaces = state.splits.len();
         let going = Going { redundants: [0.0; 3], load_factor: 0.0, gaps: Vec::new() };
-        let (state, borders) = (state.clone(), Vec::new());
+        let (state, borders) = (state.clone(), vec![Borders::default(); interfaces]);
         let mut path = ChainPath { chain, state, elimination, borders, sign, going, events: 0 };
-        path.borders = (0..interfaces).map(|k| path.border(k)).collect();
+        (0..interfaces).for_each(|k| path.renew_borders(k));
         path.going = path.goes_on()?;
         Some(path)
     }
@@ -152,7 +152,7 @@ impl<'l> ChainPath<'l> {
             let ChainState { splits, reduced, .. } = &mut self.state;
             let changed = self.elimination.renew(self.chain, splits, interface, reduced);
             budget.work(RENEWED * changed.len())?;
-            changed.for_each(|k| self.borders[k] = self.border(k));
+            changed.for_each(|k| self.renew_borders(k));
         }
         self.settle();
         let Some(going) = self.goes_on() else { return Ok(false) };
@@ -235,10 +235,10 @@ impl<'l> ChainPath<'l> {
         a[which] * dx + b[which] * dy + c[which] * dz + e[which] * load_factor
     }
 
-    /// The functions of an interface in its present state. Of one that sticks: how much more shear either way its points bear, first point
+    /// Renews the functions of an interface, in its present state. Of one that sticks: how much more shear either way its points bear, first point
     /// first. Of one with a point that slides: that point's normal force, how far it has slipped, and what the other point bears, or nothing
     /// but that where the one is open.
-    fn border(&self, k: usize) -> Borders {
+    fn renew_borders(&mut self, k: usize) {
         let (chain, splits) = (self.chain, &self.state.reduced.splits);
         let statics = &chain.method.statics[k];
         let normals = statics.normals.each_ref().map(|normal| chain.linear(k, normal));
@@ -249,7 +249,7 @@ impl<'l> ChainPath<'l> {
             let sheared: Linear = std::array::from_fn(|c| 0.5 * shear[c] + side * splits[k][c]);
             [1.0, -1.0].map(|sign| std::array::from_fn(|c| friction * normals[point][c] - sign * sheared[c]))
         };
-        let functions: [Linear; 4] = match self.state.splits[k] {
+        let functions = match self.state.splits[k] {
             Split::Held => {
                 let ([a, b], [c, d]) = (bears(0), bears(1));
                 [a, b, c, d]
@@ -266,7 +266,9 @@ impl<'l> ChainPath<'l> {
             }
             Split::Smooth => [normals[0], normals[1], NEVER, NEVER],
         };
-        std::array::from_fn(|c| functions.each_ref().map(|function| function[c]))
+        for (c, coefficients) in self.borders[k].iter_mut().enumerate() {
+            *coefficients = functions.each_ref().map(|function: &Linear| function[c]);
+        }
     }
 
     /// State of every contact.
