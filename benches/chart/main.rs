@@ -8,7 +8,12 @@ mod measure;
 
 use clap::Parser;
 use measure::Options;
+use mimalloc::MiMalloc;
 use std::process::ExitCode;
+
+/// That of the program, as it is the program that is charted.
+#[global_allocator]
+static ALLOCATOR: MiMalloc = MiMalloc;
 
 fn main() -> ExitCode {
     match measure::measure_and_write(&Options::parse()) {

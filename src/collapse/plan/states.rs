@@ -127,17 +127,31 @@ impl<'p> States<'p> {
     fn reach_all(&mut self, mut wanted: Vec<f64>) -> Result<bool, AnalysisError> {
         wanted.sort_by(|&a, &b| self.way.to(a).total_cmp(&self.way.to(b)));
         for load_factor in wanted {
-            if self.at(load_factor).is_none() {
-                self.find_near(load_factor)?;
-            }
-            while self.at(load_factor).is_none() {
-                let next = self.next(load_factor);
-                if !self.find(next)? && !self.trace(load_factor)? {
-                    return Ok(false);
-                }
+            if !self.reach(load_factor)? {
+                return Ok(false);
             }
         }
         Ok(true)
+    }
+
+    /// Finds the state at a load factor; false where it is not found.
+    fn reach(&mut self, load_factor: f64) -> Result<bool, AnalysisError> {
+        if self.at(load_factor).is_some() || self.find_near(load_factor)? {
+            return Ok(true);
+        }
+        // Where what is near does not lead there, what is farther away does not, but along the path.
+        let strides = self.before(load_factor).is_none() || self.near_to(load_factor).is_none();
+        while self.at(load_factor).is_none() {
+            let next = self.next(load_factor);
+            if !(strides && self.find(next)?) && !self.trace(load_factor)? {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
+    fn near_to(&self, load_factor: f64) -> Option<&[f64]> {
+        self.near.iter().find(|(at, _)| *at == load_factor).map(|(_, near)| &near[..])
     }
 
     fn at(&self, load_factor: f64) -> Option<&Standing> {
@@ -167,13 +181,13 @@ impl<'p> States<'p> {
         if (load_factor - last.load_factor).abs() > (far - last.load_factor).abs() { far } else { load_factor }
     }
 
-    /// Solves for the state at a load factor from what is near it, where that is known and leads there.
-    fn find_near(&mut self, load_factor: f64) -> Result<(), AnalysisError> {
+    /// Solves for the state at a load factor from what is near it; false where that is not known, or does not lead there.
+    fn find_near(&mut self, load_factor: f64) -> Result<bool, AnalysisError> {
         let Model { assembly, budget, size, .. } = &self.model;
-        let Some((_, near)) = self.near.iter().find(|(at, _)| *at == load_factor) else { return Ok(()) };
+        let Some(near) = self.near_to(load_factor) else { return Ok(false) };
         let loads = self.model.loads_on_nodes(load_factor);
         let found = direct(assembly, *size, &loads, Some(near), self.model.is_symmetric_under(&loads), budget)?;
-        self.take(load_factor, found).map(|_| ())
+        self.take(load_factor, found)
     }
 
     /// Solves for the state at a load factor, from the last one before; false where that fails.
