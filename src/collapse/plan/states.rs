@@ -143,13 +143,15 @@ impl<'p> States<'p> {
         let strides = self.before(load_factor).is_none() || self.near_to(load_factor).is_none();
         while self.at(load_factor).is_none() {
             let next = self.next(load_factor);
-            if !(strides && self.find(next)?) && !self.trace(load_factor)? {
+            let found = (strides && self.find(next)?) || self.trace(load_factor)?;
+            if !found {
                 return Ok(false);
             }
         }
         Ok(true)
     }
 
+    /// Displacements that are near those of the state at a load factor, where any are known.
     fn near_to(&self, load_factor: f64) -> Option<&[f64]> {
         self.near.iter().find(|(at, _)| *at == load_factor).map(|(_, near)| &near[..])
     }
