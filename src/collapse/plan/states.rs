@@ -1,10 +1,10 @@
 //! States on a mesh, solved for one by one.
 //!
 //! The collapse load of rigid stones does not depend on the mesh: the path of whole stones has load, mechanism and thrust line. The
-//! states that are reported are solved for on the mesh, from the start on towards collapse and each from one before. Where one
-//! is not found, where there are several, or may be, as a whole joint has slid in it or a contact is just about to close, where joints
-//! slide at collapse, on which states depend, or have cohesion, with which they slide otherwise on another mesh, the path is followed
-//! on the mesh.
+//! states that are reported are solved for on the mesh, each from that of whole stones or from that on a coarser mesh, or else from the
+//! one before it on the way to collapse. The path is followed on the mesh where one is not found; where there are several, or may be, as
+//! a whole joint has slid in it or a contact is just about to close; where joints slide at collapse, on which states depend; and where
+//! they have cohesion, with which they slide otherwise on another mesh.
 
 use crate::budget::Budget;
 use crate::collapse::discretise::{Model, discretise};
@@ -185,20 +185,21 @@ impl<'p> States<'p> {
 
     /// Solves for the state at a load factor from what is near it; false where that is not known, or does not lead there.
     fn find_near(&mut self, load_factor: f64) -> Result<bool, AnalysisError> {
-        let Model { assembly, budget, size, .. } = &self.model;
         let Some(near) = self.near_to(load_factor) else { return Ok(false) };
-        let loads = self.model.loads_on_nodes(load_factor);
-        let found = direct(assembly, *size, &loads, Some(near), self.model.is_symmetric_under(&loads), budget)?;
+        let found = self.solved_from(Some(near), load_factor)?;
         self.take(load_factor, found)
     }
 
     /// Solves for the state at a load factor, from the last one before; false where that fails.
     fn find(&mut self, load_factor: f64) -> Result<bool, AnalysisError> {
+        let found = self.solved_from(self.before(load_factor).map(|state| &state.displacements[..]), load_factor)?;
+        self.take(load_factor, found)
+    }
+
+    fn solved_from(&self, near: Option<&[f64]>, load_factor: f64) -> Result<Option<Balanced>, AnalysisError> {
         let Model { assembly, budget, size, .. } = &self.model;
         let loads = self.model.loads_on_nodes(load_factor);
-        let near = self.before(load_factor).map(|state| &state.displacements[..]);
-        let found = direct(assembly, *size, &loads, near, self.model.is_symmetric_under(&loads), budget)?;
-        self.take(load_factor, found)
+        Ok(direct(assembly, *size, &loads, near, self.model.is_symmetric_under(&loads), budget)?)
     }
 
     /// The same along the path that leads from the last one there.

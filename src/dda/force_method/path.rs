@@ -235,9 +235,9 @@ impl<'l> ChainPath<'l> {
         a[which] * dx + b[which] * dy + c[which] * dz + e[which] * load_factor
     }
 
-    /// Renews the functions of an interface, in its present state. Of one that sticks: how much more shear either way its points bear, first point
-    /// first. Of one with a point that slides: that point's normal force, how far it has slipped, and what the other point bears, or nothing
-    /// but that where the one is open.
+    /// Renews the functions of an interface, in its present state. Of one that sticks: how much more shear either way its points bear,
+    /// first point first. Of one with a point that slides: that point's normal force, how far it has slipped, and what the other point
+    /// bears, or nothing but that where the one is open.
     fn renew_borders(&mut self, k: usize) {
         let (chain, splits) = (self.chain, &self.state.reduced.splits);
         let statics = &chain.method.statics[k];

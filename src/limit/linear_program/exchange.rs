@@ -1,0 +1,101 @@
+//! One constraint of a basis exchanged for another, and what depends on which are in it.
+
+use super::inverse::invert_transposed;
+use super::{Basis, Facet, HalfSpaces, corner_sign, dot};
+
+/// Weights of the entering row below this are none.
+const NO_WEIGHT: f64 = 1e-13;
+/// Ratios of a multiplier to a weight that differ by less than this share of them are equal.
+const TIE: f64 = 1e-11;
+/// So are those that differ by rounding, of few unknowns and of more, whose multipliers gather it over many pivots.
+const EQUAL_RATIO: [f64; 2] = [1e-15, 1e-14];
+const FEW: usize = 4;
+/// Weights between these shares of the largest may be rounding of an inverse that was carried on, which would put rows into the basis
+/// that depend on each other.
+const DOUBTFUL: [f64; 2] = [1e-14, 1e-9];
+
+impl Basis<'_> {
+    /// Weights with which the entering row is a combination of the rows in the basis.
+    pub(super) fn weigh(&mut self, entering: Facet, half_spaces: &HalfSpaces) {
+        let n = self.objective.len();
+        for j in 0..n {
+            self.row[j] = self.entry(half_spaces, entering, j);
+        }
+        for (weight, column) in self.weights.iter_mut().zip(self.inverse.chunks_exact(n)) {
+            *weight = dot(column, &self.row);
+        }
+    }
+
+    /// Whether the inverse was carried on and some weight may be rounding.
+    pub(super) fn is_doubtful(&self) -> bool {
+        let largest = self.weights.iter().fold(1.0, |largest: f64, weight| largest.max(weight.abs()));
+        let [low, high] = DOUBTFUL.map(|share| share * largest);
+        !self.fresh && self.weights.iter().any(|weight| weight.abs() > low && weight.abs() < high)
+    }
+
+    /// The constraint that leaves: the smallest ratio of multiplier over weight, ties broken lexicographically.
+    pub(super) fn leaving(&self) -> Option<usize> {
+        let n = self.objective.len();
+        let largest = self.weights.iter().fold(1.0, |largest: f64, weight| largest.max(weight.abs()));
+        // The multiplier itself, then those of the perturbations of the objective.
+        let ratio = |i: usize, k: usize| {
+            let multiplier = match k {
+                0 => self.dual[i],
+                _ => -self.inverse[i * n + k - 1] * corner_sign(self.objective[k - 1]),
+            };
+            multiplier / self.weights[i]
+        };
+        (0..n).filter(|&i| self.weights[i] > NO_WEIGHT * largest).min_by(|&a, &b| {
+            let ratios = (0..=n).map(|k| (ratio(a, k), ratio(b, k)));
+            let rounding = match n <= FEW {
+                true => EQUAL_RATIO[0],
+                false => EQUAL_RATIO[1] * (1.0 / self.weights[a] + 1.0 / self.weights[b]),
+            };
+            let differing = ratios.into_iter().find(|(x, y)| (x - y).abs() > TIE * (x.abs() + y.abs()) + rounding);
+            differing.map_or(a.cmp(&b), |(x, y)| x.total_cmp(&y))
+        })
+    }
+
+    /// Puts the entering constraint in the place of the leaving one.
+    pub(super) fn exchange(&mut self, leaving: usize, entering: Facet) {
+        let n = self.objective.len();
+        let pivot = 1.0 / self.weights[leaving];
+        let (before, rest) = self.inverse.split_at_mut(leaving * n);
+        let (column, after) = rest.split_at_mut(n);
+        column.iter_mut().for_each(|x| *x *= pivot);
+        let y = self.dual[leaving] * pivot;
+        let others = before.chunks_exact_mut(n).enumerate();
+        let others = others.chain(after.chunks_exact_mut(n).enumerate().map(|(i, other)| (i + leaving + 1, other)));
+        for (i, other) in others {
+            let weight = self.weights[i];
+            other.iter_mut().zip(&*column).for_each(|(x, c)| *x -= weight * c);
+            self.dual[i] -= weight * y;
+        }
+        self.dual[leaving] = y;
+        self.point.iter_mut().zip(&*column).for_each(|(x, c)| *x -= self.violation * c);
+        self.constraints[leaving] = entering;
+        self.fresh = false;
+    }
+
+    /// Computes inverse, point and multipliers from the rows themselves; false where the rows depend on each other.
+    pub(super) fn refresh(&mut self, half_spaces: &HalfSpaces) -> bool {
+        let n = self.objective.len();
+        for i in 0..n {
+            for j in 0..n {
+                self.matrix[i * n + j] = self.entry(half_spaces, self.constraints[i], j);
+            }
+        }
+        if !invert_transposed(&mut self.matrix, &mut self.inverse, n) {
+            return false;
+        }
+        self.point.fill(0.0);
+        for i in 0..n {
+            let constant = self.entry(half_spaces, self.constraints[i], n);
+            let column = &self.inverse[i * n..(i + 1) * n];
+            self.point.iter_mut().zip(column).for_each(|(x, c)| *x -= constant * c);
+            self.dual[i] = -dot(column, self.objective);
+        }
+        self.fresh = true;
+        true
+    }
+}
