@@ -56,8 +56,10 @@ pub(super) struct Grid {
 /// A body of several parts is as many times cut in two as would be its like of one part: each part has half of the larger number,
 /// rounded up, both ways.
 pub fn subblocks_of(body: &Body, wanted: [usize; 2], order: Order) -> Option<[usize; 2]> {
+    if (wanted == [1, 1] && order == Order::First) || body.is_quadrilateral() {
+        return Some(wanted);
+    }
     match parts(body).len() {
-        _ if wanted == [1, 1] && order == Order::First => Some(wanted),
         0 => None,
         1 => Some(wanted),
         parts => {

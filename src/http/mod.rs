@@ -2,6 +2,7 @@
 //! [`wire`](crate::wire), and nothing is computed.
 
 mod accept;
+mod answering;
 mod backlog;
 mod body;
 mod docs;

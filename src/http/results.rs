@@ -1,4 +1,4 @@
-//! Handlers of `/v1/jobs/{id}/results`: the answer as a whole and in parts, as it was written when the job ended.
+//! Handlers of `/v1/jobs/{id}/results`: the answer as a whole and in parts.
 
 use super::Service;
 use super::accept;
@@ -93,7 +93,7 @@ impl Asked {
             false => None,
         };
         let none = |reason: String| Problem::of(kinds::NO_SUCH_PART, reason);
-        let kept = service.store.part(job.id, part, rendering::kept_as(format)).await?;
+        let kept = service.part(job, part, rendering::kept_as(format)).await?;
         let Part { body: kept, packed_from } = kept.ok_or_else(|| none(missing.to_owned()))?;
         let kept = kept.map_err(none)?;
         let written = match turn {

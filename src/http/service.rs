@@ -1,5 +1,6 @@
 //! What every handler can reach.
 
+use super::answering::perform;
 use super::body;
 use super::layers::{Hosts, LinkKey, Tokens};
 use super::limits::ApiLimits;
@@ -10,13 +11,11 @@ use super::quota::Quota;
 use super::readers::Readers;
 use crate::budget::Budget;
 use crate::collapse::{AnalysisError, Answer, Question};
-use crate::jobs::{Failure, Job, JobState, Limits, Product, Store, Work, Workers};
-use crate::wire::read::read_again;
-use crate::wire::rendering::renderings;
+use crate::jobs::{Failure, Job, JobState, Limits, Store, Work, Workers};
 use axum::body::Bytes;
 use axum::http::HeaderValue;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 use tokio_util::sync::CancellationToken;
 
 /// The mechanics, or what stands in for them in a test.
@@ -59,6 +58,7 @@ pub struct Service {
     /// Cancelled when the service is to stop: ends event streams.
     pub stopping: CancellationToken,
     pub(super) work: Work,
+    pub(super) solve: Solver,
     pub(super) settings: Arc<Settings>,
     pub(super) metrics: Metrics,
     pub(super) streams: Quota,
@@ -71,10 +71,10 @@ pub struct Service {
 
 impl Service {
     /// Starts the workers, in the runtime of the caller; of the memory for bodies and answers each client may have a part.
-    pub fn start(store: Arc<dyn Store>, work: Work, settings: Settings, analyse: Solver) -> Self {
+    pub fn start(store: Arc<dyn Store>, work: Work, settings: Settings, solve: Solver) -> Self {
         let metrics = Metrics::new(work, &settings);
         let counted = metrics.clone();
-        let analyse = move |request: &Bytes, budget: &Budget| perform(request, budget, analyse);
+        let analyse = move |request: &Bytes, budget: &Budget| perform(request, budget, solve);
         let workers = Workers::start(store.clone(), work, analyse, move |job| ended(&counted, job));
         let (limits, longest) = (settings.limits, settings.limits.body.max(body::LEAST));
         let incoming = limits.incoming.max(longest);
@@ -83,6 +83,7 @@ impl Service {
             workers: Arc::new(workers),
             stopping: CancellationToken::new(),
             work,
+            solve,
             metrics,
             streams: Quota::new(limits.streams, part(limits.streams)),
             readers: Readers::new(),
@@ -104,14 +105,4 @@ pub(super) fn ended(metrics: &Metrics, job: &Job) {
         JobState::Failed(failure) => tracing::warn!(job.id = %id, client, outcome, ms, %failure, "ended"),
         _ => tracing::info!(job.id = %id, client, outcome, ms, "ended"),
     }
-}
-
-/// What a worker does with a request.
-fn perform(request: &Bytes, budget: &Budget, analyse: Solver) -> Result<Product, Failure> {
-    // It was read and translated when it was accepted, so it can be again. A question may be ten thousand times as large as its
-    // request: while the job waited, only the request had to be kept.
-    let (request, question) = read_again(request).ok_or(Failure::Defect)?;
-    let clock = Instant::now();
-    let answer = analyse(&question, budget)?;
-    renderings(&request, &question, &answer, clock.elapsed())
 }

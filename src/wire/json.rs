@@ -50,7 +50,18 @@ pub fn pretty(value: &impl Serialize) -> Result<String, NotFinite> {
 /// # Errors
 /// Where a number is not finite.
 pub fn line(value: &impl Serialize) -> Result<Vec<u8>, NotFinite> {
-    compact(value).map(|text| (text + "\n").into_bytes())
+    line_in(value, Vec::new())
+}
+
+/// The same in room that was made for it: text that grows is copied again and again.
+///
+/// # Errors
+/// Where a number is not finite.
+pub fn line_in(value: &impl Serialize, mut room: Vec<u8>) -> Result<Vec<u8>, NotFinite> {
+    value.serialize(Finite)?;
+    serde_json::to_writer(&mut room, value).map_err(<NotFinite as ser::Error>::custom)?;
+    room.push(b'\n');
+    Ok(room)
 }
 
 type Checked = Result<(), NotFinite>;

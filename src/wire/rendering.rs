@@ -7,7 +7,7 @@ pub use packed::{Unpacking, plain};
 
 use super::figures::{Figure, STRESS, analysed, figures};
 use super::format::Format;
-use super::json::line;
+use super::json::{line, line_in};
 use super::prose;
 use super::report::report;
 use super::request::{AnalysisRequest, Request, StressFieldRequest};
@@ -31,6 +31,18 @@ pub const POSITIONS: &str = "positions";
 /// The report, in HTML and PDF, or why there is none.
 pub const REPORT: &str = "report";
 
+/// Room in which an answer is written, bytes: some fifty stones take no more.
+const ROOM: usize = 128 << 10;
+
+/// Writes an answer as a whole, in JSON, and no other form of it: the first of its [`renderings`].
+///
+/// # Errors
+/// As theirs.
+pub fn whole(request: &Request, answer: &Answer) -> Result<Product, Failure> {
+    let result = JobResult::new(request, answer).ok_or(Failure::Defect)?;
+    Ok([in_json(&result)?].into())
+}
+
 /// Writes an answer in all its parts and formats; `wall_time` is what finding it took. The first is the whole of it as JSON:
 /// what is not finite is refused there, before any other shows it.
 ///
@@ -44,10 +56,7 @@ pub fn renderings(
 ) -> Result<Product, Failure> {
     let result = JobResult::new(request, answer).ok_or(Failure::Defect)?;
     let named = |name: &str| vec![name.to_owned()];
-    let mut all = vec![
-        rendering(named(WHOLE), Format::Json, line(&result)?),
-        rendering(named(WHOLE), Format::Text, prose::prose(&result, wall_time)),
-    ];
+    let mut all = vec![in_json(&result)?, rendering(named(WHOLE), Format::Text, prose::prose(&result, wall_time))];
     if let (Request::Structure(request), Answer::One(report), JobResult::Analysis(result), Some(analysis)) =
         (request, answer, &result, analysed(question))
     {
@@ -68,6 +77,11 @@ pub fn renderings(
     }
     all.extend(drawings(request, question, answer, &result));
     Ok(all.into())
+}
+
+fn in_json(result: &JobResult) -> Result<Rendering, Failure> {
+    let written = line_in(result, Vec::with_capacity(ROOM))?;
+    Ok(rendering(vec![WHOLE.to_owned()], Format::Json, written))
 }
 
 /// Every drawing and the report, or why there is none.
@@ -138,11 +152,11 @@ pub fn figure(name: &str) -> String {
 }
 
 /// The format in which a part that is given out in `format` is kept: a drawing is kept once, and goes by two media types.
-pub fn kept_as(format: Format) -> &'static str {
+pub fn kept_as(format: Format) -> Format {
     match format {
-        Format::Xml | Format::Png => Format::Svg.name(),
-        Format::Pdf => Format::Html.name(),
-        _ => format.name(),
+        Format::Xml | Format::Png => Format::Svg,
+        Format::Pdf => Format::Html,
+        _ => format,
     }
 }
 

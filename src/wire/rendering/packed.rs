@@ -19,16 +19,16 @@ const STEP: usize = 64 << 10;
 
 /// A part as it is kept.
 pub(super) fn packed(plain: Vec<u8>) -> Part {
-    let kept = |bytes: Vec<u8>, packed_from| Part { body: Ok(bytes.into_boxed_slice().into()), packed_from };
-    let whole = |plain| kept(plain, None);
+    // Copied: what is only cut off stays in all the room that it was written in.
+    let kept = |bytes: &[u8], packed_from| Part { body: Ok(Bytes::copy_from_slice(bytes)), packed_from };
     if plain.len() <= LARGE {
-        return whole(plain);
+        return kept(&plain, None);
     }
     let mut packer = GzEncoder::new(Vec::new(), LEVEL);
     // Writing to memory cannot fail.
     match packer.write_all(&plain).and_then(|()| packer.finish()) {
-        Ok(packed) => kept(packed, Some(plain.len())),
-        Err(_) => whole(plain),
+        Ok(packed) => kept(&packed, Some(plain.len())),
+        Err(_) => kept(&plain, None),
     }
 }
 
