@@ -199,11 +199,6 @@ impl Contact {
         ContactForce { normal, tangential, gap }
     }
 
-    /// The most shear of a contact that never slides, N/m: none where it can carry none.
-    pub(super) fn unbounded_shear(&self) -> f64 {
-        if self.frictionless() { 0.0 } else { f64::INFINITY }
-    }
-
     /// The most shear at a gap, N/m.
     pub(super) fn bears(&self, gap: f64) -> f64 {
         if self.law == Law::Bonded {

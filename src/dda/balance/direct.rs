@@ -1,27 +1,27 @@
 //! The state of equilibrium under given loads, without the path that leads to it.
 //!
-//! Laws that come nearer and nearer to the true one, each started from the state that the one before ends in; the second at once from
-//! displacements that are near:
-//! 1. Contacts press or they do not, and never slide, not even where they are open. Equilibrium then makes the least of a convex
-//!    energy. Newton's method with a search along every step ends there from wherever it starts.
-//! 2. Contacts slide at a shear that their normal force in the state before bears (Tresca's friction, 0 where they were open): as convex.
-//!    Until no contact changes its state.
+//! 1. Contacts slide at a shear that their normal force in the state before bears (Tresca's friction, 0 where they were open).
+//!    Equilibrium then makes the least of a convex energy, which Newton's method with a search along every step ends in. Until no
+//!    contact changes its state. From displacements that are near this takes few steps, each of which touches few contacts.
+//! 2. Where it takes more, or nothing is near: through the [inside](interior) of the law, with all contacts at once, to next to the
+//!    state; from there as before.
 //! 3. The law itself, as [`balanced`] solves it.
 //!
 //! Slip is measured from the unstressed start, so the law has no memory, and where there is but one state it is that of the path.
-//! Measured on semicircles of 27 to 201 stones cut into 2 x 2 to 8 x 8 subblocks: 3 to 30 factorisations where the path has 50 to 2,000
-//! events, and forces that differ from the path's by 1e-9 of the largest at most.
+//! Measured on semicircles of 27 to 2,001 stones cut into 2 x 2 to 8 x 8 subblocks: 3 to 70 factorisations where the path has 50 to
+//! 60,000 events, and forces that differ from the path's by 1e-9 of the largest at most.
+
+mod interior;
 
 use super::{Balanced, FREE_PIVOT, Factored, balanced, by_newton};
 use crate::budget::{Budget, Stopped};
 use crate::dda::assembly::Assembly;
 use crate::dda::contact::{Contact, Law, State};
 
-/// Most steps under one law (measured: 30 where they end at all, 55 with 1,001 stones), and most bounds of shear (measured: 10).
+/// Most steps under one bound of shear from displacements that are near, and from next to the state; and most bounds (measured: 10).
+const FEW_STEPS: usize = 20;
 const STEPS: usize = 60;
 const BOUNDS: usize = 25;
-/// Most steps under one law from displacements that are near (measured: 10).
-const FEW_STEPS: usize = 20;
 /// A tangent is singular below this pivot ratio. Contacts that are open are then pressed by this share of their stiffness, less
 /// by the first of these factors after every full step and more by the second after short ones, within these bounds.
 const SINGULAR: f64 = 1e-8;
@@ -56,8 +56,8 @@ pub fn direct(
     let (displacements, bounds) = (start.clone(), Vec::new());
     let mut search = Direct { assembly, contacts, loads, symmetric, budget, factored, displacements, bounds };
     if near.is_none() || !search.let_slide(FEW_STEPS)? {
-        (search.displacements, search.bounds) = (start, contacts.iter().map(Contact::unbounded_shear).collect());
-        if !search.least_energy(STEPS)? {
+        search.displacements = start;
+        if !search.go_inside()? {
             return Ok(None);
         }
         search.let_slide(STEPS)?;
