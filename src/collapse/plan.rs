@@ -25,9 +25,8 @@ use crate::structure::is_symmetric;
 use states::States;
 
 /// Stones, and subblocks across all of them together, from which on solving for the states on a mesh is worth a try. Measured on
-/// semicircles under a load at one of two places, over the time of the path: 27 stones 1.0 to 2.7, 61 of 2 x 2 2.5; 61 to 401 stones of
-/// 2 x 2 to 6 x 6 0.25 to 1.5, more than 1 where the state near collapse is not found and the path leads there from another; 61 of 8 x 8
-/// 0.55, 1,001 of 2 x 2 0.1.
+/// semicircles under a load over the quarter point, over the time of the path: 27 of 2 x 2 2.5, of 4 x 4 1.0, of 8 x 8 0.8; 61 of 2 x 2
+/// 1.6, of 4 x 4 0.9, of 8 x 8 0.5; 101 of 2 x 2 1.0; 201 of 2 x 2 0.5, of 4 x 4 0.3; 1,001 of 2 x 2 0.1.
 const PAYS: [usize; 2] = [50, 200];
 /// Velocities of a mechanism, as a share of the largest, that differ by less are the same.
 const SAME_VELOCITY: f64 = 1e-6;
