@@ -100,17 +100,7 @@ mod tests {
 
     fn service(solve: Solver) -> Service {
         let (many, long) = (1 << 30, Duration::from_secs(1000));
-        let limits = Limits {
-            queue: many,
-            queue_per_client: many,
-            kept: many,
-            kept_for: long,
-            promised: long,
-            keys_for: long,
-            bytes: many,
-            bytes_per_client: many,
-            work_memory: many,
-        };
+        let limits = Limits::ample();
         let api = ApiLimits {
             body: many,
             request_time: long,

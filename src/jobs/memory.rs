@@ -39,6 +39,25 @@ pub struct Limits {
     pub work_memory: usize,
 }
 
+#[cfg(test)]
+impl Limits {
+    /// Room for all that a test does.
+    pub(crate) fn ample() -> Self {
+        let (many, long) = (1 << 30, Duration::from_secs(1000));
+        Limits {
+            queue: many,
+            queue_per_client: many,
+            kept: many,
+            kept_for: long,
+            promised: long,
+            keys_for: long,
+            bytes: many,
+            bytes_per_client: many,
+            work_memory: many,
+        }
+    }
+}
+
 /// Jobs in memory.
 pub struct Memory {
     table: Mutex<Table>,

@@ -155,19 +155,7 @@ mod tests {
 
     #[test]
     fn a_worker_analyses_all_its_jobs_on_one_thread() {
-        let long = Duration::from_secs(1000);
-        let (few, many) = (100, 1 << 30);
-        let limits = Limits {
-            queue: few,
-            queue_per_client: few,
-            kept: few,
-            kept_for: long,
-            promised: long,
-            keys_for: long,
-            bytes: many,
-            bytes_per_client: many,
-            work_memory: many,
-        };
+        let (many, long) = (1 << 30, Duration::from_secs(1000));
         let names = Arc::new(Mutex::new(BTreeSet::new()));
         let seen = names.clone();
         let analyse = move |_: &Bytes, _: &Budget| {
@@ -176,7 +164,7 @@ mod tests {
             Ok(Product::default())
         };
         tokio::runtime::Runtime::new().unwrap().block_on(async {
-            let store: Arc<dyn Store> = Arc::new(Memory::new(limits));
+            let store: Arc<dyn Store> = Arc::new(Memory::new(Limits::ample()));
             let workers = Workers::start(store.clone(), Work { workers: 2, time: long, memory: many }, analyse, |_| {});
             for _ in 0..50 {
                 let (request, client) = (Bytes::new(), "me".into());

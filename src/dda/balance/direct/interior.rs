@@ -8,7 +8,7 @@
 //! Sliding does not dilate, so this is no least energy, and no proof that it ends. Contacts keep their cohesion as they open; the law
 //! itself takes it away afterwards.
 
-use super::super::{largest, total};
+use super::super::{BALANCED, largest, total};
 use super::Direct;
 use crate::budget::Stopped;
 use crate::dda::contact::{Contact, Law, Zone};
@@ -19,8 +19,6 @@ const STEPS: usize = 60;
 /// small enough as a share of that.
 const FIRST: f64 = 10.0;
 const LAST: f64 = 1e-12;
-/// Residual that is small enough, as a share of the loads.
-const BALANCED: f64 = 1e-9;
 /// Share of the way to the nearest bound that a step goes.
 const STEP: f64 = 0.995;
 /// Share of a bound that shear has at most at first.
