@@ -71,23 +71,35 @@ pub fn balanced(
     symmetric: bool,
     budget: &Budget,
 ) -> Result<Option<Balanced>, Stopped> {
-    let found = by_newton(assembly, loads, near, symmetric, budget)?;
-    if found.is_some() {
-        return Ok(found);
-    }
-    let traced = traced(assembly, size, loads, near, budget)?;
-    traced.map_or(Ok(None), |near| by_newton(assembly, loads, &near, symmetric, budget))
+    by_newton_or_traced(&mut Factored::new(assembly, budget), size, loads, near, symmetric, budget)
 }
 
-/// Newton's method on the law of the exact contacts, from displacements `near`.
-fn by_newton(
-    assembly: &Assembly,
+/// Newton's method, and where it fails what a path leads to; with factors that are there.
+fn by_newton_or_traced(
+    factored: &mut Factored,
+    size: f64,
     loads: &[f64],
     near: &[f64],
     symmetric: bool,
     budget: &Budget,
 ) -> Result<Option<Balanced>, Stopped> {
-    let (contacts, mut factored) = (assembly.exact_contacts(), Factored::new(assembly, loads, budget));
+    let found = by_newton(factored, loads, near, symmetric, budget)?;
+    if found.is_some() {
+        return Ok(found);
+    }
+    let traced = traced(factored.assembly, size, loads, near, budget)?;
+    traced.map_or(Ok(None), |near| by_newton(factored, loads, &near, symmetric, budget))
+}
+
+/// Newton's method on the law of the exact contacts, from displacements `near`, with factors that are there.
+fn by_newton(
+    factored: &mut Factored,
+    loads: &[f64],
+    near: &[f64],
+    symmetric: bool,
+    budget: &Budget,
+) -> Result<Option<Balanced>, Stopped> {
+    let (assembly, contacts) = (factored.assembly, factored.assembly.exact_contacts());
     let mut d = if symmetric { assembly.symmetrised(near) } else { near.to_vec() };
     let (mut residual, mut best) = (vec![0.0; d.len()], (f64::INFINITY, Vec::new()));
     for _ in 0..STEPS {
@@ -183,18 +195,14 @@ struct Factored<'a> {
     factor: Factor<'a>,
     /// Tangent stiffness of every contact as factored; none at first.
     tangents: Vec<[f64; 4]>,
-    /// A right-hand side that never changes, which updates of the factors carry along; and its solution.
-    constant: &'a [f64],
-    solution: Vec<f64>,
     factorisations: usize,
 }
 
 impl<'a> Factored<'a> {
     /// Of nothing yet.
-    fn new(assembly: &'a Assembly, constant: &'a [f64], budget: &Budget) -> Self {
+    fn new(assembly: &'a Assembly, budget: &Budget) -> Self {
         let (matrix, factor) = (assembly.elastic().copied(budget), Factor::new(assembly.tree()));
-        let (tangents, solution) = (Vec::new(), vec![0.0; constant.len()]);
-        Factored { assembly, matrix, factor, tangents, constant, solution, factorisations: 0 }
+        Factored { assembly, matrix, factor, tangents: Vec::new(), factorisations: 0 }
     }
 
     /// Displacements that contacts of these tangent stiffnesses answer a residual with.
@@ -213,7 +221,7 @@ impl<'a> Factored<'a> {
             let first = self.tangents.is_empty();
             let to = if first { self.assembly.element(self.assembly.interfaces() / 2) } else { last };
             self.tangents = tangents.to_vec();
-            self.factor.update(&self.matrix, self.constant, &mut self.solution, to, budget)?;
+            self.factor.refactor(&self.matrix, to, budget)?;
             self.factorisations += 1;
         }
         let mut answer = vec![0.0; residual.len()];

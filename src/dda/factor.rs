@@ -131,6 +131,27 @@ impl<'t> Factor<'t> {
         element: usize,
         budget: &Budget,
     ) -> Result<(), Stopped> {
+        self.eliminate_towards(k, Some(b), element, budget)?;
+        self.substitute_back(x);
+        Ok(())
+    }
+
+    /// Factors what is not current, for [`Factor::solve`] alone: no right-hand side is kept for a later update.
+    ///
+    /// # Errors
+    /// When stopped.
+    pub fn refactor(&mut self, k: &Elements, element: usize, budget: &Budget) -> Result<(), Stopped> {
+        self.eliminate_towards(k, None, element, budget)
+    }
+
+    /// Eliminates what is not current from all sides towards the clique of an element, and takes a right-hand side along.
+    fn eliminate_towards(
+        &mut self,
+        k: &Elements,
+        b: Option<&[f64]>,
+        element: usize,
+        budget: &Budget,
+    ) -> Result<(), Stopped> {
         self.root = self.tree.root(self.tree.home[element]);
         let mut order = std::mem::take(&mut self.scratch.order);
         order.clear();
@@ -138,15 +159,14 @@ impl<'t> Factor<'t> {
         self.find_order(&mut order, |current| !current);
         for &front in order.iter().rev() {
             match self.tree.links[front] {
-                Some(link) => self.eliminate_link(k, b, (front, link), budget)?,
-                None => {
-                    self.eliminate(k, front, budget)?;
-                    self.forward_front(b, front);
-                }
+                Some(link) => self.eliminate_link(k, (front, link), budget)?,
+                None => self.eliminate(k, front, budget)?,
+            }
+            if let Some(b) = b {
+                self.take_through(b, front);
             }
         }
         self.scratch.order = order;
-        self.substitute_back(x);
         Ok(())
     }
 
@@ -162,12 +182,7 @@ impl<'t> Factor<'t> {
         order.push(self.root);
         self.find_order(&mut order, |_| true);
         std::mem::swap(&mut self.forward, &mut self.other);
-        for &front in order.iter().rev() {
-            match self.tree.links[front] {
-                Some(link) => self.forward_link(b, (front, link)),
-                None => self.forward_front(b, front),
-            }
-        }
+        order.iter().rev().for_each(|&front| self.take_through(b, front));
         self.scratch.order = order;
         self.substitute_back(x);
         std::mem::swap(&mut self.forward, &mut self.other);
@@ -210,6 +225,14 @@ impl<'t> Factor<'t> {
         self.eliminated += front.ends.len();
         self.scratch.rows = rows;
         budget.work(width * width)
+    }
+
+    /// Forward substitution of a right-hand side through a front, or a link.
+    fn take_through(&mut self, b: &[f64], number: usize) {
+        match self.tree.links[number] {
+            Some(link) => self.forward_link(b, (number, link)),
+            None => self.forward_front(b, number),
+        }
     }
 
     /// Forward substitution of a right-hand side through a front.

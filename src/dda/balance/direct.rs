@@ -13,7 +13,7 @@
 
 mod interior;
 
-use super::{Balanced, FREE_PIVOT, Factored, balanced, by_newton};
+use super::{Balanced, FREE_PIVOT, Factored, by_newton, by_newton_or_traced};
 use crate::budget::{Budget, Stopped};
 use crate::dda::assembly::Assembly;
 use crate::dda::contact::{Contact, Law, State};
@@ -52,7 +52,7 @@ pub fn direct(
     budget: &Budget,
 ) -> Result<Option<Balanced>, Stopped> {
     let start = near.map_or_else(|| vec![0.0; loads.len()], <[f64]>::to_vec);
-    let (factored, contacts) = (Factored::new(assembly, loads, budget), assembly.exact_contacts());
+    let (factored, contacts) = (Factored::new(assembly, budget), assembly.exact_contacts());
     let (displacements, bounds) = (start.clone(), Vec::new());
     let mut search = Direct { assembly, contacts, loads, symmetric, budget, factored, displacements, bounds };
     if near.is_none() || !search.let_slide(FEW_STEPS)? {
@@ -62,19 +62,14 @@ pub fn direct(
         }
         search.let_slide(STEPS)?;
     }
-    let Direct { factored, displacements, .. } = search;
+    let Direct { mut factored, displacements, .. } = search;
+    let free = factored.pivot_ratio() < FREE_PIVOT;
     let found = match near {
         // A path from a state near by is as good as one from here.
-        Some(_) => by_newton(assembly, loads, &displacements, symmetric, budget),
-        None => balanced(assembly, size, loads, &displacements, symmetric, budget),
+        Some(_) => by_newton(&mut factored, loads, &displacements, symmetric, budget),
+        None => by_newton_or_traced(&mut factored, size, loads, &displacements, symmetric, budget),
     }?;
-    let free = |found: &Balanced| found.free || factored.pivot_ratio() < FREE_PIVOT;
-    let found = found.filter(|found| !free(found));
-    Ok(found.map(|found| Balanced {
-        factorisations: found.factorisations + factored.factorisations,
-        block_rows: found.block_rows + factored.block_rows(),
-        ..found
-    }))
+    Ok(found.filter(|found| !free && !found.free))
 }
 
 /// A state that is looked for.

@@ -10,11 +10,10 @@ use crate::dda::tree::Link;
 type Rows = [[f64; 4]; 4];
 
 impl Factor<'_> {
-    /// Eliminates a link, those that feed it being current, and takes the right-hand side through it.
+    /// Eliminates a link, those that feed it being current.
     pub(super) fn eliminate_link(
         &mut self,
         k: &Elements,
-        b: &[f64],
         (number, link): (usize, Link),
         budget: &Budget,
     ) -> Result<(), Stopped> {
@@ -49,7 +48,6 @@ impl Factor<'_> {
         self.ratio[number] = ratio.min(self.pivots[number].ratio);
         self.current[number] = true;
         self.eliminated += 1;
-        self.forward_link(b, (number, link));
         budget.work(64)
     }
 

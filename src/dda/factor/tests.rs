@@ -84,6 +84,22 @@ fn error(pattern: &Pattern, k: &Elements, b: &[f64], x: &[f64]) -> f64 {
 }
 
 #[test]
+fn factors_that_carry_no_right_hand_side_solve_for_any() {
+    for pattern in patterns() {
+        let (mut k, tree) = (matrix(&pattern), Tree::new(&pattern, |_| true, &Budget::unlimited()).unwrap());
+        let b: Vec<f64> = numbers().take(pattern.unknowns()).collect();
+        let (mut factor, mut x) = (Factor::new(&tree), vec![0.0; b.len()]);
+        for change in [0, pattern.faces.len() - 1] {
+            k.get_mut(change)[0] += 1.0;
+            factor.invalidate(change);
+            factor.refactor(&k, change, &Budget::unlimited()).unwrap();
+            factor.solve(&b, &mut x, &Budget::unlimited()).unwrap();
+            assert!(error(&pattern, &k, &b, &x) < 1e-13);
+        }
+    }
+}
+
+#[test]
 fn agrees_with_a_dense_solver_wherever_the_change_is() {
     for pattern in patterns() {
         let (mut k, tree) = (matrix(&pattern), Tree::new(&pattern, |_| true, &Budget::unlimited()).unwrap());
