@@ -2,11 +2,9 @@
 
 #![allow(clippy::needless_range_loop, reason = "indices are the mathematics here")]
 
-use super::panels::dot;
+use super::panels::{AT_ONCE, dot, subtract_rows};
 use crate::budget::{Budget, Stopped};
-
-/// Columns that are eliminated, and rows that are taken from others, at once.
-const AT_ONCE: usize = 4;
+use pulp::{Arch, Simd, WithSimd};
 
 /// LU of one pivot block, rows exchanged by partial pivoting.
 #[derive(Debug, Clone, Default)]
@@ -44,64 +42,11 @@ impl Pivot {
             // Two contact points a joint: shapes known to the compiler run several times faster.
             (4, 4) => self.factor_fixed::<4, 8>(rows, solved, ends),
             (8, 0) => self.factor_fixed::<8, 8>(rows, solved, ends),
-            (n, columns) => return self.factor_of([n, columns], rows, solved, ends, budget),
-        }
-        Ok(())
-    }
-
-    /// Rows of [a | b] are kept together: an elimination step is one operation on neighbours, which compilers turn into
-    /// vector instructions. Four columns are eliminated before what is right of them is touched, so that it is read and written a
-    /// fourth as often.
-    fn factor_of(
-        &mut self,
-        [n, columns]: [usize; 2],
-        rows: &mut [f64],
-        b: &mut [f64],
-        ends: &[usize],
-        budget: &Budget,
-    ) -> Result<(), Stopped> {
-        let width = n + columns;
-        let rows = &mut rows[..n * width];
-        self.rows.resize(n * n, 0.0);
-        self.order.clear();
-        self.order.extend(0..n);
-        let mut ratios = Ratios::new(ends);
-        for first in (0..n).step_by(AT_ONCE) {
-            let end = n.min(first + AT_ONCE);
-            for k in first..end {
-                self.choose(k, width, rows);
-                let pivot = regular(rows[k * width + k], rows);
-                ratios.see(k, pivot);
-                rows[k * width + k] = 1.0 / pivot;
-                let (above, below) = rows.split_at_mut((k + 1) * width);
-                let (before, row) = above.split_at_mut(k * width);
-                let (left, right) = row.split_at_mut(end);
-                for (l, before) in left[first..k].iter().zip(before[first * width..].chunks_exact(width)) {
-                    right.iter_mut().zip(&before[end..]).for_each(|(entry, above)| *entry -= l * above);
-                }
-                for row in below.chunks_exact_mut(width) {
-                    let l = row[k] * left[k];
-                    row[k] = l;
-                    row[k + 1..end].iter_mut().zip(&left[k + 1..]).for_each(|(entry, above)| *entry -= l * above);
-                }
+            (n, columns) => {
+                let elimination = Elimination { pivot: self, size: [n, columns], rows, solved, ends, budget };
+                return Arch::new().dispatch(elimination);
             }
-            let (above, below) = rows.split_at_mut(end * width);
-            for row in below.chunks_exact_mut(width) {
-                let (left, right) = row.split_at_mut(end);
-                subtract_rows(&left[first..], &above[first * width..], [end, width], right);
-            }
-            budget.work((end - first) * (n - first) * (width - first))?;
         }
-        for i in (0..n).rev() {
-            let (above, below) = rows.split_at_mut((i + 1) * width);
-            let (left, right) = above[i * width..].split_at_mut(n);
-            subtract_rows(&left[i + 1..], below, [n, width], right);
-            right.iter_mut().for_each(|entry| *entry *= left[i]);
-            self.rows[i * n..(i + 1) * n].copy_from_slice(left);
-            b[i * columns..(i + 1) * columns].copy_from_slice(right);
-            budget.work((n - i) * columns)?;
-        }
-        self.ratio = ratios.least;
         Ok(())
     }
 
@@ -186,19 +131,68 @@ impl Pivot {
     }
 }
 
-/// Takes so many times each of some rows, from a column on, from another one, first rows first: four at a time.
-#[inline(always)]
-fn subtract_rows(times: &[f64], rows: &[f64], [from, width]: [usize; 2], into: &mut [f64]) {
-    let (by_four, rest) = times.as_chunks::<AT_ONCE>();
-    for (l, rows) in by_four.iter().zip(rows.chunks_exact(AT_ONCE * width)) {
-        let ((a, b), (c, d)) = (rows[..2 * width].split_at(width), rows[2 * width..].split_at(width));
-        let (pairs, more) = (a[from..].iter().zip(&b[from..]), c[from..].iter().zip(&d[from..]));
-        for ((entry, (a, b)), (c, d)) in into.iter_mut().zip(pairs).zip(more) {
-            *entry = *entry - l[0] * a - l[1] * b - l[2] * c - l[3] * d;
+/// What [`Pivot::factor`] does where the compiler does not know the shape, with the vector instructions that the processor has.
+struct Elimination<'p> {
+    pivot: &'p mut Pivot,
+    size: [usize; 2],
+    rows: &'p mut [f64],
+    solved: &'p mut [f64],
+    ends: &'p [usize],
+    budget: &'p Budget<'p>,
+}
+
+impl WithSimd for Elimination<'_> {
+    type Output = Result<(), Stopped>;
+
+    /// Rows of [a | b] are kept together: an elimination step is one operation on neighbours, which compilers turn into
+    /// vector instructions. Four columns are eliminated before what is right of them is touched, so that it is read and written a
+    /// fourth as often.
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        let Elimination { pivot: factors, size: [n, columns], rows, solved, ends, budget } = self;
+        let width = n + columns;
+        let rows = &mut rows[..n * width];
+        factors.rows.resize(n * n, 0.0);
+        factors.order.clear();
+        factors.order.extend(0..n);
+        let mut ratios = Ratios::new(ends);
+        for first in (0..n).step_by(AT_ONCE) {
+            let end = n.min(first + AT_ONCE);
+            for k in first..end {
+                factors.choose(k, width, rows);
+                let pivot = regular(rows[k * width + k], rows);
+                ratios.see(k, pivot);
+                rows[k * width + k] = 1.0 / pivot;
+                let (above, below) = rows.split_at_mut((k + 1) * width);
+                let (before, row) = above.split_at_mut(k * width);
+                let (left, right) = row.split_at_mut(end);
+                for (l, before) in left[first..k].iter().zip(before[first * width..].chunks_exact(width)) {
+                    right.iter_mut().zip(&before[end..]).for_each(|(entry, above)| *entry -= l * above);
+                }
+                for row in below.chunks_exact_mut(width) {
+                    let l = row[k] * left[k];
+                    row[k] = l;
+                    row[k + 1..end].iter_mut().zip(&left[k + 1..]).for_each(|(entry, above)| *entry -= l * above);
+                }
+            }
+            let (above, below) = rows.split_at_mut(end * width);
+            for row in below.chunks_exact_mut(width) {
+                let (left, right) = row.split_at_mut(end);
+                subtract_rows(simd, &left[first..], &above[first * width..], [end, width], right);
+            }
+            budget.work((end - first) * (n - first) * (width - first))?;
         }
-    }
-    for (l, row) in rest.iter().zip(rows[by_four.len() * AT_ONCE * width..].chunks_exact(width)) {
-        into.iter_mut().zip(&row[from..]).for_each(|(entry, x)| *entry -= l * x);
+        for i in (0..n).rev() {
+            let (above, below) = rows.split_at_mut((i + 1) * width);
+            let (left, right) = above[i * width..].split_at_mut(n);
+            subtract_rows(simd, &left[i + 1..], below, [n, width], right);
+            right.iter_mut().for_each(|entry| *entry *= left[i]);
+            factors.rows[i * n..(i + 1) * n].copy_from_slice(left);
+            solved[i * columns..(i + 1) * columns].copy_from_slice(right);
+            budget.work((n - i) * columns)?;
+        }
+        factors.ratio = ratios.least;
+        Ok(())
     }
 }
 

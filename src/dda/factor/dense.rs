@@ -1,7 +1,9 @@
 //! What elimination does to the dense rows of a front.
 
 use crate::budget::{Budget, Stopped};
+use crate::dda::panels::subtract_rows;
 use crate::dda::tree::Run;
+use pulp::{Arch, Simd, WithSimd};
 
 /// Adds the entries of a square matrix, whose rows are `size` apart, into a front of rows that are `width` apart.
 pub fn add_up(entries: &[f64], size: usize, runs: &[Run], width: usize, front: &mut [f64]) {
@@ -54,38 +56,36 @@ pub fn reduce(
         [4, 4] => reduce_four(rows, x, below, left),
         [_, 0] => {}
         [0, _] => left.copy_from_slice(rows),
-        sizes => return reduce_of(rows, x, sizes, [below, left], budget),
+        sizes => return Arch::new().dispatch(Reduction { rows, x, sizes, into: [below, left], budget }),
     }
     Ok(())
 }
 
-fn reduce_of(
-    rows: &[f64],
-    x: &[f64],
-    [removed, kept]: [usize; 2],
-    [below, left]: [&mut [f64]; 2],
-    budget: &Budget,
-) -> Result<(), Stopped> {
-    let into = below.chunks_exact_mut(removed).zip(left.chunks_exact_mut(kept));
-    for (row, (below, left)) in rows.chunks_exact(removed + kept).zip(into) {
-        let (c, d) = row.split_at(removed);
-        below.copy_from_slice(c);
-        left.copy_from_slice(d);
-        // Four rows at a time, so that what is left is read and written a fourth as often. Faces have few ties, and mostly four
-        // unknowns.
-        let (by_four, rest) = (c.chunks_exact(4).zip(x.chunks_exact(4 * kept)), removed / 4 * 4);
-        for (l, x) in by_four.filter(|(l, _)| l.iter().any(|l| *l != 0.0)) {
-            let ((a, b), (c, d)) = (x[..2 * kept].split_at(kept), x[2 * kept..].split_at(kept));
-            for ((((entry, a), b), c), d) in left.iter_mut().zip(a).zip(b).zip(c).zip(d) {
-                *entry -= (l[0] * a + l[1] * b) + (l[2] * c + l[3] * d);
-            }
+/// The same where the compiler does not know the sizes, with the vector instructions that the processor has.
+struct Reduction<'r> {
+    rows: &'r [f64],
+    x: &'r [f64],
+    sizes: [usize; 2],
+    into: [&'r mut [f64]; 2],
+    budget: &'r Budget<'r>,
+}
+
+impl WithSimd for Reduction<'_> {
+    type Output = Result<(), Stopped>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        let Reduction { rows, x, sizes: [removed, kept], into: [below, left], budget } = self;
+        let into = below.chunks_exact_mut(removed).zip(left.chunks_exact_mut(kept));
+        for (row, (below, left)) in rows.chunks_exact(removed + kept).zip(into) {
+            let (c, d) = row.split_at(removed);
+            below.copy_from_slice(c);
+            left.copy_from_slice(d);
+            subtract_rows(simd, c, x, [0, kept], left);
+            budget.work(removed * kept)?;
         }
-        for (l, x) in c[rest..].iter().zip(x[rest * kept..].chunks_exact(kept)) {
-            left.iter_mut().zip(x).for_each(|(entry, x)| *entry -= l * x);
-        }
-        budget.work(removed * kept)?;
+        Ok(())
     }
-    Ok(())
 }
 
 fn reduce_four(rows: &[f64], x: &[f64], below: &mut [f64], left: &mut [f64]) {
