@@ -25,8 +25,8 @@ use crate::structure::is_symmetric;
 use states::States;
 
 /// Subblocks across all stones together from which on solving for the states on a mesh is worth a try. Measured on semicircles under a
-/// load over the quarter point, over the time of the path: 27 of 2 x 2 2.5, of 4 x 4 1.0, of 8 x 8 0.8; 61 of 2 x 2 1.6, of 4 x 4 0.9,
-/// of 8 x 8 0.4; 15 of 16 x 16 0.8; 9 of 24 x 24 0.9; 101 of 2 x 2 1.0; 201 of 2 x 2 0.3; 1,001 of 2 x 2 0.1.
+/// load over the quarter point, over the time of the path: 27 of 2 x 2 2.5, of 4 x 4 1.0, of 8 x 8 0.8, of 12 x 12 0.6; 15 of 16 x 16
+/// and 9 of 24 x 24 0.7; 61 of 2 x 2 1.6, of 4 x 4 0.7, of 8 x 8 0.35; 101 of 2 x 2 1.0; 201 of 2 x 2 0.4, of 4 x 4 0.25; 1,001 of 2 x 2 0.1.
 const PAYS: usize = 200;
 /// Velocities of a mechanism, as a share of the largest, that differ by less are the same.
 const SAME_VELOCITY: f64 = 1e-6;
