@@ -71,58 +71,7 @@ pub fn balanced(
     symmetric: bool,
     budget: &Budget,
 ) -> Result<Option<Balanced>, Stopped> {
-    by_newton_or_traced(&mut Factored::new(assembly, budget), size, loads, near, symmetric, budget)
-}
-
-/// Newton's method, and where it fails what a path leads to; with factors that are there.
-fn by_newton_or_traced(
-    factored: &mut Factored,
-    size: f64,
-    loads: &[f64],
-    near: &[f64],
-    symmetric: bool,
-    budget: &Budget,
-) -> Result<Option<Balanced>, Stopped> {
-    let found = by_newton(factored, loads, near, symmetric, budget)?;
-    if found.is_some() {
-        return Ok(found);
-    }
-    let traced = traced(factored.assembly, size, loads, near, budget)?;
-    traced.map_or(Ok(None), |near| by_newton(factored, loads, &near, symmetric, budget))
-}
-
-/// Newton's method on the law of the exact contacts, from displacements `near`, with factors that are there.
-fn by_newton(
-    factored: &mut Factored,
-    loads: &[f64],
-    near: &[f64],
-    symmetric: bool,
-    budget: &Budget,
-) -> Result<Option<Balanced>, Stopped> {
-    let (assembly, contacts) = (factored.assembly, factored.assembly.exact_contacts());
-    let mut d = if symmetric { assembly.symmetrised(near) } else { near.to_vec() };
-    let (mut residual, mut best) = (vec![0.0; d.len()], (f64::INFINITY, Vec::new()));
-    for _ in 0..STEPS {
-        assembly.unbalance(contacts, loads, &d, &mut residual, budget)?;
-        let share = share_of(&residual, loads);
-        let settled = share <= EXACT_BALANCE || (share >= 0.5 * best.0 && best.0 <= BALANCED);
-        let lost = share > LOST * best.0;
-        if share < best.0 {
-            best = (share, d.clone());
-        }
-        if settled || lost {
-            break;
-        }
-        let tangent =
-            |(p, contact): (usize, &Contact)| contact.tangent_stiffness(contact.state_at(assembly.gap(p, &d)));
-        let tangents: Vec<[f64; 4]> = contacts.iter().enumerate().map(tangent).collect();
-        let correction = factored.solve(&tangents, &residual, budget)?;
-        let correction = if symmetric { assembly.symmetrised(&correction) } else { correction };
-        d.iter_mut().zip(&correction).for_each(|(d, correction)| *d += correction);
-    }
-    let ((share, displacements), free) = (best, factored.pivot_ratio() < FREE_PIVOT);
-    let [factorisations, block_rows] = [factored.factorisations, factored.block_rows()];
-    Ok((share <= BALANCED).then_some(Balanced { displacements, free, factorisations, block_rows }))
+    Factored::new(assembly, budget).balanced(size, loads, near, symmetric)
 }
 
 /// Where the tangent is singular, as next to a momentary mechanism, a state may be far away in its direction. Displacements
@@ -196,17 +145,18 @@ struct Factored<'a> {
     /// Tangent stiffness of every contact as factored; none at first.
     tangents: Vec<[f64; 4]>,
     factorisations: usize,
+    budget: &'a Budget<'a>,
 }
 
 impl<'a> Factored<'a> {
     /// Of nothing yet.
-    fn new(assembly: &'a Assembly, budget: &Budget) -> Self {
+    fn new(assembly: &'a Assembly, budget: &'a Budget<'a>) -> Self {
         let (matrix, factor) = (assembly.elastic().copied(budget), Factor::new(assembly.tree()));
-        Factored { assembly, matrix, factor, tangents: Vec::new(), factorisations: 0 }
+        Factored { assembly, matrix, factor, tangents: Vec::new(), factorisations: 0, budget }
     }
 
     /// Displacements that contacts of these tangent stiffnesses answer a residual with.
-    fn solve(&mut self, tangents: &[[f64; 4]], residual: &[f64], budget: &Budget) -> Result<Vec<f64>, Stopped> {
+    fn solve(&mut self, tangents: &[[f64; 4]], residual: &[f64]) -> Result<Vec<f64>, Stopped> {
         let mut last = None;
         for k in 0..self.assembly.interfaces() {
             let here = self.assembly.at_interface(k);
@@ -221,12 +171,59 @@ impl<'a> Factored<'a> {
             let first = self.tangents.is_empty();
             let to = if first { self.assembly.element(self.assembly.interfaces() / 2) } else { last };
             self.tangents = tangents.to_vec();
-            self.factor.refactor(&self.matrix, to, budget)?;
+            self.factor.refactor(&self.matrix, to, self.budget)?;
             self.factorisations += 1;
         }
         let mut answer = vec![0.0; residual.len()];
-        self.factor.solve(residual, &mut answer, budget)?;
+        self.factor.solve(residual, &mut answer, self.budget)?;
         Ok(answer)
+    }
+
+    /// The state of equilibrium by Newton's method, and where that fails by what a path leads to; as [`balanced`].
+    fn balanced(
+        &mut self,
+        size: f64,
+        loads: &[f64],
+        near: &[f64],
+        symmetric: bool,
+    ) -> Result<Option<Balanced>, Stopped> {
+        let found = self.by_newton(loads, near, symmetric)?;
+        if found.is_some() {
+            return Ok(found);
+        }
+        let traced = traced(self.assembly, size, loads, near, self.budget)?;
+        traced.map_or(Ok(None), |near| self.by_newton(loads, &near, symmetric))
+    }
+
+    /// Newton's method on the law of the exact contacts, from displacements `near`.
+    fn by_newton(&mut self, loads: &[f64], near: &[f64], symmetric: bool) -> Result<Option<Balanced>, Stopped> {
+        let (assembly, contacts) = (self.assembly, self.assembly.exact_contacts());
+        let mut d = if symmetric { assembly.symmetrised(near) } else { near.to_vec() };
+        let (mut residual, mut best) = (vec![0.0; d.len()], (f64::INFINITY, Vec::new()));
+        // Factors from before tell nothing of this state.
+        let mut pivot_ratio = f64::INFINITY;
+        for _ in 0..STEPS {
+            assembly.unbalance(contacts, loads, &d, &mut residual, self.budget)?;
+            let share = share_of(&residual, loads);
+            let settled = share <= EXACT_BALANCE || (share >= 0.5 * best.0 && best.0 <= BALANCED);
+            let lost = share > LOST * best.0;
+            if share < best.0 {
+                best = (share, d.clone());
+            }
+            if settled || lost {
+                break;
+            }
+            let tangent =
+                |(p, contact): (usize, &Contact)| contact.tangent_stiffness(contact.state_at(assembly.gap(p, &d)));
+            let tangents: Vec<[f64; 4]> = contacts.iter().enumerate().map(tangent).collect();
+            let correction = self.solve(&tangents, &residual)?;
+            pivot_ratio = self.pivot_ratio();
+            let correction = if symmetric { assembly.symmetrised(&correction) } else { correction };
+            d.iter_mut().zip(&correction).for_each(|(d, correction)| *d += correction);
+        }
+        let ((share, displacements), free) = (best, pivot_ratio < FREE_PIVOT);
+        let [factorisations, block_rows] = [self.factorisations, self.block_rows()];
+        Ok((share <= BALANCED).then_some(Balanced { displacements, free, factorisations, block_rows }))
     }
 
     fn pivot_ratio(&self) -> f64 {

@@ -166,9 +166,7 @@ impl WithSimd for Elimination<'_> {
                 let (above, below) = rows.split_at_mut((k + 1) * width);
                 let (before, row) = above.split_at_mut(k * width);
                 let (left, right) = row.split_at_mut(end);
-                for (l, before) in left[first..k].iter().zip(before[first * width..].chunks_exact(width)) {
-                    right.iter_mut().zip(&before[end..]).for_each(|(entry, above)| *entry -= l * above);
-                }
+                subtract_rows(simd, &left[first..k], &before[first * width..], [end, width], right);
                 for row in below.chunks_exact_mut(width) {
                     let l = row[k] * left[k];
                     row[k] = l;

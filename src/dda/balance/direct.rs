@@ -5,7 +5,7 @@
 //!    contact changes its state. From displacements that are near this takes few steps, each of which touches few contacts.
 //! 2. Where it takes more, or nothing is near: through the [inside](interior) of the law, with all contacts at once, to next to the
 //!    state; from there as before.
-//! 3. The law itself, as [`balanced`] solves it.
+//! 3. The law itself, as [`balanced`](super::balanced) solves it.
 //!
 //! Slip is measured from the unstressed start, so the law has no memory, and where there is but one state it is that of the path.
 //! Measured on semicircles of 27 to 2,001 stones cut into 2 x 2 to 8 x 8 subblocks: 3 to 70 factorisations where the path has 50 to
@@ -13,7 +13,7 @@
 
 mod interior;
 
-use super::{Balanced, FREE_PIVOT, Factored, by_newton, by_newton_or_traced};
+use super::{Balanced, FREE_PIVOT, Factored};
 use crate::budget::{Budget, Stopped};
 use crate::dda::assembly::Assembly;
 use crate::dda::contact::{Contact, Law, State};
@@ -63,11 +63,12 @@ pub fn direct(
         search.let_slide(STEPS)?;
     }
     let Direct { mut factored, displacements, .. } = search;
+    // Under the last bounds of shear; the law itself says its own.
     let free = factored.pivot_ratio() < FREE_PIVOT;
     let found = match near {
         // A path from a state near by is as good as one from here.
-        Some(_) => by_newton(&mut factored, loads, &displacements, symmetric, budget),
-        None => by_newton_or_traced(&mut factored, size, loads, &displacements, symmetric, budget),
+        Some(_) => factored.by_newton(loads, &displacements, symmetric),
+        None => factored.balanced(size, loads, &displacements, symmetric),
     }?;
     Ok(found.filter(|found| !free && !found.free))
 }
@@ -147,12 +148,12 @@ impl Direct<'_> {
 
     fn newton_step(&mut self, gaps: &[[f64; 2]], residual: &[f64], propped: f64) -> Result<Vec<f64>, Stopped> {
         let mut tangents = self.tangents(gaps);
-        let mut step = self.factored.solve(&tangents, residual, self.budget)?;
+        let mut step = self.factored.solve(&tangents, residual)?;
         if self.factored.pivot_ratio() < SINGULAR {
             for (tangent, contact) in tangents.iter_mut().zip(self.contacts) {
                 [0, 3].iter().zip(contact.stiffness).for_each(|(&i, k)| tangent[i] = tangent[i].max(propped * k));
             }
-            step = self.factored.solve(&tangents, residual, self.budget)?;
+            step = self.factored.solve(&tangents, residual)?;
         }
         Ok(if self.symmetric { self.assembly.symmetrised(&step) } else { step })
     }

@@ -234,7 +234,7 @@ impl Direct<'_> {
             self.assembly.push(p, contact.held(gaps[p], product, &second[p]), &mut residual);
         }
         let tangents: Vec<[f64; 4]> = inside.iter().map(Inside::tangent).collect();
-        let step = self.factored.solve(&tangents, &residual, self.budget)?;
+        let step = self.factored.solve(&tangents, &residual)?;
         let displacements = if self.symmetric { self.assembly.symmetrised(&step) } else { step };
         let mut rates = Vec::new();
         self.assembly.gaps(&displacements, &mut rates);
