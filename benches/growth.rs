@@ -8,6 +8,7 @@
 //! | family | what |
 //! |---|---|
 //! | `quarter`, `crown` | a semicircle with dry joints under a point load, to collapse, one subblock a voussoir |
+//! | `history` | as `quarter`, every event of the load path told |
 //! | `fine` | the same with more and more subblocks in 61 voussoirs |
 //! | `alike` | the elastic field of 61 equal voussoirs with bonded joints under their weight |
 //! | `unlike` | the same with every voussoir of another length: no stone's stiffness serves for another |
@@ -42,9 +43,10 @@ const LONG_S: f64 = 2.0;
 const SHORT_S: f64 = 0.05;
 
 /// Families of rows: voussoirs, and subblocks each way in each of them.
-const FAMILIES: [(&str, &[(usize, usize)]); 7] = [
+const FAMILIES: [(&str, &[(usize, usize)]); 8] = [
     ("quarter", &COLLAPSES),
     ("crown", &COLLAPSES),
+    ("history", &COLLAPSES),
     ("fine", &[(61, 1), (61, 2), (61, 4), (61, 8), (61, 16)]),
     ("alike", &[(61, 1), (61, 2), (61, 4), (61, 8), (61, 16), (61, 32), (61, 64), (61, 128)]),
     ("unlike", &[(61, 1), (61, 2), (61, 4), (61, 8), (61, 16), (61, 32), (61, 64), (61, 128)]),
@@ -108,8 +110,9 @@ fn heading() -> String {
 /// One row: measured here, printed on one line.
 fn row(family: &str, voussoirs: usize, each_way: usize) {
     let question = match family {
-        "quarter" | "fine" => collapse(voussoirs, each_way, -0.5),
-        "crown" => collapse(voussoirs, each_way, 0.0),
+        "quarter" | "fine" => collapse(voussoirs, each_way, -0.5, false),
+        "crown" => collapse(voussoirs, each_way, 0.0, false),
+        "history" => collapse(voussoirs, each_way, -0.5, true),
         "alike" => elastic(voussoirs, each_way, &vec![1.0; voussoirs]),
         "beam" => beam(each_way),
         _ => elastic(voussoirs, each_way, &(0..voussoirs).map(|i| 1.0 + 1e-4 * i as f64).collect::<Vec<_>>()),
@@ -157,8 +160,11 @@ fn arch(lengths: &[f64], x: f64) -> Analysis {
     read_analysis(request.to_string().as_bytes()).unwrap().1
 }
 
-fn collapse(voussoirs: usize, each_way: usize, x: f64) -> Question {
+fn collapse(voussoirs: usize, each_way: usize, x: f64, history: bool) -> Question {
     let mut analysis = arch(&vec![1.0; voussoirs], x);
+    if let Task::Collapse(task) = &mut analysis.task {
+        task.states.history = history;
+    }
     analysis.mesh.subblocks = vec![[each_way; 2]; voussoirs];
     Question::One(Box::new(analysis))
 }

@@ -4,7 +4,7 @@ use super::discretise::Model;
 use super::path::{Fall, Leg, at, largest};
 use super::record::Recorder;
 use super::{AnalysisError, Cost};
-use crate::dda::{ChainPath, ChainState, ChainStep, Loaded, Peak, Shifts, missing};
+use crate::dda::{ChainPath, ChainState, ChainStep, Loaded, Peak, Shifts, ShiftsAlong, missing};
 
 /// A path whose end is out of balance by more than this share of its loads is left to the tracer, which corrects its states.
 const BALANCED: f64 = 1e-10;
@@ -31,13 +31,13 @@ pub(super) fn follow_chain(
     let end = recorder.sign * cap;
     let Some(mut path) = ChainPath::new(chain, from, recorder.sign) else { return Ok(None) };
     let shifts = recorder.tells_history.then(|| Shifts::new(chain, [&model.fixed, &model.scaled]));
-    let mut see =
-        |state: &ChainState| recorder.see_bodies(state.load_factor, shifts.as_ref().map(|shifts| shifts.at(state)));
-    see(from);
+    let mut shifts = shifts.map(|shifts| ShiftsAlong::new(shifts, &path));
+    recorder.see_bodies(from, shifts.as_mut());
     loop {
         match path.step(end, model.budget)? {
             ChainStep::Event => {
-                see(path.state());
+                shifts.iter_mut().for_each(|shifts| shifts.pass(&path));
+                recorder.see_bodies(path.state(), shifts.as_mut());
                 if model.budget.step(path.state().load_factor, path.events()).is_break() {
                     return Err(model.budget.stopped().into());
                 }

@@ -5,7 +5,7 @@ use super::farthest::Farthest;
 use super::mirror::evened;
 use super::yielding::{Averaged, Yielding};
 use super::{Analysis, FieldAt, HistoryPoint, Method, mechanism};
-use crate::geometry::Vec2;
+use crate::dda::{ChainState, ShiftsAlong};
 use std::collections::VecDeque;
 use std::rc::Rc;
 
@@ -237,22 +237,23 @@ impl<'a> Recorder<'a> {
         Some((wanted, displacements))
     }
 
-    /// Takes in the next point of a path whose states are found without it, with the mean displacements of all bodies for its history.
-    pub(super) fn see_bodies(&mut self, load_factor: f64, bodies: Option<Vec<Vec2>>) {
+    /// Takes in the next point of a path whose states are found without it, with how bodies are displaced along it for its history.
+    pub(super) fn see_bodies(&mut self, state: &ChainState, shifts: Option<&mut ShiftsAlong>) {
+        let load_factor = state.load_factor;
         let now = Rc::new((load_factor, Vec::new()));
         let before = self.last.take();
         if let Some(before) = &before {
             self.pass(before, &now);
         }
-        if let Some(mut bodies) = bodies {
-            if self.is_symmetric_at(load_factor)
-                && let Some((images, _)) = self.model.assembly.images_of_bodies()
-            {
-                bodies = evened(&bodies, images);
-            }
-            let crown = 0.5 * (bodies[self.crown[0]] + bodies[self.crown[1]]);
-            let largest = bodies.iter().map(|shift| shift.norm_squared()).fold(0.0, f64::max).sqrt();
-            self.history.push(HistoryPoint { load_factor, crown, largest });
+        if let Some(shifts) = shifts {
+            let images = self.model.assembly.images_of_bodies().filter(|_| self.is_symmetric_at(load_factor));
+            let (crown, largest) = if let Some((images, _)) = images {
+                let bodies = evened(&shifts.all(state), images);
+                (self.crown.map(|body| bodies[body]), bodies.iter().map(|shift| shift.norm()).fold(0.0, f64::max))
+            } else {
+                (self.crown.map(|body| shifts.of(state, body)), shifts.largest(state))
+            };
+            self.history.push(HistoryPoint { load_factor, crown: 0.5 * (crown[0] + crown[1]), largest });
         }
         self.keep(before, &now);
         self.last = Some(now);

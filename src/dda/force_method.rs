@@ -36,7 +36,7 @@ use statics::Statics;
 
 pub use compatibility::Loaded;
 pub use path::{ChainPath, ChainStep};
-pub use shifts::Shifts;
+pub use shifts::{Shifts, ShiftsAlong};
 
 /// Most times that splits are renewed for one state (measured: 2 to 25 where they settle at all).
 const ROUNDS: usize = 60;

@@ -35,7 +35,7 @@ pub use balance::{Balanced, balanced, direct, missing, out_of_balance};
 pub use block::{Block, Elasticity, V6};
 pub use condense::{Condensed, Loose, Node, Unbuilt, free_response};
 pub use contact::{Contact, ContactForce, Law, State, Zone};
-pub use force_method::{ChainPath, ChainState, ChainStep, ForceMethod, Loaded, Shifts};
+pub use force_method::{ChainPath, ChainState, ChainStep, ForceMethod, Loaded, Shifts, ShiftsAlong};
 pub use inside::Inside;
 pub use macroblock::{Bond, Macroblock, Seam};
 pub use second_order::{GAUSS_3, SecondOrder};

@@ -5,12 +5,18 @@
 //! path is followed while the load factor goes its way, to the mechanism in which four points open (three, before a smooth
 //! interface). Where it turns back, or a whole interface slides, it is not followed: that is left to the tracer.
 
+mod bearing;
+mod borders;
+
 use super::friction::Split;
 use super::openings::Opening;
 use super::reduced::Elimination;
 use super::{ChainState, Linear, Loaded, Three, value};
 use crate::budget::{Budget, Stopped};
-use crate::dda::contact::{Law, State, Zone};
+use crate::dda::contact::{State, Zone};
+use bearing::{Bearing, NEVER};
+use borders::{Borders, Crossing, Functions};
+use std::ops::Range;
 
 /// Work of looking at an interface, and of renewing one, in multiplications.
 const LOOK: usize = 40;
@@ -20,23 +26,19 @@ const MOST_EVENTS: usize = 20;
 /// Gaps of a mechanism that change by less than this share of the fastest do so by rounding.
 const STILL: f64 = 1e-9;
 
-/// Four functions of redundants and loads that are positive while an interface stays as it is; coefficient by coefficient.
-type Borders = [[f64; 4]; 5];
-
-/// A function that never changes sign.
-const NEVER: Linear = [0.0, 0.0, 0.0, 1.0, 0.0];
-
 /// Where a path is, and how it goes on.
 #[derive(Debug)]
 pub struct ChainPath<'l> {
     chain: &'l Loaded<'l>,
     state: ChainState,
     elimination: Elimination,
-    borders: Vec<Borders>,
+    bearings: Vec<Bearing>,
+    borders: Borders,
     /// +1 where the load factor increases, -1 where it decreases.
     sign: f64,
     going: Going,
     events: usize,
+    felt: Range<usize>,
 }
 
 /// Change along the path: of redundants and load factor, and of the gaps of open points.
@@ -45,6 +47,13 @@ struct Going {
     redundants: Three,
     load_factor: f64,
     gaps: Vec<f64>,
+}
+
+impl Going {
+    fn rate(&self) -> Linear {
+        let [x, y, z] = self.redundants;
+        [x, y, z, 0.0, self.load_factor]
+    }
 }
 
 /// What changes next.
@@ -73,12 +82,11 @@ impl<'l> ChainPath<'l> {
     /// The path from a state on, the way of `sign`; none where it does not go that way.
     pub fn new(chain: &'l Loaded, state: &ChainState, sign: f64) -> Option<Self> {
         let elimination = Elimination::new(chain, &state.splits, &state.reduced);
-        let interfaces = state.splits.len();
-        let going = Going { redundants: [0.0; 3], load_factor: 0.0, gaps: Vec::new() };
-        let (state, borders) = (state.clone(), vec![Borders::default(); interfaces]);
-        let mut path = ChainPath { chain, state, elimination, borders, sign, going, events: 0 };
-        (0..interfaces).for_each(|k| path.renew_borders(k));
-        path.going = path.goes_on()?;
+        let going = goes_on(chain, state, sign)?;
+        let borders = Borders::new(state.splits.len());
+        let (state, bearings) = (state.clone(), (0..state.splits.len()).map(|k| Bearing::new(chain, k)).collect());
+        let mut path = ChainPath { chain, state, elimination, bearings, borders, sign, going, events: 0, felt: 0..0 };
+        (0..path.bearings.len()).for_each(|k| path.renew_borders(k));
         Some(path)
     }
 
@@ -92,12 +100,17 @@ impl<'l> ChainPath<'l> {
         &self.state
     }
 
+    /// Interfaces with what the last event has changed in how they go on.
+    pub fn felt(&self) -> Range<usize> {
+        self.felt.clone()
+    }
+
     /// Goes to the next change of state, or to a load factor.
     ///
     /// # Errors
     /// When stopped.
     pub fn step(&mut self, target: f64, budget: &Budget) -> Result<ChainStep, Stopped> {
-        budget.work(LOOK * self.borders.len())?;
+        budget.work(LOOK * self.borders.interfaces())?;
         let loads = self.going.load_factor != 0.0;
         let to_target = if loads { self.sign * (target - self.state.load_factor) } else { f64::INFINITY };
         let Some((step, change)) = self.next_change().filter(|(step, _)| *step < to_target) else {
@@ -110,31 +123,28 @@ impl<'l> ChainPath<'l> {
         };
         self.advance(step);
         self.events += 1;
-        let crosses = self.events <= MOST_EVENTS * 2 * self.borders.len() && self.cross(change, budget)?;
+        let crosses = self.events <= MOST_EVENTS * 2 * self.borders.interfaces() && self.cross(change, budget)?;
         Ok(if crosses { ChainStep::Event } else { ChainStep::Untold })
     }
 
     /// The nearest change on the way, and how far it is.
     fn next_change(&self) -> Option<(f64, Change)> {
-        let Going { redundants: [dx, dy, dz], load_factor: dl, ref gaps } = self.going;
-        let ([x, y, z], l) = (self.state.redundants, self.state.load_factor);
-        let (mut nearest, mut step) = (None, f64::INFINITY);
-        for (interface, [a, b, c, d, e]) in self.borders.iter().enumerate() {
-            for which in 0..4 {
-                let rate = a[which] * dx + b[which] * dy + c[which] * dz + e[which] * dl;
-                let here = a[which] * x + b[which] * y + c[which] * z + d[which] + e[which] * l;
-                // Without dividing: most are far from their borders.
-                if rate < 0.0 && here < -rate * step {
-                    (step, nearest) = ((here / -rate).max(0.0), Some(Change::Border { interface, which }));
-                }
-            }
+        let crossing = self.borders.next(&self.place(), &self.going.rate());
+        let (mut step, mut nearest) = (f64::INFINITY, None);
+        if let Some(Crossing { step: at, interface, which }) = crossing {
+            (step, nearest) = (at, Some(Change::Border { interface, which }));
         }
-        for (j, (opening, rate)) in self.state.open.iter().zip(gaps).enumerate() {
+        for (j, (opening, rate)) in self.state.open.iter().zip(&self.going.gaps).enumerate() {
             if *rate < 0.0 && opening.gap < -rate * step {
                 (step, nearest) = ((opening.gap / -rate).max(0.0), Some(Change::Closes(j)));
             }
         }
         nearest.map(|change| (step, change))
+    }
+
+    fn place(&self) -> Linear {
+        let [x, y, z] = self.state.redundants;
+        [x, y, z, 1.0, self.state.load_factor]
     }
 
     fn advance(&mut self, step: f64) {
@@ -147,19 +157,21 @@ impl<'l> ChainPath<'l> {
     /// Changes the state of a point and turns into the new one; false where that is not told.
     fn cross(&mut self, change: Change, budget: &Budget) -> Result<bool, Stopped> {
         let Some((interface, split, back)) = self.after(change) else { return Ok(false) };
+        self.felt = 0..0;
         let before = std::mem::replace(&mut self.state.splits[interface], split);
         if before != split {
             let ChainState { splits, reduced, .. } = &mut self.state;
             let changed = self.elimination.renew(self.chain, splits, interface, reduced);
             budget.work(RENEWED * changed.len())?;
-            changed.for_each(|k| self.renew_borders(k));
+            changed.clone().for_each(|k| self.renew_borders(k));
+            self.felt = changed;
         }
         self.settle();
-        let Some(going) = self.goes_on() else { return Ok(false) };
+        let Some(going) = goes_on(self.chain, &self.state, self.sign) else { return Ok(false) };
         self.going = going;
         // It goes on away from the border it has crossed.
         Ok(match back {
-            Some(which) => self.rate(interface, which) > 0.0,
+            Some(which) => self.borders.rate(interface, which, &self.going.rate()) > 0.0,
             None => self.going.gaps.last().is_some_and(|rate| *rate > 0.0),
         })
     }
@@ -212,62 +224,24 @@ impl<'l> ChainPath<'l> {
         }
     }
 
-    /// How the path goes on in the present state; none where that is not told.
-    fn goes_on(&self) -> Option<Going> {
-        let open = &self.state.open;
-        if self.chain.holds(open) {
-            let (rate, gaps) = self.chain.rates(&self.state.reduced.gradient, open)?;
-            let (redundants, gaps) =
-                (rate.map(|x| self.sign * x), gaps[..open.len()].iter().map(|gap| self.sign * gap));
-            return Some(Going { redundants, load_factor: self.sign, gaps: gaps.collect() });
-        }
-        // Nothing resists: forces stay, until a gap closes.
-        let mut gaps = self.chain.mechanism(open)?;
-        let fastest = gaps.iter().fold(0.0f64, |most, gap| most.max(gap.abs()));
-        gaps.iter_mut().filter(|gap| gap.abs() < STILL * fastest).for_each(|gap| *gap = 0.0);
-        Some(Going { redundants: [0.0; 3], load_factor: 0.0, gaps })
-    }
-
-    /// Change of a function of an interface along the path.
-    fn rate(&self, interface: usize, which: usize) -> f64 {
-        let ([a, b, c, _, e], Going { redundants: [dx, dy, dz], load_factor, .. }) =
-            (&self.borders[interface], &self.going);
-        a[which] * dx + b[which] * dy + c[which] * dz + e[which] * load_factor
-    }
-
     /// Renews the functions of an interface, in its present state. Of one that sticks: how much more shear either way its points bear,
     /// first point first. Of one with a point that slides: that point's normal force, how far it has slipped, and what the other point
     /// bears, or nothing but that where the one is open.
     fn renew_borders(&mut self, k: usize) {
-        let (chain, splits) = (self.chain, &self.state.reduced.splits);
-        let statics = &chain.method.statics[k];
-        let normals = statics.normals.each_ref().map(|normal| chain.linear(k, normal));
-        let shear = chain.linear(k, &statics.shear);
-        let bears = |point: usize| -> [Linear; 2] {
-            let Law::Coulomb { friction, .. } = chain.contacts[2 * k + point].law else { return [NEVER; 2] };
-            let side = if point == 0 { 1.0 } else { -1.0 };
-            let sheared: Linear = std::array::from_fn(|c| 0.5 * shear[c] + side * splits[k][c]);
-            [1.0, -1.0].map(|sign| std::array::from_fn(|c| friction * normals[point][c] - sign * sheared[c]))
-        };
-        let functions = match self.state.splits[k] {
-            Split::Held => {
-                let ([a, b], [c, d]) = (bears(0), bears(1));
-                [a, b, c, d]
-            }
+        let (chain, splits, functions) = (self.chain, &self.state.reduced.splits, self.borders.of(k));
+        let normal = |point: usize| chain.linear(k, &chain.method.statics[k].normals[point]);
+        self.bearings[k].put(&splits[k], functions);
+        match self.state.splits[k] {
+            Split::Held => {}
             Split::Slides(point, sign) => {
                 let way = if point == 0 { -sign } else { sign };
-                let slip = chain.off(k, splits).map(|off| way * off);
-                let [a, b] = bears(1 - point);
-                [normals[point], slip, a, b]
+                beside(functions, point, [normal(point), chain.off(k, splits).map(|off| way * off)]);
             }
-            Split::Open(point) => {
-                let [a, b] = bears(1 - point);
-                [NEVER, NEVER, a, b]
+            Split::Open(point) => beside(functions, point, [NEVER; 2]),
+            Split::Smooth => {
+                let [first, second] = [0, 1].map(normal);
+                *functions = std::array::from_fn(|c| [first[c], second[c], NEVER[c], NEVER[c]]);
             }
-            Split::Smooth => [normals[0], normals[1], NEVER, NEVER],
-        };
-        for (c, coefficients) in self.borders[k].iter_mut().enumerate() {
-            *coefficients = functions.each_ref().map(|function: &Linear| function[c]);
         }
     }
 
@@ -292,6 +266,29 @@ impl<'l> ChainPath<'l> {
         motion.iter_mut().for_each(|d| *d /= largest);
         motion
     }
+}
+
+/// Puts functions of a point that does not stick before what the other one bears.
+fn beside(functions: &mut Functions, point: usize, [first, second]: [Linear; 2]) {
+    for (c, coefficients) in functions.iter_mut().enumerate() {
+        let bears = coefficients.as_chunks::<2>().0[1 - point];
+        *coefficients = [first[c], second[c], bears[0], bears[1]];
+    }
+}
+
+/// How the path goes on from a state; none where that is not told.
+fn goes_on(chain: &Loaded, state: &ChainState, sign: f64) -> Option<Going> {
+    let open = &state.open;
+    if chain.holds(open) {
+        let (rate, gaps) = chain.rates(&state.reduced.gradient, open)?;
+        let (redundants, gaps) = (rate.map(|x| sign * x), gaps[..open.len()].iter().map(|gap| sign * gap));
+        return Some(Going { redundants, load_factor: sign, gaps: gaps.collect() });
+    }
+    // Nothing resists: forces stay, until a gap closes.
+    let mut gaps = chain.mechanism(open)?;
+    let fastest = gaps.iter().fold(0.0f64, |most, gap| most.max(gap.abs()));
+    gaps.iter_mut().filter(|gap| gap.abs() < STILL * fastest).for_each(|gap| *gap = 0.0);
+    Some(Going { redundants: [0.0; 3], load_factor: 0.0, gaps })
 }
 
 #[cfg(test)]

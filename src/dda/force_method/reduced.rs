@@ -32,7 +32,7 @@ fn same(a: &Linear, b: &Linear) -> bool {
     a.iter().zip(b).all(|(a, b)| (a - b).abs() <= 2.0 * f64::EPSILON * a.abs())
 }
 
-fn add(sum: &mut Linear, by: f64, of: &Linear) {
+pub(super) fn add(sum: &mut Linear, by: f64, of: &Linear) {
     (0..5).for_each(|c| sum[c] += by * of[c]);
 }
 

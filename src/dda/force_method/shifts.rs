@@ -4,14 +4,20 @@
 //! resultant works on it: force by displacement, moment by turn. A body moves rigidly by the sum so far, and by the mean of what it
 //! gives. Both are linear in redundants, splits and loads, but for what opens and slides.
 
+mod along;
+
 use super::compatibility::under_loads;
 use super::displacements::Rigid;
 use super::friction::Split;
+use super::openings::Opening;
 use super::statics::Frame;
 use super::{ChainState, Loaded, Three, dot, plus, value};
 use crate::dda::assembly::Loads;
 use crate::geometry::Vec2;
 use nalgebra::{SMatrix, SVector};
+use std::ops::Range;
+
+pub use along::ShiftsAlong;
 
 /// What bodies give, by redundants, the splits on either side, and either loads.
 type Given = SMatrix<f64, 8, 7>;
@@ -72,34 +78,50 @@ impl<'l> Shifts<'l> {
 
     /// Mean displacement of every body in a state, m.
     pub fn at(&self, state: &ChainState) -> Vec<Vec2> {
+        let mut shifts = Vec::with_capacity(self.bodies.len());
+        self.walk(state, 0..self.bodies.len(), [0.0; 3], |shift| shifts.push(shift));
+        shifts
+    }
+
+    /// Goes from body to body, all before the first of them having passed on the rigid motion `moved`; returns what they pass on.
+    fn walk(&self, state: &ChainState, bodies: Range<usize>, mut moved: Three, mut see: impl FnMut(Vec2)) -> Three {
         let ChainState { load_factor, redundants, splits, open, reduced } = state;
         let [x, y, z] = *redundants;
         let split = |k: usize| value(&reduced.splits[k], redundants, *load_factor);
-        let (mut moved, mut before, mut own) = ([0.0; 3], 0.0, split(0));
-        let of_body = |(k, body): (usize, &OfBody)| {
-            let slipped = match splits[k] {
-                Split::Held | Split::Smooth => 0.0,
-                Split::Slides(0, _) | Split::Open(0) => 0.5,
-                Split::Slides(..) | Split::Open(_) => -0.5,
-            };
-            let next = split(k + 1);
+        let mut before = bodies.start.checked_sub(1).map_or(0.0, split);
+        let mut own = split(bodies.start);
+        for k in bodies {
+            let (body, next) = (&self.bodies[k], split(k + 1));
+            let slipped = slipped(splits[k]);
             if slipped != 0.0 {
                 let slip = slipped * self.chain.off_by(k, [before, own, next], redundants, *load_factor);
                 moved = plus(&moved, &self.chain.method.statics[k].shear.map(|shear| slip * shear));
             }
             for opening in open.iter().filter(|opening| opening.interface == k) {
-                let normal = self.chain.method.statics[k].normals[opening.point];
-                moved = plus(&moved, &normal.map(|normal| opening.gap * normal));
+                moved = plus(&moved, &self.opened(opening));
             }
             let [by_x, by_y, by_z, fixed, scaled] = &body.linear;
             let [by_own, by_next] = &body.splits;
             let shift = body.carried(moved) + by_x * x + by_y * y + by_z * z + fixed + scaled * *load_factor;
-            let shift = shift + by_own * own + by_next * next;
+            see(shift + by_own * own + by_next * next);
             moved = plus(&moved, &body.passed.map(|passed| passed * own));
             (before, own) = (own, next);
-            shift
-        };
-        self.bodies.iter().enumerate().map(of_body).collect()
+        }
+        moved
+    }
+
+    /// Rigid motion of all bodies after a point that is open.
+    fn opened(&self, opening: &Opening) -> Three {
+        self.chain.method.statics[opening.interface].normals[opening.point].map(|normal| opening.gap * normal)
+    }
+}
+
+/// How much of what the split's equation is off by all after an interface slips by.
+fn slipped(split: Split) -> f64 {
+    match split {
+        Split::Held | Split::Smooth => 0.0,
+        Split::Slides(0, _) | Split::Open(0) => 0.5,
+        Split::Slides(..) | Split::Open(_) => -0.5,
     }
 }
 

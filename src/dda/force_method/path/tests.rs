@@ -1,4 +1,5 @@
 use super::*;
+use crate::dda::contact::Law;
 use crate::dda::force_method::tests::{DRY, loads, method, ring};
 use crate::dda::{Drive, End, Tracer, out_of_balance};
 use crate::largest::largest;

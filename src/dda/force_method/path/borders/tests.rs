@@ -1,0 +1,41 @@
+use super::*;
+
+/// Numbers between -1 and 1 that follow no rule.
+fn numbers() -> impl FnMut() -> f64 {
+    let mut state = 1u64;
+    move || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+}
+
+#[test]
+fn the_first_function_that_falls_to_nought_is_the_next() {
+    const INTERFACES: usize = 100;
+    let mut number = numbers();
+    let mut linear = || -> Linear { std::array::from_fn(|_| number()) };
+    for _ in 0..100 {
+        let mut functions: Vec<[Linear; 4]> = (0..INTERFACES).map(|_| std::array::from_fn(|_| linear())).collect();
+        let ([x, y, z, _, l], [dx, dy, dz, _, dl]) = (linear(), linear());
+        let (here, rate) = ([x, y, z, 1.0, l], [dx, dy, dz, 0.0, dl]);
+        let at = |of: &Linear, way: &Linear| (0..5).map(|c| of[c] * way[c]).sum::<f64>();
+        // All are positive to begin with, some never change, and some only rise.
+        for of in functions.iter_mut().flatten() {
+            of[3] += at(of, &here).abs() - at(of, &here);
+        }
+        functions[7] = [[0.0, 0.0, 0.0, 1.0, 0.0]; 4];
+        let mut borders = Borders::new(INTERFACES);
+        for (k, four) in functions.iter().enumerate() {
+            *borders.of(k) = std::array::from_fn(|c| four.each_ref().map(|of| of[c]));
+        }
+        let falls =
+            functions.iter().enumerate().flat_map(|(k, four)| (0..4).map(move |which| (k, which, &four[which])));
+        let falls = falls.filter(|(.., of)| at(of, &rate) < 0.0);
+        let steps = falls.map(|(k, which, of)| (at(of, &here) / -at(of, &rate), k, which));
+        let (step, interface, which) = steps.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
+        let next = borders.next(&here, &rate).unwrap();
+        assert_eq!((next.interface, next.which), (interface, which));
+        assert!((next.step - step).abs() <= 1e-9 * step, "{next:?} {step}");
+        assert_eq!(borders.next(&here, &[0.0; 5]), None);
+    }
+}
