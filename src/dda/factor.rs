@@ -318,4 +318,4 @@ impl<'t> Factor<'t> {
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

@@ -7,8 +7,8 @@ use faer::linalg::solvers::Solve;
 use std::ops::ControlFlow;
 
 /// A fixed, well-spread sequence of numbers in (-1, 1).
-fn numbers() -> impl Iterator<Item = f64> {
-    (1..).map(|i| ((i * i) as f64 * 0.754_877_666).fract() * 2.0 - 1.0)
+pub(in crate::dda) fn numbers() -> impl Iterator<Item = f64> {
+    (1u64..).map(|i| ((i * i) as f64 * 0.754_877_666).fract() * 2.0 - 1.0)
 }
 
 /// Faces of these sizes, tied by these elements.

@@ -46,6 +46,14 @@ pub(super) fn ring(stones: usize, law: Law) -> Assembly {
     chain(&(0..=stones).map(ray).collect::<Vec<_>>(), law)
 }
 
+/// A dry one in which no two joints are alike: ties in symmetric rings are broken.
+pub(super) fn scattered_ring(stones: usize) -> Assembly {
+    let mut ring = ring(stones, DRY);
+    let mut by = (0..).map(|i| [1.0 + 1e-4 * f64::sin(i as f64), 1.0 + 1e-4 * f64::cos(3.0 * i as f64)]);
+    ring.scatter(|| by.next().unwrap());
+    ring
+}
+
 /// Loads on the nodes: downwards on every body, and one more on body `pushed`.
 pub(super) fn loads(assembly: &Assembly, pushed: usize) -> [Vec<f64>; 2] {
     let on = |body: usize, force: f64| {

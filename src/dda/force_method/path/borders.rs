@@ -10,7 +10,6 @@ pub(super) type Functions = [[f64; 4]; 5];
 #[derive(Debug)]
 pub(super) struct Borders {
     functions: Vec<Functions>,
-    arch: Arch,
 }
 
 /// Where a function comes to nought.
@@ -25,7 +24,7 @@ pub(super) struct Crossing {
 impl Borders {
     /// Of so many interfaces, whose functions are to be [put down](Self::of).
     pub(super) fn new(interfaces: usize) -> Self {
-        Borders { functions: vec![Functions::default(); interfaces], arch: Arch::new() }
+        Borders { functions: vec![Functions::default(); interfaces] }
     }
 
     pub(super) fn interfaces(&self) -> usize {
@@ -46,7 +45,7 @@ impl Borders {
     pub(super) fn next(&self, here: &Linear, rate: &Linear) -> Option<Crossing> {
         let mut next = None;
         // Compiled for every processor: the four functions of an interface fit one vector of most.
-        self.arch.dispatch(|| {
+        Arch::new().dispatch(|| {
             for (interface, functions) in self.functions.iter().enumerate() {
                 look_at(functions, interface, [here, rate], &mut next);
             }

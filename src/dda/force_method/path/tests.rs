@@ -1,6 +1,6 @@
 use super::*;
 use crate::dda::contact::Law;
-use crate::dda::force_method::tests::{DRY, loads, method, ring};
+use crate::dda::force_method::tests::{DRY, loads, method, ring, scattered_ring};
 use crate::dda::{Drive, End, Tracer, out_of_balance};
 use crate::largest::largest;
 use std::ops::ControlFlow;
@@ -15,11 +15,9 @@ const START: f64 = 0.3;
 fn the_path_passes_the_events_of_the_tracers() {
     let budget = Budget::unlimited();
     for (stones, pushed) in [(9, 2), (27, 6), (27, 13), (60, 20)] {
-        let mut assembly = ring(stones, DRY);
-        // Ties in symmetric rings are broken, of forces by loads.
-        let mut by = (0..).map(|i| [1.0 + 1e-4 * f64::sin(i as f64), 1.0 + 1e-4 * f64::cos(3.0 * i as f64)]);
-        assembly.scatter(|| by.next().unwrap());
+        let assembly = scattered_ring(stones);
         let [mut fixed, scaled] = loads(&assembly, pushed);
+        // Ties of forces are broken by loads.
         fixed.iter_mut().enumerate().for_each(|(i, load)| *load *= 1.0 + 1e-6 * f64::sin(i as f64));
         let method = method(&assembly);
         let chain = method.loaded(assembly.contacts(), [&fixed, &scaled]);

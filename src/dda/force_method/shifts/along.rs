@@ -35,8 +35,9 @@ struct Block {
     passes: [Linear; 3],
     /// The most that its bodies' displacements differ by: with no splits, and by splits and slips.
     differ: [Linear; 2],
-    /// The same by splits that are 1 N/m, all added up, and as all turn by 1 over the chain's size.
+    /// The same by splits whose sizes add up to 1 N/m.
     split: f64,
+    /// The same as all turns by 1 over the chain's size.
     turned: f64,
     /// Rigid motion of all bodies from its first on, by what is before it.
     moved: Three,

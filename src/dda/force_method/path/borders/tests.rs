@@ -1,19 +1,11 @@
 use super::*;
-
-/// Numbers between -1 and 1 that follow no rule.
-fn numbers() -> impl FnMut() -> f64 {
-    let mut state = 1u64;
-    move || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-}
+use crate::dda::factor::tests::numbers;
 
 #[test]
 fn the_first_function_that_falls_to_nought_is_the_next() {
     const INTERFACES: usize = 100;
     let mut number = numbers();
-    let mut linear = || -> Linear { std::array::from_fn(|_| number()) };
+    let mut linear = || -> Linear { std::array::from_fn(|_| number.next().unwrap()) };
     for _ in 0..100 {
         let mut functions: Vec<[Linear; 4]> = (0..INTERFACES).map(|_| std::array::from_fn(|_| linear())).collect();
         let ([x, y, z, _, l], [dx, dy, dz, _, dl]) = (linear(), linear());

@@ -2,15 +2,13 @@ use super::*;
 use crate::budget::Budget;
 use crate::dda::assembly::Push;
 use crate::dda::force_method::ChainStep;
-use crate::dda::force_method::tests::{DRY, method, ring};
+use crate::dda::force_method::tests::{method, scattered_ring};
 
 #[test]
 fn along_a_path_bodies_are_where_each_state_has_them() {
     let budget = Budget::unlimited();
     for (stones, pushed) in [(27, 6), (201, 50), (201, 100)] {
-        let mut assembly = ring(stones, DRY);
-        let mut by = (0..).map(|i| [1.0 + 1e-4 * f64::sin(i as f64), 1.0 + 1e-4 * f64::cos(3.0 * i as f64)]);
-        assembly.scatter(|| by.next().unwrap());
+        let assembly = scattered_ring(stones);
         let push = |(body, down): (usize, f64)| {
             let points = assembly.at_interface(body).chain(assembly.at_interface(body + 1));
             let at = points.map(|p| assembly.place(p)).sum::<Vec2>() / 4.0;
