@@ -29,7 +29,7 @@ use voussoir::wire::read::read_question;
 const FINE: usize = 16;
 const EVEN: usize = 24;
 /// Uniform meshes that are tried, subblocks each way.
-const UNIFORM: [usize; 5] = [2, 4, 8, 12, 16];
+const UNIFORM: [usize; 7] = [2, 4, 8, 12, 16, 24, 32];
 /// Structures with more bodies, or so many subblocks in the fine mesh, take long to be found exactly.
 const MOST_BODIES: usize = 33;
 const MOST_FINE: usize = 10_000;

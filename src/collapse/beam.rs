@@ -124,7 +124,7 @@ fn divided(beam: &CurvedBeam) -> (Grid, Inside) {
         whole,
         lines,
         beam.subblocks,
-        Cut { order: beam.order, spacing: beam.spacing },
+        Cut { order: beam.order, spacing: beam.spacing, ..Cut::default() },
     );
     let bond = bond(beam.seams, DEFAULT_PENALTY_RATIO * beam.stone.youngs_modulus);
     let body = grid.inside(elasticity(&beam.stone, beam.plane), bond);

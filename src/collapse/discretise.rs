@@ -2,7 +2,8 @@
 
 mod touches;
 
-use super::grid::{Cut, Grid};
+use super::grid::{Cut, Grid, cuts};
+use super::narrow::{Outermost, outermost};
 use super::near_point::{NearPoint, near_points};
 use super::path::Attempt;
 use super::recovery::{self, Told};
@@ -45,6 +46,8 @@ pub(super) struct Model<'p> {
     pub scaled: Loads,
     /// What is near their forces on points, body by body.
     near: Vec<Vec<NearPoint>>,
+    /// Subblocks of second order at the ends of joints.
+    pub outermost: Vec<Outermost>,
     /// Both with every force turned by -90 degrees, on the nodes; only where the path on moving geometry is asked for.
     pub turned: [Vec<f64>; 2],
 }
@@ -129,6 +132,7 @@ pub(super) fn discretise<'p>(
         fixed: Loads::default(),
         scaled: Loads::default(),
         near: Vec::new(),
+        outermost: outermost(structure, &grids),
         turned: Default::default(),
         budget,
         bodies: structure.voussoirs().len(),
@@ -205,8 +209,9 @@ pub(super) fn touching(analysis: &Analysis, k: usize, grids: &[Grid], strips: Op
 /// How every body is cut: whole, where the mesh says nothing of it.
 pub(super) fn grids(analysis: &Analysis) -> Vec<Grid> {
     let Mesh { subblocks, order, spacing, .. } = &analysis.mesh;
+    let cuts = cuts(&analysis.structure, *order, *spacing);
     let grid = |(k, body): (usize, &Body)| match subblocks.get(k) {
-        Some(subblocks) => Grid::of(body, *subblocks, Cut { order: *order, spacing: *spacing }),
+        Some(subblocks) => Grid::of(body, *subblocks, cuts[k]),
         None => Grid::of(body, [1, 1], Cut::default()),
     };
     analysis.structure.bodies.iter().enumerate().map(grid).collect()

@@ -1,6 +1,7 @@
 //! The grid of subblocks in one stone.
 
 mod cell;
+mod held;
 mod parts;
 mod patch;
 mod places;
@@ -12,6 +13,7 @@ use super::{Order, Spacing, SubblockStress};
 use crate::dda::{Block, Bond, Elasticity, Inside, Macroblock, Seam};
 use crate::geometry::{Region, Vec2, perpendicular};
 use crate::structure::{Body, Sides};
+pub(super) use held::cuts;
 use parts::{is_simple, parts};
 pub(super) use patch::Lines;
 use patch::Patch;
@@ -23,7 +25,11 @@ pub(super) use windows::{Windows, wanted};
 pub(super) struct Cut {
     pub order: Order,
     pub spacing: Spacing,
+    pub held: Held,
 }
+
+/// Whether intrados and extrados (0), and the sides of the joints before and after (1), lie on the ground.
+pub(super) type Held = [[bool; 2]; 2];
 
 /// A point this close to a line of the grid, as a share of a subblock, lies on it.
 pub(super) const ON_LINE: f64 = 1e-9;
@@ -72,7 +78,7 @@ pub fn subblocks_of(body: &Body, wanted: [usize; 2], order: Order) -> Option<[us
 /// Whether a body can be cut into just so many subblocks.
 pub fn can_be_cut(body: &Body, subblocks: [usize; 2], order: Order, spacing: Spacing) -> bool {
     let whole = subblocks == [1, 1] && order == Order::First;
-    let cut = || Grid::cut(body, parts(body), subblocks, Cut { order, spacing });
+    let cut = || Grid::cut(body, parts(body), subblocks, Cut { order, spacing, ..Cut::default() });
     whole || body.is_quadrilateral() || cut().is_some()
 }
 
@@ -120,8 +126,13 @@ impl Grid {
         (straight || grid.is_sound()).then_some(grid)
     }
 
-    fn within(patches: Vec<Patch>, whole: Region, [radial, along]: [usize; 2], Cut { order, spacing }: Cut) -> Self {
-        let lines = spacing::lines(spacing, [radial, along / patches.len()], patches.len() > 1);
+    fn within(
+        patches: Vec<Patch>,
+        whole: Region,
+        [radial, along]: [usize; 2],
+        Cut { order, spacing, held }: Cut,
+    ) -> Self {
+        let lines = spacing::lines(spacing, held, [radial, along / patches.len()], patches.len() > 1);
         let mut grid = Grid { patches, radial, along, order, lines, whole, outlines: Vec::new() };
         grid.outlines = grid.cells().map(|(i, j)| grid.outline(i, j)).collect();
         grid

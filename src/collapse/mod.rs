@@ -16,6 +16,7 @@ mod mechanism;
 mod mirror;
 mod model;
 mod motion;
+mod narrow;
 mod near_point;
 mod path;
 mod plan;
@@ -124,7 +125,8 @@ pub enum FieldAt {
 pub struct Accuracy {
     /// Largest error of the collapse load factor, as a share of it.
     pub collapse_intensity: Option<f64>,
-    /// Largest error of the stress fields asked for, as a share: that of the equivalent stress, by area, point by point. Loads have to come in [`LOAD_PIECES`], and no stone may have a side of more than one arc.
+    /// Largest error of the stress fields asked for, as a share: the root mean square, by area, of all components of the stress, point
+    /// by point. Loads have to come in [`LOAD_PIECES`], and no stone may have a side of more than one arc.
     pub stress: Option<f64>,
     /// Most subblocks of the model.
     pub most_subblocks: usize,

@@ -44,7 +44,8 @@ pub enum Spacing {
     /// Evenly.
     #[default]
     Even,
-    /// Close together at joints and faces, where stress changes most: at (1 - cos) / 2 of even shares of half a turn.
+    /// Close together at joints and faces, where stress changes most, more so in bodies on the ground: at u^a / (u^a + (1 - u)^b) for even
+    /// shares u from one side to the other, with exponents of 1.4 at faces, 1.5 at joints, 2 at the ground and 1.7 at sides next to it.
     Graded,
 }
 

@@ -8,7 +8,7 @@
 
 use super::grid::Grid;
 use super::near_point::NearPoint;
-use super::report::{Roughness, tresca};
+use super::report::{Roughness, apart};
 use super::{Order, SubblockStress};
 use crate::geometry::{Vec2, mirrored};
 use nalgebra::DMatrix;
@@ -116,13 +116,13 @@ fn fitted(samples: &[([f64; 2], [f64; 3])], most: [usize; 2], together: usize) -
 
 /// How far the smooth field of a stone is from the one that goes through the samples of its subblocks.
 fn roughness(grid: &Grid, samples: &[[f64; 3]], pieces: &[Piece], near: &[NearPoint]) -> Roughness {
-    let mut sum = Roughness { columns: grid.columns(), near_point: !near.is_empty(), ..Roughness::default() };
+    let mut sum = Roughness { near_point: !near.is_empty(), ..Roughness::default() };
     for ((of, (i, j)), piece) in samples.chunks_exact(4).zip(grid.cells()).zip(pieces) {
         let counts = |place: &[f64; 2]| !near.iter().any(|near| near.has(grid.point(j, *place)));
         for (local, place, area) in grid.quadrature(i, j).into_iter().filter(|(_, place, _)| counts(place)) {
-            let (here, smooth) = (tresca(through(of, local)), tresca(piece.at(place)));
-            sum.apart += area * (smooth - here).powi(2);
-            sum.whole += area * here * here;
+            let (here, smooth) = (through(of, local), piece.at(place));
+            sum.apart += area * apart(smooth, here);
+            sum.whole += area * apart(here, [0.0; 3]);
         }
     }
     sum

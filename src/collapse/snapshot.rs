@@ -2,8 +2,9 @@
 
 use super::discretise::Model;
 use super::mirror::{evened_blocks, evened_stresses};
+use super::narrow::mark;
 use super::state::Standing;
-use super::{AnalysisError, BlockState, ContactPoint, Snapshot, StressField};
+use super::{AnalysisError, BlockState, ContactPoint, Roughness, Snapshot, StressField, SubblockStress};
 use crate::dda::MeanMotion;
 
 /// The arch in one state.
@@ -33,8 +34,19 @@ pub(super) fn snapshot(model: &Model, state: &Standing) -> Result<Snapshot, Anal
     Ok(Snapshot { load_factor, blocks, contacts: contacts.collect(), soil })
 }
 
-/// Stress in every subblock in a state, under the loads at `load_factor`.
+/// Stress in every subblock in a state, under the loads at `load_factor`, and how rough it is.
 pub(super) fn stress_field(model: &Model, load_factor: f64, state: &Standing) -> Result<StressField, AnalysisError> {
+    let (subblocks, mut roughness) = stresses(model, load_factor, state)?;
+    mark(model, &state.forces, &mut roughness);
+    Ok(StressField { load_factor, subblocks, roughness })
+}
+
+/// The same by the displacements alone, which do not tell where joints press.
+pub(super) fn stresses(
+    model: &Model,
+    load_factor: f64,
+    state: &Standing,
+) -> Result<(Vec<SubblockStress>, Vec<Roughness>), AnalysisError> {
     let (mut subblocks, mut roughness) = (Vec::new(), Vec::new());
     let grids = &model.grids[..model.bodies];
     for (voussoir, grid) in grids.iter().enumerate() {
@@ -47,5 +59,5 @@ pub(super) fn stress_field(model: &Model, load_factor: f64, state: &Standing) ->
     if let Some(mirror) = model.assembly.images_of_bodies().filter(|_| state.symmetric) {
         subblocks = evened_stresses(&subblocks, grids, mirror);
     }
-    Ok(StressField { load_factor, subblocks, roughness })
+    Ok((subblocks, roughness))
 }

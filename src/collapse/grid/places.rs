@@ -19,7 +19,7 @@ pub(in super::super) type Shares = [(usize, f64); 2];
 /// along the stone, at the intrados and at the extrados. Of any other, side k runs from the corner of part k to the next.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in super::super) struct OnSide {
-    side: usize,
+    pub side: usize,
     ends: [f64; 2],
 }
 

@@ -1,17 +1,43 @@
 //! Where the lines of a grid lie.
 
+use super::Held;
 use crate::collapse::Spacing;
-use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Places, from 0 to 1, of the ends of so many intervals either way. Graded ones lie close together towards both ends; in one of `several`
-/// parts, whose other end is inside the stone, towards 0 alone.
-pub(super) fn lines(spacing: Spacing, counts: [usize; 2], several: bool) -> [Vec<f64>; 2] {
-    let place = |share: f64| match spacing {
-        Spacing::Even => share,
-        Spacing::Graded if several => 1.0 - (FRAC_PI_2 * share).cos(),
-        Spacing::Graded => 0.5 - 0.5 * (PI * share).cos(),
+/// How steep graded lines are towards a face, a joint, the ground, and a side next to that on the ground: with these the stress of six
+/// arches is nearest to that of finite elements, in the mean over 4 x 4 to 16 x 16 subblocks.
+const FACE: f64 = 1.4;
+const JOINT: f64 = 1.5;
+const GROUND: f64 = 2.0;
+const NEXT_TO_GROUND: f64 = 1.7;
+
+/// Places, from 0 to 1, of the ends of so many intervals either way. Graded ones lie at u^a / (u^a + (1 - u)^b) for even shares u, with the
+/// [`steepness`] a and b of the two ends; in one of `several` parts, whose other end is inside the stone, as in half of that.
+pub(super) fn lines(spacing: Spacing, held: Held, counts: [usize; 2], several: bool) -> [Vec<f64>; 2] {
+    [0, 1].map(|way| {
+        let steepness = steepness(held, way);
+        let place = |share: f64| match spacing {
+            Spacing::Even => share,
+            Spacing::Graded if several => 2.0 * graded(0.5 * share, steepness),
+            Spacing::Graded => graded(share, steepness),
+        };
+        let count = counts[way];
+        (0..=count).map(|i| if i == count { 1.0 } else { place(i as f64 / count as f64) }).collect()
+    })
+}
+
+fn graded(share: f64, [a, b]: [f64; 2]) -> f64 {
+    let [near, far] = [share.powf(a), (1.0 - share).powf(b)];
+    near / (near + far)
+}
+
+/// Towards either end across (0) or along (1).
+fn steepness(held: Held, way: usize) -> [f64; 2] {
+    let free = match way {
+        _ if held[1 - way].contains(&true) => NEXT_TO_GROUND,
+        0 => FACE,
+        _ => JOINT,
     };
-    counts.map(|count| (0..=count).map(|i| if i == count { 1.0 } else { place(i as f64 / count as f64) }).collect())
+    held[way].map(|held| if held { GROUND } else { free })
 }
 
 /// Number of the interval between lines in which a place lies: one, or the two beside a line, with the same share each.
@@ -25,5 +51,54 @@ pub(super) fn shares(place: f64, lines: &[f64], near: f64) -> [(usize, f64); 2] 
     match [above, above + 1].into_iter().find(|&line| line > 0 && line <= last && on(line)) {
         Some(line) => [(line - 1, 0.5), (line, 0.5)],
         None => [(above, 1.0), (0, 0.0)],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FREE: Held = [[false; 2]; 2];
+    const EXACT: f64 = 1e-15;
+
+    #[test]
+    fn graded_lines_part_a_stone_as_the_formula_says() {
+        // 0.25^1.4 / (0.25^1.4 + 0.75^1.4), by the exponential function.
+        let third = (-1.4 * 3.0f64.ln()).exp();
+        let [across, along] = lines(Spacing::Graded, FREE, [4, 2], false);
+        assert!((across[1] - third / (1.0 + third)).abs() < EXACT && (along[1] - 0.5).abs() < EXACT);
+        // 0.5^2 / (0.5^2 + 0.5^1.5): nearer to the ground.
+        let [_, along] = lines(Spacing::Graded, [[false; 2], [true, false]], [4, 2], false);
+        assert!((along[1] - 1.0 / (1.0 + 2.0f64.sqrt())).abs() < EXACT, "{along:?}");
+        // And steeper across where that ground is.
+        let third = (-1.7 * 3.0f64.ln()).exp();
+        let [across, _] = lines(Spacing::Graded, [[false; 2], [true, false]], [4, 2], false);
+        assert!((across[1] - third / (1.0 + third)).abs() < EXACT, "{across:?}");
+    }
+
+    #[test]
+    fn lines_rise_from_end_to_end_and_a_mirrored_stone_has_mirrored_ones() {
+        for sides in 0..16 {
+            let on = |side: usize| sides >> side & 1 == 1;
+            let [here, there] = [[[on(0), on(1)], [on(2), on(3)]], [[on(1), on(0)], [on(3), on(2)]]];
+            let [here, there] = [here, there].map(|held| lines(Spacing::Graded, held, [7, 48], false));
+            for (here, there) in here.iter().zip(&there) {
+                assert!(here[0] == 0.0 && here[here.len() - 1] == 1.0 && here.windows(2).all(|two| two[0] < two[1]));
+                let apart = |(x, y): (&f64, &f64)| (x + y - 1.0).abs();
+                assert!(here.iter().zip(there.iter().rev()).map(apart).all(|apart| apart < EXACT));
+            }
+        }
+    }
+
+    #[test]
+    fn a_part_of_several_is_divided_as_half_of_a_stone() {
+        let [half, whole] =
+            [([3, 3], true), ([6, 6], false)].map(|(n, several)| lines(Spacing::Graded, FREE, n, several));
+        for (half, whole) in half.iter().zip(&whole) {
+            assert!(
+                half.iter().zip(whole).all(|(half, whole)| (0.5 * half - whole).abs() < EXACT),
+                "{half:?} {whole:?}"
+            );
+        }
     }
 }

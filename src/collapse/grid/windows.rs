@@ -6,7 +6,6 @@
 //! has the same size everywhere.
 
 use super::{Cut, Grid, Order, spacing, subblocks_of};
-use crate::collapse::Spacing;
 use crate::collapse::plan::MOST_EACH_WAY;
 use crate::collapse::recovery::through;
 use crate::geometry::Vec2;
@@ -55,13 +54,16 @@ pub(in super::super) struct Extent {
 }
 
 /// How many subblocks, from intrados to extrados and along, a body takes for windows of this length; none where no mesh has them.
-pub(in super::super) fn wanted(body: &Body, length: f64, drawn: Spacing) -> Option<[usize; 2]> {
+pub(in super::super) fn wanted(body: &Body, length: f64, cut: Cut) -> Option<[usize; 2]> {
     let grid = Grid::of(body, subblocks_of(body, [2, 2], Order::First)?, Cut::default());
     let parts = grid.patches.len();
     let count = |way: usize| {
         let size = (0..parts).map(|part| grid.sizes(part)[way]).fold(0.0, f64::max);
         let width = (length / size).min(1.0) * (1.0 + SAME_PLACE);
-        let serves = |n: &usize| SPANNED * widest(&spacing::lines(drawn, [*n; 2], parts > 1)[way]) <= width;
+        let serves = |n: &usize| {
+            let lines = spacing::lines(cut.spacing, cut.held, [*n; 2], parts > 1);
+            shortest(&lines[way]).is_some_and(|shortest| shortest <= width)
+        };
         (1..=MOST_EACH_WAY).find(serves)
     };
     let [across, along] = [count(0)?, count(1)?];
@@ -87,13 +89,12 @@ impl Grid {
 
     /// The least length of which there are windows on this grid, m; none where there is no such length.
     pub(in super::super) fn least_window(&self) -> Option<f64> {
-        let wide = self.lines.each_ref().map(|lines| SPANNED * widest(lines));
-        let tells = !self.patches.is_empty() && wide.iter().all(|wide| *wide <= 1.0 + SAME_PLACE);
+        let [way_across, way_along] = [shortest(&self.lines[0])?, shortest(&self.lines[1])?];
         let least = |part: usize| {
             let [across, along] = self.sizes(part);
-            (wide[0] * across).max(wide[1] * along)
+            (way_across * across).max(way_along * along)
         };
-        tells.then(|| (0..self.patches.len()).map(least).fold(0.0, f64::max))
+        (!self.patches.is_empty()).then(|| (0..self.patches.len()).map(least).fold(0.0, f64::max))
     }
 
     /// Where window number `k` lies.
@@ -244,9 +245,11 @@ fn among(lines: &[f64], place: f64) -> Among {
     (before, (place - lines[before]) / (lines[before + 1] - lines[before]))
 }
 
-/// The widest distance of two neighbouring lines.
-fn widest(lines: &[f64]) -> f64 {
-    lines.windows(2).map(|ends| ends[1] - ends[0]).fold(0.0, f64::max)
+/// The shortest window between these lines, as a share of the way: it spans so many subblocks wherever it lies, or all there are. None
+/// between fewer.
+fn shortest(lines: &[f64]) -> Option<f64> {
+    let widest = lines.windows(2).map(|ends| ends[1] - ends[0]).fold(0.0, f64::max);
+    (lines.len() as f64 > SPANNED).then(|| (SPANNED * widest).min(1.0))
 }
 
 /// Lines with the middles between them, where there are two halves.

@@ -1,7 +1,8 @@
 //! The curved beam on the least mesh that is as accurate as asked.
 
+use super::super::report::tresca;
 use super::super::{AnalysisError, BeamPlan, BeamReport, CurvedBeam, Estimate, MeshTried, StressField, beam};
-use super::estimate::{FieldErrors, Hinged, Orders, differences};
+use super::estimate::{FieldErrors, Orders, differences};
 use super::mesh::rungs;
 use crate::budget::Budget;
 use std::f64::consts::FRAC_PI_4;
@@ -32,7 +33,9 @@ impl Series {
     /// The estimated error on the next mesh; none on the first.
     fn take(&mut self, fine: &StressField) -> Option<f64> {
         let coarse = self.coarse.replace(fine.clone())?;
-        self.errors.take(&differences(&coarse, fine, &[Vec::new()]), &[true]);
+        // Eq. (5) of the paper is about the equivalent stress.
+        let apart = |a, b| (tresca(a) - tresca(b)).powi(2);
+        self.errors.take(&differences(&coarse, fine, &[Vec::new()], apart), &[true]);
         Some(self.errors.shares(0).sum::<f64>().sqrt() + off_centre(fine))
     }
 }
@@ -65,7 +68,7 @@ pub(in super::super) fn solve(beam: &CurvedBeam, budget: &Budget) -> Result<Beam
         meshes.extend(rungs(first, columns, PIECES).into_iter().map(|mesh| (which, mesh)));
     }
     meshes.sort_by_key(|(_, [radial, _])| *radial);
-    let mut series = SERIES.map(|_| Series { coarse: None, errors: FieldErrors::new(1, BEAM_ORDERS, Hinged::Less) });
+    let mut series = SERIES.map(|_| Series { coarse: None, errors: FieldErrors::new(1, BEAM_ORDERS) });
     let (mut tried, mut last) = (Vec::new(), None);
     for (which, subblocks) in meshes {
         let report = beam::solve(&CurvedBeam { subblocks, ..*beam }, budget)?;

@@ -1,6 +1,6 @@
 //! Meshes of one body that nest, from coarse to fine, of subblocks that are about square.
 
-use super::super::grid::{Cut, Grid, can_be_cut, can_bend, extents, subblocks_of};
+use super::super::grid::{Cut, Grid, can_be_cut, can_bend, cuts, extents, subblocks_of};
 use super::super::{Analysis, Order, Spacing};
 use crate::structure::{Body, Joint, JointLaw, Side, Structure};
 
@@ -37,12 +37,13 @@ pub(super) fn ladders(analysis: &Analysis, most: usize) -> Vec<Vec<[usize; 2]>> 
     let (order, spacing) = drawing(structure);
     // Two meshes of first order tell an error, one of second does.
     let needed = if order == Order::First { 2 } else { 1 };
-    let telling = |(ladder, body): (&Vec<[usize; 2]>, &Body)| {
-        let tells = |mesh: &[usize; 2]| Grid::of(body, *mesh, Cut { order, spacing }).windows(length).is_some();
+    let cuts = cuts(structure, order, spacing);
+    let telling = |((ladder, body), cut): ((&Vec<[usize; 2]>, &Body), &Cut)| {
+        let tells = |mesh: &[usize; 2]| Grid::of(body, *mesh, *cut).windows(length).is_some();
         let first = ladder.iter().position(tells).unwrap_or(0);
         ladder[first.min(ladder.len().saturating_sub(needed))..].to_vec()
     };
-    let telling: Vec<_> = ladders.iter().zip(structure.voussoirs()).map(telling).collect();
+    let telling: Vec<_> = ladders.iter().zip(structure.voussoirs()).zip(&cuts).map(telling).collect();
     let coarsest: Vec<[usize; 2]> = telling.iter().map(|ladder| ladder[0]).collect();
     if total(&coarsest) <= most { telling } else { ladders }
 }

@@ -1,9 +1,8 @@
 //! Refines the mesh voussoir by voussoir until the stress is as accurate as asked.
 
-use super::super::{
-    Analysis, AnalysisError, CollapseReport, ContactPoint, Estimate, MeshTried, Order, Outcome, PlanReason, verdict,
-};
-use super::estimate::{FieldErrors, Hinged, Orders, differences};
+use super::super::report::apart;
+use super::super::{Analysis, AnalysisError, CollapseReport, Estimate, MeshTried, Order, Outcome, PlanReason, verdict};
+use super::estimate::{FieldErrors, Orders, differences};
 use super::mesh::{drawing, ladders, total};
 use super::states::States;
 use super::with_mesh;
@@ -11,16 +10,11 @@ use crate::budget::Budget;
 use crate::collapse::near_point::{NearPoint, near_points};
 
 /// How stress of first order converges next to joints that open (measured: 0.3 next to a hinge, 1.1 elsewhere); and that of second
-/// order, graded (0.8 to 1.5).
+/// order, graded (1.0 to 1.9).
 const ORDERS: [Orders; 2] = [[0.4, 1.0], [0.5, 1.5]];
 
 /// Error that a mesh aims at, over the error asked: an estimate may come out a little larger than it was foreseen.
 const AIM: f64 = 0.9;
-
-/// A joint whose thrust passes within this share of its length from an end is a hinge or about to be one; so many of them, in half
-/// an arch so many, make a mechanism.
-const AT_END: f64 = 0.02;
-const HINGES: [usize; 2] = [4, 3];
 
 /// The last mesh and what it gave.
 pub(super) struct Refined {
@@ -79,11 +73,8 @@ pub(super) fn solve(
     if report.outcome == Outcome::CannotTell || report.stress_fields.is_empty() {
         return Ok(Err(PlanReason::CoarsestLost));
     }
-    // Where nothing grows every load factor has the state at the start.
-    let state_of = |at: f64| if analysis.scaled.is_empty() { whole.start } else { at };
-    let near = |at: f64| hinged(whole, analysis.structure.is_half(), state_of(at));
     let near_points = near_points(analysis);
-    let mut mesh = Refinement::new(drawing(&analysis.structure).0, ladders, near_points, report, near);
+    let mut mesh = Refinement::new(drawing(&analysis.structure).0, ladders, near_points, report);
     let why = loop {
         let marked = match mesh.told() {
             Some(estimate) if estimate <= asked => break PlanReason::AccurateEnough,
@@ -131,11 +122,9 @@ impl Refinement {
         ladders: Vec<Vec<[usize; 2]>>,
         near_points: Vec<Vec<NearPoint>>,
         report: CollapseReport,
-        near: impl Fn(f64) -> Hinged,
     ) -> Self {
         let orders = ORDERS[usize::from(order == Order::Second)];
-        let fields = report.stress_fields.iter();
-        let errors = fields.map(|field| FieldErrors::new(ladders.len(), orders, near(field.load_factor))).collect();
+        let errors = report.stress_fields.iter().map(|_| FieldErrors::new(ladders.len(), orders)).collect();
         let levels = vec![0; ladders.len()];
         let mut mesh =
             Refinement { order, ladders, levels, near_points, report, errors, first_yield: None, meshes: Vec::new() };
@@ -178,7 +167,7 @@ impl Refinement {
         let fields = self.report.stress_fields.iter().zip(&report.stress_fields);
         for (errors, (coarse, fine)) in self.errors.iter_mut().zip(fields) {
             match self.order {
-                Order::First => errors.take(&differences(coarse, fine, &self.near_points), &refined),
+                Order::First => errors.take(&differences(coarse, fine, &self.near_points, apart), &refined),
                 Order::Second => errors.take_rough(&fine.roughness, &refined),
             }
         }
@@ -235,28 +224,5 @@ impl Refinement {
     fn note(&mut self, stress: Option<f64>) {
         let contact_points = self.report.at_start.as_ref().map(|start| start.contacts.len());
         self.meshes.push(MeshTried { subblocks: total(&self.subblocks(&self.levels)), contact_points, stress });
-    }
-}
-
-/// How near whole stones are to a mechanism at this load factor: how many hinges they have, or joints that are about to be some.
-fn hinged(whole: &CollapseReport, half: bool, load_factor: f64) -> Hinged {
-    let states = [&whole.at_start, &whole.at_unit_load, &whole.near_collapse];
-    let Some(state) = states.into_iter().flatten().find(|state| state.load_factor == load_factor) else {
-        return Hinged::Less;
-    };
-    let at_end = |of: &[ContactPoint]| {
-        let sums = of.iter().fold([0.0; 2], |[n, m], point| [n + point.normal, m + point.normal * point.position]);
-        let place = sums[1] / sums[0];
-        [place, 1.0 - place].iter().position(|&from_end| from_end < AT_END)
-    };
-    let mut ends: Vec<_> = state.contacts.chunk_by(|a, b| a.joint == b.joint).map(at_end).collect();
-    let are_enough = |ends: &[Option<usize>]| ends.iter().flatten().count() >= HINGES[usize::from(half)];
-    let enough = are_enough(&ends);
-    // Neighbours that turn about the same side are one hinge, as beside a crown stone.
-    ends.dedup();
-    match enough {
-        true if are_enough(&ends) => Hinged::Mechanism,
-        true => Hinged::Widely,
-        false => Hinged::Less,
     }
 }

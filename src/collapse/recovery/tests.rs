@@ -7,7 +7,7 @@ use crate::geometry::{Region, Vec2};
 fn ring(subblocks: [usize; 2], order: Order, spacing: Spacing) -> Grid {
     let side = |angle: f64| [1.0, 1.4].map(|r| Vec2::new(angle.cos(), angle.sin()) * r);
     let whole = Region { area: 0.5 * 0.96 * 0.8, centroid: Vec2::zeros() };
-    let cut = Cut { order, spacing };
+    let cut = Cut { order, spacing, ..Cut::default() };
     Grid::new([side(1.2), side(0.4)], whole, Lines::Arcs(Vec2::zeros()), subblocks, cut)
 }
 
@@ -40,8 +40,7 @@ fn a_field_as_smooth_as_its_subblocks_is_not_rough_and_any_other_is_by_what_they
     for spacing in [Spacing::Even, Spacing::Graded] {
         let rough = |n: usize, degree: i32| {
             let grid = ring([n, n], Order::Second, spacing);
-            let Roughness { apart, whole, columns, .. } = tell(&grid, &samples(&grid, degree), &[]).roughness;
-            assert_eq!(columns, n);
+            let Roughness { apart, whole, .. } = tell(&grid, &samples(&grid, degree), &[]).roughness;
             (apart / whole).sqrt()
         };
         assert!(rough(3, 1) < 1e-9, "bilinear stress goes through the samples");

@@ -22,18 +22,18 @@ pub struct SubblockStress {
     pub corner_stress: Vec<[f64; 3]>,
 }
 
-/// What a smooth field in a body differs by from one of second order: squares of the equivalent stress, integrated over the body but for
-/// what is near forces on points, Pa2 m2.
+/// What a smooth field in a body differs by from one of second order: squares of the stress, all components of it, integrated over the body
+/// but for what is near forces on points, Pa2 m2.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Roughness {
     /// Of the difference.
     pub apart: f64,
     /// Of the field itself.
     pub whole: f64,
-    /// Subblocks along each part of the body: few leave little to differ by.
-    pub columns: usize,
     /// Whether some of the body is near a force on a point.
     pub near_point: bool,
+    /// Whether a joint of the body presses on a strip that is much narrower than the subblocks there.
+    pub narrow: bool,
 }
 
 impl SubblockStress {
@@ -59,6 +59,12 @@ fn principal([x, y, tau]: [f64; 3]) -> [f64; 2] {
 pub(in crate::collapse) fn tresca(stress: [f64; 3]) -> f64 {
     let [first, second] = principal(stress);
     (first - second).max(first.abs()).max(second.abs())
+}
+
+/// Square of what two stresses (sigma_x, sigma_y, tau_xy) differ by, all four components of the tensor, whichever way the axes run.
+pub(in crate::collapse) fn apart(a: [f64; 3], b: [f64; 3]) -> f64 {
+    let [x, y, tau] = [0, 1, 2].map(|c| a[c] - b[c]);
+    x * x + y * y + 2.0 * tau * tau
 }
 
 /// Stress in every subblock at one load factor.

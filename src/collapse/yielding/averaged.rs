@@ -1,9 +1,9 @@
 //! What stress is held against the strength: the mean of every subblock, or of windows of a length in every stone.
 
 use crate::collapse::discretise::Model;
-use crate::collapse::grid::{Grid, Windows, wanted};
+use crate::collapse::grid::{Grid, Windows, cuts, wanted};
 use crate::collapse::record::PathPoint;
-use crate::collapse::snapshot::stress_field;
+use crate::collapse::snapshot::stresses;
 use crate::collapse::state::Standing;
 use crate::collapse::{Analysis, AnalysisError, Crushing, MeanStress, Note, Order, report::tresca};
 
@@ -134,8 +134,8 @@ fn most_of_subblocks(
     state: &Standing,
     strengths: &[f64],
 ) -> Result<Option<(f64, MeanStress)>, AnalysisError> {
-    let field = stress_field(model, state.load_factor, state)?;
-    let shares = field.subblocks.iter().map(|subblock| (subblock.tresca() / strengths[subblock.voussoir], subblock));
+    let (subblocks, _) = stresses(model, state.load_factor, state)?;
+    let shares = subblocks.iter().map(|subblock| (subblock.tresca() / strengths[subblock.voussoir], subblock));
     let most = shares.reduce(|most, next| if next.0 > most.0 { next } else { most });
     Ok(most.map(|(share, subblock)| {
         let extent = model.grids[subblock.voussoir].extent(subblock.place[0], subblock.place[1]);
@@ -147,8 +147,10 @@ fn most_of_subblocks(
 /// What to say where the mesh is too coarse for a length.
 fn too_coarse(analysis: &Analysis, grids: &[Grid], length: f64) -> Note {
     let least = grids.iter().map(Grid::least_window).try_fold(0.0, |most: f64, least| Some(most.max(least?)));
-    let of_body = |body: usize| wanted(&analysis.structure.bodies[body], length, analysis.mesh.spacing);
-    let wanted = (0..grids.len()).map(of_body).try_fold([0, 0], |[across, along]: [usize; 2], wanted| {
+    let (bodies, mesh) = (&analysis.structure.bodies, &analysis.mesh);
+    let cuts = cuts(&analysis.structure, mesh.order, mesh.spacing);
+    let of_bodies = bodies.iter().zip(cuts).map(|(body, cut)| wanted(body, length, cut));
+    let wanted = of_bodies.take(grids.len()).try_fold([0, 0], |[across, along]: [usize; 2], wanted| {
         let [i, j] = wanted?;
         Some([across.max(i), along.max(j)])
     });

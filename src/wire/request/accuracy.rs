@@ -12,7 +12,7 @@ pub struct AccuracyRequest {
     #[schema(exclusive_minimum = 0.0, maximum = 1.0)]
     pub collapse_intensity: Option<f64>,
     /// Largest error of the stress, as a share, instead of a mesh. It is the root mean square, by area, of the error
-    /// of the equivalent stress over that of the equivalent stress itself, point by point, in the worst of
+    /// of the stress over that of the stress itself, all components of it, point by point, in the worst of
     /// `report.stress_fields`. Without those there is one field, at load factor 1. Where some body has corners within a side it is that of
     /// the mean of every subblock. What is nearer to a force on a point than a quarter of the body's least width is not counted: stress
     /// has no bound there.

@@ -25,7 +25,9 @@ pub struct MeshRequest {
     #[schema(minimum = 1, maximum = 2, default = 1)]
     pub order: u8,
     /// Where the lines between subblocks lie. `even`: evenly. `graded`: close together at joints and faces, where stress changes
-    /// most next to hinges; from end to end at (1 - cos) / 2 of even shares of half a turn.
+    /// most next to hinges, and more so in bodies of four sides that stand on the ground: from one side to the other at
+    /// u^a / (u^a + (1 - u)^b) for even shares u, with exponents of 1.4 at faces, 1.5 at joints, 2 at the ground and 1.7 at sides
+    /// next to it.
     pub lines: Spacing,
 }
 

@@ -29,6 +29,11 @@ pub fn tresca([x, y, tau]: [f64; 3]) -> f64 {
     (2.0 * radius).max((middle + radius).abs()).max((middle - radius).abs())
 }
 
+/// Square of all four components of a plane stress.
+pub fn squared([x, y, tau]: [f64; 3]) -> f64 {
+    x * x + y * y + 2.0 * tau * tau
+}
+
 /// Share of piece `j` of `m` that lies in piece `i` of `n`.
 fn overlap(i: usize, n: usize, j: usize, m: usize) -> f64 {
     let ([a, b], [c, d]) = ([i, i + 1].map(|k| k as f64 / n as f64), [j, j + 1].map(|k| k as f64 / m as f64));
@@ -81,7 +86,7 @@ fn left_out(analysis: &Analysis) -> Vec<(usize, Vec2, f64)> {
     loads.map(|load| (load.body, load.at)).chain(soil).map(near).collect()
 }
 
-/// Root of the mean square, by area, of the error of the equivalent stress over that of the stress itself, point by point but for
+/// Root of the mean square, by area, of the error of all components of the stress over that of the stress itself, point by point but for
 /// what is near forces on points: stress is bilinear between the corners of subblocks.
 pub fn pointwise_error(analysis: &Analysis, coarse: &StressField, fine: &StressField) -> f64 {
     let (mut apart, mut whole) = (0.0, 0.0);
@@ -101,9 +106,9 @@ pub fn pointwise_error(analysis: &Analysis, coarse: &StressField, fine: &StressF
             let places = here.iter().map(|subblock| (subblock, place(&subblock.corners, at)));
             let deepest = |place: [f64; 2]| place[0].abs().max(place[1].abs());
             let (subblock, place) = places.min_by(|a, b| deepest(a.1).total_cmp(&deepest(b.1))).unwrap();
-            let (exact, found) = (tresca(bilinear(reference, [x, y])), tresca(bilinear(subblock, place)));
-            apart += w * v * cross(a, b) * (found - exact).powi(2);
-            whole += w * v * cross(a, b) * exact * exact;
+            let (exact, found) = (bilinear(reference, [x, y]), bilinear(subblock, place));
+            apart += w * v * cross(a, b) * squared([0, 1, 2].map(|c| found[c] - exact[c]));
+            whole += w * v * cross(a, b) * squared(exact);
         }
     }
     (apart / whole).sqrt()

@@ -1,4 +1,5 @@
 use super::*;
+use crate::collapse::Spacing;
 use crate::geometry::Region;
 use crate::structure::Sides;
 
@@ -27,8 +28,11 @@ fn hexagon() -> Body {
 
 fn cuts() -> [Cut; 3] {
     let [first, second] = [Order::First, Order::Second];
-    [(first, Spacing::Even), (first, Spacing::Graded), (second, Spacing::Graded)]
-        .map(|(order, spacing)| Cut { order, spacing })
+    [(first, Spacing::Even), (first, Spacing::Graded), (second, Spacing::Graded)].map(|(order, spacing)| Cut {
+        order,
+        spacing,
+        ..Cut::default()
+    })
 }
 
 /// The averages of this field, each with where it is.
@@ -44,6 +48,9 @@ fn averages(grid: &Grid, windows: &Windows, field: impl Fn(Vec2) -> [f64; 3]) ->
 #[test]
 fn uniform_stress_is_its_own_average() {
     let stress = [-3e6, -1e6, 0.4e6];
+    // Two that are not alike tell of the whole way.
+    let uneven = Grid::of(&rectangle(), [2, 2], Cut { held: [[false; 2], [true, false]], ..cuts()[1] });
+    assert!(uneven.windows(9.0).is_some() && uneven.windows(1.1).is_none());
     for body in [rectangle(), wedge(), hexagon()] {
         for cut in cuts() {
             let grid = Grid::of(&body, subblocks_of(&body, [7, 6], cut.order).unwrap(), cut);
@@ -150,12 +157,14 @@ fn a_grid_tells_of_lengths_of_two_subblocks_and_more() {
         assert!(grid(subblocks).least_window().is_none() && grid(subblocks).windows(9.0).is_none());
     }
     for body in [rectangle(), wedge(), hexagon()] {
-        for spacing in [Spacing::Even, Spacing::Graded] {
+        // Bodies of several parts are not held.
+        let held = body.is_quadrilateral().then_some(Cut { held: [[false, true], [true, false]], ..cuts()[1] });
+        for cut in [cuts()[0], cuts()[1]].into_iter().chain(held) {
             for length in [0.11, 0.3, 1.0, 7.0] {
-                let [across, along] = wanted(&body, length, spacing).unwrap();
+                let [across, along] = wanted(&body, length, cut).unwrap();
                 let told = |wanted: [usize; 2]| {
                     let subblocks = subblocks_of(&body, wanted, Order::First).unwrap();
-                    Grid::of(&body, subblocks, Cut { order: Order::First, spacing }).windows(length).is_some()
+                    Grid::of(&body, subblocks, cut).windows(length).is_some()
                 };
                 assert!(told([across, along]), "{across} {along} {length}");
                 let fewer = if across == along { [across - 2, along - 2] } else { [across - 1, along] };
@@ -163,7 +172,7 @@ fn a_grid_tells_of_lengths_of_two_subblocks_and_more() {
             }
         }
     }
-    assert_eq!(wanted(&rectangle(), 1e-3, Spacing::Even), None);
+    assert_eq!(wanted(&rectangle(), 1e-3, cuts()[0]), None);
 }
 
 #[test]

@@ -1,0 +1,118 @@
+//! Strips of a joint that are pressed and much narrower than the subblocks beside them, as next to a hinge: these show little of the
+//! stress there, and a field that is smooth may be far from it.
+
+use super::discretise::Model;
+use super::grid::{Grid, OnSide};
+use super::{Order, Roughness};
+use crate::dda::ContactForce;
+use crate::structure::{Joint, Structure};
+
+/// A thrust nearer to the end of a joint than this share of the subblock there presses a strip that is too narrow: were pressure linear,
+/// three tenths of the subblock's side. On the arches of the chart stress of second order is off by what its roughness tells as long as
+/// that is more than four tenths, and by up to 2.6 times as much where it is less than two.
+const TOO_NEAR: f64 = 0.1;
+
+/// The subblocks of a body at the ends of a joint.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Outermost {
+    body: usize,
+    joint: usize,
+    /// How much of the joint each takes, as a share.
+    lengths: [f64; 2],
+}
+
+/// Those of second-order subblocks, at all joints that can open.
+pub(super) fn outermost(structure: &Structure, grids: &[Grid]) -> Vec<Outermost> {
+    let opening = structure.ring().iter().enumerate().filter(|(_, joint)| joint.law.coulomb().is_some());
+    opening.flat_map(|(k, joint)| beside(k, joint, grids)).collect()
+}
+
+fn beside<'g>(number: usize, joint: &'g Joint, grids: &'g [Grid]) -> impl Iterator<Item = Outermost> + 'g {
+    let bodies = joint.between.into_iter().filter_map(|side| side.body());
+    bodies.filter(|body| grids[*body].order == Order::Second).map(move |body| {
+        let on: OnSide = grids[body].beside([joint.intrados, joint.extrados]);
+        let (first, last) =
+            grids[body].lines_on(on).fold((1.0f64, 0.0f64), |(low, high), at| (low.min(at), high.max(at)));
+        Outermost { body, joint: number, lengths: [first, 1.0 - last] }
+    })
+}
+
+/// Marks the bodies that have such a strip, by the forces of all contacts.
+pub(super) fn mark(model: &Model, forces: &[ContactForce], roughness: &mut [Roughness]) {
+    for outermost in &model.outermost {
+        let sums = model.contacts(outermost.joint).fold([0.0; 2], |[n, m], p| {
+            let normal = forces[p].normal;
+            [n + normal, m + normal * model.position(outermost.joint, p)]
+        });
+        roughness[outermost.body].narrow |= outermost.is_too_coarse_for(sums[1] / sums[0]);
+    }
+}
+
+impl Outermost {
+    /// For a thrust at this place of the joint, from 0 to 1; one that does not press has none, NaN.
+    fn is_too_coarse_for(&self, thrust: f64) -> bool {
+        let [first, last] = self.lengths;
+        thrust < TOO_NEAR * first || 1.0 - thrust < TOO_NEAR * last
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::collapse::Spacing;
+    use crate::collapse::grid::{Cut, cuts};
+    use crate::geometry::{Region, Vec2};
+    use crate::structure::{Body, JointLaw, Side, Sides};
+
+    /// Two blocks side by side, the left one twice as high, with a joint of this law between them.
+    fn pair(law: JointLaw) -> Structure {
+        let block = |x: f64, height: f64| {
+            let corners: Vec<Vec2> =
+                [(x, 0.0), (x + 1.0, 0.0), (x + 1.0, height), (x, height)].map(|(x, y)| Vec2::new(x, y)).into();
+            Body { region: Region::polygon(&corners), corners, sides: Sides::Straight, stone: 0 }
+        };
+        let [intrados, extrados] = [0.0, 1.0].map(|y| Vec2::new(1.0, y));
+        Structure {
+            stones: Vec::new(),
+            bodies: vec![block(0.0, 2.0), block(1.0, 1.0)],
+            joints: vec![Joint { between: [Side::Body(0), Side::Body(1)], intrados, extrados, law }],
+            spans: Vec::new(),
+            surfaces: Vec::new(),
+            passive: Vec::new(),
+            supports: 0,
+        }
+    }
+
+    fn outermost_of(law: JointLaw, order: Order) -> Vec<Outermost> {
+        let structure = pair(law);
+        let cuts = cuts(&structure, order, Spacing::Even);
+        let grids: Vec<Grid> =
+            structure.bodies.iter().zip(cuts).map(|(body, cut): (_, Cut)| Grid::of(body, [5, 2], cut)).collect();
+        outermost(&structure, &grids)
+    }
+
+    #[test]
+    fn subblocks_at_the_ends_of_a_joint_are_as_long_as_they_are() {
+        let dry = JointLaw::Dry { friction: 0.7, cohesion: 0.0 };
+        let found = outermost_of(dry, Order::Second);
+        // Half of the left side: subblocks of 0.4 m, half of the third one at the end.
+        for (found, (body, lengths)) in found.iter().zip([(0, [0.4, 0.2]), (1, [0.2, 0.2])]) {
+            assert!(
+                found.body == body && (0..2).all(|end| (found.lengths[end] - lengths[end]).abs() < 1e-12),
+                "{found:?}"
+            );
+        }
+        assert!(found.len() == 2 && outermost_of(dry, Order::First).is_empty());
+        assert!(outermost_of(JointLaw::Bonded, Order::Second).is_empty());
+    }
+
+    #[test]
+    fn a_thrust_next_to_an_end_presses_too_narrow_a_strip() {
+        let outermost = Outermost { body: 0, joint: 0, lengths: [0.4, 0.2] };
+        for (thrust, expected) in
+            [(0.03, true), (0.05, false), (0.5, false), (0.97, false), (0.99, true), (f64::NAN, false)]
+        {
+            assert_eq!(outermost.is_too_coarse_for(thrust), expected, "{thrust}");
+        }
+    }
+}
