@@ -285,7 +285,7 @@ fn soil_allows(structure: &Structure, soil: &[f64], mechanism: &Mechanism) -> bo
 }
 
 /// Joint forces from the normal and tangential force of every contact.
-fn resultants(model: &Model, force: impl Fn(usize) -> [f64; 2]) -> Vec<Resultant> {
+pub(super) fn resultants(model: &Model, force: impl Fn(usize) -> [f64; 2]) -> Vec<Resultant> {
     let joint = |joint: usize| {
         let mut sum = Resultant { intrados: 0.0, extrados: 0.0, shear: 0.0 };
         for p in model.contacts(joint) {

@@ -2,6 +2,7 @@
 //! stress there, and a field that is smooth may be far from it.
 
 use super::discretise::Model;
+use super::ending::resultants;
 use super::grid::{Grid, OnSide};
 use super::{Order, Roughness};
 use crate::dda::ContactForce;
@@ -39,12 +40,13 @@ fn beside<'g>(number: usize, joint: &'g Joint, grids: &'g [Grid]) -> impl Iterat
 
 /// Marks the bodies that have such a strip, by the forces of all contacts.
 pub(super) fn mark(model: &Model, forces: &[ContactForce], roughness: &mut [Roughness]) {
+    if model.outermost.is_empty() {
+        return;
+    }
+    let resultants = resultants(model, |p| [forces[p].normal, forces[p].tangential]);
     for outermost in &model.outermost {
-        let sums = model.contacts(outermost.joint).fold([0.0; 2], |[n, m], p| {
-            let normal = forces[p].normal;
-            [n + normal, m + normal * model.position(outermost.joint, p)]
-        });
-        roughness[outermost.body].narrow |= outermost.is_too_coarse_for(sums[1] / sums[0]);
+        let resultant = resultants[outermost.joint];
+        roughness[outermost.body].narrow |= outermost.is_too_coarse_for(resultant.extrados / resultant.normal());
     }
 }
 
@@ -61,26 +63,18 @@ mod tests {
     use super::*;
     use crate::collapse::Spacing;
     use crate::collapse::grid::{Cut, cuts};
-    use crate::geometry::{Region, Vec2};
-    use crate::structure::{Body, JointLaw, Side, Sides};
+    use crate::geometry::Vec2;
+    use crate::limit::scenes;
+    use crate::structure::{JointLaw, Side};
 
     /// Two blocks side by side, the left one twice as high, with a joint of this law between them.
     fn pair(law: JointLaw) -> Structure {
         let block = |x: f64, height: f64| {
-            let corners: Vec<Vec2> =
-                [(x, 0.0), (x + 1.0, 0.0), (x + 1.0, height), (x, height)].map(|(x, y)| Vec2::new(x, y)).into();
-            Body { region: Region::polygon(&corners), corners, sides: Sides::Straight, stone: 0 }
+            [(x, 0.0), (x + 1.0, 0.0), (x + 1.0, height), (x, height)].map(|(x, y)| Vec2::new(x, y)).to_vec()
         };
         let [intrados, extrados] = [0.0, 1.0].map(|y| Vec2::new(1.0, y));
-        Structure {
-            stones: Vec::new(),
-            bodies: vec![block(0.0, 2.0), block(1.0, 1.0)],
-            joints: vec![Joint { between: [Side::Body(0), Side::Body(1)], intrados, extrados, law }],
-            spans: Vec::new(),
-            surfaces: Vec::new(),
-            passive: Vec::new(),
-            supports: 0,
-        }
+        let joint = Joint { between: [Side::Body(0), Side::Body(1)], intrados, extrados, law };
+        scenes::structure(&[block(0.0, 2.0), block(1.0, 1.0)], vec![joint], 0)
     }
 
     fn outermost_of(law: JointLaw, order: Order) -> Vec<Outermost> {

@@ -29,4 +29,4 @@ pub use upper_end::UpperEnd;
 pub use window::{Window, WindowEnd};
 
 #[cfg(test)]
-mod scenes;
+pub(crate) mod scenes;

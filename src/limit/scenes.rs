@@ -1,4 +1,4 @@
-//! Structures built by hand for the tests of this room.
+//! Structures built by hand for tests.
 
 use crate::geometry::{Region, Vec2};
 use crate::structure::{ActsOn, Body, Joint, JointLaw, PointForce, Side, Sides, Structure};

@@ -2,14 +2,16 @@
 
 use super::{Cut, Grid, Held};
 use crate::collapse::{Order, Spacing};
-use crate::structure::{Joint, JointLaw, Side, Structure};
+use crate::structure::{Joint, Side, Structure};
 
 /// How the subblocks of every body are drawn.
 pub(in super::super) fn cuts(structure: &Structure, order: Order, spacing: Spacing) -> Vec<Cut> {
     let mut cuts = vec![Cut { order, spacing, ..Cut::default() }; structure.bodies.len()];
-    let graded = structure.joints.iter().filter(|_| spacing == Spacing::Graded);
+    if spacing == Spacing::Even {
+        return cuts;
+    }
     // Planes of symmetry do not hold what slides along them.
-    for joint in graded.filter(|joint| !matches!(joint.law, JointLaw::Wall | JointLaw::Mirror)) {
+    for joint in structure.joints.iter().filter(|joint| !joint.is_symmetry()) {
         if let [Side::Body(body), Side::Support(_)] | [Side::Support(_), Side::Body(body)] = joint.between {
             hold(&mut cuts[body].held, &Grid::of(&structure.bodies[body], [2, 2], Cut::default()), joint);
         }
@@ -28,8 +30,9 @@ fn hold(held: &mut Held, grid: &Grid, joint: &Joint) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{Region, Vec2};
-    use crate::structure::{Body, Sides};
+    use crate::geometry::Vec2;
+    use crate::limit::scenes;
+    use crate::structure::JointLaw;
 
     /// A body with a joint of this law between the ground and every one of these of its sides, each from corner to next corner.
     fn standing(corners: &[[f64; 2]], sides: &[(usize, JointLaw)]) -> Structure {
@@ -38,15 +41,8 @@ mod tests {
             let (intrados, extrados) = (corners[side], corners[(side + 1) % corners.len()]);
             Joint { between: [Side::Body(0), Side::Support(0)], intrados, extrados, law }
         };
-        Structure {
-            stones: Vec::new(),
-            joints: sides.iter().map(joint).collect(),
-            bodies: vec![Body { region: Region::polygon(&corners), corners, sides: Sides::Straight, stone: 0 }],
-            spans: Vec::new(),
-            surfaces: Vec::new(),
-            passive: Vec::new(),
-            supports: 1,
-        }
+        let joints = sides.iter().map(joint).collect();
+        scenes::structure(std::slice::from_ref(&corners), joints, 1)
     }
 
     fn held(structure: &Structure) -> Held {

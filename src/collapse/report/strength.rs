@@ -246,3 +246,25 @@ pub struct BeamReport {
     /// What was modelled, where an accuracy was asked for.
     pub plan: Option<BeamPlan>,
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Vec2;
+
+    /// (sigma_x, sigma_y, tau_xy) of two principal stresses, the first of them at this angle to the x axis.
+    fn turned(principal: [f64; 2], angle: f64) -> [f64; 3] {
+        let (a, b) = (Vec2::new(angle.cos(), angle.sin()), Vec2::new(-angle.sin(), angle.cos()));
+        let tensor = principal[0] * a * a.transpose() + principal[1] * b * b.transpose();
+        [tensor[(0, 0)], tensor[(1, 1)], tensor[(0, 1)]]
+    }
+
+    #[test]
+    fn what_stresses_differ_by_does_not_depend_on_the_axes() {
+        for angle in [0.0, 0.3, 0.8, 2.0] {
+            // By principal stresses: 3^2 + 1^2, and (3 + 1)^2 + (-1 - 2)^2.
+            let [one, other] = [turned([3.0, -1.0], angle), turned([-1.0, 2.0], angle)];
+            assert!((apart(one, [0.0; 3]) - 10.0).abs() < 1e-12 && (apart(one, other) - 25.0).abs() < 1e-12);
+        }
+    }
+}
