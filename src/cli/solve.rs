@@ -35,6 +35,9 @@ pub fn solve(options: &Solve) -> ExitCode {
         Err(error) => return fail(error),
     };
     let wall_time = clock.elapsed();
+    if options.is_json_alone() {
+        return rendering::json(&request, &answer).map_or_else(fail, |json| print(&json));
+    }
     let product = match renderings(&request, &question, &answer, wall_time) {
         Ok(product) => product,
         Err(failure) => return fail(failure),

@@ -26,6 +26,13 @@ pub struct Solve {
     pub report: Option<PathBuf>,
 }
 
+impl Solve {
+    /// Whether nothing else than the answer as JSON is asked for.
+    pub fn is_json_alone(&self) -> bool {
+        self.json && [&self.figure, &self.figures, &self.report].iter().all(|file| file.is_none())
+    }
+}
+
 /// What `survey` reads.
 pub(super) const COLUMNS: &str = "The table is comma-separated, its first line the names of the columns: side (intrados or extrados; all intrados \
 without it), x_m, y_m, and tolerance_m where points are uncertain. Points of a side run from left to right, one for every joint. \

@@ -34,13 +34,21 @@ pub const REPORT: &str = "report";
 /// Room in which an answer is written, bytes: some fifty stones take no more.
 const ROOM: usize = 128 << 10;
 
+/// The whole answer as JSON.
+///
+/// # Errors
+/// As [`renderings`].
+pub fn json(request: &Request, answer: &Answer) -> Result<Vec<u8>, Failure> {
+    let result = JobResult::new(request, answer).ok_or(Failure::Defect)?;
+    Ok(line_in(&result, Vec::with_capacity(ROOM))?)
+}
+
 /// Writes an answer as a whole, in JSON, and no other form of it: the first of its [`renderings`].
 ///
 /// # Errors
 /// As theirs.
 pub fn whole(request: &Request, answer: &Answer) -> Result<Product, Failure> {
-    let result = JobResult::new(request, answer).ok_or(Failure::Defect)?;
-    Ok([in_json(&result)?].into())
+    Ok([whole_in(json(request, answer)?)].into())
 }
 
 /// Writes an answer in all its parts and formats; `wall_time` is what finding it took. The first is the whole of it as JSON:
@@ -56,7 +64,8 @@ pub fn renderings(
 ) -> Result<Product, Failure> {
     let result = JobResult::new(request, answer).ok_or(Failure::Defect)?;
     let named = |name: &str| vec![name.to_owned()];
-    let mut all = vec![in_json(&result)?, rendering(named(WHOLE), Format::Text, prose::prose(&result, wall_time))];
+    let written = line_in(&result, Vec::with_capacity(ROOM))?;
+    let mut all = vec![whole_in(written), rendering(named(WHOLE), Format::Text, prose::prose(&result, wall_time))];
     if let (Request::Structure(request), Answer::One(report), JobResult::Analysis(result), Some(analysis)) =
         (request, answer, &result, analysed(question))
     {
@@ -79,9 +88,8 @@ pub fn renderings(
     Ok(all.into())
 }
 
-fn in_json(result: &JobResult) -> Result<Rendering, Failure> {
-    let written = line_in(result, Vec::with_capacity(ROOM))?;
-    Ok(rendering(vec![WHOLE.to_owned()], Format::Json, written))
+fn whole_in(json: Vec<u8>) -> Rendering {
+    rendering(vec![WHOLE.to_owned()], Format::Json, json)
 }
 
 /// Every drawing and the report, or why there is none.

@@ -43,36 +43,44 @@ impl Borders {
 
     /// The function that comes to nought first, from this place on.
     pub(super) fn next(&self, here: &Linear, rate: &Linear) -> Option<Crossing> {
-        let mut next = None;
         // Compiled for every processor: the four functions of an interface fit one vector of most.
-        Arch::new().dispatch(|| {
-            for (interface, functions) in self.functions.iter().enumerate() {
-                look_at(functions, interface, [here, rate], &mut next);
+        Arch::new().dispatch(|| self.nearest(here, rate))
+    }
+
+    #[inline(always)]
+    fn nearest(&self, here: &Linear, rate: &Linear) -> Option<Crossing> {
+        let (mut next, mut there): (Option<Crossing>, _) = (None, *here);
+        for (interface, functions) in self.functions.iter().enumerate() {
+            // Most stay positive as far as to the next one found so far; all four are looked at at once.
+            let stay = along(functions, &there).into_iter().fold(true, |stay, left| stay & (left >= 0.0));
+            if stay && next.is_some() {
+                continue;
             }
-        });
+            if let Some(nearer) = look_at(functions, interface, [here, rate], next) {
+                next = Some(nearer);
+                there = std::array::from_fn(|c| here[c] + nearer.step * rate[c]);
+            }
+        }
         next
     }
 }
 
-/// Looks at the functions of an interface: one that comes to nought before `next` is the next.
-#[inline(always)]
-fn look_at(functions: &Functions, interface: usize, [here, rate]: [&Linear; 2], next: &mut Option<Crossing>) {
+/// The one of the functions of an interface that comes to nought first, if that is before `next`.
+fn look_at(
+    functions: &Functions,
+    interface: usize,
+    [here, rate]: [&Linear; 2],
+    next: Option<Crossing>,
+) -> Option<Crossing> {
     let (here, rate) = (along(functions, here), along(functions, rate));
-    let mut step = next.map_or(f64::INFINITY, |next| next.step);
-    // Most are far from their borders: all four at once, and without dividing.
-    let mut far = true;
-    for which in 0..4 {
-        far &= here[which] + step * rate[which] >= 0.0;
-    }
-    if far {
-        return;
-    }
+    let (mut nearer, mut step) = (None, next.map_or(f64::INFINITY, |next| next.step));
     for which in 0..4 {
         if rate[which] < 0.0 && here[which] < -rate[which] * step {
             step = (here[which] / -rate[which]).max(0.0);
-            *next = Some(Crossing { step, interface, which });
+            nearer = Some(Crossing { step, interface, which });
         }
     }
+    nearer
 }
 
 /// Four functions at a place, or their change along a path.
