@@ -233,8 +233,11 @@ fn solve_writes_drawings_and_a_report() {
 #[test]
 fn solve_draws_in_pixels() {
     let file = std::env::temp_dir().join(format!("voussoir-drawing-{}.PNG", std::process::id()));
-    let output = fed(&["solve", &case("first-arch/request.json"), "--figure", file.to_str().unwrap()], "");
+    let arguments = ["solve", "--json", &case("first-arch/request.json"), "--figure", file.to_str().unwrap()];
+    let output = fed(&arguments, "");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    // With a drawing as without.
+    assert_eq!(output.stdout, fed(&arguments[..3], "").stdout);
     let drawn = std::fs::read(&file).unwrap();
     std::fs::remove_file(&file).unwrap();
     assert!(drawn.starts_with(b"\x89PNG\r\n\x1a\n"));

@@ -16,12 +16,12 @@ fn demand(request: &Value) -> Demand {
     estimate(&read_question(request.to_string().as_bytes()).unwrap().1)
 }
 
-/// Most memory that `voussoir solve` had resident while it answered a request, bytes.
+/// Most memory that `voussoir solve` had resident while it answered a request and wrote every form of the answer, bytes.
 #[cfg(target_os = "linux")]
 #[allow(clippy::disallowed_methods, reason = "a process is looked at now and then until it has ended")]
 fn peak(request: &Value) -> usize {
     let mut command = Command::new(env!("CARGO_BIN_EXE_voussoir"));
-    command.args(["solve", "--json", "-"]).stdin(Stdio::piped()).stdout(Stdio::null());
+    command.args(["solve", "-"]).stdin(Stdio::piped()).stdout(Stdio::null());
     let mut child = command.spawn().unwrap();
     child.stdin.take().unwrap().write_all(request.to_string().as_bytes()).unwrap();
     let (file, mut peak) = (format!("/proc/{}/status", child.id()), 0);
