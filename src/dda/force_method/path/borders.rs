@@ -1,7 +1,7 @@
 //! Functions of redundants and loads that are positive while interfaces stay as they are, and which of them comes to nought next.
 
 use super::super::Linear;
-use pulp::Arch;
+use pulp::{Arch, Simd, WithSimd};
 
 /// Four functions of an interface; coefficient by coefficient.
 pub(super) type Functions = [[f64; 4]; 5];
@@ -43,17 +43,27 @@ impl Borders {
 
     /// The function that comes to nought first, from this place on.
     pub(super) fn next(&self, here: &Linear, rate: &Linear) -> Option<Crossing> {
-        // Compiled for every processor: the four functions of an interface fit one vector of most.
-        Arch::new().dispatch(|| self.nearest(here, rate))
+        Arch::new().dispatch(Search { functions: &self.functions, here, rate })
     }
+}
+
+/// A look at all functions along a way, with the processor's vectors.
+struct Search<'a> {
+    functions: &'a [Functions],
+    here: &'a Linear,
+    rate: &'a Linear,
+}
+
+impl WithSimd for Search<'_> {
+    type Output = Option<Crossing>;
 
     #[inline(always)]
-    fn nearest(&self, here: &Linear, rate: &Linear) -> Option<Crossing> {
+    fn with_simd<S: Simd>(self, simd: S) -> Option<Crossing> {
+        let Search { functions, here, rate } = self;
         let (mut next, mut there): (Option<Crossing>, _) = (None, *here);
-        for (interface, functions) in self.functions.iter().enumerate() {
-            // Most stay positive as far as to the next one found so far; all four are looked at at once.
-            let stay = along(functions, &there).into_iter().fold(true, |stay, left| stay & (left >= 0.0));
-            if stay && next.is_some() {
+        for (interface, functions) in functions.iter().enumerate() {
+            // Most stay positive as far as to the next one found so far.
+            if next.is_some() && least(simd, functions, &there) >= 0.0 {
                 continue;
             }
             if let Some(nearer) = look_at(functions, interface, [here, rate], next) {
@@ -63,6 +73,25 @@ impl Borders {
         }
         next
     }
+}
+
+/// The least of four functions at a place.
+#[inline(always)]
+fn least<S: Simd>(simd: S, functions: &Functions, place: &Linear) -> f64 {
+    let (wide, single) = S::as_simd_f64s(functions.as_flattened());
+    // Where vectors have more than four numbers, those of one would not belong together.
+    if !single.is_empty() {
+        return along(functions, place).into_iter().fold(f64::INFINITY, f64::min);
+    }
+    let (by, mut least) = (wide.len() / 5, simd.splat_f64s(f64::INFINITY));
+    for i in 0..by {
+        let mut sum = simd.mul_f64s(wide[i], simd.splat_f64s(place[0]));
+        for c in 1..5 {
+            sum = simd.add_f64s(sum, simd.mul_f64s(wide[by * c + i], simd.splat_f64s(place[c])));
+        }
+        least = simd.min_f64s(least, sum);
+    }
+    simd.reduce_min_f64s(least)
 }
 
 /// The one of the functions of an interface that comes to nought first, if that is before `next`.
@@ -84,7 +113,6 @@ fn look_at(
 }
 
 /// Four functions at a place, or their change along a path.
-#[inline(always)]
 fn along(functions: &Functions, way: &Linear) -> [f64; 4] {
     let mut sums = [0.0; 4];
     for c in 0..5 {
