@@ -39,8 +39,7 @@ const ROOM: usize = 128 << 10;
 /// # Errors
 /// As [`renderings`].
 pub fn json(request: &Request, answer: &Answer) -> Result<Vec<u8>, Failure> {
-    let result = JobResult::new(request, answer).ok_or(Failure::Defect)?;
-    Ok(line_in(&result, Vec::with_capacity(ROOM))?)
+    written(&JobResult::new(request, answer).ok_or(Failure::Defect)?)
 }
 
 /// Writes an answer as a whole, in JSON, and no other form of it: the first of its [`renderings`].
@@ -64,8 +63,8 @@ pub fn renderings(
 ) -> Result<Product, Failure> {
     let result = JobResult::new(request, answer).ok_or(Failure::Defect)?;
     let named = |name: &str| vec![name.to_owned()];
-    let written = line_in(&result, Vec::with_capacity(ROOM))?;
-    let mut all = vec![whole_in(written), rendering(named(WHOLE), Format::Text, prose::prose(&result, wall_time))];
+    let whole = whole_in(written(&result)?);
+    let mut all = vec![whole, rendering(named(WHOLE), Format::Text, prose::prose(&result, wall_time))];
     if let (Request::Structure(request), Answer::One(report), JobResult::Analysis(result), Some(analysis)) =
         (request, answer, &result, analysed(question))
     {
@@ -86,6 +85,10 @@ pub fn renderings(
     }
     all.extend(drawings(request, question, answer, &result));
     Ok(all.into())
+}
+
+fn written(result: &JobResult) -> Result<Vec<u8>, Failure> {
+    Ok(line_in(result, Vec::with_capacity(ROOM))?)
 }
 
 fn whole_in(json: Vec<u8>) -> Rendering {

@@ -1,5 +1,6 @@
 use super::*;
 use crate::dda::factor::tests::numbers;
+use pulp::Scalar;
 
 #[test]
 fn the_first_function_that_falls_to_nought_is_the_next() {
@@ -26,6 +27,8 @@ fn the_first_function_that_falls_to_nought_is_the_next() {
         let steps = falls.map(|(k, which, of)| (at(of, &here) / -at(of, &rate), k, which));
         let (step, interface, which) = steps.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
         let next = borders.next(&here, &rate).unwrap();
+        let by_one = Search { functions: &borders.functions, here: &here, rate: &rate }.with_simd(Scalar);
+        assert_eq!(by_one, Some(next));
         assert_eq!((next.interface, next.which), (interface, which));
         assert!((next.step - step).abs() <= 1e-9 * step, "{next:?} {step}");
         assert_eq!(borders.next(&here, &[0.0; 5]), None);
