@@ -74,6 +74,20 @@ pub fn balanced(
     Factored::new(assembly, budget).balanced(size, loads, near, symmetric)
 }
 
+/// The same by Newton's method alone, for a state that is next to `near`.
+///
+/// # Errors
+/// When stopped.
+pub fn nearest(
+    assembly: &Assembly,
+    loads: &[f64],
+    near: &[f64],
+    symmetric: bool,
+    budget: &Budget,
+) -> Result<Option<Balanced>, Stopped> {
+    Factored::new(assembly, budget).by_newton(loads, near, symmetric)
+}
+
 /// Where the tangent is singular, as next to a momentary mechanism, a state may be far away in its direction. Displacements
 /// `near` are an exact state under the loads that they are in equilibrium with: it is traced from there to `loads`.
 fn traced(

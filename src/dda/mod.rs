@@ -31,7 +31,7 @@ mod trace;
 mod tree;
 
 pub use assembly::{Assembly, AssemblyBuilder, Beside, Loads, MeanMotion, Push, Touch};
-pub use balance::{Balanced, balanced, direct, missing, out_of_balance};
+pub use balance::{Balanced, balanced, direct, missing, nearest, out_of_balance};
 pub use block::{Block, Elasticity, V6};
 pub use condense::{Condensed, Loose, Node, Unbuilt, free_response};
 pub use contact::{Contact, ContactForce, Law, State, Zone};

@@ -21,6 +21,9 @@ const DIRECT: usize = 1300;
 /// How many of those arches at least have to have a history that is told without the tracer.
 const TOLD: usize = 1200;
 const STRUCTURES: u64 = 40;
+/// How many random arches on a mesh, and how many of them at least have to be solved directly.
+const ON_MESH: u64 = 300;
+const DIRECT_ON_MESH: usize = 35;
 /// Largest difference of a force or displacement at the start, at load factor 1 and near collapse, where a state follows its load a
 /// thousandfold.
 const EQUAL: [f64; 3] = [1e-9, 1e-9, 1e-6];
@@ -198,4 +201,19 @@ fn states_on_a_mesh_are_those_of_its_path() {
     }
     println!("{compared:?}");
     assert!(compared.direct >= 4, "{compared:?}");
+}
+
+/// And in random arches, with few voussoirs and many.
+#[test]
+fn states_of_random_arches_on_a_mesh_are_those_of_its_path() {
+    let mut compared = Compared::default();
+    for seed in 0..ON_MESH {
+        let mut request = random_arch::request(seed);
+        request["mesh"] = mesh(4, 3);
+        if let Ok(analysis) = door::analysis(&request) {
+            compared.compare(&format!("seed {seed}"), &analysis);
+        }
+    }
+    println!("{compared:?}");
+    assert!(compared.direct >= DIRECT_ON_MESH, "{compared:?}");
 }

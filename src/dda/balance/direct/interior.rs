@@ -16,9 +16,9 @@ use crate::dda::contact::{Contact, Law, Zone};
 /// Most steps.
 const STEPS: usize = 60;
 /// Products of room and movement at first, as a multiple of what a typical force does in the springs of a contact, and where they are
-/// small enough as a share of that.
+/// small enough as a share of that: what follows needs the contacts that press, not their forces.
 const FIRST: f64 = 10.0;
-const LAST: f64 = 1e-12;
+const LAST: f64 = 1e-9;
 /// Share of the way to the nearest bound that a step goes.
 const STEP: f64 = 0.995;
 /// Share of a bound that shear has at most at first.
