@@ -3,8 +3,8 @@
 //! 1. Contacts slide at a shear that their normal force in the state before bears (Tresca's friction, 0 where they were open).
 //!    Equilibrium then makes the least of a convex energy, which Newton's method with a search along every step ends in. Until no
 //!    contact changes its state. From displacements that are near this takes few steps, each of which touches few contacts.
-//! 2. Where it takes more, tangents are singular again and again, or nothing is near: through the [inside](interior) of the law, with all contacts at once, to next to the
-//!    state; from there as before.
+//! 2. Where it takes more, or tangents are singular again and again, or nothing is near: through the [inside](interior) of the law,
+//!    with all contacts at once, to next to the state; from there as before.
 //! 3. The law itself, as [`balanced`](super::balanced) solves it.
 //!
 //! Slip is measured from the unstressed start, so the law has no memory, and where there is but one state it is that of the path.
@@ -19,8 +19,7 @@ use crate::dda::assembly::Assembly;
 use crate::dda::contact::{Contact, Law, State};
 
 /// What is tried from displacements that are near, and from next to the state. Where tangents are singular more than once, the contacts
-/// that press are far from those of the state: in arches on found meshes three quarters of the work were lost on such starts, in
-/// bridges with fill, which seldom have any, nothing.
+/// that press are far from those of the state: on found meshes of arches near collapse half of all the work was lost on such starts.
 const FROM_NEAR: Effort = Effort { steps: 20, singular: 1 };
 const FROM_NEXT_TO: Effort = Effort { steps: 60, singular: 60 };
 /// Most bounds of shear (measured: 10).
