@@ -187,8 +187,8 @@ impl<'p> States<'p> {
         if (load_factor - last.load_factor).abs() > (far - last.load_factor).abs() { far } else { load_factor }
     }
 
-    /// Solves for the state at a load factor from the last one before, where that misses few of the loads; false where it misses more, or
-    /// does not lead there.
+    /// Solves for the state at a load factor from the last one before, where that misses few of the loads: by Newton's method, or as from
+    /// farther away; false where it misses more, or does not lead there.
     fn find_next_to(&mut self, load_factor: f64) -> Result<bool, AnalysisError> {
         let Some(last) = self.before(load_factor) else { return Ok(false) };
         let Model { assembly, budget, .. } = &self.model;
@@ -197,8 +197,10 @@ impl<'p> States<'p> {
             return Ok(false);
         }
         let symmetric = self.model.is_symmetric_under(&loads);
-        let found = nearest(assembly, &loads, &last.displacements, symmetric, budget)?;
-        self.take(load_factor, found.filter(|found| !found.free))
+        match nearest(assembly, &loads, &last.displacements, symmetric, budget)?.filter(|found| !found.free) {
+            Some(found) => self.take(load_factor, Some(found)),
+            None => self.find(load_factor),
+        }
     }
 
     /// Solves for the state at a load factor from what is near it; false where that is not known, or does not lead there.

@@ -3,8 +3,8 @@
 //! 1. Contacts slide at a shear that their normal force in the state before bears (Tresca's friction, 0 where they were open).
 //!    Equilibrium then makes the least of a convex energy, which Newton's method with a search along every step ends in. Until no
 //!    contact changes its state. From displacements that are near this takes few steps, each of which touches few contacts.
-//! 2. Where it takes more, or tangents are singular again and again, or nothing is near: through the [inside](interior) of the law,
-//!    with all contacts at once, to next to the state; from there as before.
+//! 2. Where it takes more, or step after step leads nowhere, or nothing is near: through the [inside](interior) of the law, with all
+//!    contacts at once, to next to the state; from there as before.
 //! 3. The law itself, as [`balanced`](super::balanced) solves it.
 //!
 //! Slip is measured from the unstressed start, so the law has no memory, and where there is but one state it is that of the path.
@@ -18,10 +18,12 @@ use crate::budget::{Budget, Stopped};
 use crate::dda::assembly::Assembly;
 use crate::dda::contact::{Contact, Law, State};
 
-/// What is tried from displacements that are near, and from next to the state. Where tangents are singular more than once, the contacts
-/// that press are far from those of the state: on found meshes of arches near collapse half of all the work was lost on such starts.
-const FROM_NEAR: Effort = Effort { steps: 20, singular: 1 };
-const FROM_NEXT_TO: Effort = Effort { steps: 60, singular: 60 };
+/// What is tried from displacements that are near, and from next to the state. Where steps are idle again and again, the contacts that
+/// press are far from those of the state: on found meshes of arches near collapse half of all the work was lost on such starts.
+const FROM_NEAR: Effort = Effort { steps: 20, idle: 2 };
+const FROM_NEXT_TO: Effort = Effort { steps: 60, idle: 120 };
+/// A step is idle where it is less than this share of Newton's, and where its tangent is singular; where both, it counts twice.
+const IDLE: f64 = 0.1;
 /// Most bounds of shear (measured: 10).
 const BOUNDS: usize = 25;
 /// A tangent is singular below this pivot ratio. Contacts that are open are then pressed by this share of their stiffness, less
@@ -39,11 +41,11 @@ const LOOKS: usize = 12;
 /// Longest step, as a multiple of Newton's.
 const LONGEST: f64 = 1e3;
 
-/// What is tried under one bound of shear: most steps, and most of them with a singular tangent.
+/// What is tried under one bound of shear: most steps, and how often they may be idle.
 #[derive(Debug, Clone, Copy)]
 struct Effort {
     steps: usize,
-    singular: usize,
+    idle: usize,
 }
 
 /// The state of equilibrium under `loads` on the nodes of an assembly of extent `size` with its exact contacts, looked for from
@@ -114,19 +116,23 @@ impl Direct<'_> {
     /// Goes to the least energy with shear bounded as it is; false where that takes more than is tried.
     fn least_energy(&mut self, most: Effort) -> Result<bool, Stopped> {
         let mut gaps = self.gaps();
-        let (mut residual, mut propped, mut singular) = (self.residual(&gaps)?, PROPPED, 0);
+        let (mut residual, mut propped, mut idle) = (self.residual(&gaps)?, PROPPED, 0);
         for _ in 0..most.steps {
             let mut tangents = self.tangents(&gaps);
             let mut step = self.newton_step(&tangents, &residual)?;
             if self.factored.pivot_ratio() < SINGULAR {
-                singular += 1;
-                if singular > most.singular {
+                idle += 1;
+                if idle > most.idle {
                     return Ok(false);
                 }
                 self.prop(&mut tangents, propped);
                 step = self.newton_step(&tangents, &residual)?;
             }
             let share = self.search(&gaps, &residual, &step)?;
+            idle += usize::from(share < IDLE);
+            if idle > most.idle {
+                return Ok(false);
+            }
             self.displacements.iter_mut().zip(&step).for_each(|(d, s)| *d += share * s);
             let before = std::mem::replace(&mut gaps, self.gaps());
             residual = self.residual(&gaps)?;

@@ -15,10 +15,12 @@ use crate::dda::contact::{Contact, Law, Zone};
 
 /// Most steps.
 const STEPS: usize = 60;
-/// Products of room and movement at first, as a multiple of what a typical force does in the springs of a contact, and where they are
-/// small enough as a share of that: what follows needs the contacts that press, not their forces.
+/// Products of room and movement at first, as a multiple of what a typical force does in the springs of a contact.
 const FIRST: f64 = 10.0;
+/// Share of that at which they are small enough; less where this over the square of the number of contacts is less. What follows needs
+/// to know which contacts press, not with what force, and in doubt are those whose force, over a typical one, is of the root's size.
 const LAST: f64 = 1e-9;
+const LAST_OF_MANY: f64 = 1e-3;
 /// Share of the way to the nearest bound that a step goes.
 const STEP: f64 = 0.995;
 /// Share of a bound that shear has at most at first.
@@ -174,10 +176,10 @@ impl Direct<'_> {
         let products = |inside: &[Inside]| {
             mean(inside.iter().flat_map(|contact| &contact.bounds).map(|bound| bound.room * bound.moved).sum())
         };
-        let first = products(&inside);
+        let last = products(&inside) * LAST.min(LAST_OF_MANY / (inside.len() as f64).powi(2));
         for _ in 0..STEPS {
             let (product, residual) = (products(&inside), self.unbalance(&inside)?);
-            if product <= LAST * first && largest(&residual) <= BALANCED * total(self.loads) {
+            if product <= last && largest(&residual) <= BALANCED * total(self.loads) {
                 return Ok(true);
             }
             let reach = |step: &Step| {
