@@ -128,8 +128,9 @@ impl<'l> ChainPath<'l> {
     }
 
     /// The nearest change on the way, and how far it is.
-    fn next_change(&self) -> Option<(f64, Change)> {
-        let crossing = self.borders.next(&self.place(), &self.going.rate());
+    fn next_change(&mut self) -> Option<(f64, Change)> {
+        let (here, rate) = (self.place(), self.going.rate());
+        let crossing = self.borders.next(&here, &rate);
         let (mut step, mut nearest) = (f64::INFINITY, None);
         if let Some(Crossing { step: at, interface, which }) = crossing {
             (step, nearest) = (at, Some(Change::Border { interface, which }));

@@ -2,6 +2,10 @@
 
 use super::super::Linear;
 use pulp::{Arch, Simd, WithSimd};
+use std::iter::once;
+
+/// Interfaces that are looked at together.
+const GROUP: usize = 4;
 
 /// Four functions of an interface; coefficient by coefficient.
 pub(super) type Functions = [[f64; 4]; 5];
@@ -10,6 +14,8 @@ pub(super) type Functions = [[f64; 4]; 5];
 #[derive(Debug)]
 pub(super) struct Borders {
     functions: Vec<Functions>,
+    /// The interface with the function that came to nought last.
+    last: usize,
 }
 
 /// Where a function comes to nought.
@@ -24,7 +30,7 @@ pub(super) struct Crossing {
 impl Borders {
     /// Of so many interfaces, whose functions are to be [put down](Self::of).
     pub(super) fn new(interfaces: usize) -> Self {
-        Borders { functions: vec![Functions::default(); interfaces] }
+        Borders { functions: vec![Functions::default(); interfaces], last: 0 }
     }
 
     pub(super) fn interfaces(&self) -> usize {
@@ -42,14 +48,18 @@ impl Borders {
     }
 
     /// The function that comes to nought first, from this place on.
-    pub(super) fn next(&self, here: &Linear, rate: &Linear) -> Option<Crossing> {
-        Arch::new().dispatch(Search { functions: &self.functions, here, rate })
+    pub(super) fn next(&mut self, here: &Linear, rate: &Linear) -> Option<Crossing> {
+        let next = Arch::new().dispatch(Search { functions: &self.functions, last: self.last, here, rate });
+        self.last = next.map_or(self.last, |next| next.interface);
+        next
     }
 }
 
 /// A look at all functions along a way, with the processor's vectors.
 struct Search<'a> {
     functions: &'a [Functions],
+    /// Next to this interface it is likely to be.
+    last: usize,
     here: &'a Linear,
     rate: &'a Linear,
 }
@@ -59,37 +69,46 @@ impl WithSimd for Search<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Option<Crossing> {
-        let Search { functions, here, rate } = self;
-        let (mut next, mut there): (Option<Crossing>, _) = (None, *here);
-        for (interface, functions) in functions.iter().enumerate() {
+        let Search { functions, last, here, rate } = self;
+        let (mut next, mut there): (_, Option<Linear>) = (None, None);
+        let all = functions.len();
+        let groups = (0..all).step_by(GROUP).map(|start| start..all.min(start + GROUP));
+        for group in once(last.saturating_sub(1)..all.min(last + 2)).chain(groups) {
             // Most stay positive as far as to the next one found so far.
-            if next.is_some() && least(simd, functions, &there) >= 0.0 {
+            if there.is_some_and(|there| least(simd, &functions[group.clone()], &there) >= 0.0) {
                 continue;
             }
-            if let Some(nearer) = look_at(functions, interface, [here, rate], next) {
-                next = Some(nearer);
-                there = std::array::from_fn(|c| here[c] + nearer.step * rate[c]);
+            for interface in group {
+                if let Some(nearer) = look_at(&functions[interface], interface, [here, rate], next) {
+                    next = Some(nearer);
+                    there = Some(std::array::from_fn(|c| here[c] + nearer.step * rate[c]));
+                }
             }
         }
         next
     }
 }
 
-/// The least of four functions at a place.
+/// The least of the functions of some interfaces at a place.
 #[inline(always)]
-fn least<S: Simd>(simd: S, functions: &Functions, place: &Linear) -> f64 {
-    let (wide, single) = S::as_simd_f64s(functions.as_flattened());
-    // Where vectors have more than four numbers, those of one would not belong together.
-    if !single.is_empty() {
-        return along(functions, place).into_iter().fold(f64::INFINITY, f64::min);
-    }
-    let (by, mut least) = (wide.len() / 5, simd.splat_f64s(f64::INFINITY));
-    for i in 0..by {
-        let mut sum = simd.mul_f64s(wide[i], simd.splat_f64s(place[0]));
-        for c in 1..5 {
-            sum = simd.add_f64s(sum, simd.mul_f64s(wide[by * c + i], simd.splat_f64s(place[c])));
+fn least<S: Simd>(simd: S, functions: &[Functions], place: &Linear) -> f64 {
+    let mut least = simd.splat_f64s(f64::INFINITY);
+    let place_of_all = place.map(|x| simd.splat_f64s(x));
+    for four in functions {
+        let (wide, single) = S::as_simd_f64s(four.as_flattened());
+        // Where vectors have more than four numbers, those of one would not belong together.
+        if !single.is_empty() {
+            let all = functions.iter().flat_map(|functions| along(functions, place));
+            return all.fold(f64::INFINITY, f64::min);
         }
-        least = simd.min_f64s(least, sum);
+        let by = wide.len() / 5;
+        for i in 0..by {
+            let mut sum = simd.mul_f64s(wide[i], place_of_all[0]);
+            for c in 1..5 {
+                sum = simd.mul_add_e_f64s(wide[by * c + i], place_of_all[c], sum);
+            }
+            least = simd.min_f64s(least, sum);
+        }
     }
     simd.reduce_min_f64s(least)
 }

@@ -27,7 +27,7 @@ fn the_first_function_that_falls_to_nought_is_the_next() {
         let steps = falls.map(|(k, which, of)| (at(of, &here) / -at(of, &rate), k, which));
         let (step, interface, which) = steps.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
         let next = borders.next(&here, &rate).unwrap();
-        let by_one = Search { functions: &borders.functions, here: &here, rate: &rate }.with_simd(Scalar);
+        let by_one = Search { functions: &borders.functions, last: 0, here: &here, rate: &rate }.with_simd(Scalar);
         assert_eq!(by_one, Some(next));
         assert_eq!((next.interface, next.which), (interface, which));
         assert!((next.step - step).abs() <= 1e-9 * step, "{next:?} {step}");
