@@ -1,11 +1,11 @@
 //! The same request gives the same bytes, at the same cost: counts of events, factorisations and block rows are held under a
 //! ceiling, which is a performance test that noise cannot touch.
 
-use crate::common::semicircle::semicircle;
+use crate::common::semicircle::{mesh, semicircle};
 use serde_json::json;
 use std::path::Path;
 use voussoir::budget::Budget;
-use voussoir::collapse::{Analysis, Cost, Task, run};
+use voussoir::collapse::{Analysis, Cost, StatesFrom, Task, run};
 use voussoir::structure::JointLaw;
 use voussoir::wire::read::read_analysis;
 use voussoir::wire::request::AnalysisRequest;
@@ -46,7 +46,11 @@ const COUNTS: [(&str, [Counts; 3]); 21] = [
 /// The same for semicircles under a load at the quarter point: voussoirs, and subblocks each way in each of them. With more
 /// than two contact points a joint most events are followed without a factorisation.
 const SEMICIRCLES: [(usize, usize, [Counts; 3]); 2] =
-    [(201, 1, [[228, 233, 20724], [186, 0, 0], [1, 0, 0]]), (61, 4, [[367, 50, 2874], [367, 50, 2874], [2, 86, 9483]])];
+    [(201, 1, [[228, 233, 20724], [186, 0, 0], [1, 0, 0]]), (61, 4, [[367, 50, 2874], [367, 50, 2874], [2, 41, 4615]])];
+
+/// The same of states on a mesh that are solved for one by one. Searches that found nothing are not in it.
+const ON_MESH: [(usize, usize, Counts); 3] =
+    [(27, 8, [1, 38, 1725]), (101, 4, [1, 43, 8265]), (201, 4, [1, 59, 21050])];
 
 fn read(name: &str) -> (AnalysisRequest, Analysis) {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(name).join("request.json");
@@ -108,6 +112,19 @@ fn dearer(name: &str, before: Counts, cost: Cost) -> Vec<String> {
     let grown = (0..3).filter(|&i| now[i] as f64 > ROOM * before[i] as f64);
     let what = ["events", "factorisations", "block rows"];
     grown.map(|i| format!("{name}: {} {}, {} before", now[i], what[i], before[i])).collect()
+}
+
+#[test]
+fn states_on_a_mesh_cost_no_more_than_they_did() {
+    let mut dear = Vec::new();
+    for (voussoirs, each_way, counts) in ON_MESH {
+        let request = semicircle(voussoirs, &json!({"mesh": mesh(each_way, each_way)}));
+        let (_, analysis) = read_analysis(request.to_string().as_bytes()).unwrap();
+        let report = run(&analysis, &Budget::unlimited()).unwrap();
+        assert_eq!(report.states_from, StatesFrom::DirectSolution, "{voussoirs} voussoirs");
+        dear.extend(dearer(&format!("semicircle {voussoirs} {each_way}"), counts, report.cost));
+    }
+    assert!(dear.is_empty(), "{}", dear.join("\n"));
 }
 
 /// The same for a mesh that is found for 5 % of the stress at half the collapse load of 27 stones: all its meshes, each of whose states

@@ -21,8 +21,8 @@ use crate::dda::contact::{Contact, Law, State};
 /// What is tried from displacements that are near, and from next to the state. Where steps are idle again and again, the contacts that
 /// press are far from those of the state: on found meshes of arches near collapse half of all the work was lost on such starts.
 const FROM_NEAR: Effort = Effort { steps: 20, idle: 2 };
-const FROM_NEXT_TO: Effort = Effort { steps: 60, idle: 120 };
-/// A step is idle where it is less than this share of Newton's, and where its tangent is singular; where both, it counts twice.
+const FROM_NEXT_TO: Effort = Effort { steps: 60, idle: usize::MAX };
+/// A step is idle once where it is less than this share of Newton's, and once more where its tangent is singular.
 const IDLE: f64 = 0.1;
 /// Most bounds of shear (measured: 10).
 const BOUNDS: usize = 25;
@@ -41,7 +41,7 @@ const LOOKS: usize = 12;
 /// Longest step, as a multiple of Newton's.
 const LONGEST: f64 = 1e3;
 
-/// What is tried under one bound of shear: most steps, and how often they may be idle.
+/// What is tried under one bound of shear: most steps, and how often in all they may be idle.
 #[derive(Debug, Clone, Copy)]
 struct Effort {
     steps: usize,

@@ -17,8 +17,9 @@ use crate::dda::contact::{Contact, Law, Zone};
 const STEPS: usize = 60;
 /// Products of room and movement at first, as a multiple of what a typical force does in the springs of a contact.
 const FIRST: f64 = 10.0;
-/// Share of that at which they are small enough; less where this over the square of the number of contacts is less. What follows needs
-/// to know which contacts press, not with what force, and in doubt are those whose force, over a typical one, is of the root's size.
+/// Share of that at which they are small enough, and the same times the square of the number of contacts; the lesser counts. What follows
+/// needs to know which contacts press, not with what force. In doubt are those whose force, over a typical one, is of the size of the
+/// root; as that falls with the number of contacts, there are no more of them where contacts are many.
 const LAST: f64 = 1e-9;
 const LAST_OF_MANY: f64 = 1e-3;
 /// Share of the way to the nearest bound that a step goes.

@@ -14,7 +14,7 @@ pub(super) type Functions = [[f64; 4]; 5];
 #[derive(Debug)]
 pub(super) struct Borders {
     functions: Vec<Functions>,
-    /// The interface with the function that came to nought last.
+    /// The interface that was found last: the next is likely to be beside it.
     last: usize,
 }
 
@@ -58,7 +58,7 @@ impl Borders {
 /// A look at all functions along a way, with the processor's vectors.
 struct Search<'a> {
     functions: &'a [Functions],
-    /// Next to this interface it is likely to be.
+    /// The interface that was found last.
     last: usize,
     here: &'a Linear,
     rate: &'a Linear,
@@ -74,7 +74,7 @@ impl WithSimd for Search<'_> {
         let all = functions.len();
         let groups = (0..all).step_by(GROUP).map(|start| start..all.min(start + GROUP));
         for group in once(last.saturating_sub(1)..all.min(last + 2)).chain(groups) {
-            // Most stay positive as far as to the next one found so far.
+            // Most groups stay positive as far as to the nearest one found so far; until one is found, all are looked at.
             if there.is_some_and(|there| least(simd, &functions[group.clone()], &there) >= 0.0) {
                 continue;
             }
@@ -92,22 +92,22 @@ impl WithSimd for Search<'_> {
 /// The least of the functions of some interfaces at a place.
 #[inline(always)]
 fn least<S: Simd>(simd: S, functions: &[Functions], place: &Linear) -> f64 {
-    let mut least = simd.splat_f64s(f64::INFINITY);
-    let place_of_all = place.map(|x| simd.splat_f64s(x));
+    // The numbers of a wider vector would not belong together.
+    if S::F64_LANES > 4 {
+        return functions.iter().flat_map(|four| along(four, place)).fold(f64::INFINITY, f64::min);
+    }
+    let (place, mut least) = (place.map(|x| simd.splat_f64s(x)), simd.splat_f64s(f64::INFINITY));
     for four in functions {
-        let (wide, single) = S::as_simd_f64s(four.as_flattened());
-        // Where vectors have more than four numbers, those of one would not belong together.
-        if !single.is_empty() {
-            let all = functions.iter().flat_map(|functions| along(functions, place));
-            return all.fold(f64::INFINITY, f64::min);
-        }
+        let (wide, _) = S::as_simd_f64s(four.as_flattened());
         let by = wide.len() / 5;
         for i in 0..by {
-            let mut sum = simd.mul_f64s(wide[i], place_of_all[0]);
+            // Not fused: rounded as in `along`, whatever the processor has.
+            let mut sum = simd.mul_f64s(wide[i], place[0]);
             for c in 1..5 {
-                sum = simd.mul_add_e_f64s(wide[by * c + i], place_of_all[c], sum);
+                sum = simd.add_f64s(sum, simd.mul_f64s(wide[by * c + i], place[c]));
             }
-            least = simd.min_f64s(least, sum);
+            // Of a NaN and a number the second is the least.
+            least = simd.min_f64s(sum, least);
         }
     }
     simd.reduce_min_f64s(least)
