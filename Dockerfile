@@ -7,7 +7,7 @@ WORKDIR /build
 ENV SOURCE_DATE_EPOCH=0 CARGO_INCREMENTAL=0 \
     RUSTFLAGS="--remap-path-prefix=/build=. --remap-path-prefix=/usr/local/cargo=cargo"
 # Dependencies first: this layer is built again only when they change. Cargo asks that every target of the manifest is there.
-COPY Cargo.toml Cargo.lock ./
+COPY Cargo.toml Cargo.lock build.rs ./
 RUN set -eu; mkdir -p src benches tests/it tests/load; touch src/lib.rs; \
     for target in $(sed -n 's/^path = "\(.*\)"/\1/p; /^\[\[bench\]\]/,/^$/s/^name = "\(.*\)"/benches\/\1.rs/p' Cargo.toml); \
     do echo 'fn main() {}' > $target; done; \
