@@ -3,7 +3,9 @@
 //!
 //! `cargo bench --bench growth`, about half an hour; names of families such as `-- quarter beam` run those alone. Every row has a
 //! process of its own, so that its memory is its own: the most the process ever had (VmHWM of Linux). Time is the processor's
-//! (Linux's schedstat), which other programs on the machine do not lengthen much; the median of up to five runs.
+//! (Linux's schedstat), which other programs on the machine do not lengthen much; the median of up to five runs. Short rows take
+//! turns, three times, since a machine may be slow for a while; the process with the middle time is told. The allocator is the
+//! program's.
 //!
 //! | family | what |
 //! |---|---|
@@ -24,6 +26,7 @@ mod semicircle;
 mod measure;
 
 use measure::{exponent, processor_seconds};
+use mimalloc::MiMalloc;
 use semicircle::semicircle;
 use serde_json::json;
 use std::process::Command;
@@ -36,10 +39,16 @@ use voussoir::collapse::{
 use voussoir::structure::JointLaw;
 use voussoir::wire::read::read_analysis;
 
+/// That of the program.
+#[global_allocator]
+static ALLOCATOR: MiMalloc = MiMalloc;
+
+/// How often short rows take turns.
+const ROUNDS: usize = 3;
 /// Most runs of a row, and seconds after which no other is begun.
 const RUNS: usize = 5;
 const LONG_S: f64 = 2.0;
-/// Seconds that analyses of one run take together at least: the system counts a process's time in steps of some milliseconds.
+/// Seconds that analyses of one run take together at least.
 const SHORT_S: f64 = 0.05;
 
 /// Families of rows: voussoirs, and subblocks each way in each of them.
@@ -57,7 +66,7 @@ const COLLAPSES: [(usize, usize); 7] = [(9, 1), (27, 1), (61, 1), (201, 1), (601
 
 /// What a row has measured.
 struct Measured {
-    subblocks: f64,
+    printed: String,
     seconds: f64,
     mebibytes: f64,
 }
@@ -81,25 +90,41 @@ fn main() {
 fn table(family: &str, rows: &[(usize, usize)]) {
     println!("\n{family}");
     println!("{}", heading());
-    let mut all = Vec::new();
-    for &(voussoirs, each_way) in rows {
-        let this = std::env::current_exe().unwrap();
-        let output = Command::new(this).args(["row", family, &voussoirs.to_string(), &each_way.to_string()]).output();
-        let printed = String::from_utf8(output.unwrap().stdout).unwrap();
-        let numbers: Vec<f64> = printed.split_whitespace().skip(2).map(|word| word.parse().unwrap()).collect();
-        print!("{printed}");
-        match numbers[..] {
-            [.., seconds, mebibytes] => {
-                all.push(Measured { subblocks: (voussoirs * each_way * each_way) as f64, seconds, mebibytes });
+    let mut of_rows: Vec<Vec<Measured>> = rows.iter().map(|_| Vec::new()).collect();
+    for _ in 0..ROUNDS {
+        for (row, measured) in rows.iter().zip(&mut of_rows) {
+            let long = |last: &Measured| last.seconds * RUNS as f64 > LONG_S;
+            if !measured.last().is_some_and(long) {
+                measured.extend(measured_of(family, *row));
             }
-            _ => println!("{voussoirs:>9} {each_way:>5}² did not end well"),
         }
     }
-    let of = |measure: fn(&Measured) -> f64| all.iter().map(|m| (m.subblocks, measure(m))).collect::<Vec<_>>();
-    for (what, points) in [("time", of(|m| m.seconds)), ("memory", of(|m| m.mebibytes))] {
+    let mut all = Vec::new();
+    for (&(voussoirs, each_way), mut measured) in rows.iter().zip(of_rows) {
+        measured.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
+        match measured.get(measured.len() / 2) {
+            Some(middle) => {
+                print!("{}", middle.printed);
+                all.push(((voussoirs * each_way * each_way) as f64, middle.seconds, middle.mebibytes));
+            }
+            None => println!("{voussoirs:>9} {each_way:>5}² did not end well"),
+        }
+    }
+    let of = |measure: fn(&(f64, f64, f64)) -> f64| all.iter().map(|m| (m.0, measure(m))).collect::<Vec<_>>();
+    for (what, points) in [("time", of(|m| m.1)), ("memory", of(|m| m.2))] {
         let last = &points[points.len().saturating_sub(2)..];
         println!("{what:<7} grows as subblocks^{:.2}; between the last two ^{:.2}", exponent(&points), exponent(last));
     }
+}
+
+/// What a process of its own prints of a row; nothing where it did not end well.
+fn measured_of(family: &str, (voussoirs, each_way): (usize, usize)) -> Option<Measured> {
+    let this = std::env::current_exe().unwrap();
+    let output = Command::new(this).args(["row", family, &voussoirs.to_string(), &each_way.to_string()]).output();
+    let printed = String::from_utf8(output.unwrap().stdout).unwrap();
+    let numbers: Vec<f64> = printed.split_whitespace().skip(2).map(|word| word.parse().unwrap()).collect();
+    let &[.., seconds, mebibytes] = &numbers[..] else { return None };
+    Some(Measured { printed, seconds, mebibytes })
 }
 
 fn heading() -> String {
@@ -129,7 +154,6 @@ fn row(family: &str, voussoirs: usize, each_way: usize) {
             };
         }
         let each = (processor_seconds() - start) / f64::from(batch);
-        // What is over before the system's clock has moved is run again, more often.
         if each * f64::from(batch) < SHORT_S && begun.elapsed().as_secs_f64() < LONG_S {
             batch *= 2;
         } else {

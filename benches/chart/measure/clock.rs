@@ -1,14 +1,20 @@
 //! How long something takes.
 
-use std::fs;
-use std::thread;
-use std::time::Instant;
+#[path = "../../support/measure.rs"]
+#[allow(dead_code, reason = "no exponents here")]
+mod measure;
+
+use measure::processor_seconds;
 
 /// A repetition is as many runs as take this long together, s: between two of them others may have used the same caches.
 const REPETITION: f64 = 5e-3;
-/// They go on until they take this long together, s, and are no fewer than this.
-const ENOUGH: f64 = 0.5;
-const FEWEST: usize = 5;
+/// Repetitions of all take turns, in this many rounds: a machine that is slow for a while is so for all of them.
+const ROUNDS: usize = 5;
+/// Those of one in one round go on until they take this long together, s.
+const ROUND: f64 = 0.1;
+
+/// What is timed.
+pub type Run<'r> = Box<dyn Fn() + 'r>;
 
 /// How long something took.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,28 +25,27 @@ pub struct Timed {
     pub repetitions: usize,
 }
 
-/// What `run` gives, and its times: CPU time of this thread where the system tells (Linux), so that other work on the machine
-/// counts as little as it can, else time gone by.
-pub fn timed<T>(run: impl Fn() -> T) -> (T, Timed) {
-    let gone_by = Instant::now();
-    let now = || cpu_seconds().unwrap_or_else(|| gone_by.elapsed().as_secs_f64());
-    let (mut runs, mut repetitions) = (1, Vec::new());
-    loop {
-        let start = now();
-        let mut result = run();
-        for _ in 1..runs {
-            result = run();
-        }
-        let taken = now() - start;
-        if taken < REPETITION && repetitions.is_empty() {
-            runs *= 2;
-            continue;
-        }
-        repetitions.push(taken / runs as f64);
-        if repetitions.len() >= FEWEST && repetitions.iter().sum::<f64>() * runs as f64 >= ENOUGH {
-            return (result, Timed::of(repetitions));
+/// Times of these, in turns.
+pub fn timed(all: &[Run]) -> Vec<Timed> {
+    let took = |run: &Run, runs: usize| {
+        let start = processor_seconds();
+        (0..runs).for_each(|_| run());
+        processor_seconds() - start
+    };
+    let enough = |run| (0..).map(|doubled| 1 << doubled).find(|&runs| took(run, runs) >= REPETITION).unwrap_or(1);
+    let runs: Vec<usize> = all.iter().map(enough).collect();
+    let mut repetitions = vec![Vec::new(); all.len()];
+    for _ in 0..ROUNDS {
+        for ((run, &runs), repetitions) in all.iter().zip(&runs).zip(&mut repetitions) {
+            let mut of_round = 0.0;
+            while of_round < ROUND {
+                let taken = took(run, runs);
+                repetitions.push(taken / runs as f64);
+                of_round += taken;
+            }
         }
     }
+    repetitions.into_iter().map(Timed::of).collect()
 }
 
 impl Timed {
@@ -50,14 +55,6 @@ impl Timed {
         let repetitions = seconds.len();
         Timed { seconds: [0, repetitions / 2, repetitions - 1].map(|k| seconds[k]), repetitions }
     }
-}
-
-/// CPU time of this thread, s: the first number of `schedstat`, in nanoseconds. The kernel brings it up to date when the thread
-/// offers its place to others.
-fn cpu_seconds() -> Option<f64> {
-    thread::yield_now();
-    let text = fs::read_to_string("/proc/thread-self/schedstat").ok()?;
-    Some(1e-9 * text.split(' ').next()?.parse::<f64>().ok()?)
 }
 
 #[cfg(test)]
@@ -72,10 +69,13 @@ mod tests {
 
     #[test]
     fn what_takes_ten_times_as_long_takes_ten_times_as_long() {
-        let spin =
-            |turns: u64| timed(move || (0..turns).fold(1_u64, |x, i| std::hint::black_box(x.rotate_left(5) ^ i))).1;
-        let [short, long] = [20_000, 200_000].map(|turns| spin(turns).seconds);
-        assert!((5.0..20.0).contains(&(long[0] / short[0])), "{short:?} {long:?}");
-        assert!(short[0] > 0.0 && short[0] <= short[1] && short[1] <= short[2], "{short:?}");
+        let spin = |turns: u64| -> Run {
+            Box::new(move || {
+                std::hint::black_box((0..turns).fold(1_u64, |x, i| std::hint::black_box(x.rotate_left(5) ^ i)));
+            })
+        };
+        let [short, long] = timed(&[20_000, 200_000].map(spin))[..] else { panic!("two") };
+        assert!((5.0..20.0).contains(&(long.seconds[0] / short.seconds[0])), "{short:?} {long:?}");
+        assert!(short.seconds.is_sorted() && short.seconds[0] > 0.0 && short.repetitions >= ROUNDS, "{short:?}");
     }
 }

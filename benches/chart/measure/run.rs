@@ -1,11 +1,12 @@
 //! Runs every model on every scene and takes the time.
 
-use super::clock::{Timed, timed};
+use super::clock::{Run, Timed, timed};
 use super::models::{self, BASE, Model, Way};
 use super::scenes::{CollapseScene, Scenes, StressScene};
 use super::stress::{Errors, Reference};
 use super::table::{Kind, Row};
 use serde_json::Value;
+use std::hint::black_box;
 use voussoir::budget::Budget;
 use voussoir::collapse::{self, Analysis, Answer, CollapseReport, Outcome, Question, StressField};
 use voussoir::limit::StaticTheorem;
@@ -87,17 +88,22 @@ impl Chosen<'_> {
     }
 }
 
-/// All models on one scene.
+/// All models on one scene: each is run once for its answer, then all in turns for their times.
 fn measure(
     chart: Kind,
     scene: &str,
     models: impl Iterator<Item = Model>,
-    one: impl Fn(&Model) -> Result<(Found, Timed), String>,
+    one: impl Fn(&Model) -> Result<(Found, Run<'static>), String>,
     rows: &mut Vec<Row>,
     told: &mut dyn FnMut(&Row),
 ) -> Result<(), String> {
+    let (mut answered, mut runs) = (Vec::new(), Vec::new());
     for model in models {
-        let (found, timed) = one(&model).map_err(|error| format!("{scene}, {}: {error}", model.name))?;
+        let (found, run) = one(&model).map_err(|error| format!("{scene}, {}: {error}", model.name))?;
+        answered.push((model, found));
+        runs.push(run);
+    }
+    for ((model, found), timed) in answered.into_iter().zip(timed(&runs)) {
         let row = row(chart, scene, model, found, timed);
         told(&row);
         rows.push(row);
@@ -165,23 +171,29 @@ fn analysis(request: &Value, fields: &Value) -> Result<Analysis, String> {
     }
 }
 
-fn on_collapse(scene: &CollapseScene, model: &Model) -> Result<(Found, Timed), String> {
-    let (found, timed) = match &model.way {
+/// What is found, and a run of what finds it.
+fn found_by<T: 'static>(find: impl Fn() -> T + 'static) -> (T, Run<'static>) {
+    (find(), Box::new(move || drop(black_box(find()))))
+}
+
+fn on_collapse(scene: &CollapseScene, model: &Model) -> Result<(Found, Run<'static>), String> {
+    let (found, run) = match &model.way {
         Way::LimitWindow => {
             let Analysis { structure, fixed, scaled, .. } = analysis(&scene.request, &Value::Null)?;
-            let (window, time) =
-                timed(|| Some(StaticTheorem::new(&structure, &fixed, &scaled).ok()?.window(&Budget::unlimited())));
+            let (window, run) = found_by(move || {
+                Some(StaticTheorem::new(&structure, &fixed, &scaled).ok()?.window(&Budget::unlimited()))
+            });
             let highest = window.and_then(Result::ok).and_then(|window| window.ends()).map(|[_, highest]| highest);
-            (highest.map(|highest| (highest, None)).ok_or_else(|| "no window".to_owned()), time)
+            (highest.map(|highest| (highest, None)).ok_or_else(|| "no window".to_owned()), run)
         }
         Way::Analysis(fields) => {
             let analysis = analysis(&scene.request, fields)?;
-            let (report, time) = timed(|| collapse::run(&analysis, &Budget::unlimited()));
-            (report.map_err(|error| error.to_string()).and_then(|report| first_order(&report)), time)
+            let (report, run) = found_by(move || collapse::run(&analysis, &Budget::unlimited()));
+            (report.map_err(|error| error.to_string()).and_then(|report| first_order(&report)), run)
         }
     };
     let measured = |(intensity, met)| Measured { errors: Held::Intensity(intensity, scene.error(intensity)), met };
-    Ok((found.map(measured), timed))
+    Ok((found.map(measured), run))
 }
 
 /// Whether the accuracy asked for, if one was, is met, as the report says.
@@ -203,10 +215,10 @@ fn first_order(report: &CollapseReport) -> Result<(f64, Option<bool>), String> {
     }
 }
 
-fn on_stress(scene: &StressScene, model: &Model, reference: &Reference) -> Result<(Found, Timed), String> {
+fn on_stress(scene: &StressScene, model: &Model, reference: &Reference) -> Result<(Found, Run<'static>), String> {
     let Way::Analysis(fields) = &model.way else { return Err("gives no stress".to_owned()) };
     let question = question(&scene.request, fields)?;
-    let (answer, timed) = timed(|| collapse::answer(&question, &Budget::unlimited()));
+    let (answer, run) = found_by(move || collapse::answer(&question, &Budget::unlimited()));
     let held = |field: &StressField, met| {
         let errors = reference.errors(field, model.reading);
         let told = errors.whole.is_finite().then_some(Held::Stress(errors, reference.own_error));
@@ -221,5 +233,5 @@ fn on_stress(scene: &StressScene, model: &Model, reference: &Reference) -> Resul
         Ok(_) => return Err("no stress asked for".to_owned()),
         Err(error) => Err(error.to_string()),
     };
-    Ok((found, timed))
+    Ok((found, run))
 }
