@@ -7,15 +7,17 @@
 
 mod bearing;
 mod borders;
+mod elimination;
 
 use super::friction::Split;
 use super::openings::Opening;
-use super::reduced::Elimination;
 use super::{ChainState, Linear, Loaded, Three, value};
 use crate::budget::{Budget, Stopped};
 use crate::dda::contact::{State, Zone};
 use bearing::{Bearing, NEVER};
 use borders::{Borders, Crossing, Functions};
+use elimination::Elimination;
+use pulp::Arch;
 use std::ops::Range;
 
 /// Work of looking at an interface, and of renewing one, in multiplications.
@@ -81,7 +83,7 @@ pub enum ChainStep {
 impl<'l> ChainPath<'l> {
     /// The path from a state on, the way of `sign`; none where it does not go that way.
     pub fn new(chain: &'l Loaded, state: &ChainState, sign: f64) -> Option<Self> {
-        let elimination = Elimination::new(chain, &state.splits, &state.reduced);
+        let elimination = Elimination::new(chain, &state.splits);
         let going = goes_on(chain, state, sign)?;
         let borders = Borders::new(state.splits.len());
         let (state, bearings) = (state.clone(), (0..state.splits.len()).map(|k| Bearing::new(chain, k)).collect());
@@ -162,9 +164,9 @@ impl<'l> ChainPath<'l> {
         let before = std::mem::replace(&mut self.state.splits[interface], split);
         if before != split {
             let ChainState { splits, reduced, .. } = &mut self.state;
-            let changed = self.elimination.renew(self.chain, splits, interface, reduced);
+            let changed = self.elimination.renew(self.chain, splits, (interface, before), reduced);
             budget.work(RENEWED * changed.len())?;
-            changed.clone().for_each(|k| self.renew_borders(k));
+            Arch::new().dispatch(|| changed.clone().for_each(|k| self.renew_borders(k)));
             self.felt = changed;
         }
         self.settle();
@@ -228,6 +230,7 @@ impl<'l> ChainPath<'l> {
     /// Renews the functions of an interface, in its present state. Of one that sticks: how much more shear either way its points bear,
     /// first point first. Of one with a point that slides: that point's normal force, how far it has slipped, and what the other point
     /// bears, or nothing but that where the one is open.
+    #[inline(always)]
     fn renew_borders(&mut self, k: usize) {
         let (chain, splits, functions) = (self.chain, &self.state.reduced.splits, self.borders.of(k));
         let normal = |point: usize| chain.linear(k, &chain.method.statics[k].normals[point]);

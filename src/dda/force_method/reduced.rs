@@ -3,10 +3,6 @@
 use super::compatibility::Gradient;
 use super::friction::Split;
 use super::{Linear, Loaded, Three, value};
-use std::ops::Range;
-
-/// So many changes may leave rounding in a gradient that follows them.
-const MOST_FOLLOWED: usize = 64;
 
 /// Splits, and the gradient by the redundants, with some splits prescribed.
 #[derive(Debug, Clone)]
@@ -18,26 +14,13 @@ pub(super) struct Reduced {
 /// Splits by the redundants and the split after them: the first the function, the second the factor.
 type ByNext = (Linear, f64);
 
-/// An elimination that follows changes at single interfaces.
-#[derive(Debug)]
-pub(super) struct Elimination {
-    by_next: Vec<ByNext>,
-    /// What every interface adds to the gradient by the redundants.
-    shares: Vec<[Linear; 3]>,
-    followed: usize,
-}
-
-/// Whether two functions differ by no more than rounding.
-fn same(a: &Linear, b: &Linear) -> bool {
-    a.iter().zip(b).all(|(a, b)| (a - b).abs() <= 2.0 * f64::EPSILON * a.abs())
-}
-
 pub(super) fn add(sum: &mut Linear, by: f64, of: &Linear) {
     (0..5).for_each(|c| sum[c] += by * of[c]);
 }
 
-fn add_share(sum: &mut [Linear; 3], by: f64, share: &[Linear; 3]) {
-    sum.iter_mut().zip(share).for_each(|(sum, row)| add(sum, by, row));
+/// Adds a function as often as each row says.
+pub(super) fn add_by(rows: &mut [Linear; 3], by: &Three, of: &Linear) {
+    rows.iter_mut().zip(by).for_each(|(row, by)| add(row, *by, of));
 }
 
 impl Loaded<'_> {
@@ -74,7 +57,13 @@ impl Loaded<'_> {
             add(&mut splits[k], by_next[k].1, &after);
         }
         let mut gradient = self.without_splits();
-        (0..splits.len()).for_each(|k| add_share(&mut gradient, 1.0, &self.share(k, prescribed[k], &splits)));
+        for (k, split) in splits.iter().enumerate() {
+            add_by(&mut gradient, &self.gradient.mixed[k], split);
+            // A point that does not stick is left without virtual shear.
+            if let Some(by) = self.virtual_split(k, prescribed[k]) {
+                add_by(&mut gradient, &by, &self.off(k, &splits));
+            }
+        }
         Reduced { splits, gradient }
     }
 
@@ -82,17 +71,6 @@ impl Loaded<'_> {
     fn without_splits(&self) -> [Linear; 3] {
         let (redundants, [fixed, scaled]) = (&self.gradient.redundants, &self.of_loads.0);
         std::array::from_fn(|a| [redundants[a][0], redundants[a][1], redundants[a][2], fixed[a], scaled[a]])
-    }
-
-    /// What the split of interface `k` adds to it; a point that does not stick is left without virtual shear.
-    fn share(&self, k: usize, split: Split, splits: &[Linear]) -> [Linear; 3] {
-        let mixed = self.gradient.mixed[k];
-        let mut share = mixed.map(|by| splits[k].map(|x| by * x));
-        if let Some(by) = self.virtual_split(k, split) {
-            let off = self.off(k, splits);
-            share.iter_mut().zip(by).for_each(|(row, by)| add(row, by, &off));
-        }
-        share
     }
 
     /// The gradient by split `k`, its own and its neighbours' parts left out.
@@ -118,60 +96,5 @@ impl Loaded<'_> {
         let Gradient { own: by_own, next, .. } = &self.gradient;
         let of_before = if k > 0 { next[k - 1] * before } else { 0.0 };
         value(&self.right(k), redundants, load_factor) + of_before + by_own[k] * own + next[k] * after
-    }
-}
-
-impl Elimination {
-    /// Of splits as they are.
-    pub(super) fn new(chain: &Loaded, prescribed: &[Split], reduced: &Reduced) -> Self {
-        let shares = prescribed.iter().enumerate().map(|(k, split)| chain.share(k, *split, &reduced.splits));
-        Elimination { by_next: chain.by_next(prescribed), shares: shares.collect(), followed: 0 }
-    }
-
-    /// Takes in that interface `k` has changed; returns the interfaces that feel it.
-    pub(super) fn renew(
-        &mut self,
-        chain: &Loaded,
-        prescribed: &[Split],
-        k: usize,
-        reduced: &mut Reduced,
-    ) -> Range<usize> {
-        let n = prescribed.len();
-        let mut end = k;
-        while end < n {
-            let renewed =
-                chain.eliminated(end, prescribed[end], end.checked_sub(1).map(|before| &self.by_next[before]));
-            let before = std::mem::replace(&mut self.by_next[end], renewed);
-            if end > k && same(&before.0, &renewed.0) && before.1 == renewed.1 {
-                break;
-            }
-            end += 1;
-        }
-        let mut start = end;
-        while start > 0 {
-            let (mut split, by) = self.by_next[start - 1];
-            if let Some(after) = reduced.splits.get(start) {
-                add(&mut split, by, after);
-            }
-            let before = std::mem::replace(&mut reduced.splits[start - 1], split);
-            if start - 1 < k && same(&before, &split) {
-                break;
-            }
-            start -= 1;
-        }
-        // Neighbours feel a split as well.
-        let felt = start.saturating_sub(1)..(end + 1).min(n);
-        for k in felt.clone() {
-            let renewed = chain.share(k, prescribed[k], &reduced.splits);
-            let before = std::mem::replace(&mut self.shares[k], renewed);
-            add_share(&mut reduced.gradient, 1.0, &renewed);
-            add_share(&mut reduced.gradient, -1.0, &before);
-        }
-        self.followed += 1;
-        if self.followed.is_multiple_of(MOST_FOLLOWED) {
-            reduced.gradient = chain.without_splits();
-            self.shares.iter().for_each(|share| add_share(&mut reduced.gradient, 1.0, share));
-        }
-        felt
     }
 }

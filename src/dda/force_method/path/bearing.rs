@@ -34,6 +34,7 @@ impl Bearing {
     }
 
     /// Puts them down as they are with the shear split like this.
+    #[inline(always)]
     pub(super) fn put(&self, split: &Linear, functions: &mut Functions) {
         for (c, coefficients) in functions.iter_mut().enumerate() {
             for (i, coefficient) in coefficients.iter_mut().enumerate() {

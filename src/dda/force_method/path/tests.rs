@@ -48,6 +48,11 @@ fn the_path_passes_the_events_of_the_tracers() {
             let apart = state.reduced.gradient.iter().flatten().zip(anew.gradient.iter().flatten()).map(|(a, b)| a - b);
             let (apart, scale) = (largest(apart), largest(anew.gradient.iter().flatten().copied()));
             assert!(apart < 1e-12 * scale, "{stones} stones, event {event}: {apart} of {scale}");
+            let [found, anew] = [&state.reduced.splits, &anew.splits].map(|splits| {
+                splits.iter().map(|split| value(split, &state.redundants, state.load_factor)).collect::<Vec<_>>()
+            });
+            let (apart, scale) = (largest(found.iter().zip(&anew).map(|(a, b)| a - b)), largest(anew.iter().copied()));
+            assert!(apart < 1e-12 * scale, "{stones} stones, event {event}: {apart} of {scale}");
         }
         assert_eq!(path.step(FAR, &budget).unwrap(), ChainStep::Mechanism);
         assert_eq!(path.events(), seen.len() - 1);
