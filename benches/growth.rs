@@ -3,9 +3,9 @@
 //!
 //! `cargo bench --bench growth`, about half an hour; names of families such as `-- quarter beam` run those alone. Every row has a
 //! process of its own, so that its memory is its own: the most the process ever had (VmHWM of Linux). Time is the processor's
-//! (Linux's schedstat), which other programs on the machine do not lengthen much; the median of up to five runs. Short rows take
-//! turns, three times, since a machine may be slow for a while; the process with the middle time is told. The allocator is the
-//! program's.
+//! (Linux's schedstat; elsewhere time gone by), which other programs on the machine do not lengthen much; the median of up to five
+//! runs. Short rows take turns, three times, since a machine may be slow for a while; the process with the middle time is told. The
+//! allocator is the program's.
 //!
 //! | family | what |
 //! |---|---|
@@ -90,13 +90,13 @@ fn main() {
 fn table(family: &str, rows: &[(usize, usize)]) {
     println!("\n{family}");
     println!("{}", heading());
-    let mut of_rows: Vec<Vec<Measured>> = rows.iter().map(|_| Vec::new()).collect();
-    for _ in 0..ROUNDS {
-        for (row, measured) in rows.iter().zip(&mut of_rows) {
-            let long = |last: &Measured| last.seconds * RUNS as f64 > LONG_S;
-            if !measured.last().is_some_and(long) {
-                measured.extend(measured_of(family, *row));
-            }
+    let mut of_rows: Vec<Vec<Measured>> =
+        rows.iter().map(|row| measured_of(family, *row).into_iter().collect()).collect();
+    let short = |first: &[Measured]| first.iter().any(|measured| measured.seconds * RUNS as f64 <= LONG_S);
+    let again: Vec<bool> = of_rows.iter().map(|first| short(first)).collect();
+    for _ in 1..ROUNDS {
+        for ((row, measured), _) in rows.iter().zip(&mut of_rows).zip(&again).filter(|(_, again)| **again) {
+            measured.extend(measured_of(family, *row));
         }
     }
     let mut all = Vec::new();
@@ -129,7 +129,7 @@ fn measured_of(family: &str, (voussoirs, each_way): (usize, usize)) -> Option<Me
 
 fn heading() -> String {
     let [voussoirs, each, events, factorisations] = ["voussoirs", "each", "events", "factorisations"];
-    format!("{voussoirs:>9} {each:>6} {events:>7} {factorisations:>14} {:>10} {:>9} {:>9}", "block rows", "s", "MiB")
+    format!("{voussoirs:>9} {each:>6} {events:>7} {factorisations:>14} {:>10} {:>10} {:>9}", "block rows", "s", "MiB")
 }
 
 /// One row: measured here, printed on one line.
@@ -164,7 +164,7 @@ fn row(family: &str, voussoirs: usize, each_way: usize) {
     let Cost { events, factorisations, block_rows, .. } = cost;
     let (median, peak) = (seconds[seconds.len() / 2], peak_mebibytes());
     println!(
-        "{voussoirs:>9} {each_way:>5}² {events:>7} {factorisations:>14} {block_rows:>10} {median:>9.4} {peak:>9.1}"
+        "{voussoirs:>9} {each_way:>5}² {events:>7} {factorisations:>14} {block_rows:>10} {median:>10.6} {peak:>9.1}"
     );
 }
 

@@ -11,7 +11,9 @@ pub fn processor_seconds() -> f64 {
     // The kernel brings it up to date when the thread offers its place to others, else some 250 times a second.
     std::thread::yield_now();
     let text = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
-    let nanoseconds = text.split_whitespace().next().and_then(|word| word.parse::<f64>().ok());
+    // Nought where the system keeps no account.
+    let nanoseconds =
+        text.split_whitespace().next().and_then(|word| word.parse::<f64>().ok()).filter(|time| *time > 0.0);
     nanoseconds.map_or_else(|| begun.elapsed().as_secs_f64(), |nanoseconds| 1e-9 * nanoseconds)
 }
 

@@ -10,7 +10,7 @@ use measure::processor_seconds;
 const REPETITION: f64 = 5e-3;
 /// Repetitions of all take turns, in this many rounds: a machine that is slow for a while is so for all of them.
 const ROUNDS: usize = 5;
-/// Those of one in one round go on until they take this long together, s.
+/// Those of one in one round take about this long together, s; in every round there are as many.
 const ROUND: f64 = 0.1;
 
 /// What is timed.
@@ -32,20 +32,22 @@ pub fn timed(all: &[Run]) -> Vec<Timed> {
         (0..runs).for_each(|_| run());
         processor_seconds() - start
     };
-    let enough = |run| (0..).map(|doubled| 1 << doubled).find(|&runs| took(run, runs) >= REPETITION).unwrap_or(1);
-    let runs: Vec<usize> = all.iter().map(enough).collect();
-    let mut repetitions = vec![Vec::new(); all.len()];
+    let planned = |run| {
+        let (mut runs, mut taken) = (1, took(run, 1));
+        while taken < REPETITION {
+            runs *= 2;
+            taken = took(run, runs);
+        }
+        (runs, (ROUND / taken).ceil() as usize)
+    };
+    let plans: Vec<(usize, usize)> = all.iter().map(planned).collect();
+    let mut times = vec![Vec::new(); all.len()];
     for _ in 0..ROUNDS {
-        for ((run, &runs), repetitions) in all.iter().zip(&runs).zip(&mut repetitions) {
-            let mut of_round = 0.0;
-            while of_round < ROUND {
-                let taken = took(run, runs);
-                repetitions.push(taken / runs as f64);
-                of_round += taken;
-            }
+        for ((run, &(runs, repetitions)), times) in all.iter().zip(&plans).zip(&mut times) {
+            times.extend((0..repetitions).map(|_| took(run, runs) / runs as f64));
         }
     }
-    repetitions.into_iter().map(Timed::of).collect()
+    times.into_iter().map(Timed::of).collect()
 }
 
 impl Timed {

@@ -161,7 +161,7 @@ impl Assembly {
             let sign = mirror.sign[here.start + i] * mirror.sign[here.start + j];
             (of_a[(i, j)] - sign * of_b[(at - there.start, other - there.start)]).abs()
         };
-        // Both are symmetric.
+        // Both are symmetric, but for rounding.
         (0..size)
             .all(|i| (0..=i).all(|j| apart(i, j) <= STIFFNESS_ROUNDING * of_a[(i, i)].abs().max(of_a[(j, j)].abs())))
     }

@@ -7,7 +7,7 @@
 
 mod bearing;
 mod borders;
-mod elimination;
+mod carry_over;
 
 use super::friction::Split;
 use super::openings::Opening;
@@ -16,7 +16,7 @@ use crate::budget::{Budget, Stopped};
 use crate::dda::contact::{State, Zone};
 use bearing::{Bearing, NEVER};
 use borders::{Borders, Crossing, Functions};
-use elimination::Elimination;
+use carry_over::CarryOver;
 use pulp::Arch;
 use std::ops::Range;
 
@@ -33,7 +33,7 @@ const STILL: f64 = 1e-9;
 pub struct ChainPath<'l> {
     chain: &'l Loaded<'l>,
     state: ChainState,
-    elimination: Elimination,
+    carry_over: CarryOver,
     bearings: Vec<Bearing>,
     borders: Borders,
     /// +1 where the load factor increases, -1 where it decreases.
@@ -83,11 +83,11 @@ pub enum ChainStep {
 impl<'l> ChainPath<'l> {
     /// The path from a state on, the way of `sign`; none where it does not go that way.
     pub fn new(chain: &'l Loaded, state: &ChainState, sign: f64) -> Option<Self> {
-        let elimination = Elimination::new(chain, &state.splits);
+        let carry_over = CarryOver::new(chain, state);
         let going = goes_on(chain, state, sign)?;
         let borders = Borders::new(state.splits.len());
         let (state, bearings) = (state.clone(), (0..state.splits.len()).map(|k| Bearing::new(chain, k)).collect());
-        let mut path = ChainPath { chain, state, elimination, bearings, borders, sign, going, events: 0, felt: 0..0 };
+        let mut path = ChainPath { chain, state, carry_over, bearings, borders, sign, going, events: 0, felt: 0..0 };
         (0..path.bearings.len()).for_each(|k| path.renew_borders(k));
         Some(path)
     }
@@ -161,11 +161,10 @@ impl<'l> ChainPath<'l> {
     fn cross(&mut self, change: Change, budget: &Budget) -> Result<bool, Stopped> {
         let Some((interface, split, back)) = self.after(change) else { return Ok(false) };
         self.felt = 0..0;
-        let before = std::mem::replace(&mut self.state.splits[interface], split);
-        if before != split {
-            let ChainState { splits, reduced, .. } = &mut self.state;
-            let changed = self.elimination.renew(self.chain, splits, (interface, before), reduced);
+        if self.state.splits[interface] != split {
+            let changed = self.carry_over.change(self.chain, &mut self.state, interface, split);
             budget.work(RENEWED * changed.len())?;
+            // With the processor's vectors; nothing is fused, so that all round alike.
             Arch::new().dispatch(|| changed.clone().for_each(|k| self.renew_borders(k)));
             self.felt = changed;
         }

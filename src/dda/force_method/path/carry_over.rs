@@ -1,0 +1,140 @@
+//! What a change at one interface does to the splits of the others, and to the gradient by the redundants.
+//!
+//! Splits meet their neighbours' only, and one that is prescribed follows nobody. So a split that changes carries a share of its change
+//! over to the one beside it, that one to the next, and so on: all change by multiples of one function.
+
+use super::super::friction::Split;
+use super::super::reduced::{Reduced, add, add_by};
+use super::super::{ChainState, Linear, Loaded, plus};
+use std::ops::Range;
+
+/// So many changes may leave rounding in splits and gradient that follow them, each as large as the largest split that is free.
+const MOST_FOLLOWED: usize = 64;
+/// A smaller share of a change than this is not felt.
+const FELT: f64 = 1e-16;
+
+/// How splits follow those beside them.
+#[derive(Debug)]
+pub(super) struct CarryOver {
+    /// The share of its change that each takes from the one after it, all before it being compatible; nought where it is prescribed.
+    from_after: Vec<f64>,
+    /// The same from the one before it, all after it being compatible.
+    from_before: Vec<f64>,
+    followed: usize,
+    /// How much splits may change until rounding is taken out, N/m.
+    room: f64,
+}
+
+/// Whether two shares differ by no more than rounding.
+fn same(a: f64, b: f64) -> bool {
+    (a - b).abs() <= 2.0 * f64::EPSILON * a.abs()
+}
+
+/// What the parts of a function come to in a state, without regard to their signs.
+fn size(of: &Linear, state: &ChainState) -> f64 {
+    let [x, y, z] = state.redundants;
+    of.iter().zip([x, y, z, 1.0, state.load_factor]).map(|(by, at)| (by * at).abs()).sum()
+}
+
+impl CarryOver {
+    /// Of splits as they are prescribed in a state.
+    pub(super) fn new(chain: &Loaded, state: &ChainState) -> Self {
+        let (splits, n) = (&state.splits, state.splits.len());
+        let free = (0..n).filter(|&k| splits[k] == Split::Held).map(|k| size(&state.reduced.splits[k], state));
+        let room = MOST_FOLLOWED as f64 * free.fold(0.0, f64::max);
+        let mut all = CarryOver { from_after: vec![0.0; n], from_before: vec![0.0; n], followed: 0, room };
+        (0..n).for_each(|k| all.from_after[k] = all.taken_from_after(chain, splits, k));
+        (0..n).rev().for_each(|k| all.from_before[k] = all.taken_from_before(chain, splits, k));
+        all
+    }
+
+    /// What the equation of split `k` is off by, per unit of it, as those before it follow and those after it, m/N.
+    fn pivot(&self, chain: &Loaded, k: usize, [before, after]: [bool; 2]) -> f64 {
+        let next = &chain.gradient.next;
+        let by_before = if before && k > 0 { next[k - 1] * self.from_after[k - 1] } else { 0.0 };
+        let by_after = if after && k + 1 < self.from_before.len() { next[k] * self.from_before[k + 1] } else { 0.0 };
+        chain.gradient.own[k] + by_before + by_after
+    }
+
+    fn taken_from_after(&self, chain: &Loaded, splits: &[Split], k: usize) -> f64 {
+        let free = splits[k] == Split::Held;
+        if free { -chain.gradient.next[k] / self.pivot(chain, k, [true, false]) } else { 0.0 }
+    }
+
+    fn taken_from_before(&self, chain: &Loaded, splits: &[Split], k: usize) -> f64 {
+        let free = splits[k] == Split::Held && k > 0;
+        if free { -chain.gradient.next[k - 1] / self.pivot(chain, k, [false, true]) } else { 0.0 }
+    }
+
+    /// Changes how the split of interface `k` is prescribed; returns the interfaces that feel it.
+    pub(super) fn change(&mut self, chain: &Loaded, state: &mut ChainState, k: usize, split: Split) -> Range<usize> {
+        let before = std::mem::replace(&mut state.splits[k], split);
+        let off = chain.off(k, &state.reduced.splits);
+        let changed = chain.prescribed(k, split).unwrap_or_else(|| {
+            let pivot = self.pivot(chain, k, [true; 2]);
+            std::array::from_fn(|c| state.reduced.splits[k][c] - off[c] / pivot)
+        });
+        let change: Linear = std::array::from_fn(|c| changed[c] - state.reduced.splits[k][c]);
+        self.followed += 1;
+        self.room -= size(&change, state);
+        if self.followed == MOST_FOLLOWED || self.room < 0.0 {
+            state.reduced = chain.reduced(&state.splits);
+            *self = CarryOver::new(chain, state);
+            return 0..state.splits.len();
+        }
+        self.renew_shares(chain, &state.splits, k);
+        let ChainState { splits: prescribed, reduced: Reduced { splits, gradient }, .. } = state;
+        if let Some(by) = chain.virtual_split(k, before) {
+            add_by(gradient, &by.map(|by| -by), &off);
+        }
+        splits[k] = changed;
+        // How often the rows of the gradient take the change.
+        let mut by_change = chain.gradient.mixed[k];
+        let mut carry = |j: usize, tie: f64, from: f64, share: f64| {
+            let taken = from * share;
+            add(&mut splits[j], taken, &change);
+            let by = match chain.virtual_split(j, prescribed[j]) {
+                Some(by) => by.map(|by| by * tie * share),
+                None => chain.gradient.mixed[j].map(|by| by * taken),
+            };
+            by_change = plus(&by_change, &by);
+            taken
+        };
+        let (mut start, mut share) = (k, 1.0);
+        while start > 0 && f64::abs(share) > FELT {
+            start -= 1;
+            share = carry(start, chain.gradient.next[start], self.from_after[start], share);
+        }
+        let (mut end, mut share) = (k + 1, 1.0);
+        while end < prescribed.len() && f64::abs(share) > FELT {
+            share = carry(end, chain.gradient.next[end - 1], self.from_before[end], share);
+            end += 1;
+        }
+        add_by(gradient, &by_change, &change);
+        if let Some(by) = chain.virtual_split(k, split) {
+            add_by(gradient, &by, &chain.off(k, splits));
+        }
+        start..end
+    }
+
+    /// Renews who takes what from whom after a change at interface `k`.
+    fn renew_shares(&mut self, chain: &Loaded, splits: &[Split], k: usize) {
+        for j in k..splits.len() {
+            let renewed = self.taken_from_after(chain, splits, j);
+            let before = std::mem::replace(&mut self.from_after[j], renewed);
+            if j > k && same(before, renewed) {
+                break;
+            }
+        }
+        for j in (0..=k).rev() {
+            let renewed = self.taken_from_before(chain, splits, j);
+            let before = std::mem::replace(&mut self.from_before[j], renewed);
+            if j < k && same(before, renewed) {
+                break;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,52 @@
+use super::*;
+use crate::budget::Budget;
+use crate::dda::contact::Law;
+use crate::dda::force_method::tests::{loads, method, ring};
+
+/// Changes, more than are followed without a fresh start.
+const CHANGES: usize = 300;
+const ROUNDING: f64 = 1e-12;
+
+#[test]
+fn splits_and_gradient_follow_changes_at_any_interfaces() {
+    for friction in [0.6, 1e3, 1e6] {
+        let assembly = ring(60, Law::Coulomb { friction, cohesion: 0.0, cap: f64::INFINITY });
+        let [fixed, scaled] = loads(&assembly, 20);
+        let method = method(&assembly);
+        let chain = method.loaded(assembly.contacts(), [&fixed, &scaled]);
+        let mut state = chain.state(0.3, None, &Budget::unlimited()).unwrap().unwrap();
+        // As before a smooth interface; it stays so.
+        state.splits[60] = Split::Smooth;
+        state.reduced = chain.reduced(&state.splits);
+        let mut carry_over = CarryOver::new(&chain, &state);
+        let slides = [Split::Slides(0, 1.0), Split::Slides(0, -1.0), Split::Slides(1, 1.0), Split::Slides(1, -1.0)];
+        let all = [[Split::Held; 4], slides, [Split::Open(0), Split::Open(1), Split::Held, Split::Held]].concat();
+        let mut random = 1_u64;
+        let mut next = |below: usize| {
+            random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (random >> 33) as usize % below
+        };
+        for change in 1..=CHANGES {
+            let (k, split, before) = (next(60), all[next(all.len())], state.reduced.splits.clone());
+            let felt = carry_over.change(&chain, &mut state, k, split);
+            assert!(felt.contains(&k) && state.splits[k] == split);
+            for other in (0..before.len()).filter(|other| !felt.contains(other)) {
+                assert_eq!(state.reduced.splits[other], before[other], "change {change} at {k}: {other}");
+            }
+            // Part by part, against all that the parts of a split, or of a row, come to where that is most.
+            let anew = chain.reduced(&state.splits);
+            let free = |(k, _): &(usize, &Linear)| state.splits[*k] == Split::Held;
+            let free =
+                |of: &'_ Reduced| of.splits.iter().enumerate().filter(free).map(|(_, of)| *of).collect::<Vec<_>>();
+            for (found, anew) in
+                [(free(&state.reduced), free(&anew)), (state.reduced.gradient.to_vec(), anew.gradient.to_vec())]
+            {
+                let scale = anew.iter().map(|of| size(of, &state)).fold(0.0, f64::max);
+                for (found, anew) in found.iter().zip(&anew) {
+                    let apart = size(&std::array::from_fn(|c| found[c] - anew[c]), &state);
+                    assert!(apart <= ROUNDING * scale, "{friction}, change {change} at {k}: {apart} of {scale}");
+                }
+            }
+        }
+    }
+}
