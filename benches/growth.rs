@@ -92,11 +92,11 @@ fn table(family: &str, rows: &[(usize, usize)]) {
     println!("{}", heading());
     let mut of_rows: Vec<Vec<Measured>> =
         rows.iter().map(|row| measured_of(family, *row).into_iter().collect()).collect();
-    let short = |first: &[Measured]| first.iter().any(|measured| measured.seconds * RUNS as f64 <= LONG_S);
-    let again: Vec<bool> = of_rows.iter().map(|first| short(first)).collect();
     for _ in 1..ROUNDS {
-        for ((row, measured), _) in rows.iter().zip(&mut of_rows).zip(&again).filter(|(_, again)| **again) {
-            measured.extend(measured_of(family, *row));
+        for (row, measured) in rows.iter().zip(&mut of_rows) {
+            if measured.first().is_some_and(|first| first.seconds * RUNS as f64 <= LONG_S) {
+                measured.extend(measured_of(family, *row));
+            }
         }
     }
     let mut all = Vec::new();

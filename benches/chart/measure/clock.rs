@@ -14,7 +14,7 @@ const ROUNDS: usize = 5;
 const ROUND: f64 = 0.1;
 
 /// What is timed.
-pub type Run<'r> = Box<dyn Fn() + 'r>;
+pub type Run = Box<dyn Fn()>;
 
 /// How long something took.
 #[derive(Debug, Clone, Copy, PartialEq)]

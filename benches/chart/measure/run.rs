@@ -93,7 +93,7 @@ fn measure(
     chart: Kind,
     scene: &str,
     models: impl Iterator<Item = Model>,
-    one: impl Fn(&Model) -> Result<(Found, Run<'static>), String>,
+    one: impl Fn(&Model) -> Result<(Found, Run), String>,
     rows: &mut Vec<Row>,
     told: &mut dyn FnMut(&Row),
 ) -> Result<(), String> {
@@ -172,11 +172,11 @@ fn analysis(request: &Value, fields: &Value) -> Result<Analysis, String> {
 }
 
 /// What is found, and a run of what finds it.
-fn found_by<T: 'static>(find: impl Fn() -> T + 'static) -> (T, Run<'static>) {
+fn found_by<T: 'static>(find: impl Fn() -> T + 'static) -> (T, Run) {
     (find(), Box::new(move || drop(black_box(find()))))
 }
 
-fn on_collapse(scene: &CollapseScene, model: &Model) -> Result<(Found, Run<'static>), String> {
+fn on_collapse(scene: &CollapseScene, model: &Model) -> Result<(Found, Run), String> {
     let (found, run) = match &model.way {
         Way::LimitWindow => {
             let Analysis { structure, fixed, scaled, .. } = analysis(&scene.request, &Value::Null)?;
@@ -215,7 +215,7 @@ fn first_order(report: &CollapseReport) -> Result<(f64, Option<bool>), String> {
     }
 }
 
-fn on_stress(scene: &StressScene, model: &Model, reference: &Reference) -> Result<(Found, Run<'static>), String> {
+fn on_stress(scene: &StressScene, model: &Model, reference: &Reference) -> Result<(Found, Run), String> {
     let Way::Analysis(fields) = &model.way else { return Err("gives no stress".to_owned()) };
     let question = question(&scene.request, fields)?;
     let (answer, run) = found_by(move || collapse::answer(&question, &Budget::unlimited()));

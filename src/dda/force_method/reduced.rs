@@ -42,12 +42,18 @@ impl Loaded<'_> {
         if let Some(row) = self.prescribed(k, split) {
             return (row, 0.0);
         }
-        let Gradient { own, next, .. } = &self.gradient;
+        let next = &self.gradient.next;
         let tie = if k > 0 { next[k - 1] } else { 0.0 };
         let (split_before, by_this) = before.copied().unwrap_or_default();
-        let pivot = 1.0 / (own[k] + tie * by_this);
+        let pivot = 1.0 / self.pivot(k, by_this);
         let right = self.right(k);
         (std::array::from_fn(|c| -(right[c] + tie * split_before[c]) * pivot), -next[k] * pivot)
+    }
+
+    /// What the equation of split `k` is off by per unit of it, m/N, as the split before it takes this share of its change.
+    pub(super) fn pivot(&self, k: usize, by_this: f64) -> f64 {
+        let Gradient { own, next, .. } = &self.gradient;
+        own[k] + k.checked_sub(1).map_or(0.0, |before| next[before] * by_this)
     }
 
     fn solved(&self, prescribed: &[Split], by_next: &[ByNext]) -> Reduced {

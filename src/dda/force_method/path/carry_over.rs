@@ -3,6 +3,7 @@
 //! Splits meet their neighbours' only, and one that is prescribed follows nobody. So a split that changes carries a share of its change
 //! over to the one beside it, that one to the next, and so on: all change by multiples of one function.
 
+use super::super::compatibility::Gradient;
 use super::super::friction::Split;
 use super::super::reduced::{Reduced, add, add_by};
 use super::super::{ChainState, Linear, Loaded, plus};
@@ -21,8 +22,10 @@ pub(super) struct CarryOver {
     /// The same from the one before it, all after it being compatible.
     from_before: Vec<f64>,
     followed: usize,
-    /// How much splits may change until rounding is taken out, N/m.
-    room: f64,
+    /// How much splits have changed since rounding was taken out, N/m.
+    changed: f64,
+    /// The largest split that was free whenever that was done, where that is least, N/m: a large change may be taken back.
+    scale: f64,
 }
 
 /// Whether two shares differ by no more than rounding.
@@ -41,29 +44,32 @@ impl CarryOver {
     pub(super) fn new(chain: &Loaded, state: &ChainState) -> Self {
         let (splits, n) = (&state.splits, state.splits.len());
         let free = (0..n).filter(|&k| splits[k] == Split::Held).map(|k| size(&state.reduced.splits[k], state));
-        let room = MOST_FOLLOWED as f64 * free.fold(0.0, f64::max);
-        let mut all = CarryOver { from_after: vec![0.0; n], from_before: vec![0.0; n], followed: 0, room };
+        let scale = free.fold(0.0, f64::max);
+        let mut all =
+            CarryOver { from_after: vec![0.0; n], from_before: vec![0.0; n], followed: 0, changed: 0.0, scale };
         (0..n).for_each(|k| all.from_after[k] = all.taken_from_after(chain, splits, k));
         (0..n).rev().for_each(|k| all.from_before[k] = all.taken_from_before(chain, splits, k));
         all
     }
 
-    /// What the equation of split `k` is off by, per unit of it, as those before it follow and those after it, m/N.
-    fn pivot(&self, chain: &Loaded, k: usize, [before, after]: [bool; 2]) -> f64 {
-        let next = &chain.gradient.next;
-        let by_before = if before && k > 0 { next[k - 1] * self.from_after[k - 1] } else { 0.0 };
-        let by_after = if after && k + 1 < self.from_before.len() { next[k] * self.from_before[k + 1] } else { 0.0 };
-        chain.gradient.own[k] + by_before + by_after
+    /// What the equation of split `k` is off by per unit of it as those before it follow, m/N.
+    fn pivot(&self, chain: &Loaded, k: usize) -> f64 {
+        chain.pivot(k, k.checked_sub(1).map_or(0.0, |before| self.from_after[before]))
+    }
+
+    /// What those after it add to that as they follow.
+    fn added_after(&self, chain: &Loaded, k: usize) -> f64 {
+        self.from_before.get(k + 1).map_or(0.0, |from_before| chain.gradient.next[k] * from_before)
     }
 
     fn taken_from_after(&self, chain: &Loaded, splits: &[Split], k: usize) -> f64 {
         let free = splits[k] == Split::Held;
-        if free { -chain.gradient.next[k] / self.pivot(chain, k, [true, false]) } else { 0.0 }
+        if free { -chain.gradient.next[k] / self.pivot(chain, k) } else { 0.0 }
     }
 
     fn taken_from_before(&self, chain: &Loaded, splits: &[Split], k: usize) -> f64 {
-        let free = splits[k] == Split::Held && k > 0;
-        if free { -chain.gradient.next[k - 1] / self.pivot(chain, k, [false, true]) } else { 0.0 }
+        let (free, Gradient { own, next, .. }) = (splits[k] == Split::Held && k > 0, &chain.gradient);
+        if free { -next[k - 1] / (own[k] + self.added_after(chain, k)) } else { 0.0 }
     }
 
     /// Changes how the split of interface `k` is prescribed; returns the interfaces that feel it.
@@ -71,15 +77,16 @@ impl CarryOver {
         let before = std::mem::replace(&mut state.splits[k], split);
         let off = chain.off(k, &state.reduced.splits);
         let changed = chain.prescribed(k, split).unwrap_or_else(|| {
-            let pivot = self.pivot(chain, k, [true; 2]);
+            let pivot = self.pivot(chain, k) + self.added_after(chain, k);
             std::array::from_fn(|c| state.reduced.splits[k][c] - off[c] / pivot)
         });
         let change: Linear = std::array::from_fn(|c| changed[c] - state.reduced.splits[k][c]);
         self.followed += 1;
-        self.room -= size(&change, state);
-        if self.followed == MOST_FOLLOWED || self.room < 0.0 {
+        self.changed += size(&change, state);
+        if self.followed == MOST_FOLLOWED || self.changed > MOST_FOLLOWED as f64 * self.scale {
             state.reduced = chain.reduced(&state.splits);
-            *self = CarryOver::new(chain, state);
+            let anew = CarryOver::new(chain, state);
+            *self = CarryOver { scale: anew.scale.min(self.scale), ..anew };
             return 0..state.splits.len();
         }
         self.renew_shares(chain, &state.splits, k);
