@@ -11,7 +11,7 @@ use super::linear_program::Basis;
 use super::programme::{MOST_DENSE, Objective, Programme, ProgrammeOutcome};
 use super::resultant::Resultant;
 use super::static_theorem::{Equilibrium, Limit};
-use super::{StaticTheorem, Unsolved};
+use super::{Corners, StaticTheorem, Unsolved};
 use crate::budget::Budget;
 use crate::geometry::{Vec2, cross};
 use crate::structure::{Joint, PointForce};
@@ -95,12 +95,18 @@ fn slack(limit: &Limit, equilibrium: &Equilibrium, theorem: &StaticTheorem) -> f
 }
 
 impl StaticTheorem {
-    /// Limit window with dry joints of the compressive strength `strengths[joint]`, Pa; None where nothing is in equilibrium.
+    /// Limit window with dry joints of the compressive strength `strengths[joint]`, Pa; None where nothing is in equilibrium. The
+    /// corners are those of the window without it, if they are known.
     ///
     /// # Errors
     /// When rounding, or `budget`, kept the cutting planes from an answer, or a strength is not positive.
-    pub fn crushing_window(&self, strengths: &[f64], budget: &Budget) -> Result<Option<CrushingWindow>, Unsolved> {
-        self.crushing_ends(strengths, [true; 2], budget)
+    pub fn crushing_window(
+        &self,
+        strengths: &[f64],
+        from: &Corners,
+        budget: &Budget,
+    ) -> Result<Option<CrushingWindow>, Unsolved> {
+        self.crushing_ends(strengths, [true; 2], from, budget)
     }
 
     /// The same with nothing looked for at an end that is not `wanted`: that is infinite.
@@ -108,6 +114,7 @@ impl StaticTheorem {
         &self,
         strengths: &[f64],
         wanted: [bool; 2],
+        Corners(from): &Corners,
         budget: &Budget,
     ) -> Result<Option<CrushingWindow>, Unsolved> {
         if strengths.len() != self.joints.len() || !strengths.iter().all(|&strength| strength > 0.0) {
@@ -121,7 +128,7 @@ impl StaticTheorem {
         let mut window = CrushingWindow { ends, ..CrushingWindow::default() };
         for (end, sign) in [-1.0, 1.0].into_iter().enumerate().filter(|(end, _)| wanted[*end]) {
             let objective = Objective::load_factor(sign);
-            match self.crushing_end(&objective, &mut cut, &conic, budget) {
+            match self.crushing_end(&objective, from[end].as_ref(), &mut cut, &conic, budget) {
                 ProgrammeOutcome::At(equilibrium, dual) => {
                     window.ends[end] = equilibrium.load_factor;
                     window.motions[end] = self.motion(&dual, &cut.limits);
@@ -140,20 +147,21 @@ impl StaticTheorem {
     fn crushing_end(
         &self,
         objective: &Objective,
+        from: Option<&Basis>,
         cut: &mut Programme,
         conic: &Programme,
         budget: &Budget,
     ) -> ProgrammeOutcome {
         let few = self.has_few_unknowns();
         let first = match few {
-            true => cut_until_inside(objective, cut, &conic.sections, budget),
+            true => cut_until_inside(objective, from, cut, &conic.sections, budget),
             false => conic.maximise_sparsely(objective, budget),
         };
         match first {
             ProgrammeOutcome::Lost if few => conic.maximise_sparsely(objective, budget),
             // Where nothing crushes, the programme without strength is the same.
             ProgrammeOutcome::Lost if self.unknowns() <= MOST_DENSE && !conic.sections.is_empty() => {
-                cut_until_inside(objective, cut, &conic.sections, budget)
+                cut_until_inside(objective, None, cut, &conic.sections, budget)
             }
             first => first,
         }
@@ -217,13 +225,13 @@ impl StaticTheorem {
 /// Maximises over the limits and the parabolas, adding the tangents that this takes: from the end of stone that does not crush on.
 fn cut_until_inside(
     objective: &Objective,
+    from: Option<&Basis>,
     programme: &mut Programme,
     sections: &[Section],
     budget: &Budget,
 ) -> ProgrammeOutcome {
-    let theorem = programme.theorem;
-    let (mut rows, objective) = (programme.dense_rows(), programme.over_unknowns(objective));
-    let mut basis = Basis::new(&objective);
+    let (theorem, mut rows) = (programme.theorem, programme.dense_rows());
+    let mut basis = from.cloned().unwrap_or_else(|| Basis::new(programme.over_unknowns(objective)));
     for _ in 0..MOST_ROUNDS {
         let outcome = programme.go_on(&mut basis, &rows, budget);
         let (ProgrammeOutcome::At(equilibrium, _) | ProgrammeOutcome::Unbounded(equilibrium)) = &outcome else {

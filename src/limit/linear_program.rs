@@ -92,9 +92,9 @@ enum MostViolated {
 /// As many constraints as there are unknowns, the point where they meet, and scratch memory.
 ///
 /// Their multipliers stay what they are where half spaces are added, so that the method goes on from it.
-#[derive(Debug)]
-pub struct Basis<'p> {
-    objective: &'p [f64],
+#[derive(Debug, Clone)]
+pub struct Basis {
+    objective: Vec<f64>,
     /// The largest an unknown may be.
     size: f64,
     constraints: Vec<Facet>,
@@ -112,14 +112,20 @@ pub struct Basis<'p> {
     matrix: Vec<f64>,
 }
 
-impl<'p> Basis<'p> {
+impl Basis {
     /// The corner of the box where every unknown is at the bound that its (perturbed) objective pushes it to.
-    pub fn new(objective: &'p [f64]) -> Self {
+    pub fn new(objective: Vec<f64>) -> Self {
         let n = objective.len();
         let constraints = (0..n).map(|i| Facet::Wall(i, -corner_sign(objective[i]))).collect();
-        let [inverse, matrix] = [(); 2].map(|()| vec![0.0; n * n]);
-        let [point, dual, row, weights] = [(); 4].map(|()| vec![0.0; n]);
-        let mut basis = Basis {
+        let [mut inverse, matrix] = [(); 2].map(|()| vec![0.0; n * n]);
+        let [mut point, mut dual, row, weights] = [(); 4].map(|()| vec![0.0; n]);
+        for (i, coefficient) in objective.iter().enumerate() {
+            let sign = corner_sign(*coefficient);
+            inverse[i * n + i] = -sign;
+            point[i] = sign * BOX;
+            dual[i] = sign * coefficient;
+        }
+        Basis {
             objective,
             size: BOX,
             constraints,
@@ -131,14 +137,7 @@ impl<'p> Basis<'p> {
             weights,
             fresh: true,
             matrix,
-        };
-        for (i, coefficient) in objective.iter().enumerate() {
-            let sign = corner_sign(*coefficient);
-            basis.inverse[i * n + i] = -sign;
-            basis.point[i] = sign * BOX;
-            basis.dual[i] = sign * coefficient;
         }
-        basis
     }
 
     /// Maximises `objective . x` over all `half_spaces`: those that it was last asked about, and any behind them.
@@ -237,7 +236,7 @@ impl<'p> Basis<'p> {
             Facet::Row(row) if y > 0.0 => Some((row, y)),
             _ => None,
         });
-        Optimum::At(dot(self.objective, &point), point, held.collect())
+        Optimum::At(dot(&self.objective, &point), point, held.collect())
     }
 }
 

@@ -72,8 +72,10 @@ impl StaticTheorem {
 
     /// Forces at joint `k` for a unit force of each element that goes through it, N/m.
     pub(super) fn soil_at(&self, k: usize) -> impl Iterator<Item = (usize, [f64; 3])> {
-        let functionals = joint_functionals(&self.joints[k], self.frame.origin);
-        self.soil.through[k].iter().map(move |&(e, sign)| {
+        let through = &self.soil.through[k];
+        let functionals =
+            if through.is_empty() { [[0.0; 3]; 3] } else { joint_functionals(&self.joints[k], self.frame.origin) };
+        through.iter().map(move |&(e, sign)| {
             let PointForce { at, force, .. } = self.soil.elements[e].force(sign);
             let wrench = [force.x, force.y, cross(at - self.frame.origin, force)];
             (e, functionals.map(|row| dot(row, wrench)))
@@ -82,6 +84,9 @@ impl StaticTheorem {
 
     /// What elements that press like this, N/m, add to the forces of every joint where all goes down the tree.
     pub(super) fn carried_from(&self, soil: &[f64]) -> Vec<[f64; 3]> {
+        if soil.is_empty() {
+            return vec![[0.0; 3]; self.joints()];
+        }
         let forces: Vec<PointForce> =
             self.soil.elements.iter().zip(soil).map(|(element, &size)| element.force(size)).collect();
         let carried = self.loops.carried(&resultants(self.centroids.len(), &forces, self.frame.origin));

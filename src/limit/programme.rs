@@ -109,22 +109,37 @@ impl<'t> Programme<'t> {
 
     /// By the method that suits the size; where rounding keeps that from an answer, by the other.
     pub(super) fn maximise(&self, objective: &Objective, budget: &Budget) -> ProgrammeOutcome {
-        let few = self.theorem.has_few_unknowns();
-        let first =
-            if few { self.maximise_densely(objective, budget) } else { self.maximise_sparsely(objective, budget) };
-        match first {
-            ProgrammeOutcome::Lost if few => self.maximise_sparsely(objective, budget),
+        self.maximise_to(objective, budget).0
+    }
+
+    /// The same, with where the dense method ended, if it suits the size.
+    pub(super) fn maximise_to(&self, objective: &Objective, budget: &Budget) -> (ProgrammeOutcome, Option<Basis>) {
+        if self.theorem.has_few_unknowns() {
+            return match self.climb(objective, budget) {
+                (ProgrammeOutcome::Lost, _) => (self.maximise_sparsely(objective, budget), None),
+                (first, basis) => (first, Some(basis)),
+            };
+        }
+        let first = match self.maximise_sparsely(objective, budget) {
             ProgrammeOutcome::Lost if self.theorem.unknowns() <= MOST_DENSE => self.maximise_densely(objective, budget),
             first => first,
-        }
+        };
+        (first, None)
     }
 
     /// The exact method in loop space.
     pub(super) fn maximise_densely(&self, objective: &Objective, budget: &Budget) -> ProgrammeOutcome {
-        match &self.theorem.rows {
-            Some(rows) if self.is_plain() => self.solve(objective, rows, budget),
-            _ => self.solve(objective, &self.dense_rows(), budget),
-        }
+        self.climb(objective, budget).0
+    }
+
+    /// The same, with where it ended.
+    fn climb(&self, objective: &Objective, budget: &Budget) -> (ProgrammeOutcome, Basis) {
+        let mut basis = Basis::new(self.over_unknowns(objective));
+        let outcome = match &self.theorem.rows {
+            Some(rows) if self.is_plain() => self.go_on(&mut basis, rows, budget),
+            _ => self.go_on(&mut basis, &self.dense_rows(), budget),
+        };
+        (outcome, basis)
     }
 
     /// All limits over the unknowns.
@@ -149,11 +164,6 @@ impl<'t> Programme<'t> {
             && self.limits.is_empty()
             && self.bounds.iter().all(|bound| bound.is_infinite())
             && self.slack == 0.0
-    }
-
-    /// Over these rows, which are those of all limits.
-    fn solve(&self, objective: &Objective, rows: &Rows, budget: &Budget) -> ProgrammeOutcome {
-        self.go_on(&mut Basis::new(&self.over_unknowns(objective)), rows, budget)
     }
 
     /// An objective over the unknowns.

@@ -1,5 +1,6 @@
 //! The limit window and why it ends where it does: forces that prove it from below, motions that prove it from above.
 
+use super::linear_program::Basis;
 use super::programme::{Dual, Objective, Programme, ProgrammeOutcome};
 use super::resultant::joint_functionals;
 use super::static_theorem::Limit;
@@ -47,6 +48,11 @@ pub enum WindowEnd {
     },
 }
 
+/// Where the simplex method ended at the lowest and at the highest end of a window, if it was that which found them: it goes on
+/// from there where more is asked of the joints.
+#[derive(Debug, Clone, Default)]
+pub struct Corners(pub(super) [Option<Basis>; 2]);
+
 impl Window {
     /// Lowest and highest load factor, infinite where unbounded; None where nothing stands.
     pub fn ends(&self) -> Option<[f64; 2]> {
@@ -64,12 +70,22 @@ impl StaticTheorem {
     /// # Errors
     /// When rounding, or `budget`, kept the linear programme from an answer.
     pub fn window(&self, budget: &Budget) -> Result<Window, Unsolved> {
-        let mut found = Vec::new();
-        for sign in [-1.0, 1.0] {
-            found.push(match Programme::new(self).maximise(&Objective::load_factor(sign), budget) {
+        self.window_and_corners(budget).map(|(window, _)| window)
+    }
+
+    /// The same, with where to go on from.
+    ///
+    /// # Errors
+    /// As those of [`StaticTheorem::window`].
+    pub fn window_and_corners(&self, budget: &Budget) -> Result<(Window, Corners), Unsolved> {
+        let (mut found, mut corners) = (Vec::new(), Corners::default());
+        for (end, sign) in [-1.0, 1.0].into_iter().enumerate() {
+            let (outcome, corner) = Programme::new(self).maximise_to(&Objective::load_factor(sign), budget);
+            corners.0[end] = corner;
+            found.push(match outcome {
                 ProgrammeOutcome::At(equilibrium, dual) => Some((equilibrium, self.motion(&dual, &[]))),
                 ProgrammeOutcome::Unbounded(_) => None,
-                ProgrammeOutcome::Infeasible(dual) => return Ok(Window::Falls(self.motion(&dual, &[]))),
+                ProgrammeOutcome::Infeasible(dual) => return Ok((Window::Falls(self.motion(&dual, &[])), corners)),
                 ProgrammeOutcome::Lost => return Err(Unsolved),
             });
         }
@@ -78,7 +94,7 @@ impl StaticTheorem {
             WindowEnd::Bounded { load_factor: at.load_factor, forces, soil, motion }
         };
         let (high, low) = (found.pop().flatten(), found.pop().flatten());
-        Ok(Window::Stands(match (low, high) {
+        let ends = match (low, high) {
             (Some(low), Some(high)) => [low, high].map(bounded),
             (Some(low), None) => [bounded(low.clone()), self.unbounded(1.0, low.0, budget)],
             (None, Some(high)) => [self.unbounded(-1.0, high.0.clone(), budget), bounded(high)],
@@ -89,7 +105,8 @@ impl StaticTheorem {
                 let ProgrammeOutcome::At(at, _) = at_zero else { return Err(Unsolved) };
                 [self.unbounded(-1.0, at.clone(), budget), self.unbounded(1.0, at, budget)]
             }
-        }))
+        };
+        Ok((Window::Stands(ends), corners))
     }
 
     /// Any load factor from that of `at` in the direction of `sign` is in equilibrium.

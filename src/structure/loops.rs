@@ -40,14 +40,18 @@ impl Loops {
     /// Every body that no chain of joints connects to the ground.
     pub fn new(structure: &Structure) -> Result<Self, Vec<Unconnected>> {
         let mut closing = Vec::new();
-        let shortest = Loops::along(structure, &breadth_first(structure, &[]))?;
+        let joints_of_bodies = structure.joints_of_bodies();
+        let shortest = Loops::along(structure, &breadth_first(structure, &joints_of_bodies, &[]))?;
         for (number, &closed) in shortest.closing.iter().enumerate() {
             let alone = |&k: &usize| shortest.through[k][..] == [(number, shortest.through[k][0].1)];
             let on_ground = |k: &usize| structure.joints[*k].between.iter().any(|side| side.body().is_none());
             let candidates = (0..structure.joints.len()).filter(|&k| !shortest.through[k].is_empty());
             closing.push(candidates.filter(alone).find(on_ground).unwrap_or(closed));
         }
-        Loops::along(structure, &breadth_first(structure, &closing))
+        if closing == shortest.closing {
+            return Ok(shortest);
+        }
+        Loops::along(structure, &breadth_first(structure, &joints_of_bodies, &closing))
     }
 
     /// The loops that a tree leaves.
@@ -166,10 +170,9 @@ impl Loops {
 }
 
 /// Breadth first from the ground, joints in rising order, without those of `left_out`.
-fn breadth_first(structure: &Structure, left_out: &[usize]) -> SpanningTree {
+fn breadth_first(structure: &Structure, joints_of_bodies: &[Vec<usize>], left_out: &[usize]) -> SpanningTree {
     let mut usable = vec![true; structure.joints.len()];
     left_out.iter().for_each(|&k| usable[k] = false);
-    let joints_of_bodies = structure.joints_of_bodies();
     let mut tree = SpanningTree { towards_ground: vec![None; structure.bodies.len()], order: Vec::new() };
     let reach = |tree: &mut SpanningTree, k: usize, from: Option<usize>| {
         let other = structure.joints[k].between.iter().find(|side| side.body() != from && side.body().is_some());

@@ -13,6 +13,7 @@ fn certificate(limit: f64) -> Certificate {
     Certificate {
         theorem,
         proof: None,
+        corners: Corners::default(),
         window: Some([-1.0, limit]),
         solved: true,
         any_fixed: true,

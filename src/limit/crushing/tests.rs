@@ -8,9 +8,18 @@ use crate::structure::{ActsOn, JointLaw, PointForce};
 /// Strength at which nothing crushes, Pa.
 const HARD: f64 = 1e30;
 
-/// The same strength in every joint.
+/// The same strength in every joint; the window is the same from where that of stone that does not crush ends.
 fn evenly(theorem: &StaticTheorem, strength: f64) -> Result<Option<CrushingWindow>, Unsolved> {
-    theorem.crushing_window(&vec![strength; theorem.joints()], &Budget::unlimited())
+    let (strengths, budget) = (vec![strength; theorem.joints()], Budget::unlimited());
+    let found = theorem.crushing_window(&strengths, &Corners::default(), &budget);
+    if let (Ok(Some(found)), Ok((_, corners))) = (&found, theorem.window_and_corners(&budget)) {
+        let from_there = theorem.crushing_window(&strengths, &corners, &budget).unwrap().unwrap();
+        for (end, other) in found.ends.into_iter().zip(from_there.ends) {
+            assert!(end == other || (end - other).abs() <= 1e-9 * end.abs().max(theorem.factor), "{end} {other}");
+        }
+        assert_eq!(found.joints, from_there.joints);
+    }
+    found
 }
 
 /// One stone between two level joints of length 1 m, all but smooth, under a load of `factor` 1 N/m at `off` from

@@ -14,7 +14,7 @@ const FEW: usize = 4;
 /// that depend on each other.
 const DOUBTFUL: [f64; 2] = [1e-14, 1e-9];
 
-impl Basis<'_> {
+impl Basis {
     /// Weights with which the entering row is a combination of the rows in the basis.
     pub(super) fn weigh(&mut self, entering: Facet, half_spaces: &HalfSpaces) {
         let n = self.objective.len();
@@ -93,7 +93,7 @@ impl Basis<'_> {
             let constant = self.entry(half_spaces, self.constraints[i], n);
             let column = &self.inverse[i * n..(i + 1) * n];
             self.point.iter_mut().zip(column).for_each(|(x, c)| *x -= constant * c);
-            self.dual[i] = -dot(column, self.objective);
+            self.dual[i] = -dot(column, &self.objective);
         }
         self.fresh = true;
         true

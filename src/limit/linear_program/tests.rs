@@ -10,7 +10,7 @@ fn half_spaces(rows: &[([f64; UNKNOWNS], f64)]) -> HalfSpaces {
 }
 
 fn maximise(objective: &[f64], half_spaces: &HalfSpaces, budget: &Budget) -> Optimum {
-    Basis::new(objective).go_on(half_spaces, budget)
+    Basis::new(objective.to_vec()).go_on(half_spaces, budget)
 }
 
 fn unit(i: usize, value: f64) -> [f64; UNKNOWNS] {
@@ -108,7 +108,7 @@ fn goes_on_from_where_it_is() {
     let mut all =
         half_spaces(&(0..2).flat_map(|i| [(unit(2 + i, 1.0), 1.0), (unit(2 + i, -1.0), 1.0)]).collect::<Vec<_>>());
     let objective = [0.3, 0.8, 0.1, -0.2];
-    let mut basis = Basis::new(&objective);
+    let mut basis = Basis::new(objective.to_vec());
     for k in 0..200 {
         let (row, constant) = tangent(k);
         all.push(&row, constant);
