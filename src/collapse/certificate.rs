@@ -9,7 +9,7 @@ use super::{
     ThrustRange, Unreached,
 };
 use crate::budget::Budget;
-use crate::limit::{Corners, Resultant, StaticTheorem, ThrustEnd, Window};
+use crate::limit::{Resultant, StaticTheorem, ThrustEnd, Window, WindowBases};
 
 /// Share of the load factor at which scaled and fixed loads are equal at which an arch that falls beyond 0 is seen to fall.
 const SOON: f64 = 1e-3;
@@ -23,8 +23,8 @@ pub(super) struct Certificate {
     pub theorem: StaticTheorem,
     /// Why the window of rigid stones ends where it does, where it was solved.
     pub proof: Option<Window>,
-    /// Where to go on from, where more is asked of the joints.
-    corners: Corners,
+    /// The bases of the window's ends, where they are known.
+    bases: WindowBases,
     /// Lowest and highest load factor in equilibrium; None where there is none.
     pub window: Option<[f64; 2]>,
     /// False where the linear programme gave no answer, and so no certificate.
@@ -40,13 +40,13 @@ impl Certificate {
         budget.ask()?;
         let theorem = StaticTheorem::new(&analysis.structure, &analysis.fixed, &analysis.scaled);
         let theorem = theorem.map_err(|bodies| AnalysisError::Unconnected(bodies[0]))?;
-        let (proof, corners) = theorem.window_and_corners(budget).ok().unzip();
+        let (proof, bases) = theorem.window_and_bases(budget).ok().unzip();
         budget.check()?;
         let (solved, ends) = (proof.is_some(), proof.as_ref().map(Window::ends));
         let mut certificate = Certificate {
             theorem,
             proof,
-            corners: corners.unwrap_or_default(),
+            bases: bases.unwrap_or_default(),
             window: None,
             solved,
             any_fixed: any_fixed(analysis),
@@ -118,7 +118,7 @@ impl Certificate {
             let plastic_section = Some(PlasticCrushing { window, ..PlasticCrushing::default() });
             return Ok((Crushing { strength, elastic: None, plastic_section }, Default::default()));
         }
-        let found = self.theorem.crushing_window(&strengths, &self.corners, budget);
+        let found = self.theorem.crushing_window_from(&self.bases, &strengths, budget);
         budget.check()?;
         let mut forces = Default::default();
         let plastic_section = found.ok().map(|found| {

@@ -169,7 +169,7 @@ impl Condensed {
     /// The forces on the nodes that stand for `load`, which displaces the subblocks by `inner` with the nodes held: those
     /// that hold them.
     pub fn on_nodes(&self, load: &DVector<f64>, inner: &DVector<f64>) -> DVector<f64> {
-        // Not fused as in S: what is missing is added below.
+        // Not fused as in S, which takes long: a load is condensed once, and its rounding does not add up.
         let held = self.ties.iter().map(|tie| tie.loads.iter().map(|&(i, load)| load * inner[i]).sum::<f64>());
         let mut on_nodes = DVector::from_iterator(self.ties.len(), held);
         let [of_nodes, of_blocks] = &self.rigid;

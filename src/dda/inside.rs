@@ -215,11 +215,12 @@ impl Stress {
     pub(super) fn mean(&self, d: &[f64]) -> Vec<f64> {
         match self {
             Stress::Constant(of) => {
-                let of_block = |(of, d): (&SMatrix<f64, 3, 6>, &[f64])| (of * V6::from_column_slice(d)).data.0[0];
+                let of_block = |(of, d): (&SMatrix<f64, 3, 6>, &[f64])| <[f64; 3]>::from(of * V6::from_column_slice(d));
                 of.iter().zip(d.chunks_exact(6)).flat_map(of_block).collect()
             }
             Stress::Quadratic(body, of) => {
-                let of_subblock = |(k, (mean, _)): (usize, &(OfSubblock, _))| (mean * body.of_subblock(k, d)).data.0[0];
+                let of_subblock =
+                    |(k, (mean, _)): (usize, &(OfSubblock, _))| <[f64; 3]>::from(mean * body.of_subblock(k, d));
                 of.iter().enumerate().flat_map(of_subblock).collect()
             }
         }

@@ -11,7 +11,7 @@ use super::linear_program::Basis;
 use super::programme::{MOST_DENSE, Objective, Programme, ProgrammeOutcome};
 use super::resultant::Resultant;
 use super::static_theorem::{Equilibrium, Limit};
-use super::{Corners, StaticTheorem, Unsolved};
+use super::{StaticTheorem, Unsolved, WindowBases};
 use crate::budget::Budget;
 use crate::geometry::{Vec2, cross};
 use crate::structure::{Joint, PointForce};
@@ -95,18 +95,25 @@ fn slack(limit: &Limit, equilibrium: &Equilibrium, theorem: &StaticTheorem) -> f
 }
 
 impl StaticTheorem {
-    /// Limit window with dry joints of the compressive strength `strengths[joint]`, Pa; None where nothing is in equilibrium. The
-    /// corners are those of the window without it, if they are known.
+    /// Limit window with dry joints of the compressive strength `strengths[joint]`, Pa; None where nothing is in equilibrium.
     ///
     /// # Errors
     /// When rounding, or `budget`, kept the cutting planes from an answer, or a strength is not positive.
-    pub fn crushing_window(
+    pub fn crushing_window(&self, strengths: &[f64], budget: &Budget) -> Result<Option<CrushingWindow>, Unsolved> {
+        self.crushing_window_from(&WindowBases::default(), strengths, budget)
+    }
+
+    /// The same, from the bases of this theorem's window.
+    ///
+    /// # Errors
+    /// As those of [`StaticTheorem::crushing_window`].
+    pub fn crushing_window_from(
         &self,
+        bases: &WindowBases,
         strengths: &[f64],
-        from: &Corners,
         budget: &Budget,
     ) -> Result<Option<CrushingWindow>, Unsolved> {
-        self.crushing_ends(strengths, [true; 2], from, budget)
+        self.crushing_ends(strengths, [true; 2], bases, budget)
     }
 
     /// The same with nothing looked for at an end that is not `wanted`: that is infinite.
@@ -114,7 +121,7 @@ impl StaticTheorem {
         &self,
         strengths: &[f64],
         wanted: [bool; 2],
-        Corners(from): &Corners,
+        WindowBases(from): &WindowBases,
         budget: &Budget,
     ) -> Result<Option<CrushingWindow>, Unsolved> {
         if strengths.len() != self.joints.len() || !strengths.iter().all(|&strength| strength > 0.0) {
@@ -153,15 +160,18 @@ impl StaticTheorem {
         budget: &Budget,
     ) -> ProgrammeOutcome {
         let few = self.has_few_unknowns();
+        let tangents = |from, cut: &mut Programme| cut_until_inside(objective, from, cut, &conic.sections, budget);
         let first = match few {
-            true => cut_until_inside(objective, from, cut, &conic.sections, budget),
+            true => tangents(from, cut),
             false => conic.maximise_sparsely(objective, budget),
         };
         match first {
+            // A basis that is lost in rounding leads nowhere.
+            ProgrammeOutcome::Lost if few && from.is_some() => self.crushing_end(objective, None, cut, conic, budget),
             ProgrammeOutcome::Lost if few => conic.maximise_sparsely(objective, budget),
             // Where nothing crushes, the programme without strength is the same.
             ProgrammeOutcome::Lost if self.unknowns() <= MOST_DENSE && !conic.sections.is_empty() => {
-                cut_until_inside(objective, None, cut, &conic.sections, budget)
+                tangents(None, cut)
             }
             first => first,
         }

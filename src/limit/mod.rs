@@ -26,7 +26,7 @@ pub use resultant::{Condition, Resultant};
 pub use static_theorem::{Equilibrium, StaticTheorem, Unsolved};
 pub use thrust::ThrustEnd;
 pub use upper_end::UpperEnd;
-pub use window::{Corners, Window, WindowEnd};
+pub use window::{Window, WindowBases, WindowEnd};
 
 #[cfg(test)]
 pub(crate) mod scenes;

@@ -7,6 +7,7 @@ use super::resultant::{Resultant, dot, joint_functionals};
 use super::static_theorem::{Limit, StaticTheorem};
 use crate::geometry::cross;
 use crate::structure::{Loops, PassiveElement, PointForce, resultants};
+use std::cell::LazyCell;
 
 /// The end of its range at which an element presses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -72,10 +73,9 @@ impl StaticTheorem {
 
     /// Forces at joint `k` for a unit force of each element that goes through it, N/m.
     pub(super) fn soil_at(&self, k: usize) -> impl Iterator<Item = (usize, [f64; 3])> {
-        let through = &self.soil.through[k];
-        let functionals =
-            if through.is_empty() { [[0.0; 3]; 3] } else { joint_functionals(&self.joints[k], self.frame.origin) };
-        through.iter().map(move |&(e, sign)| {
+        // Most joints have no element through them.
+        let functionals = LazyCell::new(move || joint_functionals(&self.joints[k], self.frame.origin));
+        self.soil.through[k].iter().map(move |&(e, sign)| {
             let PointForce { at, force, .. } = self.soil.elements[e].force(sign);
             let wrench = [force.x, force.y, cross(at - self.frame.origin, force)];
             (e, functionals.map(|row| dot(row, wrench)))

@@ -112,10 +112,10 @@ impl<'t> Programme<'t> {
         self.maximise_to(objective, budget).0
     }
 
-    /// The same, with where the dense method ended, if it suits the size.
+    /// Also the basis at which the dense method ended, to go on from where limits are added; none where the other found it.
     pub(super) fn maximise_to(&self, objective: &Objective, budget: &Budget) -> (ProgrammeOutcome, Option<Basis>) {
         if self.theorem.has_few_unknowns() {
-            return match self.climb(objective, budget) {
+            return match self.densely_to(objective, budget) {
                 (ProgrammeOutcome::Lost, _) => (self.maximise_sparsely(objective, budget), None),
                 (first, basis) => (first, Some(basis)),
             };
@@ -129,11 +129,11 @@ impl<'t> Programme<'t> {
 
     /// The exact method in loop space.
     pub(super) fn maximise_densely(&self, objective: &Objective, budget: &Budget) -> ProgrammeOutcome {
-        self.climb(objective, budget).0
+        self.densely_to(objective, budget).0
     }
 
-    /// The same, with where it ended.
-    fn climb(&self, objective: &Objective, budget: &Budget) -> (ProgrammeOutcome, Basis) {
+    /// The same, with the basis at which it ended.
+    fn densely_to(&self, objective: &Objective, budget: &Budget) -> (ProgrammeOutcome, Basis) {
         let mut basis = Basis::new(self.over_unknowns(objective));
         let outcome = match &self.theorem.rows {
             Some(rows) if self.is_plain() => self.go_on(&mut basis, rows, budget),

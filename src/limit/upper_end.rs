@@ -1,7 +1,7 @@
 //! The upper end of the limit window alone, for who looks at many loads.
 
 use super::programme::{Objective, Programme, ProgrammeOutcome};
-use super::{Corners, StaticTheorem, Unsolved};
+use super::{StaticTheorem, Unsolved, WindowBases};
 use crate::budget::Budget;
 
 /// The highest load factor in equilibrium, infinite where unbounded and minus infinite where nothing is in equilibrium; and a motion
@@ -27,7 +27,7 @@ impl StaticTheorem {
     /// # Errors
     /// As [`StaticTheorem::crushing_window`].
     pub fn crushing_upper_end(&self, strengths: &[f64], budget: &Budget) -> Result<UpperEnd, Unsolved> {
-        let Some(window) = self.crushing_ends(strengths, [false, true], &Corners::default(), budget)? else {
+        let Some(window) = self.crushing_ends(strengths, [false, true], &WindowBases::default(), budget)? else {
             return Ok((f64::NEG_INFINITY, None));
         };
         let [_, motion] = window.motions;

@@ -48,10 +48,10 @@ pub enum WindowEnd {
     },
 }
 
-/// Where the simplex method ended at the lowest and at the highest end of a window, if it was that which found them: it goes on
-/// from there where more is asked of the joints.
+/// The bases at which the simplex method found the lowest and the highest end of a theorem's window, if it was that which did: it goes
+/// on from there where more is asked of the joints, which saves time and no more.
 #[derive(Debug, Clone, Default)]
-pub struct Corners(pub(super) [Option<Basis>; 2]);
+pub struct WindowBases(pub(super) [Option<Basis>; 2]);
 
 impl Window {
     /// Lowest and highest load factor, infinite where unbounded; None where nothing stands.
@@ -70,22 +70,22 @@ impl StaticTheorem {
     /// # Errors
     /// When rounding, or `budget`, kept the linear programme from an answer.
     pub fn window(&self, budget: &Budget) -> Result<Window, Unsolved> {
-        self.window_and_corners(budget).map(|(window, _)| window)
+        self.window_and_bases(budget).map(|(window, _)| window)
     }
 
-    /// The same, with where to go on from.
+    /// The same, with the bases of its ends.
     ///
     /// # Errors
     /// As those of [`StaticTheorem::window`].
-    pub fn window_and_corners(&self, budget: &Budget) -> Result<(Window, Corners), Unsolved> {
-        let (mut found, mut corners) = (Vec::new(), Corners::default());
+    pub fn window_and_bases(&self, budget: &Budget) -> Result<(Window, WindowBases), Unsolved> {
+        let (mut found, mut bases) = (Vec::new(), WindowBases::default());
         for (end, sign) in [-1.0, 1.0].into_iter().enumerate() {
-            let (outcome, corner) = Programme::new(self).maximise_to(&Objective::load_factor(sign), budget);
-            corners.0[end] = corner;
+            let (outcome, basis) = Programme::new(self).maximise_to(&Objective::load_factor(sign), budget);
+            bases.0[end] = basis;
             found.push(match outcome {
                 ProgrammeOutcome::At(equilibrium, dual) => Some((equilibrium, self.motion(&dual, &[]))),
                 ProgrammeOutcome::Unbounded(_) => None,
-                ProgrammeOutcome::Infeasible(dual) => return Ok((Window::Falls(self.motion(&dual, &[])), corners)),
+                ProgrammeOutcome::Infeasible(dual) => return Ok((Window::Falls(self.motion(&dual, &[])), bases)),
                 ProgrammeOutcome::Lost => return Err(Unsolved),
             });
         }
@@ -106,7 +106,7 @@ impl StaticTheorem {
                 [self.unbounded(-1.0, at.clone(), budget), self.unbounded(1.0, at, budget)]
             }
         };
-        Ok((Window::Stands(ends), corners))
+        Ok((Window::Stands(ends), bases))
     }
 
     /// Any load factor from that of `at` in the direction of `sign` is in equilibrium.

@@ -49,6 +49,7 @@ impl Loops {
             closing.push(candidates.filter(alone).find(on_ground).unwrap_or(closed));
         }
         if closing == shortest.closing {
+            // Joints that a tree leaves out have changed nothing on the way.
             return Ok(shortest);
         }
         Loops::along(structure, &breadth_first(structure, &joints_of_bodies, &closing))

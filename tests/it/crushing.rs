@@ -6,7 +6,7 @@ use crate::common::{door, random_arch};
 use serde_json::{Value, json};
 use voussoir::budget::Budget;
 use voussoir::collapse::Analysis;
-use voussoir::limit::{Corners, StaticTheorem};
+use voussoir::limit::StaticTheorem;
 use voussoir::structure::{Joint, PointForce};
 
 /// How many random arches, from seed 0.
@@ -49,15 +49,16 @@ fn compare(seed: u64) -> Result<Found, String> {
     let analysis = door::analysis(&random_arch::request(seed))?;
     let theorem = theorem(&analysis);
     let strength = mean_stress(&analysis) * Dice::new(seed).decades(1.0, 300.0);
-    let plain = theorem.window(&Budget::unlimited()).map_err(|_| "plain window unsolved")?.ends();
+    let (plain, bases) = theorem.window_and_bases(&Budget::unlimited()).map_err(|_| "plain window unsolved")?;
+    let plain = plain.ends();
     let hard = theorem
-        .crushing_window(&vec![HARD; theorem.joints()], &Corners::default(), &Budget::unlimited())
+        .crushing_window(&vec![HARD; theorem.joints()], &Budget::unlimited())
         .map_err(|_| "hard window unsolved")?;
     if hard.as_ref().map(|window| window.ends) != plain {
         return Err(format!("hard {hard:?}, plain {plain:?}"));
     }
     let ours = theorem
-        .crushing_window(&vec![strength; theorem.joints()], &Corners::default(), &Budget::unlimited())
+        .crushing_window_from(&bases, &vec![strength; theorem.joints()], &Budget::unlimited())
         .map_err(|_| "unsolved")?
         .map(|window| window.ends);
     let problem = door::problem(&analysis).of_strength(strength);
@@ -204,7 +205,7 @@ fn hold(title: &str, rows: &[[f64; 3]], request: impl Fn(f64) -> Value) {
         let theorem = theorem(&analysis);
         let plain = theorem.window(&Budget::unlimited()).unwrap().ends();
         let crushing = theorem
-            .crushing_window(&vec![STRENGTH; theorem.joints()], &Corners::default(), &Budget::unlimited())
+            .crushing_window(&vec![STRENGTH; theorem.joints()], &Budget::unlimited())
             .unwrap()
             .map(|window| window.ends);
         let problem = door::problem(&analysis).of_strength(STRENGTH);

@@ -13,7 +13,7 @@ fn certificate(limit: f64) -> Certificate {
     Certificate {
         theorem,
         proof: None,
-        corners: Corners::default(),
+        bases: WindowBases::default(),
         window: Some([-1.0, limit]),
         solved: true,
         any_fixed: true,

@@ -102,8 +102,7 @@ fn value(question: &PositionQuestion, x: f64, reversed: bool) -> f64 {
     }
     let theorem = StaticTheorem::new(structure, fixed, &scaled).unwrap();
     let strengths: Vec<f64> = structure.joints.iter().map(|joint| structure.strength_at(joint)).collect();
-    theorem.crushing_window(&strengths, &crate::limit::Corners::default(), &Budget::unlimited()).unwrap().unwrap().ends
-        [1]
+    theorem.crushing_window(&strengths, &Budget::unlimited()).unwrap().unwrap().ends[1]
 }
 
 #[test]

@@ -95,18 +95,12 @@ impl Assembly {
             }
         }
         mirror.bodies = bodies.into_iter().collect::<Option<_>>()?;
-        let mut known = BTreeSet::new();
-        for (a, &b) in mirror.bodies.iter().enumerate() {
-            let image = self.image_of_nodes(a, b, &mirror)?;
-            let of_kinds = (self.bodies[a].kind, self.bodies[b].kind, image);
-            if !known.contains(&of_kinds) {
-                if !self.is_mirror_image(a, b, &of_kinds.2) {
-                    return None;
-                }
-                known.insert(of_kinds);
-            }
-        }
-        Some(mirror)
+        let kinds = |(a, &b): (usize, &usize)| {
+            Some(([a, b].map(|body| self.bodies[body].kind), self.image_of_nodes(a, b, &mirror)?))
+        };
+        // Once for all bodies of the same kinds.
+        let images: BTreeSet<_> = mirror.bodies.iter().enumerate().map(kinds).collect::<Option<_>>()?;
+        images.iter().all(|(kinds, image)| self.is_mirror_image(*kinds, image)).then_some(mirror)
     }
 
     /// The mirror image of every interface, and the axis; none where one has none.
@@ -170,9 +164,9 @@ impl Assembly {
         if here.len() == there.len() { here.map(image).collect() } else { None }
     }
 
-    /// Whether the stiffness of body `b` is the mirror image of that of body `a`.
-    fn is_mirror_image(&self, a: usize, b: usize, image: &[(usize, bool)]) -> bool {
-        let (of_a, of_b) = (self.stiffness_of(a), self.stiffness_of(b));
+    /// Whether the stiffness of one kind is the mirror image of that of another.
+    fn is_mirror_image(&self, kinds: [usize; 2], image: &[(usize, bool)]) -> bool {
+        let [of_a, of_b] = kinds.map(|kind| self.kinds[kind].condensed.stiffness());
         let near = |i: usize, j: usize| {
             let ((at, turns), (other, also)) = (image[i], image[j]);
             let there = if turns == also { of_b[(at, other)] } else { -of_b[(at, other)] };

@@ -46,6 +46,16 @@ fn a_ring_is_closed_at_its_first_springing() {
 }
 
 #[test]
+fn a_loop_off_the_ground_is_closed_where_the_shortest_ways_leave_it_open() {
+    let hung = graph(3, &[[GROUND, body(0)], [body(0), body(1)], [body(1), body(2)], [body(2), body(0)]]);
+    let loops = Loops::new(&hung).unwrap();
+    assert_eq!(loops.closing(), &[2]);
+    assert_eq!(loops.through(0), &[]);
+    assert!((1..4).all(|k| loops.through(k) == [(0, 1.0)]));
+    assert_eq!(loops, Loops::along(&hung, &breadth_first(&hung, &hung.joints_of_bodies(), &[2])).unwrap());
+}
+
+#[test]
 fn every_loop_passes_on_what_comes_in_at_every_body() {
     // Two stories of two bodies, and a joint written the other way round.
     let joints = [
