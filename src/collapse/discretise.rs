@@ -227,7 +227,7 @@ fn pushes(force: &PointForce, grids: &[Grid]) -> Vec<Push> {
     grid.at(force.at).into_iter().map(push).collect()
 }
 
-fn extent(points: impl Iterator<Item = Vec2>) -> f64 {
+pub(super) fn extent(points: impl Iterator<Item = Vec2>) -> f64 {
     let (low, high) = points.fold((Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY)), |(low, high), p| {
         (low.inf(&p), high.sup(&p))
     });

@@ -9,6 +9,7 @@ mod crushed;
 mod discretise;
 mod ending;
 mod falling;
+mod far;
 mod farthest;
 mod geometric;
 mod grid;

@@ -132,6 +132,7 @@ impl<'a> Setup<'a> {
             report = plan::refined(analysis, accuracy, report, budget)?;
         }
         report.settle_fields(analysis);
+        report.leave_out_far_states(&analysis.structure);
         let mesh = &analysis.mesh;
         let unbent = mesh.order == Order::First && mesh.subblocks.iter().any(|[radial, _]| *radial == 1);
         if analysis.task.geometry() == Geometry::Updated && unbent && report.at_start.is_some() {

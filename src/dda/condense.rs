@@ -14,9 +14,10 @@ use crate::geometry::Vec2;
 use faer::linalg::solvers::{Llt, Solve};
 use faer::sparse::linalg::solvers::{Llt as SparseLlt, SymbolicLlt};
 use faer::sparse::{SparseColMat, SymbolicSparseColMat};
-use faer::{Mat, Side};
+use faer::{Mat, MatRef, Side};
 use nalgebra::{DMatrix, DVector};
 use product::product;
+use std::array::from_fn;
 use std::ops::Range;
 
 /// A node on a face, tied to the subblocks there.
@@ -168,11 +169,12 @@ impl Condensed {
     /// The forces on the nodes that stand for `load`, which displaces the subblocks by `inner` with the nodes held: those
     /// that hold them.
     pub fn on_nodes(&self, load: &DVector<f64>, inner: &DVector<f64>) -> DVector<f64> {
-        let held = self.ties.iter().map(|tie| tie.work(inner.as_slice()));
+        // Not fused as in S, which takes long: a load is condensed once, and its rounding does not add up.
+        let held = self.ties.iter().map(|tie| tie.loads.iter().map(|&(i, load)| load * inner[i]).sum::<f64>());
         let mut on_nodes = DVector::from_iterator(self.ties.len(), held);
         let [of_nodes, of_blocks] = &self.rigid;
-        let missing = of_blocks.tr_mul(load) - of_nodes.tr_mul(&on_nodes);
-        on_nodes += of_nodes * missing;
+        let missing: [f64; 3] = from_fn(|m| of_blocks.column(m).dot(load) - of_nodes.column(m).dot(&on_nodes));
+        missing.iter().enumerate().for_each(|(m, missing)| on_nodes.axpy(*missing, &of_nodes.column(m), 1.0));
         on_nodes
     }
 }
@@ -288,17 +290,37 @@ fn assemble(
     Ok(SparseColMat::new(pattern, values))
 }
 
-fn solve_one(factors: &Factors, right: &DVector<f64>) -> DVector<f64> {
-    let x = solve(factors, &Mat::from_fn(right.len(), 1, |i, _| right[i]));
-    DVector::from_fn(right.len(), |i, _| x[(i, 0)])
-}
-
 /// K^-1 `right`.
 fn solve(factors: &Factors, right: &Mat<f64>) -> Mat<f64> {
     match factors {
         Factors::Dense(factors) => factors.solve(right),
         Factors::Sparse(factors) => factors.solve(right),
     }
+}
+
+/// The same for one right-hand side.
+fn solve_one(factors: &Factors, right: &DVector<f64>) -> DVector<f64> {
+    match factors {
+        Factors::Dense(factors) => substitute(factors.L(), right),
+        Factors::Sparse(factors) => {
+            let x = factors.solve(&Mat::from_fn(right.len(), 1, |i, _| right[i]));
+            DVector::from_fn(right.len(), |i, _| x[(i, 0)])
+        }
+    }
+}
+
+/// `(L L')^-1 right`. The library takes ten times as long for so few unknowns.
+fn substitute(lower: MatRef<f64>, right: &DVector<f64>) -> DVector<f64> {
+    let (n, mut x) = (right.len(), right.clone());
+    for i in 0..n {
+        let rest = (0..i).fold(x[i], |rest, j| rest - lower[(i, j)] * x[j]);
+        x[i] = rest / lower[(i, i)];
+    }
+    for i in (0..n).rev() {
+        let rest = (i + 1..n).fold(x[i], |rest, j| rest - lower[(j, i)] * x[j]);
+        x[i] = rest / lower[(i, i)];
+    }
+    x
 }
 
 /// Columns in parts of which none is small.

@@ -212,16 +212,18 @@ impl Inside {
 
 impl Stress {
     /// Mean stress of the subblocks at these unknowns, three numbers each.
-    pub(super) fn mean(&self, d: &[f64]) -> DVector<f64> {
-        let all: Vec<[f64; 3]> = match self {
+    pub(super) fn mean(&self, d: &[f64]) -> Vec<f64> {
+        match self {
             Stress::Constant(of) => {
-                of.iter().zip(d.chunks_exact(6)).map(|(of, d)| (of * V6::from_column_slice(d)).into()).collect()
+                let of_block = |(of, d): (&SMatrix<f64, 3, 6>, &[f64])| <[f64; 3]>::from(of * V6::from_column_slice(d));
+                of.iter().zip(d.chunks_exact(6)).flat_map(of_block).collect()
             }
             Stress::Quadratic(body, of) => {
-                of.iter().enumerate().map(|(k, (mean, _))| (mean * body.of_subblock(k, d)).into()).collect()
+                let of_subblock =
+                    |(k, (mean, _)): (usize, &(OfSubblock, _))| <[f64; 3]>::from(mean * body.of_subblock(k, d));
+                of.iter().enumerate().flat_map(of_subblock).collect()
             }
-        };
-        DVector::from_iterator(3 * all.len(), all.into_iter().flatten())
+        }
     }
 
     /// Stress at the samples of second-order subblocks at these unknowns.

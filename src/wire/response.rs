@@ -92,9 +92,10 @@ pub struct AnalysisResult {
     /// Share of the way to the end of the load path at which `near_collapse` was taken.
     pub share: f64,
     /// State just before the end of the load path, of stone that does not crush unless `crushing_in_path` is set; where joints slide
-    /// or crush, that may lie beyond the collapse intensity.
+    /// or crush, that may lie beyond the collapse intensity. Null, too, where a stone is displaced in it farther than the structure is
+    /// large.
     pub near_collapse: Option<SnapshotBody>,
-    /// State at load factor 1, where the path passes it.
+    /// State at load factor 1, where the path passes it and no stone is displaced farther than the structure is large.
     pub at_unit_load: Option<SnapshotBody>,
     /// State at the start of the path.
     pub at_start: Option<SnapshotBody>,

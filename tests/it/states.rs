@@ -9,7 +9,7 @@ use crate::common::{door, random_arch};
 use crate::half::symmetric;
 use serde_json::{Value, json};
 use voussoir::budget::Budget;
-use voussoir::collapse::{Analysis, CollapseReport, Note, Order, OtherStates, run};
+use voussoir::collapse::{Analysis, CollapseReport, Note, Order, OtherStates, Snapshot, run};
 
 /// A state may break the law by this share of the loads.
 const LAWFUL: f64 = 1e-8;
@@ -100,6 +100,37 @@ fn states_on_the_way_to_collapse_are_not_taken_from_a_path_that_has_fallen() {
         judged.judge(&format!("seed {seed}"), &random_arch::request(seed));
     }
     judged.tell();
+}
+
+/// A state near collapse in which a stone is displaced farther than the arch is large is left out, as displacements are taken to be
+/// small; they go with one over Young's modulus.
+#[test]
+fn states_displaced_farther_than_the_arch_is_large_are_left_out() {
+    let farthest = |state: &Snapshot| state.blocks.iter().map(|block| block.displacement.norm()).fold(0.0, f64::max);
+    let of = |modulus: f64| {
+        let report = json!({"stress_fields": ["unit_load", "near_collapse"]});
+        solve(&semicircle(27, &json!({"stone": {"youngs_modulus_pa": modulus}, "report": report}))).1
+    };
+    // From springing to springing and up to the crown, outside.
+    let [displaced, size] = [farthest(&of(1e9).near_collapse.unwrap()), f64::hypot(2.0 * 10.75, 10.75)];
+    let fields =
+        |report: &CollapseReport| report.stress_fields.iter().map(|field| field.load_factor).collect::<Vec<_>>();
+    let [inside, beyond] = [0.99, 1.01].map(|far| of(1e9 * displaced / (far * size)));
+    assert!((farthest(inside.near_collapse.as_ref().unwrap()) / size - 0.99).abs() < 1e-6);
+    let told = |report: &CollapseReport| report.notes.iter().any(|note| matches!(note, Note::DisplacedFar { .. }));
+    assert!(!told(&inside) && fields(&inside).len() == 2);
+    assert!(beyond.near_collapse.is_none() && beyond.at_start.is_some() && beyond.at_unit_load.is_some());
+    assert_eq!((beyond.outcome, fields(&beyond)), (inside.outcome, vec![1.0]));
+    let near = fields(&inside)[1];
+    let left_out = |note: &Note| match note {
+        Note::DisplacedFar { load_factors, largest } => {
+            load_factors.len() == 1
+                && (load_factors[0] / near - 1.0).abs() < 1e-9
+                && (largest / size - 1.01).abs() < 1e-6
+        }
+        _ => false,
+    };
+    assert!(beyond.notes.iter().any(left_out), "{:?}", beyond.notes);
 }
 
 /// Fifteen small stones with cohesion: the state near collapse was out of equilibrium by 2.7 times the loads.

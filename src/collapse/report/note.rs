@@ -104,6 +104,13 @@ pub enum Note {
         /// Whether the arch falls.
         falls: bool,
     },
+    /// States in which a body is displaced farther than the structure is large are left out.
+    DisplacedFar {
+        /// Their load factors.
+        load_factors: Vec<f64>,
+        /// Largest displacement of a body, m.
+        largest: f64,
+    },
     /// Arch and loads are symmetric, but there is more than one state.
     SeveralStates {
         /// Which of them is given.

@@ -193,7 +193,7 @@ impl Kind {
         let condensed = Condensed::new(&inside, &nodes, budget, |j, d| {
             mean_of_nodes.set_column(j, &(&mean * DVectorView::from_slice(d, d.len())));
             if let Some(of_nodes) = &mut stress_of_nodes {
-                of_nodes.set_column(j, &stress.mean(d));
+                of_nodes.column_mut(j).copy_from_slice(&stress.mean(d));
             }
         })?;
         let whole = stress_of_nodes.as_ref().and_then(|stress| Some([by_rows(&mean_of_nodes)?, by_rows(stress)?]));

@@ -66,8 +66,11 @@ impl Assembly {
 
     /// Mean stress (sigma_x, sigma_y, tau_xy) in every subblock of body `i`, three numbers each in the body's own frame, Pa.
     pub fn stresses_in_frame(&self, i: usize, d: &[f64], loads: &[(&Loads, f64)], into: &mut Vec<f64>) {
-        let (kind, d) = (&self.kinds[self.bodies[i].kind], &d[self.nodes[i].clone()]);
         into.clear();
+        if let Some(of_whole) = self.stress_of_whole(i, d, loads) {
+            return into.extend(of_whole);
+        }
+        let (kind, d) = (&self.kinds[self.bodies[i].kind], &d[self.nodes[i].clone()]);
         match &kind.stress_of_nodes {
             Some(of_nodes) => {
                 into.resize(of_nodes.nrows(), 0.0);

@@ -2,6 +2,7 @@
 
 use super::Assembly;
 use crate::budget::{Budget, Stopped};
+use crate::dda::panels::add_applied_columns;
 use crate::geometry::{Vec2, perpendicular};
 use nalgebra::DVector;
 
@@ -61,10 +62,11 @@ impl Assembly {
                 continue;
             };
             let inner = kind.condensed.inner(&load);
-            loads.on_nodes.extend(kind.condensed.on_nodes(&load, &inner).iter());
-            let mean = &kind.mean * &inner;
-            loads.mean.push([mean[0], mean[1], mean[2]]);
-            loads.stress.push(kind.stress.mean(inner.as_slice()).as_slice().to_vec());
+            loads.on_nodes.extend(&kind.condensed.on_nodes(&load, &inner));
+            let mut mean = [0.0; 3];
+            add_applied_columns(kind.mean.as_slice(), inner.as_slice(), &mut mean);
+            loads.mean.push(mean);
+            loads.stress.push(kind.stress.mean(inner.as_slice()));
             loads.samples.push(kind.stress.samples(inner.as_slice()));
             budget.work(SOLVED * load.len() * columns)?;
         }
@@ -85,7 +87,7 @@ impl Assembly {
                 loads.extend(std::iter::repeat_n(0.0, columns));
                 continue;
             };
-            loads.extend(kind.condensed.on_nodes(&load, &kind.condensed.inner(&load)).iter());
+            loads.extend(&kind.condensed.on_nodes(&load, &kind.condensed.inner(&load)));
             budget.work(SOLVED * load.len() * columns)?;
         }
         Ok(loads)

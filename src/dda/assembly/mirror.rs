@@ -8,6 +8,7 @@
 use super::{Assembly, Beside};
 use crate::dda::contact::{Contact, Law};
 use crate::geometry::{Vec2, mirrored};
+use std::collections::BTreeSet;
 
 /// Numbers of two mirror images that differ by this share of the largest differ by rounding.
 const MIRROR_ROUNDING: f64 = 1e-9;
@@ -94,7 +95,12 @@ impl Assembly {
             }
         }
         mirror.bodies = bodies.into_iter().collect::<Option<_>>()?;
-        mirror.bodies.iter().enumerate().all(|(a, &b)| self.has_mirror_image(a, b, &mirror)).then_some(mirror)
+        let kinds = |(a, &b): (usize, &usize)| {
+            Some(([a, b].map(|body| self.bodies[body].kind), self.image_of_nodes(a, b, &mirror)?))
+        };
+        // Once for all bodies of the same kinds.
+        let images: BTreeSet<_> = mirror.bodies.iter().enumerate().map(kinds).collect::<Option<_>>()?;
+        images.iter().all(|(kinds, image)| self.is_mirror_image(*kinds, image)).then_some(mirror)
     }
 
     /// The mirror image of every interface, and the axis; none where one has none.
@@ -147,23 +153,27 @@ impl Assembly {
         Some(())
     }
 
-    /// Whether the stiffness of body `b` is the mirror image of that of body `a`.
-    fn has_mirror_image(&self, a: usize, b: usize, mirror: &Mirror) -> bool {
+    /// The unknown of body `b` that is the image of each unknown of body `a`, and whether its sign changes; none where some image is
+    /// another body's.
+    fn image_of_nodes(&self, a: usize, b: usize, mirror: &Mirror) -> Option<Vec<(usize, bool)>> {
         let (here, there) = (self.nodes_of(a), self.nodes_of(b));
-        let (of_a, of_b) = (self.stiffness_of(a), self.stiffness_of(b));
-        let size = here.len();
-        // The image is of this body, node by node.
-        if there.len() != size || here.clone().any(|i| !there.contains(&mirror.place[i])) {
-            return false;
-        }
-        let apart = |i: usize, j: usize| {
-            let (at, other) = (mirror.place[here.start + i], mirror.place[here.start + j]);
-            let sign = mirror.sign[here.start + i] * mirror.sign[here.start + j];
-            (of_a[(i, j)] - sign * of_b[(at - there.start, other - there.start)]).abs()
+        let image = |i: usize| {
+            let at = mirror.place[i];
+            there.contains(&at).then(|| (at - there.start, mirror.sign[i] < 0.0))
+        };
+        if here.len() == there.len() { here.map(image).collect() } else { None }
+    }
+
+    /// Whether the stiffness of one kind is the mirror image of that of another.
+    fn is_mirror_image(&self, kinds: [usize; 2], image: &[(usize, bool)]) -> bool {
+        let [of_a, of_b] = kinds.map(|kind| self.kinds[kind].condensed.stiffness());
+        let near = |i: usize, j: usize| {
+            let ((at, turns), (other, also)) = (image[i], image[j]);
+            let there = if turns == also { of_b[(at, other)] } else { -of_b[(at, other)] };
+            (of_a[(i, j)] - there).abs() <= STIFFNESS_ROUNDING * of_a[(i, i)].abs().max(of_a[(j, j)].abs())
         };
         // Both are symmetric, but for rounding.
-        (0..size)
-            .all(|i| (0..=i).all(|j| apart(i, j) <= STIFFNESS_ROUNDING * of_a[(i, i)].abs().max(of_a[(j, j)].abs())))
+        (0..image.len()).all(|i| (0..=i).all(|j| near(i, j)))
     }
 }
 

@@ -8,10 +8,17 @@ use crate::geometry::Region;
 
 /// Four unit squares: two side by side on the ground, one across both, one on that.
 fn tee() -> Assembly {
-    let elasticity = Elasticity { youngs_modulus: 1e9, poissons_ratio: 0.25, plane_strain: false };
+    tee_of([1e9; 4])
+}
+
+/// The same, each of this Young's modulus, Pa.
+fn tee_of(moduli: [f64; 4]) -> Assembly {
     let centres = [[0.5, 0.5], [1.5, 0.5], [1.0, 1.5], [1.0, 2.5]];
-    let block = |[x, y]: [f64; 2]| Block::new(Region { area: 1.0, centroid: Vec2::new(x, y) }, elasticity).into();
-    let mut builder = AssemblyBuilder::new(centres.into_iter().map(block).collect());
+    let block = |([x, y], youngs_modulus): ([f64; 2], f64)| {
+        let elasticity = Elasticity { youngs_modulus, poissons_ratio: 0.25, plane_strain: false };
+        Block::new(Region { area: 1.0, centroid: Vec2::new(x, y) }, elasticity).into()
+    };
+    let mut builder = AssemblyBuilder::new(centres.into_iter().zip(moduli).map(block).collect());
     let mut join = |between: [Beside; 2], ends: [[f64; 2]; 2], normal: Vec2| {
         let touch = |[x, y]: [f64; 2]| Touch {
             at: Vec2::new(x, y),
@@ -58,6 +65,13 @@ fn a_body_moves_by_its_core_as_by_its_faces() {
     let (a, b) = (solved(cored), solved(plain));
     let largest = b.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
     assert!(a.iter().zip(&b).all(|(a, b)| (a - b).abs() < 1e-9 * largest));
+}
+
+#[test]
+fn an_assembly_is_its_own_mirror_image_only_where_its_bodies_are() {
+    assert!(tee_of([1e9, 1e9, 1e9, 1e9]).is_symmetric());
+    assert!(tee_of([1e9, 1e9, 2e9, 3e9]).is_symmetric());
+    assert!(!tee_of([1e9, 1.1e9, 1e9, 1e9]).is_symmetric());
 }
 
 /// Two unit squares, one on the other and on the ground, with contact points there.

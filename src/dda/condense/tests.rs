@@ -32,3 +32,11 @@ fn blocks_of_one_place_are_added_up_as_the_solver_would() {
     assert_eq!(ours.row_idx(), theirs.row_idx());
     assert!(ours.val().iter().zip(theirs.val()).all(|(a, b)| (a - b).abs() < 1e-12));
 }
+
+#[test]
+fn a_single_subblock_is_solved_for_one_load() {
+    let stiffness = block(3) * block(3).transpose() + M6::identity();
+    let factors = Factors::Dense(Mat::from_fn(6, 6, |i, j| stiffness[(i, j)]).llt(Side::Lower).unwrap());
+    let load = DVector::from_fn(6, |i, _| (i as f64 - 2.3).sin());
+    assert!((stiffness * solve_one(&factors, &load) - load).norm() < 1e-14);
+}

@@ -10,6 +10,7 @@ impl Note {
         match self {
             Note::Doubt(Doubt::LooseStones) => Some("Give the arch its self weight."),
             Note::Doubt(Doubt::Slender { .. }) => Some("Check the unit of the thickness."),
+            Note::DisplacedFar { .. } => Some("Check the units of the loads and of Young's modulus."),
             Note::NotFinite(_) => Some("Check the units of the request."),
             _ => None,
         }
@@ -29,6 +30,7 @@ impl fmt::Display for Note {
             Note::ManySlidingLoads(range) => many_loads(range),
             Note::SlidesParted(joints) => slides_parted(joints),
             Note::CrushesAtStart { strength, start, window } => crushes([*strength, *start].map(Digits), *window),
+            Note::DisplacedFar { load_factors, largest } => displaced_far(load_factors, Digits(*largest)),
             Note::SeveralStates { given, load_factors, joints } => several(*given, load_factors, joints),
             Note::ReadAtSteps { step, limit } => read_at_steps([*step, *limit].map(Digits)),
             Note::SlenderSubblocks { slenderness, trusted } => slender([*slenderness, *trusted].map(Digits)),
@@ -159,6 +161,15 @@ fn crushes([strength, start]: [Digits; 2], window: Option<LimitWindow>) -> Strin
         "With joints of plastic sections and a strength of {strength} Pa the arch does not stand at load factor {start}, {left}. \
          No stress within the strength is in equilibrium either, however fine the mesh. Collapse, hinges and stresses are those of \
          stone that does not crush."
+    )
+}
+
+fn displaced_far(load_factors: &[f64], largest: Digits) -> String {
+    let factors = listed(load_factors.iter().map(|factor| Digits(*factor).to_string()));
+    format!(
+        "At load factor {factors} stones are displaced by up to {largest} m, farther than the structure is large. Displacements \
+         are taken to be small, so states there tell of nothing and are left out. Check the units of the loads and of Young's \
+         modulus."
     )
 }
 
