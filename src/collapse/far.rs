@@ -8,7 +8,7 @@ impl CollapseReport {
     /// Leaves out the states on the load path in which a body is displaced by more than the structure's extent, with their stress fields,
     /// and says so. The state at the start stays, which tells that there is one.
     pub(super) fn leave_out_far_states(&mut self, structure: &Structure) {
-        let size = extent(structure.ring().iter().flat_map(|joint| [joint.intrados, joint.extrados]));
+        let size = extent(structure.bodies.iter().flat_map(|body| body.corners.iter().copied()));
         let (mut load_factors, mut largest) = (Vec::new(), size);
         for told in [&mut self.at_unit_load, &mut self.near_collapse] {
             if let Some(state) = told.take_if(|state| farthest(state) > size) {
