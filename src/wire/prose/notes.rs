@@ -167,9 +167,9 @@ fn crushes([strength, start]: [Digits; 2], window: Option<LimitWindow>) -> Strin
 fn displaced_far(load_factors: &[f64], largest: Digits) -> String {
     let factors = listed(load_factors.iter().map(|factor| Digits(*factor).to_string()));
     format!(
-        "At load factor {factors} stones are displaced by up to {largest} m, farther than the structure is large. Displacements \
-         are taken to be small, so states there tell of nothing and are left out. Check the units of the loads and of Young's \
-         modulus."
+        "At load factor {factors}, stones are displaced by up to {largest} m, farther than the structure is large. \
+         Displacements are taken to be small, so states there tell of nothing and are left out. Check the units of the loads \
+         and of Young's modulus."
     )
 }
 
