@@ -9,7 +9,7 @@ impl CollapseReport {
     /// and says so. The state at the start stays, which tells that there is one.
     pub(super) fn leave_out_far_states(&mut self, structure: &Structure) {
         let size = extent(structure.bodies.iter().flat_map(|body| body.corners.iter().copied()));
-        let (mut load_factors, mut largest) = (Vec::new(), size);
+        let (mut load_factors, mut largest) = (Vec::new(), 0.0f64);
         for told in [&mut self.at_unit_load, &mut self.near_collapse] {
             if let Some(state) = told.take_if(|state| farthest(state) > size) {
                 load_factors.push(state.load_factor);

@@ -1,4 +1,4 @@
-//! Static condensation of a macroblock onto the nodes on its faces; the only file that knows faer.
+//! Static condensation of a macroblock onto the nodes on its faces.
 //!
 //! A node is a point of a face, tied to the subblocks there by two springs (its link, along the contact's normal and
 //! tangent). With the nodes' displacements p given, the subblocks' displacements D follow from
@@ -6,15 +6,13 @@
 //! `X = K^-1 X0`, and on the nodes act `S p - X' F`, with `S = links - X0' X` (Guyan 1965). Nothing is lost: the condensed
 //! macroblock answers to forces at its nodes exactly as the whole one does.
 
+mod factors;
 mod product;
 
 use super::inside::Inside;
 use crate::budget::{Budget, Stopped};
 use crate::geometry::Vec2;
-use faer::linalg::solvers::{Llt, Solve};
-use faer::sparse::linalg::solvers::{Llt as SparseLlt, SymbolicLlt};
-use faer::sparse::{SparseColMat, SymbolicSparseColMat};
-use faer::{Mat, MatRef, Side};
+use factors::{Add, Factors};
 use nalgebra::{DMatrix, DVector};
 use product::product;
 use std::array::from_fn;
@@ -31,13 +29,6 @@ pub struct Node {
     pub link: [f64; 2],
     /// The one or two subblocks it is tied to, and with which share each.
     pub holds: [(usize, f64); 2],
-}
-
-/// Cholesky factors of a macroblock's stiffness: dense where it has one subblock, sparse otherwise.
-#[derive(Debug, Clone)]
-enum Factors {
-    Dense(Llt<f64>),
-    Sparse(SparseLlt<usize, f64>),
 }
 
 /// A macroblock condensed onto its nodes, in its own frame.
@@ -82,13 +73,8 @@ struct Tie {
 /// So many columns of X at least, and less than twice as many, are solved for at a time: X as a whole is the largest thing
 /// there is, and nobody needs it.
 const COLUMNS_AT_ONCE: usize = 16;
-/// Work of adding a block of stiffness, of setting one into its place, and of solving for an entry of a column, in
-/// multiplications.
-const ADDED: usize = 200;
-const PLACED: usize = 36;
+/// Work of solving for an entry of a column, in multiplications.
 const SOLVED_COLUMN: usize = 50;
-/// Entries of a block of stiffness between two constant-strain subblocks.
-const CONSTANT_STRAIN: usize = 36;
 
 impl Condensed {
     /// Condenses `body` onto `nodes`, both seen from one frame. `see(j, x)` is shown every column of X, the displacements of
@@ -105,17 +91,17 @@ impl Condensed {
         let ties: Vec<Tie> = nodes.iter().flat_map(|node| [0, 1].map(|axis| Tie::new(body, node, axis))).collect();
         budget.ask()?;
         let links = |add: &mut Add| ties.iter().for_each(|tie| tie.stiffness(body.group(), add));
-        let factors = factor(body, links, budget)?.ok_or(Loose)?;
+        let factors = Factors::new(body, links, budget)?.ok_or(Loose)?;
         let (unknowns, columns) = (body.unknowns(), ties.len());
         let mut raw = DMatrix::from_diagonal(&DVector::from_iterator(columns, ties.iter().map(|tie| tie.link)));
         for part in parts(columns) {
-            let mut right = Mat::zeros(unknowns, part.len());
+            let mut right = DMatrix::zeros(unknowns, part.len());
             for (j, tie) in ties[part.clone()].iter().enumerate() {
                 tie.loads.iter().for_each(|&(i, load)| right[(i, j)] += load);
             }
-            let x = solve(&factors, &right);
+            let x = factors.solve(&right);
             for (j, column) in part.clone().enumerate() {
-                let x = x.col_as_slice(j);
+                let x = &x.as_slice()[j * unknowns..(j + 1) * unknowns];
                 raw.column_mut(column).iter_mut().zip(&ties).for_each(|(entry, tie)| *entry -= tie.work(x));
                 see(column, x);
             }
@@ -154,7 +140,7 @@ impl Condensed {
 
     /// Displacements of the subblocks under `load` with the nodes held.
     pub fn inner(&self, load: &DVector<f64>) -> DVector<f64> {
-        solve_one(&self.factors, load)
+        self.factors.solve_one(load)
     }
 
     /// Displacements X p of the subblocks for displacements p of the nodes.
@@ -178,9 +164,6 @@ impl Condensed {
         on_nodes
     }
 }
-
-/// Takes in a block of stiffness between two groups of unknowns, column by column.
-type Add<'a> = dyn FnMut(usize, usize, &[f64]) + 'a;
 
 impl Tie {
     fn new(body: &Inside, node: &Node, axis: usize) -> Self {
@@ -218,109 +201,8 @@ impl Tie {
 /// When stopped.
 pub fn free_response(body: &Inside, load: &DVector<f64>, budget: &Budget) -> Result<Option<DVector<f64>>, Stopped> {
     // Three springs on three rigid motions: statically determinate, so that a load in equilibrium does not feel them.
-    let factors = factor(body, |add| body.hold(add), budget)?;
-    Ok(factors.map(|factors| solve_one(&factors, load)))
-}
-
-/// Factors the stiffness of a body to which `more(add)` adds.
-fn factor(body: &Inside, more: impl Fn(&mut Add), budget: &Budget) -> Result<Option<Factors>, Stopped> {
-    let all = |add: &mut Add| {
-        more(&mut *add);
-        body.stiffness(|i, j, block| {
-            add(i, j, block);
-            // Where this says to stop, asking the budget does too.
-            let _ = budget.work(ADDED * block.len() / CONSTANT_STRAIN);
-        });
-    };
-    let group = body.group();
-    if body.groups() == 1 {
-        let mut sum = vec![0.0; group * group];
-        all(&mut |_, _, block| sum.iter_mut().zip(block).for_each(|(sum, x)| *sum += x));
-        let whole = Mat::from_fn(group, group, |i, j| sum[j * group + i]);
-        return Ok(whole.llt(Side::Lower).ok().map(Factors::Dense));
-    }
-    budget.ask()?;
-    let sparse = assemble([body.groups(), group], all, budget)?;
-    budget.ask()?;
-    let Ok(order) = SymbolicLlt::try_new(sparse.symbolic(), Side::Lower) else { return Ok(None) };
-    budget.ask()?;
-    let factors = SparseLlt::try_new_with_symbolic(order, sparse.as_ref(), Side::Lower);
-    budget.ask()?;
-    Ok(factors.ok().map(Factors::Sparse))
-}
-
-/// The blocks on and below the diagonal of a symmetric matrix between so many groups of so many unknowns, column by column: the sum of
-/// what `all(add)` adds, twice over. First it is seen which blocks there are, for the list of all that is added is several times as
-/// long.
-fn assemble(
-    [groups, group]: [usize; 2],
-    all: impl Fn(&mut Add),
-    budget: &Budget,
-) -> Result<SparseColMat<usize, f64>, Stopped> {
-    let mut below = vec![Vec::new(); groups];
-    all(&mut |i, j, _| {
-        if i >= j && !below[j].contains(&i) {
-            below[j].push(i);
-        }
-    });
-    budget.ask()?;
-    let count = group * group * below.iter().map(Vec::len).sum::<usize>();
-    let (mut start, mut ends, mut rows) = (Vec::with_capacity(groups), vec![0], Vec::with_capacity(count));
-    for below in &mut below {
-        below.sort_unstable();
-        start.push(rows.len());
-        for _ in 0..group {
-            rows.extend(below.iter().flat_map(|i| group * i..group * (i + 1)));
-            ends.push(rows.len());
-        }
-        budget.work(PLACED * below.len())?;
-    }
-    budget.ask()?;
-    let mut values = vec![0.0; count];
-    all(&mut |i, j, block| {
-        if let Ok(place) = below[j].binary_search(&i) {
-            for (b, column) in block.chunks_exact(group).enumerate() {
-                let first = start[j] + group * (b * below[j].len() + place);
-                values[first..first + group].iter_mut().zip(column).for_each(|(sum, x)| *sum += x);
-            }
-        }
-    });
-    budget.ask()?;
-    let pattern = SymbolicSparseColMat::new_checked(group * groups, group * groups, ends, None, rows);
-    Ok(SparseColMat::new(pattern, values))
-}
-
-/// K^-1 `right`.
-fn solve(factors: &Factors, right: &Mat<f64>) -> Mat<f64> {
-    match factors {
-        Factors::Dense(factors) => factors.solve(right),
-        Factors::Sparse(factors) => factors.solve(right),
-    }
-}
-
-/// The same for one right-hand side.
-fn solve_one(factors: &Factors, right: &DVector<f64>) -> DVector<f64> {
-    match factors {
-        Factors::Dense(factors) => substitute(factors.L(), right),
-        Factors::Sparse(factors) => {
-            let x = factors.solve(&Mat::from_fn(right.len(), 1, |i, _| right[i]));
-            DVector::from_fn(right.len(), |i, _| x[(i, 0)])
-        }
-    }
-}
-
-/// `(L L')^-1 right`. The library takes ten times as long for so few unknowns.
-fn substitute(lower: MatRef<f64>, right: &DVector<f64>) -> DVector<f64> {
-    let (n, mut x) = (right.len(), right.clone());
-    for i in 0..n {
-        let rest = (0..i).fold(x[i], |rest, j| rest - lower[(i, j)] * x[j]);
-        x[i] = rest / lower[(i, i)];
-    }
-    for i in (0..n).rev() {
-        let rest = (i + 1..n).fold(x[i], |rest, j| rest - lower[(j, i)] * x[j]);
-        x[i] = rest / lower[(i, i)];
-    }
-    x
+    let factors = Factors::new(body, |add| body.hold(add), budget)?;
+    Ok(factors.map(|factors| factors.solve_one(load)))
 }
 
 /// Columns in parts of which none is small.
@@ -358,6 +240,3 @@ fn orthonormal(mut a: DMatrix<f64>, mut b: DMatrix<f64>) -> [DMatrix<f64>; 2] {
     }
     [a, b]
 }
-
-#[cfg(test)]
-mod tests;
