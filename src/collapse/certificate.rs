@@ -183,9 +183,11 @@ impl Certificate {
     /// Holds the end of a path against the window: a doubt, or whether it ends short of it, as sliding explains.
     pub(super) fn compare(&self, end: &PathEnd, sign: f64) -> Result<bool, Doubt> {
         let (path, limit) = (end.on_path(), self.end(sign).unwrap_or(0.0));
-        let scale = limit.abs().max(path.abs()).max(tolerances::SMALL_FACTOR * self.theorem.load_factor_scale());
+        let alike = self.theorem.load_factor_scale();
+        let scale = limit.abs().max(path.abs()).max(tolerances::SMALL_FACTOR * alike);
         let short = if limit.is_finite() { sign * (limit - path) / scale } else { f64::INFINITY };
-        if short < -self.agrees[1] {
+        // Next to 0 a path, whose stiffness is scattered, passes the window by more than this share of almost nothing.
+        if short < -self.agrees[1] && sign * (path - limit) > tolerances::RESIDUAL * alike {
             Err(Doubt::Above { path, limit })
         } else if short <= self.agrees[0] {
             Ok(false)

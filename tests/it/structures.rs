@@ -2,12 +2,14 @@
 //!
 //! `cargo bench --bench structures` holds many more.
 
+use crate::common::door;
 use crate::common::rigid_blocks::full_solution::{Gap, measure};
 use crate::common::rigid_blocks::recheck::{Reported, recheck};
 use crate::common::rigid_blocks::wall::PUBLISHED;
 use crate::common::structures::{FAMILIES, Judged, analysis, judge};
+use serde_json::{Value, json};
 use voussoir::budget::Budget;
-use voussoir::collapse::{Thrust, run};
+use voussoir::collapse::{Outcome, Thrust, run};
 
 /// How many of each kind.
 const SCENES: u64 = 12;
@@ -30,6 +32,47 @@ fn random_structures_fall_where_the_oracle_says_or_below_where_joints_slide() {
     println!("{equal} of {} equal, {} untold", 3 * SCENES, untold.len());
     assert!(untold.len() <= CANNOT_TELL, "{untold:?}");
     assert!(equal > SCENES, "only {equal} equal");
+}
+
+/// A wall one stone wide of so many courses, without the right half of one: the stone above rests on its very tip.
+fn on_its_tip(courses: usize, missing: usize, height: f64, strength: f64) -> Value {
+    let halves = |course: usize| if course.is_multiple_of(2) { vec![[0.0, 0.4]] } else { vec![[0.0, 0.2], [0.2, 0.4]] };
+    let stones = (0..courses).flat_map(|course| {
+        let kept = if course == missing { 1 } else { 2 };
+        halves(course).into_iter().take(kept).map(move |[left, right]| {
+            let [bottom, top] = [course, course + 1].map(|rows| rows as f64 * height);
+            json!({"name": format!("{course}, {left}"), "corners_m": [[left, bottom], [right, bottom], [right, top], [left, top]]})
+        })
+    });
+    let polygons: Vec<Value> = stones.collect();
+    json!({
+        "blocks": {"polygons": polygons, "joints": "found", "supports": [{"name": "ground", "segments_m": [[[-1, 0], [2, 0]]]}]},
+        "stone": {"friction_angle_deg": 30, "compressive_strength_pa": strength},
+        "loads": [
+            {"load": {"self_weight": {}}},
+            {"load": {"body_acceleration": {"x_g": 1}}, "scaled": true}
+        ]
+    })
+}
+
+#[test]
+fn a_stone_on_its_very_tip_falls_at_nought() {
+    // No stone of usual strength is borne by its tip.
+    for (strength, outcome) in [(1e7, Outcome::Crushes), (1e16, Outcome::Collapse)] {
+        for (courses, missing) in [(4, 1), (5, 3), (6, 1), (7, 3)] {
+            for height in [0.1, 0.2, 0.3] {
+                let report = door::solve(&on_its_tip(courses, missing, height, strength));
+                let highest = report.limit_window.as_ref().map(|window| window.highest);
+                assert_eq!(
+                    (report.outcome, highest),
+                    (outcome, Some(0.0)),
+                    "{courses} of {height} m: {:?}",
+                    report.notes
+                );
+                assert!(report.end.unwrap().load_factor.abs() < 1e-15);
+            }
+        }
+    }
 }
 
 /// What falls to one side when it is pushed there falls to the other side when it is pushed the other way.

@@ -3,7 +3,9 @@
 use super::{Attempted, Setup};
 use crate::collapse::certificate::{any_fixed, loaded};
 use crate::collapse::discretise::Model;
-use crate::collapse::{AnalysisError, CollapseReport, Doubt, LoadRange, Note, Outcome, PathEnd, Task, ending, motion};
+use crate::collapse::{
+    AnalysisError, CollapseReport, Doubt, LoadRange, Note, Outcome, PathEnd, Task, ending, motion, tolerances,
+};
 use crate::dda::Tracer;
 
 /// What slides by less than this share of what hinges open by may only be strained (measured: a thousandth).
@@ -23,10 +25,16 @@ impl Setup<'_> {
         fall.range = self.range_of(&fall);
         let power = motion::power(self.analysis, &fall.mechanism, self.start);
         let (loose, slides) = (!loaded(self.analysis)[1], self.slides_in(&fall));
-        let doubt = self.certificate.fallen(self.start, loose, slides, power, self.budget);
+        let at_zero = self.certificate.ends_at_zero(self.sign);
+        // A stone that rests on its very tip: its weight does no work as it begins to turn.
+        let balanced = at_zero && !loose && !slides && power.abs() < tolerances::NO_WORK;
+        let doubt = match balanced {
+            true => None,
+            false => self.certificate.fallen(self.start, loose, slides, power, self.budget),
+        };
         self.budget.check()?;
         let doubt = doubt.or(self.certificate.standing_doubt(fall.residual));
-        if self.certificate.ends_at_zero(self.sign) {
+        if at_zero {
             report.notes.extend(doubt.is_none().then_some(Note::FallsFromZero));
             return Ok(Attempted { report: self.at_zero(report, fall), doubt });
         }

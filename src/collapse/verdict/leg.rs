@@ -127,7 +127,13 @@ impl Setup<'_> {
                 }
                 match self.certificate.compare(&ending.end, sign) {
                     Err(doubt) => Some(doubt),
-                    Ok(short) => (turned_back && short && ending.later).then_some(Doubt::TurnedBack(path)),
+                    Ok(short) => {
+                        // What path and window tell apart there is rounding.
+                        if !short && ending.end.range.is_none() && self.certificate.ends_at_zero(sign) {
+                            ending.end.load_factor = 0.0;
+                        }
+                        (turned_back && short && ending.later).then_some(Doubt::TurnedBack(path))
+                    }
                 }
             }
         };
