@@ -183,11 +183,11 @@ impl Certificate {
     /// Holds the end of a path against the window: a doubt, or whether it ends short of it, as sliding explains.
     pub(super) fn compare(&self, end: &PathEnd, sign: f64) -> Result<bool, Doubt> {
         let (path, limit) = (end.on_path(), self.end(sign).unwrap_or(0.0));
-        let alike = self.theorem.load_factor_scale();
-        let scale = limit.abs().max(path.abs()).max(tolerances::SMALL_FACTOR * alike);
+        let loads_equal = self.theorem.load_factor_scale();
+        let scale = limit.abs().max(path.abs()).max(tolerances::SMALL_FACTOR * loads_equal);
         let short = if limit.is_finite() { sign * (limit - path) / scale } else { f64::INFINITY };
         // Next to 0 a path, whose stiffness is scattered, passes the window by more than this share of almost nothing.
-        if short < -self.agrees[1] && sign * (path - limit) > tolerances::RESIDUAL * alike {
+        if short < -self.agrees[1] && sign * (path - limit) > tolerances::RESIDUAL * loads_equal {
             Err(Doubt::Above { path, limit })
         } else if short <= self.agrees[0] {
             Ok(false)
@@ -241,28 +241,43 @@ impl Certificate {
         (sign * limit < cap).then_some(Doubt::Above { path: sign * cap, limit })
     }
 
-    /// The arch fell at the start of the path; `loose`: some stone carries no load; `power` is what its loads do in the
-    /// mechanism, as a share of the most they could. No answer where the budget is spent.
-    pub(super) fn fallen(&self, start: f64, loose: bool, slides: bool, power: f64, budget: &Budget) -> Option<Doubt> {
-        // The joints of unloaded stones carry nothing, which leaves the static theorem no room to be solved in.
-        if loose && !self.stands_at(start) && self.theorem.nearly_stands(start, tolerances::MARGIN, budget) {
-            return Some(Doubt::LooseStones);
+    /// What is doubtful about an arch that fell at the start of its path. No answer where the budget is spent.
+    pub(super) fn fallen(&self, fell: Fell, budget: &Budget) -> Option<Doubt> {
+        let Fell { at, sign, power, slides } = fell;
+        let loose = self.theorem.leaves_unloaded(at, tolerances::MARGIN);
+        if !self.stands_at(at) {
+            // The joints of unloaded stones carry nothing, which leaves the static theorem no room to be solved in.
+            let nearly = loose && self.theorem.nearly_stands(at, tolerances::MARGIN, budget);
+            return nearly.then_some(Doubt::LooseStones);
         }
-        let doubt = match slides {
-            _ if power < tolerances::NO_WORK => Doubt::LooseStones,
-            true => Doubt::SlidesInside,
-            false => Doubt::FallsInside,
-        };
-        self.stands_at(start).then_some(doubt)
+        match slides {
+            _ if loose && power < tolerances::NO_WORK => Some(Doubt::LooseStones),
+            true => Some(Doubt::SlidesInside),
+            // A stone that rests on its very tip: its weight does no work as it begins to turn.
+            false if self.ends_at_zero(sign) && power.abs() < tolerances::NO_WORK => None,
+            false => Some(Doubt::FallsInside),
+        }
     }
 }
 
-/// Whether every stone carries a fixed load, and whether every stone carries any.
-pub(super) fn loaded(analysis: &Analysis) -> [bool; 2] {
-    let mut loads = vec![[false; 2]; analysis.structure.voussoirs().len()];
-    analysis.fixed.iter().for_each(|f| loads[f.body] = [true; 2]);
-    analysis.scaled.iter().for_each(|f| loads[f.body][1] = true);
-    [0, 1].map(|i| loads.iter().all(|l| l[i]))
+/// How an arch fell as the loads at the start of its path came on.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Fell {
+    /// Load factor of these loads.
+    pub at: f64,
+    /// Direction in which the load factor was to grow.
+    pub sign: f64,
+    /// What the loads do in the mechanism, as a share of the most they could.
+    pub power: f64,
+    /// Whether joints slide in it.
+    pub slides: bool,
+}
+
+/// Whether every stone carries a fixed load.
+pub(super) fn settled(analysis: &Analysis) -> bool {
+    let mut carries = vec![false; analysis.structure.voussoirs().len()];
+    analysis.fixed.iter().for_each(|f| carries[f.body] = true);
+    carries.into_iter().all(|carries| carries)
 }
 
 /// True where some load does not grow.

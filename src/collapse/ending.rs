@@ -75,6 +75,11 @@ pub(super) fn at_peak(
         ),
         mechanism::all_releases(structure, &left, &vec![None; left.len()], tolerances::CORNER_ON_PATH),
     ];
+    // Forces that nothing polished balance loads that an attempt disturbed.
+    let residual = match &polished {
+        Some(_) => residual,
+        None => residual.max(theorem.unbalanced(peak.parameter, &forces, &soil)),
+    };
     let load_factor = polished.map_or(peak.parameter, |e| e.load_factor);
     let thrust_line = thrust_line(structure, &forces);
     let end = PathEnd { load_factor, range: None, residual, mechanism, thrust_line, soil, crushed };

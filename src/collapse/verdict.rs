@@ -9,7 +9,7 @@ mod softer;
 
 pub(super) use mesh::{is_cohesive, notes_on_mesh};
 
-use super::certificate::{Certificate, ThrustLines, loaded};
+use super::certificate::{Certificate, ThrustLines, settled};
 use super::discretise::{Discretisation, Model};
 use super::path::{ATTEMPTS, Attempt, disturbed, nothing_grows, stand, total};
 use super::snapshot::snapshot;
@@ -99,7 +99,7 @@ impl<'a> Setup<'a> {
         }
         let (fixed, scaled) = (total(&analysis.fixed), total(&analysis.scaled));
         let balance = if fixed > 0.0 && scaled > 0.0 { fixed / scaled } else { 1.0 };
-        let (sign, settled) = (analysis.task.sign(), loaded(analysis)[0]);
+        let (sign, settled) = (analysis.task.sign(), settled(analysis));
         let cap = match &analysis.task {
             Task::Collapse(task) => task.cap.unwrap_or(DEFAULT_CAP * balance),
             Task::Safety(task) => task.cap.unwrap_or(DEFAULT_CAP * balance.max(1.0)),

@@ -193,14 +193,13 @@ impl<'a> Tracer<'a> {
     }
 
     /// What it means that equilibrium is lost to rounding: far out on a path that rises, nothing; in a soft direction in which it
-    /// has moved visibly, that the assembly has fallen; `residual` is the worst before.
+    /// has moved visibly, that the assembly has fallen, from a peak in equilibrium; `residual` is the worst before.
     fn lost_equilibrium(&mut self, drift: Drift, residual: f64) -> End {
         let moved = self.displacements.iter().fold(0.0, |most: f64, d| most.max(d.abs()));
         match self.is_mechanism() {
             false if self.rate > 0.0 && moved > FAR * self.size => End::Rising,
-            true if drift.moved() > VISIBLE * self.size => {
+            true if drift.moved() > VISIBLE * self.size && self.peaked_since(drift) => {
                 self.worst_residual = residual;
-                self.note_peak(true);
                 End::Mechanism
             }
             _ => End::Lost,

@@ -14,7 +14,7 @@ use super::static_theorem::{Equilibrium, Limit};
 use super::{StaticTheorem, Unsolved, WindowBases};
 use crate::budget::Budget;
 use crate::geometry::{Vec2, cross};
-use crate::structure::{Joint, PointForce};
+use crate::structure::{Joint, PointForce, Side};
 
 /// A parabola may be violated by this, relative to the loads and to the size of the point: ten times what the linear
 /// programme grants its own rows, so that every cut moves the point.
@@ -192,8 +192,9 @@ impl StaticTheorem {
         strengths.iter().enumerate().filter_map(dry).collect()
     }
 
-    /// What forces of all joints and elements leave of the loads on any body at a load factor, the moment over the size of the
-    /// structure, as a share of all loads that stay.
+    /// What forces of joints and elements leave of the loads on any body at a load factor, the moment over the size of the
+    /// structure, as a share of all loads that stay or, where these are larger, that grow. Bodies
+    /// of joints behind those that `forces` tells of are left out.
     pub fn unbalanced(&self, load_factor: f64, forces: &[Resultant], soil: &[f64]) -> f64 {
         let [fixed, scaled] = &self.loads;
         let mut left: Vec<[f64; 3]> =
@@ -214,8 +215,11 @@ impl StaticTheorem {
             let on = [force.x, force.y, cross(at - self.frame.origin, force)];
             (0..3).for_each(|i| left[element.body][i] += on[i]);
         }
+        let untold = self.joints[forces.len()..].iter().flat_map(|joint| joint.between).filter_map(Side::body);
+        untold.for_each(|body| left[body] = [0.0; 3]);
         let size = self.joints.iter().map(Joint::length).fold(self.frame.length, f64::max);
-        let share = |of: [f64; 3]| [of[0], of[1], of[2] / size].map(|part| part.abs() / self.force);
+        let loads = self.force * (load_factor / self.factor).abs().max(1.0);
+        let share = |of: [f64; 3]| [of[0], of[1], of[2] / size].map(|part| part.abs() / loads);
         left.into_iter().flat_map(share).fold(0.0, |most, next| if next.is_nan() || next > most { next } else { most })
     }
 

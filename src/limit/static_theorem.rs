@@ -216,6 +216,13 @@ impl StaticTheorem {
         row[last + 1] += dot(weights, self.carried[0][joint]);
     }
 
+    /// Whether some body carries no load at load factor `at`, or loads that cancel to within `slack`, a share of their sizes.
+    pub fn leaves_unloaded(&self, at: f64, slack: f64) -> bool {
+        let [fixed, scaled] = &self.loads;
+        let cancels = |f: f64, s: f64| (f + at * s).abs() <= slack * (f.abs() + (at * s).abs());
+        fixed.iter().zip(scaled).any(|(f, s)| (0..3).all(|i| cancels(f[i], s[i])))
+    }
+
     /// True where an equilibrium at load factor `at` violates no condition by more than `slack`, a share of the loads.
     pub fn nearly_stands(&self, at: f64, slack: f64, budget: &Budget) -> bool {
         let mut programme = Programme::new(self);

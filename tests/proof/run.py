@@ -144,7 +144,8 @@ def main():
     requests = {path.parent.name: json.loads(path.read_text()) for path in sorted((ROOT / "cases").glob("*/request.json"))}
     requests["crushing on the path"] = requests["first-arch"] | {"stone": {"compressive_strength_pa": 2e9}, "crushing_in_path": True}
     answers = {name: solve(voussoir, request) for name, request in requests.items()}
-    scenes = {f"random {seed}": solve(voussoir, scene(seed)) for seed in range(count)}
+    # The last ends where rounding takes its equilibrium from the path.
+    scenes = {f"random {seed}": solve(voussoir, scene(seed)) for seed in [*range(count), 11497]}
     refused = [name for name, answer in (answers | scenes).items() if answer is None]
     whole = {name: answer for name, answer in (answers | scenes).items() if answer and answer.get("proof")}
     forged = {f"{name}: {how}": answer for name in ("first-arch", "wall", "resisting-backfill") for how, answer in forgeries(answers[name]).items()}

@@ -1,11 +1,9 @@
 //! Arches that do not stand where the load path starts.
 
 use super::{Attempted, Setup};
-use crate::collapse::certificate::{any_fixed, loaded};
+use crate::collapse::certificate::{Fell, any_fixed};
 use crate::collapse::discretise::Model;
-use crate::collapse::{
-    AnalysisError, CollapseReport, Doubt, LoadRange, Note, Outcome, PathEnd, Task, ending, motion, tolerances,
-};
+use crate::collapse::{AnalysisError, CollapseReport, Doubt, LoadRange, Note, Outcome, PathEnd, Task, ending, motion};
 use crate::dda::Tracer;
 
 /// What slides by less than this share of what hinges open by may only be strained (measured: a thousandth).
@@ -23,18 +21,16 @@ impl Setup<'_> {
         let load_factor = if any_fixed(self.analysis) { self.start } else { 0.0 };
         let mut fall = ending::at_fall(self.analysis, model, tracer, self.start, load_factor);
         fall.range = self.range_of(&fall);
-        let power = motion::power(self.analysis, &fall.mechanism, self.start);
-        let (loose, slides) = (!loaded(self.analysis)[1], self.slides_in(&fall));
-        let at_zero = self.certificate.ends_at_zero(self.sign);
-        // A stone that rests on its very tip: its weight does no work as it begins to turn.
-        let balanced = at_zero && !loose && !slides && power.abs() < tolerances::NO_WORK;
-        let doubt = match balanced {
-            true => None,
-            false => self.certificate.fallen(self.start, loose, slides, power, self.budget),
+        let fell = Fell {
+            at: self.start,
+            sign: self.sign,
+            power: motion::power(self.analysis, &fall.mechanism, self.start),
+            slides: self.slides_in(&fall),
         };
+        let doubt = self.certificate.fallen(fell, self.budget);
         self.budget.check()?;
         let doubt = doubt.or(self.certificate.standing_doubt(fall.residual));
-        if at_zero {
+        if self.certificate.ends_at_zero(self.sign) {
             report.notes.extend(doubt.is_none().then_some(Note::FallsFromZero));
             return Ok(Attempted { report: self.at_zero(report, fall), doubt });
         }

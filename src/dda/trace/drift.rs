@@ -28,6 +28,11 @@ impl Tracer<'_> {
         moved > FAR * self.size && !self.worth_telling(gained, moved)
     }
 
+    /// Whether the peak lies on the drift, which gains nothing worth telling: it is where the assembly began to fall.
+    pub(super) fn peaked_since(&self, drift: Drift) -> bool {
+        self.peak.as_ref().is_some_and(|peak| peak.parameter >= drift.from)
+    }
+
     /// The drift after a step that the assembly has made.
     pub(super) fn drifted(&self, drift: Drift, step: f64) -> Drift {
         let moved = drift.moved + step;

@@ -8,8 +8,8 @@ const SLIDES_INSIDE: &str = "The arch falls by sliding as its loads come on. Lim
      it was built.";
 const NO_CERTIFICATE: &str = "Limit analysis gave no answer: rounding kept its programme from one, so nothing is known of the \
      window that the load path would be held against.";
-const LOOSE_STONES: &str = "Stones that carry neither weight nor load are free to move, so the load path cannot be followed. \
-     Give the arch its self weight.";
+const LOOSE_STONES: &str = "Stones that carry neither weight nor load, or loads that cancel, are free to move, so the load path \
+     cannot be followed. Give the arch its self weight, or leave out what cancels it.";
 
 /// One of the doubts.
 pub fn doubted(doubt: &Doubt) -> String {

@@ -37,9 +37,9 @@ pub struct EndBody {
     pub crushing: Option<FigureBody>,
     /// Range in which the intensity may lie, as joints slide; null where none does, and where crushing governs.
     pub range: Option<RangeBody>,
-    /// Largest equilibrium residual of any body, at any event of the load path where it was traced, else at its end, as a share of the
-    /// structure's weight, or of the largest load at a point where that is more; where crushing governs, at its forces and as a share
-    /// of the loads that stay.
+    /// Largest equilibrium residual of any body, at any event of the load path where it was traced, and of the forces at its end, as a
+    /// share of the structure's weight, or of the largest load at a point where that is more; where crushing governs, of its forces
+    /// alone, as a share of the loads that stay or, where these are more, that grow.
     pub residual: f64,
     /// What the scaled loads come to there, with their partial factor.
     pub scaled_load: ScaledLoadBody,
