@@ -68,6 +68,34 @@ fn every_stone_is_in_equilibrium_whatever_the_unknowns() {
 }
 
 #[test]
+fn forces_out_of_balance_are_told_as_a_share_of_the_larger_loads() {
+    let arch = arch();
+    let [fixed, scaled] = loads(&arch);
+    let theorem = theorem(&arch, &fixed, &scaled);
+    let mut unknowns = vec![0.3, -0.2, 0.1, 2.0];
+    for (load_factor, largest) in [(2.0, fixed.iter().map(|f| f.force.norm()).sum()), (500.0, 500.0)] {
+        unknowns[3] = load_factor / theorem.load_factor_scale();
+        let mut forces = theorem.resultants(&theorem.equilibrium(&unknowns, true));
+        assert!(theorem.unbalanced(load_factor, &forces, &[]) < 1e-14);
+        forces[4].shear += 1.0;
+        let told = theorem.unbalanced(load_factor, &forces, &[]) * largest;
+        assert!((0.5f64.sqrt()..=1.0).contains(&told), "{told} of 1 N/m");
+        // The last stone lies beside a joint that is not told of.
+        assert!(theorem.unbalanced(load_factor, &forces[..4], &[]) < 1e-14);
+    }
+}
+
+#[test]
+fn loads_that_cancel_leave_a_stone_without_any() {
+    let arch = arch();
+    let [fixed, _] = loads(&arch);
+    let theorem = theorem(&arch, &fixed, &[PointForce { force: fixed[1].force * -0.5, ..fixed[1] }]);
+    assert_eq!([1.9, 2.0, 2.1].map(|at| theorem.leaves_unloaded(at, 1e-9)), [false, true, false]);
+    let bare = StaticTheorem::new(&arch, &fixed[1..], &[]).unwrap();
+    assert!(bare.leaves_unloaded(1.0, 1e-9), "the first carries none");
+}
+
+#[test]
 fn the_window_does_not_depend_on_units() {
     let arch = arch();
     let [fixed, scaled] = loads(&arch);
