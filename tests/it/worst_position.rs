@@ -1,5 +1,7 @@
 //! Vehicles and their worst position, through the wire.
 
+mod scan;
+
 use crate::common::answered::{end, solved, text};
 use serde_json::{Value, json};
 use voussoir::wire::fault::Fault;
