@@ -79,22 +79,21 @@ impl<'m> States<'m> {
         States { chain: Some(chain), ..States::new(model) }
     }
 
-    /// The states of the chain at `start` and at a load factor, where it finds states without a path and no joint slides on the way.
-    pub(super) fn on_the_way(
-        &mut self,
-        start: f64,
-        load_factor: f64,
-    ) -> Result<Option<[ChainState; 2]>, AnalysisError> {
-        let (Some(chain), budget) = (&self.chain, self.model.budget) else { return Ok(None) };
-        let from = match self.last.take() {
-            Some(last) if last.load_factor == start => Some(last),
-            last => chain.state(start, last.as_ref(), budget)?,
-        };
-        let Some(from) = from else { return Ok(None) };
-        let Some(to) = chain.state(load_factor, Some(&from), budget)? else { return Ok(None) };
-        let sticks = chain.sticks_between(&from, &to, budget)?;
-        self.last = Some(to.clone());
-        Ok(sticks.then_some([from, to]))
+    /// The state of the chain at a load factor, where it finds states without a path.
+    pub(super) fn of_the_chain(&mut self, load_factor: f64) -> Result<Option<ChainState>, AnalysisError> {
+        let Some(chain) = &self.chain else { return Ok(None) };
+        if self.last.as_ref().is_none_or(|last| last.load_factor != load_factor) {
+            self.last = chain.state(load_factor, self.last.as_ref(), self.model.budget)?;
+        }
+        Ok(self.last.clone())
+    }
+
+    /// The same, where no joint slides on the way from the state at `start` to that.
+    pub(super) fn on_the_way(&mut self, start: f64, load_factor: f64) -> Result<Option<ChainState>, AnalysisError> {
+        let Some(from) = self.of_the_chain(start)? else { return Ok(None) };
+        let to = self.of_the_chain(load_factor)?;
+        let (Some(chain), Some(to)) = (&self.chain, to) else { return Ok(None) };
+        Ok(chain.sticks_between(&from, &to, self.model.budget)?.then_some(to))
     }
 
     /// Whether some state was not found without the path, or may be another than the path's.

@@ -86,8 +86,9 @@ impl Setup<'_> {
             recorder.asked_before(near).into_iter().for_each(|at| recorder.know(at, &[]));
             recorder
         };
-        let Some([at_start, close]) = states.on_the_way(self.start, near)? else { return Ok(false) };
-        let exact = if history { at_start } else { close };
+        // The whole path tells for itself that no joint slides.
+        let exact = if history { states.of_the_chain(self.start)? } else { states.on_the_way(self.start, near)? };
+        let Some(exact) = exact else { return Ok(false) };
         let from = exact.load_factor;
         let Some(state) = on_path.state(from, Some(&exact), self.budget)? else { return Ok(false) };
         let mut seen = recorder();

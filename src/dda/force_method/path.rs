@@ -14,11 +14,11 @@ use super::openings::Opening;
 use super::{ChainState, Linear, Loaded, Three, value};
 use crate::budget::{Budget, Stopped};
 use crate::dda::contact::{State, Zone};
-use bearing::{Bearing, NEVER};
-use borders::{Borders, Crossing, Functions};
+use bearing::NEVER;
+use borders::{Border, Borders, Crossing};
 use carry_over::CarryOver;
-use pulp::Arch;
-use std::ops::Range;
+
+pub use carry_over::Felt;
 
 /// Work of looking at an interface, and of renewing one, in multiplications.
 const LOOK: usize = 40;
@@ -34,13 +34,12 @@ pub struct ChainPath<'l> {
     chain: &'l Loaded<'l>,
     state: ChainState,
     carry_over: CarryOver,
-    bearings: Vec<Bearing>,
     borders: Borders,
     /// +1 where the load factor increases, -1 where it decreases.
     sign: f64,
     going: Going,
     events: usize,
-    felt: Range<usize>,
+    felt: Felt,
 }
 
 /// Change along the path: of redundants and load factor, and of the gaps of open points.
@@ -86,9 +85,9 @@ impl<'l> ChainPath<'l> {
         let carry_over = CarryOver::new(chain, state);
         let going = goes_on(chain, state, sign)?;
         let borders = Borders::new(state.splits.len());
-        let (state, bearings) = (state.clone(), (0..state.splits.len()).map(|k| Bearing::new(chain, k)).collect());
-        let mut path = ChainPath { chain, state, carry_over, bearings, borders, sign, going, events: 0, felt: 0..0 };
-        (0..path.bearings.len()).for_each(|k| path.renew_borders(k));
+        let state = state.clone();
+        let mut path = ChainPath { chain, state, carry_over, borders, sign, going, events: 0, felt: Felt::default() };
+        (0..path.borders.interfaces()).for_each(|k| path.put_borders(k));
         Some(path)
     }
 
@@ -102,9 +101,9 @@ impl<'l> ChainPath<'l> {
         &self.state
     }
 
-    /// Interfaces with what the last event has changed in how they go on.
-    pub fn felt(&self) -> Range<usize> {
-        self.felt.clone()
+    /// What the last event has changed in how interfaces go on.
+    pub fn felt(&self) -> &Felt {
+        &self.felt
     }
 
     /// Goes to the next change of state, or to a load factor.
@@ -132,7 +131,7 @@ impl<'l> ChainPath<'l> {
     /// The nearest change on the way, and how far it is.
     fn next_change(&mut self) -> Option<(f64, Change)> {
         let (here, rate) = (self.place(), self.going.rate());
-        let crossing = self.borders.next(&here, &rate);
+        let crossing = self.borders.next(&self.state.reduced.splits, &here, &rate);
         let (mut step, mut nearest) = (f64::INFINITY, None);
         if let Some(Crossing { step: at, interface, which }) = crossing {
             (step, nearest) = (at, Some(Change::Border { interface, which }));
@@ -160,20 +159,21 @@ impl<'l> ChainPath<'l> {
     /// Changes the state of a point and turns into the new one; false where that is not told.
     fn cross(&mut self, change: Change, budget: &Budget) -> Result<bool, Stopped> {
         let Some((interface, split, back)) = self.after(change) else { return Ok(false) };
-        self.felt = 0..0;
+        self.felt = Felt::default();
         if self.state.splits[interface] != split {
-            let changed = self.carry_over.change(self.chain, &mut self.state, interface, split);
-            budget.work(RENEWED * changed.len())?;
-            // With the processor's vectors; nothing is fused, so that all round alike.
-            Arch::new().dispatch(|| changed.clone().for_each(|k| self.renew_borders(k)));
-            self.felt = changed;
+            self.felt = self.carry_over.change(self.chain, &mut self.state, interface, split);
+            budget.work(RENEWED * self.felt.interfaces.len())?;
+            self.renew_borders();
         }
         self.settle();
         let Some(going) = goes_on(self.chain, &self.state, self.sign) else { return Ok(false) };
         self.going = going;
         // It goes on away from the border it has crossed.
         Ok(match back {
-            Some(which) => self.borders.rate(interface, which, &self.going.rate()) > 0.0,
+            Some(which) => {
+                let split = &self.state.reduced.splits[interface];
+                self.borders.rate(interface, which, split, &self.going.rate()) > 0.0
+            }
             None => self.going.gaps.last().is_some_and(|rate| *rate > 0.0),
         })
     }
@@ -226,26 +226,36 @@ impl<'l> ChainPath<'l> {
         }
     }
 
-    /// Renews the functions of an interface, in its present state. Of one that sticks: how much more shear either way its points bear,
+    /// Renews what the last event has changed of the borders.
+    fn renew_borders(&mut self) {
+        let (interfaces, changed) = (self.felt.interfaces.clone(), self.felt.changed);
+        self.borders.follow(&self.felt);
+        for k in interfaces {
+            // The borders of those that stick follow the splits.
+            if k == changed || self.state.splits[k] != Split::Held {
+                self.put_borders(k);
+            }
+        }
+    }
+
+    /// Puts down the functions of an interface in its present state. Of one that sticks: how much more shear either way its points bear,
     /// first point first. Of one with a point that slides: that point's normal force, how far it has slipped, and what the other point
     /// bears, or nothing but that where the one is open.
-    #[inline(always)]
-    fn renew_borders(&mut self, k: usize) {
-        let (chain, splits, functions) = (self.chain, &self.state.reduced.splits, self.borders.of(k));
+    fn put_borders(&mut self, k: usize) {
+        let chain = self.chain;
         let normal = |point: usize| chain.linear(k, &chain.method.statics[k].normals[point]);
-        self.bearings[k].put(&splits[k], functions);
+        let mut border = bearing::of(chain, k);
         match self.state.splits[k] {
             Split::Held => {}
             Split::Slides(point, sign) => {
                 let way = if point == 0 { -sign } else { sign };
-                beside(functions, point, [normal(point), chain.off(k, splits).map(|off| way * off)]);
+                let off = chain.off(k, &self.state.reduced.splits).map(|off| way * off);
+                border.beside(point, [normal(point), off]);
             }
-            Split::Open(point) => beside(functions, point, [NEVER; 2]),
-            Split::Smooth => {
-                let [first, second] = [0, 1].map(normal);
-                *functions = std::array::from_fn(|c| [first[c], second[c], NEVER[c], NEVER[c]]);
-            }
+            Split::Open(point) => border.beside(point, [NEVER; 2]),
+            Split::Smooth => border = Border::of([normal(0), normal(1), NEVER, NEVER], [0.0; 4]),
         }
+        self.borders.put(k, border);
     }
 
     /// State of every contact.
@@ -268,14 +278,6 @@ impl<'l> ChainPath<'l> {
         let largest = motion.iter().fold(f64::MIN_POSITIVE, |most, d| most.max(d.abs()));
         motion.iter_mut().for_each(|d| *d /= largest);
         motion
-    }
-}
-
-/// Puts functions of a point that does not stick before what the other one bears.
-fn beside(functions: &mut Functions, point: usize, [first, second]: [Linear; 2]) {
-    for (c, coefficients) in functions.iter_mut().enumerate() {
-        let bears = coefficients.as_chunks::<2>().0[1 - point];
-        *coefficients = [first[c], second[c], bears[0], bears[1]];
     }
 }
 

@@ -10,7 +10,7 @@ use super::super::{ChainState, Linear, Loaded, plus};
 use std::ops::Range;
 
 /// So many changes may leave rounding in splits and gradient that follow them, each as large as the largest split that is free.
-const MOST_FOLLOWED: usize = 64;
+const MOST_FOLLOWED: usize = 256;
 /// A smaller share of a change than this is not felt.
 const FELT: f64 = 1e-16;
 
@@ -26,6 +26,39 @@ pub(super) struct CarryOver {
     changed: f64,
     /// The largest split that was free whenever that was done, where that is least, N/m: a large change may be taken back.
     scale: f64,
+}
+
+/// What a change at one interface has done to the splits.
+#[derive(Debug, Clone, Default)]
+pub struct Felt {
+    /// Interfaces that feel it.
+    pub interfaces: Range<usize>,
+    /// The one whose split is prescribed otherwise now.
+    pub changed: usize,
+    /// The change of its split.
+    pub change: Linear,
+    /// How often each of the interfaces takes that; nothing where all were solved for anew.
+    shares: Vec<f64>,
+}
+
+impl Felt {
+    /// Of a change that all take shares of.
+    #[cfg(test)]
+    pub fn carried(changed: usize, change: Linear, shares: Vec<f64>) -> Self {
+        Felt { interfaces: 0..shares.len(), changed, change, shares }
+    }
+
+    /// How often each of some interfaces takes the change; none where it is not only carried over to these, for all were solved for
+    /// anew, or the changed one is among them, or one up to which it is carried, which may be prescribed.
+    pub fn carried_to(&self, some: &Range<usize>) -> Option<&[f64]> {
+        let inner = self.interfaces.start + 1..self.interfaces.end.saturating_sub(1);
+        let carried = inner.start <= some.start && some.end <= inner.end && !some.contains(&self.changed);
+        if carried && !self.shares.is_empty() {
+            let start = some.start - self.interfaces.start;
+            return self.shares.get(start..start + some.len());
+        }
+        None
+    }
 }
 
 /// Whether two shares differ by no more than rounding.
@@ -72,8 +105,8 @@ impl CarryOver {
         if free { -next[k - 1] / (own[k] + self.added_after(chain, k)) } else { 0.0 }
     }
 
-    /// Changes how the split of interface `k` is prescribed; returns the interfaces that feel it.
-    pub(super) fn change(&mut self, chain: &Loaded, state: &mut ChainState, k: usize, split: Split) -> Range<usize> {
+    /// Changes how the split of interface `k` is prescribed.
+    pub(super) fn change(&mut self, chain: &Loaded, state: &mut ChainState, k: usize, split: Split) -> Felt {
         let before = std::mem::replace(&mut state.splits[k], split);
         let off = chain.off(k, &state.reduced.splits);
         let changed = chain.prescribed(k, split).unwrap_or_else(|| {
@@ -87,7 +120,7 @@ impl CarryOver {
             state.reduced = chain.reduced(&state.splits);
             let anew = CarryOver::new(chain, state);
             *self = CarryOver { scale: anew.scale.min(self.scale), ..anew };
-            return 0..state.splits.len();
+            return Felt { interfaces: 0..state.splits.len(), changed: k, change, shares: Vec::new() };
         }
         self.renew_shares(chain, &state.splits, k);
         let ChainState { splits: prescribed, reduced: Reduced { splits, gradient }, .. } = state;
@@ -97,6 +130,7 @@ impl CarryOver {
         splits[k] = changed;
         // How often the rows of the gradient take the change.
         let mut by_change = chain.gradient.mixed[k];
+        let mut shares = vec![1.0];
         let mut carry = |j: usize, tie: f64, from: f64, share: f64| {
             let taken = from * share;
             add(&mut splits[j], taken, &change);
@@ -105,6 +139,7 @@ impl CarryOver {
                 None => chain.gradient.mixed[j].map(|by| by * taken),
             };
             by_change = plus(&by_change, &by);
+            shares.push(taken);
             taken
         };
         let (mut start, mut share) = (k, 1.0);
@@ -117,11 +152,12 @@ impl CarryOver {
             share = carry(end, chain.gradient.next[end - 1], self.from_before[end], share);
             end += 1;
         }
+        shares[..=k - start].reverse();
         add_by(gradient, &by_change, &change);
         if let Some(by) = chain.virtual_split(k, split) {
             add_by(gradient, &by, &chain.off(k, splits));
         }
-        start..end
+        Felt { interfaces: start..end, changed: k, change, shares }
     }
 
     /// Renews who takes what from whom after a change at interface `k`.

@@ -3,12 +3,12 @@
 //! Bodies are taken in blocks. From one state to the next, no body of a block moves by more than its first one does and all that they can
 //! differ by. A block in which none can have come up with the farthest needs no look.
 
+use super::super::path::Felt;
 use super::super::reduced::add;
 use super::super::{ChainPath, ChainState, Linear, Three, plus, value};
 use super::{OfBody, Shifts, slipped};
 use crate::geometry::Vec2;
 use std::iter::zip;
-use std::ops::Range;
 
 /// Bodies that are looked at together.
 const BLOCK: usize = 32;
@@ -69,7 +69,7 @@ impl<'l> ShiftsAlong<'l> {
         let blocks = shifts.bodies.chunks(BLOCK).map(of_block).collect();
         let ChainState { redundants, load_factor, .. } = *path.state();
         let mut along = ShiftsAlong { shifts, blocks, first: 0, redundants, load_factor, apart: Vec::new() };
-        along.renew(path.state(), 0..path.state().splits.len());
+        (0..along.blocks.len()).for_each(|b| along.renew(path.state(), b));
         along.pass(path);
         along
     }
@@ -84,7 +84,7 @@ impl<'l> ShiftsAlong<'l> {
             let by = |c: usize| way[c] * (block.differ[0][c] + block.differ[1][c]);
             block.bound += (0..5).map(by).sum::<f64>();
         }
-        self.renew(state, path.felt());
+        self.follow(state, path.felt());
         self.move_starts(state);
         // Within a block that is apart, or was until now, bodies move beside its first.
         let apart = state.open.iter().map(|opening| opening.interface / BLOCK);
@@ -94,33 +94,51 @@ impl<'l> ShiftsAlong<'l> {
         }
     }
 
-    /// Renews what depends on the splits of these interfaces.
-    fn renew(&mut self, state: &ChainState, interfaces: Range<usize>) {
-        let Shifts { chain, bodies } = &self.shifts;
-        let splits = &state.reduced.splits;
-        let felt = interfaces.start.saturating_sub(1)..interfaces.end.min(bodies.len());
-        if felt.is_empty() {
+    /// Takes in how splits have changed.
+    fn follow(&mut self, state: &ChainState, felt: &Felt) {
+        let bodies = self.shifts.bodies.len();
+        let some = felt.interfaces.start.saturating_sub(1)..felt.interfaces.end.min(bodies);
+        if some.is_empty() {
             return;
         }
-        for b in felt.start / BLOCK..=(felt.end - 1) / BLOCK {
-            let (block, start) = (&mut self.blocks[b], b * BLOCK);
-            let end = bodies.len().min(start + BLOCK);
-            let (mut passes, mut sums, mut slips) = ([[0.0; 5]; 3], splits[end].map(f64::abs), [0.0; 5]);
-            for k in start..end {
-                zip(&mut passes, bodies[k].passed).for_each(|(row, by)| add(row, by, &splits[k]));
-                add(&mut sums, 1.0, &splits[k].map(f64::abs));
-                let slipped = slipped(state.splits[k]);
-                if slipped != 0.0 {
-                    let off = chain.off(k, splits);
-                    let shear = chain.method.statics[k].shear;
-                    zip(&mut passes, shear).for_each(|(row, by)| add(row, slipped * by, &off));
-                    // Shear is a unit vector.
-                    add(&mut slips, slipped.abs(), &off.map(f64::abs));
-                }
+        for b in some.start / BLOCK..=(some.end - 1) / BLOCK {
+            let (start, end) = (b * BLOCK, bodies.min((b + 1) * BLOCK));
+            let Some(shares) = felt.carried_to(&(start..end + 1)) else {
+                self.renew(state, b);
+                continue;
+            };
+            let (mut passed, mut sum) = ([0.0; 3], shares[end - start].abs());
+            for (share, body) in zip(shares, &self.shifts.bodies[start..end]) {
+                passed = plus(&passed, &body.passed.map(|passed| share * passed));
+                sum += share.abs();
             }
-            add(&mut slips, block.split, &sums);
-            (block.passes, block.differ[1]) = (passes, slips);
+            let block = &mut self.blocks[b];
+            zip(&mut block.passes, passed).for_each(|(row, by)| add(row, by, &felt.change));
+            add(&mut block.differ[1], sum * block.split, &felt.change.map(f64::abs));
         }
+    }
+
+    /// Renews what depends on the splits within a block.
+    fn renew(&mut self, state: &ChainState, b: usize) {
+        let Shifts { chain, bodies } = &self.shifts;
+        let splits = &state.reduced.splits;
+        let (block, start) = (&mut self.blocks[b], b * BLOCK);
+        let end = bodies.len().min(start + BLOCK);
+        let (mut passes, mut sums, mut slips) = ([[0.0; 5]; 3], splits[end].map(f64::abs), [0.0; 5]);
+        for k in start..end {
+            zip(&mut passes, bodies[k].passed).for_each(|(row, by)| add(row, by, &splits[k]));
+            add(&mut sums, 1.0, &splits[k].map(f64::abs));
+            let slipped = slipped(state.splits[k]);
+            if slipped != 0.0 {
+                let off = chain.off(k, splits);
+                let shear = chain.method.statics[k].shear;
+                zip(&mut passes, shear).for_each(|(row, by)| add(row, slipped * by, &off));
+                // Shear is a unit vector.
+                add(&mut slips, slipped.abs(), &off.map(f64::abs));
+            }
+        }
+        add(&mut slips, block.split, &sums);
+        (block.passes, block.differ[1]) = (passes, slips);
     }
 
     /// Moves the first body of every block to where it is in a state.
