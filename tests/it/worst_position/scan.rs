@@ -89,7 +89,8 @@ fn the_worst_position_is_that_of_a_fine_scan() {
         let grid: usize = question.sweeps.iter().map(|sweep| sweep.parts() + 1).sum();
         beside.push(report.curve.len() - grid);
     }
-    // Little is solved beside the grid, whose positions are a hundred times as far apart as those of the scan.
+    // Little is solved beside the grid, whose positions are a hundred times as far apart as those of the scan (measured: 75, and 6 of
+    // one).
     let (all, most) = (beside.iter().sum::<usize>(), beside.iter().max());
-    assert!(all <= 95 && most <= Some(&9), "{all} positions solved beside the grid, at most {most:?} of one bridge");
+    assert!(all <= 80 && most <= Some(&7), "{all} positions solved beside the grid, at most {most:?} of one bridge");
 }
