@@ -1,12 +1,13 @@
 //! Assemblies that move on and on while their load hardly rises, as where stones slide.
 
 use super::moving::{Patience, farthest};
+use super::point::PathState;
 use super::{Peak, Tracer};
 
 /// A stretch of a path, from where its parameter had last risen by enough.
 #[derive(Debug, Clone)]
 pub(super) struct Stretch {
-    from: Place,
+    from: PathState,
     /// The parameter at the start of the path.
     start: f64,
     /// What the parameter had risen since then, and at least what counts as a rise.
@@ -16,27 +17,7 @@ pub(super) struct Stretch {
     knee: Peak,
     above: f64,
     /// Where the path was last.
-    last: Place,
-}
-
-/// Parameter and displacements.
-#[derive(Debug, Clone)]
-struct Place {
-    parameter: f64,
-    displacements: Vec<f64>,
-}
-
-impl Place {
-    fn of(tracer: &Tracer) -> Self {
-        Place { parameter: tracer.parameter, displacements: tracer.displacements.clone() }
-    }
-
-    /// The place between this and another one at which the parameter is this.
-    fn towards(&self, other: &Place, parameter: f64) -> Self {
-        let share = ((parameter - self.parameter) / (other.parameter - self.parameter)).clamp(0.0, 1.0);
-        let between = |(a, b): (&f64, &f64)| a + share * (b - a);
-        Place { parameter, displacements: self.displacements.iter().zip(&other.displacements).map(between).collect() }
-    }
+    last: PathState,
 }
 
 impl Stretch {
@@ -44,27 +25,19 @@ impl Stretch {
     fn enough(&self, patience: Patience) -> f64 {
         self.from.parameter + patience.creep * self.rise
     }
-
-    /// How much of what the parameter has to rise by it has risen to a place, and how much of what counts as far the assembly has
-    /// moved.
-    fn to(&self, place: &Place, patience: Patience, size: f64) -> [f64; 2] {
-        let moved = farthest(&place.displacements, &self.from.displacements);
-        let (needed, far) = (patience.creep * self.rise, patience.movement[1] * size);
-        [(place.parameter - self.from.parameter) / needed, moved / far]
-    }
 }
 
 impl Tracer<'_> {
     /// A stretch that starts at the start of a path.
     pub(super) fn stretch(&self, least_rise: f64) -> Stretch {
-        let (start, here) = (self.parameter, Place::of(self));
+        let (start, here) = (self.parameter, self.point());
         Stretch { from: here.clone(), start, rise: least_rise, knee: self.as_peak(), above: 0.0, last: here }
     }
 
     /// Whether the assembly has moved far in this stretch while its parameter went on rising, but by too little: it has fallen at the
     /// knee, which becomes the peak. Where the parameter has risen by enough a new stretch begins, wherever steps end.
     pub(super) fn creeps(&mut self, stretch: &mut Stretch, patience: Patience) -> bool {
-        let here = Place::of(self);
+        let here = self.point();
         let mut begins = false;
         while here.parameter > stretch.enough(patience) {
             let risen = stretch.enough(patience);
@@ -74,7 +47,9 @@ impl Tracer<'_> {
             stretch.rise = (stretch.from.parameter - stretch.start).max(patience.rise);
             begins = true;
         }
-        let [gained, moved] = stretch.to(&here, patience, self.size);
+        let (needed, far) = (patience.creep * stretch.rise, patience.movement[1] * self.size);
+        let gained = (here.parameter - stretch.from.parameter) / needed;
+        let moved = farthest(&here.displacements, &stretch.from.displacements) / far;
         stretch.last = here;
         if begins || gained - moved > stretch.above {
             (stretch.knee, stretch.above) = (self.as_peak(), gained - moved);

@@ -12,6 +12,15 @@ pub(super) struct PathState {
     rest: f64,
 }
 
+impl PathState {
+    /// The point on the line to another one, between whose parameters this one lies.
+    pub(super) fn towards(&self, other: &PathState, parameter: f64) -> Self {
+        let share = ((parameter - self.parameter) / (other.parameter - self.parameter)).clamp(0.0, 1.0);
+        let displacements = self.displacements.iter().zip(&other.displacements).map(|(a, b)| a + share * (b - a));
+        PathState { displacements: displacements.collect(), parameter, rests: vec![0.0; self.rests.len()], rest: 0.0 }
+    }
+}
+
 impl Tracer<'_> {
     /// Where the path is.
     pub(super) fn point(&self) -> PathState {

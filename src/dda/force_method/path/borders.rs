@@ -18,7 +18,7 @@ type Functions = [[f64; 4]; 5];
 pub(super) struct Border {
     /// Without the split.
     functions: Functions,
-    /// The change of each with the split: 1, -1 or 0.
+    /// The change of each with the split, no more than 1 either way.
     by_split: [f64; 4],
 }
 
@@ -76,7 +76,7 @@ struct Group {
     /// The middle of their coefficients, and the most that these differ from it.
     middle: Functions,
     differ: Functions,
-    /// Whether functions have been put down since they were looked at.
+    /// Whether functions have been put down since their coefficients were measured.
     renewed: bool,
 }
 
