@@ -12,7 +12,7 @@ mod patch;
 mod vehicle;
 
 use super::{ActsOn, Body, GRAVITY, PointForce, Structure, Surface};
-use crate::geometry::{Vec2, distance_from_segment, lies_inside};
+use crate::geometry::{Vec2, distance_from_segment, lies_inside, perpendicular};
 pub use dispersal::{Dispersal, Distribution};
 pub use fill::{Fill, FillBacking, Layer, SurfaceLine};
 pub use passive::Passive;
@@ -257,7 +257,8 @@ fn middle_load(structure: &Structure, force: Vec2, body: usize) -> Result<PointF
         return Err(LoadFault::NoSuchVoussoir { last });
     };
     let [a, b] = surface.ends;
-    Ok(PointForce { body, at: 0.5 * (a + b), force, acts_on: ActsOn::Point })
+    let at = structure.bodies[body].onto_arc(0.5 * (a + b), perpendicular(b - a));
+    Ok(PointForce { body, at, force, acts_on: ActsOn::Point })
 }
 
 fn force_on(structure: &Structure, body: usize, at: Vec2, force: Vec2) -> Result<PointForce, LoadFault> {
@@ -303,7 +304,7 @@ fn plan(structure: &Structure) -> (f64, f64) {
     (xs().fold(f64::INFINITY, f64::min), xs().fold(f64::NEG_INFINITY, f64::max))
 }
 
-/// A load at abscissa `x`, on the topmost surface that runs to the right; over an end that it shares with its
+/// A load at abscissa `x`, on the topmost surface that runs to the right, on its arc where it is one; over an end that it shares with its
 /// neighbour, each takes half.
 fn point_load(structure: &Structure, force: Vec2, x: f64) -> Result<Vec<PointForce>, LoadFault> {
     let (from, to) = plan(structure);
@@ -323,11 +324,12 @@ fn point_load(structure: &Structure, force: Vec2, x: f64) -> Result<Vec<PointFor
     let mut bearers = vec![top];
     bearers.extend(under.iter().filter(stands_too).map(|&(i, _)| i));
     bearers.sort_unstable();
-    let (at, share) = (Vec2::new(x, y), force / bearers.len() as f64);
-    Ok(bearers
-        .into_iter()
-        .map(|i| PointForce { body: surfaces[i].body, at, force: share, acts_on: ActsOn::Point })
-        .collect())
+    let share = force / bearers.len() as f64;
+    let on = |body: usize| {
+        let at = structure.bodies[body].onto_arc(Vec2::new(x, y), Vec2::y());
+        PointForce { body, at, force: share, acts_on: ActsOn::Point }
+    };
+    Ok(bearers.into_iter().map(|i| on(surfaces[i].body)).collect())
 }
 
 #[cfg(test)]
