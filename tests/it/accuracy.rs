@@ -311,6 +311,23 @@ fn no_model_has_more_subblocks_than_allowed() {
     assert!(report.notes.iter().any(|note| matches!(note, Note::TooCoarseToYield { .. })), "{:?}", report.notes);
 }
 
+/// At half the collapse load a mesh that is refined wherever the accuracy asks for it has more subblocks than allowed; one that is
+/// refined where it gains most, as far as they go, meets it.
+#[test]
+fn subblocks_that_are_allowed_are_used() {
+    let estimates = [0.1, 0.05, 0.01].map(|asked| {
+        let of = json!({"accuracy": {"stress": asked, "subblocks": 600}, "report": {"stress_fields": [{"load_factor": 121.5625}]}});
+        let plan = door::solve(&semicircle(27, &of)).plan.unwrap();
+        assert!(plan.meshes.iter().all(|mesh| mesh.subblocks <= 600), "{plan:?}");
+        let stress = plan.stress.unwrap();
+        let full = plan.why.iter().any(|why| matches!(why, PlanReason::NextTooLarge { allowed: 600, .. }));
+        assert_eq!((stress.met, full), (asked >= 0.05, asked < 0.05), "{plan:?}");
+        stress.estimate.unwrap()
+    });
+    // Who asks for more never gets less.
+    assert!(estimates.is_sorted_by(|a, b| a >= b), "{estimates:?}");
+}
+
 #[test]
 fn what_does_not_go_with_an_accuracy_is_refused() {
     let faults = |more: Value| {

@@ -76,15 +76,13 @@ pub(super) fn solve(
     let near_points = near_points(analysis);
     let mut mesh = Refinement::new(drawing(&analysis.structure).0, ladders, near_points, report);
     let why = loop {
-        let marked = match mesh.told() {
-            Some(estimate) if estimate <= asked => break PlanReason::AccurateEnough,
-            Some(_) => mesh.marked(asked),
-            None => vec![true; mesh.levels.len()],
-        };
-        let levels = mesh.raised(&marked);
-        if let Some(why) = mesh.last_before(&levels, most) {
-            break why;
+        if mesh.told().is_some_and(|estimate| estimate <= asked) {
+            break PlanReason::AccurateEnough;
         }
+        let levels = match mesh.next(asked, most) {
+            Ok(levels) => levels,
+            Err(why) => break why,
+        };
         let (report, found) = solve(&mesh.subblocks(&levels), states.as_ref())?;
         if report.outcome == Outcome::CannotTell || report.stress_fields.len() != mesh.errors.len() {
             break PlanReason::NextLost;
@@ -152,13 +150,24 @@ impl Refinement {
         (0..self.levels.len()).map(raise).collect()
     }
 
-    /// Why the mesh is the last, and none of these levels is tried.
-    fn last_before(&self, levels: &[usize], most: usize) -> Option<PlanReason> {
-        let subblocks = total(&self.subblocks(levels));
-        if levels == self.levels {
-            return Some(PlanReason::Finest);
+    /// Levels of the next mesh, or why this is the last: those that the accuracy asks for, or as many of them as are allowed. Without
+    /// an estimate every voussoir has to be refined.
+    fn next(&self, asked: f64, most: usize) -> Result<Vec<usize>, PlanReason> {
+        let marked = |most: usize| {
+            let marked = self.told().map(|_| self.marked(asked, most));
+            self.raised(&marked.unwrap_or_else(|| vec![true; self.levels.len()]))
+        };
+        let wanted = marked(usize::MAX);
+        let subblocks = total(&self.subblocks(&wanted));
+        if wanted == self.levels {
+            Err(PlanReason::Finest)
+        } else if subblocks <= most {
+            Ok(wanted)
+        } else {
+            let allowed = marked(most);
+            let fits = allowed != self.levels && total(&self.subblocks(&allowed)) <= most;
+            if fits { Ok(allowed) } else { Err(PlanReason::NextTooLarge { subblocks, allowed: most }) }
         }
-        (subblocks > most).then_some(PlanReason::NextTooLarge { subblocks, allowed: most })
     }
 
     /// Takes in the answer on a finer mesh.
@@ -192,22 +201,23 @@ impl Refinement {
     }
 
     /// Voussoirs to refine: those that promise the most for the subblocks they take, until as accurate as asked, or half as far
-    /// off (in squares) where that is a long way.
-    fn marked(&self, asked: f64) -> Vec<bool> {
+    /// off (in squares) where that is a long way, or until the next would make more subblocks than `most`.
+    fn marked(&self, asked: f64, most: usize) -> Vec<bool> {
         let [now, then] = [0, 1].map(|halvings| self.shares(halvings));
         let [before, after] = [&self.levels, &self.raised(&vec![true; now.len()])].map(|levels| self.subblocks(levels));
-        let worth = |k: usize| (now[k] - then[k]) / (total(&after[k..=k]) - total(&before[k..=k])) as f64;
+        let taken = |k: usize| total(&after[k..=k]) - total(&before[k..=k]);
+        let worth = |k: usize| (now[k] - then[k]) / taken(k) as f64;
         let mut order: Vec<usize> = (0..now.len()).filter(|&k| after[k] != before[k]).collect();
         order.sort_by(|&a, &b| worth(b).total_cmp(&worth(a)));
-        let mut left: f64 = now.iter().sum();
+        let (mut left, mut subblocks) = (now.iter().sum::<f64>(), total(&before));
         let goal = (AIM * asked).powi(2).max(0.5 * left);
         let mut marked = vec![false; now.len()];
         for k in order {
-            if left <= goal {
+            if left <= goal || subblocks + taken(k) > most {
                 break;
             }
             marked[k] = true;
-            left -= now[k] - then[k];
+            (left, subblocks) = (left - (now[k] - then[k]), subblocks + taken(k));
         }
         marked
     }
