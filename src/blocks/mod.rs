@@ -8,6 +8,7 @@ mod fault;
 mod given;
 mod outline;
 mod overlap;
+mod row;
 
 pub use fault::{BlocksFault, MAX_CORNERS, MAX_CORNERS_IN_ALL, MAX_FAULTS, MAX_POLYGONS};
 
@@ -16,6 +17,7 @@ use crate::structure::{Body, Joint, Side, Sides, Stone, Structure};
 use contacts::{doubled, found, overlaps};
 use given::{Names, given, grounds};
 use outline::{Outline, bounds, open};
+use row::list_along_row;
 
 /// The tolerance where none is given, as a share of the extent: the longer side of the box round all corners.
 pub const DEFAULT_TOLERANCE: f64 = 1e-6;
@@ -115,7 +117,8 @@ pub struct Blocks {
 impl Blocks {
     /// The structure. Joints on supports come first, in the order of the supports, and have the support before them; then joints
     /// between polygons, those found ordered by the lower body number, the higher, and the place along the outline of the lower,
-    /// those given in the order given. The lower body number lies before a joint. There are no spans and no surfaces.
+    /// those given in the order given. The lower body number lies before a joint. Joints that are found of polygons that make a row from
+    /// support to support, in the order in which they are given, are listed along it. There are no spans and no surfaces.
     ///
     /// # Errors
     /// All faults of the polygons, one for each; if there are none, all faults between them; and so on with joints and supports,
@@ -134,6 +137,9 @@ impl Blocks {
             Joints::Given(list) => joints.extend(given(self, &names, &outlines, list, tolerance, &mut faults)),
         }
         none(faults)?;
+        if self.joints == Joints::Found {
+            list_along_row(&mut joints, self.polygons.len());
+        }
         let structure = self.assemble(outlines, joints);
         let mut faults = doubled(self, &structure, tolerance);
         faults.extend(self.uncarried(&structure));

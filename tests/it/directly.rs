@@ -7,20 +7,23 @@ use crate::common::largest::larger;
 use crate::common::random_arch;
 use crate::common::semicircle::{mesh, semicircle};
 use crate::common::snapshots::apart;
-use crate::common::structures::{self, FAMILIES};
 use serde_json::json;
+use voussoir::blocks::{Blocks, Joints, Polygon, Rest, Support};
 use voussoir::budget::Budget;
 use voussoir::collapse::{
     Analysis, CollapseReport, HistoryPoint, Outcome, Question, StatesAsked, StatesFrom, Task, run,
 };
+use voussoir::structure::{Body, Joint, Sides};
 use voussoir::wire::read::read_question;
 
-/// How many random arches and structures of every family, and how many arches at least have to be solved directly.
+/// How many random arches, and how many of them at least have to be solved directly.
 const ARCHES: u64 = 5000;
 const DIRECT: usize = 1300;
 /// How many of those arches at least have to have a history that is told without the tracer.
 const TOLD: usize = 1200;
-const STRUCTURES: u64 = 40;
+/// How many random arches whose voussoirs are given as polygons, and how many of them at least have to be solved directly.
+const AS_BLOCKS: u64 = 400;
+const DIRECT_AS_BLOCKS: usize = 60;
 /// How many random arches on a mesh, and how many of them at least have to be solved directly.
 const ON_MESH: u64 = 300;
 const DIRECT_ON_MESH: usize = 35;
@@ -169,14 +172,53 @@ fn so_has_every_case() {
     assert!(compared.direct >= 20 && compared.told >= 15 && compared.told_otherwise == 0, "{compared:?}");
 }
 
+/// The same arch with its voussoirs given as polygons; none where it is more than a row of dry stones with straight sides.
+fn as_blocks(arch: &Analysis) -> Option<Analysis> {
+    let structure = &arch.structure;
+    let polygon =
+        |(k, body): (usize, &Body)| Polygon { name: k.to_string(), corners: body.corners.clone(), stone: body.stone };
+    let support = |joint: &Joint, name: &str| Support {
+        name: name.to_owned(),
+        carries: vec![Rest::Line([joint.intrados, joint.extrados])],
+    };
+    let [first, .., last] = structure.joints.as_slice() else { return None };
+    let straight = structure.bodies.iter().all(|body| body.sides == Sides::Straight);
+    let blocks = Blocks {
+        polygons: structure.bodies.iter().enumerate().map(polygon).collect(),
+        joints: Joints::Found,
+        supports: vec![support(last, "last"), support(first, "first")],
+        tolerance: None,
+        stones: structure.stones.clone(),
+    };
+    let as_blocks = blocks.build().ok().filter(|_| straight && structure.passive.is_empty())?;
+    let same = |(a, b): (&Joint, &Joint)| a.law == b.law;
+    let row =
+        as_blocks.joints.len() == structure.joints.len() && as_blocks.joints.iter().zip(&structure.joints).all(same);
+    row.then(|| Analysis { structure: as_blocks, ..arch.clone() })
+}
+
 #[test]
-fn so_has_any_structure() {
-    for (family, scene) in FAMILIES {
-        let mut compared = Compared::default();
-        (0..STRUCTURES)
-            .for_each(|seed| compared.compare(&format!("{family} {seed}"), &structures::analysis(&scene(seed))));
-        println!("{family}: {compared:?}");
+fn arches_given_as_blocks_have_the_states_of_arches() {
+    let mut direct = 0;
+    for seed in 0..AS_BLOCKS {
+        let Ok(arch) = door::analysis(&random_arch::request(seed)) else { continue };
+        let Some(blocks) = as_blocks(&arch) else { continue };
+        let [arch, blocks] = [&arch, &blocks].map(|analysis| run(analysis, &Budget::unlimited()).unwrap());
+        assert_eq!((arch.outcome, arch.states_from), (blocks.outcome, blocks.states_from), "seed {seed}");
+        if arch.states_from == StatesFrom::LoadPath {
+            continue;
+        }
+        direct += 1;
+        let load = |report: &CollapseReport| report.end.as_ref().map(|end| end.load_factor);
+        let apart_by = load(&arch).zip(load(&blocks)).map_or(0.0, |(a, b)| (a - b).abs() / a.abs());
+        assert!(apart_by <= SAME_LOAD, "seed {seed}: {apart_by}");
+        let states = |report: &CollapseReport| [&report.at_start, &report.near_collapse].map(Option::clone);
+        for (k, (a, b)) in states(&arch).iter().zip(&states(&blocks)).enumerate() {
+            let apart = a.as_ref().zip(b.as_ref()).map_or(0.0, |(a, b)| apart(a, b));
+            assert!(apart < EQUAL[2 * k] && a.is_some() == b.is_some(), "seed {seed}, state {k}: {apart}");
+        }
     }
+    assert!(direct >= DIRECT_AS_BLOCKS, "{direct}");
 }
 
 /// Limit analysis lets these arches stand up to twice the load at which a joint slides on the path, and near that load there are states

@@ -51,7 +51,7 @@ fn polygons_of_an_arch_meet_in_its_joints() {
             let set_out = ends.iter().enumerate().map(|(k, &ends)| contact(between(k), ends)).collect();
             assert_same(contacts(&structure), set_out);
             // Inside the arch the ends are those given, to the last bit, from the intrados outwards.
-            for joint in &structure.joints[2..] {
+            for joint in &structure.joints[1..n] {
                 let k = joint.between[1].body().unwrap();
                 assert_eq!([joint.intrados, joint.extrados], ends[k]);
             }
