@@ -64,25 +64,3 @@ fn words(stray: &str, settings: &[(String, String)]) -> String {
         None => format!("{stray} is no setting"),
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_variable_is_named_after_its_flag() {
-        for (flag, variable) in settings() {
-            let named = flag.trim_start_matches('-').replace('-', "_").to_uppercase();
-            let plural = format!("{named}S");
-            assert!([named, plural].iter().any(|name| format!("{PREFIX}{name}") == variable), "{flag} {variable}");
-        }
-    }
-
-    #[test]
-    fn the_nearest_name_is_suggested() {
-        let said = |name| words(name, &settings());
-        assert_eq!(said("VOUSSOIR_QUEU"), "VOUSSOIR_QUEU is no setting: write VOUSSOIR_QUEUE if that is meant");
-        assert!(said("VOUSSOIR_TOKEN").ends_with("write VOUSSOIR_TOKENS if that is meant"));
-        assert_eq!(said("VOUSSOIR_PORT_8080_TCP"), "VOUSSOIR_PORT_8080_TCP is no setting");
-    }
-}

@@ -171,9 +171,33 @@ fn a_setting_is_refused_by_the_name_that_was_used() {
 }
 
 #[test]
+fn every_variable_is_named_after_its_flag() {
+    let help = program(&["serve", "--help"]).output().unwrap();
+    let (mut flag, mut settings) = (String::new(), 0);
+    for line in String::from_utf8(help.stdout).unwrap().lines().map(str::trim) {
+        if let Some(named) = line.strip_prefix("--") {
+            flag = named.split(' ').next().unwrap().replace('-', "_").to_uppercase();
+        } else if let Some(variable) = line.strip_prefix("[env: VOUSSOIR_") {
+            let variable = variable.trim_end_matches(['=', ']']);
+            assert!(variable == flag || variable == format!("{flag}S"), "{flag} {variable}");
+            settings += 1;
+        }
+    }
+    assert!(settings > 20, "{settings}");
+}
+
+#[test]
 fn the_log_warns_of_what_may_not_be_meant() {
-    let stray = said(&[], &[("VOUSSOIR_QUEU", "7")], "127.0.0.1:0", "QUEU");
-    assert!(stray.contains("WARN") && stray.contains("write VOUSSOIR_QUEUE if that is meant"), "{stray}");
+    let stray = |name: &str| said(&[], &[(name, "7")], "127.0.0.1:0", "is no setting");
+    for (name, meant) in [("QUEU", "QUEUE"), ("TOKEN", "TOKENS")] {
+        let told = stray(&format!("VOUSSOIR_{name}"));
+        assert!(told.contains("WARN") && told.contains(&format!("write VOUSSOIR_{meant} if that is meant")), "{told}");
+    }
+    let unlike = stray("VOUSSOIR_PORT_8080_TCP");
+    assert!(
+        unlike.contains("VOUSSOIR_PORT_8080_TCP is no setting") && !unlike.contains("if that is meant"),
+        "{unlike}"
+    );
     let open = said(&[], &[], "0.0.0.0:0", "open to all");
     assert!(open.contains("WARN") && open.contains("--token"), "{open}");
     // With a token, or at a loopback address, there is nothing to warn of: what is said last is the stray name.

@@ -15,8 +15,9 @@ use voussoir::structure::Joint;
 /// How many random arches, and how many of them at least have to ask a question.
 const ARCHES: u64 = 600;
 const ASKED: usize = 80;
-/// How many random structures of every family.
+/// How many random bridges and portals, and how many of them at least have to ask a question; of walls none does.
 const STRUCTURES: u64 = 24;
+const ASKED_OF_STRUCTURES: usize = 5;
 /// Largest difference of a contact's force, over the largest, before and near collapse, where a state follows its load a thousandfold.
 const EQUAL: [f64; 2] = [1e-9, 1e-6];
 const FOLLOWS: f64 = 2e3;
@@ -112,8 +113,8 @@ fn where_there_are_others_the_path_tells_which() {
 
 #[test]
 fn so_they_are_in_any_structure() {
-    for (family, scene) in FAMILIES {
-        let mut compared = Compared::default();
+    let mut compared = Compared::default();
+    for (family, scene) in FAMILIES.into_iter().filter(|(family, _)| *family != "walls") {
         for seed in 0..STRUCTURES {
             let mut analysis = structures::analysis(&scene(seed));
             let accuracy = Accuracy { collapse_intensity: None, stress: Some(0.3), most_subblocks: 600 };
@@ -122,6 +123,7 @@ fn so_they_are_in_any_structure() {
             analysis.task = Task::Collapse(CollapseTask { method, states, ..CollapseTask::default() });
             compared.compare(&format!("{family} {seed}"), &analysis);
         }
-        println!("{family}: {compared:?}");
     }
+    println!("{compared:?}");
+    assert!(compared.asked >= ASKED_OF_STRUCTURES, "{compared:?}");
 }

@@ -68,6 +68,12 @@ fn place(corners: &[Vec2], at: Vec2) -> [f64; 2] {
     place
 }
 
+/// Whether a subblock can hold a point: from its centre that is nearer than its diagonal is long.
+fn may_hold(subblock: &SubblockStress, at: Vec2) -> bool {
+    let across = |k: usize| (subblock.corners[k] - subblock.corners[k + 2]).norm();
+    (at - subblock.centre).norm() < across(0).max(across(1))
+}
+
 fn bilinear(subblock: &SubblockStress, place: [f64; 2]) -> [f64; 3] {
     let of = subblock.corner_stress.iter().zip(shares(place));
     of.fold([0.0; 3], |sum, (stress, share)| [0, 1, 2].map(|c| sum[c] + share * stress[c]))
@@ -103,7 +109,8 @@ pub fn pointwise_error(analysis: &Analysis, coarse: &StressField, fine: &StressF
                 continue;
             }
             let [a, b] = tangents(&reference.corners, [x, y]);
-            let places = here.iter().map(|subblock| (subblock, place(&subblock.corners, at)));
+            let about = here.iter().filter(|subblock| may_hold(subblock, at));
+            let places = about.map(|subblock| (subblock, place(&subblock.corners, at)));
             let deepest = |place: [f64; 2]| place[0].abs().max(place[1].abs());
             let (subblock, place) = places.min_by(|a, b| deepest(a.1).total_cmp(&deepest(b.1))).unwrap();
             let (exact, found) = (bilinear(reference, [x, y]), bilinear(subblock, place));
