@@ -217,17 +217,14 @@ pub(super) fn grids(analysis: &Analysis) -> Vec<Grid> {
     analysis.structure.bodies.iter().enumerate().map(grid).collect()
 }
 
-/// A force on a body as forces on its subblocks. A pressure on a curved side is told by forces on its chord: each acts where its line
-/// meets the arc, which changes no resultant.
-fn pushes(force: &PointForce, grids: &[Grid], structure: &Structure) -> Vec<Push> {
+/// A force on a body as forces on its subblocks.
+fn pushes(force: &PointForce, grids: &[Grid]) -> Vec<Push> {
     let (grid, body) = (&grids[force.body], force.body);
-    let at = match force.acts_on {
-        ActsOn::Body => return vec![Push { body, subblock: None, at: force.at, force: force.force }],
-        ActsOn::Side => structure.bodies[body].onto_arc(force.at, force.force),
-        ActsOn::Point => force.at,
-    };
-    let push = |(subblock, share)| Push { body, subblock: Some(subblock), at, force: force.force * share };
-    grid.at(at).into_iter().map(push).collect()
+    if force.acts_on == ActsOn::Body {
+        return vec![Push { body, subblock: None, at: force.at, force: force.force }];
+    }
+    let push = |(subblock, share)| Push { body, subblock: Some(subblock), at: force.at, force: force.force * share };
+    grid.at(force.at).into_iter().map(push).collect()
 }
 
 pub(super) fn extent(points: impl Iterator<Item = Vec2>) -> f64 {
@@ -241,7 +238,7 @@ impl Model<'_> {
     /// Fills in the loads of an analysis of the same stones.
     fn take_loads(&mut self, analysis: &Analysis) -> Result<(), AnalysisError> {
         let (assembly, budget) = (&self.assembly, self.budget);
-        let on_subblocks = |force: &PointForce| pushes(force, &self.grids, &analysis.structure);
+        let on_subblocks = |force: &PointForce| pushes(force, &self.grids);
         let straight = |forces: &[PointForce]| assembly.loads(forces.iter().flat_map(on_subblocks), budget);
         let turned = |forces: &[PointForce]| match analysis.task.geometry() {
             Geometry::FirstOrder => Ok(Vec::new()),

@@ -173,6 +173,10 @@ impl Load {
         };
         for force in &mut forces {
             force.force *= coefficient;
+            if force.acts_on == ActsOn::Side {
+                // Pressures are told by forces on chords: where its line meets the arc a force has the same resultant.
+                force.at = structure.bodies[force.body].onto_arc(force.at, force.force);
+            }
         }
         forces.retain(|force| force.force != Vec2::zeros());
         Ok(forces)

@@ -3,6 +3,7 @@
 //! Nothing here knows how a structure was built or how it will be solved. All quantities are SI, per metre of width; x runs
 //! to the right, y upwards.
 
+mod curved;
 mod half;
 pub mod load;
 mod loops;
@@ -19,9 +20,6 @@ use std::ops::Range;
 
 /// Twice the area of the triangle at a flat corner, over the body's area.
 const FLAT: f64 = 1e-6;
-
-/// A line across a side goes no farther from its chord to its arc than so many times the distance between them.
-const ACROSS: f64 = 2.0;
 
 /// Standard gravity used throughout, m/s2.
 pub const GRAVITY: f64 = 9.81;
@@ -239,20 +237,6 @@ impl Body {
             Sides::Arcs { .. } => self.corners.len() == 4,
             Sides::Compound => false,
         }
-    }
-
-    /// Where a line through a point on the chord of a side meets its arc, m; the point itself where the side is straight, or of several
-    /// arcs, or where the line goes along it rather than across.
-    pub fn onto_arc(&self, at: Vec2, line: Vec2) -> Vec2 {
-        let Sides::Arcs { centre } = self.sides else { return at };
-        let (off, way) = (at - centre, line.normalize());
-        let below = [0, 2].map(|corner| (self.corners[corner] - centre).norm() - off.norm());
-        let below = if below[0].abs() < below[1].abs() { below[0] } else { below[1] };
-        // |off + t way| is the radius at two places.
-        let (middle, radius) = (-off.dot(&way), off.norm() + below);
-        let half = (middle * middle + radius * radius - off.norm_squared()).sqrt();
-        let near = if middle > 0.0 { middle - half } else { middle + half };
-        if near.abs() <= ACROSS * below.abs() { at + way * near } else { at }
     }
 }
 

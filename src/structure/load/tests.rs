@@ -181,42 +181,6 @@ fn a_point_load_over_a_joint_is_shared() {
 }
 
 #[test]
-fn a_point_load_on_curved_sides_stands_on_the_arc() {
-    let ring = ring(Profile::circular(2.0, PI), 0.5, 7);
-    let ends = ring.set_out().unwrap();
-    let arch = assemble(&ends, ring.curved_voussoirs(&ends).unwrap(), STONE, LAW);
-    for (place, x) in [(Place::Abscissa(0.3), Some(0.3)), (Place::Abscissa(-1.7), Some(-1.7)), (Place::Body(2), None)] {
-        for inclined in [down(1.0), Vec2::new(0.4, -1.0)] {
-            let [force] = Load::Point(inclined, place).on(&arch, 1.0).unwrap()[..] else { panic!("{place:?}") };
-            close(force.at.norm(), 2.25, 1e-12);
-            close(force.at.x, x.unwrap_or(force.at.x), 1e-12);
-        }
-    }
-}
-
-#[test]
-fn what_acts_on_a_chord_acts_where_its_line_meets_the_arc() {
-    let ring = ring(Profile::circular(2.0, PI), 0.5, 7);
-    let ends = ring.set_out().unwrap();
-    let [curved, straight] = [ring.curved_voussoirs(&ends), straight_voussoirs(&ends).ok()].map(Option::unwrap);
-    let [start, end] = [curved[2].corners[3], curved[2].corners[2]];
-    for share in [0.1, 0.5, 0.9] {
-        let at = start + (end - start) * share;
-        for line in [Vec2::y(), -Vec2::y(), Vec2::new(0.3, -1.0)] {
-            let on_arc = curved[2].onto_arc(at, line);
-            close(on_arc.norm(), 2.25, 1e-12);
-            close(cross(on_arc - at, line), 0.0, 1e-12);
-            assert!((on_arc - at).norm() < 0.08);
-            assert_eq!(straight[2].onto_arc(at, line), at);
-        }
-        // Along the side it would come out at an end of it.
-        assert_eq!(curved[2].onto_arc(at, end - start), at);
-    }
-    let below = 0.5 * (curved[2].corners[0] + curved[2].corners[1]);
-    close(curved[2].onto_arc(below, Vec2::y()).norm(), 1.75, 1e-12);
-}
-
-#[test]
 fn loads_on_an_overhanging_arch_stand_on_its_top() {
     let arch = arch_of(&ring(Profile::circular(2.0, 4.4), 0.5, 20));
     let widest = arch.ring().iter().map(|joint| joint.extrados.x).fold(f64::INFINITY, f64::min);

@@ -246,6 +246,7 @@ fn nothing_lands_where_the_strip_cannot_be_seen() {
     }
     // Of two surfaces over each other, the upper.
     let mut floors = surfaces(&[[-1.0, 0.0], [0.0, 0.0], [1.0, 0.0]]);
+    floors.bodies.push(floors.bodies[0].clone());
     floors.surfaces.insert(1, Surface { body: 2, ends: [-0.4, 0.1].map(|x| Vec2::new(x, 0.5)) });
     let forces = Load::Patch(patch(0.0, 1.0, ONE_TO_TWO)).on(&floors, 1.0).unwrap();
     let on = |body: usize| -> f64 { forces.iter().filter(|f| f.body == body).map(|f| -f.force.y).sum() };
