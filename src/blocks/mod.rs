@@ -132,14 +132,14 @@ impl Blocks {
         let mut joints = grounds(self, &names, &outlines, tolerance, &mut faults);
         match &self.joints {
             // Where stones overlap, faces that nearly meet are no second fault.
-            Joints::Found if faults.is_empty() => joints.extend(found(self, &outlines, &pairs, tolerance, &mut faults)),
+            Joints::Found if faults.is_empty() => {
+                joints.extend(found(self, &outlines, &pairs, tolerance, &mut faults));
+                list_along_row(&mut joints, self.polygons.len());
+            }
             Joints::Found => {}
             Joints::Given(list) => joints.extend(given(self, &names, &outlines, list, tolerance, &mut faults)),
         }
         none(faults)?;
-        if self.joints == Joints::Found {
-            list_along_row(&mut joints, self.polygons.len());
-        }
         let structure = self.assemble(outlines, joints);
         let mut faults = doubled(self, &structure, tolerance);
         faults.extend(self.uncarried(&structure));

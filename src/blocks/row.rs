@@ -7,24 +7,22 @@ use crate::structure::{Joint, Side};
 ///
 /// The force method tells the states of such a row (`dda::ForceMethod`).
 pub(super) fn list_along_row(joints: &mut [Joint], polygons: usize) {
-    let last = polygons - 1;
-    let place = |joint: &Joint| match joint.between {
-        [Side::Support(_), Side::Body(0)] => Some(0),
-        [Side::Support(_), Side::Body(body)] if body == last => Some(polygons),
-        [Side::Body(before), Side::Body(after)] if after == before + 1 => Some(after),
-        _ => None,
-    };
     // Of one polygon, each of its supports could be the first.
     if polygons < 2 || joints.len() != polygons + 1 {
         return;
     }
-    let mut row: Vec<Option<Joint>> = vec![None; joints.len()];
-    for joint in &*joints {
-        let Some(free) = place(joint).and_then(|k| row[k].is_none().then_some(&mut row[k])) else { return };
-        *free = Some(*joint);
+    let place = |joint: &Joint| match joint.between {
+        [Side::Support(_), Side::Body(0)] => Some(0),
+        [Side::Support(_), Side::Body(body)] if body + 1 == polygons => Some(polygons),
+        [Side::Body(before), Side::Body(after)] if after == before + 1 => Some(after),
+        _ => None,
+    };
+    let mut row = joints.to_vec();
+    row.sort_by_key(place);
+    if row.iter().enumerate().any(|(k, joint)| place(joint) != Some(k)) {
+        return;
     }
-    // As many joints as places, none of them twice.
-    joints.iter_mut().zip(row.into_iter().flatten()).for_each(|(joint, of_row)| *joint = of_row);
+    joints.copy_from_slice(&row);
     let behind = &mut joints[polygons];
     behind.between.reverse();
     std::mem::swap(&mut behind.intrados, &mut behind.extrados);

@@ -5,6 +5,7 @@
 //! overhanging side is pushed up.
 
 mod columns;
+mod curved;
 mod dispersal;
 mod fill;
 mod passive;

@@ -3,7 +3,6 @@
 //! Nothing here knows how a structure was built or how it will be solved. All quantities are SI, per metre of width; x runs
 //! to the right, y upwards.
 
-mod curved;
 mod half;
 pub mod load;
 mod loops;

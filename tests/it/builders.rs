@@ -48,7 +48,7 @@ fn assert_same(mut here: Vec<Contact>, mut there: Vec<Contact>) {
 }
 
 /// The bodies of a structure as bare polygons; its joints with the ground as lines of the supports.
-fn bare(structure: &Structure) -> Blocks {
+pub fn bare(structure: &Structure) -> Blocks {
     let polygon = |(k, body): (usize, &voussoir::structure::Body)| Polygon {
         name: format!("b{k}"),
         corners: body.corners.clone(),

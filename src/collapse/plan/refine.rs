@@ -153,21 +153,17 @@ impl Refinement {
     /// Levels of the next mesh, or why this is the last: those that the accuracy asks for, or as many of them as are allowed. Without
     /// an estimate every voussoir has to be refined.
     fn next(&self, asked: f64, most: usize) -> Result<Vec<usize>, PlanReason> {
-        let marked = |most: usize| {
-            let marked = self.told().map(|_| self.marked(asked, most));
-            self.raised(&marked.unwrap_or_else(|| vec![true; self.levels.len()]))
-        };
-        let wanted = marked(usize::MAX);
+        let marked = |most: usize| self.told().map(|_| self.raised(&self.marked(asked, most)));
+        let wanted = marked(usize::MAX).unwrap_or_else(|| self.raised(&vec![true; self.levels.len()]));
         let subblocks = total(&self.subblocks(&wanted));
         if wanted == self.levels {
-            Err(PlanReason::Finest)
-        } else if subblocks <= most {
-            Ok(wanted)
-        } else {
-            let allowed = marked(most);
-            let fits = allowed != self.levels && total(&self.subblocks(&allowed)) <= most;
-            if fits { Ok(allowed) } else { Err(PlanReason::NextTooLarge { subblocks, allowed: most }) }
+            return Err(PlanReason::Finest);
         }
+        if subblocks <= most {
+            return Ok(wanted);
+        }
+        let allowed = marked(most).filter(|levels| *levels != self.levels);
+        allowed.ok_or(PlanReason::NextTooLarge { subblocks, allowed: most })
     }
 
     /// Takes in the answer on a finer mesh.

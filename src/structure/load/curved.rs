@@ -1,7 +1,7 @@
 //! Sides that are arcs.
 
-use super::{Body, Sides};
 use crate::geometry::Vec2;
+use crate::structure::{Body, Sides};
 
 /// A line across a side goes no farther from its chord to its arc than so many times the distance between them.
 const ACROSS: f64 = 2.0;
@@ -9,7 +9,7 @@ const ACROSS: f64 = 2.0;
 impl Body {
     /// Where a line through a point on the chord of a side meets its arc, m; the point itself where the side is straight, or of several
     /// arcs, or where the line goes along it rather than across.
-    pub fn onto_arc(&self, at: Vec2, line: Vec2) -> Vec2 {
+    pub(super) fn onto_arc(&self, at: Vec2, line: Vec2) -> Vec2 {
         let Sides::Arcs { centre } = self.sides else { return at };
         let (off, way) = (at - centre, line.normalize());
         let below = [0, 2].map(|corner| (self.corners[corner] - centre).norm() - off.norm());
@@ -24,28 +24,22 @@ impl Body {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Stone;
-    use super::super::load::{Load, Place};
+    use super::super::tests::{LAW, STONE, arch_of, ring};
+    use super::super::{Band, Flanks, Load, Place};
+    use crate::arch::assemble;
     use crate::arch::profile::Profile;
-    use crate::arch::ring::{JointLines, Line, Ring, Thickness, stations};
-    use crate::arch::{assemble, straight_voussoirs};
     use crate::geometry::{Vec2, cross};
-    use crate::structure::load::Flanks;
-    use crate::structure::{JointLaw, PointForce, Structure};
+    use crate::structure::{PointForce, Structure};
+    use std::f64::consts::PI;
 
     /// Seven stones about a radius of 2 m, 0.5 m thick, with sides that are straight or arcs.
     fn arch(curved: bool) -> Structure {
-        let profile = Profile::circular(2.0, std::f64::consts::PI);
-        let ring = Ring {
-            stations: stations(profile.length(), &[1.0; 7]),
-            profile,
-            line: Line::Axis,
-            thickness: Thickness::Linear { crown: 0.5, springing: 0.5 },
-            joints: JointLines::Normal,
-        };
+        let ring = ring(Profile::circular(2.0, PI), 0.5, 7);
+        if !curved {
+            return arch_of(&ring);
+        }
         let ends = ring.set_out().unwrap();
-        let bodies = if curved { ring.curved_voussoirs(&ends).unwrap() } else { straight_voussoirs(&ends).unwrap() };
-        assemble(&ends, bodies, Stone::default(), JointLaw::Dry { friction: 0.5, cohesion: 0.0 })
+        assemble(&ends, ring.curved_voussoirs(&ends).unwrap(), STONE, LAW)
     }
 
     fn near(a: f64, b: f64) {
@@ -88,8 +82,8 @@ mod tests {
     /// On arcs or on chords, pressures have the same resultants.
     #[test]
     fn a_pressure_acts_on_the_arc() {
-        let bands = crate::structure::load::Band { from: 0.2, to: 2.0, pressure: 3.0 };
-        let load = Load::Lateral(vec![bands], Flanks::Both);
+        let band = Band { from: 0.2, to: 2.0, pressure: 3.0 };
+        let load = Load::Lateral(vec![band], Flanks::Both);
         let [curved, straight] = [true, false].map(|curved| load.on(&arch(curved), 1.0).unwrap());
         let moment = |forces: &[PointForce]| forces.iter().map(|f| cross(f.at, f.force)).sum::<f64>();
         near(moment(&curved), moment(&straight));
