@@ -162,20 +162,26 @@ impl CarryOver {
 
     /// Renews who takes what from whom after a change at interface `k`.
     fn renew_shares(&mut self, chain: &Loaded, splits: &[Split], k: usize) {
-        for j in k..splits.len() {
-            let renewed = self.taken_from_after(chain, splits, j);
-            let before = std::mem::replace(&mut self.from_after[j], renewed);
-            if j > k && same(before, renewed) {
-                break;
-            }
+        // Each share waits for the division of the one before it; both ways at once take little longer than one.
+        let (mut up, mut down) = (Some(k), Some(k));
+        while up.or(down).is_some() {
+            let goes_on = |j: &usize| self.renew_from_after(chain, splits, *j) || *j == k;
+            up = up.filter(goes_on).map(|j| j + 1).filter(|&j| j < splits.len());
+            let goes_on = |j: &usize| self.renew_from_before(chain, splits, *j) || *j == k;
+            down = down.filter(goes_on).and_then(|j| j.checked_sub(1));
         }
-        for j in (0..=k).rev() {
-            let renewed = self.taken_from_before(chain, splits, j);
-            let before = std::mem::replace(&mut self.from_before[j], renewed);
-            if j < k && same(before, renewed) {
-                break;
-            }
-        }
+    }
+
+    /// Renews what one takes from the one after it; false where that is the same.
+    fn renew_from_after(&mut self, chain: &Loaded, splits: &[Split], k: usize) -> bool {
+        let renewed = self.taken_from_after(chain, splits, k);
+        !same(std::mem::replace(&mut self.from_after[k], renewed), renewed)
+    }
+
+    /// Renews what one takes from the one before it; false where that is the same.
+    fn renew_from_before(&mut self, chain: &Loaded, splits: &[Split], k: usize) -> bool {
+        let renewed = self.taken_from_before(chain, splits, k);
+        !same(std::mem::replace(&mut self.from_before[k], renewed), renewed)
     }
 }
 
