@@ -20,7 +20,7 @@ FIELDS = Path(__file__).parent / "fields"
 LEVELS = [(Q8, 0.375), (Q8, 0.67), (Q8, 1.0), (T6, 0.67)]
 RADIAL = 64
 # Where little of a joint is pressed, or the program is nearly as exact, more.
-FINER = {"closed.csv": 128, "nine-tenths.csv": 96, "sixty-one.csv": 96}
+FINER = {"closed.csv": 128, "nine-tenths.csv": 96, "seven.csv": 96, "sixty-one.csv": 96}
 # Sample points in all of a scene, at least so many in a stone.
 POINTS, LEAST = 8000, 250
 # No sample is nearer to a point force than this share of the thickness: stresses have no bound there.
