@@ -30,6 +30,9 @@ pub struct Roughness {
     pub apart: f64,
     /// Of the field itself.
     pub whole: f64,
+    /// Whether the body has no more subblocks, across or along, than the smooth field takes in at once: it then goes with them more
+    /// than it should.
+    pub coarse: bool,
     /// Whether some of the body is near a force on a point.
     pub near_point: bool,
     /// Whether a joint of the body presses on a strip that is much narrower than the subblocks there.
