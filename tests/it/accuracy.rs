@@ -153,6 +153,15 @@ fn an_estimate_is_about_the_error_and_not_below_it() {
         },
         "loads": [{"load": {"self_weight": {}}}], "load_factor": {"cap": 1},
     });
+    // On few subblocks, with joints as stiff as here, no arch that was tried is off by more over its roughness.
+    let stiff = json!({
+        "arch": {
+            "profile": {"circular": {"radius_m": 5, "opening_angle_deg": 95}},
+            "thickness": {"constant_m": 1.2}, "voussoirs": 10, "curved_sides": true,
+        },
+        "stone": {"penalty_ratio": 100, "plane": "strain", "friction_angle_deg": 48},
+        "loads": [{"load": {"self_weight": {}}}], "load_factor": {"cap": 1},
+    });
     let at = |share: f64| {
         let more =
             json!({"load_factor": {"cap": 250}, "report": {"stress_fields": [{"load_factor": share * 243.125}]}});
@@ -161,6 +170,7 @@ fn an_estimate_is_about_the_error_and_not_below_it() {
     // The chart has more: these take the least time that still tells.
     let scenes = [
         ("closed", closed, 0.003, vec![0.2, 0.1, 0.05]),
+        ("stiff joints", stiff, 0.005, vec![0.1]),
         ("half-way", at(0.5), 0.02, vec![0.2, 0.1, 0.05]),
         ("0.9", at(0.9), 0.03, vec![0.2, 0.1]),
     ];
@@ -180,7 +190,7 @@ fn an_estimate_is_about_the_error_and_not_below_it() {
                 estimate / had
             );
             assert!(
-                stress.met && had <= asked && (0.95..1.7).contains(&(estimate / had)),
+                stress.met && had <= asked && (1.0..1.7).contains(&(estimate / had)),
                 "{name}: {estimate}, had {had}"
             );
         }

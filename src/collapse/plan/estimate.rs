@@ -63,7 +63,7 @@ fn area_of(subblock: &SubblockStress) -> f64 {
     Region::polygon(&subblock.corners).area
 }
 
-/// What an error is taken to be over the roughness; so many times as much in a body of few subblocks (measured: 1.15), in one with a
+/// What an error is taken to be over the roughness; so many times as much in a body of few subblocks (measured: 1.13), in one with a
 /// force on a point, which more than what is left out feels (measured: 1.2), and where a strip is pressed that is narrower than the
 /// subblocks show (measured: 2.6).
 const MARGIN: f64 = 1.28;
