@@ -116,7 +116,7 @@ impl Certificate {
         if self.solved && !self.theorem.crushes(&strengths) {
             let window = self.window.map(|[lowest, highest]| LimitWindow { lowest, highest });
             let plastic_section = Some(PlasticCrushing { window, ..PlasticCrushing::default() });
-            return Ok((Crushing { strength, elastic: None, plastic_section }, Default::default()));
+            return Ok((Crushing::new(strength, plastic_section), Default::default()));
         }
         let found = self.theorem.crushing_window_from(&self.bases, &strengths, budget);
         budget.check()?;
@@ -133,7 +133,7 @@ impl Certificate {
             forces = found.forces;
             PlasticCrushing { window, joints: found.joints, ends: states }
         });
-        Ok((Crushing { strength, elastic: None, plastic_section }, forces))
+        Ok((Crushing::new(strength, plastic_section), forces))
     }
 
     /// Whether a window of plastic sections ends visibly before that of stone that does not crush.

@@ -51,6 +51,8 @@ pub enum Share {
     Points,
 }
 
+/// Contact points of every joint, as many as those of the few that crush would be if they were shared out.
+const SOME_POINTS: usize = 6;
 /// How often the budget of counting may ask: a quarter of a second.
 const MOST_ASKED: usize = 64;
 /// Entries of elements, beyond which the order of elimination is not looked for: 8 GiB.
@@ -171,11 +173,17 @@ fn limit_analysis(structure: &Structure) -> usize {
 /// Modelling, following and writing an analysis on the mesh it has.
 fn on_mesh(analysis: &Analysis, budget: &Budget) -> Result<Demand, Stopped> {
     let uncrushed = with_points(analysis, 0, budget)?;
-    if !analysis.task.crushes_on_path() {
-        return Ok(uncrushed);
-    }
-    let memory = with_points(analysis, MOST_POINTS, budget).map_or(usize::MAX, |all_crush| all_crush.memory);
-    Ok(Demand { memory, ..uncrushed })
+    let structure = &analysis.structure;
+    // Where joints slide that path is followed, too, with whole stones; in a row of bodies it takes little.
+    let may_crush = analysis.task.grows() && structure.joints.len() > structure.bodies.len() + 1;
+    let points = match (analysis.task.crushes_on_path(), may_crush) {
+        (true, _) => MOST_POINTS,
+        (false, true) => SOME_POINTS,
+        (false, false) => return Ok(uncrushed),
+    };
+    let whole = plan::of_whole_stones(analysis);
+    let all_crush = with_points(&whole, points, budget).map_or(usize::MAX, |all_crush| all_crush.memory);
+    Ok(Demand { memory: all_crush.max(uncrushed.memory), ..uncrushed })
 }
 
 /// The same with at least so many contact points at every joint.

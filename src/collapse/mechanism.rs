@@ -117,11 +117,11 @@ pub(super) fn corner_rates(joint: &Joint, motions: &[Motion]) -> [[f64; 2]; 2] {
     [joint.intrados, joint.extrados].map(|corner| rate(after.plus(before, -1.0).at(corner)))
 }
 
-/// Speed of the fastest corner.
+/// Speed of the fastest corner, of the bodies on both sides of each joint.
 pub(super) fn fastest(structure: &Structure, motions: &[Motion]) -> f64 {
-    let moving = structure.ring().iter().filter_map(|joint| Some((joint, motion_of(joint.between[0], motions)?)));
-    let speed = |(joint, m): (&Joint, Motion)| m.at(joint.intrados).norm().max(m.at(joint.extrados).norm());
-    moving.map(speed).fold(0.0, f64::max)
+    let beside = |joint: &Joint| joint.between.map(|side| motion_of(side, motions)).into_iter().flatten();
+    let speed = |joint: &Joint, m: Motion| m.at(joint.intrados).norm().max(m.at(joint.extrados).norm());
+    structure.ring().iter().flat_map(|joint| beside(joint).map(move |m| speed(joint, m))).fold(0.0, f64::max)
 }
 
 /// Motion of what lies on a side of a joint, if it moves.

@@ -18,7 +18,7 @@ pub(super) use mesh::{MOST_EACH_WAY, around};
 use super::near_point::near_points;
 use super::{
     Accuracy, Analysis, AnalysisError, CollapseReport, Direction, Estimate, Mesh, Outcome, PathEnd, Plan, PlanReason,
-    verdict,
+    Task, verdict,
 };
 use crate::budget::Budget;
 use crate::structure::is_symmetric;
@@ -57,10 +57,17 @@ pub(super) fn refined(
             rigid
         }
     };
-    plan.collapse_intensity =
-        accuracy.collapse_intensity.map(|asked| intensity(&report, analysis.task.direction(), asked));
     report.plan = Some(plan);
     Ok(report)
+}
+
+/// Says in the plan how well the collapse load is known, where that is asked for.
+pub(super) fn judge_load(report: &mut CollapseReport, task: &Task) {
+    let asked = task.accuracy().and_then(|accuracy| accuracy.collapse_intensity);
+    let estimate = asked.map(|asked| intensity(report, task.direction(), asked));
+    if let Some(plan) = &mut report.plan {
+        plan.collapse_intensity = estimate;
+    }
 }
 
 /// The answer on the mesh given, its states solved for one by one from those of whole stones; none where it is one of whole stones, or
@@ -130,16 +137,18 @@ pub(super) fn with_mesh(analysis: &Analysis, subblocks: Vec<[usize; 2]>) -> Anal
 }
 
 /// The same question of whole stones.
-fn of_whole_stones(analysis: &Analysis) -> Analysis {
+pub(super) fn of_whole_stones(analysis: &Analysis) -> Analysis {
     Analysis { mesh: Mesh::of(vec![[1, 1]; analysis.structure.voussoirs().len()]), ..analysis.clone() }
 }
 
 /// How well the collapse load is known: path and limit window come to it from two sides; where joints slide, it is a range from
-/// the least found to the window's end.
+/// the least found to the end of the window, where they crush, too, of that of plastic sections.
 fn intensity(report: &CollapseReport, direction: Direction, asked: f64) -> Estimate {
     let apart = |end: &PathEnd, increases: bool| {
         let window = report.limit_window?;
+        let end = report.crushing.on_path[usize::from(increases)].as_ref().unwrap_or(end);
         let limit = if increases { window.highest } else { window.lowest };
+        let limit = end.range.map_or(limit, |range| range.greatest);
         match (limit - end.load_factor).abs() {
             0.0 => Some(0.0),
             apart => Some(apart / limit.abs().max(end.load_factor.abs())).filter(|_| limit.is_finite()),

@@ -139,6 +139,9 @@ fn elastic(crushing: &Crushing) -> Reach {
 
 /// Not looked for beyond the `cap`, as instability is not.
 fn plastic(crushing: &Crushing, cap: f64) -> Reach {
+    if let Some(followed) = &crushing.on_path[1] {
+        return Reach::At(followed.load_factor);
+    }
     match crushing.plastic_section.as_ref().map(|plastic| plastic.window) {
         None => Reach::Unknown,
         Some(None) => Reach::DoesNotStand,

@@ -78,7 +78,8 @@ impl CollapseReport {
         };
         let fields: Vec<StressField> = other.stress_fields.into_iter().filter(new).collect();
         self.stress_fields.extend(fields);
-        self.notes.extend(other.notes);
+        let new: Vec<Note> = other.notes.into_iter().filter(|note| !self.notes.contains(note)).collect();
+        self.notes.extend(new);
         self.cost.join(other.cost);
     }
 

@@ -1,6 +1,7 @@
 //! From the limit window and the load path to one answer, or to saying that we cannot tell.
 
 mod blank;
+mod crushing;
 mod directly;
 mod fallen;
 mod leg;
@@ -140,15 +141,26 @@ impl<'a> Setup<'a> {
         }
         report.updated = self.updated(&mut report, built)?;
         match &analysis.task {
-            Task::Collapse(_) => safety::crushed(&mut report, analysis.task.crushes_on_path()),
-            Task::Safety(task) => safety::judge(&mut report, &analysis.task, task.crushing),
+            Task::Collapse(_) => {
+                safety::crushed(&mut report, analysis.task.crushes_on_path());
+                report = self.follow_crushing(report, built)?;
+            }
+            Task::Safety(task) => {
+                report = self.follow_crushing(report, built)?;
+                safety::judge(&mut report, &analysis.task, task.crushing);
+            }
             Task::Settlement(task) => self.settle(&mut report, &task.movements, built)?,
             Task::GeometricSafety(task) => {
                 geometric::judge(&mut report, analysis, &self.certificate.theorem, task, budget)
             }
         }
-        let slides = |end: &End| end.governed_by == GovernedBy::Crushing && end.state.mechanism.slips();
-        let dilates = !analysis.task.crushes_on_path() && report.ends().iter().any(slides);
+        plan::judge_load(&mut report, &analysis.task);
+        let slides = |end: &End| {
+            let crushes = end.governed_by == GovernedBy::Crushing && end.state.mechanism.slips();
+            crushes && end.state.range.is_none()
+        };
+        let unknown = report.notes.iter().any(|note| matches!(note, Note::UnknownWhereSlidingCrushes(_)));
+        let dilates = !unknown && !analysis.task.crushes_on_path() && report.ends().iter().any(slides);
         report.notes.extend(dilates.then_some(Note::CrushesAndDilates));
         falling::follow(analysis, &mut report, budget)?;
         budget.ask()?;

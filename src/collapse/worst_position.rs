@@ -92,7 +92,7 @@ impl<'q> Search<'q> {
     }
 
     /// Solves positions between those of the grid until between no two the load factor may be lower than the least by more than the
-    /// tolerance. By what share of it it still may be.
+    /// tolerance. By what share of it it still may be, those between included at which there was no answer.
     fn refine(&mut self) -> Result<f64, AnalysisError> {
         let tolerance = self.question.tolerance;
         let known: Vec<usize> = (0..self.places.len()).filter(|&i| self.places[i].load_factor().is_some()).collect();
@@ -100,19 +100,23 @@ impl<'q> Search<'q> {
         for pair in known.windows(2) {
             gaps.extend(self.gap([pair[0], pair[1]])?);
         }
+        let mut unknown = tolerance;
         for _ in 0..MOST_REFINED {
-            let Some((lowest, off)) = self.lowest(&gaps) else { return Ok(tolerance) };
+            let Some((lowest, off)) = self.lowest(&gaps) else { return Ok(unknown) };
             if off <= tolerance {
-                return Ok(tolerance);
+                return Ok(unknown);
             }
             let ([from, to], estimate) = gaps.swap_remove(lowest);
             let between = self.places.len();
             self.places.push(estimate.place);
             self.solve(between)?;
+            if self.places[between].load_factor().is_none() {
+                unknown = unknown.max(off);
+            }
             gaps.extend(self.gap([from, between])?);
             gaps.extend(self.gap([between, to])?);
         }
-        Ok(self.lowest(&gaps).map_or(tolerance, |(_, off)| off.max(tolerance)))
+        Ok(self.lowest(&gaps).map_or(unknown, |(_, off)| off.max(unknown)))
     }
 
     /// Two neighbouring places, and where between them the load factor may be lowest; none where nothing is to be looked for.

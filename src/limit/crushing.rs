@@ -23,8 +23,10 @@ const VIOLATED: f64 = 1e-11;
 const NEARLY_SOLVED: f64 = 1e-8;
 /// A parabola this close is active; ten times the above, so that rounding hides no crushed joint.
 const ACTIVE: f64 = 1e-7;
-/// The block of stress that bears a joint's force takes at least this share of a joint that crushes; less is a hinge.
-const BLOCK: f64 = 0.01;
+/// The block of stress that bears a joint's force takes at least this share of a joint that crushes; less is a hinge. And its parabola lies
+/// at this share of the loads at least, a hundred times the above, so that one that is not active is not taken for one.
+const BLOCK: f64 = 1e-4;
+const TOLD: f64 = 1e-5;
 /// Joints that bear so many times the loads crush at none.
 const HARD: f64 = 1e12;
 /// Rounds of cuts after which the method has failed (it needs five to thirty).
@@ -37,7 +39,7 @@ const LAST_TANGENT: f64 = 1.0;
 pub struct CrushingWindow {
     /// Lowest and highest, infinite where unbounded.
     pub ends: [f64; 2],
-    /// Dry joints on their parabola at either end whose block of stress takes a hundredth of the joint or more (less is a hinge);
+    /// Dry joints on their parabola at either end whose block of stress takes a ten-thousandth of the joint or more (less is a hinge), and that rounding tells from others;
     /// none where the end is infinite.
     pub joints: [Vec<usize>; 2],
     /// Forces of all joints at either end; none where it is infinite.
@@ -218,19 +220,24 @@ impl StaticTheorem {
         let untold = self.joints[forces.len()..].iter().flat_map(|joint| joint.between).filter_map(Side::body);
         untold.for_each(|body| left[body] = [0.0; 3]);
         let size = self.joints.iter().map(Joint::length).fold(self.frame.length, f64::max);
-        let loads = self.force * (load_factor / self.factor).abs().max(1.0);
+        let loads = self.loads_at(load_factor);
         let share = |of: [f64; 3]| [of[0], of[1], of[2] / size].map(|part| part.abs() / loads);
         left.into_iter().flat_map(share).fold(0.0, |most, next| if next.is_nan() || next > most { next } else { most })
     }
 
+    /// All loads that stay or, where these are larger, that grow, at a load factor, N/m.
+    fn loads_at(&self, load_factor: f64) -> f64 {
+        self.force * (load_factor / self.factor).abs().max(1.0)
+    }
+
     /// Joints with a parabola active in an equilibrium.
     fn crushed(&self, sections: &[Section], equilibrium: &Equilibrium) -> Vec<usize> {
+        let loads = self.loads_at(equilibrium.load_factor);
         let active = |section: &&Section| {
-            equilibrium.forces[section.joint].normal() > BLOCK * section.capacity
-                && section
-                    .tangents_at(equilibrium, self)
-                    .iter()
-                    .any(|tangent| slack(tangent, equilibrium, self) < ACTIVE)
+            let normal = equilibrium.forces[section.joint].normal();
+            let crushes = normal > BLOCK * section.capacity && 0.5 * normal * normal > TOLD * loads * section.capacity;
+            let tangents = section.tangents_at(equilibrium, self);
+            crushes && tangents.iter().any(|tangent| slack(tangent, equilibrium, self) < ACTIVE)
         };
         sections.iter().filter(active).map(|section| section.joint).collect()
     }

@@ -187,7 +187,7 @@ function collapse(structure, answer, end) {
     which = ['lowest', 'highest'].indexOf(end.which),
     bound = answer.limit_window_load_factor[which];
   const crushing = end.governed_by === 'crushing',
-    onPath = answer.request.crushing_in_path === true;
+    onPath = answer.request.crushing_in_path === true || (crushing && end.range !== null);
   const line = end.thrust_line,
     forces = structure.joints.map(() => null);
   line.joint.forEach((k, i) => {

@@ -126,13 +126,15 @@ fn checks(result: &AnalysisResult) -> String {
 fn against(limit: f64, end: &EndBody) -> Option<String> {
     let fall = &end.without_crushing.as_ref().unwrap_or(&end.fall).mechanism;
     let slips = !fall.slides.is_empty() || !fall.lift_offs.is_empty();
-    let path = match &end.range {
+    // Where crushing governs, the range is that of joints that crush.
+    let range = end.range.as_ref().filter(|_| end.without_crushing.is_none());
+    let path = match range {
         Some(range) => range.path_load_factor,
         None => end.instability?.load_factor,
     };
     let (found, window) = (Digits(path), Digits(limit));
     // Where joints slide and crushing governs, the least load is told, and not where the path ended.
-    if slips && end.range.is_none() {
+    if slips && range.is_none() {
         return Some(format!(
             "Of stone that does not crush, the least load factor found at which joints slide or part is {found}; limit analysis, found \
              independently, in which sliding joints dilate, allows {window}."

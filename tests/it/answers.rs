@@ -80,7 +80,12 @@ fn report() -> CollapseReport {
         at_unit_load: None,
         at_start: None,
         stress_fields: vec![field(1.0)],
-        crushing: Crushing { strength: 1e7, elastic: Some(elastic), plastic_section: Some(plastic) },
+        crushing: Crushing {
+            strength: 1e7,
+            elastic: Some(elastic),
+            plastic_section: Some(plastic),
+            on_path: [None, None],
+        },
         updated: None,
         task: TaskReport::Safety(factors()),
         states_from: StatesFrom::LoadPath,
@@ -162,7 +167,7 @@ fn what_was_not_found_is_null() {
     let answer = served(&request(json!("collapse")), &Answer::One(Box::new(nothing)));
     assert_eq!(answer["stress_fields"], json!([]));
     assert!(answer["safety"].is_null());
-    let crushing = Crushing { strength: 1e7, elastic: None, plastic_section: None };
+    let crushing = Crushing { strength: 1e7, elastic: None, plastic_section: None, on_path: [None, None] };
     let little = CollapseReport { crushing, ..report() };
     let answer = served(&request(json!("collapse")), &Answer::One(Box::new(little)));
     assert_eq!(answer["crushing"], json!({"strength_pa": 1e7, "elastic": null, "plastic_section": null}));

@@ -112,6 +112,7 @@ fn no_analysis_takes_more_than_its_estimate() {
         ("wall of subblocks", wall(4, 6, &json!({"mesh": mesh(6, 6)}))),
     ] {
         let (estimated, taken) = (demand(&request).memory, peak(&request));
+        println!("{name}: {} MiB, estimated {}", taken / MIB, estimated / MIB);
         assert!(taken < estimated + PROGRAM, "{name}: {} MiB, estimated {}", taken / MIB, estimated / MIB);
         assert!(estimated < 4 * taken + PROGRAM, "{name}: {} MiB, estimated {}", taken / MIB, estimated / MIB);
     }

@@ -40,7 +40,8 @@ const COUNTS: [(&str, [Counts; 3]); 21] = [
     ("paper/table-4", [[68, 74, 1222], [48, 0, 0], [4, 0, 0]]),
     ("pointed", [[29, 31, 1136], [0, 0, 0], [0, 0, 0]]),
     ("settlement", [[66, 70, 1656], [33, 35, 895], [33, 35, 895]]),
-    ("sliding-arch", [[71, 75, 1256], [71, 75, 1323], [71, 75, 1323]]),
+    // With the path on which its joints slide and crush.
+    ("sliding-arch", [[202, 90, 1628], [202, 90, 1628], [202, 90, 1628]]),
 ];
 
 /// The same for semicircles under a load at the quarter point: voussoirs, and subblocks each way in each of them. With more
@@ -167,6 +168,12 @@ fn an_event_costs_nothing_in_a_part_of_the_arch_that_no_event_touches() {
     let left = 20;
     let of = |right: usize| {
         let mut analysis = arch(&[vec![1.0; left], vec![left as f64 / right as f64; right]].concat());
+        // Where joints slide another path is followed, on which they crush.
+        analysis
+            .structure
+            .joints
+            .iter_mut()
+            .for_each(|joint| joint.law = JointLaw::Dry { friction: 3.0, cohesion: 0.0 });
         analysis.structure.joints[left + 1..].iter_mut().for_each(|joint| joint.law = JointLaw::Bonded);
         costs(&analysis)[0]
     };

@@ -122,6 +122,7 @@ mod serving;
 mod settlement;
 #[cfg(feature = "server")]
 mod sliding;
+mod sliding_crushing;
 #[cfg(feature = "server")]
 mod states;
 #[cfg(feature = "server")]

@@ -123,7 +123,7 @@ fn states_displaced_farther_than_the_arch_is_large_are_left_out() {
     assert_eq!((beyond.outcome, fields(&beyond)), (inside.outcome, vec![1.0]));
     let near = fields(&inside)[1];
     let left_out = |note: &Note| match note {
-        Note::DisplacedFar { load_factors, largest } => {
+        Note::DisplacedFar { load_factors, largest, sliding: false } => {
             load_factors.len() == 1
                 && (load_factors[0] / near - 1.0).abs() < 1e-9
                 && (largest / size - 1.01).abs() < 1e-6

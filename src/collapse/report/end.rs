@@ -41,7 +41,8 @@ pub struct End<'r> {
     pub state: &'r PathEnd,
     /// The end of the load path of stone that does not crush; none where it has none in reach, and where crushing is in the path.
     pub uncrushed: Option<&'r PathEnd>,
-    /// Load factor with joints of the stone's strength; none where it was not computed or has no end.
+    /// Load factor with joints of the stone's strength, by limit analysis or by the load path, where that ends first; none where it was
+    /// not computed or has no end.
     pub crushing: Option<f64>,
     /// How the structure moves on from `uncrushed`, where asked.
     pub motion: Option<&'r FallingMotion>,
@@ -73,12 +74,16 @@ impl CollapseReport {
         };
         let plastic = self.crushing.plastic_section.as_ref().filter(|_| stands);
         let at = plastic.and_then(|plastic| plastic.window).map(|window| [window.lowest, window.highest][side]);
-        let crushing = if in_path { path.map(|path| path.load_factor) } else { at.filter(|at| at.is_finite()) };
+        let followed = self.crushing.on_path[side].as_ref();
+        let crushing = match followed.or(path.filter(|_| in_path)) {
+            Some(followed) => Some(followed.load_factor),
+            None => at.filter(|at| at.is_finite()),
+        };
         let first = |state: &&PathEnd| {
             let before = |path: &PathEnd| sign * (path.load_factor - state.load_factor) > SAME * path.load_factor.abs();
             self.outcome != Outcome::CannotTell && path.map_or(state.load_factor.abs() <= self.cap, before)
         };
-        let crushes = plastic.and_then(|plastic| plastic.ends[side].as_ref()).filter(first);
+        let crushes = followed.or(plastic.and_then(|plastic| plastic.ends[side].as_ref())).filter(first);
         let (governed_by, state) = match (crushes, path) {
             (Some(state), _) => (GovernedBy::Crushing, state),
             (None, Some(path)) if in_path => (GovernedBy::Crushing, path),

@@ -31,9 +31,9 @@ pub enum Note {
     },
     /// Hinges and slides are not those of the joints at their limits at the collapse load.
     LaterMechanism,
-    /// Joints crush and slide: the load is that of the path, and none lower is looked for.
+    /// Joints crush and slide: the load is that of the path on which they do, and none lower is looked for.
     CrushesAndSlides,
-    /// Joints slide in the mechanism in which joints crush: limit analysis lets them dilate.
+    /// Joints slide in the mechanism in which joints crush: limit analysis lets them dilate, and the path ends at no lower load.
     CrushesAndDilates,
     /// Joints slide, and no other load was found at which the arch falls.
     SoleSlidingLoad(LoadRange),
@@ -88,6 +88,8 @@ pub enum Note {
     SectionsNeverFail,
     /// Joints crush before the load at which this doubt arises: what stone would bear that does not crush is not told.
     UnknownBeyondCrushing(Doubt),
+    /// Joints slide and crush, but for this doubt the path on which they do would tell what that bears.
+    UnknownWhereSlidingCrushes(Doubt),
     /// With plastic sections the arch does not stand at the start of the load path.
     CrushesAtStart {
         /// Compressive strength, Pa.
@@ -110,6 +112,8 @@ pub enum Note {
         load_factors: Vec<f64>,
         /// Largest displacement of a body, m.
         largest: f64,
+        /// Whether joints slide at the end of the path and only the state just before it is left out: there they may move almost freely.
+        sliding: bool,
     },
     /// Arch and loads are symmetric, but there is more than one state.
     SeveralStates {

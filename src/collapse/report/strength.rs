@@ -136,9 +136,17 @@ pub struct Crushing {
     pub elastic: Option<ElasticCrushing>,
     /// Collapse with plastic sections; None where it could not be computed.
     pub plastic_section: Option<PlasticCrushing>,
+    /// Where joints slide: the ends, lowest and highest, of the load path on which they crush and do not dilate, where it ends before
+    /// what both limit analysis and the path of stone that does not crush say.
+    pub on_path: [Option<PathEnd>; 2],
 }
 
 impl Crushing {
+    /// By limit analysis alone.
+    pub(in crate::collapse) fn new(strength: f64, plastic_section: Option<PlasticCrushing>) -> Self {
+        Crushing { strength, elastic: None, plastic_section, on_path: [None, None] }
+    }
+
     /// Whether joints of this strength bear scaled loads of any size.
     pub(in crate::collapse) fn never_fails(&self) -> bool {
         let window = self.plastic_section.as_ref().and_then(|plastic| plastic.window);

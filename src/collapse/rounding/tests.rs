@@ -22,7 +22,7 @@ fn blank() -> CollapseReport {
         at_unit_load: None,
         at_start: None,
         stress_fields: Vec::new(),
-        crushing: Crushing { strength: 1e7, elastic: None, plastic_section: None },
+        crushing: Crushing::new(1e7, None),
         updated: None,
         task: TaskReport::Safety(SafetyFactors::UNKNOWN),
         states_from: StatesFrom::LoadPath,

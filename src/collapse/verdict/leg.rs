@@ -152,8 +152,11 @@ impl Setup<'_> {
         report.notes.extend(parted.then(|| Note::SlidesParted(ending.end.mechanism.slips_parted().collect())));
         let beside_soil = ending.end.range.is_some() && !self.analysis.structure.passive.is_empty();
         report.notes.extend(beside_soil.then_some(Note::SlidesBesideSoil));
-        let slides = self.analysis.task.crushes_on_path() && ending.end.mechanism.slips();
-        report.notes.extend(slides.then_some(Note::CrushesAndSlides));
+        if self.analysis.task.crushes_on_path() && ending.end.mechanism.slips() {
+            let greatest = self.certificate.end(sign).unwrap_or(0.0);
+            ending.end.range = Some(LoadRange { least: path, greatest, path, mechanisms_tried: 0 });
+            report.notes.push(Note::CrushesAndSlides);
+        }
         report.outcome = Outcome::Collapse;
         report.end = Some(ending.end);
         Ok(doubt)

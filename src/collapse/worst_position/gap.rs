@@ -71,7 +71,9 @@ impl<'q> Gap<'q> {
             let chord = between(self.ends.map(|end| mechanism.driven(end, level)), t);
             mechanism.driven(&place, level) - chord
         };
-        let sag = a.mechanisms.iter().chain(&b.mechanisms).map(sag).fold(0.0, f64::max);
+        // A mechanism that takes nothing bounds nothing.
+        let larger = |a: f64, b: f64| if b.is_nan() { f64::INFINITY } else { a.max(b) };
+        let sag = a.mechanisms.iter().chain(&b.mechanisms).map(sag).fold(0.0, larger);
         let chord = between(self.solved.map(|load_factor| level / load_factor), t);
         Some(Estimate { place, t, load_factor: level / (chord + sag) })
     }

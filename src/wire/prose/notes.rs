@@ -10,7 +10,7 @@ impl Note {
         match self {
             Note::Doubt(Doubt::LooseStones) => Some("Give the arch its self weight."),
             Note::Doubt(Doubt::Slender { .. }) => Some("Check the unit of the thickness."),
-            Note::DisplacedFar { .. } => Some("Check the units of the loads and of Young's modulus."),
+            Note::DisplacedFar { sliding: false, .. } => Some(CHECK_STIFFNESS),
             Note::NotFinite(_) => Some("Check the units of the request."),
             _ => None,
         }
@@ -24,13 +24,18 @@ impl fmt::Display for Note {
             Note::UnknownBeyondCrushing(doubt) => {
                 format!("What it would bear if its stone did not crush is not known. {}", doubts::doubted(doubt))
             }
+            Note::UnknownWhereSlidingCrushes(doubt) => {
+                format!("{UNKNOWN_WHERE_SLIDING_CRUSHES} {}", doubts::doubted(doubt))
+            }
             Note::StandsOnlyWithin { window, why } => stands_only(window, *why),
             Note::SoleSlidingLoad(range) => sole_load(range),
             Note::SlidesBesideSoil => SLIDES_BESIDE_SOIL.into(),
             Note::ManySlidingLoads(range) => many_loads(range),
             Note::SlidesParted(joints) => slides_parted(joints),
             Note::CrushesAtStart { strength, start, window } => crushes([*strength, *start].map(Digits), *window),
-            Note::DisplacedFar { load_factors, largest } => displaced_far(load_factors, Digits(*largest)),
+            Note::DisplacedFar { load_factors, largest, sliding } => {
+                displaced_far(load_factors, Digits(*largest), *sliding)
+            }
             Note::SeveralStates { given, load_factors, joints } => several(*given, load_factors, joints),
             Note::ReadAtSteps { step, limit } => read_at_steps([*step, *limit].map(Digits)),
             Note::SlenderSubblocks { slenderness, trusted } => slender([*slenderness, *trusted].map(Digits)),
@@ -84,10 +89,13 @@ const SLIDES_BESIDE_SOIL: &str = "Joints slide beside backfill that resists. The
 
 const FALLS_FROM_ZERO: &str = "The arch stands at load factor 0 and at none beyond it in the direction asked. Hinges, slides \
      and velocities are those in which it falls as soon as the load factor leaves 0.";
-const CRUSHES_AND_SLIDES: &str = "Joints slide, and may crush on the path. The collapse load is that of this load path; \
-     where joints slide without dilating the arch may fall at others too, and where joints may crush none lower is looked for.";
+const CRUSHES_AND_SLIDES: &str = "Joints slide and crush. The collapse load is that of the load path on which they do, without \
+     dilating. By another order of loading the arch may fall at another load; none lower is looked for. Limit analysis, which \
+     lets joints dilate, allows more.";
 const CRUSHES_AND_DILATES: &str = "Joints slide where the stone crushes. That load is limit analysis's, which lets sliding \
-     joints dilate (associated friction); joints that do not dilate may bear less.";
+     joints dilate (associated friction). The load path on which joints crush and do not dilate ends no more than 0.1 % below it.";
+const UNKNOWN_WHERE_SLIDING_CRUSHES: &str = "Joints slide, and what they bear as they crush, too, is not known: limit analysis \
+     lets them dilate, so that its load is an upper bound, and the load path on which they slide and crush could not be followed.";
 const LATER_MECHANISM: &str = "Joints at their limits at the collapse load make no mechanism, as may be where they slide. \
      Hinges and slides are those in which the load path ends; the thrust line is that at the collapse load.";
 const COHESION_BY_POINT: &str = "Cohesion is shared out to a joint's contact points, and those that open lose theirs: where \
@@ -164,12 +172,18 @@ fn crushes([strength, start]: [Digits; 2], window: Option<LimitWindow>) -> Strin
     )
 }
 
-fn displaced_far(load_factors: &[f64], largest: Digits) -> String {
+const CHECK_STIFFNESS: &str = "Check the units of the loads and of Young's modulus.";
+
+fn displaced_far(load_factors: &[f64], largest: Digits, sliding: bool) -> String {
+    let why = if sliding {
+        "Joints slide, and just before the end of a path they may move almost freely."
+    } else {
+        CHECK_STIFFNESS
+    };
     let factors = listed(load_factors.iter().map(|factor| Digits(*factor).to_string()));
     format!(
         "At load factor {factors}, stones are displaced by up to {largest} m, farther than the structure is large. \
-         Displacements are taken to be small, so states there tell of nothing and are left out. Check the units of the loads \
-         and of Young's modulus."
+         Displacements are taken to be small, so states there tell of nothing and are left out. {why}"
     )
 }
 

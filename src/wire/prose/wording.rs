@@ -106,11 +106,12 @@ fn collapses(result: &AnalysisResult, end: &EndBody) -> String {
         false => String::new(),
         true => format!(", that is with its scaled loads reversed and {times} times as large"),
     };
+    let crush = if end.range.is_some() { "slide and crush" } else { "crush" };
     let why = match (end.governed_by, &end.instability) {
         (GovernedBy::Crushing, Some(other)) => {
-            format!(", as its joints crush; if its stone did not crush, at {} {unit}", Rounded(other.intensity))
+            format!(", as its joints {crush}; if its stone did not crush, at {} {unit}", Rounded(other.intensity))
         }
-        (GovernedBy::Crushing, None) => ", as its joints crush".to_owned(),
+        (GovernedBy::Crushing, None) => format!(", as its joints {crush}"),
         _ => String::new(),
     };
     let range = end.range.as_ref().map(|range| may_stand(end, range, unit)).unwrap_or_default();

@@ -32,10 +32,11 @@ pub struct EndBody {
     /// Where stone that does not crush falls; null where it does not up to `cap`, and where `crushing_in_path` is set and joints
     /// crush.
     pub instability: Option<FigureBody>,
-    /// Where joints of the stone's strength (plastic sections) give way; null where that was not computed or has no end. It governs
-    /// where it comes first, but not by fixed steps.
+    /// Where joints of the stone's strength give way: by limit analysis (plastic sections) or, where joints slide, too, on the load path
+    /// on which they crush, whichever is lower; null where that was not computed or has no end. It governs where it comes first, but not
+    /// by fixed steps.
     pub crushing: Option<FigureBody>,
-    /// Range in which the intensity may lie, as joints slide; null where none does, and where crushing governs.
+    /// Range in which the intensity may lie, as joints slide; null where none does, and where limit analysis says that crushing governs.
     pub range: Option<RangeBody>,
     /// Largest equilibrium residual of any body, at any event of the load path where it was traced, and of the forces at its end, as a
     /// share of the structure's weight, or of the largest load at a point where that is more; where crushing governs, of its forces
@@ -96,7 +97,8 @@ pub struct MechanismBody {
 /// equilibrium; stiffness of the joints and order of loading pick one.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct RangeBody {
-    /// Least intensity found at which a mechanism without dilation is in equilibrium. It governs.
+    /// Least intensity found at which a mechanism without dilation is in equilibrium; where crushing governs, that at which the load path
+    /// ends on which joints crush. It governs.
     pub least: f64,
     /// End of the limit window, in which sliding joints dilate (associated friction): no more is possible; where joints crush first,
     /// no more than `crushing`. Null where unbounded.

@@ -87,6 +87,11 @@ fn balance(analysis: &Analysis) -> f64 {
     if fixed > 0.0 && scaled > 0.0 { fixed / scaled } else { 1.0 }
 }
 
+/// The oracle's window of stone that crushes.
+fn crushed(problem: Problem, report: &CollapseReport) -> Option<[f64; 2]> {
+    problem.of_strength(report.crushing.strength).window().map(|(low, high)| [low, high])
+}
+
 /// Difference of two load factors, relative; infinities equal themselves.
 fn relative(a: f64, b: f64, floor: f64) -> f64 {
     if a == b { 0.0 } else { (a - b).abs() / a.abs().max(b.abs()).max(floor) }
@@ -178,10 +183,16 @@ impl Checked {
             }
             (a, b) => self.complaints.push(format!("window {b:?}, oracle {a:?} (give {give:e})")),
         }
-        self.consistent(analysis, report, oracle);
+        self.consistent(analysis, report, problem, oracle);
     }
 
-    fn consistent(&mut self, analysis: &Analysis, report: &CollapseReport, oracle: Option<(f64, f64)>) {
+    fn consistent(
+        &mut self,
+        analysis: &Analysis,
+        report: &CollapseReport,
+        problem: Problem,
+        oracle: Option<(f64, f64)>,
+    ) {
         let floor = 1e-6 * balance(analysis);
         let slides = report.end.as_ref().is_some_and(|end| end.mechanism.slips());
         let expected = match oracle {
@@ -193,12 +204,18 @@ impl Checked {
                 if limit < report.cap { Outcome::Collapse } else { Outcome::Stands }
             }
         };
-        let explained = report.outcome == Outcome::CannotTell
-            || report.outcome == Outcome::Crushes
-            || (slides && report.outcome == Outcome::SlidesAsBuilt)
-            || (slides && expected == Outcome::Stands && report.outcome == Outcome::Collapse)
-            // Its stone crushes, which the oracle's does not.
-            || (report.end.is_none() && expected == Outcome::Stands && report.outcome == Outcome::Collapse);
+        let falls = expected == Outcome::Stands && report.outcome == Outcome::Collapse;
+        let explained = match report.outcome {
+            Outcome::CannotTell => true,
+            Outcome::SlidesAsBuilt => slides,
+            Outcome::Collapse if falls && slides => true,
+            // Its stone crushes, so the oracle's has to.
+            Outcome::Crushes => crushed(problem, report).is_none_or(|[low, high]| low >= -floor || high <= floor),
+            Outcome::Collapse if falls && report.end.is_none() => {
+                crushed(problem, report).is_some_and(|[low, high]| low.abs().min(high) <= report.cap)
+            }
+            _ => false,
+        };
         self.expect(report.outcome == expected || explained, || {
             format!("outcome {:?}, the oracle expects {expected:?}", report.outcome)
         });

@@ -72,7 +72,7 @@ pub fn excess(solved: &Solved, end: &PathEnd) -> [f64; 3] {
         let outside = (normal * thrust.eccentricity.abs() - normal * half) / half;
         let slipping = thrust.shear.abs() - friction * normal - cohesion * joint.length();
         let astray = (thrust.at - joint.middle() - joint.tangent() * thrust.eccentricity).norm() / half;
-        worst = [worst[0].max(outside).max(-normal), worst[1].max(slipping), worst[2].max(astray)];
+        worst = [larger(larger(worst[0], outside), -normal), larger(worst[1], slipping), larger(worst[2], astray)];
     }
     let weight = solved.weight(end.load_factor);
     [worst[0] / weight, worst[1] / weight, worst[2]]

@@ -1,0 +1,93 @@
+//! Rings that slide on each other and crush: the load is that of the path on which they do both.
+
+use crate::common::door;
+use serde_json::{Value, json};
+use voussoir::collapse::{GovernedBy, Note, Outcome, Reach};
+
+/// Paths of springs of other stiffness, and of the mirror image, end at the same load to this share.
+const SAME: f64 = 1e-3;
+
+/// Two rings of 20 and 21 voussoirs over 6 m, of stone of so many MPa, with a load at this abscissa on the fill.
+fn bridge(mega_pascals: f64, at: f64) -> Value {
+    json!({
+        "bridge": {"spans": [{
+            "profile": {"circular": {"span_m": 6.0, "rise_m": 1.5}},
+            "rings": [{"thickness_m": 0.22, "voussoirs": 20}, {"thickness_m": 0.22, "voussoirs": 21}],
+        }]},
+        "stone": {
+            "density_kg_m3": 2100.0, "friction_angle_deg": 35.0, "compressive_strength_pa": mega_pascals * 1e6,
+        },
+        "backfill": {"surface_height_m": 2.3},
+        "loads": [
+            {"load": {"self_weight": {}}},
+            {
+                "load": {"patch_load": {"centre_x_m": at, "width_m": 0.3, "force_n_per_m": 1000.0, "dispersal": {}}},
+                "scaled": true,
+            },
+        ],
+    })
+}
+
+/// The load factor that governs, and that at which stone would fall that does not crush.
+fn loads(request: &Value) -> [f64; 2] {
+    let report = door::solve(request);
+    assert_eq!(report.outcome, Outcome::Collapse, "{:?}", report.notes);
+    let ends = report.ends();
+    [ends[0].state.load_factor, ends[0].uncrushed.unwrap().load_factor]
+}
+
+#[test]
+fn the_path_on_which_joints_slide_and_crush_governs_where_it_ends_first() {
+    let mut request = bridge(4.0, -1.5);
+    let report = door::solve(&request);
+    let ends = report.ends();
+    let end = &ends[0];
+    let plastic = report.crushing.plastic_section.as_ref().unwrap().window.unwrap().highest;
+    let (load, uncrushed) = (end.state.load_factor, end.uncrushed.unwrap().load_factor);
+    println!("{load}, limit analysis {plastic}, of stone that does not crush {uncrushed}");
+    assert_eq!((report.outcome, end.governed_by), (Outcome::Collapse, GovernedBy::Crushing));
+    assert!(report.notes.contains(&Note::CrushesAndSlides) && end.state.mechanism.slips());
+    assert!(!report.notes.contains(&Note::CrushesAndDilates));
+    assert!(load < 0.9 * plastic.min(uncrushed) && end.crushing == Some(load));
+    let range = end.state.range.unwrap();
+    assert_eq!([range.least, range.path, range.greatest], [load, load, plastic]);
+    // States are those of stone that does not crush.
+    assert!(report.near_collapse.as_ref().is_none_or(|state| state.load_factor > load));
+    request["crushing_in_path"] = json!(true);
+    let asked = door::solve(&request);
+    assert_eq!(asked.ends()[0].state, end.state);
+}
+
+#[test]
+fn the_safety_factor_is_that_of_the_path_too() {
+    let mut request = bridge(4.0, -1.5);
+    let [load, _] = loads(&request);
+    request["analysis"] = json!({"safety": {}});
+    let report = door::solve(&request);
+    let safety = report.safety().unwrap();
+    assert_eq!((report.outcome, safety.governing), (Outcome::Crushes, Reach::At(load)));
+    assert_eq!(safety.plastic_section, Reach::At(load));
+}
+
+#[test]
+fn neither_stiffness_nor_the_side_makes_another_load() {
+    let [load, _] = loads(&bridge(4.0, -1.5));
+    for penalty in [0.1, 5.0] {
+        let mut request = bridge(4.0, -1.5);
+        request["stone"]["penalty_ratio"] = json!(penalty);
+        let [other, _] = loads(&request);
+        assert!((other / load - 1.0).abs() < SAME, "{penalty}: {other} and {load}");
+    }
+    let [mirrored, _] = loads(&bridge(4.0, 1.5));
+    assert!((mirrored / load - 1.0).abs() < SAME, "{mirrored} and {load}");
+}
+
+#[test]
+fn stronger_stone_bears_more_up_to_what_it_bears_that_does_not_crush() {
+    let found = [2.0, 4.0, 8.0, 20.0, 100.0].map(|strength| loads(&bridge(strength, -1.5)));
+    println!("{found:?}");
+    assert!(found.windows(2).all(|pair| pair[0][0] < pair[1][0]));
+    assert!(found.iter().all(|[load, uncrushed]| load < uncrushed));
+    let [load, uncrushed] = found[4];
+    assert!(load > 0.98 * uncrushed);
+}
