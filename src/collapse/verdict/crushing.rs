@@ -2,7 +2,7 @@
 //!
 //! Limit analysis lets joints dilate as they slide, and so bounds from above alone what they bear that crush. The least load at which
 //! joints slide without dilating is that of stone that does not crush. The path may end far below both: rings upon each other lost a
-//! tenth by it in the median, and two thirds at most (40 random bridges). So it is followed, too, and governs where it ends first.
+//! tenth by it in the median, and two thirds at most (33 random bridges). So it is followed, too, and governs where it ends first.
 
 use super::{Setup, is_cohesive};
 use crate::collapse::certificate::range_note;
