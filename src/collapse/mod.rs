@@ -284,7 +284,8 @@ impl From<Unbuilt> for AnalysisError {
 /// is left to whoever writes the answer down.
 ///
 /// # Errors
-/// When stopped by `budget`, or when the curved beam has no solution.
+/// When stopped by `budget`, when a fixed step is too small, when a stone is loose or held by nothing, or when the curved beam has no
+/// solution.
 pub fn answer(question: &Question, budget: &Budget) -> Result<Answer, AnalysisError> {
     let built = &mut Discretisation::new(budget);
     let answer = match question {
@@ -307,7 +308,7 @@ pub fn answer(question: &Question, budget: &Budget) -> Result<Answer, AnalysisEr
 /// are not finite are treated as by [`answer`].
 ///
 /// # Errors
-/// When stopped by `budget`.
+/// When stopped by `budget`, when a fixed step is too small, or when a stone is loose or held by nothing.
 pub fn run(analysis: &Analysis, budget: &Budget) -> Result<CollapseReport, AnalysisError> {
     let report = verdict::run(analysis, &mut Discretisation::new(budget))?;
     budget.check()?;

@@ -184,11 +184,11 @@ fn why_load(report: &CollapseReport) -> PlanReason {
 fn half_of(analysis: &Analysis, rigid: &CollapseReport) -> Option<Analysis> {
     let (structure, axis) = (&analysis.structure, analysis.structure.axis());
     let symmetric = |forces: &[_]| is_symmetric(forces, structure.voussoirs().len(), axis);
-    let ends = rigid.end.iter().chain(&rigid.other_end);
+    let mut ends = rigid.end.iter().chain(&rigid.other_end);
     // Of other structures joints and bodies are not numbered from left to right.
     let arch = structure.spans.len() == 1 && structure.spans[0].joints.len() == structure.ring().len();
     let whole = arch && !structure.is_half() && structure.passive.is_empty() && structure.asymmetry().is_none();
-    if !(whole && symmetric(&analysis.fixed) && symmetric(&analysis.scaled) && { ends }.all(falls_evenly)) {
+    if !(whole && symmetric(&analysis.fixed) && symmetric(&analysis.scaled) && ends.all(falls_evenly)) {
         return None;
     }
     let half = structure.left_half(None);

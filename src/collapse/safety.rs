@@ -86,7 +86,8 @@ pub(super) fn crushed(report: &mut CollapseReport, in_path: bool) {
         return;
     }
     let unloaded = bears(report.limit_window, 0.0);
-    if if unloaded { !bears(plastic.window, 0.0) } else { plastic.window.is_none() } {
+    let crushes_at_start = if unloaded { !bears(plastic.window, 0.0) } else { plastic.window.is_none() };
+    if crushes_at_start {
         let (strength, start, window) = (*strength, if unloaded { 0.0 } else { report.start }, plastic.window);
         report.notes.push(Note::CrushesAtStart { strength, start, window });
         if report.outcome != Outcome::SlidesAsBuilt {

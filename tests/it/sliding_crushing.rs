@@ -91,3 +91,22 @@ fn stronger_stone_bears_more_up_to_what_it_bears_that_does_not_crush() {
     let [load, uncrushed] = found[4];
     assert!(load > 0.98 * uncrushed);
 }
+
+#[test]
+fn rings_that_slide_and_crush_under_their_own_weight_are_said_to() {
+    let mut request = bridge(1.519, -2.076);
+    request["bridge"]["spans"][0] = json!({
+        "profile": {"circular": {"span_m": 12.0, "rise_m": 4.925}},
+        "rings": [{"thickness_m": 0.2936, "voussoirs": 18}, {"thickness_m": 0.2936, "voussoirs": 19}],
+    });
+    request["stone"]["friction_angle_deg"] = json!(19.63);
+    request["backfill"]["surface_height_m"] = json!(6.098);
+    let report = door::solve(&request);
+    let otherwise = |note: &Note| if let Note::SlidesAndCrushesAsBuilt(at) = note { Some(*at) } else { None };
+    let otherwise = report.notes.iter().find_map(otherwise).unwrap();
+    let plastic = report.crushing.plastic_section.as_ref().unwrap().window.unwrap().highest;
+    println!("{:?}, otherwise {otherwise}, limit analysis {plastic}", report.outcome);
+    // Limit analysis, in which they dilate, finds that it stands, and how much it bears.
+    assert_eq!(report.outcome, Outcome::SlidesAsBuilt);
+    assert!(plastic > 0.0 && (otherwise / plastic - 1.0).abs() < 1e-6);
+}

@@ -184,6 +184,10 @@ impl<'p> States<'p> {
     /// The load factor to go to next, on the way to this one: near collapse by strides.
     fn next(&self, load_factor: f64) -> f64 {
         let (Some(last), Some(end)) = (self.before(load_factor), self.way.end) else { return load_factor };
+        // No stride leads beyond the end.
+        if self.way.to(load_factor) >= self.way.to(end) {
+            return load_factor;
+        }
         let far = last.load_factor + STRIDE * (end - last.load_factor);
         if (load_factor - last.load_factor).abs() > (far - last.load_factor).abs() { far } else { load_factor }
     }

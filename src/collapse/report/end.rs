@@ -54,8 +54,11 @@ impl CollapseReport {
         let both = [(&self.end, &self.motion), (&self.other_end, &self.other_motion)];
         let sides = if self.direction == Direction::Increase { [1, 0] } else { [0, 1] };
         let asked = if self.outcome == Outcome::StandsInWindow { 2 } else { 1 };
-        let pairs = both.into_iter().zip(sides).take(asked);
-        { pairs }.filter_map(|((end, motion), side)| self.end_of(side, end.as_ref(), motion.as_ref())).collect()
+        both.into_iter()
+            .zip(sides)
+            .take(asked)
+            .filter_map(|((end, motion), side)| self.end_of(side, end.as_ref(), motion.as_ref()))
+            .collect()
     }
 
     /// The lowest (0) or the highest end (1) from what this path came to.

@@ -33,6 +33,9 @@ pub enum Note {
     LaterMechanism,
     /// Joints crush and slide: the load is that of the path on which they do, and none lower is looked for.
     CrushesAndSlides,
+    /// Joints slide and crush as the loads at the start come on: limit analysis, in which they dilate, and the path of stone that does not
+    /// crush say that the structure falls at this load factor.
+    SlidesAndCrushesAsBuilt(f64),
     /// Joints slide in the mechanism in which joints crush: limit analysis lets them dilate, and the path ends at no lower load.
     CrushesAndDilates,
     /// Joints slide, and no other load was found at which the arch falls.

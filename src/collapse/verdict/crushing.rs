@@ -37,7 +37,9 @@ impl<'a> Setup<'a> {
                 Ok(report)
             }
             Outcome::FallsAsBuilt | Outcome::SlidesAsBuilt => {
-                Ok(CollapseReport { cost: report.cost, plan: report.plan, ..path })
+                let told = report.ends().first().map(|end| Note::SlidesAndCrushesAsBuilt(end.state.load_factor));
+                let notes = path.notes.into_iter().chain(told).collect();
+                Ok(CollapseReport { cost: report.cost, plan: report.plan, notes, ..path })
             }
             Outcome::Stands => Ok(report),
             _ => {
@@ -108,20 +110,21 @@ impl CollapseReport {
         if !end.state.mechanism.slips() || by_mesh || !self.ends().iter().any(lower) {
             return;
         }
+        if !end.state.crushed.is_empty() {
+            self.notes.push(Note::CrushesAndSlides);
+            self.crushing.on_path[side] = Some(end.state.clone());
+            return;
+        }
+        // Nothing has crushed where it ends: that is a load of stone that does not.
         let asked = (sign > 0.0) == (self.direction == Direction::Increase);
-        match if asked { &mut self.end } else { &mut self.other_end } {
-            // Nothing has crushed where it ends: that is a load of stone that does not.
-            Some(path) if end.state.crushed.is_empty() => {
-                let old = path.range;
-                let range = end.state.range.map(|new| LoadRange { least: new.least, ..old.unwrap_or(new) });
-                self.notes.retain(|note| !old.as_ref().is_some_and(|old| *note == range_note(old)));
-                self.notes.extend(range.as_ref().map(range_note));
-                *path = PathEnd { range, ..end.state.clone() };
-            }
-            _ => {
-                self.notes.push(Note::CrushesAndSlides);
-                self.crushing.on_path[side] = Some(end.state.clone());
-            }
+        let path = if asked { &mut self.end } else { &mut self.other_end };
+        let old = path.as_ref().and_then(|path| path.range);
+        let range = end.state.range.map(|new| LoadRange { least: new.least, ..old.unwrap_or(new) });
+        self.notes.retain(|note| !old.as_ref().is_some_and(|old| *note == range_note(old)));
+        self.notes.extend(range.as_ref().map(range_note));
+        *path = Some(PathEnd { range, ..end.state.clone() });
+        if self.outcome == Outcome::Stands {
+            self.outcome = Outcome::Collapse;
         }
     }
 }

@@ -67,6 +67,7 @@ impl fmt::Display for Note {
             Note::NothingGrows => NOTHING_GROWS.into(),
             Note::LaterMechanism => LATER_MECHANISM.into(),
             Note::CrushesAndSlides => CRUSHES_AND_SLIDES.into(),
+            Note::SlidesAndCrushesAsBuilt(otherwise) => slides_and_crushes_as_built(Digits(*otherwise)),
             Note::CrushesAndDilates => CRUSHES_AND_DILATES.into(),
             Note::CohesionByPoint => COHESION_BY_POINT.into(),
             Note::UnbentStones => UNBENT_STONES.into(),
@@ -173,6 +174,13 @@ fn crushes([strength, start]: [Digits; 2], window: Option<LimitWindow>) -> Strin
 }
 
 const CHECK_STIFFNESS: &str = "Check the units of the loads and of Young's modulus.";
+
+fn slides_and_crushes_as_built(otherwise: Digits) -> String {
+    format!(
+        "It falls on the load path on which joints slide and crush. The path of stone that does not crush, and limit analysis, which \
+         lets joints that crush dilate as they slide, end at load factor {otherwise}: neither is safe where joints do both."
+    )
+}
 
 fn displaced_far(load_factors: &[f64], largest: Digits, sliding: bool) -> String {
     let why = if sliding {
