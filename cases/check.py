@@ -69,7 +69,7 @@ def check(answer):
                  same(value, end["load_factor"]) and end["motion"] and structure.falls(rows(end["motion"]), value, sign)]
     for end in answer["ends"] if answer["outcome"] in ("collapse", "stands_in_window") else []:
         at, which = end["load_factor"], ("lowest", "highest").index(end["which"])
-        why = end["governed_by"] + " on the path" * (answer["request"].get("crushing_in_path", False) or "crushing" in end["governed_by"] and bool(end["range"]))
+        why = end["governed_by"] + " on the path" * (answer["request"].get("crushing_in_path", False) or end["governed_by"] == "crushing" and bool(end["range"]))
         exact = window[which] is not None and same(at, window[which]) or why == "crushing"
         inside = window[which] is None or same(at, window[which]) or (at < window[which]) == (which == 1)
         line = {k: (n * (0.5 - off / structure.joints[k][4]), n * (0.5 + off / structure.joints[k][4]), t)

@@ -111,7 +111,7 @@ impl Certificate {
         budget: &Budget,
     ) -> Result<(Crushing, [Vec<Resultant>; 2]), AnalysisError> {
         let structure = &analysis.structure;
-        let strengths: Vec<f64> = structure.joints.iter().map(|joint| structure.strength_at(joint)).collect();
+        let strengths = structure.joint_strengths();
         let strength = structure.least_strength();
         if self.solved && !self.theorem.crushes(&strengths) {
             let window = self.window.map(|[lowest, highest]| LimitWindow { lowest, highest });

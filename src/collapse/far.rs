@@ -10,8 +10,6 @@ impl CollapseReport {
     pub(super) fn leave_out_far_states(&mut self, structure: &Structure) {
         let size = extent(structure.bodies.iter().flat_map(|body| body.corners.iter().copied()));
         let (mut load_factors, mut largest) = (Vec::new(), 0.0f64);
-        let far = |told: &Option<Snapshot>| told.as_ref().is_some_and(|state| farthest(state) > size);
-        let sliding = !far(&self.at_unit_load) && self.end.as_ref().is_some_and(|end| end.mechanism.slips());
         for told in [&mut self.at_unit_load, &mut self.near_collapse] {
             if let Some(state) = told.take_if(|state| farthest(state) > size) {
                 load_factors.push(state.load_factor);
@@ -21,6 +19,8 @@ impl CollapseReport {
         if load_factors.is_empty() {
             return;
         }
+        let unit = self.at_unit_load.is_none() && load_factors.contains(&1.0);
+        let sliding = !unit && self.end.as_ref().is_some_and(|end| end.mechanism.slips());
         self.stress_fields.retain(|field| !load_factors.contains(&field.load_factor));
         self.notes.push(Note::DisplacedFar { load_factors, largest, sliding });
     }

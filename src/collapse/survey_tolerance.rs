@@ -103,7 +103,7 @@ impl Search<'_> {
 /// The lower of the upper ends of stone that does not crush, and of stone that does.
 fn governing(of: &Resurveyed, budget: &Budget) -> Result<f64, Unsolved> {
     let theorem = StaticTheorem::new(&of.structure, &of.fixed, &of.scaled).map_err(|_| Unsolved)?;
-    let strengths: Vec<f64> = of.structure.joints.iter().map(|joint| of.structure.strength_at(joint)).collect();
+    let strengths = of.structure.joint_strengths();
     let (instability, _) = theorem.upper_end(budget)?;
     if !theorem.crushes(&strengths) {
         return Ok(instability);

@@ -18,8 +18,8 @@ pub(super) const SMALL_FACTOR: f64 = 1e-6;
 pub(super) const SAME_LOAD: f64 = 1e-9;
 /// Crushing and falling this close come at the same load: rounding must not decide between them.
 pub(super) const SAME_FAILURE: f64 = 1e-6;
-/// A path whose joints crush in strips and that ends this close to another load, as a share of it, ends there (measured: strips bear
-/// 1e-4 less than plastic sections at most random bridges, 3e-3 at the worst structure).
+/// A path whose joints crush in strips and that ends this close to another load, as a share of it, ends there: strips bear that much less
+/// than plastic sections (measured: 1e-4 mostly, 3e-3 at worst).
 pub(super) const SAME_CRUSHING: f64 = 1e-3;
 /// Largest equilibrium residual of a path that is trusted, as a share of the loads.
 pub(super) const RESIDUAL: f64 = 1e-8;

@@ -18,9 +18,9 @@ use super::state::{Standing, States};
 use super::strips::Strips;
 use super::updated::{self, Course};
 use super::{
-    Analysis, AnalysisError, CollapseReport, Cost, Crushing, Doubt, End, Geometry, GovernedBy, Method, Note, Order,
-    Outcome, SettlementEnd, SupportMovement, Task, TaskReport, ThrustRange, UpdatedGeometry, cracks, falling,
-    geometric, plan, rounding, safety, settlement,
+    Analysis, AnalysisError, CollapseReport, Cost, Crushing, Doubt, Geometry, Method, Note, Order, Outcome,
+    SettlementEnd, SupportMovement, Task, TaskReport, ThrustRange, UpdatedGeometry, cracks, falling, geometric, plan,
+    rounding, safety, settlement,
 };
 use crate::budget::Budget;
 use crate::dda::{self, Tracer};
@@ -155,13 +155,6 @@ impl<'a> Setup<'a> {
             }
         }
         plan::judge_load(&mut report, &analysis.task);
-        let slides = |end: &End| {
-            let crushes = end.governed_by == GovernedBy::Crushing && end.state.mechanism.slips();
-            crushes && end.state.range.is_none()
-        };
-        let unknown = report.notes.iter().any(|note| matches!(note, Note::UnknownWhereSlidingCrushes(_)));
-        let dilates = !unknown && !analysis.task.crushes_on_path() && report.ends().iter().any(slides);
-        report.notes.extend(dilates.then_some(Note::CrushesAndDilates));
         falling::follow(analysis, &mut report, budget)?;
         budget.ask()?;
         Ok(report)

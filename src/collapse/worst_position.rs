@@ -71,7 +71,7 @@ struct Search<'q> {
 impl<'q> Search<'q> {
     fn new(question: &'q PositionQuestion, budget: &'q Budget<'q>) -> Self {
         let structure = &question.analysis.structure;
-        let strengths = structure.joints.iter().map(|joint| structure.strength_at(joint)).collect();
+        let strengths = structure.joint_strengths();
         Search { question, budget, strengths, places: places(question, budget) }
     }
 

@@ -39,8 +39,8 @@ const LAST_TANGENT: f64 = 1.0;
 pub struct CrushingWindow {
     /// Lowest and highest, infinite where unbounded.
     pub ends: [f64; 2],
-    /// Dry joints on their parabola at either end whose block of stress takes a ten-thousandth of the joint or more (less is a hinge), and that rounding tells from others;
-    /// none where the end is infinite.
+    /// Dry joints on their parabola at either end whose block of stress takes a ten-thousandth of the joint or more (less is a hinge) and
+    /// whose forces rounding tells from those of others; none where the end is infinite.
     pub joints: [Vec<usize>; 2],
     /// Forces of all joints at either end; none where it is infinite.
     pub forces: [Vec<Resultant>; 2],

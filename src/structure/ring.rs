@@ -60,6 +60,11 @@ impl Structure {
         self.stones_at(joint).map(|stone| stone.compressive_strength).fold(f64::INFINITY, f64::min)
     }
 
+    /// The same of every joint, Pa.
+    pub fn joint_strengths(&self) -> Vec<f64> {
+        self.joints.iter().map(|joint| self.strength_at(joint)).collect()
+    }
+
     /// The stones on both sides of a joint.
     pub fn stones_at(&self, joint: &Joint) -> impl Iterator<Item = &Stone> {
         joint.between.into_iter().filter_map(Side::body).map(|body| self.stone_of(body))

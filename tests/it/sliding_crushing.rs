@@ -51,8 +51,6 @@ fn the_path_on_which_joints_slide_and_crush_governs_where_it_ends_first() {
     assert!(load < 0.9 * plastic.min(uncrushed) && end.crushing == Some(load));
     let range = end.state.range.unwrap();
     assert_eq!([range.least, range.path, range.greatest], [load, load, plastic]);
-    // States are those of stone that does not crush.
-    assert!(report.near_collapse.as_ref().is_none_or(|state| state.load_factor > load));
     request["crushing_in_path"] = json!(true);
     let asked = door::solve(&request);
     assert_eq!(asked.ends()[0].state, end.state);

@@ -8,7 +8,7 @@ use super::{Setup, is_cohesive};
 use crate::collapse::certificate::range_note;
 use crate::collapse::discretise::Discretisation;
 use crate::collapse::{
-    Analysis, AnalysisError, CollapseReport, CollapseTask, Direction, End, LimitWindow, LoadRange, Method, Note,
+    Analysis, AnalysisError, CollapseReport, CollapseTask, Direction, End, GovernedBy, LoadRange, Method, Note,
     Outcome, PathEnd, StatesAsked, Task, Thrust, WhichEnd, plan, tolerances,
 };
 use crate::structure::Joint;
@@ -23,7 +23,8 @@ impl<'a> Setup<'a> {
         mut report: CollapseReport,
         built: &mut Discretisation<'a>,
     ) -> Result<CollapseReport, AnalysisError> {
-        if !matches!(self.analysis.task.method(), Method::EventPath(_)) || !self.crushes() || !slides(&report) {
+        let exact = matches!(self.analysis.task.method(), Method::EventPath(_));
+        if !exact || report.outcome == Outcome::Crushes || !self.crushes() || !slides(&report) {
             return Ok(report);
         }
         // One model at a time.
@@ -31,9 +32,13 @@ impl<'a> Setup<'a> {
         let path = super::run(&self.on_crushing_path(), &mut Discretisation::new(self.budget))?;
         report.cost.join(path.cost);
         match path.outcome {
-            Outcome::Collapse | Outcome::StandsInWindow => {
+            Outcome::Collapse | Outcome::StandsInWindow | Outcome::Stands => {
                 let cohesive = is_cohesive(self.analysis);
                 path.ends().into_iter().for_each(|end| report.take_lower(end, cohesive));
+                let followed = report.crushing.on_path.iter().any(Option::is_some);
+                let dilates = report.ends().iter().any(dilates);
+                report.notes.extend(followed.then_some(Note::CrushesAndSlides));
+                report.notes.extend(dilates.then_some(Note::CrushesAndDilates));
                 Ok(report)
             }
             Outcome::FallsAsBuilt | Outcome::SlidesAsBuilt => {
@@ -41,7 +46,6 @@ impl<'a> Setup<'a> {
                 let notes = path.notes.into_iter().chain(told).collect();
                 Ok(CollapseReport { cost: report.cost, plan: report.plan, notes, ..path })
             }
-            Outcome::Stands => Ok(report),
             _ => {
                 let doubt = path.notes.into_iter().find_map(|note| match note {
                     Note::Doubt(doubt) => Some(doubt),
@@ -70,14 +74,10 @@ impl<'a> Setup<'a> {
         Analysis { task: Task::Collapse(task), ..plan::of_whole_stones(self.analysis) }
     }
 
-    /// Whether some joint may crush, and the plastic sections bear the loads that stay.
+    /// Whether some joint may crush, and plastic sections bear loads of some size.
     fn crushes(&self) -> bool {
-        let structure = &self.analysis.structure;
-        let strengths: Vec<f64> = structure.joints.iter().map(|joint| structure.strength_at(joint)).collect();
-        let window = self.crushing.plastic_section.as_ref().and_then(|plastic| plastic.window);
-        let stands =
-            |window: LimitWindow| [0.0, self.start].iter().any(|at| (window.lowest..=window.highest).contains(at));
-        self.certificate.theorem.crushes(&strengths) && window.is_some_and(stands)
+        let stands = self.crushing.plastic_section.as_ref().is_some_and(|plastic| plastic.window.is_some());
+        stands && self.certificate.theorem.crushes(&self.analysis.structure.joint_strengths())
     }
 
     /// Whether the forces of a state crush no more than a sliver of any joint.
@@ -96,6 +96,11 @@ fn slides(report: &CollapseReport) -> bool {
     report.ends().iter().any(states)
 }
 
+/// Whether limit analysis governs an end at which joints crush and slide.
+fn dilates(end: &End) -> bool {
+    end.governed_by == GovernedBy::Crushing && end.state.mechanism.slips() && end.state.range.is_none()
+}
+
 impl CollapseReport {
     /// Takes in where the path of joints that crush ends, if that is first. Where nothing slides there it is the load of plastic sections
     /// but for what strips leave out. Where joints are `cohesive` and none crushes, it is first because cohesion is shared out to more
@@ -111,7 +116,6 @@ impl CollapseReport {
             return;
         }
         if !end.state.crushed.is_empty() {
-            self.notes.push(Note::CrushesAndSlides);
             self.crushing.on_path[side] = Some(end.state.clone());
             return;
         }

@@ -78,7 +78,7 @@ fn value(question: &PositionQuestion, x: f64, reversed: bool) -> f64 {
         return f64::INFINITY;
     }
     let theorem = StaticTheorem::new(structure, fixed, &scaled).unwrap();
-    let strengths: Vec<f64> = structure.joints.iter().map(|joint| structure.strength_at(joint)).collect();
+    let strengths = structure.joint_strengths();
     theorem.crushing_window(&strengths, &Budget::unlimited()).unwrap().unwrap().ends[1]
 }
 

@@ -94,7 +94,8 @@ const CRUSHES_AND_SLIDES: &str = "Joints slide and crush. The collapse load is t
      dilating. By another order of loading the arch may fall at another load; none lower is looked for. Limit analysis, which \
      lets joints dilate, allows more.";
 const CRUSHES_AND_DILATES: &str = "Joints slide where the stone crushes. That load is limit analysis's, which lets sliding \
-     joints dilate (associated friction). The load path on which joints crush and do not dilate ends no more than 0.1 % below it.";
+     joints dilate (associated friction). The load path on which joints crush and do not dilate was followed, too: it ends there or \
+     beyond, but for 1 % at most by which the strips that joints crush in bear less.";
 const UNKNOWN_WHERE_SLIDING_CRUSHES: &str = "Joints slide, and what they bear as they crush, too, is not known: limit analysis \
      lets them dilate, so that its load is an upper bound, and the load path on which they slide and crush could not be followed.";
 const LATER_MECHANISM: &str = "Joints at their limits at the collapse load make no mechanism, as may be where they slide. \
