@@ -2,6 +2,7 @@
 
 use super::CrushedJoint;
 use super::discretise::Model;
+use super::strips::NO_BLOCK;
 use crate::dda::{Peak, State, Zone};
 use crate::limit::{Condition, Resultant};
 use crate::structure::{Face, Structure};
@@ -88,28 +89,36 @@ fn pivot(model: &Model, joint: usize, peak: &Peak) -> Option<(Face, f64)> {
     }
 }
 
-/// The joints that crush at the peak; none where no joint may.
+/// The joints that crush at the peak, or turn about a strip that is partly loaded; none where no joint may.
 pub(super) fn at_peak(model: &Model, structure: &Structure, peak: &Peak) -> Vec<CrushedJoint> {
     let contacts = model.assembly.contacts();
     if contacts.iter().all(|contact| contact.cap().is_infinite()) {
         return Vec::new();
     }
     let forces = model.assembly.contact_forces(contacts, &peak.displacements);
-    crushed(model, structure, |p| forces[p].normal)
+    crushed(model, structure, |p| forces[p].normal, |joint| pivot(model, joint, peak).is_some())
 }
 
-/// The joints some of whose points carry all that they can, and the blocks in them.
-pub(super) fn crushed(model: &Model, structure: &Structure, force: impl Fn(usize) -> f64) -> Vec<CrushedJoint> {
+/// The joints some of whose points carry all that they can, or that turn, and the blocks in them.
+pub(super) fn crushed(
+    model: &Model,
+    structure: &Structure,
+    force: impl Fn(usize) -> f64,
+    turns: impl Fn(usize) -> bool,
+) -> Vec<CrushedJoint> {
     let contacts = model.assembly.contacts();
     let of = |joint: usize| {
         let points = model.contacts(joint);
-        points.clone().find(|&p| force(p) >= (1.0 - AT_CAP) * contacts[p].cap())?;
+        let full = points.clone().any(|p| force(p) >= (1.0 - AT_CAP) * contacts[p].cap());
+        if !full && !turns(joint) {
+            return None;
+        }
         let normal: f64 = points.clone().map(&force).sum();
         let moment: f64 = points.clone().map(|p| force(p) * (model.position(joint, p) - 0.5)).sum();
         let share = normal / points.map(|p| contacts[p].cap()).sum::<f64>();
         let face = if moment > 0.0 { Face::Extrados } else { Face::Intrados };
         let (at, length) = (structure.joints[joint].end(face), share * structure.joints[joint].length());
-        Some(CrushedJoint { joint, face, at, length })
+        (full || share >= NO_BLOCK).then_some(CrushedJoint { joint, face, at, length })
     };
     (0..model.joints).filter(|&joint| model.crushes(joint)).filter_map(of).collect()
 }

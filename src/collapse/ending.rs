@@ -115,7 +115,8 @@ pub(super) fn at_fall(analysis: &Analysis, model: &Model, tracer: &Tracer, start
     let allowed = |m: &Mechanism| !m.slips() && soil_allows(&analysis.structure, &soil, m);
     let mechanism = smallest.filter(|m| !along_path.slips() && allowed(m)).unwrap_or(along_path);
     let mechanism = mechanism.under(&analysis.scaled, structure);
-    let (residual, crushed) = (tracer.worst_residual(), crushed::crushed(model, structure, |p| forces[p][0]));
+    let (residual, crushed) =
+        (tracer.worst_residual(), crushed::crushed(model, structure, |p| forces[p][0], |_| false));
     PathEnd { load_factor, range: None, residual, mechanism, thrust_line: Vec::new(), soil, crushed }
 }
 

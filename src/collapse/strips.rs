@@ -19,8 +19,10 @@ const NARROW: f64 = 0.01;
 /// Blocks that differ by less than this share of theirs are the same: rounding must not part those of mirror images.
 const SAME: f64 = 0.005;
 /// Shortest block, as a share of the joint: shorter ones have hardly a lever, and contacts much softer than others cost the path
-/// its digits. A joint with a block shorter than the second of these shares does not crush.
-const SHORTEST_BLOCK: [f64; 2] = [1e-3, 1e-5];
+/// its digits.
+const SHORTEST_BLOCK: f64 = 1e-3;
+/// A joint with a block shorter than this share of it does not crush.
+pub(super) const NO_BLOCK: f64 = 1e-5;
 /// Most blocks in a joint that are expected: both faces, at either end of the limit window.
 const MOST_BLOCKS: usize = 4;
 /// Most contact points of a joint that crushes: one between two ends of strips of the coarse grid, two more for every block.
@@ -98,10 +100,10 @@ impl Strips {
             let clear = |at: f64| (place(at) - block).abs() > 2.0 * NARROW * block;
             ends.retain(|&at| at == 0.0 || at == 1.0 || clear(at));
             let narrow = [1.0 - NARROW, 1.0 + NARROW].map(|share| share * block);
-            ends.extend(narrow.into_iter().filter(|&at| at < 1.0 - SHORTEST_BLOCK[0]).map(place));
+            ends.extend(narrow.into_iter().filter(|&at| at < 1.0 - SHORTEST_BLOCK).map(place));
         }
         ends.sort_by(f64::total_cmp);
-        ends.dedup_by(|a, b| *a - *b < NARROW * SHORTEST_BLOCK[0]);
+        ends.dedup_by(|a, b| *a - *b < NARROW * SHORTEST_BLOCK);
         Some(ends)
     }
 
@@ -131,11 +133,11 @@ impl CrushableJoint {
     /// plastic sections have for it; true where it does.
     fn take_in(&mut self, normal: f64, off: f64, share: f64) -> bool {
         let (block, pressed) = (normal / self.capacity, 1.0 - 2.0 * off.abs());
-        if block < share * pressed || block < SHORTEST_BLOCK[1] {
+        if block < share * pressed || block < NO_BLOCK {
             return false;
         }
         let face = if off > 0.0 { Face::Extrados } else { Face::Intrados };
-        let rounded = ((block.max(SHORTEST_BLOCK[0]).ln() / SAME).round() * SAME).exp();
+        let rounded = ((block.max(SHORTEST_BLOCK).ln() / SAME).round() * SAME).exp();
         let blocks = self.blocks.get_or_insert_default();
         if !blocks.contains(&(face, rounded)) && blocks.len() < MOST_BLOCKS {
             blocks.push((face, rounded));

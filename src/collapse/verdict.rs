@@ -289,7 +289,8 @@ impl<'a> Setup<'a> {
     ) -> Result<(), AnalysisError> {
         report.outcome = Outcome::Stands;
         at_start.map(|state| report.fields_at_rest(self.analysis, model, &state)).transpose()?;
-        report.notes.extend(self.analysis.task.grows().then_some(Note::NothingGrows));
+        let cancel = !self.analysis.scaled.is_empty();
+        report.notes.extend(self.analysis.task.grows().then_some(Note::NothingGrows { cancel }));
         Ok(())
     }
 

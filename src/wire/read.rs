@@ -2,6 +2,7 @@
 
 mod defaults;
 mod table;
+mod words;
 
 use super::fault::{Fault, Faults, lies_under, listed};
 use super::request::{AnalysisRequest, BeamRequest, Request};

@@ -447,6 +447,29 @@ fn a_list_is_no_object_and_an_object_no_word() {
 }
 
 #[test]
+fn a_fault_says_how_the_field_is_written() {
+    for (pointer, value, words) in [
+        ("/arch/thickness", json!(0.8), r#"a number where an object belongs: give one of {"constant_m": ...}, {"#),
+        ("/backfill", json!(true), r#"true or false where an object belongs: write {} for its defaults, or give"#),
+        ("/loads/1/load/fill_pressure", json!(5), r#"a number where an object belongs: give its fields by name: {""#),
+        (
+            "/stone",
+            json!(2000),
+            r#"a number where an object belongs: write {} for its defaults, or give its fields by name: {""#,
+        ),
+        ("/loads/2/point_load", json!({"x_m": 1}), "no field of this name here: put it inside `load`, or remove it"),
+        ("/half", json!(true), "no field of this name here: put it inside `arch`, or remove it"),
+        ("/loads/2/load/point_load/where", json!(1), "remove it or correct its spelling, of `"),
+    ] {
+        let mut request = good();
+        set(&mut request, pointer, value);
+        let found = faults(&request);
+        let here = found.iter().find(|fault| fault.pointer == pointer);
+        assert!(here.is_some_and(|fault| fault.detail.contains(words)), "{pointer}: {found:?}");
+    }
+}
+
+#[test]
 fn one_cause_is_one_fault() {
     let settlement = json!({
         "arch": good()["arch"], "loads": [{"load": {"self_weight": {}}}],

@@ -5,6 +5,7 @@ use crate::common::folders;
 use crate::common::semicircle::semicircle;
 use crate::said::{report, told};
 use serde_json::{Value, json};
+use voussoir::wire::response::HingeBody;
 
 fn case(name: &str) -> Value {
     serde_json::from_slice(&std::fs::read(folders::cases().join(name).join("request.json")).unwrap()).unwrap()
@@ -59,7 +60,8 @@ fn tables_say_what_angles_and_rates_are_measured_from() {
     // Blocks have places instead of angles.
     let wall = text(&case("wall"));
     assert!(wall.contains("Hinges (the fastest rotation is 1)") && !wall.contains("angles about"), "{wall}");
-    assert!(wall.contains("goes towards the extrados; rates in m per radian of the fastest hinge)"), "{wall}");
+    let words = "moves against the first, x to the right, y upwards; rates in m per radian of the fastest hinge)";
+    assert!(wall.contains(words), "{wall}");
     let range = case("sliding-range");
     let hinges = solved(&range)["ends"][0]["hinges"].as_array().unwrap().len();
     let scale = if hinges > 0 {
@@ -70,6 +72,71 @@ fn tables_say_what_angles_and_rates_are_measured_from() {
     assert!(text(&range).contains(scale), "{hinges}");
     let slid = told(&range, |answer| answer.ends[0].fall.mechanism.hinges.clear());
     assert!(slid.contains("rates as multiples of the fastest slide"), "{slid}");
+}
+
+/// Two blocks, one on the other, of which a force pushes the upper to the right or the left.
+fn pushed(force: f64) -> Value {
+    json!({
+        "blocks": {
+            "polygons": [
+                {"name": "lower", "corners_m": [[0, 0], [2, 0], [2, 1], [0, 1]]},
+                {"name": "upper", "corners_m": [[0, 1], [2, 1], [2, 2], [0, 2]]}
+            ],
+            "supports": [{"name": "ground", "segments_m": [[[-1, 0], [3, 0]]]}]
+        },
+        "stone": {"friction_angle_deg": 20, "compressive_strength_pa": 1e30},
+        "loads": [
+            {"load": {"self_weight": {}}},
+            {"load": {"point_force": {"block": "upper", "at_m": [1, 1.1], "force_n_per_m": [force, 0]}}, "scaled": true}
+        ]
+    })
+}
+
+#[test]
+fn the_way_that_blocks_slide_is_told_by_coordinates() {
+    for (force, x) in [(1000.0, "1.0000"), (-1000.0, "-1.0000")] {
+        let said = text(&pushed(force));
+        assert!(said.contains(&format!("lower and upper (1, 1) m {x} 0.0000")), "{said}");
+    }
+    // Whichever of the two is the first.
+    let mut swapped = pushed(1000.0);
+    swapped["blocks"]["polygons"].as_array_mut().unwrap().reverse();
+    let said = text(&swapped);
+    let rows = ["upper and lower (1, 1) m -1.0000 0.0000", "lower and upper (1, 1) m 1.0000 0.0000"];
+    assert!(rows.iter().any(|row| said.contains(row)), "{said}");
+}
+
+#[test]
+fn the_shape_of_a_bridge_and_of_blocks_is_told() {
+    let said = text(&case("two-span-bridge"));
+    let spans =
+        "span0 to span1, each: clear span 6 m, rise 1.49634 m to the highest joint; ring of 21 voussoirs, 0.4 m";
+    assert!(said.contains(spans) && said.contains("pier0: 3 m high, 1 m wide at the top, courses: 4"), "{said}");
+    let mut request = case("two-span-bridge");
+    request["bridge"]["spans"][1]["rings"] = json!([
+        {"thickness_m": 0.3, "springing_thickness_m": 0.4, "voussoirs": 20}, {"thickness_m": 0.2, "voussoirs": 21}
+    ]);
+    request["bridge"]["abutments"] = json!({"right": {"height_m": 2, "width_m": 3}});
+    request["bridge"]["backing"] = json!({"level_m": 0.8});
+    let said = text(&request);
+    // A joint of an even number of voussoirs is at the very crown.
+    let second = "span1: clear span 6 m, rise 1.5 m to the highest joint; ring of 20 voussoirs, 0.3 m at the crown, 0.4 m at the \
+        springings; ring of 21 voussoirs, 0.2 m";
+    assert!(said.contains("span0: clear span 6 m") && said.contains(second), "{said}");
+    assert!(said.contains("abutment.right: 2 m high, 3 m wide") && said.contains("backing up to y = 0.8 m"), "{said}");
+    assert!(text(&pushed(1000.0)).contains("2 m wide and 2 m high in all"));
+}
+
+#[test]
+fn of_many_joints_that_move_the_fastest_are_told() {
+    let said = told(&case("two-span-bridge"), |answer| {
+        let hinges = &mut answer.ends[0].fall.mechanism.hinges;
+        assert_eq!(hinges.len(), 4);
+        let slow = HingeBody { rotation: 1e-3, ..hinges[0].clone() };
+        hinges.splice(0..0, vec![slow; 40]);
+    });
+    assert!(said.contains("and 20 slower") && said.contains("1.0000"), "{said}");
+    assert_eq!(said.matches(" 0.0010").count(), 20, "{said}");
 }
 
 #[test]

@@ -19,7 +19,10 @@ pub enum Note {
     /// The arch stands at load factor 0 and at none beyond it.
     FallsFromZero,
     /// No load grows.
-    NothingGrows,
+    NothingGrows {
+        /// Whether there are loads that should: they cancel on every stone.
+        cancel: bool,
+    },
     /// With contacts as stiff as asked the path could not be followed: the answer is that with softer ones.
     SofterContacts {
         /// Contact penalty asked for, as a multiple of Young's modulus.

@@ -7,9 +7,10 @@
 use super::{Setup, is_cohesive};
 use crate::collapse::certificate::range_note;
 use crate::collapse::discretise::Discretisation;
+use crate::collapse::ending::Ending;
 use crate::collapse::{
     Analysis, AnalysisError, CollapseReport, CollapseTask, Direction, End, GovernedBy, LoadRange, Method, Note,
-    Outcome, PathEnd, StatesAsked, Task, Thrust, WhichEnd, plan, tolerances,
+    Outcome, PathEnd, StatesAsked, Task, Thrust, WhichEnd, mechanism, plan, tolerances,
 };
 use crate::structure::Joint;
 
@@ -33,8 +34,7 @@ impl<'a> Setup<'a> {
         report.cost.join(path.cost);
         match path.outcome {
             Outcome::Collapse | Outcome::StandsInWindow | Outcome::Stands => {
-                let cohesive = is_cohesive(self.analysis);
-                path.ends().into_iter().for_each(|end| report.take_lower(end, cohesive));
+                path.ends().iter().try_for_each(|end| self.take_lower(&mut report, end))?;
                 let followed = report.crushing.on_path.iter().any(Option::is_some);
                 let dilates = report.ends().iter().any(dilates);
                 report.notes.extend(followed.then_some(Note::CrushesAndSlides));
@@ -101,32 +101,65 @@ fn dilates(end: &End) -> bool {
     end.governed_by == GovernedBy::Crushing && end.state.mechanism.slips() && end.state.range.is_none()
 }
 
-impl CollapseReport {
+impl Setup<'_> {
     /// Takes in where the path of joints that crush ends, if that is first. Where nothing slides there it is the load of plastic sections
-    /// but for what strips leave out. Where joints are `cohesive` and none crushes, it is first because cohesion is shared out to more
+    /// but for what strips leave out. Where joints are cohesive and none crushes, it is first because cohesion is shared out to more
     /// contact points, which has nothing to do with crushing.
-    fn take_lower(&mut self, end: End, cohesive: bool) {
-        let (side, sign) = if end.which == WhichEnd::Lowest { (0, -1.0) } else { (1, 1.0) };
-        let lower = |governs: &End| {
-            let (before, now) = (governs.state.load_factor, end.state.load_factor);
-            governs.which == end.which && sign * (before - now) > tolerances::SAME_CRUSHING * before.abs()
-        };
-        let by_mesh = cohesive && end.state.crushed.is_empty();
-        if !end.state.mechanism.slips() || by_mesh || !self.ends().iter().any(lower) {
-            return;
+    fn take_lower(&self, report: &mut CollapseReport, followed: &End) -> Result<(), AnalysisError> {
+        let state = followed.state;
+        let by_mesh = is_cohesive(self.analysis) && state.crushed.is_empty();
+        if !state.mechanism.slips() || by_mesh || !report.falls_after(followed) {
+            return Ok(());
         }
-        if !end.state.crushed.is_empty() {
-            self.crushing.on_path[side] = Some(end.state.clone());
-            return;
+        // Stone that does not crush may fall in the same way.
+        let uncrushed = report.at(followed.which).and_then(|end| end.uncrushed).cloned();
+        if let Some(end) = uncrushed {
+            let mut ending = Ending { end, later: false, at_limits: vec![mechanism::released(&state.mechanism)] };
+            self.take_least(&mut ending, sign_of(followed.which))?;
+            report.fall_earlier(followed.which, ending.end);
         }
-        // Nothing has crushed where it ends: that is a load of stone that does not.
-        let asked = (sign > 0.0) == (self.direction == Direction::Increase);
+        if !report.falls_after(followed) {
+            return Ok(());
+        }
+        if state.crushed.is_empty() {
+            report.fall_earlier(followed.which, state.clone());
+        } else {
+            report.crushing.on_path[usize::from(followed.which == WhichEnd::Highest)] = Some(state.clone());
+        }
+        Ok(())
+    }
+}
+
+/// The direction in which the load factor goes to an end.
+fn sign_of(which: WhichEnd) -> f64 {
+    if which == WhichEnd::Lowest { -1.0 } else { 1.0 }
+}
+
+impl CollapseReport {
+    fn at(&self, which: WhichEnd) -> Option<End<'_>> {
+        self.ends().into_iter().find(|end| end.which == which)
+    }
+
+    /// Whether what governs an end comes after where a path ends.
+    fn falls_after(&self, followed: &End) -> bool {
+        let now = followed.state.load_factor;
+        let after = |before: f64| sign_of(followed.which) * (before - now) > tolerances::SAME_CRUSHING * before.abs();
+        self.at(followed.which).is_some_and(|governs| after(governs.state.load_factor))
+    }
+
+    /// Takes a state in which stone falls that does not crush, where it comes before the end of the load path.
+    fn fall_earlier(&mut self, which: WhichEnd, state: PathEnd) {
+        let asked = (which == WhichEnd::Highest) == (self.direction == Direction::Increase);
         let path = if asked { &mut self.end } else { &mut self.other_end };
+        let same = |old: &PathEnd| sign_of(which) * (old.load_factor - state.load_factor) <= 0.0;
+        if path.as_ref().is_some_and(same) {
+            return;
+        }
         let old = path.as_ref().and_then(|path| path.range);
-        let range = end.state.range.map(|new| LoadRange { least: new.least, ..old.unwrap_or(new) });
+        let range = state.range.map(|new| LoadRange { least: new.least, ..old.unwrap_or(new) });
         self.notes.retain(|note| !old.as_ref().is_some_and(|old| *note == range_note(old)));
         self.notes.extend(range.as_ref().map(range_note));
-        *path = Some(PathEnd { range, ..end.state.clone() });
+        *path = Some(PathEnd { range, ..state });
         if self.outcome == Outcome::Stands {
             self.outcome = Outcome::Collapse;
         }

@@ -174,7 +174,7 @@ impl Setup<'_> {
     }
 
     /// Where joints slide, takes the least load at which they let the arch fall for the end.
-    fn take_least(&self, ending: &mut Ending, sign: f64) -> Result<(), AnalysisError> {
+    pub(super) fn take_least(&self, ending: &mut Ending, sign: f64) -> Result<(), AnalysisError> {
         let Ending { end, later, at_limits } = ending;
         let theorem = &self.certificate.theorem;
         let free = without_soil(self.analysis)?;

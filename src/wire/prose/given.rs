@@ -6,7 +6,6 @@ use crate::wire::request::{
     AnalysisRequest, ArchRequest, BridgeRequest, JointOverride, LoadEntry, LoadRequest, NamedStone, ProfileRequest,
     StoneOf, StoneRequest,
 };
-use crate::wire::response::{AnalysisResult, JointBody};
 
 /// What the structure is called, and the structure in a few words.
 pub fn structure(request: &AnalysisRequest) -> (&'static str, String) {
@@ -120,27 +119,6 @@ pub fn strengths(request: &AnalysisRequest) -> String {
     let others: String = request.stones.iter().filter_map(other).collect();
     let (strength, default) = (request.stone.compressive_strength_pa, StoneRequest::default().compressive_strength_pa);
     format!("{}{others}", words(strength, mark(strength, default)))
-}
-
-/// Span, rise and joints of a whole arch, as they were set out.
-pub fn shape(result: &AnalysisResult) -> Option<String> {
-    result.request.arch.as_ref().filter(|arch| !arch.half)?;
-    let voussoirs = result.structure.bodies.iter().filter(|body| body.name.starts_with("voussoir")).count();
-    let ring = result.structure.joints.get(..=voussoirs)?;
-    let end = |joint: &JointBody| joint.ends_m[0];
-    let length = |joint: &JointBody| {
-        let [[a, b], [c, d]] = joint.ends_m;
-        Digits((c - a).hypot(d - b))
-    };
-    let ([a, b], [c, d]) = (end(ring.first()?), end(ring.last()?));
-    let top = ring.iter().map(|joint| end(joint)[1]).fold(f64::NEG_INFINITY, f64::max);
-    Some(format!(
-        "clear span {} m, rise {} m to the highest joint; joints {} m long at the springing, {} m at the crown",
-        Digits((c - a).hypot(d - b)),
-        Digits(top - 0.5 * (b + d)),
-        length(ring.first()?),
-        length(&ring[voussoirs / 2])
-    ))
 }
 
 /// Most joints that are listed.

@@ -7,7 +7,8 @@ use super::wording::{self, word};
 use crate::collapse::Outcome;
 use crate::wire::prose::Digits;
 use crate::wire::response::{
-    AnalysisResult, CrushedJointBody, EndBody, HingeBody, LiftOffBody, MechanismBody, SlideBody, StructureBody,
+    AnalysisResult, CrushedJointBody, EndBody, HingeBody, JointBody, LiftOffBody, MechanismBody, SlideBody,
+    StructureBody,
 };
 use comfy_table::Table;
 
@@ -15,6 +16,8 @@ use comfy_table::Table;
 const ROUND_OFF: f64 = 1e-12;
 /// Most joints on the ground that are listed.
 const JOINTS_LISTED: usize = 12;
+/// Most joints of one kind that are listed of those that move: the fastest.
+const MOVING_LISTED: usize = 24;
 
 /// What lies on both sides of a joint.
 fn between(structure: &StructureBody, joint: usize) -> String {
@@ -31,6 +34,8 @@ pub fn place(at: [f64; 2]) -> String {
 }
 
 fn rate(rate: f64) -> String {
+    // Nothing is not told as less than nothing.
+    let rate = (rate * 1e4).round() / 1e4 + 0.0;
     format!("{rate:.4}")
 }
 
@@ -43,10 +48,27 @@ pub fn table<const N: usize>(header: [&str; N], rows: Vec<[String; N]>) -> Optio
     some.then_some(table)
 }
 
+/// Rows of the fastest joints, in their order, and how many more there are.
+fn fastest<T, const N: usize>(
+    joints: &[T],
+    rate: impl Fn(&T) -> f64,
+    row: impl Fn(&T) -> [String; N],
+) -> Vec<[String; N]> {
+    let mut listed: Vec<_> = joints.iter().enumerate().collect();
+    listed.sort_by(|(_, a), (_, b)| rate(b).abs().total_cmp(&rate(a).abs()));
+    listed.truncate(MOVING_LISTED);
+    listed.sort_by_key(|(place, _)| *place);
+    let mut rows: Vec<_> = listed.into_iter().map(|(_, joint)| row(joint)).collect();
+    let more = joints.len() - rows.len();
+    let last = || std::array::from_fn(|k| if k == 0 { format!("and {more} slower") } else { String::new() });
+    rows.extend((more > 0).then(last));
+    rows
+}
+
 fn hinges(hinges: &[HingeBody], structure: Option<&StructureBody>) -> Option<Table> {
     if let Some(structure) = structure {
         let row = |h: &HingeBody| [h.joint.to_string(), between(structure, h.joint), place(h.at_m), rate(h.rotation)];
-        return table(["joint", "between", "turns about", "rotation"], hinges.iter().map(row).collect());
+        return table(["joint", "between", "turns about", "rotation"], fastest(hinges, |h| h.rotation, row));
     }
     let degrees = |angle: Option<f64>| angle.map_or("-".to_owned(), |angle| format!("{angle:.2}"));
     let row = |hinge: &HingeBody| {
@@ -59,24 +81,40 @@ fn hinges(hinges: &[HingeBody], structure: Option<&StructureBody>) -> Option<Tab
         ]
     };
     let header = ["joint", "pressed at", "deg from springing", "deg from crown (left negative)", "rotation"];
-    table(header, hinges.iter().map(row).collect())
+    table(header, fastest(hinges, |hinge| hinge.rotation, row))
 }
 
-/// Joints that crush, each with the length that does.
-pub fn crushed(joints: &[CrushedJointBody]) -> String {
-    let of = |c: &CrushedJointBody| format!("{} ({} m at the {})", c.joint, Digits(c.length_m), word(&c.face));
+/// Joints that crush, each with the length that does, at a face of an arch or at a point.
+pub fn crushed(joints: &[CrushedJointBody], structure: Option<&StructureBody>) -> String {
+    let at = |c: &CrushedJointBody| match structure {
+        None => format!("at the {}", word(&c.face)),
+        Some(_) => format!("from {}", place(c.at_m)),
+    };
+    let of = |c: &CrushedJointBody| format!("{} ({} m {})", c.joint, Digits(c.length_m), at(c));
     joints.iter().map(of).collect::<Vec<_>>().join(", ")
 }
 
 fn slides(slides: &[SlideBody], structure: Option<&StructureBody>) -> Option<Table> {
     if let Some(structure) = structure {
-        let row = |s: &SlideBody| [s.joint.to_string(), between(structure, s.joint), place(s.at_m), rate(s.rate)];
-        return table(["joint", "between", "middle", "rate"], slides.iter().map(row).collect());
+        let row = |s: &SlideBody| {
+            let [x, y] = structure.joints.get(s.joint).map_or([0.0; 2], along).map(|share| rate(share * s.rate));
+            [s.joint.to_string(), between(structure, s.joint), place(s.at_m), x, y]
+        };
+        return table(["joint", "between", "middle", "x", "y"], fastest(slides, |slide| slide.rate, row));
     }
-    table(["joint", "rate"], slides.iter().map(|slide| [slide.joint.to_string(), rate(slide.rate)]).collect())
+    let row = |slide: &SlideBody| [slide.joint.to_string(), rate(slide.rate)];
+    table(["joint", "rate"], fastest(slides, |slide| slide.rate, row))
+}
+
+/// Unit vector from a joint's first end to its second.
+fn along(joint: &JointBody) -> [f64; 2] {
+    let [[a, b], [c, d]] = joint.ends_m;
+    let length = (c - a).hypot(d - b);
+    [(c - a) / length, (d - b) / length]
 }
 
 fn lift_offs(lift_offs: &[LiftOffBody], structure: Option<&StructureBody>) -> Option<Table> {
+    let opening = |l: &LiftOffBody| l.intrados.abs().max(l.extrados.abs());
     if let Some(structure) = structure {
         let row = |l: &LiftOffBody| {
             let joint = structure.joints.get(l.joint).map_or([l.at_m; 2], |joint| joint.ends_m);
@@ -84,10 +122,10 @@ fn lift_offs(lift_offs: &[LiftOffBody], structure: Option<&StructureBody>) -> Op
             let [first, second] = [opens(joint[0], l.intrados), opens(joint[1], l.extrados)];
             [l.joint.to_string(), between(structure, l.joint), first, second]
         };
-        return table(["joint", "between", "opens by", "and by"], lift_offs.iter().map(row).collect());
+        return table(["joint", "between", "opens by", "and by"], fastest(lift_offs, opening, row));
     }
     let row = |l: &LiftOffBody| [l.joint.to_string(), rate(l.intrados), rate(l.extrados)];
-    table(["joint", "opens at intrados", "opens at extrados"], lift_offs.iter().map(row).collect())
+    table(["joint", "opens at intrados", "opens at extrados"], fastest(lift_offs, opening, row))
 }
 
 /// What rates of a mechanism are relative to.
@@ -101,14 +139,17 @@ fn scale(moving: &MechanismBody) -> &'static str {
 
 /// Tables of the joints that move, each with its title; `at` says when they do.
 pub fn tables(at: &str, moving: &MechanismBody, structure: Option<&StructureBody>) -> Vec<(String, Table)> {
-    let angles = if structure.is_none() { "angles about the middle between the springing joints; " } else { "" };
+    let (angles, positive) = match structure {
+        None => (
+            "angles about the middle between the springing joints; ",
+            "positive: what lies after goes towards the extrados",
+        ),
+        Some(_) => ("", "how the second of each two moves against the first, x to the right, y upwards"),
+    };
     let scale = scale(moving);
     let all = [
         (format!("Hinges{at} ({angles}the fastest rotation is 1)"), hinges(&moving.hinges, structure)),
-        (
-            format!("Sliding joints{at} (positive: what lies after goes towards the extrados; {scale})"),
-            slides(&moving.slides, structure),
-        ),
+        (format!("Sliding joints{at} ({positive}; {scale})"), slides(&moving.slides, structure)),
         (format!("Joints that part altogether{at} ({scale})"), lift_offs(&moving.lift_offs, structure)),
     ];
     all.into_iter().filter_map(|(title, table)| Some((title, table?))).collect()
@@ -127,10 +168,8 @@ pub fn ground(text: &mut String, end: &EndBody, result: &AnalysisResult) {
     // Round-off of a balance of large forces is no force.
     let force = |value: f64| Digits(if value.abs() > ROUND_OFF * most { value / 1e3 } else { 0.0 }).to_string();
     let row = |k: usize, name: String, sign: f64| {
-        let [[a, b], [c, d]] = structure.joints.get(thrust.joint[k]).map_or([[0.0; 2]; 2], |joint| joint.ends_m);
-        let length = (c - a).hypot(d - b);
-        let (along, normal, shear) =
-            ([(c - a) / length, (d - b) / length], thrust.normal_n_per_m[k], thrust.shear_n_per_m[k]);
+        let along = structure.joints.get(thrust.joint[k]).map_or([0.0; 2], along);
+        let (normal, shear) = (thrust.normal_n_per_m[k], thrust.shear_n_per_m[k]);
         let [x, y] =
             [normal * along[1] + shear * along[0], shear * along[1] - normal * along[0]].map(|f| force(sign * f));
         [name, x, y, place([thrust.x_m[k], thrust.y_m[k]])]

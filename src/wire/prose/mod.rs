@@ -15,6 +15,7 @@ mod plan;
 mod positions;
 mod safety;
 mod settlement;
+mod shape;
 pub(super) mod summary;
 mod survey;
 mod window;

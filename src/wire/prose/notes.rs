@@ -64,7 +64,8 @@ impl fmt::Display for Note {
             Note::CracksShared(count) => settlement::shared(*count),
             Note::PointsUnknown(count) => survey::unknown(*count),
             Note::FallsFromZero => FALLS_FROM_ZERO.into(),
-            Note::NothingGrows => NOTHING_GROWS.into(),
+            Note::NothingGrows { cancel: false } => NOTHING_GROWS.into(),
+            Note::NothingGrows { cancel: true } => SCALED_LOADS_CANCEL.into(),
             Note::LaterMechanism => LATER_MECHANISM.into(),
             Note::CrushesAndSlides => CRUSHES_AND_SLIDES.into(),
             Note::SlidesAndCrushesAsBuilt(otherwise) => slides_and_crushes_as_built(Digits(*otherwise)),
@@ -103,8 +104,10 @@ const LATER_MECHANISM: &str = "Joints at their limits at the collapse load make 
 const COHESION_BY_POINT: &str = "Cohesion is shared out to a joint's contact points, and those that open lose theirs: where \
      joints slide, the load depends on the mesh, and a finer one gives less. Limit analysis keeps all cohesion of a joint \
      however far it opens.";
-const NOTHING_GROWS: &str = "Nothing grows with the load factor, or the scaled loads cancel on every stone but for a billionth of \
-     them: the answer says only whether the arch stands.";
+const NOTHING_GROWS: &str =
+    "No load is scaled, so nothing grows with the load factor: the answer says only whether the arch stands.";
+const SCALED_LOADS_CANCEL: &str = "The scaled loads cancel on every stone but for a billionth of them, so nothing grows with the load \
+     factor: the answer says only whether the arch stands.";
 const UNBENT_STONES: &str = "On moving geometry stones that are one subblock thick do not bend; only their joints give. With \
      soft stone the arch then seems stronger than it is: compare a mesh of at least 2 x 2.";
 const NO_PLASTIC_SECTIONS: &str = "Rounding kept the limit window with plastic sections from being computed.";

@@ -2,7 +2,7 @@
 
 use super::noun::in_its_words;
 use super::wording::{self, word};
-use super::{geometric, given, joints, moving, plan, safety, survey, window};
+use super::{geometric, given, joints, moving, plan, safety, shape, survey, window};
 use crate::collapse::{Cost, GovernedBy, Outcome, StatesFrom};
 use crate::wire::prose::Digits;
 use crate::wire::response::{AnalysisResult, EndBody, PassiveElementBody, WorstPositionBody};
@@ -70,7 +70,7 @@ pub fn facts(result: &AnalysisResult, wall_time: Option<Duration>) -> Table {
     };
     let (name, structure) = given::structure(&result.request);
     fact(name, structure);
-    if let Some(shape) = given::shape(result) {
+    if let Some(shape) = shape::shape(result) {
         fact("shape", shape);
     }
     fact("stone", given::stone(&result.request));
@@ -183,7 +183,7 @@ fn end_facts(result: &AnalysisResult, end: &EndBody) -> Vec<(&'static str, Strin
         lines.push(("governed by", word(&end.governed_by)));
     }
     if !end.crushed_joints.is_empty() {
-        lines.push(("joints that crush", joints::crushed(&end.crushed_joints)));
+        lines.push(("joints that crush", joints::crushed(&end.crushed_joints, result.named())));
     }
     lines.extend(soil(&end.fall.passive_n_per_m, result).map(|soil| ("soil presses", soil)));
     lines.push(("residual", in_its_words(&result.request, &format!("{:.1e} of the arch's weight", end.residual))));

@@ -3,21 +3,16 @@
 //! A row of the table is a field of a struct in `request`: its name and kind, its range, unit and default, and its words. utoipa
 //! makes a schema of the rows. The OpenAPI document shows that schema, and this reader checks bodies against it.
 
-use crate::wire::fault::{Faults, Shown, child};
+use super::words::{among, belonging, by_name, in_range, one_of, out_of_range, quoted, words_of, wrong_kind};
+use crate::wire::fault::{Faults, child};
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
+use utoipa::ToSchema;
 use utoipa::openapi::schema::{Array, ArrayItems, Object, OneOf, SchemaType, Type};
 use utoipa::openapi::{RefOr, Schema};
-use utoipa::{Number, ToSchema};
 
 /// Least likeness of a misspelt name to the one that is suggested.
 const LIKE: f64 = 0.85;
-
-/// Longest part of a request that a fault quotes, characters.
-const LONGEST_QUOTE: usize = 60;
-
-/// Longest words of a field that a fault repeats, bytes.
-const LONGEST_WORDS: usize = 120;
 
 /// All schemas of a body, by name.
 pub struct Table {
@@ -94,7 +89,11 @@ impl Table {
                 }
             }
             (Type::Boolean, Value::Bool(_)) => {}
-            (kind, value) => faults.add(here, wrong_kind(value, &kind, &words_of(object))),
+            (Type::Object, value) => faults.add(here, wrong_kind(value, "an object", &by_name(object))),
+            (kind, value) => {
+                let (belonging, remedy) = belonging(&kind, &words_of(object));
+                faults.add(here, wrong_kind(value, belonging, &remedy));
+            }
         }
     }
 
@@ -108,7 +107,7 @@ impl Table {
                 Some(schema) => self.value(schema, value, &child(here, name), faults),
                 None => {
                     let place = child(here, name);
-                    let words = (self.stray)(&place).map_or_else(|| stray_name(name, object), str::to_owned);
+                    let words = (self.stray)(&place).map_or_else(|| self.stray_name(name, object), str::to_owned);
                     faults.stray(place, words);
                 }
             }
@@ -126,7 +125,8 @@ impl Table {
             return;
         }
         let Value::Array(items) = value else {
-            return faults.add(here, wrong_kind(value, &Type::Array, &[]));
+            let (belonging, remedy) = belonging(&Type::Array, &[]);
+            return faults.add(here, wrong_kind(value, belonging, &remedy));
         };
         let (count, least, most) = (items.len(), list.min_items.unwrap_or(0), list.max_items.unwrap_or(usize::MAX));
         if !(least..=most).contains(&count) {
@@ -177,11 +177,39 @@ impl Table {
                 Some(format!("this alternative needs an object: write {{\"{word}\": {{...}}}}"))
             }
             Value::String(word) => Some(format!("`{}` is none of the alternatives: {}", quoted(word), all.remedy())),
-            value if all.members.is_empty() => Some(wrong_kind(value, &Type::String, &all.words)),
-            value => Some(wrong_kind(value, &Type::Object, &[])),
+            value if all.members.is_empty() => {
+                let (belonging, remedy) = belonging(&Type::String, &all.words);
+                Some(wrong_kind(value, belonging, &remedy))
+            }
+            value => Some(wrong_kind(value, "an object", &all.remedy())),
         };
         if let Some(detail) = wrong {
             faults.add(here, detail);
+        }
+    }
+
+    /// What to do about a field of no such name.
+    fn stray_name(&self, name: &str, object: &Object) -> String {
+        let none = "there is no field of this name here";
+        let likeness = |known: &&String| strsim::jaro_winkler(name, known);
+        let nearest = object.properties.keys().max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
+        if let Some(known) = nearest.filter(|known| likeness(known) >= LIKE) {
+            return format!("{none}: write `{known}` if that is meant, or remove it");
+        }
+        let within = object.properties.iter().filter(|(_, schema)| self.has_member(schema, name));
+        let within: Vec<_> = within.map(|(known, _)| format!("`{known}`")).collect();
+        match within.is_empty() {
+            true => format!("{none}: remove it or correct its spelling{}", among(object)),
+            false => format!("{none}: put it inside {}, or remove it", within.join(" or ")),
+        }
+    }
+
+    /// Whether an object that fits has, or may have, a member of this name.
+    fn has_member(&self, schema: &RefOr<Schema>, name: &str) -> bool {
+        match self.resolved(schema) {
+            Some(Schema::Object(object)) => object.properties.contains_key(name),
+            Some(Schema::OneOf(choice)) => choice.items.iter().any(|item| self.has_member(item, name)),
+            _ => false,
         }
     }
 }
@@ -204,10 +232,6 @@ impl<'a> Alternatives<'a> {
     }
 }
 
-fn words_of(object: &Object) -> Vec<&str> {
-    object.enum_values.iter().flatten().filter_map(Value::as_str).collect()
-}
-
 fn check_text(object: &Object, text: &str, here: &str, faults: &mut Faults) {
     let words = words_of(object);
     if !words.is_empty() {
@@ -223,48 +247,6 @@ fn check_text(object: &Object, text: &str, here: &str, faults: &mut Faults) {
     if object.pattern.is_some() && text.chars().any(|c| c.is_ascii_control()) {
         faults.add(here, "this text has a line break or another control character: leave it out");
     }
-}
-
-/// Bounds of a number: least and most, each with whether it is in the range itself.
-fn bounds(object: &Object) -> [Option<(f64, bool)>; 2] {
-    let value = |number: &Number| match *number {
-        Number::Int(value) => value as f64,
-        Number::UInt(value) => value as f64,
-        Number::Float(value) => value,
-    };
-    let bound = |inside: &Option<Number>, outside: &Option<Number>| {
-        let inside = inside.as_ref().map(|number| (value(number), true));
-        inside.or(outside.as_ref().map(|number| (value(number), false)))
-    };
-    [bound(&object.minimum, &object.exclusive_minimum), bound(&object.maximum, &object.exclusive_maximum)]
-}
-
-fn in_range(object: &Object, value: f64) -> bool {
-    let [least, most] = bounds(object);
-    let above = least.is_none_or(|(least, inside)| value > least || (inside && value == least));
-    let below = most.is_none_or(|(most, inside)| value < most || (inside && value == most));
-    above && below
-}
-
-fn out_of_range(object: &Object, value: f64, what: &str) -> String {
-    let rule = match bounds(object) {
-        [Some((least, true)), Some((most, true))] => format!("from {} to {}", Shown(least), Shown(most)),
-        [Some((least, true)), Some((most, false))] => {
-            format!("at least {} and less than {}", Shown(least), Shown(most))
-        }
-        [Some((least, false)), Some((most, true))] => {
-            format!("greater than {} and at most {}", Shown(least), Shown(most))
-        }
-        [Some((least, false)), Some((most, false))] => {
-            format!("between {} and {}, both excluded", Shown(least), Shown(most))
-        }
-        // Every number of a request has both bounds: tests/it/contract.rs sees to it.
-        _ => "another".to_owned(),
-    };
-    let words = object.description.as_deref().unwrap_or_default().split(". ").next().unwrap_or_default();
-    let words = if words.len() <= LONGEST_WORDS { words.trim_end_matches('.') } else { "" };
-    let words = if words.is_empty() { String::new() } else { format!(" ({words})") };
-    format!("{} is out of range: it must be {what} {rule}{words}", Shown(value))
 }
 
 fn kind_of(kinds: &SchemaType) -> Type {
@@ -285,50 +267,5 @@ fn default(schema: &RefOr<Schema>) -> Option<&Value> {
         RefOr::T(Schema::Array(list)) => list.default.as_ref(),
         RefOr::Ref(reference) => reference.default.as_ref(),
         _ => None,
-    }
-}
-
-/// The words for a value of another kind than belongs there.
-fn wrong_kind(value: &Value, kind: &Type, words: &[&str]) -> String {
-    let (belonging, remedy) = match kind {
-        Type::Object => ("an object", "give its fields by name, as in {\"name\": value}".to_owned()),
-        Type::Array => ("a list", "write its items in [ ]".to_owned()),
-        Type::String if words.is_empty() => ("text", "write it in quotes".to_owned()),
-        Type::String => ("text", format!("write {}", one_of(words))),
-        Type::Boolean => ("true or false", "write one of them, without quotes".to_owned()),
-        Type::Integer => ("a whole number", "write one, without quotes".to_owned()),
-        _ => ("a number", "write one, without quotes".to_owned()),
-    };
-    let given = match value {
-        Value::Null => return format!("null where {belonging} belongs: give it, or leave the field out"),
-        Value::Bool(_) => "true or false",
-        Value::Number(_) => "a number",
-        Value::String(_) => "text",
-        Value::Array(_) => "a list",
-        Value::Object(_) => "an object",
-    };
-    format!("{given} where {belonging} belongs: {remedy}")
-}
-
-fn one_of(words: &[&str]) -> String {
-    let words: Vec<_> = words.iter().map(|word| format!("\"{word}\"")).collect();
-    words.join(" or ")
-}
-
-/// What to do about a field of no such name.
-fn stray_name(name: &str, object: &Object) -> String {
-    let likeness = |known: &&String| strsim::jaro_winkler(name, known);
-    let nearest = object.properties.keys().max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
-    match nearest.filter(|known| likeness(known) >= LIKE) {
-        Some(known) => format!("there is no field of this name here: write `{known}` if that is meant, or remove it"),
-        None => "there is no field of this name here: remove it or correct its spelling".to_owned(),
-    }
-}
-
-/// The beginning of what a request says.
-fn quoted(text: &str) -> String {
-    match text.char_indices().nth(LONGEST_QUOTE) {
-        Some((end, _)) => format!("{}...", &text[..end]),
-        None => text.to_owned(),
     }
 }
