@@ -451,7 +451,7 @@ fn a_fault_says_how_the_field_is_written() {
     for (pointer, value, words) in [
         ("/arch/thickness", json!(0.8), r#"a number where an object belongs: give one of {"constant_m": ...}, {"#),
         ("/backfill", json!(true), r#"true or false where an object belongs: write {} for its defaults, or give"#),
-        ("/loads/1/load/fill_pressure", json!(5), r#"a number where an object belongs: give its fields by name: {""#),
+        ("/loads/1/load/fill_pressure", json!(5), r#"write {} for its defaults, or give its fields by name: {""#),
         (
             "/stone",
             json!(2000),
