@@ -57,10 +57,9 @@ fn open_between([from, a]: [f64; 2], [to, b]: [f64; 2]) -> f64 {
 /// Of an arch that could follow its springings by opening other joints, or these by more or less: at how many joints the thrust
 /// passes through an end. Three hinges are enough to follow.
 pub(super) fn shared(structure: &Structure, path: &SettlementPath) -> Option<usize> {
-    let arch = structure.spans.len() == 1 && structure.spans[0].joints.len() == structure.ring().len();
     let at_end = |thrust: &&Thrust| thrust.eccentricity.abs() >= 0.5 * AT_END * structure.ring()[thrust.joint].length();
     let ends = path.thrust_line.iter().filter(at_end).count();
-    (arch && !structure.is_half() && ends > HINGES).then_some(ends)
+    (structure.is_one_ring() && !structure.is_half() && ends > HINGES).then_some(ends)
 }
 
 #[cfg(test)]

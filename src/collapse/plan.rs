@@ -95,7 +95,7 @@ fn on_finer_meshes(
     analysis: &Analysis,
     most: usize,
     asked: f64,
-    rigid: CollapseReport,
+    mut rigid: CollapseReport,
     plan: &mut Plan,
     budget: &Budget,
 ) -> Result<CollapseReport, AnalysisError> {
@@ -112,8 +112,9 @@ fn on_finer_meshes(
     };
     let mut found = match refine::solve(modelled, &whole, most, asked, budget)? {
         Ok(found) => found,
-        Err(why) => {
+        Err((why, cost)) => {
             plan.why.push(why);
+            rigid.cost.join(cost);
             return Ok(rigid);
         }
     };
@@ -186,8 +187,8 @@ fn half_of(analysis: &Analysis, rigid: &CollapseReport) -> Option<Analysis> {
     let symmetric = |forces: &[_]| is_symmetric(forces, structure.voussoirs().len(), axis);
     let mut ends = rigid.end.iter().chain(&rigid.other_end);
     // Of other structures joints and bodies are not numbered from left to right.
-    let arch = structure.spans.len() == 1 && structure.spans[0].joints.len() == structure.ring().len();
-    let whole = arch && !structure.is_half() && structure.passive.is_empty() && structure.asymmetry().is_none();
+    let passive = !structure.passive.is_empty();
+    let whole = structure.is_one_ring() && !structure.is_half() && !passive && structure.asymmetry().is_none();
     if !(whole && symmetric(&analysis.fixed) && symmetric(&analysis.scaled) && ends.all(falls_evenly)) {
         return None;
     }

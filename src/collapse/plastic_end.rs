@@ -79,7 +79,7 @@ fn evenly(analysis: &Analysis) -> bool {
     let (axis, n) = (structure.axis(), structure.joints.len());
     let strength = |k: usize| structure.strength_at(&structure.joints[k]);
     let symmetric = |forces: &[_]| is_symmetric(forces, structure.bodies.len(), axis);
-    let ring = structure.spans.len() == 1 && structure.spans[0].joints == (0..n) && structure.bodies.len() + 1 == n;
+    let ring = structure.is_one_ring() && structure.ring().len() == n && structure.bodies.len() + 1 == n;
     ring && !structure.is_half()
         && structure.asymmetry().is_none()
         && (0..n).all(|k| strength(k) == strength(n - 1 - k))

@@ -22,6 +22,11 @@ impl Structure {
         &self.joints[..self.beside_abutments().map_or(self.joints.len(), |span| span.joints.end)]
     }
 
+    /// Whether it is one span of one ring and nothing else but abutment blocks: bodies and joints are numbered along it.
+    pub fn is_one_ring(&self) -> bool {
+        matches!(self.spans.as_slice(), [span] if span.joints.len() == self.ring().len())
+    }
+
     /// The only span, where all beside it is abutment blocks.
     fn beside_abutments(&self) -> Option<&Span> {
         let [span] = self.spans.as_slice() else { return None };

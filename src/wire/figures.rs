@@ -7,7 +7,7 @@ mod description;
 use super::prose;
 use super::response::{AnalysisResult, BeamResult, JobResult};
 use crate::collapse::{
-    Analysis, Answer, BeamReport, CollapseReport, Outcome, PathEnd, Question, StressField, Task, TaskReport,
+    Analysis, Answer, BeamReport, CollapseReport, Geometry, Outcome, PathEnd, Question, StressField, Task, TaskReport,
 };
 use crate::render::digits::Rounded;
 use crate::render::figure::{Drawing, State, resultants, svg};
@@ -109,6 +109,9 @@ fn governing<'a>(analysis: &'a Analysis, report: &'a CollapseReport, result: &An
     let mut caption = prose::headline(result);
     if let (Outcome::StandsInWindow, Some(words)) = (report.outcome, words) {
         caption.push_str(&format!("\nDrawn: the {}.", prose::name_of_end(words)));
+    }
+    if analysis.task.geometry() == Geometry::Updated {
+        caption.push_str("\nDrawn: at first order, not on moving geometry.");
     }
     let settles = match (&analysis.task, &report.task) {
         (Task::Settlement(_), TaskReport::Settlement(Some(settled))) => Some(State::Settles(&settled.first_order)),

@@ -211,6 +211,7 @@ fn curves_point_out_what_the_answer_says() {
     safe["report"] = json!({"history": true});
     safe["loads"][1]["load"]["point_load"]["force_n_per_m"] = json!(1e5);
     let (answer, all) = drawn(&safe.to_string());
+    assert!(all["structure"].says("Drawn: at first order, not on moving geometry."));
     let least = Rounded(number(&answer, "/safety/governing/load_factor"));
     let words = all["load_displacement"].words();
     assert!(words.contains(&format!("crushing governs at {least} kN/m").as_str()), "{words:?}");

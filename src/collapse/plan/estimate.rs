@@ -77,9 +77,9 @@ pub(super) type Orders = [f64; 2];
 /// What is known of the error of one field in one voussoir.
 #[derive(Debug, Clone, Copy)]
 struct Error {
-    /// Root of the squared change, integrated over the voussoir, when it was last refined, Pa m.
+    /// Root of the squared change, integrated over the voussoir, when it was last refined, or of second order of its roughness, Pa m.
     change: Option<f64>,
-    /// Order in which it converges, once two changes have told.
+    /// Order in which it converges, once two of these have told.
     order: Option<f64>,
     /// Root of the squared error, integrated over the voussoir, Pa m.
     error: f64,
@@ -128,13 +128,13 @@ impl FieldErrors {
         for ((known, rough), refined) in self.voussoirs.iter_mut().zip(roughness).zip(refined) {
             let more = [(rough.coarse, COARSE), (rough.near_point, NEAR_POINT), (rough.narrow, NARROW)];
             let more: f64 = more.into_iter().filter(|(is, _)| *is).map(|(_, more)| more).product();
-            let error = more * MARGIN * rough.apart.sqrt();
+            let now = rough.apart.sqrt();
             if *refined {
                 let [slowest, fastest] = self.orders;
-                let order = Some((known.error / error).log2()).filter(|order| !order.is_nan());
+                let order = known.change.map(|before| (before / now).log2()).filter(|order| !order.is_nan());
                 known.order = order.map(|order| order.clamp(slowest, fastest));
             }
-            known.error = error;
+            (known.change, known.error) = (Some(now), more * MARGIN * now);
         }
     }
 

@@ -1,7 +1,9 @@
 //! Refines the mesh voussoir by voussoir until the stress is as accurate as asked.
 
 use super::super::report::apart;
-use super::super::{Analysis, AnalysisError, CollapseReport, Estimate, MeshTried, Order, Outcome, PlanReason, verdict};
+use super::super::{
+    Analysis, AnalysisError, CollapseReport, Cost, Estimate, MeshTried, Order, Outcome, PlanReason, verdict,
+};
 use super::estimate::{FieldErrors, Orders, differences};
 use super::mesh::{drawing, ladders, total};
 use super::states::States;
@@ -46,20 +48,21 @@ struct Refinement {
     meshes: Vec<MeshTried>,
 }
 
-/// Solves on ever finer meshes until the stress fields are as accurate as asked; where there is not even a first, says why. `whole` is
-/// the answer of whole stones.
+/// Solves on ever finer meshes until the stress fields are as accurate as asked; where there is not even a first, says why, and what that
+/// took. `whole` is the answer of whole stones.
 pub(super) fn solve(
     analysis: &Analysis,
     whole: &CollapseReport,
     most: usize,
     asked: f64,
     budget: &Budget,
-) -> Result<Result<Refined, PlanReason>, AnalysisError> {
+) -> Result<Result<Refined, (PlanReason, Cost)>, AnalysisError> {
     let ladders = ladders(analysis, most);
     let coarsest: Vec<_> = ladders.iter().map(|ladder| ladder[0]).collect();
     let fewest = total(&coarsest);
     if fewest > most {
-        return Ok(Err(PlanReason::CoarsestTooLarge { subblocks: fewest, allowed: most }));
+        let why = PlanReason::CoarsestTooLarge { subblocks: fewest, allowed: most };
+        return Ok(Err((why, Cost::default())));
     }
     let on_path = |subblocks: &[[usize; 2]]| verdict::solve(&with_mesh(analysis, subblocks.to_vec()), budget);
     let solve = |subblocks: &[[usize; 2]], coarser: Option<&States>| {
@@ -71,7 +74,7 @@ pub(super) fn solve(
     };
     let (report, mut states) = solve(&coarsest, None)?;
     if report.outcome == Outcome::CannotTell || report.stress_fields.is_empty() {
-        return Ok(Err(PlanReason::CoarsestLost));
+        return Ok(Err((PlanReason::CoarsestLost, report.cost)));
     }
     let near_points = near_points(analysis);
     let mut mesh = Refinement::new(drawing(&analysis.structure).0, ladders, near_points, report);
@@ -85,6 +88,7 @@ pub(super) fn solve(
         };
         let (report, found) = solve(&mesh.subblocks(&levels), states.as_ref())?;
         if report.outcome == Outcome::CannotTell || report.stress_fields.len() != mesh.errors.len() {
+            mesh.report.cost.join(report.cost);
             break PlanReason::NextLost;
         }
         mesh.take(levels, report);

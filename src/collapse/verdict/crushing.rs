@@ -60,6 +60,33 @@ impl<'a> Setup<'a> {
         }
     }
 
+    /// Takes in where the path of joints that crush ends, if that is first. Where nothing slides there it is the load of plastic sections
+    /// but for what strips leave out. Where joints are cohesive and none crushes, it is first because cohesion is shared out to more
+    /// contact points, which has nothing to do with crushing.
+    fn take_lower(&self, report: &mut CollapseReport, followed: &End) -> Result<(), AnalysisError> {
+        let state = followed.state;
+        let by_mesh = is_cohesive(self.analysis) && state.crushed.is_empty();
+        if !state.mechanism.slips() || by_mesh || !report.falls_after(followed) {
+            return Ok(());
+        }
+        // Stone that does not crush may fall in the same way.
+        let uncrushed = report.at(followed.which).and_then(|end| end.uncrushed).cloned();
+        if let Some(end) = uncrushed {
+            let mut ending = Ending { end, later: false, at_limits: vec![mechanism::released(&state.mechanism)] };
+            self.take_least(&mut ending, sign_of(followed.which))?;
+            report.fall_earlier(followed.which, ending.end);
+        }
+        if !report.falls_after(followed) {
+            return Ok(());
+        }
+        if state.crushed.is_empty() {
+            report.fall_earlier(followed.which, state.clone());
+        } else {
+            report.crushing.on_path[usize::from(followed.which == WhichEnd::Highest)] = Some(state.clone());
+        }
+        Ok(())
+    }
+
     /// The same question of whole stones whose joints crush on the path.
     fn on_crushing_path(&self) -> Analysis {
         let task = &self.analysis.task;
@@ -101,35 +128,6 @@ fn dilates(end: &End) -> bool {
     end.governed_by == GovernedBy::Crushing && end.state.mechanism.slips() && end.state.range.is_none()
 }
 
-impl Setup<'_> {
-    /// Takes in where the path of joints that crush ends, if that is first. Where nothing slides there it is the load of plastic sections
-    /// but for what strips leave out. Where joints are cohesive and none crushes, it is first because cohesion is shared out to more
-    /// contact points, which has nothing to do with crushing.
-    fn take_lower(&self, report: &mut CollapseReport, followed: &End) -> Result<(), AnalysisError> {
-        let state = followed.state;
-        let by_mesh = is_cohesive(self.analysis) && state.crushed.is_empty();
-        if !state.mechanism.slips() || by_mesh || !report.falls_after(followed) {
-            return Ok(());
-        }
-        // Stone that does not crush may fall in the same way.
-        let uncrushed = report.at(followed.which).and_then(|end| end.uncrushed).cloned();
-        if let Some(end) = uncrushed {
-            let mut ending = Ending { end, later: false, at_limits: vec![mechanism::released(&state.mechanism)] };
-            self.take_least(&mut ending, sign_of(followed.which))?;
-            report.fall_earlier(followed.which, ending.end);
-        }
-        if !report.falls_after(followed) {
-            return Ok(());
-        }
-        if state.crushed.is_empty() {
-            report.fall_earlier(followed.which, state.clone());
-        } else {
-            report.crushing.on_path[usize::from(followed.which == WhichEnd::Highest)] = Some(state.clone());
-        }
-        Ok(())
-    }
-}
-
 /// The direction in which the load factor goes to an end.
 fn sign_of(which: WhichEnd) -> f64 {
     if which == WhichEnd::Lowest { -1.0 } else { 1.0 }
@@ -151,8 +149,8 @@ impl CollapseReport {
     fn fall_earlier(&mut self, which: WhichEnd, state: PathEnd) {
         let asked = (which == WhichEnd::Highest) == (self.direction == Direction::Increase);
         let path = if asked { &mut self.end } else { &mut self.other_end };
-        let same = |old: &PathEnd| sign_of(which) * (old.load_factor - state.load_factor) <= 0.0;
-        if path.as_ref().is_some_and(same) {
+        let falls_before = |old: &PathEnd| sign_of(which) * (old.load_factor - state.load_factor) <= 0.0;
+        if path.as_ref().is_some_and(falls_before) {
             return;
         }
         let old = path.as_ref().and_then(|path| path.range);

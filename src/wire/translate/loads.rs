@@ -13,6 +13,9 @@ const MAX_FORCES: usize = 200_000;
 /// Largest coefficient, abscissa included.
 const MOST_COEFFICIENT: f64 = 1e12;
 
+/// Most blocks that a fault names.
+const NAMES_LISTED: usize = 8;
+
 /// How many forces these loads and the backfill may put on each voussoir together.
 pub fn forces_per_voussoir_of(entries: &[LoadEntry], backfill: Option<&BackfillRequest>) -> usize {
     let loads = entries.iter().map(|entry| entry.load.forces_per_side()).sum::<usize>();
@@ -76,8 +79,11 @@ pub fn loads(
                 let detail = match &request.arch {
                     Some(_) => {
                         "an arch has no block of this name: give that of a voussoir, as `voussoir 0` for the leftmost"
+                            .to_owned()
                     }
-                    None => "there is no block of this name: correct the name",
+                    None => {
+                        format!("there is no block of this name: correct the name to one of {}", listed(&layout.bodies))
+                    }
                 };
                 faults.add(format!("{fields}/{field}"), detail);
             }
@@ -102,6 +108,13 @@ pub fn loads(
     check_twice(entries, faults);
     check_reach(entries, whole, &all, faults);
     all
+}
+
+/// The first of some names.
+fn listed(names: &[String]) -> String {
+    let first: Vec<_> = names.iter().take(NAMES_LISTED).map(|name| format!("`{name}`")).collect();
+    let more = if names.len() > NAMES_LISTED { " and so on" } else { "" };
+    format!("{}{more}", first.join(", "))
 }
 
 /// What is given again as a whole, both fixed or both scaled, would count twice; parts of it may be meant.
