@@ -3,7 +3,8 @@
 //! Where joints slide without dilating, many loads have a full solution: a mechanism, joint forces at their limits where it
 //! moves, and admissible forces everywhere. A load path ends at one of them. From the mechanism in which it ends the least
 //! is a linear programme (see [`crate::limit`]). At its optimum more joints are at their limits, so that other mechanisms can
-//! move there, each with a programme of its own: mechanisms are exchanged until none is found that gives less.
+//! move there, each with a programme of its own: mechanisms are exchanged until none is found that gives less. Where there are many
+//! loops that is done from every state anew.
 
 mod groups;
 
@@ -82,10 +83,7 @@ impl Search<'_> {
     pub(super) fn least(&self, at_limits: &[Vec<Released>]) -> (Option<FullSolution>, usize) {
         let mut hunt = Hunt { search: self, seen: BTreeSet::new(), best: None, scatter: Scatter::new(0x51DE) };
         if self.theorem.has_loops() {
-            // Rough rates may fail to close: those of other costs need not.
-            at_limits
-                .iter()
-                .for_each(|released| _ = (0..STARTS).any(|_| hunt.tries(released, Costs::Apart) == Some(Tried::Lower)));
+            at_limits.iter().for_each(|released| hunt.descend(released));
             hunt.wander();
             hunt.round_corners();
         } else {
@@ -245,6 +243,18 @@ impl Hunt<'_> {
                 }
             }
         }
+    }
+
+    /// From one state on, as if nothing were known: corners round the best of its mechanisms may lead to less than those round a better
+    /// one (measured on 40 walls of 6 to 40 stones: 2 have a lower load by that, by 0.5 and 1.3 %).
+    fn descend(&mut self, released: &[Released]) {
+        let (best, seen) = (self.best.take(), std::mem::take(&mut self.seen));
+        // Rough rates may fail to close: those of other costs need not.
+        _ = (0..STARTS).any(|_| self.tries(released, Costs::Apart) == Some(Tried::Lower));
+        self.round_corners();
+        let least = |found: &Candidate| self.search.sign * found.equilibrium.load_factor;
+        self.best = best.into_iter().chain(self.best.take()).min_by(|a, b| least(a).total_cmp(&least(b)));
+        self.seen.extend(seen);
     }
 
     /// From motions of few bodies that touch, and of all, whatever their joints carry: path and window end in few of the mechanisms

@@ -2,6 +2,7 @@
 
 use crate::common::answered::solved;
 use crate::common::door;
+use crate::common::shaken_wall::shaken_wall;
 use serde_json::{Value, json};
 use voussoir::collapse::{GovernedBy, Note, Outcome, Reach};
 
@@ -91,32 +92,6 @@ fn stronger_stone_bears_more_up_to_what_it_bears_that_does_not_crush() {
     assert!(load > 0.98 * uncrushed);
 }
 
-/// A shaken wall in running bond of stone of so many MPa: so many stones of this length and height in each of its courses.
-fn wall([length, height]: [f64; 2], [stones, courses]: [usize; 2], mega_pascals: f64) -> Value {
-    let course = |j: usize| {
-        let half = if j.is_multiple_of(2) { 0.0 } else { 0.5 };
-        let ends = (0..=stones).map(|k| k as f64 - half).chain([stones as f64]);
-        let mut ends: Vec<f64> = ends.map(|end| end.clamp(0.0, stones as f64)).collect();
-        ends.dedup();
-        let [low, high] = [j, j + 1].map(|j| j as f64 * height);
-        let stone = |ends: &[f64]| {
-            let [left, right] = [ends[0], ends[1]].map(|end| end * length);
-            json!({"corners_m": [[left, low], [right, low], [right, high], [left, high]]})
-        };
-        ends.windows(2).map(stone).collect::<Vec<_>>()
-    };
-    let mut polygons: Vec<Value> = (0..courses).flat_map(course).collect();
-    polygons.iter_mut().enumerate().for_each(|(k, stone)| stone["name"] = json!(format!("b{k}")));
-    json!({
-        "blocks": {
-            "polygons": polygons,
-            "supports": [{"name": "ground", "segments_m": [[[-1.0, 0.0], [length * stones as f64 + 1.0, 0.0]]]}],
-        },
-        "stone": {"friction_angle_deg": 35.0, "compressive_strength_pa": mega_pascals * 1e6},
-        "loads": [{"load": {"self_weight": {}}}, {"load": {"body_acceleration": {"x_g": 1.0}}, "scaled": true}],
-    })
-}
-
 /// By how much crushing lowers the load of a mechanism, to first order, as a share of it. A joint that turns bears its force N at the
 /// strength f over N / f of its length, half of that off its end, so that its rotation takes work of N^2 / (2 f) a radian: the loads do
 /// less by that.
@@ -140,9 +115,9 @@ fn lost(end: &Value, structure: &Value, strength: f64) -> f64 {
 #[test]
 fn crushing_takes_from_a_sliding_mechanism_the_work_of_its_blocks() {
     for (stone, count) in [([0.253, 0.286], [4, 3]), ([0.385, 0.179], [4, 4])] {
-        let never = solved(&wall(stone, count, 1e15))["ends"][0]["load_factor"].as_f64().unwrap();
+        let never = solved(&shaken_wall(stone, count, 35.0, 1e15))["ends"][0]["load_factor"].as_f64().unwrap();
         for mega_pascals in [1.0, 3.0, 10.0] {
-            let answer = solved(&wall(stone, count, mega_pascals));
+            let answer = solved(&shaken_wall(stone, count, 35.0, mega_pascals * 1e6));
             let end = &answer["ends"][0];
             let load = end["load_factor"].as_f64().unwrap();
             let (drop, expected) =

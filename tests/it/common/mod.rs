@@ -30,6 +30,8 @@ pub mod row;
 pub mod semicircle;
 pub mod settled;
 #[cfg(feature = "server")]
+pub mod shaken_wall;
+#[cfg(feature = "server")]
 pub mod sliding;
 #[cfg(feature = "server")]
 pub mod sliding_arch;
