@@ -450,6 +450,7 @@ fn a_list_is_no_object_and_an_object_no_word() {
 fn a_fault_says_how_the_field_is_written() {
     for (pointer, value, words) in [
         ("/arch/thickness", json!(0.8), r#"a number where an object belongs: give one of {"constant_m": ...}, {"#),
+        ("/loads/0/load/self_weight", json!(true), "true or false where an object belongs: write {}"),
         ("/backfill", json!(true), r#"true or false where an object belongs: write {} for its defaults, or give"#),
         ("/loads/1/load/fill_pressure", json!(5), r#"write {} for its defaults, or give its fields by name: {""#),
         (

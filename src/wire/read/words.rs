@@ -85,13 +85,14 @@ pub(super) fn by_name(object: &Object) -> String {
         let names: Vec<_> = names.into_iter().take(NAMES_LISTED).map(|name| format!("\"{name}\": ...")).collect();
         format!("{{{}{more}}}", names.join(", "))
     };
-    if object.required.is_empty() {
-        return format!(
-            "write {{}} for its defaults, or give its fields by name: {}",
-            listed(object.properties.keys().collect())
-        );
+    match (object.properties.is_empty(), object.required.is_empty()) {
+        (true, _) => "write {}".to_owned(),
+        (_, true) => {
+            let all = listed(object.properties.keys().collect());
+            format!("write {{}} for its defaults, or give its fields by name: {all}")
+        }
+        (_, false) => format!("give its fields by name: {}", listed(object.required.iter().collect())),
     }
-    format!("give its fields by name: {}", listed(object.required.iter().collect()))
 }
 
 /// The fields that an object has, where they are few.
