@@ -92,9 +92,8 @@ fn stronger_stone_bears_more_up_to_what_it_bears_that_does_not_crush() {
     assert!(load > 0.98 * uncrushed);
 }
 
-/// By how much crushing lowers the load of a mechanism, to first order, as a share of it. A joint that turns bears its force N at the
-/// strength f over N / f of its length, half of that off its end, so that its rotation takes work of N^2 / (2 f) a radian: the loads do
-/// less by that.
+/// By how much crushing lowers the load factor of a mechanism, to first order. A joint that turns bears its force N at the strength f over
+/// N / f of its length, half of that off its end, so that its rotation takes work of N^2 / (2 f) a radian: the loads do less by that.
 fn lost(end: &Value, structure: &Value, strength: f64) -> f64 {
     let numbers = |list: &Value| list.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect::<Vec<f64>>();
     let (normal, velocities) = (numbers(&end["thrust_line"]["normal_n_per_m"]), &end["velocities"]);

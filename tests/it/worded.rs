@@ -109,6 +109,7 @@ fn the_way_that_blocks_slide_is_told_by_coordinates() {
 #[test]
 fn the_shape_of_a_bridge_and_of_blocks_is_told() {
     let said = text(&case("two-span-bridge"));
+    // The joints beside the crown of an arc of 3.75 m: 1.5 - 3.75 (1 - cos(asin(0.8) / 21)).
     let spans =
         "span0 to span1, each: clear span 6 m, rise 1.49634 m to the highest joint; ring of 21 voussoirs, 0.4 m";
     assert!(said.contains(spans) && said.contains("pier0: 3 m high, 1 m wide at the top, courses: 4"), "{said}");

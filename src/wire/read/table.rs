@@ -89,11 +89,8 @@ impl Table {
                 }
             }
             (Type::Boolean, Value::Bool(_)) => {}
-            (Type::Object, value) => faults.add(here, wrong_kind(value, "an object", &by_name(object))),
-            (kind, value) => {
-                let (belonging, remedy) = belonging(&kind, &words_of(object));
-                faults.add(here, wrong_kind(value, belonging, &remedy));
-            }
+            (Type::Object, value) => faults.add(here, wrong_kind(value, ("an object", by_name(object)))),
+            (kind, value) => faults.add(here, wrong_kind(value, belonging(&kind, &words_of(object)))),
         }
     }
 
@@ -125,8 +122,7 @@ impl Table {
             return;
         }
         let Value::Array(items) = value else {
-            let (belonging, remedy) = belonging(&Type::Array, &[]);
-            return faults.add(here, wrong_kind(value, belonging, &remedy));
+            return faults.add(here, wrong_kind(value, belonging(&Type::Array, &[])));
         };
         let (count, least, most) = (items.len(), list.min_items.unwrap_or(0), list.max_items.unwrap_or(usize::MAX));
         if !(least..=most).contains(&count) {
@@ -177,11 +173,8 @@ impl Table {
                 Some(format!("this alternative needs an object: write {{\"{word}\": {{...}}}}"))
             }
             Value::String(word) => Some(format!("`{}` is none of the alternatives: {}", quoted(word), all.remedy())),
-            value if all.members.is_empty() => {
-                let (belonging, remedy) = belonging(&Type::String, &all.words);
-                Some(wrong_kind(value, belonging, &remedy))
-            }
-            value => Some(wrong_kind(value, "an object", &all.remedy())),
+            value if all.members.is_empty() => Some(wrong_kind(value, belonging(&Type::String, &all.words))),
+            value => Some(wrong_kind(value, ("an object", all.remedy()))),
         };
         if let Some(detail) = wrong {
             faults.add(here, detail);

@@ -102,8 +102,8 @@ pub(super) fn among(object: &Object) -> String {
     if few { format!(", of {}", names.join(", ")) } else { String::new() }
 }
 
-/// The words for a value of another kind than belongs there.
-pub(super) fn wrong_kind(value: &Value, belonging: &str, remedy: &str) -> String {
+/// The words for a value of another kind than belongs there: what does, and the remedy.
+pub(super) fn wrong_kind(value: &Value, (belonging, remedy): (&str, String)) -> String {
     let given = match value {
         Value::Null => return format!("null where {belonging} belongs: give it, or leave the field out"),
         Value::Bool(_) => "true or false",
