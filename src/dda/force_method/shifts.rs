@@ -50,6 +50,12 @@ impl OfBody {
     fn carried(&self, [x, y, turn]: Three) -> Vec2 {
         Vec2::new(x, y) + self.turned * turn
     }
+
+    /// Its mean displacement but for its own splits, all before it having passed on the rigid motion `moved`.
+    fn without_splits(&self, moved: Three, [x, y, z]: Three, load_factor: f64) -> Vec2 {
+        let [by_x, by_y, by_z, fixed, scaled] = &self.linear;
+        self.carried(moved) + by_x * x + by_y * y + by_z * z + fixed + scaled * load_factor
+    }
 }
 
 impl<'l> Shifts<'l> {
@@ -86,7 +92,6 @@ impl<'l> Shifts<'l> {
     /// Goes from body to body, all before the first of them having passed on the rigid motion `moved`; returns what they pass on.
     fn walk(&self, state: &ChainState, bodies: Range<usize>, mut moved: Three, mut see: impl FnMut(Vec2)) -> Three {
         let ChainState { load_factor, redundants, splits, open, reduced } = state;
-        let [x, y, z] = *redundants;
         let split = |k: usize| value(&reduced.splits[k], redundants, *load_factor);
         let mut before = bodies.start.checked_sub(1).map_or(0.0, split);
         let mut own = split(bodies.start);
@@ -100,10 +105,8 @@ impl<'l> Shifts<'l> {
             for opening in open.iter().filter(|opening| opening.interface == k) {
                 moved = plus(&moved, &self.opened(opening));
             }
-            let [by_x, by_y, by_z, fixed, scaled] = &body.linear;
             let [by_own, by_next] = &body.splits;
-            let shift = body.carried(moved) + by_x * x + by_y * y + by_z * z + fixed + scaled * *load_factor;
-            see(shift + by_own * own + by_next * next);
+            see(body.without_splits(moved, *redundants, *load_factor) + by_own * own + by_next * next);
             moved = plus(&moved, &body.passed.map(|passed| passed * own));
             (before, own) = (own, next);
         }

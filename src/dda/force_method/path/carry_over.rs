@@ -130,7 +130,8 @@ impl CarryOver {
         splits[k] = changed;
         // How often the rows of the gradient take the change.
         let mut by_change = chain.gradient.mixed[k];
-        let mut shares = vec![1.0];
+        let mut shares = Vec::with_capacity(prescribed.len());
+        shares.push(1.0);
         let mut carry = |j: usize, tie: f64, from: f64, share: f64| {
             let taken = from * share;
             add(&mut splits[j], taken, &change);

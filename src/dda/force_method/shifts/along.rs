@@ -1,7 +1,8 @@
 //! Displacements state after state along a path: which body is displaced most is told without a look at each.
 //!
-//! Bodies are taken in blocks. From one state to the next, no body of a block moves by more than its first one does and all that they can
-//! differ by. A block in which none can have come up with the farthest needs no look.
+//! Bodies are taken in blocks. From one state to the next, no body of a block moves by more than its first one would without splits and
+//! slips within the block, and all that they can differ by from that. A block in which none can have come up with the farthest needs no
+//! look.
 
 use super::super::path::Felt;
 use super::super::reduced::add;
@@ -33,7 +34,7 @@ pub struct ShiftsAlong<'l> {
 struct Block {
     /// Rigid motion of all bodies after it by what splits and slips within.
     passes: [Linear; 3],
-    /// The most that its bodies' displacements differ by: with no splits, and by splits and slips.
+    /// The most that its bodies' displacements differ by from `start`: with no splits, and by splits and slips.
     differ: [Linear; 2],
     /// The same by splits whose sizes add up to 1 N/m.
     split: f64,
@@ -41,7 +42,7 @@ struct Block {
     turned: f64,
     /// Rigid motion of all bodies from its first on, by what is before it.
     moved: Three,
-    /// Displacement of its first body, m.
+    /// Displacement of its first body but for its splits and what slips at its first interface, m.
     start: Vec2,
     /// None of its bodies is displaced by more, m.
     bound: f64,
@@ -59,7 +60,7 @@ impl<'l> ShiftsAlong<'l> {
             Block {
                 passes: [[0.0; 5]; 3],
                 differ: [std::array::from_fn(|c| apart(&|body| body.linear[c])), [0.0; 5]],
-                split: passed + 2.0 * given,
+                split: passed + given,
                 turned: apart(&|body| body.turned),
                 moved: [0.0; 3],
                 start: Vec2::zeros(),
@@ -141,13 +142,12 @@ impl<'l> ShiftsAlong<'l> {
         (block.passes, block.differ[1]) = (passes, slips);
     }
 
-    /// Moves the first body of every block to where it is in a state.
+    /// Moves every block to where it starts from in a state.
     fn move_starts(&mut self, state: &ChainState) {
         let Self { shifts, blocks, .. } = self;
         let mut moved = [0.0; 3];
-        for (b, block) in blocks.iter_mut().enumerate() {
-            let mut start = Vec2::zeros();
-            shifts.walk(state, b * BLOCK..b * BLOCK + 1, moved, |shift| start = shift);
+        for (b, (block, first)) in zip(blocks, shifts.bodies.iter().step_by(BLOCK)).enumerate() {
+            let start = first.without_splits(moved, state.redundants, state.load_factor);
             block.bound += (start - block.start).norm() + block.turned * (moved[2] - block.moved[2]).abs();
             (block.start, block.moved) = (start, moved);
             moved = plus(&moved, &block.passes.map(|row| value(&row, &state.redundants, state.load_factor)));
