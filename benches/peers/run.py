@@ -31,8 +31,8 @@ for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
 from arch import ROOT, arch, scenes, semicircles, small
 
 COLUMNS = (
-    "chart,scene,family,model,intensity,error,error_worst_voussoir,error_peak,error_of_reference,met,"
-    "seconds,least_seconds,greatest_seconds,repetitions,base_seconds,time_ratio,note"
+    "chart,scene,family,model,intensity,error,error_worst_voussoir,error_peak,error_of_reference,estimate,"
+    "met,seconds,least_seconds,greatest_seconds,repetitions,base_seconds,time_ratio,note"
 ).split(",")
 # Settings of every tool, named in its own module; listed here because not every interpreter can import them all.
 FAST = ["HiGHS", "HiGHS, whole process", "whole process"]

@@ -8,7 +8,7 @@ use super::table::{Kind, Row};
 use serde_json::Value;
 use std::hint::black_box;
 use voussoir::budget::Budget;
-use voussoir::collapse::{self, Analysis, Answer, CollapseReport, Outcome, Question, StressField};
+use voussoir::collapse::{self, Analysis, Answer, CollapseReport, Estimate, Outcome, Question, StressField};
 use voussoir::limit::StaticTheorem;
 use voussoir::wire::read::read_question;
 
@@ -19,8 +19,8 @@ type Found = Result<Measured, String>;
 struct Measured {
     /// What it is held against.
     errors: Held,
-    /// Whether the program itself says that the accuracy asked is met; none where none was asked.
-    met: Option<bool>,
+    /// What the program itself says of the accuracy asked; none where none was asked.
+    accuracy: Option<Estimate>,
 }
 
 /// What was sought, and its errors.
@@ -123,6 +123,7 @@ fn row(chart: Kind, scene: &str, model: Model, found: Found, timed: Timed) -> Ro
         error_worst_voussoir: None,
         error_peak: None,
         error_of_reference: None,
+        estimate: None,
         met: None,
         seconds,
         least_seconds,
@@ -141,7 +142,8 @@ fn row(chart: Kind, scene: &str, model: Model, found: Found, timed: Timed) -> Ro
 
 impl Row {
     fn take(&mut self, measured: Measured) {
-        self.met = measured.met;
+        self.estimate = measured.accuracy.and_then(|accuracy| accuracy.estimate);
+        self.met = measured.accuracy.map(|accuracy| accuracy.met);
         match measured.errors {
             Held::Intensity(intensity, error) => (self.intensity, self.error) = (Some(intensity), Some(error)),
             Held::Stress(errors, own) => {
@@ -192,14 +194,14 @@ fn on_collapse(scene: &CollapseScene, model: &Model) -> Result<(Found, Run), Str
             (report.map_err(|error| error.to_string()).and_then(|report| first_order(&report)), run)
         }
     };
-    let measured = |(intensity, met)| Measured { errors: Held::Intensity(intensity, scene.error(intensity)), met };
+    let measured =
+        |(intensity, accuracy)| Measured { errors: Held::Intensity(intensity, scene.error(intensity)), accuracy };
     Ok((found.map(measured), run))
 }
 
-/// Whether the accuracy asked for, if one was, is met, as the report says.
-fn met(report: &CollapseReport) -> Option<bool> {
-    let estimates = report.plan.iter().flat_map(|plan| [plan.collapse_intensity, plan.stress]).flatten();
-    estimates.map(|estimate| estimate.met).reduce(|all, one| all && one)
+/// What the report says of the accuracy asked for, if one was: no model asks for two.
+fn accuracy(report: &CollapseReport) -> Option<Estimate> {
+    report.plan.iter().find_map(|plan| plan.collapse_intensity.or(plan.stress))
 }
 
 /// Why a report has not what was asked for.
@@ -207,10 +209,10 @@ fn unfinished(report: &CollapseReport) -> String {
     report.notes.iter().fold(format!("{:?}:", report.outcome), |words, note| format!("{words} {note}"))
 }
 
-/// Collapse intensity (the scenes call load factor 1 intensity 1), and whether it is as accurate as asked.
-fn first_order(report: &CollapseReport) -> Result<(f64, Option<bool>), String> {
+/// Collapse intensity (the scenes call load factor 1 intensity 1), and how accurate it is said to be.
+fn first_order(report: &CollapseReport) -> Result<(f64, Option<Estimate>), String> {
     match (&report.end, report.outcome) {
-        (Some(end), Outcome::Collapse) => Ok((end.load_factor, met(report))),
+        (Some(end), Outcome::Collapse) => Ok((end.load_factor, accuracy(report))),
         _ => Err(unfinished(report)),
     }
 }
@@ -219,15 +221,15 @@ fn on_stress(scene: &StressScene, model: &Model, reference: &Reference) -> Resul
     let Way::Analysis(fields) = &model.way else { return Err("gives no stress".to_owned()) };
     let question = question(&scene.request, fields)?;
     let (answer, run) = found_by(move || collapse::answer(&question, &Budget::unlimited()));
-    let held = |field: &StressField, met| {
+    let held = |field: &StressField, accuracy| {
         let errors = reference.errors(field, model.reading);
         let told = errors.whole.is_finite().then_some(Held::Stress(errors, reference.own_error));
-        told.map(|errors| Measured { errors, met }).ok_or_else(|| "some stone has no stress".to_owned())
+        told.map(|errors| Measured { errors, accuracy }).ok_or_else(|| "some stone has no stress".to_owned())
     };
     let found = match answer {
-        Ok(Answer::CurvedBeam(beam)) => held(&beam.field, beam.plan.map(|plan| plan.stress.met)),
+        Ok(Answer::CurvedBeam(beam)) => held(&beam.field, beam.plan.map(|plan| plan.stress)),
         Ok(Answer::One(report)) => match report.stress_fields.first() {
-            Some(field) => held(field, met(&report)),
+            Some(field) => held(field, accuracy(&report)),
             None => Err(unfinished(&report)),
         },
         Ok(_) => return Err("no stress asked for".to_owned()),

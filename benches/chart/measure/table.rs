@@ -34,7 +34,9 @@ pub struct Row {
     pub error_peak: Option<f64>,
     /// What the reference says of its own error; none where it is exact.
     pub error_of_reference: Option<f64>,
-    /// Whether the program says that the accuracy asked is met; none where none was asked.
+    /// What the program says of the error, where an accuracy was asked.
+    pub estimate: Option<f64>,
+    /// Whether it says that this accuracy is met.
     pub met: Option<bool>,
     /// CPU time of one run: the median of the repetitions, s.
     pub seconds: f64,
