@@ -201,7 +201,8 @@ fn on_collapse(scene: &CollapseScene, model: &Model) -> Result<(Found, Run), Str
 
 /// What the report says of the accuracy asked for, if one was: no model asks for two.
 fn accuracy(report: &CollapseReport) -> Option<Estimate> {
-    report.plan.iter().find_map(|plan| plan.collapse_intensity.or(plan.stress))
+    let plan = report.plan.as_ref()?;
+    plan.collapse_intensity.or(plan.stress)
 }
 
 /// Why a report has not what was asked for.

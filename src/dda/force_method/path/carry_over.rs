@@ -130,6 +130,7 @@ impl CarryOver {
         splits[k] = changed;
         // How often the rows of the gradient take the change.
         let mut by_change = chain.gradient.mixed[k];
+        // Room for all of them: there is a list for every event, and one that grows is copied again and again.
         let mut shares = Vec::with_capacity(prescribed.len());
         shares.push(1.0);
         let mut carry = |j: usize, tie: f64, from: f64, share: f64| {
