@@ -6,6 +6,7 @@
 
 mod crushing;
 mod geometric;
+mod given_shear;
 mod interior_point;
 mod linear_program;
 mod non_dilating;
@@ -20,6 +21,7 @@ mod window;
 
 pub use crushing::CrushingWindow;
 pub use geometric::ShortenedJoints;
+pub use given_shear::GivesWay;
 pub use non_dilating::{Release, releases};
 pub use passive::SoilEnd;
 pub use resultant::{Condition, Resultant};

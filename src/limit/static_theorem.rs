@@ -127,8 +127,7 @@ impl StaticTheorem {
             force,
             factor,
         };
-        let bounds = (0..theorem.elements()).flat_map(|e| theorem.bounds_of(e));
-        theorem.limits = (0..theorem.joints.len()).flat_map(|k| theorem.limits_of(k)).chain(bounds).collect();
+        theorem.limits = theorem.all_limits();
         if theorem.has_few_unknowns() {
             theorem.rows = Some(Rows::of_laws(&theorem));
         } else {
@@ -164,6 +163,12 @@ impl StaticTheorem {
 
     pub(super) fn has_few_unknowns(&self) -> bool {
         self.unknowns() <= FEW_UNKNOWNS
+    }
+
+    /// What the laws of all joints ask, and behind it the bounds of the passive elements.
+    pub(super) fn all_limits(&self) -> Vec<Limit> {
+        let bounds = (0..self.elements()).flat_map(|e| self.bounds_of(e));
+        (0..self.joints.len()).flat_map(|k| self.limits_of(k)).chain(bounds).collect()
     }
 
     /// What the law of joint `k` asks of its forces.

@@ -183,7 +183,7 @@ impl Setup<'_> {
         let soil = &self.analysis.structure.passive[..];
         let search = Search { analysis, soil, theorem, free, budget: self.budget, start: self.start, sign };
         at_limits.extend(search.at_window_end(greatest));
-        let (found, mechanisms_tried) = search.least(at_limits);
+        let (found, mechanisms_tried) = search.least(at_limits, path);
         self.budget.check()?;
         let slides = found.filter(|found| found.mechanism.slips());
         if let Some(found) = slides.filter(|found| !search.is_beyond(found.load_factor, path, tolerances::POLISH)) {

@@ -1,0 +1,81 @@
+//! Mechanisms from equilibria at which a structure stands.
+//!
+//! The friction that joints have in such an equilibrium is given to them as shear, whatever presses them then. What gives way has a load
+//! of its own as a mechanism with friction. The forces with which it gives way press the joints otherwise: their friction is given next.
+
+use super::Search;
+use super::hunt::{Hunt, Tried};
+use crate::limit::{Equilibrium, Resultant, StaticTheorem};
+
+/// Equilibria to start from: so many over the square of the number of joints, as programmes of many joints take long, but no fewer and
+/// no more than these.
+const STARTS: usize = 16_000;
+const FEWEST: usize = 8;
+const MOST: usize = 60;
+/// So many times friction is given (measured on random structures of blocks: 10 rounds of fewer starts find no more).
+const ROUNDS: usize = 4;
+/// Least share of the load at the end, counted from where the path starts, at which it starts.
+const LEAST_SHARE: f64 = 0.3;
+/// How far below the load at which joints give way the next forces are taken, in turn, as a share of it.
+const BACK: [f64; 2] = [1e-6, 0.1];
+/// Of the random weights that lead to an equilibrium with few forces most are so many times smaller, in every second one.
+const LIGHT: f64 = 0.01;
+/// Share of the joints whose weights are not.
+const HEAVY: f64 = 0.2;
+/// Largest random slack of a limit, as a share of the loads.
+const SLACK: f64 = 1e-5;
+
+impl Hunt<'_> {
+    /// From random equilibria on the way to the load factor `end`.
+    pub(super) fn give_shear(&mut self, end: f64) {
+        let search = self.search;
+        for number in 0..self.starts() {
+            let share = LEAST_SHARE + (1.0 - LEAST_SHARE) * self.random();
+            let at = search.start + share * (end - search.start);
+            let Some(first) = self.forces_at(search.theorem, at, number) else { continue };
+            self.give_shear_from(first, number);
+            if search.budget.ask().is_err() {
+                return;
+            }
+        }
+    }
+
+    /// How many equilibria such a structure is worth.
+    pub(super) fn starts(&self) -> usize {
+        (STARTS / self.search.theorem.joints().pow(2).max(1)).clamp(FEWEST, MOST)
+    }
+
+    /// From these forces of all joints; `number` tells apart what is taken in turn.
+    pub(super) fn give_shear_from(&mut self, mut forces: Vec<Resultant>, number: usize) {
+        let search = self.search;
+        for round in 0..ROUNDS {
+            let slack: Vec<[f64; 3]> = forces.iter().map(|_| [(); 3].map(|()| SLACK * self.random())).collect();
+            let given = search.theorem.with_shear_under(&forces, &slack);
+            let Ok(Some(found)) = given.gives_way(search.sign, search.budget) else { return };
+            let tried = self.weighs(found.moving, found.rates);
+            if tried == Tried::Lower && !search.theorem.has_loops() {
+                self.go_on_from_best();
+            }
+            let back = BACK[(number + round) % BACK.len()] * (found.load_factor - search.start);
+            let Some(next) = self.forces_at(&given, found.load_factor - back, number) else { return };
+            forces = next;
+        }
+    }
+
+    /// Forces of all joints at this load factor; of all that are in equilibrium some that press little, at random.
+    fn forces_at(&mut self, theorem: &StaticTheorem, at: f64, number: usize) -> Option<Vec<Resultant>> {
+        let Search { sign, budget, .. } = *self.search;
+        let mut weight = || {
+            let light = number % 2 == 1 && self.random() > HEAVY;
+            if light { -LIGHT * self.random() } else { -self.random() }
+        };
+        let tilts: Vec<[f64; 3]> = (0..theorem.joints()).map(|_| [weight(), weight(), 0.0]).collect();
+        let found = theorem.least_load(&[], &[], [at, self.search.far()], sign, &tilts, budget);
+        found.ok().flatten().map(|equilibrium: Equilibrium| theorem.resultants(&equilibrium))
+    }
+
+    /// Between 0 and 1.
+    fn random(&mut self) -> f64 {
+        self.scatter.next().abs()
+    }
+}
