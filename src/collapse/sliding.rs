@@ -62,9 +62,13 @@ impl Search<'_> {
     /// forces.
     pub(super) fn least(&self, at_limits: &[Vec<Released>], end: f64) -> (Option<FullSolution>, usize) {
         let mut hunt = Hunt::new(self);
-        if self.theorem.has_loops() {
+        if self.is_of_blocks() {
             at_limits.iter().for_each(|released| hunt.try_some(released));
             hunt.give_shear(end);
+            hunt.round_corners();
+        } else if self.theorem.has_loops() {
+            at_limits.iter().for_each(|released| hunt.descend(released));
+            hunt.wander();
             hunt.round_corners();
         } else {
             at_limits.iter().for_each(|released| hunt.exchange(released));
@@ -82,6 +86,12 @@ impl Search<'_> {
                 .under(&self.analysis.scaled, &self.analysis.structure),
         });
         (solution, tried)
+    }
+
+    /// Whether there are many loops, and no rings of voussoirs. Where rings lie on each other random equilibria lead to mechanisms in
+    /// which they part without a force, at loads far below any path's; those are not looked for.
+    fn is_of_blocks(&self) -> bool {
+        self.theorem.has_loops() && self.analysis.structure.spans.is_empty()
     }
 
     /// Whether every body lies between two others, or ground.

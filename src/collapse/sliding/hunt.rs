@@ -19,6 +19,8 @@ const DECADES: f64 = 2.0;
 /// (chosen on random structures whose least load is known: half as many corners, or starts, miss one of 20 hard ones).
 const STARTS_A_CORNER: usize = 5;
 const FEWEST_CORNERS: usize = 4;
+/// Where rings lie on each other, so many.
+const QUIET_CORNERS: usize = 6;
 const MOST_CORNERS: usize = 48;
 
 /// Random motions of what is at its limits where the search starts.
@@ -131,6 +133,17 @@ impl<'s> Hunt<'s> {
         _ = (0..STARTS).any(|_| self.tries(released, Costs::Apart) == Some(Tried::Lower));
     }
 
+    /// From one state on, as if nothing were known: corners round the best of its mechanisms may lead to less than those round a better
+    /// one.
+    pub(super) fn descend(&mut self, released: &[Released]) {
+        let (best, seen) = (self.best.take(), std::mem::take(&mut self.seen));
+        self.try_some(released);
+        self.round_corners();
+        let least = |found: &Candidate| self.search.sign * found.equilibrium.load_factor;
+        self.best = best.into_iter().chain(self.best.take()).min_by(|a, b| least(a).total_cmp(&least(b)));
+        self.seen.extend(seen);
+    }
+
     fn best_load(&self) -> Option<f64> {
         self.best.as_ref().map(|best| best.equilibrium.load_factor)
     }
@@ -145,11 +158,11 @@ impl<'s> Hunt<'s> {
         self.exchange(&self.at_limits_of_best());
     }
 
-    /// From motions of few bodies of a short chain that touch, and of all, whatever their joints carry: path and window end in few of the
-    /// mechanisms that there are.
+    /// From motions of few bodies that touch, and of all, whatever their joints carry: path and window end in few of the mechanisms that
+    /// there are.
     pub(super) fn wander(&mut self) {
         let structure = &self.search.analysis.structure;
-        if structure.joints.len() > MOST_CHAINED {
+        if !self.search.theorem.has_loops() && structure.joints.len() > MOST_CHAINED {
             return;
         }
         for joints in groups::joints_beside(structure) {
@@ -165,8 +178,8 @@ impl<'s> Hunt<'s> {
     fn roam(&mut self, released: &[Released], times: usize) {
         for _ in 0..times {
             match self.tries(released, Costs::Apart) {
-                Some(Tried::Lower) => self.go_on_from_best(),
-                Some(Tried::InVain) => {}
+                Some(Tried::Lower) if !self.search.theorem.has_loops() => self.go_on_from_best(),
+                Some(Tried::Lower | Tried::InVain) => {}
                 None | Some(Tried::Sole) => return,
             }
         }
@@ -174,7 +187,8 @@ impl<'s> Hunt<'s> {
 
     /// From random corners at and near the least equilibrium of the best mechanism.
     pub(super) fn round_corners(&mut self) {
-        let enough = (self.starts() / STARTS_A_CORNER).max(FEWEST_CORNERS);
+        let of_blocks = self.search.is_of_blocks();
+        let enough = if of_blocks { (self.starts() / STARTS_A_CORNER).max(FEWEST_CORNERS) } else { QUIET_CORNERS };
         let mut quiet = 0;
         for round in 0..MOST_CORNERS {
             let Some(best) = &self.best else { return };
@@ -190,7 +204,9 @@ impl<'s> Hunt<'s> {
             released.extend(missing);
             let before = self.best_load();
             _ = (0..MOTIONS).any(|_| self.tries(&released, Costs::Apart) == Some(Tried::Lower));
-            self.give_shear_from(search.theorem.resultants(&corner), round);
+            if of_blocks {
+                self.give_shear_from(search.theorem.resultants(&corner), round);
+            }
             quiet = if self.best_load() == before { quiet + 1 } else { 0 };
             if quiet == enough || search.budget.ask().is_err() {
                 return;
