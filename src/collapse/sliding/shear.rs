@@ -5,7 +5,7 @@
 
 use super::Search;
 use super::hunt::{Hunt, Tried};
-use crate::limit::{Equilibrium, Resultant, StaticTheorem};
+use crate::limit::{Resultant, StaticTheorem};
 
 /// Equilibria to start from: so many over the square of the number of joints, as programmes of many joints take long, but no fewer and
 /// no more than these.
@@ -71,7 +71,7 @@ impl Hunt<'_> {
         };
         let tilts: Vec<[f64; 3]> = (0..theorem.joints()).map(|_| [weight(), weight(), 0.0]).collect();
         let found = theorem.least_load(&[], &[], [at, self.search.far()], sign, &tilts, budget);
-        found.ok().flatten().map(|equilibrium: Equilibrium| theorem.resultants(&equilibrium))
+        found.ok().flatten().map(|equilibrium| theorem.resultants(&equilibrium))
     }
 
     /// Between 0 and 1.
