@@ -4,9 +4,10 @@
 //! moves, and admissible forces everywhere. A load path ends at one of them. From the mechanism in which it ends the least
 //! is a linear programme (see [`crate::limit`]). At its optimum more joints are at their limits, so that other mechanisms can
 //! move there, each with a programme of its own: mechanisms are exchanged until none is found that gives less. Where there are many
-//! loops that is done from every state anew. Structures of blocks have many more mechanisms; those are found from equilibria below the
-//! end (see [`shear`]).
+//! loops there are many more mechanisms; those are found from equilibria below the end, also from such in which rings are [`apart`] (see
+//! [`shear`]).
 
+mod apart;
 mod groups;
 mod hunt;
 mod shear;
@@ -62,13 +63,9 @@ impl Search<'_> {
     /// forces.
     pub(super) fn least(&self, at_limits: &[Vec<Released>], end: f64) -> (Option<FullSolution>, usize) {
         let mut hunt = Hunt::new(self);
-        if self.is_of_blocks() {
+        if self.theorem.has_loops() {
             at_limits.iter().for_each(|released| hunt.try_some(released));
             hunt.give_shear(end);
-            hunt.round_corners();
-        } else if self.theorem.has_loops() {
-            at_limits.iter().for_each(|released| hunt.descend(released));
-            hunt.wander();
             hunt.round_corners();
         } else {
             at_limits.iter().for_each(|released| hunt.exchange(released));
@@ -86,12 +83,6 @@ impl Search<'_> {
                 .under(&self.analysis.scaled, &self.analysis.structure),
         });
         (solution, tried)
-    }
-
-    /// Whether there are many loops, and no rings of voussoirs. Where rings lie on each other random equilibria lead to mechanisms in
-    /// which they part without a force, at loads far below any path's; those are not looked for.
-    fn is_of_blocks(&self) -> bool {
-        self.theorem.has_loops() && self.analysis.structure.spans.is_empty()
     }
 
     /// Whether every body lies between two others, or ground.

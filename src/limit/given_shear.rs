@@ -5,8 +5,8 @@
 //! under those forces can be given in a next step (Gilbert, Casapulla and Ahmed, Computers and Structures 84 (2006) 873-887).
 
 use super::non_dilating::Release;
-use super::programme::{Objective, Programme, ProgrammeOutcome, Rows};
-use super::static_theorem::{Limit, StaticTheorem};
+use super::programme::{Dual, Objective, Programme, ProgrammeOutcome, Rows};
+use super::static_theorem::{Equilibrium, Limit, StaticTheorem};
 use super::{Resultant, Unsolved};
 use crate::budget::Budget;
 use crate::structure::{Face, JointLaw};
@@ -50,21 +50,32 @@ impl StaticTheorem {
         given
     }
 
+    /// The equilibrium under the largest loads in the direction of `sign`; None where nothing bounds them, or there is none.
+    ///
+    /// # Errors
+    /// When rounding, or `budget`, kept the linear programme from an answer.
+    pub fn at_end(&self, sign: f64, budget: &Budget) -> Result<Option<Equilibrium>, Unsolved> {
+        self.end(sign, budget).map(|end| end.map(|(equilibrium, _)| equilibrium))
+    }
+
+    fn end(&self, sign: f64, budget: &Budget) -> Result<Option<(Equilibrium, Dual)>, Unsolved> {
+        let programme = Programme { errors: ERRORS, ..Programme::new(self) };
+        match programme.maximise(&Objective::load_factor(sign), budget) {
+            ProgrammeOutcome::At(equilibrium, dual) => Ok(Some((equilibrium, dual))),
+            ProgrammeOutcome::Infeasible(_) | ProgrammeOutcome::Unbounded(_) => Ok(None),
+            ProgrammeOutcome::Lost => Err(Unsolved),
+        }
+    }
+
     /// The mechanism in which joints without friction give way as the loads grow in the direction of `sign`; None where they do not
     /// stand, or never give way.
     ///
     /// # Errors
     /// When rounding, or `budget`, kept the linear programme from an answer.
     pub fn gives_way(&self, sign: f64, budget: &Budget) -> Result<Option<GivesWay>, Unsolved> {
-        let programme = Programme { errors: ERRORS, ..Programme::new(self) };
-        match programme.maximise(&Objective::load_factor(sign), budget) {
-            ProgrammeOutcome::At(equilibrium, dual) => {
-                let (moving, rates) = self.moving(&dual.multipliers);
-                Ok(Some(GivesWay { load_factor: equilibrium.load_factor, moving, rates }))
-            }
-            ProgrammeOutcome::Infeasible(_) | ProgrammeOutcome::Unbounded(_) => Ok(None),
-            ProgrammeOutcome::Lost => Err(Unsolved),
-        }
+        let Some((equilibrium, dual)) = self.end(sign, budget)? else { return Ok(None) };
+        let (moving, rates) = self.moving(&dual.multipliers);
+        Ok(Some(GivesWay { load_factor: equilibrium.load_factor, moving, rates }))
     }
 
     /// What moves, and its rates, from multipliers of the limits of joints without friction, each of which bounds one force alone.

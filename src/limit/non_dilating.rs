@@ -90,7 +90,13 @@ impl StaticTheorem {
             programme.errors = CORNER;
         }
         let forces = tilts.iter().copied().enumerate().collect();
-        match programme.maximise(&Objective { load_factor: -sign, forces }, budget) {
+        let objective = Objective { load_factor: -sign, forces };
+        let found = match tilts.is_empty() || self.has_few_unknowns() {
+            true => programme.maximise(&objective, budget),
+            // A corner that this method does not reach takes the other one up to a second: there are more of them.
+            false => programme.maximise_sparsely(&objective, budget),
+        };
+        match found {
             ProgrammeOutcome::At(equilibrium, _) => {
                 let lies_before = !tilts.is_empty() || sign * (equilibrium.load_factor - end) < 0.0;
                 Ok(lies_before.then_some(equilibrium))

@@ -15,12 +15,10 @@ const TILTS: [f64; 3] = [1e-1, 1e-2, 1e-3];
 const MOTIONS: usize = 2;
 /// Random costs that lie apart are between 1 and 10 to the power of minus twice this.
 const DECADES: f64 = 2.0;
-/// In structures of blocks a corner for so many starts of [`super::shear`], but no fewer than these, may give nothing lower before the
+/// A corner for so many starts of [`super::shear`], but no fewer than these, may give nothing lower before the
 /// search ends (chosen on 20 random structures whose least load is known: with 40 starts, not 60, one is told too high).
 const STARTS_A_CORNER: usize = 5;
 const FEWEST_CORNERS: usize = 4;
-/// Where rings lie on each other, so many (chosen on walls 2 and 6 of Ferris and Tin-Loi: with 14 seeds each 8 in turn found nothing more).
-const QUIET_CORNERS: usize = 6;
 /// So many in all.
 const MOST_CORNERS: usize = 48;
 
@@ -134,17 +132,6 @@ impl<'s> Hunt<'s> {
         _ = (0..STARTS).any(|_| self.tries(released, Costs::Apart) == Some(Tried::Lower));
     }
 
-    /// From one state on, as if nothing were known: corners round the best of its mechanisms may lead to less than those round a better
-    /// one.
-    pub(super) fn descend(&mut self, released: &[Released]) {
-        let (best, seen) = (self.best.take(), std::mem::take(&mut self.seen));
-        self.try_some(released);
-        self.round_corners();
-        let least = |found: &Candidate| self.search.sign * found.equilibrium.load_factor;
-        self.best = best.into_iter().chain(self.best.take()).min_by(|a, b| least(a).total_cmp(&least(b)));
-        self.seen.extend(seen);
-    }
-
     fn best_load(&self) -> Option<f64> {
         self.best.as_ref().map(|best| best.equilibrium.load_factor)
     }
@@ -163,7 +150,7 @@ impl<'s> Hunt<'s> {
     /// there are.
     pub(super) fn wander(&mut self) {
         let structure = &self.search.analysis.structure;
-        if !self.search.theorem.has_loops() && structure.joints.len() > MOST_CHAINED {
+        if structure.joints.len() > MOST_CHAINED {
             return;
         }
         for joints in groups::joints_beside(structure) {
@@ -179,8 +166,8 @@ impl<'s> Hunt<'s> {
     fn roam(&mut self, released: &[Released], times: usize) {
         for _ in 0..times {
             match self.tries(released, Costs::Apart) {
-                Some(Tried::Lower) if !self.search.theorem.has_loops() => self.go_on_from_best(),
-                Some(Tried::Lower | Tried::InVain) => {}
+                Some(Tried::Lower) => self.go_on_from_best(),
+                Some(Tried::InVain) => {}
                 None | Some(Tried::Sole) => return,
             }
         }
@@ -188,8 +175,7 @@ impl<'s> Hunt<'s> {
 
     /// From random corners at and near the least equilibrium of the best mechanism.
     pub(super) fn round_corners(&mut self) {
-        let of_blocks = self.search.is_of_blocks();
-        let enough = if of_blocks { (self.starts() / STARTS_A_CORNER).max(FEWEST_CORNERS) } else { QUIET_CORNERS };
+        let enough = (self.starts() / STARTS_A_CORNER).max(FEWEST_CORNERS);
         let mut quiet = 0;
         for round in 0..MOST_CORNERS {
             let Some(best) = &self.best else { return };
@@ -205,9 +191,7 @@ impl<'s> Hunt<'s> {
             released.extend(missing);
             let before = self.best_load();
             _ = (0..MOTIONS).any(|_| self.tries(&released, Costs::Apart) == Some(Tried::Lower));
-            if of_blocks {
-                self.give_shear_from(search.theorem.resultants(&corner), round);
-            }
+            self.give_shear_from(None, search.theorem.resultants(&corner), round);
             quiet = if self.best_load() == before { quiet + 1 } else { 0 };
             if quiet == enough || search.budget.ask().is_err() {
                 return;

@@ -4,6 +4,8 @@
 //! of its own as a mechanism with friction. The forces with which it gives way press the joints otherwise: their friction is given next.
 
 use super::Search;
+use super::apart::Apart;
+use super::groups::partings;
 use super::hunt::{Hunt, Tried};
 use crate::limit::{Resultant, StaticTheorem};
 
@@ -12,6 +14,9 @@ use crate::limit::{Resultant, StaticTheorem};
 const STARTS: usize = 16_000;
 const FEWEST: usize = 8;
 const MOST: usize = 60;
+/// The same of joints between rings that are taken out together: in a vault of 24 stones these are all that there are.
+const PARTINGS: usize = 56_000;
+const MOST_PARTINGS: usize = 32;
 /// So many times friction is given (measured on random structures of blocks: 10 rounds of fewer starts find no more).
 const ROUNDS: usize = 4;
 /// Least share of the load at the end, counted from where the path starts, at which it starts.
@@ -26,14 +31,22 @@ const HEAVY: f64 = 0.2;
 const SLACK: f64 = 1e-5;
 
 impl Hunt<'_> {
-    /// From random equilibria on the way to the load factor `end`.
+    /// From random equilibria on the way to the load factor `end`; where rings lie on each other, first from those in which parts of them
+    /// are apart.
     pub(super) fn give_shear(&mut self, end: f64) {
         let search = self.search;
+        let partings = partings(&search.analysis.structure, self.worth(PARTINGS, MOST_PARTINGS));
+        for (number, joints) in partings.into_iter().enumerate() {
+            let Some(apart) = Apart::new(search, joints) else { continue };
+            if let Ok(Some(end)) = apart.theorem.at_end(search.sign, search.budget) {
+                self.give_shear_from(Some(&apart), apart.theorem.resultants(&end), number);
+            }
+        }
         for number in 0..self.starts() {
             let share = LEAST_SHARE + (1.0 - LEAST_SHARE) * self.random();
             let at = search.start + share * (end - search.start);
             let Some(first) = self.forces_at(search.theorem, at, number) else { continue };
-            self.give_shear_from(first, number);
+            self.give_shear_from(None, first, number);
             if search.budget.ask().is_err() {
                 return;
             }
@@ -42,18 +55,28 @@ impl Hunt<'_> {
 
     /// How many equilibria such a structure is worth.
     pub(super) fn starts(&self) -> usize {
-        (STARTS / self.search.theorem.joints().pow(2).max(1)).clamp(FEWEST, MOST)
+        self.worth(STARTS, MOST)
     }
 
-    /// From these forces of all joints; `number` tells apart what is taken in turn.
-    pub(super) fn give_shear_from(&mut self, mut forces: Vec<Resultant>, number: usize) {
+    /// So many over the square of the number of joints, but no more than `most`.
+    fn worth(&self, of_joints: usize, most: usize) -> usize {
+        (of_joints / self.search.theorem.joints().pow(2).max(1)).clamp(FEWEST, most)
+    }
+
+    /// From these forces of all joints, of the structure without those that are `apart`; `number` tells apart what is taken in turn.
+    pub(super) fn give_shear_from(&mut self, apart: Option<&Apart>, mut forces: Vec<Resultant>, number: usize) {
         let search = self.search;
+        let theorem = apart.map_or(search.theorem, |apart| &apart.theorem);
         for round in 0..ROUNDS {
             let slack: Vec<[f64; 3]> = forces.iter().map(|_| [(); 3].map(|()| SLACK * self.random())).collect();
-            let given = search.theorem.with_shear_under(&forces, &slack);
+            let given = theorem.with_shear_under(&forces, &slack);
             let Ok(Some(found)) = given.gives_way(search.sign, search.budget) else { return };
-            let tried = self.weighs(found.moving, found.rates);
-            if tried == Tried::Lower && !search.theorem.has_loops() {
+            let motion = match apart {
+                Some(apart) => apart.in_whole(search, &found.moving, &found.rates),
+                None => Some((found.moving, found.rates)),
+            };
+            let lower = motion.is_some_and(|(moving, rates)| self.weighs(moving, rates) == Tried::Lower);
+            if lower && !search.theorem.has_loops() {
                 self.go_on_from_best();
             }
             let back = BACK[(number + round) % BACK.len()] * (found.load_factor - search.start);

@@ -43,6 +43,17 @@ fn a_slender_block_turns_over() {
     assert_eq!(found.moving, [(0, Release::Rotation(Face::Intrados))]);
 }
 
+/// Limit analysis of a block that slides or turns over.
+#[test]
+fn the_end_of_a_block_is_that_of_statics() {
+    for (width, load) in [(1.0, FRICTION), (0.3, 0.3)] {
+        let theorem = block(width);
+        let end = theorem.at_end(1.0, &Budget::unlimited()).unwrap().unwrap();
+        assert!((end.load_factor - load).abs() < 1e-12, "{end:?}");
+        assert!((theorem.resultants(&end)[0].normal() - width).abs() < 1e-12, "{end:?}");
+    }
+}
+
 #[test]
 fn slack_lets_a_joint_take_more() {
     // A hundredth of the loads on top of the shear.

@@ -41,6 +41,7 @@ pub mod structures;
 #[cfg(feature = "server")]
 pub mod table;
 pub mod three_hinges;
+pub mod vault;
 #[cfg(feature = "server")]
 pub mod verify;
 #[cfg(feature = "server")]
