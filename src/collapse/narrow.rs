@@ -6,18 +6,23 @@ use super::ending::resultants;
 use super::grid::{Grid, OnSide};
 use super::{Order, Roughness};
 use crate::dda::ContactForce;
-use crate::structure::{Joint, Structure};
+use crate::structure::{Joint, Side, Structure};
 
 /// A thrust nearer to the end of a joint than this share of the subblock there presses a strip that is too narrow: were pressure linear,
 /// three tenths of the subblock's side. On the arches of the chart stress of second order is off by what its roughness tells as long as
 /// that is more than four tenths, and by up to 2.6 times as much where it is less than two.
 const TOO_NEAR: f64 = 0.1;
 
+/// A joint whose thrust is farther from its middle is open at one end, were pressure linear.
+const KERN: f64 = 1.0 / 6.0;
+
 /// The subblocks of a body at the ends of a joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Outermost {
     body: usize,
     joint: usize,
+    /// Whether the body stands on the ground there.
+    grounded: bool,
     /// How much of the joint each takes, as a share.
     lengths: [f64; 2],
 }
@@ -30,15 +35,16 @@ pub(super) fn outermost(structure: &Structure, grids: &[Grid]) -> Vec<Outermost>
 
 fn beside<'g>(number: usize, joint: &'g Joint, grids: &'g [Grid]) -> impl Iterator<Item = Outermost> + 'g {
     let bodies = joint.between.into_iter().filter_map(|side| side.body());
+    let grounded = joint.between.iter().any(|side| matches!(side, Side::Support(_)));
     bodies.filter(|body| grids[*body].order == Order::Second).map(move |body| {
         let on: OnSide = grids[body].beside([joint.intrados, joint.extrados]);
         let (first, last) =
             grids[body].lines_on(on).fold((1.0f64, 0.0f64), |(low, high), at| (low.min(at), high.max(at)));
-        Outermost { body, joint: number, lengths: [first, 1.0 - last] }
+        Outermost { body, joint: number, grounded, lengths: [first, 1.0 - last] }
     })
 }
 
-/// Marks the bodies that have such a strip, by the forces of all contacts.
+/// Marks the bodies that have such a strip, and those that stand on a joint that is open at one end, by the forces of all contacts.
 pub(super) fn mark(model: &Model, forces: &[ContactForce], roughness: &mut [Roughness]) {
     if model.outermost.is_empty() {
         return;
@@ -46,11 +52,19 @@ pub(super) fn mark(model: &Model, forces: &[ContactForce], roughness: &mut [Roug
     let resultants = resultants(model, |p| [forces[p].normal, forces[p].tangential]);
     for outermost in &model.outermost {
         let resultant = resultants[outermost.joint];
-        roughness[outermost.body].narrow |= outermost.is_too_coarse_for(resultant.extrados / resultant.normal());
+        let thrust = resultant.extrados / resultant.normal();
+        let rough = &mut roughness[outermost.body];
+        rough.narrow |= outermost.is_too_coarse_for(thrust);
+        rough.gapes |= outermost.gapes_under(thrust);
     }
 }
 
 impl Outermost {
+    /// Whether the body stands on this joint, and a thrust at this place of it, from 0 to 1, leaves one end open.
+    fn gapes_under(&self, thrust: f64) -> bool {
+        self.grounded && (thrust - 0.5).abs() > KERN
+    }
+
     /// For a thrust at this place of the joint, from 0 to 1; one that does not press has none, NaN.
     fn is_too_coarse_for(&self, thrust: f64) -> bool {
         let [first, last] = self.lengths;
@@ -65,7 +79,7 @@ mod tests {
     use crate::collapse::grid::{Cut, cuts};
     use crate::geometry::Vec2;
     use crate::limit::scenes;
-    use crate::structure::{JointLaw, Side};
+    use crate::structure::JointLaw;
 
     /// Two blocks side by side, the left one twice as high, with a joint of this law between them.
     fn pair(law: JointLaw) -> Structure {
@@ -101,8 +115,17 @@ mod tests {
     }
 
     #[test]
+    fn a_joint_on_the_ground_gapes_where_the_thrust_leaves_its_middle_third() {
+        let outermost = Outermost { body: 0, joint: 0, grounded: true, lengths: [0.4, 0.2] };
+        for (thrust, expected) in [(0.3, true), (0.35, false), (0.65, false), (0.7, true), (f64::NAN, false)] {
+            assert_eq!(outermost.gapes_under(thrust), expected, "{thrust}");
+            assert!(!Outermost { grounded: false, ..outermost }.gapes_under(thrust));
+        }
+    }
+
+    #[test]
     fn a_thrust_next_to_an_end_presses_too_narrow_a_strip() {
-        let outermost = Outermost { body: 0, joint: 0, lengths: [0.4, 0.2] };
+        let outermost = Outermost { body: 0, joint: 0, grounded: false, lengths: [0.4, 0.2] };
         for (thrust, expected) in
             [(0.03, true), (0.05, false), (0.5, false), (0.97, false), (0.99, true), (f64::NAN, false)]
         {

@@ -143,6 +143,51 @@ fn stress_in_an_arch_is_as_accurate_as_asked() {
     }
 }
 
+/// A random arch under its weight, and fill in some, with joints of any stiffness.
+fn standing(seed: u64) -> Value {
+    let dice = &mut Dice::new(seed);
+    let (angle, thickness) = (dice.between(50.0, 130.0), 5.0 * dice.between(0.1, 0.3));
+    let voussoirs = 5 + dice.below(22);
+    let penalty_ratio = if dice.chance(0.3) { 1.0 } else { dice.decades(0.3, 100.0) };
+    let plane = if dice.chance(0.5) { "stress" } else { "strain" };
+    let (curved, filled) = (dice.chance(0.5), dice.chance(0.4));
+    let mut loads = vec![json!({"load": {"self_weight": {}}})];
+    if filled {
+        let (height, lateral) = (dice.between(2.5, 8.0), dice.between(0.2, 0.8));
+        let fill = json!({"fill_height_m": height, "fill_density_kg_m3": 1800, "lateral_ratio": lateral});
+        loads.push(json!({"load": {"fill_pressure": fill}}));
+    }
+    let poisson = dice.between(0.0, 0.3);
+    json!({
+        "arch": {
+            "profile": {"circular": {"radius_m": 5, "opening_angle_deg": angle}},
+            "thickness": {"constant_m": thickness}, "voussoirs": voussoirs, "curved_sides": curved,
+        },
+        "stone": {
+            "penalty_ratio": penalty_ratio, "plane": plane, "friction_angle_deg": 60, "poissons_ratio": poisson,
+        },
+        "loads": loads, "load_factor": {"cap": 1},
+    })
+}
+
+/// On 3 x 2 subblocks the errors of these arches are up to 1.5 times as large as estimated: most stand on joints that are open at one end.
+#[test]
+fn met_is_not_said_where_a_coarse_mesh_hides_the_error() {
+    for seed in [30, 34, 39, 73, 75, 113] {
+        let request = standing(seed);
+        let to =
+            |asked: f64| door::solve(&with(request.clone(), "accuracy", json!({"stress": asked, "subblocks": 8000})));
+        let (exact, analysis) = (to(0.004), door::analysis(&request).unwrap());
+        for asked in [0.1, 0.02] {
+            let planned = to(asked);
+            let stress = planned.plan.as_ref().unwrap().stress.unwrap();
+            let had = pointwise_error(&analysis, &planned.stress_fields[0], &exact.stress_fields[0]);
+            println!("seed {seed}: asked {asked}, estimated {:.4}, had {had:.4}", stress.estimate.unwrap());
+            assert!(stress.met && had <= asked, "seed {seed}: {stress:?}, had {had}");
+        }
+    }
+}
+
 /// Closed joints, half-way and 0.9 of the way to collapse: a more accurate answer, solved for one by one too, stands for the exact stress.
 #[test]
 fn an_estimate_is_about_the_error_and_not_below_it() {
@@ -153,7 +198,7 @@ fn an_estimate_is_about_the_error_and_not_below_it() {
         },
         "loads": [{"load": {"self_weight": {}}}], "load_factor": {"cap": 1},
     });
-    // On few subblocks, with joints as stiff as here, no arch that was tried is off by more over its roughness.
+    // On few subblocks, with joints as stiff as here, the error of some arches is larger than estimated: met is said of none of these.
     let stiff = json!({
         "arch": {
             "profile": {"circular": {"radius_m": 5, "opening_angle_deg": 95}},
@@ -326,11 +371,11 @@ fn no_model_has_more_subblocks_than_allowed() {
 #[test]
 fn subblocks_that_are_allowed_are_used() {
     let estimates = [0.1, 0.05, 0.01].map(|asked| {
-        let of = json!({"accuracy": {"stress": asked, "subblocks": 660}, "report": {"stress_fields": [{"load_factor": 121.5625}]}});
+        let of = json!({"accuracy": {"stress": asked, "subblocks": 700}, "report": {"stress_fields": [{"load_factor": 121.5625}]}});
         let plan = door::solve(&semicircle(27, &of)).plan.unwrap();
-        assert!(plan.meshes.iter().all(|mesh| mesh.subblocks <= 660), "{plan:?}");
+        assert!(plan.meshes.iter().all(|mesh| mesh.subblocks <= 700), "{plan:?}");
         let stress = plan.stress.unwrap();
-        let full = plan.why.iter().any(|why| matches!(why, PlanReason::NextTooLarge { allowed: 660, .. }));
+        let full = plan.why.iter().any(|why| matches!(why, PlanReason::NextTooLarge { allowed: 700, .. }));
         assert_eq!((stress.met, full), (asked >= 0.05, asked < 0.05), "{plan:?}");
         stress.estimate.unwrap()
     });

@@ -77,9 +77,9 @@ pub(super) fn solve(
         return Ok(Err((PlanReason::CoarsestLost, report.cost)));
     }
     let near_points = near_points(analysis);
-    let mut mesh = Refinement::new(drawing(&analysis.structure).0, ladders, near_points, report);
+    let mut mesh = Refinement::new(analysis, ladders, near_points, report);
     let why = loop {
-        if mesh.told().is_some_and(|estimate| estimate <= asked) {
+        if mesh.meets(asked) {
             break PlanReason::AccurateEnough;
         }
         let levels = match mesh.next(asked, most) {
@@ -94,8 +94,7 @@ pub(super) fn solve(
         mesh.take(levels, report);
         states = found;
     };
-    let estimate = mesh.told();
-    let stress = Estimate { asked, estimate, met: estimate.is_some_and(|estimate| estimate <= asked) };
+    let stress = Estimate { asked, estimate: mesh.told(), met: mesh.meets(asked) };
     let subblocks = mesh.subblocks(&mesh.levels);
     let mut one_by_one = false;
     if let Some(mut states) = states {
@@ -120,13 +119,15 @@ pub(super) fn solve(
 impl Refinement {
     /// The coarsest mesh.
     fn new(
-        order: Order,
+        analysis: &Analysis,
         ladders: Vec<Vec<[usize; 2]>>,
         near_points: Vec<Vec<NearPoint>>,
         report: CollapseReport,
     ) -> Self {
+        let order = drawing(&analysis.structure).0;
         let orders = ORDERS[usize::from(order == Order::Second)];
-        let errors = report.stress_fields.iter().map(|_| FieldErrors::new(ladders.len(), orders)).collect();
+        let none = FieldErrors::new(ladders.len(), orders).between_joints(analysis.penalty_ratio);
+        let errors = vec![none; report.stress_fields.len()];
         let levels = vec![0; ladders.len()];
         let mut mesh =
             Refinement { order, ladders, levels, near_points, report, errors, first_yield: None, meshes: Vec::new() };
@@ -142,6 +143,11 @@ impl Refinement {
     /// Estimated error of the stress on the last mesh; none on the first of first order.
     fn told(&self) -> Option<f64> {
         self.meshes.last().and_then(|tried| tried.stress)
+    }
+
+    /// Whether the error is no larger than that, even where it may be larger than estimated.
+    fn meets(&self, asked: f64) -> bool {
+        self.told().is_some() && self.worst(|field| field.shares(0).sum::<f64>().sqrt()) <= asked
     }
 
     fn subblocks(&self, levels: &[usize]) -> Vec<[usize; 2]> {
@@ -193,11 +199,16 @@ impl Refinement {
         self.note(Some(self.estimate()));
     }
 
-    /// Estimated error of the stress, the largest of all fields.
+    /// Estimated error of the stress.
     fn estimate(&self) -> f64 {
+        self.worst(FieldErrors::estimate)
+    }
+
+    /// The largest error of all fields.
+    fn worst(&self, error: impl Fn(&FieldErrors) -> f64) -> f64 {
         // One that is not finite stays.
         let worse = |a: f64, b: f64| if a.is_nan() || a >= b { a } else { b };
-        self.errors.iter().map(|field| field.shares(0).sum::<f64>().sqrt()).fold(0.0, worse)
+        self.errors.iter().map(error).fold(0.0, worse)
     }
 
     /// Voussoirs to refine: those that promise the most for the subblocks they take, until as accurate as asked, or half as far

@@ -88,7 +88,8 @@ pub struct Estimate {
     pub asked: f64,
     /// Error that the answer is estimated to have, as a share; none where it is not known or there is no number to be off.
     pub estimate: Option<f64>,
-    /// Whether the answer is as accurate as asked, or has nothing that could be inaccurate.
+    /// Whether the answer is as accurate as asked, also where a coarse mesh may hide a part of the error, or has nothing that could be
+    /// inaccurate.
     pub met: bool,
 }
 

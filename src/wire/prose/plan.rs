@@ -22,6 +22,9 @@ pub fn error(estimate: Estimate) -> String {
     let asked = percent(estimate.asked);
     match (estimate.estimate, estimate.met) {
         (Some(error), true) => format!("estimated at {}; asked: {asked}", percent(error)),
+        (Some(error), false) if error <= estimate.asked => {
+            format!("estimated at {}, but NOT SURE to be within the {asked} asked for", percent(error))
+        }
         (Some(error), false) if percent(error) == asked => format!("estimated a little above the {asked} asked for"),
         (Some(error), false) => format!("estimated at {}, MORE than the {asked} asked for", percent(error)),
         (None, true) => format!("no load to be off; asked: {asked}"),
