@@ -3,8 +3,6 @@
 use crate::structure::{Joint, Structure};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Up to how many bodies they are grouped with two others, too.
-const FEW: usize = 12;
 /// Of more groups some are left out: programmes of large structures take long.
 const MOST_GROUPS: usize = 60;
 
@@ -40,15 +38,13 @@ fn joints_between_rings(structure: &Structure) -> Vec<Vec<usize>> {
     rows.into_values().collect()
 }
 
-/// Every body by itself and with one that it touches; where there are few, with two, too. `between`: the bodies beside every joint.
+/// Every body by itself, with one that it touches and with two. `between`: the bodies beside every joint.
 fn touching(bodies: usize, between: &[Vec<usize>]) -> BTreeSet<Vec<usize>> {
     let pairs: BTreeSet<Vec<usize>> =
         between.iter().filter(|beside| beside.len() == 2).map(|beside| joined(beside, &[])).collect();
     let mut all: BTreeSet<Vec<usize>> = (0..bodies).map(|body| vec![body]).chain(pairs.iter().cloned()).collect();
-    if bodies <= FEW {
-        let threes = pairs.iter().flat_map(|a| pairs.iter().map(|b| joined(a, b)));
-        all.extend(threes.filter(|bodies| bodies.len() == 3));
-    }
+    let threes = pairs.iter().flat_map(|a| pairs.iter().map(|b| joined(a, b)));
+    all.extend(threes.filter(|bodies| bodies.len() == 3));
     all
 }
 
