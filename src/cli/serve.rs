@@ -10,11 +10,13 @@ use std::fmt::Display;
 use std::fs;
 use std::io;
 use std::net::{SocketAddr, TcpListener};
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
+use std::thread::available_parallelism;
 use std::time::Duration;
-use tokio::runtime::Runtime;
+use tokio::runtime::Builder;
 use tokio::time::{sleep, timeout};
 use voussoir::collapse;
 use voussoir::http::{self, Service, Tokens};
@@ -54,7 +56,7 @@ fn run(options: &Serve) -> io::Result<()> {
     if let Some(file) = &options.requests.token_file {
         take_tokens(&settings.tokens, file)?;
     }
-    let runtime = Runtime::new()?;
+    let runtime = Builder::new_multi_thread().worker_threads(threads()).enable_all().build()?;
     let handle = Handle::new();
     runtime.block_on(async {
         let tokens = settings.tokens.clone();
@@ -81,6 +83,11 @@ fn run(options: &Serve) -> io::Result<()> {
     runtime.shutdown_background();
     tracing::info!("stopped");
     Ok(())
+}
+
+/// How many serve HTTP: one for two cores, which is as much as their workers need.
+fn threads() -> usize {
+    (available_parallelism().map_or(1, NonZeroUsize::get) / 2).max(1)
 }
 
 /// Opens the store of jobs.

@@ -90,6 +90,11 @@ const FRAME: usize = 2000;
 const SETTLED: usize = 150;
 const STEPS: [usize; 2] = [64, 16];
 
+/// Bodies of a row of whole stones that is not worth counting; and bytes of a model of it and of its path, for every body (counted, they
+/// are 27,000 to 32,000 where all stones are alike).
+const FEW: usize = 64;
+const IN_A_ROW: usize = 40_000;
+
 /// What the analyses of a question take, one after the other.
 pub fn estimate(question: &Question) -> Demand {
     let asked = Cell::new(0);
@@ -172,6 +177,9 @@ fn limit_analysis(structure: &Structure) -> usize {
 
 /// Modelling, following and writing an analysis on the mesh it has.
 fn on_mesh(analysis: &Analysis, budget: &Budget) -> Result<Demand, Stopped> {
+    if is_short_row(analysis) {
+        return Ok(of_short_row(analysis));
+    }
     let uncrushed = with_points(analysis, 0, budget)?;
     let structure = &analysis.structure;
     // Where joints slide that path is followed, too, with whole stones; in a row of bodies it takes little.
@@ -184,6 +192,31 @@ fn on_mesh(analysis: &Analysis, budget: &Budget) -> Result<Demand, Stopped> {
     let whole = plan::of_whole_stones(analysis);
     let all_crush = with_points(&whole, points, budget).map_or(usize::MAX, |all_crush| all_crush.memory);
     Ok(Demand { memory: all_crush.max(uncrushed.memory), ..uncrushed })
+}
+
+/// Whether it is a row of few whole stones that neither crush on the path nor move.
+fn is_short_row(analysis: &Analysis) -> bool {
+    let Analysis { structure, mesh, task, .. } = analysis;
+    let whole = mesh.order == Order::First && mesh.subblocks.iter().all(|each| *each == [1, 1]);
+    let row = structure.is_one_ring() && structure.passive.is_empty() && structure.bodies.len() <= FEW;
+    whole && row && !task.crushes_on_path() && task.geometry() == Geometry::FirstOrder
+}
+
+fn of_short_row(analysis: &Analysis) -> Demand {
+    let Structure { bodies, joints, .. } = &analysis.structure;
+    let modelled = IN_A_ROW * bodies.len();
+    let [fields, motion, settled] = reported(analysis, bodies.len(), 2 * joints.len());
+    let memory = modelled + fields + motion + settled;
+    Demand { memory, uncrushed: memory, work: 0.0, largest: largest((modelled, Share::Stones), fields, motion) }
+}
+
+/// What takes most: a model, whatever that is of, or what is reported.
+fn largest((modelled, model): (usize, Share), fields: usize, motion: usize) -> Share {
+    match (fields.max(motion) > modelled, fields > motion) {
+        (true, true) => Share::Fields,
+        (true, false) => Share::Frames,
+        (false, _) => model,
+    }
 }
 
 /// The same with at least so many contact points at every joint.
@@ -218,12 +251,8 @@ fn with_points(analysis: &Analysis, least: usize, budget: &Budget) -> Result<Dem
     let memory = modelled + (following + condensing).max(fields + motion + settled);
     let memory = memory + memory / LOST;
     let work = kinds.iter().map(|kind| kind.work).sum::<f64>() + size.elimination.work;
-    let largest = if cells > grids.len() { Share::Mesh } else { Share::Stones };
-    let largest = match (fields.max(motion) > modelled, fields > motion) {
-        (true, true) => Share::Fields,
-        (true, false) => Share::Frames,
-        (false, _) => largest,
-    };
+    let model = if cells > grids.len() { Share::Mesh } else { Share::Stones };
+    let largest = largest((modelled, model), fields, motion);
     Ok(Demand { memory, uncrushed: memory, work, largest })
 }
 

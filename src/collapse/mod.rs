@@ -233,7 +233,7 @@ pub struct CurvedBeam {
     pub plane: PlaneModel,
     /// Subblocks in radial and circumferential direction; where `accuracy` does not find out.
     pub subblocks: [usize; 2],
-    /// Largest error e_N of eq. (5), as a share, if that decides on the mesh.
+    /// Largest error, as a share, if that decides on the mesh: both e_N of eq. (5) and that of all components, point by point.
     pub accuracy: Option<f64>,
     /// What holds them together, where they are of first order.
     pub seams: Seams,

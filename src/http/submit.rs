@@ -10,7 +10,7 @@ use super::status::{self, JobStatus};
 use crate::jobs::{Job, JobId, Status, Submission};
 use crate::wire::format::Format;
 use crate::wire::json;
-use crate::wire::read;
+use crate::wire::read::Fields;
 use crate::wire::rendering;
 use crate::wire::request::Request;
 use axum::Extension;
@@ -124,6 +124,9 @@ pub(super) async fn validate(state: AppState, body: JsonBody) -> Result<Response
     read_within(&state, body, |request, _| answer(&Verdict { valid: true, request })).await
 }
 
+/// Bodies of no more bytes are read at once where that is soon done: to hand one over to another thread takes as long.
+const SHORT: usize = 4 << 10;
+
 /// Reads a body and, if this service takes the request, makes something of it. That may take a while: others go on meanwhile,
 /// and only so many are read at once.
 #[allow(clippy::disallowed_methods, reason = "reading is no analysis: short, and needs no cancelling")]
@@ -132,16 +135,23 @@ async fn read_within<V: Send + 'static>(
     body: JsonBody,
     then: impl FnOnce(Request, usize) -> Result<V, Problem> + Send + 'static,
 ) -> Result<V, Problem> {
-    let turn = state.readers.turn(body.len()).await.ok_or_else(Problem::internal)?;
     let limits = state.settings.limits;
+    let finish = move |fields: Fields, body: &JsonBody| {
+        let (request, question) =
+            fields.question().map_err(|faults| check_syntax(body).err().unwrap_or(Problem::faults(faults)))?;
+        let demand = limits.check(&request, &question).map_err(Problem::faults)?;
+        then(request, demand.memory)
+    };
+    let read = (body.len() <= SHORT).then(|| Fields::of(&body));
+    let read = match read {
+        Some(fields) if fields.are_light() => return finish(fields, &body),
+        read => read,
+    };
+    let turn = state.readers.turn(body.len()).await.ok_or_else(Problem::internal)?;
     let reading = tokio::task::spawn_blocking(move || {
         // Given back when it has been read, also where the client has gone.
         let _turn = turn;
-        let read = read::read_question(&body);
-        let (request, question) =
-            read.map_err(|faults| check_syntax(&body).err().unwrap_or(Problem::faults(faults)))?;
-        let demand = limits.check(&request, &question).map_err(Problem::faults)?;
-        then(request, demand.memory)
+        finish(read.unwrap_or_else(|| Fields::of(&body)), &body)
     });
     reading.await.unwrap_or_else(|_| Err(Problem::internal()))
 }

@@ -1,6 +1,7 @@
 //! JSON to a request, with everything that is wrong with it.
 
 mod defaults;
+mod light;
 mod table;
 mod words;
 
@@ -30,19 +31,47 @@ pub fn read(body: &[u8]) -> Result<Request, Vec<Fault>> {
 /// # Errors
 /// All faults of its fields. Where fields are at most unknown or repeated, all faults of what does not fit together, too.
 pub fn read_question(body: &[u8]) -> Result<(Request, Question), Vec<Fault>> {
-    let (request, faults) = read_fields(body, check_members);
-    let mut faults = faults.into_vec();
-    if let Some(request) = request {
-        match translate::translate(&request) {
-            Ok(question) if faults.is_empty() => return Ok((request, question)),
-            Ok(_) => {}
-            Err(more) => {
-                let fresh: Vec<_> = more.into_iter().filter(|fault| !follows(fault, &faults)).collect();
-                faults.extend(fresh);
+    Fields::of(body).question()
+}
+
+/// A body of which every field has been looked at by itself, in time that grows with its length alone. To translate it may take
+/// much longer: a short body can ask for a large structure.
+pub struct Fields {
+    /// The request, unless a value of it cannot be used.
+    request: Option<Request>,
+    faults: Faults,
+}
+
+impl Fields {
+    /// Those of a body.
+    pub fn of(body: &[u8]) -> Self {
+        let (request, faults) = read_fields(body, check_members);
+        Fields { request, faults }
+    }
+
+    /// Whether they are [translated](Fields::question) as quickly as they were read.
+    pub fn are_light(&self) -> bool {
+        self.request.as_ref().is_none_or(Request::is_light)
+    }
+
+    /// The second half of [`read_question`].
+    ///
+    /// # Errors
+    /// As there.
+    pub fn question(self) -> Result<(Request, Question), Vec<Fault>> {
+        let mut faults = self.faults.into_vec();
+        if let Some(request) = self.request {
+            match translate::translate(&request) {
+                Ok(question) if faults.is_empty() => return Ok((request, question)),
+                Ok(_) => {}
+                Err(more) => {
+                    let fresh: Vec<_> = more.into_iter().filter(|fault| !follows(fault, &faults)).collect();
+                    faults.extend(fresh);
+                }
             }
         }
+        Err(listed(faults))
     }
-    Err(listed(faults))
 }
 
 /// Reads a request once more that was read before and written as JSON with its defaults: nothing is looked for that cannot be

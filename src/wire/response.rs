@@ -127,7 +127,6 @@ pub struct AnalysisResult {
     /// What to know before using the numbers.
     pub notes: Vec<String>,
     /// The request, defaults filled in.
-    #[serde(serialize_with = "crate::wire::request::without_nulls")]
     pub request: AnalysisRequest,
     /// What to change where there is no answer, if that is known.
     #[serde(skip)]

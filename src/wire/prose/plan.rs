@@ -85,3 +85,22 @@ const NEAR_POINTS_LEFT_OUT: &str = "Next to a force on a point, stress has no bo
      the body's least width.";
 const WHOLE_MODELLED: &str =
     "Arch, loads or mechanism are not symmetric, or joints slide: the whole arch is modelled for the stress.";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_error_is_told_beside_what_was_asked() {
+        for (estimate, met, words) in [
+            (Some(0.03), true, "estimated at 3 %; asked: 5 %"),
+            (Some(0.048), false, "estimated at 4.8 %, but NOT SURE to be within the 5 % asked for"),
+            (Some(0.0501), false, "estimated a little above the 5 % asked for"),
+            (Some(0.07), false, "estimated at 7 %, MORE than the 5 % asked for"),
+            (None, true, "no load to be off; asked: 5 %"),
+            (None, false, "NOT KNOWN; asked: 5 %"),
+        ] {
+            assert_eq!(error(Estimate { asked: 0.05, estimate, met }), words);
+        }
+    }
+}

@@ -1,11 +1,13 @@
 //! How accurate an answer has to be.
 
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 use utoipa::ToSchema;
 
 /// How accurate the answer has to be: the least model that reaches it is found, and `plan` in the answer says which. At least one
 /// of `collapse_intensity` and `stress` is given. Displacements are not covered. For method `event_path` on first-order geometry;
 /// not with a safety curve or a settlement.
+#[skip_serializing_none]
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct AccuracyRequest {
     /// Largest error of the collapse intensity, as a share of it, such as 1e-6.

@@ -3,9 +3,11 @@
 use super::{Length, Point, Text};
 use crate::arch::ring::Line;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 use utoipa::ToSchema;
 
 /// An arch: a profile, its thickness, and how it is cut into voussoirs. The springing level is y = 0, mid-span x = 0.
+#[skip_serializing_none]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct ArchRequest {
     /// The curve that the arch follows, symmetric about x = 0 and springing from y = 0; or its surveyed corners.
@@ -60,6 +62,7 @@ pub enum ProfileRequest {
 }
 
 /// An arc of a circle: radius and opening angle, or span and rise.
+#[skip_serializing_none]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Circular {
     /// Radius, m; with `opening_angle_deg`.
@@ -77,6 +80,7 @@ pub struct Circular {
 }
 
 /// Two arcs that meet at an apex, with centres on the springing level: radius and offset of the centres, or span and rise.
+#[skip_serializing_none]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Pointed {
     /// Radius of both arcs, m; with `centre_offset_m`.
@@ -126,6 +130,7 @@ pub struct ArcRequest {
 
 /// Ends of every joint, as surveyed, from left to right; or those on the intrados and a thickness. With no `thickness`, `line`,
 /// `joints` or `voussoirs`.
+#[skip_serializing_none]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Surveyed {
     /// Intrados end [x, y] of every joint, m.

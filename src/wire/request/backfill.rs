@@ -6,6 +6,7 @@ use crate::structure::load::{Fill, FillBacking, Layer, Passive, SurfaceLine};
 use crate::wire::fault::{Faults, Shown};
 use crate::wire::prose::Digits;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 use utoipa::ToSchema;
 
 /// Fill over an arch or a bridge, from the extrados up to a surface such as a road. It is there whatever the load factor: its
@@ -13,6 +14,7 @@ use utoipa::ToSchema;
 /// over every part of the extrados that looks up pushes with its mass at its own centre of mass, carried by the stone below.
 /// Where the surface is not above the extrados there is no fill. Layers lie under the surface, and are as thin as what there is
 /// over the extrados. A `fill_pressure` beside it may be an embankment only, which stands on the surface.
+#[skip_serializing_none]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(default)]
 pub struct BackfillRequest {
@@ -52,6 +54,7 @@ pub struct FillLayerRequest {
 }
 
 /// Fill of another density up to a level.
+#[skip_serializing_none]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct FillBackingRequest {
     /// Height of its top above y = 0, m.

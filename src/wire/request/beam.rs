@@ -2,9 +2,11 @@
 
 use super::{MeshRequest, StoneRequest, Subblocks, SubblocksRequest, Text};
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 use utoipa::ToSchema;
 
 /// A quarter ring in bending by end shear, cut into subblocks (section 3.3 of the paper).
+#[skip_serializing_none]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct BeamRequest {
     /// A name to find it again, up to 200 characters.
@@ -50,7 +52,8 @@ pub struct CurvedBeamRequest {
 /// answer says which. The exact stress has no part in that.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct BeamAccuracy {
-    /// Largest error e_N of eq. (5) of the paper, as a share.
+    /// Largest error, as a share: of the equivalent stress at centroids, e_N of eq. (5) of the paper, and of the stress in all its components,
+    /// point by point.
     #[schema(exclusive_minimum = 0.0, maximum = 1.0)]
     pub stress: f64,
 }

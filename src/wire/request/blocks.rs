@@ -2,10 +2,12 @@
 
 use super::{Point, Segment, Text};
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 use utoipa::ToSchema;
 
 /// Blocks given by their corners, such as a wall; the joints between them and the ground that they stand on. x runs to the right,
 /// y upwards, in m.
+#[skip_serializing_none]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct BlocksRequest {
     /// The blocks, of at most 20,000 corners together.
@@ -24,6 +26,7 @@ pub struct BlocksRequest {
 }
 
 /// A block.
+#[skip_serializing_none]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct PolygonRequest {
     /// Its name, up to 200 characters; no other block and no support has it.
@@ -52,6 +55,7 @@ pub enum BlockJointsRequest {
 pub struct GivenJoints(pub Vec<GivenJointRequest>);
 
 /// A joint between two blocks, or a block and a support.
+#[skip_serializing_none]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct GivenJointRequest {
     /// Names of what it lies between.

@@ -2,10 +2,12 @@
 
 use super::{Circular, Elliptical, MultiCentre, Pointed, ProfileRequest, Text};
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 use utoipa::ToSchema;
 
 /// A bridge of arch spans, each of one ring or more, on piers and abutments. The springing level of all spans is y = 0; x = 0
 /// lies in the middle between the first springing and the last. At most 2001 stones and blocks in all.
+#[skip_serializing_none]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct BridgeRequest {
     /// Spans, from left to right.
@@ -61,6 +63,7 @@ impl From<SpanProfile> for ProfileRequest {
 }
 
 /// A ring, whose joints are normal to the profile.
+#[skip_serializing_none]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct RingRequest {
     /// Thickness at the crown, m.
@@ -77,6 +80,7 @@ pub struct RingRequest {
 }
 
 /// A pier between two spans, on ground of its own.
+#[skip_serializing_none]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct PierRequest {
     /// Distance between the springings of the two spans, m.
@@ -96,6 +100,7 @@ pub struct PierRequest {
 }
 
 /// Blocks under the first and the last springing. An end that is left out stands on the ground.
+#[skip_serializing_none]
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(default)]
 pub struct BridgeAbutments {
@@ -106,6 +111,7 @@ pub struct BridgeAbutments {
 }
 
 /// A block with a plumb face under the springing of the intrados, a plumb back, and a level bed with a dry joint on the ground.
+#[skip_serializing_none]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct BridgeAbutment {
     /// From the ground to the springing level, m.
@@ -119,6 +125,7 @@ pub struct BridgeAbutment {
 }
 
 /// Masonry over the haunches up to a level: a block above every pier and at each end.
+#[skip_serializing_none]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct BackingRequest {
     /// Height of its top above the springing level, m.

@@ -17,6 +17,7 @@ use crate::wire::prose::Digits;
 pub use fill::FillPressure;
 pub use patch::{Boussinesq, DispersalRequest, DistributionRequest, PatchLoad, Uniform};
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 pub use tie::{TieEnd, TieLoad};
 use utoipa::ToSchema;
 pub use vehicle::VehicleLoad;
@@ -92,6 +93,7 @@ pub struct PressureBand {
 }
 
 /// A force at one point of the extrados, downwards or inclined. The point is at an abscissa, or in the middle of a voussoir.
+#[skip_serializing_none]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct PointLoad {
     /// Force per metre of width, N/m, downwards positive; not 0.

@@ -32,9 +32,8 @@ pub use mesh::*;
 pub use motion::*;
 pub use passive::*;
 pub use question::*;
-use serde::ser::Error;
-use serde::{Deserialize, Serialize, Serializer};
-use serde_json::Value;
+use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 pub use stones::*;
 pub use survey_tolerance::*;
 use utoipa::ToSchema;
@@ -46,29 +45,9 @@ pub use worst_position::*;
 #[serde(untagged)]
 pub enum Request {
     /// A structure.
-    Structure(#[serde(serialize_with = "without_nulls")] Box<AnalysisRequest>),
+    Structure(Box<AnalysisRequest>),
     /// The curved beam of section 3.3 of the paper.
-    CurvedBeam(#[serde(serialize_with = "without_nulls")] Box<BeamRequest>),
-}
-
-/// Writes a request without what it leaves out.
-///
-/// # Errors
-/// Those of the serialiser.
-pub fn without_nulls<Body: Serialize, S: Serializer>(body: &Body, serializer: S) -> Result<S::Ok, S::Error> {
-    fn strip(value: &mut Value) {
-        match value {
-            Value::Object(members) => {
-                members.retain(|_, member| !member.is_null());
-                members.values_mut().for_each(strip);
-            }
-            Value::Array(items) => items.iter_mut().for_each(strip),
-            _ => {}
-        }
-    }
-    let mut tree = serde_json::to_value(body).map_err(S::Error::custom)?;
-    strip(&mut tree);
-    tree.serialize(serializer)
+    CurvedBeam(Box<BeamRequest>),
 }
 
 impl Request {
@@ -82,6 +61,7 @@ impl Request {
 }
 
 /// One question: when does this structure fall, or how safe is it? It has exactly one of `arch`, `bridge` and `blocks`.
+#[skip_serializing_none]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct AnalysisRequest {
     /// A name to find it again, up to 200 characters.
@@ -159,6 +139,7 @@ impl AnalysisRequest {
 }
 
 /// The stone and its joints; what is left out is Table 1 of the paper.
+#[skip_serializing_none]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(default)]
 pub struct StoneRequest {
@@ -227,6 +208,7 @@ impl Default for StoneRequest {
 }
 
 /// A joint with a law of its own, or of which mortar is lost; what is left out is that of the stone.
+#[skip_serializing_none]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct JointOverride {
     /// Which joint, from 0; of an arch from the left springing, else as `structure.joints` of the answer has them.
@@ -248,6 +230,7 @@ pub struct JointOverride {
 }
 
 /// How the load factor grows, and what it means to an engineer: intensity = load factor * `intensity_per_unit`.
+#[skip_serializing_none]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(default)]
 pub struct LoadFactorRequest {

@@ -1,10 +1,12 @@
 //! What is asked of the motion after collapse.
 
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 use utoipa::ToSchema;
 
 /// Motion after collapse: rigid stones at loads a little beyond those of collapse, step by step. Any two may touch. Only where
 /// `analysis` asks for collapse.
+#[skip_serializing_none]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(default)]
 pub struct MotionRequest {

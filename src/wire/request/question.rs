@@ -3,6 +3,7 @@
 use super::{Abscissa, LoadFactor, Point, SurveyToleranceRequest, Text, WorstPositionRequest};
 use crate::collapse::CrushingKind;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 use utoipa::ToSchema;
 
 /// What is asked.
@@ -52,6 +53,7 @@ pub struct SettlementRequest {
 }
 
 /// A support and its movement, whose components are at most as large as the structure.
+#[skip_serializing_none]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct SupportMovementRequest {
     /// The support's name.
@@ -87,6 +89,7 @@ pub struct MovementRequest {
 
 /// How far the scaled loads, in full at load factor 1, can grow until the arch falls or its stone crushes. Needs a scaled load,
 /// direction `increase` and method `event_path`.
+#[skip_serializing_none]
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(default)]
 pub struct SafetyRequest {
@@ -112,6 +115,7 @@ pub struct CurveRequest {
 }
 
 /// What the answer shows.
+#[skip_serializing_none]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(default)]
 pub struct ReportRequest {

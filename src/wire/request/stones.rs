@@ -2,10 +2,12 @@
 
 use super::Text;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 use utoipa::ToSchema;
 
 /// A stone with a name, for voussoirs of an arch, blocks, rings, piers, abutments and backing to be made of. What is left out
 /// is as in `stone`.
+#[skip_serializing_none]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct NamedStone {
     /// Its name, up to 200 characters.

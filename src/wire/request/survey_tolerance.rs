@@ -1,12 +1,14 @@
 //! The tolerances of surveyed points.
 
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 use utoipa::ToSchema;
 
 /// How the load factor moves with surveyed points, and all that is told of a collapse of the arch as surveyed. Every point may lie
 /// a tolerance farther out or in, along the normal of its face. Limit analysis is asked of the arch with each point moved alone, both
 /// ways, and with all points at their worst together; its stones and loads are computed anew every time. For a `surveyed` profile,
 /// not for half an arch; a load is scaled, and the load factor increases.
+#[skip_serializing_none]
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(default)]
 pub struct SurveyToleranceRequest {

@@ -1,6 +1,7 @@
 //! The worst position of vehicles.
 
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 use utoipa::ToSchema;
 
 /// Where vehicles stand worst, and all that is told of a collapse there. The position is that of every `vehicle` load without `x_m`,
@@ -8,6 +9,7 @@ use utoipa::ToSchema;
 /// factor at which the structure falls or joints of the stone's strength give way: at positions at most `step_m` apart, and between
 /// them wherever it may be lower by the mechanisms found on either side. A mechanism that governs between two positions only is
 /// seen where it is like those; of steps longer than the stones it may not be.
+#[skip_serializing_none]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(default)]
 pub struct WorstPositionRequest {

@@ -28,7 +28,6 @@ pub struct BeamResult {
     /// The mesh that was picked, where `accuracy` is asked for.
     pub plan: Option<BeamPlanBody>,
     /// The request, defaults filled in.
-    #[serde(serialize_with = "crate::wire::request::without_nulls")]
     pub request: BeamRequest,
 }
 

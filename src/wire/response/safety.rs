@@ -90,7 +90,6 @@ pub struct SafetyCurveResult {
     /// One point per abscissa, in their order.
     pub points: Vec<CurvePointBody>,
     /// The request, defaults filled in.
-    #[serde(serialize_with = "crate::wire::request::without_nulls")]
     pub request: AnalysisRequest,
 }
 

@@ -2,9 +2,11 @@
 
 use super::exact::{Ring, tresca};
 use crate::common::dice::Dice;
+use crate::common::field::squared;
 use crate::common::largest::larger;
 use voussoir::budget::Budget;
-use voussoir::collapse::{Answer, CurvedBeam, Order, PlaneModel, Question, Seams, Spacing, answer};
+use voussoir::collapse::{Answer, CurvedBeam, Order, PlaneModel, Question, Seams, Spacing, StressField, answer};
+use voussoir::geometry::{Region, Vec2};
 use voussoir::structure::Stone;
 
 /// How many beams.
@@ -40,13 +42,8 @@ fn beams_are_as_accurate_as_asked() {
         let Ok(Answer::CurvedBeam(report)) = answer(&Question::CurvedBeam(beam), &Budget::unlimited()) else {
             panic!("seed {seed}: no answer")
         };
-        let (mut miss, mut whole) = (0.0, 0.0);
-        for subblock in &report.field.subblocks {
-            let exact = ring.tresca(subblock.centre.norm(), subblock.centre.y.atan2(subblock.centre.x));
-            miss += (exact - tresca(subblock.stress)).powi(2);
-            whole += exact.powi(2);
-        }
-        let (had, plan) = ((miss / whole).sqrt(), report.plan.unwrap());
+        let errors = [at_centres(&report.field, &ring), in_points(&report.field, &ring)];
+        let (had, plan) = (larger(errors[0], errors[1]), report.plan.unwrap());
         if plan.stress.met {
             met += 1;
             worst = larger(worst, had / asked);
@@ -63,5 +60,35 @@ fn beams_are_as_accurate_as_asked() {
         missed.len()
     );
     missed.iter().for_each(|line| println!("{line}"));
-    assert!(met >= BEAMS as usize * 3 / 4 && missed.len() <= met / 100 && worst <= 2.0);
+    // Of the others 48 subblocks each way, the most there may be, are not enough.
+    assert!(met >= BEAMS as usize * 2 / 3 && missed.len() <= met / 100 && worst <= 2.0);
+}
+
+/// Error e_N of eq. (5) of the paper.
+fn at_centres(field: &StressField, ring: &Ring) -> f64 {
+    let (mut miss, mut whole) = (0.0, 0.0);
+    for subblock in &field.subblocks {
+        let exact = ring.tresca(subblock.centre.norm(), subblock.centre.y.atan2(subblock.centre.x));
+        miss += (exact - tresca(subblock.stress)).powi(2);
+        whole += exact.powi(2);
+    }
+    (miss / whole).sqrt()
+}
+
+/// Error of all components at 5 x 5 points of every subblock, between whose corners stress is bilinear.
+fn in_points(field: &StressField, ring: &Ring) -> f64 {
+    let (mut miss, mut whole) = (0.0, 0.0);
+    for subblock in &field.subblocks {
+        let area = Region::polygon(&subblock.corners).area;
+        for (i, j) in (0..25).map(|k| (k / 5, k % 5)) {
+            let [s, t] = [i, j].map(|k| 0.1 + 0.2 * f64::from(k));
+            let shares = [(1.0 - s) * (1.0 - t), s * (1.0 - t), s * t, (1.0 - s) * t];
+            let place: Vec2 = subblock.corners.iter().zip(shares).map(|(corner, share)| corner * share).sum();
+            let of = |c: usize| subblock.corner_stress.iter().zip(shares).map(|(at, share)| share * at[c]).sum::<f64>();
+            let exact = ring.at(place.x, place.y);
+            miss += area * squared([0, 1, 2].map(|c| exact[c] - of(c)));
+            whole += area * squared(exact);
+        }
+    }
+    (miss / whole).sqrt()
 }

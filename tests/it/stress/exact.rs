@@ -35,6 +35,17 @@ impl Ring {
         tresca(self.stress(r, theta))
     }
 
+    /// sigma_x, sigma_y and tau_xy at a point, Pa; theta runs from the x axis.
+    pub fn at(&self, x: f64, y: f64) -> [f64; 3] {
+        let theta = y.atan2(x);
+        let ([radial, hoop, shear], (sin, cos)) = (self.stress(x.hypot(y), theta), theta.sin_cos());
+        [
+            radial * cos * cos + hoop * sin * sin - 2.0 * shear * sin * cos,
+            radial * sin * sin + hoop * cos * cos + 2.0 * shear * sin * cos,
+            (radial - hoop) * sin * cos + shear * (cos * cos - sin * sin),
+        ]
+    }
+
     /// Strain energy in plane stress, J/m, by Gauss's rule of five points on 64 x 64 cells.
     pub fn energy(&self, youngs_modulus: f64, poissons_ratio: f64) -> f64 {
         let density = |r: f64, theta: f64| {

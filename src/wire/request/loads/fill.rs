@@ -5,6 +5,7 @@ use crate::wire::fault::{Faults, Shown};
 use crate::wire::prose::Digits;
 use crate::wire::request::BackfillRequest;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 use utoipa::ToSchema;
 
 /// A `lateral_ratio` this close to that of the friction angle given with it is the same.
@@ -16,6 +17,7 @@ const SAME_RATIO: f64 = 1e-3;
 /// the plan projection of the extrados and `q_h = K q_v` on its vertical projection. In a `body_acceleration` they push with their
 /// mass as well: the column over every part of the extrados that looks up, fill and embankment each at half its own height, carried
 /// by the stone below; what lies beside the arch does not push. Scaled fill in a scaled acceleration is refused.
+#[skip_serializing_none]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(default)]
 pub struct FillPressure {

@@ -6,10 +6,12 @@ use crate::wire::fault::Faults;
 use crate::wire::prose::Digits;
 use crate::wire::request::BackfillRequest;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 use utoipa::ToSchema;
 
 /// A vertical force spread over a width in plan: of the extrados or, with `dispersal`, of the surface of fill. On the extrados itself
 /// every voussoir takes the share that lies over it, in the middle of that share on its extrados side.
+#[skip_serializing_none]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct PatchLoad {
     /// Abscissa of the middle, m.
@@ -32,6 +34,7 @@ pub struct PatchLoad {
 /// ground and not to the structure. So the load may stand partly or wholly beyond the ends. Forces keep their
 /// place in plan. Fill itself, its weight and pressure, is the `backfill` or a `fill_pressure`. A strip is level: of a surface
 /// that is not, it stands at the height under its middle, and what of the surface is higher or lower elsewhere does not matter.
+#[skip_serializing_none]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct DispersalRequest {
     /// Height of the surface above y = 0 where the load stands, m; not below the extrados under the load. Left out: that of the

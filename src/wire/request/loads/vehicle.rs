@@ -7,12 +7,14 @@ use crate::structure::load::{Axle, Vehicle};
 use crate::wire::fault::Faults;
 use crate::wire::prose::Digits;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 use utoipa::ToSchema;
 
 /// Axles at fixed distances on an effective width, given one by one or as a group of CS 454; on and beyond the structure. Every axle
 /// is a strip as of a `patch_load`; what of it lies beyond the springings goes to the ground. Its force over the effective width is its
 /// force per metre of width.
 /// Where some axles grow with the load factor and others do not, they are two entries of `loads`.
+#[skip_serializing_none]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct VehicleLoad {
     /// Its axles. Either these or `standard`.
