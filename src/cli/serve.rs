@@ -56,7 +56,7 @@ fn run(options: &Serve) -> io::Result<()> {
     if let Some(file) = &options.requests.token_file {
         take_tokens(&settings.tokens, file)?;
     }
-    let runtime = Builder::new_multi_thread().worker_threads(threads()).enable_all().build()?;
+    let runtime = Builder::new_multi_thread().worker_threads(threads(options.shared.role)).enable_all().build()?;
     let handle = Handle::new();
     runtime.block_on(async {
         let tokens = settings.tokens.clone();
@@ -85,9 +85,10 @@ fn run(options: &Serve) -> io::Result<()> {
     Ok(())
 }
 
-/// How many serve HTTP: one for two cores, which is as much as their workers need.
-fn threads() -> usize {
-    (available_parallelism().map_or(1, NonZeroUsize::get) / 2).max(1)
+/// How many threads serve HTTP: half as many as there are cores where workers have the others, all where none work here.
+fn threads(role: Role) -> usize {
+    let cores = available_parallelism().map_or(1, NonZeroUsize::get);
+    if role == Role::Api { cores } else { (cores / 2).max(1) }
 }
 
 /// Opens the store of jobs.

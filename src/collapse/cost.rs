@@ -90,9 +90,10 @@ const FRAME: usize = 2000;
 const SETTLED: usize = 150;
 const STEPS: [usize; 2] = [64, 16];
 
-/// Bodies of a row of whole stones that is not worth counting; and bytes of a model of it and of its path, for every body (counted, they
-/// are 27,000 to 32,000 where all stones are alike).
+/// Bodies of a row of whole stones that is not worth counting; and for every body unknowns, and bytes of a model of it and of its path
+/// besides the points that are kept (counted, they are 27,000 to 32,000 where all stones are alike).
 const FEW: usize = 64;
+const UNKNOWNS: usize = 8;
 const IN_A_ROW: usize = 40_000;
 
 /// What the analyses of a question take, one after the other.
@@ -203,9 +204,10 @@ fn is_short_row(analysis: &Analysis) -> bool {
 }
 
 fn of_short_row(analysis: &Analysis) -> Demand {
-    let Structure { bodies, joints, .. } = &analysis.structure;
-    let modelled = IN_A_ROW * bodies.len();
-    let [fields, motion, settled] = reported(analysis, bodies.len(), 2 * joints.len());
+    let (bodies, contacts) = (analysis.structure.bodies.len(), 2 * analysis.structure.joints.len());
+    let kept = NUMBER * most_kept(analysis.task.share(), contacts) * UNKNOWNS * bodies;
+    let modelled = IN_A_ROW * bodies + kept;
+    let [fields, motion, settled] = reported(analysis, bodies, contacts);
     let memory = modelled + fields + motion + settled;
     Demand { memory, uncrushed: memory, work: 0.0, largest: largest((modelled, Share::Stones), fields, motion) }
 }

@@ -124,10 +124,10 @@ pub(super) async fn validate(state: AppState, body: JsonBody) -> Result<Response
     read_within(&state, body, |request, _| answer(&Verdict { valid: true, request })).await
 }
 
-/// Bodies of no more bytes are read at once where that is soon done: to hand one over to another thread takes as long.
+/// Bodies of no more bytes are read here, and translated, too, where that is soon done: to hand one over to another thread takes as long.
 const SHORT: usize = 4 << 10;
 
-/// Reads a body and, if this service takes the request, makes something of it. That may take a while: others go on meanwhile,
+/// Reads a body and, if this service takes the request, makes something of it. Where that may take a while, others go on meanwhile,
 /// and only so many are read at once.
 #[allow(clippy::disallowed_methods, reason = "reading is no analysis: short, and needs no cancelling")]
 async fn read_within<V: Send + 'static>(

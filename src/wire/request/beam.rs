@@ -53,7 +53,7 @@ pub struct CurvedBeamRequest {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct BeamAccuracy {
     /// Largest error, as a share: of the equivalent stress at centroids, e_N of eq. (5) of the paper, and of the stress in all its components,
-    /// point by point.
+    /// point by point, which is bilinear between the corners of a subblock.
     #[schema(exclusive_minimum = 0.0, maximum = 1.0)]
     pub stress: f64,
 }

@@ -30,7 +30,7 @@ use super::request::{AimRequest, AnalysisRequest, Request};
 use crate::collapse::{Analysis, Question};
 use site::Unloaded;
 
-pub use loads::arriving;
+pub use loads::{arriving, forces_per_voussoir_of};
 pub use structure::Layout;
 pub use survey::{Smoothing, smoothing};
 pub use worst_position::placed;
