@@ -235,7 +235,6 @@ impl Serve {
 
     /// How jobs are worked off. Where requests are answered, too, one core is left for them.
     pub fn work(&self) -> jobs::Work {
-        let cores = || available_parallelism().map_or(1, usize::from);
         let Work { workers, job_time, memory, .. } = self.work;
         let workers = match self.shared.role {
             Role::All => workers.map_or_else(|| cores().saturating_sub(1).max(1), size),
@@ -243,6 +242,11 @@ impl Serve {
             Role::Api => 0,
         };
         jobs::Work { workers, time: Duration::from_secs(job_time), memory: size(memory) }
+    }
+
+    /// How many threads serve HTTP: half as many as there are cores where workers have the others, all where none work here.
+    pub fn threads(&self) -> usize {
+        if self.shared.role == Role::Api { cores() } else { (cores() / 2).max(1) }
     }
 
     /// Where jobs are.
@@ -309,4 +313,8 @@ impl Serve {
 /// A checked count as a size.
 fn size(count: u64) -> usize {
     usize::try_from(count).unwrap_or(usize::MAX)
+}
+
+fn cores() -> usize {
+    available_parallelism().map_or(1, usize::from)
 }

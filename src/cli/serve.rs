@@ -10,11 +10,9 @@ use std::fmt::Display;
 use std::fs;
 use std::io;
 use std::net::{SocketAddr, TcpListener};
-use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
-use std::thread::available_parallelism;
 use std::time::Duration;
 use tokio::runtime::Builder;
 use tokio::time::{sleep, timeout};
@@ -56,7 +54,7 @@ fn run(options: &Serve) -> io::Result<()> {
     if let Some(file) = &options.requests.token_file {
         take_tokens(&settings.tokens, file)?;
     }
-    let runtime = Builder::new_multi_thread().worker_threads(threads(options.shared.role)).enable_all().build()?;
+    let runtime = Builder::new_multi_thread().worker_threads(options.threads()).enable_all().build()?;
     let handle = Handle::new();
     runtime.block_on(async {
         let tokens = settings.tokens.clone();
@@ -83,12 +81,6 @@ fn run(options: &Serve) -> io::Result<()> {
     runtime.shutdown_background();
     tracing::info!("stopped");
     Ok(())
-}
-
-/// How many threads serve HTTP: half as many as there are cores where workers have the others, all where none work here.
-fn threads(role: Role) -> usize {
-    let cores = available_parallelism().map_or(1, NonZeroUsize::get);
-    if role == Role::Api { cores } else { (cores / 2).max(1) }
 }
 
 /// Opens the store of jobs.

@@ -90,8 +90,8 @@ const FRAME: usize = 2000;
 const SETTLED: usize = 150;
 const STEPS: [usize; 2] = [64, 16];
 
-/// Bodies of a row of whole stones that is not worth counting; and for every body unknowns, and bytes of a model of it and of its path
-/// besides the points that are kept (counted, they are 27,000 to 32,000 where all stones are alike).
+/// Bodies of a row of whole stones that is not worth counting; and for every body unknowns of its nodes, and bytes of a model of it and of
+/// its path besides the points that are kept (counted, they are 27,000 to 32,000 where all stones are alike).
 const FEW: usize = 64;
 const UNKNOWNS: usize = 8;
 const IN_A_ROW: usize = 40_000;

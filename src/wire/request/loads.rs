@@ -4,20 +4,23 @@
 
 mod axle_groups;
 mod fill;
+mod lateral;
 mod patch;
+mod point;
 mod tie;
 mod vehicle;
 
 use super::{BackfillRequest, ForceVector, Point, Text};
 use crate::geometry::Vec2;
 use crate::structure::GRAVITY;
-use crate::structure::load::{Band, Flanks, Load, LoadFault, Place};
-use crate::wire::fault::{Faults, Shown};
+use crate::structure::load::{Load, LoadFault};
+use crate::wire::fault::Faults;
 use crate::wire::prose::Digits;
 pub use fill::FillPressure;
+pub use lateral::{LateralPressure, PressureBand};
 pub use patch::{Boussinesq, DispersalRequest, DistributionRequest, PatchLoad, Uniform};
+pub use point::PointLoad;
 use serde::{Deserialize, Serialize};
-use serde_with::skip_serializing_none;
 pub use tie::{TieEnd, TieLoad};
 use utoipa::ToSchema;
 pub use vehicle::VehicleLoad;
@@ -66,49 +69,6 @@ pub enum LoadRequest {
 /// Weight of the stones, given once; without it they weigh nothing. It comes from their density, with g = 9.81 m/s2, and has no fields.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct SelfWeight {}
-
-/// Horizontal pressure in bands of height, on both flanks or one. It acts towards the arch, on the vertical projection of the extrados.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
-pub struct LateralPressure {
-    /// Bands of height; where bands overlap they add up.
-    #[schema(min_items = 1, max_items = 1000)]
-    pub bands: Vec<PressureBand>,
-    /// Where they press. `left` and `right`: only on what of the extrados looks to that side, as earth on one side of an arch does.
-    #[schema(required = false, default = "both")]
-    pub side: Flanks,
-}
-
-/// A horizontal pressure between two heights.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
-pub struct PressureBand {
-    /// Lower end, m.
-    #[schema(minimum = -1e5, maximum = 1e5)]
-    pub from_m: f64,
-    /// Upper end, m; above the lower one.
-    #[schema(minimum = -1e5, maximum = 1e5)]
-    pub to_m: f64,
-    /// Pressure, Pa, towards the arch positive.
-    #[schema(minimum = -1e15, maximum = 1e15)]
-    pub pressure_pa: f64,
-}
-
-/// A force at one point of the extrados, downwards or inclined. The point is at an abscissa, or in the middle of a voussoir.
-#[skip_serializing_none]
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
-pub struct PointLoad {
-    /// Force per metre of width, N/m, downwards positive; not 0.
-    #[schema(minimum = -1e15, maximum = 1e15)]
-    pub force_n_per_m: f64,
-    /// Angle from the vertical, degrees; positive: a downward force also pushes to the right.
-    #[schema(required = false, default = 0.0, minimum = -180.0, maximum = 180.0)]
-    pub inclination_deg: f64,
-    /// Abscissa, m; over a joint, its two voussoirs take half each. Either this or `voussoir` is given.
-    #[schema(minimum = -1e5, maximum = 1e5)]
-    pub x_m: Option<f64>,
-    /// Number of a voussoir, from 0 on the left: the middle of its extrados side.
-    #[schema(maximum = 2000)]
-    pub voussoir: Option<usize>,
-}
 
 /// A force in any direction at a point of a block; those of an arch are called `voussoir 3`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
@@ -165,11 +125,8 @@ impl LoadRequest {
         Some(match self {
             LoadRequest::SelfWeight(_) => Load::SelfWeight,
             LoadRequest::FillPressure(fill) => Load::Fill(fill.in_si(backfill)),
-            LoadRequest::LateralPressure(lateral) => {
-                let band = |band: &PressureBand| Band { from: band.from_m, to: band.to_m, pressure: band.pressure_pa };
-                Load::Lateral(lateral.bands.iter().map(band).collect(), lateral.side)
-            }
-            LoadRequest::PointLoad(point) => Load::Point(point.force(), point.place()),
+            LoadRequest::LateralPressure(lateral) => lateral.in_si(),
+            LoadRequest::PointLoad(point) => point.in_si(),
             LoadRequest::PatchLoad(patch) => Load::Patch(patch.in_si(backfill)?),
             LoadRequest::Vehicle(vehicle) => Load::Vehicle(vehicle.in_si(backfill)?),
             LoadRequest::PointForce(force) => Load::Force {
@@ -224,18 +181,8 @@ impl LoadRequest {
         match self {
             LoadRequest::SelfWeight(_) | LoadRequest::Tie(_) | LoadRequest::BodyAcceleration(_) => {}
             LoadRequest::FillPressure(fill) => fill.check(here, backfill, faults),
-            LoadRequest::LateralPressure(lateral) => {
-                for (i, band) in lateral.bands.iter().enumerate() {
-                    let from = Shown(band.from_m);
-                    let detail = format!("a band goes upwards: to_m must be greater than from_m, {from}");
-                    faults.require(band.to_m > band.from_m, format!("{here}/bands/{i}/to_m"), detail);
-                }
-            }
-            LoadRequest::PointLoad(point) => {
-                faults.not_zero(&format!("{here}/force_n_per_m"), point.force_n_per_m);
-                let one = point.x_m.is_some() != point.voussoir.is_some();
-                faults.require(one, here, "give either x_m or voussoir, not both and not neither");
-            }
+            LoadRequest::LateralPressure(lateral) => lateral.check(here, faults),
+            LoadRequest::PointLoad(point) => point.check(here, faults),
             LoadRequest::PatchLoad(patch) => patch.check(here, backfill, faults),
             LoadRequest::Vehicle(vehicle) => vehicle.check(here, backfill, faults),
             LoadRequest::PointForce(force) => {
@@ -273,14 +220,7 @@ impl LoadRequest {
         match self {
             LoadRequest::SelfWeight(_) => "self weight".to_owned(),
             LoadRequest::FillPressure(fill) => fill.words(backfill),
-            LoadRequest::LateralPressure(lateral) => {
-                let flanks = match lateral.side {
-                    Flanks::Both => "",
-                    Flanks::Left => " on the left flank",
-                    Flanks::Right => " on the right flank",
-                };
-                format!("lateral pressure{flanks}: {}", bands(&lateral.bands))
-            }
+            LoadRequest::LateralPressure(lateral) => lateral.words(),
             LoadRequest::PointLoad(point) => point.words(),
             LoadRequest::PatchLoad(patch) => patch.words(backfill),
             LoadRequest::Vehicle(vehicle) => vehicle.words(backfill),
@@ -298,50 +238,8 @@ impl LoadRequest {
     }
 }
 
-/// Most bands of pressure that are listed.
-const BANDS_LISTED: usize = 3;
-
-/// Bands of pressure in words.
-fn bands(bands: &[PressureBand]) -> String {
-    let band = |band: &PressureBand| {
-        let [pressure, from, to] = [band.pressure_pa / 1e3, band.from_m, band.to_m].map(Digits);
-        format!("{pressure} kPa from y = {from} to {to} m")
-    };
-    let more = bands.len().saturating_sub(BANDS_LISTED);
-    let more = if more > 0 { format!(" and {more} more bands") } else { String::new() };
-    format!("{}{more}", bands.iter().take(BANDS_LISTED).map(band).collect::<Vec<_>>().join(", "))
-}
-
 fn kn_per_m(force: f64) -> String {
     format!("{} kN/m", Digits(force / 1e3))
-}
-
-impl PointLoad {
-    /// The force, N/m.
-    fn force(&self) -> Vec2 {
-        let (sin, cos) = self.inclination_deg.to_radians().sin_cos();
-        self.force_n_per_m * Vec2::new(sin, -cos)
-    }
-
-    /// Of two places the abscissa counts.
-    fn place(&self) -> Place {
-        match (self.x_m, self.voussoir) {
-            (None, Some(voussoir)) => Place::Body(voussoir),
-            (x, _) => Place::Abscissa(x.unwrap_or(0.0)),
-        }
-    }
-
-    fn words(&self) -> String {
-        let place = match self.place() {
-            Place::Body(voussoir) => format!("on voussoir {voussoir}"),
-            Place::Abscissa(x) => format!("at x = {} m", Digits(x)),
-        };
-        let inclined = match self.inclination_deg {
-            0.0 => String::new(),
-            angle => format!(", inclined by {} deg to the right", Digits(angle)),
-        };
-        format!("{} {place}{inclined}", kn_per_m(self.force_n_per_m))
-    }
 }
 
 impl BodyAcceleration {
