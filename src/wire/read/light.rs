@@ -71,7 +71,7 @@ mod tests {
             });
             assert!(!heavy, "{pointer}: {value}");
         }
-        for case in ["two-span-bridge", "wall", "paper/section-3-3/sectors"] {
+        for case in ["two-span-bridge", "wall", "paper/section-3-3/sectors/10x10"] {
             let folder = format!("{}/cases/{case}", env!("CARGO_MANIFEST_DIR"));
             let body = std::fs::read(format!("{folder}/request.json")).unwrap();
             assert!(!Fields::of(&body).are_light(), "{case}");
