@@ -33,7 +33,9 @@ pub struct Program {
 }
 
 /// What to do.
+// Deferred: a process builds the options of its own verb alone. Those then say what the verb does, too, in the same words.
 #[derive(Debug, Subcommand)]
+#[command(defer = true)]
 pub enum Verb {
     /// Analyse one request and print the answer
     #[command(after_help = once::EXIT_CODES)]
@@ -49,7 +51,7 @@ pub enum Verb {
     Health(HealthOptions),
 }
 
-/// Options of `serve`.
+/// Serve HTTP until told to stop
 #[derive(Debug, Args)]
 pub struct Serve {
     #[command(flatten)]
@@ -178,7 +180,7 @@ pub struct Requests {
     pub origins: Vec<HeaderValue>,
 }
 
-/// Options of `health`.
+/// Ask a running service for a sign of life
 #[derive(Debug, Args)]
 pub struct HealthOptions {
     #[command(flatten)]

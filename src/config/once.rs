@@ -7,7 +7,7 @@ use std::path::PathBuf;
 pub(super) const EXIT_CODES: &str = "Exit codes: 0 with an answer, whatever its outcome; 2 for a request that cannot be analysed, or a wrong \
 command line; 1 where there is no answer, the file cannot be read or nothing can be written.";
 
-/// Options of `solve`.
+/// Analyse one request and print the answer
 #[derive(Debug, Args)]
 pub struct Solve {
     /// The request as JSON, just as one would POST it; - reads standard input
@@ -38,7 +38,7 @@ pub(super) const COLUMNS: &str = "The table is comma-separated, its first line t
 without it), x_m, y_m, and tolerance_m where points are uncertain. Points of a side run from left to right, one for every joint. \
 tolerance_m asks for the analysis survey_tolerance, which needs a scaled load: give --into.";
 
-/// Options of `survey`.
+/// Make a request of a table of surveyed points
 #[derive(Debug, Args)]
 pub struct Survey {
     /// The points as CSV; - reads standard input

@@ -37,7 +37,8 @@ fn by_the_name_used(mut error: Error, given: &[OsString]) -> Error {
 
 /// Every setting: its flag and its variable.
 fn settings() -> Vec<(String, String)> {
-    let program = Program::command();
+    let mut program = Program::command();
+    program.build();
     let arguments = program.get_subcommands().flat_map(Command::get_arguments);
     let names = arguments.filter_map(|argument| {
         let variable = argument.get_env()?.to_str()?;

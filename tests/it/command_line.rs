@@ -171,6 +171,17 @@ fn a_setting_is_refused_by_the_name_that_was_used() {
 }
 
 #[test]
+fn the_help_of_a_verb_begins_as_the_list_of_verbs_tells_it() {
+    let help = |arguments: &[&str]| String::from_utf8(program(arguments).output().unwrap().stdout).unwrap();
+    let list = help(&["--help"]);
+    let verbs = list.lines().skip_while(|line| *line != "Commands:").skip(1).take_while(|line| !line.is_empty());
+    let told = verbs.filter_map(|line| line.trim().split_once("  ")).filter(|(verb, _)| *verb != "help");
+    let count =
+        told.inspect(|(verb, does)| assert!(help(&[verb, "--help"]).starts_with(does.trim()), "{verb}")).count();
+    assert_eq!(count, 5);
+}
+
+#[test]
 fn every_variable_is_named_after_its_flag() {
     let help = |verb| program(&[verb, "--help"]).output().unwrap().stdout;
     let help = ["solve", "survey", "serve", "openapi", "health"].map(help).concat();
