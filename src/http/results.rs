@@ -61,7 +61,12 @@ impl Asked {
                 return Err(failure.into());
             }
             JobState::Dismissed => {
-                return none(kinds::DISMISSED, format!("job {id} was dismissed and has no result; submit it again"));
+                return none(
+                    kinds::DISMISSED,
+                    format!(
+                        "job {id} was dismissed and has no result; submit it again, under another Idempotency-Key if it had one"
+                    ),
+                );
             }
             JobState::Accepted | JobState::Running => {
                 let detail = format!("job {id} has not ended yet; its status is at /v1/jobs/{id}");

@@ -17,6 +17,11 @@ pub(super) struct Account {
 }
 
 impl Account {
+    /// How many wait before it. Ids tell nothing: those of a journal may be later than the clock is now.
+    fn place(&self, id: JobId) -> Option<usize> {
+        self.waiting.iter().position(|waiting| *waiting == id)
+    }
+
     fn is_empty(&self) -> bool {
         self.waiting.is_empty() && self.read.is_empty() && self.unread.is_empty() && self.bytes == 0
     }
@@ -86,8 +91,7 @@ impl Accounts {
     /// A job waits no more, though nobody took it; false where it did not wait.
     pub(super) fn unqueue(&mut self, client: &Arc<str>, id: JobId) -> bool {
         let account = self.of(client);
-        // Later ids are larger.
-        let Ok(place) = account.waiting.binary_search(&id) else { return false };
+        let Some(place) = account.place(id) else { return false };
         account.waiting.remove(place);
         if account.waiting.is_empty() {
             self.turns.retain(|other| other != client);
@@ -97,7 +101,7 @@ impl Accounts {
 
     /// The turn of a job that waits, 1 for the next, if no other is submitted and no client is held back.
     pub(super) fn position(&self, client: &str, id: JobId) -> Option<usize> {
-        let before = self.of.get(client)?.waiting.binary_search(&id).ok()?;
+        let before = self.of.get(client)?.place(id)?;
         let turn = self.turns.iter().position(|other| **other == *client)?;
         let of_others = self.turns.iter().enumerate().filter(|&(place, _)| place != turn).map(|(place, other)| {
             let rounds = before + usize::from(place < turn);
@@ -137,6 +141,17 @@ mod tests {
         assert_eq!(accounts.next(|account| account.bytes < 50), Some(JobId::from_u128(2)));
         assert_eq!(accounts.next(|account| account.bytes < 50), None);
         assert!(accounts.unqueue(&a, JobId::from_u128(1)) && !accounts.unqueue(&a, JobId::from_u128(1)));
+        assert_eq!(accounts.next(|_| true), None);
+    }
+
+    #[test]
+    fn jobs_wait_in_the_order_in_which_they_came_whatever_their_ids() {
+        let (mut accounts, a) = (Accounts::default(), Arc::from("a"));
+        let ids = [9, 8, 1, 2].map(JobId::from_u128);
+        ids.iter().for_each(|id| accounts.queue(&a, *id));
+        assert_eq!(ids.map(|id| accounts.position("a", id)), [1, 2, 3, 4].map(Some));
+        assert!(accounts.unqueue(&a, ids[0]) && accounts.unqueue(&a, ids[3]));
+        assert_eq!([accounts.next(|_| true), accounts.next(|_| true)], [ids[1], ids[2]].map(Some));
         assert_eq!(accounts.next(|_| true), None);
     }
 }

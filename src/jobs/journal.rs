@@ -7,8 +7,8 @@ use super::store::Submission;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::fs::{self, File};
-use std::io::{self, Write};
+use std::fs::{self, File, TryLockError};
+use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 /// Bytes after which the file is written anew, without what is over; more where more is owed.
@@ -33,6 +33,8 @@ enum Line<'a> {
 pub(super) struct Journal {
     path: PathBuf,
     file: File,
+    /// Held as long as this process has the journal open.
+    _lock: File,
     /// Lines of the jobs that are owed.
     owed: BTreeMap<JobId, String>,
     /// Bytes written, and how many of them are owed.
@@ -43,6 +45,7 @@ pub(super) struct Journal {
 impl Journal {
     /// Opens a journal, with the jobs that it owes. A last line that was not written to its end was not promised.
     pub(super) fn open(path: &Path) -> io::Result<(Self, Vec<(JobId, Submission)>)> {
+        let lock = lock(path)?;
         let text = if path.exists() { fs::read_to_string(path)? } else { String::new() };
         let mut owed = BTreeMap::new();
         for (number, line) in text.split_inclusive('\n').enumerate() {
@@ -55,7 +58,7 @@ impl Journal {
         }
         let submissions = owed.values().filter_map(|line| submission(line)).collect();
         let (file, written) = write(path, &owed)?;
-        Ok((Journal { path: path.to_owned(), file, owed, written, of_owed: written }, submissions))
+        Ok((Journal { path: path.to_owned(), file, _lock: lock, owed, written, of_owed: written }, submissions))
     }
 
     /// A job is owed from here on.
@@ -70,8 +73,8 @@ impl Journal {
             memory: submission.memory,
             request,
         })?;
-        self.file.write_all(line.as_bytes())?;
-        (self.written, self.of_owed) = (self.written + line.len(), self.of_owed + line.len());
+        self.append(&line)?;
+        self.of_owed += line.len();
         self.owed.insert(id, line);
         Ok(())
     }
@@ -81,12 +84,28 @@ impl Journal {
         let Some(owed) = self.owed.remove(&id) else { return Ok(()) };
         self.of_owed -= owed.len();
         let line = line(&Line::Over(id))?;
-        self.file.write_all(line.as_bytes())?;
-        self.written += line.len();
+        self.append(&line)?;
         if self.written > LONG.max(2 * self.of_owed) {
             (self.file, self.written) = write(&self.path, &self.owed)?;
         }
         Ok(())
+    }
+}
+
+impl Journal {
+    fn append(&mut self, line: &str) -> io::Result<()> {
+        if let Err(error) = self.file.write_all(line.as_bytes()) {
+            self.cut_back()?;
+            return Err(error);
+        }
+        self.written += line.len();
+        Ok(())
+    }
+
+    /// Takes back what was written of a line whose end found no room: the next one would be taken for that.
+    fn cut_back(&mut self) -> io::Result<()> {
+        self.file.set_len(self.written as u64)?;
+        self.file.seek(SeekFrom::End(0)).map(drop)
     }
 }
 
@@ -98,6 +117,15 @@ fn submission(line: &str) -> Option<(JobId, Submission)> {
     let Ok(Line::Accepted { id, client, name, key, memory, request }) = serde_json::from_str(line) else { return None };
     let (name, key) = (name.map(Cow::into_owned), key.map(Cow::into_owned));
     Some((id, Submission { request: request.into_owned().into(), name, client: client.into(), memory, key }))
+}
+
+/// Keeps other processes from the journal: each would write over what the other owes. Where files cannot be locked nothing does.
+fn lock(path: &Path) -> io::Result<File> {
+    let lock = File::create(path.with_extension("lock"))?;
+    match lock.try_lock() {
+        Err(TryLockError::WouldBlock) => Err(io::Error::other("another process has it open: give each its own")),
+        Ok(()) | Err(TryLockError::Error(_)) => Ok(lock),
+    }
 }
 
 /// Writes the file anew beside the old one, and puts it in its place.
@@ -142,6 +170,10 @@ mod tests {
         assert_eq!(owed.iter().map(|(id, _)| *id).collect::<Vec<_>>(), [ids[0], ids[2]]);
         assert_eq!(owed[1].1.request, submission(&format!("{{\"of\": \"{}\"}}\n", ids[2])).request);
         assert_eq!(owed[1].1.name, submission("").name);
+        assert!(Journal::open(&path).unwrap_err().to_string().contains("another process"));
+        // A line that found no room on the disk, and one that did.
+        journal.file.write_all(b"{\"Accepted\":{\"id\":").unwrap();
+        journal.cut_back().unwrap();
         journal.over(ids[0]).unwrap();
         journal.over(ids[2]).unwrap();
         drop(journal);

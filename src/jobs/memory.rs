@@ -190,7 +190,11 @@ impl Store for Memory {
     }
 
     async fn abandon(&self) -> Vec<Job> {
-        let ids = self.books(|table| table.active());
+        let ids = self.books(|table| {
+            // No client has dismissed them.
+            table.close_journal();
+            table.active()
+        });
         let cancel = |id| match self.books(|table| table.cancel(id)) {
             Some(Cancelled::Now(job)) => Some(job),
             _ => None,

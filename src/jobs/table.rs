@@ -119,6 +119,11 @@ impl Table {
         self.journal = Some(journal);
     }
 
+    /// From here on nothing is noted: what is owed now is owed when the store is opened again, whatever becomes of it here.
+    pub(super) fn close_journal(&mut self) {
+        self.journal = None;
+    }
+
     /// A job is owed no more: its end is known to its client, or it is forgotten.
     fn settle(&mut self, id: JobId) {
         if let Some(Err(error)) = self.journal.as_mut().map(|journal| journal.over(id)) {

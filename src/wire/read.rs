@@ -75,10 +75,11 @@ impl Fields {
 }
 
 /// Reads a request once more that was read before and written as JSON with its defaults: nothing is looked for that cannot be
-/// wrong any more. None where that text was written by another version of this program and does not fit this one.
+/// wrong any more. Text of another version of this program may lack defaults of this one; none where it does not fit this one at all.
 pub fn read_again(written: &[u8]) -> Option<(Request, Question)> {
     let structure = serde_json::from_slice(written).map(Request::Structure);
-    let request = structure.or_else(|_| serde_json::from_slice(written).map(Request::CurvedBeam)).ok()?;
+    let request = structure.or_else(|_| serde_json::from_slice(written).map(Request::CurvedBeam));
+    let request = request.ok().or_else(|| read(written).ok())?;
     let question = translate::translate(&request).ok()?;
     Some((request, question))
 }

@@ -228,3 +228,22 @@ fn what_is_owed_survives_the_process() {
     assert_eq!(Voussoir::serve(&flags).client().get(&endless).status, 404, "what was cancelled is not owed");
     std::fs::remove_file(journal).unwrap();
 }
+
+#[test]
+fn what_is_owed_survives_a_stop_in_order_too() {
+    let journal = std::env::temp_dir().join(format!("voussoir-stopped-{}", std::process::id()));
+    let flags = ["--workers", "1", "--grace", "1", "--journal", journal.to_str().unwrap()];
+    let mut service = Voussoir::serve(&flags);
+    let mut client = service.client();
+    let long = running(&mut client, &endless());
+    let waiting = client.submit(&tiny());
+    service.terminate();
+    assert_eq!(service.wait(20 * SECOND), Some(0));
+    let service = Voussoir::serve(&flags);
+    let mut client = service.client();
+    assert_eq!(client.delete(&long).status, 200, "it runs again");
+    client.ended(&waiting);
+    assert_eq!(client.get(&format!("{waiting}/results")).status, 200);
+    drop(service);
+    std::fs::remove_file(journal).unwrap();
+}
