@@ -188,7 +188,8 @@ fn half_of(analysis: &Analysis, rigid: &CollapseReport) -> Option<Analysis> {
     let mut ends = rigid.end.iter().chain(&rigid.other_end);
     // Of other structures joints and bodies are not numbered from left to right.
     let passive = !structure.passive.is_empty();
-    let whole = structure.is_one_ring() && !structure.is_half() && !passive && structure.asymmetry().is_none();
+    let mirrored = structure.asymmetry().is_none() && structure.asymmetric_stone().is_none();
+    let whole = structure.is_one_ring() && !structure.is_half() && !passive && mirrored;
     if !(whole && symmetric(&analysis.fixed) && symmetric(&analysis.scaled) && ends.all(falls_evenly)) {
         return None;
     }

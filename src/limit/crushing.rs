@@ -168,9 +168,13 @@ impl StaticTheorem {
             false => conic.maximise_sparsely(objective, budget),
         };
         match first {
-            // A basis that is lost in rounding leads nowhere.
-            ProgrammeOutcome::Lost if few && from.is_some() => self.crushing_end(objective, None, cut, conic, budget),
-            ProgrammeOutcome::Lost if few => conic.maximise_sparsely(objective, budget),
+            // A basis that is lost in rounding leads nowhere, and tangents far outside may seem to exclude everything.
+            ProgrammeOutcome::Lost | ProgrammeOutcome::Infeasible(_) if few && from.is_some() => {
+                self.crushing_end(objective, None, cut, conic, budget)
+            }
+            ProgrammeOutcome::Lost | ProgrammeOutcome::Infeasible(_) if few => {
+                conic.maximise_sparsely(objective, budget)
+            }
             // Where nothing crushes, the programme without strength is the same.
             ProgrammeOutcome::Lost if self.unknowns() <= MOST_DENSE && !conic.sections.is_empty() => {
                 tangents(None, cut)

@@ -407,3 +407,16 @@ fn what_does_not_go_with_an_accuracy_is_refused() {
     assert!(faults_of_curve.contains(&"/accuracy".to_owned()), "{faults_of_curve:?}");
     assert_eq!(faults(json!({"accuracy": stress, "method": {"fixed_steps": {"step": 1}}})), ["/method"]);
 }
+
+#[test]
+fn half_an_arch_does_not_answer_for_one_whose_stones_differ() {
+    let mut request = semicircle(12, &json!({"stone": {"friction_angle_deg": 45}}));
+    request["loads"][1]["load"]["point_load"] = json!({"force_n_per_m": 1000.0, "x_m": 0.0});
+    request["stones"] = json!([{"name": "soft", "youngs_modulus_pa": 1e8}]);
+    request["arch"]["stone_of"] = json!([{"from": 6, "to": 11, "stone": "soft"}]);
+    let report = door::solve(&with(request, "accuracy", json!({"stress": 0.2})));
+    assert!(!report.plan.unwrap().half);
+    let moved = &report.at_start.unwrap().blocks;
+    let [stiff, soft] = [&moved[0], &moved[11]].map(|block| block.displacement.norm());
+    assert!(soft > 3.0 * stiff, "{stiff} {soft}");
+}

@@ -184,3 +184,20 @@ fn what_would_run_if_few_joints_crush_is_told_apart() {
     let (Demand { memory, .. }, taken) = (demand(&wall), peak(&wall));
     assert!(taken < memory + PROGRAM, "{} MiB, estimated {}", taken / MIB, memory / MIB);
 }
+
+#[test]
+fn stones_that_differ_in_any_stiffness_are_of_different_kinds() {
+    let arch = |of: &dyn Fn(usize) -> Value| {
+        let stones: Vec<Value> = (0..40).map(of).collect();
+        let stone_of: Vec<Value> = (0..40).map(|k| json!({"from": k, "to": k, "stone": k.to_string()})).collect();
+        let mut request = semicircle(40, &json!({"mesh": mesh(12, 12), "stones": stones}));
+        request["arch"]["stone_of"] = json!(stone_of);
+        demand(&request).memory
+    };
+    let of = |name: &str, least: f64, step: f64| {
+        arch(&|k: usize| json!({"name": k.to_string(), (name): least + step * k as f64}))
+    };
+    let [modulus, ratio, density] =
+        [of("youngs_modulus_pa", 1e9, 1e7), of("poissons_ratio", 0.1, 0.005), of("density_kg_m3", 2000.0, 10.0)];
+    assert!(modulus == ratio && density < modulus / 2, "{modulus} {ratio} {density}");
+}

@@ -233,3 +233,46 @@ fn oval_under_an_embankment() {
 fn oval_under_a_load_on_its_crown() {
     hold("load on the crown, kN/m", &CROWN_LOAD, |force| oval(0.2, Some(force)));
 }
+
+/// The forces that weaker stone bears stronger stone bears, too, and so does the mirror image.
+#[test]
+fn stronger_stone_bears_all_that_weaker_stone_does() {
+    let mut dice = Dice::new(0x57E4);
+    for case in 0..60 {
+        let voussoirs = 5 + dice.below(8) as usize;
+        let (opening, thickness, at) = (dice.between(20.0, 60.0), dice.between(1.0, 2.0), dice.between(-0.8, 0.8));
+        let window = |strength: f64, side: f64| {
+            let smooth = if side > 0.0 { voussoirs } else { 0 };
+            let report = door::solve(&json!({
+                "arch": {
+                    "profile": {"circular": {"radius_m": 8.9, "opening_angle_deg": opening}},
+                    "thickness": {"constant_m": thickness}, "voussoirs": voussoirs,
+                },
+                "stone": {"compressive_strength_pa": strength},
+                "joint_overrides": [{"joint": smooth, "friction_angle_deg": 0}],
+                "loads": [
+                    {"load": {"self_weight": {}}},
+                    {"load": {"point_load": {"force_n_per_m": 1000.0, "x_m": side * at}}, "scaled": true},
+                ],
+            }));
+            let window = report.crushing.plastic_section.unwrap().window;
+            window.map(|window| [window.lowest, window.highest])
+        };
+        let mut weaker: Option<[f64; 2]> = None;
+        for strength in [3e6, 1e7, 3e7, 1e8] {
+            let [right, left] = [1.0, -1.0].map(|side| window(strength, side));
+            let near = |a: f64, b: f64| a == b || (a - b).abs() <= 1e-6 * b.abs().max(1.0);
+            let same = match (right, left) {
+                (Some(right), Some(left)) => near(right[0], left[0]) && near(right[1], left[1]),
+                (right, left) => right == left,
+            };
+            assert!(same, "case {case}, {strength:e} Pa: {right:?} and its mirror image {left:?}");
+            if let Some([low, high]) = weaker {
+                let [wider_low, wider_high] = right.unwrap_or([f64::INFINITY, f64::NEG_INFINITY]);
+                let holds = wider_low <= low + 1e-6 * f64::abs(low) && wider_high >= high - 1e-6 * f64::abs(high);
+                assert!(holds, "case {case}: {low} to {high}, at {strength:e} Pa {right:?}");
+            }
+            weaker = right.or(weaker);
+        }
+    }
+}

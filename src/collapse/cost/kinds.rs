@@ -57,9 +57,9 @@ type Tie = ([f64; 2], [(usize, f64); 2]);
 struct Seen {
     /// Corners and contact points, which are alike up to rounding.
     places: Vec<Vec2>,
-    /// What has to be the same: subblocks, stiffness of the stone, and how contact points are tied to the subblocks.
+    /// What has to be the same: subblocks, stiffness of the stone (Young's modulus, Poisson's ratio), and how contact points are tied to the subblocks.
     grid: [usize; 2],
-    modulus: f64,
+    stone: [f64; 2],
     ties: Vec<Tie>,
 }
 
@@ -86,7 +86,8 @@ pub(super) fn kinds(
         let places: Vec<Vec2> = structure.bodies[body].corners.iter().copied().chain(at).map(see).collect();
         let extent = places.iter().fold(0.0f64, |most, at| most.max(at.amax()));
         let grid = [grids[body].radial, grids[body].along];
-        let seen = Seen { places, grid, modulus: structure.stone_of(body).youngs_modulus, ties };
+        let stone = structure.stone_of(body);
+        let seen = Seen { places, grid, stone: [stone.youngs_modulus, stone.poissons_ratio], ties };
         budget.work(kinds.len())?;
         let rounding = ROUNDING * (origin.amax() + extent);
         if !kinds.iter().rev().any(|(_, other)| seen.is_alike(other, rounding)) {
@@ -101,7 +102,7 @@ impl Seen {
         let near = |(a, b): (&Vec2, &Vec2)| (a - b).amax() <= rounding;
         self.places.len() == other.places.len()
             && self.places.iter().zip(&other.places).all(near)
-            && (self.grid, self.modulus) == (other.grid, other.modulus)
+            && (self.grid, self.stone) == (other.grid, other.stone)
             && self.ties == other.ties
     }
 }
