@@ -74,7 +74,7 @@ fn turning(structure: &Structure, motion: &[[f64; 3]]) -> Mechanism {
 }
 
 /// Whether the programme is its own mirror image: then so is the mean of a solution of it and its mirror image.
-fn evenly(analysis: &Analysis) -> bool {
+pub(super) fn evenly(analysis: &Analysis) -> bool {
     let structure = &analysis.structure;
     let (axis, n) = (structure.axis(), structure.joints.len());
     let strength = |k: usize| structure.strength_at(&structure.joints[k]);

@@ -8,6 +8,7 @@
 //! [`shear`]).
 
 mod apart;
+mod cohesion;
 mod groups;
 mod hunt;
 mod shear;

@@ -109,7 +109,10 @@ pub enum Method {
     EventPath(Path),
     /// The same where joints crush: pressure at their contact points is capped by the strength of the weaker stone beside, as
     /// where joints of plastic sections crush. For whole stones only, and without a motion.
-    CrushingPath,
+    CrushingPath {
+        /// Whether the least load at which joints slide is looked for from its end, where none crushes there.
+        least: bool,
+    },
     /// As in section 4.2 of the paper, for comparison only: the path is looked at every `step` of load factor, and
     /// collapse is the first step at which `hinges` joints have opened by more than `opening`.
     FixedSteps {
@@ -195,7 +198,7 @@ impl Task {
 
     /// Whether joints crush on the load path.
     pub fn crushes_on_path(&self) -> bool {
-        self.method() == Method::CrushingPath
+        matches!(self.method(), Method::CrushingPath { .. })
     }
 
     /// How accurate the answer has to be, where that decides on the mesh.

@@ -34,7 +34,7 @@ pub enum Release {
 }
 
 /// What a joint that carries `forces` lets happen; a corner's force up to `none`, N/m, is none, and shear as near to its capacity
-/// is at it.
+/// is at it. A joint that may open may have lost its cohesion.
 pub fn releases(joint: &Joint, forces: &Resultant, none: f64) -> Vec<Release> {
     let (friction, cohesion) = match joint.law {
         JointLaw::Dry { friction, cohesion } => (friction, cohesion),
@@ -42,9 +42,9 @@ pub fn releases(joint: &Joint, forces: &Resultant, none: f64) -> Vec<Release> {
         JointLaw::Mirror => return vec![Release::Sliding(1.0), Release::Sliding(-1.0)],
         JointLaw::Bonded => return Vec::new(),
     };
-    let normal = forces.normal();
-    let capacity = friction * normal + cohesion * joint.length();
     let corners = [(Face::Intrados, forces.extrados), (Face::Extrados, forces.intrados)];
+    let opens = corners.iter().any(|(_, force)| *force <= none);
+    let capacity = friction * forces.normal() + if opens { 0.0 } else { cohesion * joint.length() };
     let rotations = corners.into_iter().filter(|(_, force)| *force <= none).map(|(face, _)| Release::Rotation(face));
     // The shear on the stone after the joint opposes its sliding.
     let slides = [1.0, -1.0].into_iter().filter(|sign| capacity + sign * forces.shear <= none).map(Release::Sliding);

@@ -227,7 +227,7 @@ fn random_structures_crush_on_the_path_within_plastic_sections() {
         let mut analysis = structures::analysis(&scene);
         let strength = Dice::new(name.len() as u64 + crushed + slid).decades(1e5, 1e7);
         analysis.structure.stones[0].compressive_strength = strength;
-        let method = Method::CrushingPath;
+        let method = Method::CrushingPath { least: true };
         analysis.task = Task::Collapse(CollapseTask { method, ..CollapseTask::default() });
         let report = run(&analysis, &Budget::unlimited()).unwrap_or_else(|error| panic!("{name}: {error}"));
         cannot_tell += u64::from(report.outcome == Outcome::CannotTell);

@@ -205,3 +205,80 @@ fn what_a_path_comes_to_beyond_crushing_decides_nothing() {
     assert_eq!(stronger.outcome, Outcome::CannotTell);
     assert!(stronger.notes.iter().any(|note| matches!(note, Note::Doubt(Doubt::Stray { .. }))), "{:?}", stronger.notes);
 }
+
+/// An arch of a circle of 10 m whose joints have a cohesion of 0.2 MPa.
+fn cohesive(opening: f64, thickness: f64, voussoirs: usize, friction: f64, at: f64) -> Value {
+    json!({
+        "arch": {
+            "profile": {"circular": {"radius_m": 10.0, "opening_angle_deg": opening}},
+            "thickness": {"constant_m": thickness},
+            "voussoirs": voussoirs,
+        },
+        "stone": {"friction_angle_deg": friction, "cohesion_pa": 2e5, "compressive_strength_pa": 1e30},
+        "loads": [
+            {"load": {"self_weight": {}}},
+            {"load": {"point_load": {"force_n_per_m": 1000.0, "x_m": at}}, "scaled": true},
+        ],
+    })
+}
+
+/// Loads of the least of all mechanisms in which four joints are at their limits, enumerated by another program; a joint that opens
+/// has no cohesion there.
+#[test]
+fn what_opens_may_have_lost_its_cohesion_on_either_side() {
+    for (opening, thickness, voussoirs, friction, at, least) in [
+        (180.0, 2.0, 7, 15.0, 2.0, 201.7695),
+        (140.0, 1.5, 9, 20.0, 2.0, 522.2561),
+        (140.0, 3.0, 9, 22.0, 5.0, 2707.0),
+        (160.0, 3.0, 7, 25.0, 4.0, 2476.8),
+    ] {
+        let [left, right] = [-at, at].map(|at| range(&cohesive(opening, thickness, voussoirs, friction, at)).least);
+        println!("{left} and {right}, {least} by enumeration");
+        assert!((left / least - 1.0).abs() < 3e-5 && (left / right - 1.0).abs() < 1e-6, "{left} {right} {least}");
+    }
+}
+
+/// What half an arch does the whole can do, too, on both sides at once.
+#[test]
+fn half_an_arch_with_cohesion_bears_no_less_than_the_whole() {
+    for ([span, rise, thickness], voussoirs, springings, friction, cohesion) in
+        [([8.0, 4.1, 0.8], 5, "bonded", 30.0, 1e4), ([6.0, 2.4, 0.6], 5, "dry", 20.0, 1e4)]
+    {
+        let least = |half: bool| {
+            let report = door::solve(&json!({
+                "arch": {
+                    "profile": {"elliptical": {"span_m": span, "rise_m": rise}}, "thickness": {"constant_m": thickness},
+                    "voussoirs": voussoirs, "springing_joints": springings, "half": half,
+                },
+                "stone": {"friction_angle_deg": friction, "cohesion_pa": cohesion, "compressive_strength_pa": 1e30},
+                "loads": [
+                    {"load": {"self_weight": {}}},
+                    {"load": {"point_load": {"force_n_per_m": -500.0, "x_m": 0.0}}, "scaled": true},
+                ],
+            }));
+            report.end.unwrap().load_factor
+        };
+        let [half, whole] = [least(true), least(false)];
+        println!("half {half}, whole {whole}");
+        assert!(whole <= half * (1.0 + 1e-6), "half {half}, whole {whole}");
+    }
+}
+
+/// The least of all mechanisms of this arch is 16.935672, enumerated by another program; the path ends at 24.307.
+#[test]
+fn where_nothing_crushes_the_path_on_which_joints_may_has_the_same_least() {
+    let request = json!({
+        "arch": {
+            "profile": {"circular": {"radius_m": 2.783_601_612_763_993_3, "opening_angle_deg": 229.654_770_976_460_95}},
+            "thickness": {"constant_m": 1.057_292_973_084_662_5}, "voussoirs": 5, "line": "intrados",
+        },
+        "stone": {"friction_angle_deg": 36.0, "compressive_strength_pa": 1e30},
+        "loads": [
+            {"load": {"self_weight": {}}},
+            {"load": {"point_load": {"force_n_per_m": 1000.0, "x_m": -1.42}}, "scaled": true},
+        ],
+        "crushing_in_path": true,
+    });
+    let found = range(&request);
+    assert!((found.least / 16.935_672 - 1.0).abs() < 1e-7 && found.mechanisms_tried > 4, "{found:?}");
+}

@@ -1,6 +1,7 @@
 //! The search for the mechanism of least load: motions of joints at their limits, exchanged.
 
 use super::super::mechanism::Released;
+use super::super::plastic_end;
 use super::super::scatter::Scatter;
 use super::{Search, groups};
 use crate::limit::{Equilibrium, Release, Resultant, SoilEnd, releases};
@@ -36,6 +37,10 @@ pub(super) struct Hunt<'s> {
     seen: BTreeSet<Vec<(usize, u8)>>,
     pub best: Option<Candidate>,
     pub scatter: Scatter,
+    /// Whether joints of a chain have cohesion.
+    adheres: bool,
+    /// Whether the chain and its loads are their own mirror image.
+    pub even: bool,
 }
 
 /// The least equilibrium of a mechanism, and its rates.
@@ -48,12 +53,17 @@ pub(super) struct Candidate {
 
 /// What the motion of a joint costs, at random.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Costs {
+pub(super) enum Costs {
     /// Much the same everywhere.
     Even,
     /// What costs much hardly moves, so that the motions differ.
     Apart,
+    /// The same by joints: those that cost little turn and slide.
+    OfJoints,
 }
+
+/// The releases that move, and their rates.
+pub(super) type Moves = (Vec<Released>, Vec<f64>);
 
 /// What comes of a motion of some releases.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -68,7 +78,16 @@ pub(super) enum Tried {
 
 impl<'s> Hunt<'s> {
     pub(super) fn new(search: &'s Search<'s>) -> Self {
-        Hunt { search, seen: BTreeSet::new(), best: None, scatter: Scatter::new(0x51DE) }
+        let joints = &search.analysis.structure.joints;
+        let adheres = joints.iter().filter_map(|joint| joint.law.coulomb()).any(|[_, cohesion]| cohesion > 0.0);
+        Hunt {
+            search,
+            seen: BTreeSet::new(),
+            best: None,
+            scatter: Scatter::new(0x51DE),
+            adheres: adheres && !search.theorem.has_loops(),
+            even: plastic_end::evenly(search.analysis),
+        }
     }
 
     /// How many mechanisms were tried.
@@ -78,19 +97,35 @@ impl<'s> Hunt<'s> {
 
     /// Tries one of the motions of these releases; None where nothing moves.
     fn tries(&mut self, released: &[Released], costs: Costs) -> Option<Tried> {
-        let search = self.search;
-        let cost = |random: f64| match costs {
-            Costs::Even => 1.0 + 0.99 * random,
-            Costs::Apart => 10f64.powf(DECADES * (random - 1.0)),
-        };
-        let costs: Vec<f64> = released.iter().map(|_| cost(self.scatter.next())).collect();
-        let (moving, rates) = search.motion(released, &costs)?;
+        let motion = self.motion(released, costs)?;
         // What moves in a corner of all motions is independent of each other: where everything does, there is no other.
-        let sole = moving.len() == released.len();
-        Some(match self.weighs(moving, rates) {
-            Tried::InVain if sole => Tried::Sole,
-            tried => tried,
+        let sole = motion.0.len() == released.len();
+        let sums = if self.adheres { self.sums(released, &motion) } else { Vec::new() };
+        let mut lower = false;
+        for (moving, rates) in std::iter::once(motion).chain(sums) {
+            lower |= self.weighs(moving, rates) == Tried::Lower;
+        }
+        Some(match lower {
+            true => Tried::Lower,
+            false if sole => Tried::Sole,
+            false => Tried::InVain,
         })
+    }
+
+    /// One of the motions of these releases, at random costs.
+    pub(super) fn motion(&mut self, released: &[Released], costs: Costs) -> Option<Moves> {
+        let apart = |random: f64| 10f64.powf(DECADES * (random - 1.0));
+        let of_joints: Vec<f64> = match costs {
+            Costs::OfJoints => (0..self.search.theorem.joints()).map(|_| apart(self.scatter.next())).collect(),
+            Costs::Even | Costs::Apart => Vec::new(),
+        };
+        let mut cost = |(joint, _): &Released| match costs {
+            Costs::Even => 1.0 + 0.99 * self.scatter.next(),
+            Costs::Apart => apart(self.scatter.next()),
+            Costs::OfJoints => of_joints[*joint] * (1.0 + 0.5 * self.scatter.next()),
+        };
+        let costs: Vec<f64> = released.iter().map(&mut cost).collect();
+        self.search.motion(released, &costs)
     }
 
     /// Tries a mechanism, unless it was before.
@@ -117,7 +152,8 @@ impl<'s> Hunt<'s> {
         let (mut released, mut quiet) = (released.to_vec(), 0);
         while quiet < QUIET && released.iter().any(slides) {
             quiet += 1;
-            match self.tries(&released, Costs::Even) {
+            let costs = if self.adheres && quiet % 2 == 0 { Costs::OfJoints } else { Costs::Even };
+            match self.tries(&released, costs) {
                 None | Some(Tried::Sole) => return,
                 Some(Tried::InVain) => {}
                 Some(Tried::Lower) => {
@@ -151,6 +187,10 @@ impl<'s> Hunt<'s> {
     /// there are.
     pub(super) fn wander(&mut self) {
         let structure = &self.search.analysis.structure;
+        let everything = || released_at(0..structure.joints.len(), structure);
+        if self.adheres {
+            self.roam(&everything(), Costs::OfJoints, self.adhesive_tries());
+        }
         if structure.joints.len() > MOST_CHAINED {
             return;
         }
@@ -158,15 +198,15 @@ impl<'s> Hunt<'s> {
             if self.search.budget.ask().is_err() {
                 return;
             }
-            self.roam(&released_at(joints, structure), EACH);
+            self.roam(&released_at(joints, structure), Costs::Apart, EACH);
         }
-        self.roam(&released_at(0..structure.joints.len(), structure), EVERYTHING);
+        self.roam(&everything(), Costs::Apart, EVERYTHING);
     }
 
     /// So many random motions of these releases; from each that is better, on.
-    fn roam(&mut self, released: &[Released], times: usize) {
+    fn roam(&mut self, released: &[Released], costs: Costs, times: usize) {
         for _ in 0..times {
-            match self.tries(released, Costs::Apart) {
+            match self.tries(released, costs) {
                 Some(Tried::Lower) => self.go_on_from_best(),
                 Some(Tried::InVain) => {}
                 None | Some(Tried::Sole) => return,

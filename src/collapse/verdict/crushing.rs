@@ -97,7 +97,7 @@ impl<'a> Setup<'a> {
         };
         let states = StatesAsked::default();
         let direction = task.direction();
-        let task = CollapseTask { direction, cap, method: Method::CrushingPath, states, motion: None };
+        let task = CollapseTask { direction, cap, method: Method::CrushingPath { least: false }, states, motion: None };
         Analysis { task: Task::Collapse(task), ..plan::of_whole_stones(self.analysis) }
     }
 

@@ -6,7 +6,7 @@ use crate::collapse::chain_path::Followed;
 use crate::collapse::ending::{self, Ending};
 use crate::collapse::path::{Leg, follow};
 use crate::collapse::record::{MOST_FIXED_STEPS, Recorder};
-use crate::collapse::sliding::Search;
+use crate::collapse::sliding::{FullSolution, Search};
 use crate::collapse::snapshot::snapshot;
 use crate::collapse::state::States;
 use crate::collapse::tolerances;
@@ -15,7 +15,10 @@ use crate::collapse::{
     Analysis, AnalysisError, CollapseReport, Cost, Doubt, LoadRange, Method, Note, Outcome, PathEnd, Task,
 };
 use crate::dda::Tracer;
-use crate::limit::StaticTheorem;
+use crate::limit::{Resultant, StaticTheorem};
+
+/// Share of a joint that may crush without being told.
+const SLIVER: f64 = 1e-6;
 
 /// Where a leg starts, under these fixed loads on the nodes, and what is known of the path as far.
 pub(super) struct LegStart<'l> {
@@ -121,8 +124,8 @@ impl Setup<'_> {
                 report.notes.push(Note::ReadAtSteps { step, limit });
                 None
             }
-            Method::EventPath(_) | Method::CrushingPath => {
-                if !self.analysis.task.crushes_on_path() {
+            method @ (Method::EventPath(_) | Method::CrushingPath { .. }) => {
+                if method != (Method::CrushingPath { least: false }) && ending.end.crushed.is_empty() {
                     self.take_least(&mut ending, sign)?;
                 }
                 match self.certificate.compare(&ending.end, sign) {
@@ -152,7 +155,7 @@ impl Setup<'_> {
         report.notes.extend(parted.then(|| Note::SlidesParted(ending.end.mechanism.slips_parted().collect())));
         let beside_soil = ending.end.range.is_some() && !self.analysis.structure.passive.is_empty();
         report.notes.extend(beside_soil.then_some(Note::SlidesBesideSoil));
-        if self.analysis.task.crushes_on_path() && ending.end.mechanism.slips() {
+        if self.analysis.task.crushes_on_path() && ending.end.mechanism.slips() && ending.end.range.is_none() {
             let greatest = self.certificate.end(sign).unwrap_or(0.0);
             ending.end.range = Some(LoadRange { least: path, greatest, path, mechanisms_tried: 0 });
             report.notes.push(Note::CrushesAndSlides);
@@ -185,7 +188,8 @@ impl Setup<'_> {
         at_limits.extend(search.at_window_end(greatest));
         let (found, mechanisms_tried) = search.least(at_limits, path);
         self.budget.check()?;
-        let slides = found.filter(|found| found.mechanism.slips());
+        let is_borne = |found: &FullSolution| !self.analysis.task.crushes_on_path() || self.bears(&found.forces);
+        let slides = found.filter(|found| found.mechanism.slips() && is_borne(found));
         if let Some(found) = slides.filter(|found| !search.is_beyond(found.load_factor, path, tolerances::POLISH)) {
             // A path that nothing polished carries the disturbance of its attempt: what is as near is the same load.
             if !search.is_beyond(path, found.load_factor, tolerances::POLISH) {
@@ -206,10 +210,21 @@ impl Setup<'_> {
         Ok(())
     }
 
+    /// Whether every joint bears its force on a rectangular block of stress at its strength, but for a sliver.
+    fn bears(&self, forces: &[Resultant]) -> bool {
+        let structure = &self.analysis.structure;
+        forces.iter().zip(&structure.joints).all(|(force, joint)| {
+            let normal = force.normal();
+            let share = if normal > 0.0 { 2.0 * force.intrados.min(force.extrados) / normal } else { 1.0 };
+            let most = structure.strength_at(joint) * (share + SLIVER) * joint.length();
+            joint.law.coulomb().is_none() || normal <= most
+        })
+    }
+
     /// The collapse load as the method reads it: exact, or the first whole step beyond.
     fn read_off(&self, load_factor: f64, sign: f64) -> f64 {
         match self.analysis.task.method() {
-            Method::EventPath(_) | Method::CrushingPath => load_factor,
+            Method::EventPath(_) | Method::CrushingPath { .. } => load_factor,
             Method::FixedSteps { step, .. } => {
                 let steps = ((load_factor - self.start).abs() / step).floor() + 1.0;
                 self.start + sign * steps * step

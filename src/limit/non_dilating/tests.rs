@@ -36,6 +36,9 @@ fn a_joint_at_its_limits_lets_go_what_it_can_no_longer_hold() {
     assert_eq!(of(&dry, [50.0, 50.0], -60.0), vec![Sliding(1.0)]);
     assert_eq!(of(&dry, [100.0, 0.0], 0.0), vec![Rotation(Face::Intrados)]);
     assert_eq!(of(&dry, [0.0, 100.0], 60.0), vec![Rotation(Face::Extrados), Sliding(-1.0)]);
+    // Of a joint that opens anything from none to all of its cohesion may be left.
+    assert_eq!(of(&dry, [0.0, 100.0], 50.0), vec![Rotation(Face::Extrados), Sliding(-1.0)]);
+    assert_eq!(of(&dry, [0.0, 100.0], 49.0), vec![Rotation(Face::Extrados)]);
     assert_eq!(of(&joint(0.0, JointLaw::Bonded), [0.0, 0.0], 0.0), vec![]);
     assert_eq!(of(&joint(0.0, JointLaw::Mirror), [9.0, 9.0], 0.0).len(), 2);
 }

@@ -151,7 +151,7 @@ impl<'a> Unloaded<'a> {
                     cap,
                     method: match self.steps {
                         Some(steps) => steps,
-                        None if request.crushing_in_path => Method::CrushingPath,
+                        None if request.crushing_in_path => Method::CrushingPath { least: true },
                         None => Method::EventPath(path),
                     },
                     states,
