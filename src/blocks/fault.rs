@@ -161,7 +161,7 @@ pub enum BlocksFault {
         polygon: String,
     },
     /// Polygons joined to each other but to no support.
-    #[error("no support carries the part made of {}: let one of its sides rest on a support", names(.polygons))]
+    #[error("no support carries the part made of {}: let one of its sides rest on a support, or on a polygon that is carried; sides with a gap between them do not touch", names(.polygons))]
     NotSupported {
         /// Which polygons.
         polygons: Vec<String>,

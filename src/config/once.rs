@@ -1,5 +1,6 @@
 //! Options of the verbs that need no server.
 
+use super::values::file_of;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -16,13 +17,13 @@ pub struct Solve {
     #[arg(long)]
     pub json: bool,
     /// Also draw the structure in the state that governs, as SVG, or in pixels, as PNG, into this file
-    #[arg(long, value_name = "OUT.svg|OUT.png")]
+    #[arg(long, value_name = "OUT.svg|OUT.png", value_parser = file_of(["svg", "png"]))]
     pub figure: Option<PathBuf>,
     /// Also write every drawing, as SVG, into this folder, each under its name
     #[arg(long, value_name = "FOLDER")]
     pub figures: Option<PathBuf>,
     /// Also write a report for the file, as a page in HTML, or on paper, as PDF, into this file
-    #[arg(long, value_name = "OUT.html|OUT.pdf")]
+    #[arg(long, value_name = "OUT.html|OUT.pdf", value_parser = file_of(["html", "pdf"]))]
     pub report: Option<PathBuf>,
 }
 

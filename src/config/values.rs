@@ -3,6 +3,7 @@
 use axum::http::HeaderValue;
 use clap::builder::RangedU64ValueParser;
 use std::net::Ipv6Addr;
+use std::path::PathBuf;
 use tracing_subscriber::filter::LevelFilter;
 
 /// A number from here to there.
@@ -27,6 +28,15 @@ pub fn host(text: &str) -> Result<String, String> {
     let is_name = !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_alphanumeric() || b"-._".contains(&byte));
     let fits = is_address || is_name;
     fits.then(|| text.to_owned()).ok_or_else(|| "a host is a name without port, such as arches.example.org".to_owned())
+}
+
+/// A file whose name ends as one of these: that says in which format it is written.
+pub fn file_of(kinds: [&'static str; 2]) -> impl Fn(&str) -> Result<PathBuf, String> + Clone {
+    move |text| {
+        let file = PathBuf::from(text);
+        let fits = file.extension().is_some_and(|end| kinds.iter().any(|kind| end.eq_ignore_ascii_case(kind)));
+        fits.then_some(file).ok_or_else(|| format!("the name has to end in .{} or .{}", kinds[0], kinds[1]))
+    }
 }
 
 /// An origin as a browser sends it: scheme, host and perhaps port, nothing after.

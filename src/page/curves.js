@@ -99,7 +99,7 @@ function movements({settlement}) {
         y: 'kN/m',
         curves: [
           {name: 'thrust', points: pairs(history.share_of_movement, kilo(history.thrust_n_per_m))},
-          {name: 'left reaction', points: pairs(history.share_of_movement, kilo(history.left_reaction_n_per_m))},
+          {name: 'vertical reaction at the left', points: pairs(history.share_of_movement, kilo(history.left_reaction_n_per_m))},
           {name: 'right reaction', points: pairs(history.share_of_movement, kilo(history.right_reaction_n_per_m))},
           ...history.supports.map(support => ({
             name: `${support.support}, upwards`,

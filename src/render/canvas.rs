@@ -196,21 +196,25 @@ impl Canvas {
         self.labels.keep_free(Frame { low: Vec2::new(0.0, bottom), high: Vec2::new(WIDTH, self.height) });
     }
 
-    /// Words that name what is at a place (pixels), in this direction off it if there is room, else near, with a line to it. They
-    /// are put on the sheet last, in the order in which they are wanted, and left out where there is no room.
+    /// Words that name what is at a place (pixels), in this direction off it if there is room, else near, with a line to it where they
+    /// are far off, or nearer to something else that is named. They are put on the sheet last, in the order in which they are wanted,
+    /// and left out where there is no room.
     pub fn label(&mut self, at: Vec2, direction: Vec2, words: &str) {
         self.wanted.push((at, direction, words.to_owned()));
     }
 
     fn put_labels(&mut self) {
-        for (at, direction, words) in std::mem::take(&mut self.wanted) {
-            let size = extent(&words, LETTERS);
-            let Some(middle) = self.labels.place(at, direction, size) else { continue };
-            let nearest = middle + (at - middle).sup(&(-0.5 * size)).inf(&(0.5 * size));
-            if (nearest - at).norm() > NEEDS_LEADER {
-                self.line("leader", at, nearest);
+        let wanted = std::mem::take(&mut self.wanted);
+        for (at, direction, words) in &wanted {
+            let size = extent(words, LETTERS);
+            let Some(middle) = self.labels.place(*at, *direction, size) else { continue };
+            let edge = |place: Vec2| middle + (place - middle).sup(&(-0.5 * size)).inf(&(0.5 * size));
+            let off = |place: &Vec2| (edge(*place) - place).norm();
+            let another_is_nearer = wanted.iter().any(|(other, ..)| off(other) < off(at));
+            if off(at) > NEEDS_LEADER || another_is_nearer {
+                self.line("leader", *at, edge(*at));
             }
-            self.text("label", middle + Vec2::new(0.0, 0.35 * LETTERS), &words);
+            self.text("label", middle + Vec2::new(0.0, 0.35 * LETTERS), words);
         }
     }
 
@@ -286,6 +290,20 @@ mod tests {
         ] {
             assert_eq!(Hundredths(value).to_string(), text);
         }
+    }
+
+    #[test]
+    fn words_nearer_to_something_else_have_a_line_to_what_they_name() {
+        let space = Space { head: 40.0, side: 56.0, foot: 30.0 };
+        let lines = |apart: f64| {
+            let mut canvas = Canvas::new(Vec2::zeros(), Vec2::new(10.0, 5.0), space);
+            let (a, right) = (Vec2::new(400.0, 200.0), Vec2::new(1.0, 0.0));
+            canvas.label(a, right, "12");
+            canvas.label(a + apart * right, -right, "13");
+            canvas.finish("k", "", "", "").matches("leader").count()
+        };
+        // Ten pixels apart each has its words where the other is.
+        assert_eq!([lines(10.0), lines(300.0)], [2, 0]);
     }
 
     #[test]

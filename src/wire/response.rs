@@ -2,6 +2,7 @@
 //! columns, one array per quantity. Nothing here depends on the clock: the same request gives the same bytes.
 
 mod assumptions;
+mod backs;
 mod beam;
 mod columns;
 mod falling;
@@ -18,6 +19,7 @@ mod stress;
 mod structure;
 mod survey_tolerance;
 mod ties;
+mod units;
 mod updated;
 mod width;
 mod words;
@@ -189,6 +191,7 @@ impl AnalysisResult {
         let assumptions = assumptions::assumptions(request, &structure);
         let favourable = favourable::note(request, &structure, report);
         let ties = ties::notes(request, &structure, report);
+        let backs = backs::notes(request, &structure, report);
         Some(AnalysisResult {
             kind: KindWord::Analysis,
             outcome: report.outcome,
@@ -228,6 +231,7 @@ impl AnalysisResult {
             cost: report.cost,
             notes: { report.notes.iter().map(Note::to_string) }
                 .chain(assumptions)
+                .chain(backs)
                 .chain(favourable)
                 .chain(ties)
                 .map(|note| in_its_words(request, &note))

@@ -47,6 +47,13 @@ fn solve_prints_a_curve() {
     let output = fed(&["solve", "-", "--report", "no/such/report.html"], &beam().to_string());
     assert_eq!(output.status.code(), Some(1));
     assert!(String::from_utf8_lossy(&output.stderr).contains("no report: a curved beam"));
+    for (flag, file) in [("--figure", "a.gif"), ("--report", "a.svg"), ("--report", "html")] {
+        let output = fed(&["solve", "-", flag, file], &beam().to_string());
+        assert!(
+            output.status.code() == Some(2) && String::from_utf8_lossy(&output.stderr).contains("has to end in ."),
+            "{file}"
+        );
+    }
     let mut request = beam();
     request["mesh"] = serde_json::json!({"subblocks": {"uniform": {"radial": 0, "along": 1}}});
     let output = fed(&["solve", "-"], &request.to_string());

@@ -356,7 +356,7 @@ fn the_summary_says_what_was_assumed_and_what_the_soil_presses() {
     for part in [
         "at most 1.5 of the vertical pressure (0.5 of Kp = 3 of 30 deg)",
         "of cohesion (0.5 of that of 2 kPa)",
-        "none on stones that move away",
+        "no pressure on stones that move away from it",
         "soil presses",
     ] {
         assert!(words.contains(part), "{part} is not in\n{words}");

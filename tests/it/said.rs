@@ -7,7 +7,7 @@ use std::process::Command;
 use std::time::Duration;
 use voussoir::budget::Budget;
 use voussoir::collapse::{Doubt, Note, answer};
-use voussoir::wire::prose::prose;
+use voussoir::wire::prose::{Digits, prose};
 use voussoir::wire::read::{read_analysis, read_question};
 use voussoir::wire::rendering::{REPORT, renderings};
 use voussoir::wire::response::{AnalysisResult, JobResult};
@@ -291,4 +291,108 @@ fn moving_geometry_is_said_to_leave_out_the_crushing_that_governs() {
     request["stone"] = json!({"compressive_strength_pa": 1e30});
     let strong = text(&request);
     assert!(!strong.contains("no figure has both") && !strong.contains("first-order load of stone"), "{strong}");
+}
+
+/// A bridge of one span, with what more it has.
+fn bridge(bridge: Value, more: Value) -> Value {
+    let mut request = json!({
+        "bridge": {"spans": [{
+            "profile": {"circular": {"span_m": 8, "rise_m": 2}}, "rings": [{"thickness_m": 0.45, "voussoirs": 15}]
+        }]},
+        "loads": [{"load": {"self_weight": {}}}, {"load": {"point_load": {"x_m": -2, "force_n_per_m": 1000}}, "scaled": true}]
+    });
+    for (into, what) in [("/bridge", bridge), ("", more)] {
+        request.pointer_mut(into).unwrap().as_object_mut().unwrap().extend(what.as_object().unwrap().clone());
+    }
+    request
+}
+
+#[test]
+fn the_ground_behind_backing_is_told_with_what_it_takes() {
+    let backing = json!({"level_m": 1.6});
+    let answer = solved(&bridge(json!({"backing": backing}), json!({})));
+    let notes = answer["notes"].to_string();
+    let line = &answer["ends"][0]["thrust_line"];
+    for (k, joint) in answer["structure"]["joints"].as_array().unwrap().iter().enumerate() {
+        let between = joint["between"].to_string();
+        if !(between.contains("backing") && between.contains("ground")) {
+            continue;
+        }
+        let row = line["joint"].as_array().unwrap().iter().position(|joint| *joint == json!(k)).unwrap();
+        let [thrust, friction] =
+            ["normal_n_per_m", "shear_n_per_m"].map(|force| line[force][row].as_f64().unwrap() / 1e3);
+        let ground =
+            joint["between"].as_array().unwrap().iter().find(|name| name.to_string().contains("ground")).unwrap();
+        let told = format!(
+            "{} kN/m of thrust and {} kN/m of friction at {}",
+            Digits(thrust),
+            Digits(friction.abs()),
+            ground.as_str().unwrap()
+        );
+        assert!(notes.contains(&told), "{told} in {notes}");
+    }
+    assert!(notes.contains("at ground.left") && notes.contains("at ground.right"), "{notes}");
+    let abutment = json!({"height_m": 0.5, "width_m": 2});
+    let abutments = json!({"backing": backing, "abutments": {"left": abutment, "right": abutment}});
+    let leans = |request: &Value| self::notes(request).contains("leans on the ground");
+    assert!(!leans(&bridge(abutments, json!({}))) && !leans(&bridge(json!({}), json!({}))));
+}
+
+#[test]
+fn abutments_beside_fill_are_told_to_stand_alone() {
+    let (fill, abutment) = (json!({"backfill": {"surface_height_m": 2.8}}), json!({"height_m": 0.5, "width_m": 3}));
+    let abutments = json!({"abutments": {"left": abutment, "right": abutment}});
+    let alone = |request: &Value| notes(request).contains("plumb backs of abutments");
+    assert!(alone(&bridge(abutments.clone(), fill.clone())));
+    assert!(!alone(&bridge(abutments, json!({}))) && !alone(&bridge(json!({}), fill)));
+}
+
+#[test]
+fn numbers_in_another_unit_are_asked_about() {
+    let fill = |density: f64| json!({"backfill": {"surface_height_m": 2.8, "density_kg_m3": density}});
+    let stone = |name: &str, value: f64| json!({"stone": {(name): value}});
+    let asks = |more: Value| notes(&bridge(json!({}), more)).matches("Is the unit right?").count();
+    for (strange, right) in [
+        (fill(19.0), fill(1900.0)),
+        (stone("density_kg_m3", 22.0), stone("density_kg_m3", 2200.0)),
+        (stone("friction_angle_deg", 0.6), stone("friction_angle_deg", 31.0)),
+        (json!({"width_m": 5000}), json!({"width_m": 5})),
+    ] {
+        assert_eq!([asks(strange.clone()), asks(right)], [1, 0], "{strange}");
+    }
+    let vehicle = |force: f64| {
+        let mut request = bridge(json!({}), json!({}));
+        request["loads"][1]["load"] = json!({"vehicle": {
+            "axles": [{"offset_m": 0, "force_n": force, "length_m": 0.3}], "x_m": -2,
+            "effective_width_m": 2.5, "effective_width_rule": "mine"
+        }});
+        notes(&request).contains("Is the unit right?")
+    };
+    assert!(vehicle(250.0) && !vehicle(250e3));
+}
+
+#[test]
+fn where_the_fixed_loads_crush_a_bridge_no_position_is_told() {
+    let mut request = bridge(json!({}), json!({"analysis": {"worst_position": {"step_m": 0.5}}}));
+    request["loads"][1]["load"] = json!({"vehicle": {
+        "axles": [{"offset_m": 0, "force_n": 1e5, "length_m": 0.3}], "effective_width_m": 2.5, "effective_width_rule": "mine"
+    }});
+    let crushed = |strength: f64| {
+        let mut request = request.clone();
+        request["stone"] = json!({"compressive_strength_pa": strength});
+        text(&request)
+    };
+    let [weak, strong] = [crushed(1e5), crushed(1e7)];
+    assert!(weak.contains("The fixed loads alone crush the bridge") && !weak.contains("stands worst"), "{weak}");
+    assert!(!weak.contains("it would collapse at"), "{weak}");
+    assert!(strong.contains("stands worst at x = "), "{strong}");
+}
+
+#[test]
+fn a_name_in_another_unit_is_put_right_with_its_value() {
+    let request = bridge(json!({}), json!({"width_mm": 5000, "nmae": "a"}));
+    let faults = read_question(request.to_string().as_bytes()).unwrap_err();
+    let detail = |pointer: &str| &faults.iter().find(|fault| fault.pointer == pointer).unwrap().detail;
+    assert!(detail("/width_mm").contains("write `width_m`, with its value in the unit"), "{faults:?}");
+    assert!(detail("/nmae").contains("write `name` if that is meant"), "{faults:?}");
 }

@@ -43,9 +43,7 @@ pub fn entries(drawing: &Drawing<'_>, moved: &Moved, ground: &[Stratum]) -> Vec<
     match &drawing.state {
         State::Falls(PathEnd { thrust_line, .. }) | State::Settles(SettlementPath { thrust_line, .. })
             if thrust_line.is_empty() => {}
-        State::Falls(_) | State::Settles(..) | State::Presses(_) if drawing.structure.spans.is_empty() => {
-            add(Sign::Dot("resultant", 2.6), "force of a joint");
-        }
+        State::Falls(_) | State::Settles(..) | State::Presses(_) if drawing.structure.spans.is_empty() => {}
         State::Falls(_) | State::Settles(..) | State::Presses(_) => add(Sign::Line("thrust"), "thrust"),
         State::Stands(lines) => {
             for ((class, word), line) in [("least", "least"), ("thrust", "greatest")].into_iter().zip(lines) {
@@ -55,6 +53,9 @@ pub fn entries(drawing: &Drawing<'_>, moved: &Moved, ground: &[Stratum]) -> Vec<
             }
         }
         State::Unknown => {}
+    }
+    if thrust::has_dots(drawing) {
+        add(Sign::Dot("resultant", thrust::RESULTANT), "force of a joint");
     }
     if !moved.pieces.is_empty() {
         add(Sign::Area("ghost"), &moved.words);
@@ -87,11 +88,11 @@ fn of_joints(drawing: &Drawing<'_>) -> Vec<Entry> {
         let words = if angles && falls { "hinge: joint, angle from springing" } else { "hinge at joint" };
         add(main().next().is_some(), Sign::Dot("hinge", signs::HINGE), words);
         let minor = main().count() < mechanism.hinges.len();
-        add(minor, Sign::Dot("minor", signs::MINOR), "hinge between rings, or that hardly turns");
+        add(minor, Sign::Dot("minor", signs::MINOR), "hinge between rings or backing, or that hardly turns");
         add(!falls, Sign::Words, "mm: crack width");
         add(mechanism.slides.iter().any(|slide| across(slide.joint)), Sign::Arrow("slide"), "sliding joint");
         let slips = mechanism.slides.iter().any(|slide| !across(slide.joint));
-        add(slips, Sign::Line("slipping"), "rings slide on each other");
+        add(slips, Sign::Line("slipping"), "rings or backing slide on each other");
         add(!mechanism.lift_offs.is_empty(), Sign::Line("parting"), "parting joint");
     }
     if let State::Falls(end) = &drawing.state {

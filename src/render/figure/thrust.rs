@@ -15,6 +15,8 @@ pub const NEAR: f64 = 0.02;
 const MANY: usize = 24;
 /// Radius of the sign where it does, pixels.
 pub const SIGN: f64 = 4.0;
+/// Radius of that of a joint's force, pixels.
+pub const RESULTANT: f64 = 2.6;
 
 /// Thrust lines by the class in which they are drawn.
 pub fn lines<'d>(drawing: &'d Drawing<'_>) -> Vec<(&'static str, &'d [Thrust])> {
@@ -41,9 +43,8 @@ pub fn draw(canvas: &mut Canvas, drawing: &Drawing<'_>) {
         for span in &structure.spans {
             canvas.polyline(class, &crossings(structure, line, span.joints.clone()));
         }
-        let others = (0..structure.joints.len()).filter(|&k| structure.span_of(k).is_none() && is_across(structure, k));
-        for at in others.flat_map(|k| crossings(structure, line, k..k + 1)) {
-            canvas.dot("resultant", canvas.place(at), 2.6);
+        for at in beside_rings(structure, line) {
+            canvas.dot("resultant", canvas.place(at), RESULTANT);
         }
     }
     let mut told = Vec::new();
@@ -57,6 +58,18 @@ pub fn draw(canvas: &mut Canvas, drawing: &Drawing<'_>) {
         canvas.keep_free(&[at], SIGN);
         canvas.label(at, on_sheet(out), &joint.to_string());
     }
+}
+
+/// Whether there are joints outside of rings whose forces are drawn one by one.
+pub fn has_dots(drawing: &Drawing<'_>) -> bool {
+    !is_arch(drawing.structure)
+        && lines(drawing).iter().any(|(_, line)| !beside_rings(drawing.structure, line).is_empty())
+}
+
+/// Where the forces of joints outside of rings cross them.
+fn beside_rings(structure: &Structure, line: &[Thrust]) -> Vec<Vec2> {
+    let others = (0..structure.joints.len()).filter(|&k| structure.span_of(k).is_none() && is_across(structure, k));
+    others.flat_map(|k| crossings(structure, line, k..k + 1)).collect()
 }
 
 /// What every joint carries, of the forces at its contact points; joints that carry nothing are left out.

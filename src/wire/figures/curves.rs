@@ -194,7 +194,7 @@ pub fn settlement(result: &AnalysisResult, title: &str) -> Option<Chart> {
         dotted: false,
     };
     let thrust = history.thrust_n_per_m.as_deref().map(|forces| of("thrust", forces));
-    let left = history.left_reaction_n_per_m.as_deref().map(|forces| of("left reaction", forces));
+    let left = history.left_reaction_n_per_m.as_deref().map(|forces| of("vertical reaction at the left", forces));
     let curves: Vec<Curve> = thrust.into_iter().chain(left).collect();
     (!curves.is_empty() && history.share_of_movement.len() > 1).then(|| Chart {
         title: title.to_owned(),

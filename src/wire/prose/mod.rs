@@ -21,7 +21,7 @@ mod survey;
 mod window;
 mod wording;
 
-pub use crate::render::digits::{Digits, Rounded};
+pub use crate::render::digits::{Digits, Measured, Rounded};
 pub use noun::{in_its_words, noun};
 pub use survey::smoothed;
 pub use wording::{headline, motion, name as name_of_end, unit, word};

@@ -2,7 +2,7 @@
 
 use super::joints::{place, table};
 use super::wording::word;
-use crate::wire::prose::Digits;
+use crate::wire::prose::{Digits, Measured};
 use crate::wire::request::{AimRequest, AnalysisRequest, MovementRequest};
 use crate::wire::response::OpenJointBody;
 use comfy_table::Table;
@@ -55,7 +55,8 @@ fn line(name: &str, shifts: [Way<'_>; 2], (one, other, degrees): Way<'_>) -> Opt
 
 /// Joints that are open, with their widths in mm; told by places or, of an arch, by faces.
 pub fn open_joints(joints: &[OpenJointBody], by_place: bool) -> Option<Table> {
-    let millimetres = |width: f64| Digits(1e3 * width).to_string();
+    // As in the drawing: they follow from a stiffness that is hardly known.
+    let millimetres = |width: f64| Measured(1e3 * width).to_string();
     let row = |of: &OpenJointBody| {
         let at = if by_place { place(of.at_m) } else { word(&of.opens) };
         [

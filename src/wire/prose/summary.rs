@@ -170,9 +170,7 @@ fn end_facts(result: &AnalysisResult, end: &EndBody) -> Vec<(&'static str, Strin
     // An arch that falls as built has no load to fall at.
     if window || matches!(result.outcome, Outcome::Collapse | Outcome::CannotTell | Outcome::Crushes) {
         lines.push((name, at(end.intensity, end.load_factor)));
-        lines.extend(
-            end.adequacy_factor.map(|factor| ("adequacy factor", format!("{} (1 and more is enough)", Digits(factor)))),
-        );
+        lines.extend(end.adequacy_factor.map(|factor| ("adequacy factor", adequacy(result, end, factor))));
         lines.extend(wording::sliding_range(end, unit).map(|range| ("range", range)));
         let other = end.instability.as_ref().filter(|_| end.governed_by == GovernedBy::Crushing);
         lines.extend(other.map(|other| ("without crushing", at(other.intensity, other.load_factor))));
@@ -188,6 +186,15 @@ fn end_facts(result: &AnalysisResult, end: &EndBody) -> Vec<(&'static str, Strin
     lines.extend(soil(&end.fall.passive_n_per_m, result).map(|soil| ("soil presses", soil)));
     lines.push(("residual", in_its_words(&result.request, &format!("{:.1e} of the arch's weight", end.residual))));
     lines
+}
+
+/// An adequacy factor, and what is not in it.
+fn adequacy(result: &AnalysisResult, end: &EndBody, factor: f64) -> String {
+    let less =
+        result.updated_geometry.as_ref().and_then(|updated| updated.over_first_order).is_some_and(|over| over < 1.0);
+    let not_in_it =
+        if less && end.governed_by == GovernedBy::Crushing { ", as built: movement takes off more" } else { "" };
+    format!("{} (1 and more is enough{not_in_it})", Digits(factor))
 }
 
 /// What passive elements press on either side.

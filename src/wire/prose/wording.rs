@@ -80,7 +80,9 @@ fn of_an_arch(result: &AnalysisResult) -> String {
         (outcome, _) => format!("Outcome: {}.", word(&outcome)),
     };
     let sentence = sentence + without_crushing(result).unwrap_or_default();
-    let worst = result.worst_position.as_ref();
+    // Where the structure does not stand without its vehicle, no position of that matters.
+    let stands = !matches!(result.outcome, Outcome::Crushes | Outcome::FallsAsBuilt | Outcome::SlidesAsBuilt);
+    let worst = result.worst_position.as_ref().filter(|_| stands);
     let worst = worst.map(|worst| format!(" The vehicle stands worst at x = {} m.", Rounded(worst.x_m)));
     let survey = result.survey_tolerance.as_ref().map(|of| survey::sentence(of, unit(result)));
     let sentence = sentence + &worst.or(survey).unwrap_or_default();
@@ -213,7 +215,8 @@ fn crushes(result: &AnalysisResult, end: Option<&EndBody>) -> String {
     let alone = low.is_none_or(|low| low <= 0.0) && high.is_none_or(|high| high >= 0.0);
     let what =
         if alone { "The fixed loads alone crush the arch" } else { "The arch crushes at any size of its scaled loads" };
-    let or = end.map(|end| {
+    // With vehicles that load is of the position that is worst for joints that crush, which tells nothing here.
+    let or = end.filter(|_| result.worst_position.is_none()).map(|end| {
         format!("; if its stone did not crush, it would collapse at {} {}", Rounded(end.intensity), unit(result))
     });
     format!("{what}: joints of its strength cannot carry them{}.", or.filter(|_| alone).unwrap_or_default())

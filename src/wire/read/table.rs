@@ -187,7 +187,12 @@ impl Table {
         let likeness = |known: &&String| strsim::jaro_winkler(name, known);
         let nearest = object.properties.keys().max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
         if let Some(known) = nearest.filter(|known| likeness(known) >= LIKE) {
-            return format!("{none}: write `{known}` if that is meant, or remove it");
+            let unit = if is_in_another_unit(name, known) {
+                ", with its value in the unit that its name ends with"
+            } else {
+                ""
+            };
+            return format!("{none}: write `{known}`{unit} if that is meant, or remove it");
         }
         let within = object.properties.iter().filter(|(_, schema)| self.has_member(schema, name));
         let within: Vec<_> = within.map(|(known, _)| format!("`{known}`")).collect();
@@ -223,6 +228,12 @@ impl<'a> Alternatives<'a> {
         let members = self.members.keys().map(|name| format!("{{\"{name}\": ...}}"));
         format!("give one of {}", words.chain(members).collect::<Vec<_>>().join(", "))
     }
+}
+
+/// Whether two names differ in nothing but the unit that they end with.
+fn is_in_another_unit(name: &str, known: &str) -> bool {
+    let stem = |name: &str| name.rsplit_once('_').map(|(stem, _)| stem.to_owned());
+    stem(name).is_some_and(|stem_of_name| Some(stem_of_name) == stem(known))
 }
 
 fn check_text(object: &Object, text: &str, here: &str, faults: &mut Faults) {

@@ -100,7 +100,7 @@ impl PassiveRequest {
             ),
         };
         let always = match least {
-            0.0 => "none on stones that move away".to_owned(),
+            0.0 => "no pressure on stones that move away from it".to_owned(),
             ratio => format!("{} of it (active) on stones that move away", Digits(ratio)),
         };
         format!(

@@ -2,6 +2,7 @@
 
 use super::force_unit;
 use super::structure::StructureBody;
+use super::units;
 use crate::collapse::Geometry;
 use crate::wire::prose::{Digits, smoothed};
 use crate::wire::request::{AnalysisRequest, LoadEntry, LoadRequest, Subblocks, SubblocksRequest};
@@ -36,10 +37,6 @@ const WEIGHS_TWICE: &str = "Self weight is given twice, fixed and scaled, and bo
 const MASSLESS_IS_SHAKEN: &str = "A lateral pressure has no mass: in the acceleration it presses as before. Soil that shakes with \
      the structure is a fill_pressure with its density.";
 
-/// Densities of stone that there are, kg/m3; and lengths of masonry structures, m: others are taken for a slip of units.
-const DENSITIES: [f64; 2] = [500.0, 5000.0];
-const LENGTHS: [f64; 2] = [0.02, 1000.0];
-
 /// A share of a load that is missing to all of it by less is rounding.
 const ALL: f64 = 1e-9;
 
@@ -69,7 +66,7 @@ pub(super) fn assumptions(request: &AnalysisRequest, structure: &StructureBody) 
         (resists && spans > 1, BETWEEN_SPANS),
     ];
     let notes = notes.into_iter().filter(|(holds, _)| *holds).map(|(_, note)| note.to_owned());
-    let others = uncut(request, structure).into_iter().chain(units(request, structure)).chain(beyond(structure));
+    let others = uncut(request, structure).into_iter().chain(units::notes(request, structure)).chain(beyond(structure));
     let label = force_unit::note(request);
     let survey = smoothing(request).map(|smoothing| smoothed(&smoothing));
     notes
@@ -131,22 +128,6 @@ fn beyond(structure: &StructureBody) -> impl Iterator<Item = String> {
             format!("Nothing of loads[{i}] comes down on the structure: all of it goes to the ground beyond its ends.")
         }
     })
-}
-
-/// Which numbers look as if they were in other units.
-fn units(request: &AnalysisRequest, structure: &StructureBody) -> Vec<String> {
-    let others = request.stones.iter().filter_map(|stone| stone.density_kg_m3.as_ref());
-    let stones = std::iter::once(&request.stone.density_kg_m3).chain(others);
-    let densities = stones.filter(|density| !(DENSITIES[0]..=DENSITIES[1]).contains(*density));
-    let densities = densities.map(|density| {
-        format!("Is the unit right? No stone has a density of {} kg/m3; most have 1500 to 3000.", Digits(*density))
-    });
-    let across = structure.bodies.iter().flat_map(|body| &body.corners_m).map(|corner| corner[0]);
-    let [first, last] = across.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)]);
-    let length = last - first;
-    let long = (!(LENGTHS[0]..=LENGTHS[1]).contains(&length))
-        .then(|| format!("Is the unit right? The structure is {} m long: lengths are in metres.", Digits(length)));
-    densities.chain(long).collect()
 }
 
 /// Which bodies a mesh leaves whole.
