@@ -239,7 +239,7 @@ fn oval_under_a_load_on_its_crown() {
 fn stronger_stone_bears_all_that_weaker_stone_does() {
     let mut dice = Dice::new(0x57E4);
     for case in 0..60 {
-        let voussoirs = 5 + dice.below(8) as usize;
+        let voussoirs = 5 + dice.below(8);
         let (opening, thickness, at) = (dice.between(20.0, 60.0), dice.between(1.0, 2.0), dice.between(-0.8, 0.8));
         let window = |strength: f64, side: f64| {
             let smooth = if side > 0.0 { voussoirs } else { 0 };
