@@ -20,7 +20,8 @@ pub struct BridgeRequest {
     /// Blocks under the first and the last springing.
     pub abutments: Option<BridgeAbutments>,
     /// Masonry over the haunches. Left out: none. It is blocks, with joints that bear and may slide; loose fill of another density,
-    /// which no joint holds, is `backfill.backing`.
+    /// which no joint holds, is `backfill.backing`. At an end without an abutment its plumb back leans on the ground behind, by a joint
+    /// with the friction of its stone: that ground gives way to no thrust, and may hold the backing down.
     pub backing: Option<BackingRequest>,
     /// Friction angle between two rings of a span, degrees; there is no cohesion between them. Left out: that of `stone`.
     #[schema(minimum = 0.0, exclusive_maximum = 90.0)]

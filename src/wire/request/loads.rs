@@ -47,7 +47,7 @@ pub struct LoadEntry {
 pub enum LoadRequest {
     /// Weight of the stones, given once; without it they weigh nothing.
     SelfWeight(SelfWeight),
-    /// Fill and embankment on the extrados and on top of backing, pressing down and, if asked, sideways on the flanks of the arch;
+    /// Fill and embankment on the extrados and on top of backing, pressing down (up where the extrados overhangs) and, if asked, sideways on the flanks of the arch;
     /// never on the plumb backs of abutments and backing. A road that is not level, layers and dispersal belong in `backfill`.
     FillPressure(FillPressure),
     /// Horizontal pressure in bands of height, on both flanks or one.

@@ -11,7 +11,7 @@ use utoipa::ToSchema;
 /// A `lateral_ratio` this close to that of the friction angle given with it is the same.
 const SAME_RATIO: f64 = 1e-3;
 
-/// Fill and embankment on the extrados and on top of backing, pressing down and, if asked, sideways on the flanks of the arch;
+/// Fill and embankment on the extrados and on top of backing, pressing down (up where the extrados overhangs) and, if asked, sideways on the flanks of the arch;
 /// never on the plumb backs of abutments and backing. A road that is not level, layers and dispersal belong in `backfill`. Beside
 /// one there is an embankment only, which stands on it. They press, eq. (7) of the paper: `q_v = (H - y) g rho_f + h_e g rho_e` on
 /// the plan projection of the extrados and `q_h = K q_v` on its vertical projection. In a `body_acceleration` they push with their
