@@ -90,9 +90,7 @@ impl Journal {
         }
         Ok(())
     }
-}
 
-impl Journal {
     fn append(&mut self, line: &str) -> io::Result<()> {
         if let Err(error) = self.file.write_all(line.as_bytes()) {
             self.cut_back()?;

@@ -57,7 +57,8 @@ type Tie = ([f64; 2], [(usize, f64); 2]);
 struct Seen {
     /// Corners and contact points, which are alike up to rounding.
     places: Vec<Vec2>,
-    /// What has to be the same: subblocks, stiffness of the stone (Young's modulus, Poisson's ratio), and how contact points are tied to the subblocks.
+    /// What has to be the same: subblocks, stiffness of the stone (Young's modulus, Poisson's ratio), and how contact points are tied to
+    /// the subblocks.
     grid: [usize; 2],
     stone: [f64; 2],
     ties: Vec<Tie>,

@@ -39,7 +39,7 @@ pub(super) struct Hunt<'s> {
     pub scatter: Scatter,
     /// Whether joints of a chain have cohesion.
     adheres: bool,
-    /// Whether the chain and its loads are their own mirror image.
+    /// Whether that chain and its loads are their own mirror image, too.
     pub even: bool,
 }
 
@@ -79,14 +79,15 @@ pub(super) enum Tried {
 impl<'s> Hunt<'s> {
     pub(super) fn new(search: &'s Search<'s>) -> Self {
         let joints = &search.analysis.structure.joints;
-        let adheres = joints.iter().filter_map(|joint| joint.law.coulomb()).any(|[_, cohesion]| cohesion > 0.0);
+        let cohesive = joints.iter().filter_map(|joint| joint.law.coulomb()).any(|[_, cohesion]| cohesion > 0.0);
+        let adheres = cohesive && !search.theorem.has_loops();
         Hunt {
             search,
             seen: BTreeSet::new(),
             best: None,
             scatter: Scatter::new(0x51DE),
-            adheres: adheres && !search.theorem.has_loops(),
-            even: plastic_end::evenly(search.analysis),
+            adheres,
+            even: adheres && plastic_end::evenly(search.analysis),
         }
     }
 
