@@ -48,7 +48,7 @@ fn solve_prints_a_curve() {
     assert_eq!(output.status.code(), Some(1));
     assert!(String::from_utf8_lossy(&output.stderr).contains("no report: a curved beam"));
     for (flag, file) in [("--figure", "a.gif"), ("--report", "a.svg"), ("--report", "html")] {
-        let output = fed(&["solve", "-", flag, file], &beam().to_string());
+        let output = program(&["solve", "no-such-file.json", flag, file]).output().unwrap();
         assert!(
             output.status.code() == Some(2) && String::from_utf8_lossy(&output.stderr).contains("has to end in ."),
             "{file}"
