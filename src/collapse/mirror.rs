@@ -1,10 +1,29 @@
-//! Symmetric states to the last digit: displacements of the nodes are, but what follows from them is rounded in frames that are
-//! turned otherwise on either side. The mean of both sides is given.
+//! What is its own mirror image, and symmetric states to the last digit.
+//!
+//! Displacements of the nodes are symmetric, but what follows from them is rounded in frames that are turned otherwise on either side.
+//! The mean of both sides is given.
 
 use super::grid::Grid;
 use super::recovery::mirrored_corners;
-use super::{BlockState, SubblockStress};
+use super::{Analysis, BlockState, SubblockStress};
 use crate::geometry::{Vec2, mirrored};
+use crate::structure::is_symmetric;
+
+/// Whether a ring is its own mirror image in all that limit analysis sees: then the mirror image of a solution is one, too, and so is
+/// their mean.
+pub(super) fn is_even(analysis: &Analysis) -> bool {
+    let structure = &analysis.structure;
+    let (axis, n) = (structure.axis(), structure.joints.len());
+    let strength = |k: usize| structure.strength_at(&structure.joints[k]);
+    let symmetric = |forces: &[_]| is_symmetric(forces, structure.bodies.len(), axis);
+    let ring = structure.is_one_ring() && structure.ring().len() == n && structure.bodies.len() + 1 == n;
+    ring && !structure.is_half()
+        && structure.asymmetry().is_none()
+        && (0..n).all(|k| strength(k) == strength(n - 1 - k))
+        && symmetric(&analysis.fixed)
+        && symmetric(&analysis.scaled)
+        && symmetric(&structure.passive.iter().map(|element| element.force(element.most)).collect::<Vec<_>>())
+}
 
 impl BlockState {
     /// Of the stone on the other side of a symmetric structure.

@@ -5,11 +5,12 @@
 
 use super::ending::thrust_line;
 use super::mechanism::{self, ELASTIC};
+use super::mirror::is_even;
 use super::motion::{Motion, motion_at};
 use super::{Analysis, CrushedJoint, Face, Mechanism, Mode, PathEnd};
 use crate::geometry::Vec2;
 use crate::limit::{CrushingWindow, Resultant, StaticTheorem};
-use crate::structure::{Joint, Structure, is_symmetric};
+use crate::structure::{Joint, Structure};
 
 /// The state at the lowest (0) or the highest end (1) of a window; none where it has no end.
 pub(super) fn at(
@@ -24,7 +25,7 @@ pub(super) fn at(
     if !window.ends[end].is_finite() || state.2.is_empty() {
         return None;
     }
-    if evenly(analysis) {
+    if is_even(analysis) {
         state = evened(&state);
     }
     let (forces, soil, motion) = state;
@@ -71,21 +72,6 @@ fn turning(structure: &Structure, motion: &[[f64; 3]]) -> Mechanism {
     let voussoirs = &motions[..structure.voussoirs().len()];
     let mechanism = mechanism::read_off(&turned, voussoirs, &rates, &vec![false; rates.len()], ELASTIC);
     mechanism.placed_in(structure)
-}
-
-/// Whether the programme is its own mirror image: then so is the mean of a solution of it and its mirror image.
-pub(super) fn evenly(analysis: &Analysis) -> bool {
-    let structure = &analysis.structure;
-    let (axis, n) = (structure.axis(), structure.joints.len());
-    let strength = |k: usize| structure.strength_at(&structure.joints[k]);
-    let symmetric = |forces: &[_]| is_symmetric(forces, structure.bodies.len(), axis);
-    let ring = structure.is_one_ring() && structure.ring().len() == n && structure.bodies.len() + 1 == n;
-    ring && !structure.is_half()
-        && structure.asymmetry().is_none()
-        && (0..n).all(|k| strength(k) == strength(n - 1 - k))
-        && symmetric(&analysis.fixed)
-        && symmetric(&analysis.scaled)
-        && symmetric(&structure.passive.iter().map(|element| element.force(element.most)).collect::<Vec<_>>())
 }
 
 type State = (Vec<Resultant>, Vec<f64>, Vec<[f64; 3]>);

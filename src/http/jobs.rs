@@ -5,7 +5,7 @@ use super::layers::Client;
 use super::problem::{Problem, kinds};
 use super::service::{AppState, Service, ended};
 use super::status::{JobList, JobStatus, ListLinks};
-use crate::jobs::{Cancelled, Job, JobId, JobState, Status, Which};
+use crate::jobs::{Cancelled, Job, JobId, Status, Which};
 use crate::wire::json;
 use crate::wire::request::Request;
 use axum::Extension;
@@ -93,9 +93,7 @@ pub(super) async fn show(state: AppState, Known(job): Known, headers: HeaderMap)
     let step = job.progress.map(|step| (step.load_factor.to_bits(), step.events));
     let version = Version::of((job.id, job.status().word(), job.position, step));
     let mut response = version.known(&headers).unwrap_or_else(|| version.mark((JSON, body)));
-    if matches!(job.state, JobState::Failed(_)) {
-        state.store.seen(job.id).await?;
-    }
+    state.told(&job).await?;
     let again = state.look_again(&job).await;
     response.headers_mut().extend(again.map(|seconds| (header::RETRY_AFTER, HeaderValue::from(seconds))));
     Ok(response)

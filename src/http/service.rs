@@ -11,7 +11,7 @@ use super::quota::Quota;
 use super::readers::Readers;
 use crate::budget::Budget;
 use crate::collapse::{AnalysisError, Answer, Question};
-use crate::jobs::{Failure, Job, JobState, Limits, Store, Work, Workers};
+use crate::jobs::{Failure, Job, JobState, Limits, Status, Store, Unavailable, Work, Workers};
 use axum::body::Bytes;
 use axum::http::HeaderValue;
 use std::sync::Arc;
@@ -92,6 +92,11 @@ impl Service {
             painter: Painter::new(),
             settings: Arc::new(settings),
         }
+    }
+
+    /// A client is told how a job stands: of one that has failed there is no more to learn.
+    pub(super) async fn told(&self, job: &Job) -> Result<(), Unavailable> {
+        if job.status() == Status::Failed { self.store.seen(job.id).await } else { Ok(()) }
     }
 }
 

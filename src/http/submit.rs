@@ -70,10 +70,7 @@ pub(super) async fn submit(
     tracing::Span::current().record("job.id", tracing::field::display(job.id));
     let preferred = Preferred::read(&headers);
     let job = stand_after(&state, job, preferred.wait.unwrap_or_default()).await?;
-    if job.status() == Status::Failed {
-        // Its client learns here how it ended.
-        state.store.seen(job.id).await?;
-    }
+    state.told(&job).await?;
     let whole = preferred.results && job.status() == Status::Successful;
     let part = if whole { state.store.part(job.id, rendering::WHOLE, Format::Json.name()).await? } else { None };
     let results = part.and_then(|part| Some((part.body.ok()?, part.packed_from)));

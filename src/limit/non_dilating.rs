@@ -43,12 +43,13 @@ pub fn releases(joint: &Joint, forces: &Resultant, none: f64) -> Vec<Release> {
         JointLaw::Bonded => return Vec::new(),
     };
     let corners = [(Face::Intrados, forces.extrados), (Face::Extrados, forces.intrados)];
-    let opens = corners.iter().any(|(_, force)| *force <= none);
-    let capacity = friction * forces.normal() + if opens { 0.0 } else { cohesion * joint.length() };
-    let rotations = corners.into_iter().filter(|(_, force)| *force <= none).map(|(face, _)| Release::Rotation(face));
+    let open = corners.into_iter().filter(|(_, force)| *force <= none);
+    let rotations: Vec<Release> = open.map(|(face, _)| Release::Rotation(face)).collect();
+    let adhesion = if rotations.is_empty() { cohesion * joint.length() } else { 0.0 };
+    let capacity = friction * forces.normal() + adhesion;
     // The shear on the stone after the joint opposes its sliding.
     let slides = [1.0, -1.0].into_iter().filter(|sign| capacity + sign * forces.shear <= none).map(Release::Sliding);
-    rotations.chain(slides).collect()
+    rotations.into_iter().chain(slides).collect()
 }
 
 impl StaticTheorem {

@@ -210,8 +210,8 @@ impl Canvas {
             let Some(middle) = self.labels.place(*at, *direction, size) else { continue };
             let edge = |place: Vec2| middle + (place - middle).sup(&(-0.5 * size)).inf(&(0.5 * size));
             let off = |place: &Vec2| (edge(*place) - place).norm();
-            let another_is_nearer = wanted.iter().any(|(other, ..)| off(other) < off(at));
-            if off(at) > NEEDS_LEADER || another_is_nearer {
+            let another_is_nearer = || wanted.iter().any(|(other, ..)| off(other) < off(at));
+            if off(at) > NEEDS_LEADER || another_is_nearer() {
                 self.line("leader", *at, edge(*at));
             }
             self.text("label", middle + Vec2::new(0.0, 0.35 * LETTERS), words);

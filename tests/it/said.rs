@@ -390,9 +390,10 @@ fn where_the_fixed_loads_crush_a_bridge_no_position_is_told() {
 
 #[test]
 fn a_name_in_another_unit_is_put_right_with_its_value() {
-    let request = bridge(json!({}), json!({"width_mm": 5000, "nmae": "a"}));
+    let request = bridge(json!({}), json!({"width_mm": 5000, "nmae": "a", "load_facto": {}}));
     let faults = read_question(request.to_string().as_bytes()).unwrap_err();
     let detail = |pointer: &str| &faults.iter().find(|fault| fault.pointer == pointer).unwrap().detail;
     assert!(detail("/width_mm").contains("write `width_m`, with its value in the unit"), "{faults:?}");
     assert!(detail("/nmae").contains("write `name` if that is meant"), "{faults:?}");
+    assert!(detail("/load_facto").contains("write `load_factor` if that is meant"), "{faults:?}");
 }

@@ -226,6 +226,7 @@ fn what_is_owed_survives_the_process() {
     }
     drop(service);
     assert_eq!(Voussoir::serve(&flags).client().get(&endless).status, 404, "what was cancelled is not owed");
+    std::fs::remove_file(journal.with_extension("lock")).unwrap();
     std::fs::remove_file(journal).unwrap();
 }
 
@@ -245,5 +246,6 @@ fn what_is_owed_survives_a_stop_in_order_too() {
     client.ended(&waiting);
     assert_eq!(client.get(&format!("{waiting}/results")).status, 200);
     drop(service);
+    std::fs::remove_file(journal.with_extension("lock")).unwrap();
     std::fs::remove_file(journal).unwrap();
 }

@@ -1,7 +1,7 @@
 //! The search for the mechanism of least load: motions of joints at their limits, exchanged.
 
 use super::super::mechanism::Released;
-use super::super::plastic_end;
+use super::super::mirror::is_even;
 use super::super::scatter::Scatter;
 use super::{Search, groups};
 use crate::limit::{Equilibrium, Release, Resultant, SoilEnd, releases};
@@ -87,7 +87,7 @@ impl<'s> Hunt<'s> {
             best: None,
             scatter: Scatter::new(0x51DE),
             adheres,
-            even: adheres && plastic_end::evenly(search.analysis),
+            even: adheres && is_even(search.analysis),
         }
     }
 

@@ -125,7 +125,8 @@ impl Setup<'_> {
                 None
             }
             method @ (Method::EventPath(_) | Method::CrushingPath { .. }) => {
-                if method != (Method::CrushingPath { least: false }) && ending.end.crushed.is_empty() {
+                let looks = !matches!(method, Method::CrushingPath { least: false });
+                if looks && ending.end.crushed.is_empty() {
                     self.take_least(&mut ending, sign)?;
                 }
                 match self.certificate.compare(&ending.end, sign) {

@@ -132,9 +132,9 @@ fn stands_only(window: &LimitWindow, why: Unreached) -> String {
 
 fn sole_load(LoadRange { least, mechanisms_tried, .. }: &LoadRange) -> String {
     format!(
-        "Joints slide. Load factor {} is the only one found at which the arch falls, for stone that does not crush: limit analysis, which lets sliding joints \
-         dilate (associated friction), allows no more, and no mechanism without dilation was found in equilibrium at less \
-         ({mechanisms_tried} tried).",
+        "Joints slide. Load factor {} is the only one found at which the arch falls, for stone that does not crush: limit \
+         analysis, which lets sliding joints dilate (associated friction), allows no more, and no mechanism without dilation was \
+         found in equilibrium at less ({mechanisms_tried} tried).",
         Digits(*least)
     )
 }

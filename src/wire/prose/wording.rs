@@ -216,10 +216,10 @@ fn crushes(result: &AnalysisResult, end: Option<&EndBody>) -> String {
     let what =
         if alone { "The fixed loads alone crush the arch" } else { "The arch crushes at any size of its scaled loads" };
     // With vehicles that load is of the position that is worst for joints that crush, which tells nothing here.
-    let or = end.filter(|_| result.worst_position.is_none()).map(|end| {
+    let or = end.filter(|_| alone && result.worst_position.is_none()).map(|end| {
         format!("; if its stone did not crush, it would collapse at {} {}", Rounded(end.intensity), unit(result))
     });
-    format!("{what}: joints of its strength cannot carry them{}.", or.filter(|_| alone).unwrap_or_default())
+    format!("{what}: joints of its strength cannot carry them{}.", or.unwrap_or_default())
 }
 
 fn stands(result: &AnalysisResult) -> String {

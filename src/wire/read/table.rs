@@ -22,6 +22,9 @@ pub struct Table {
     stray: fn(&str) -> Option<&'static str>,
 }
 
+/// Units that names of fields end with.
+const UNITS: [&str; 7] = ["m", "m3", "deg", "n", "pa", "g", "kn"];
+
 /// What a choice can be: a word, or an object with one member.
 #[derive(Default)]
 struct Alternatives<'a> {
@@ -230,10 +233,10 @@ impl<'a> Alternatives<'a> {
     }
 }
 
-/// Whether two names differ in nothing but the unit that they end with.
+/// Whether a name differs from one that ends with a unit in nothing but that.
 fn is_in_another_unit(name: &str, known: &str) -> bool {
-    let stem = |name: &str| name.rsplit_once('_').map(|(stem, _)| stem.to_owned());
-    stem(name).is_some_and(|stem_of_name| Some(stem_of_name) == stem(known))
+    let parts = name.rsplit_once('_').zip(known.rsplit_once('_'));
+    parts.is_some_and(|((stem, _), (known, unit))| stem == known && UNITS.contains(&unit))
 }
 
 fn check_text(object: &Object, text: &str, here: &str, faults: &mut Faults) {

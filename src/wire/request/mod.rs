@@ -132,6 +132,12 @@ impl AnalysisRequest {
         self.partial_factors.unwrap_or_default()
     }
 
+    /// True where fill weighs on the structure.
+    pub fn is_filled(&self) -> bool {
+        let fills = |entry: &LoadEntry| matches!(entry.load, LoadRequest::FillPressure(_));
+        self.backfill.is_some() || self.loads.iter().any(fills)
+    }
+
     /// True where only the left half of an arch is asked about.
     pub fn half(&self) -> bool {
         self.arch.as_ref().is_some_and(|arch| arch.half)

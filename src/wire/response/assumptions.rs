@@ -51,7 +51,6 @@ pub(super) fn assumptions(request: &AnalysisRequest, structure: &StructureBody) 
         request.loads.iter().any(|entry| entry.scaled == scaled && matches!(entry.load, LoadRequest::SelfWeight(_)))
     };
     let shaken = any(|load| matches!(load, LoadRequest::BodyAcceleration(_)));
-    let fill = any(|load| matches!(load, LoadRequest::FillPressure(_)));
     let massless = any(|load| matches!(load, LoadRequest::LateralPressure(_)));
     let resists = !structure.passive_elements.is_empty();
     let spans = request.bridge.as_ref().map_or(1, |bridge| bridge.spans.len());
@@ -60,7 +59,7 @@ pub(super) fn assumptions(request: &AnalysisRequest, structure: &StructureBody) 
         (stiff, STIFF_CONTACTS),
         (!weight, NO_WEIGHT),
         (weighs(true) && weighs(false), WEIGHS_TWICE),
-        (shaken && (fill || request.backfill.is_some()), FILL_IS_SHAKEN),
+        (shaken && request.is_filled(), FILL_IS_SHAKEN),
         (shaken && massless, MASSLESS_IS_SHAKEN),
         (shaken && resists, SOIL_IS_SHAKEN),
         (resists && spans > 1, BETWEEN_SPANS),

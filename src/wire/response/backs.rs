@@ -3,7 +3,7 @@
 use super::{JointBody, StructureBody};
 use crate::collapse::{CollapseReport, Thrust};
 use crate::wire::prose::Digits;
-use crate::wire::request::{AnalysisRequest, LoadEntry, LoadRequest};
+use crate::wire::request::AnalysisRequest;
 
 /// Note on abutments beside soil.
 const NO_SOIL_BEHIND: &str = "No soil presses on the plumb backs of abutments, and none resists behind them: an abutment stands by what it \
@@ -17,13 +17,8 @@ const GROUND: &str = "ground.";
 pub(super) fn notes(request: &AnalysisRequest, structure: &StructureBody, report: &CollapseReport) -> Vec<String> {
     let Some(bridge) = &request.bridge else { return Vec::new() };
     let abutments = bridge.abutments.as_ref().is_some_and(|ends| ends.left.is_some() || ends.right.is_some());
-    let alone = (abutments && has_soil(request)).then(|| NO_SOIL_BEHIND.to_owned());
+    let alone = (abutments && request.is_filled()).then(|| NO_SOIL_BEHIND.to_owned());
     leaning(structure, report).into_iter().chain(alone).collect()
-}
-
-fn has_soil(request: &AnalysisRequest) -> bool {
-    let fills = |entry: &LoadEntry| matches!(entry.load, LoadRequest::FillPressure(_));
-    request.backfill.is_some() || request.loads.iter().any(fills)
 }
 
 /// A note on backing that leans on the ground, with the forces of those joints at the end that governs.
