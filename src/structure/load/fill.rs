@@ -139,6 +139,13 @@ impl Fill {
         })
     }
 
+    /// Whether backing lies at a point: below its top, and below all layers but the lowest.
+    pub(super) fn is_backing(&self, at: Vec2) -> bool {
+        let line = self.line.as_ref().map_or(at.y, |line| line.height(at.x));
+        let mut lowest = self.layers.iter().filter(|layer| layer.bottom == f64::NEG_INFINITY);
+        self.backing.is_some_and(|backing| at.y < backing.height) && lowest.any(|layer| at.y < line + layer.top)
+    }
+
     /// Stretches of the side from `a` to `b` along which the mass of the columns is linear.
     pub(super) fn stretches(&self, a: Vec2, b: Vec2) -> impl Iterator<Item = Stretch> {
         self.cut(a, b, Vec::new())

@@ -43,7 +43,7 @@ impl Passive {
                     continue;
                 }
                 let pressure = fill.pressure(at);
-                let backing = self.backing.filter(|_| fill.backing.is_some_and(|backing| at.y < backing.height));
+                let backing = self.backing.filter(|_| fill.is_backing(at));
                 let most = backing.unwrap_or(self.most * pressure + self.cohesion);
                 let (least, mobilised_at) = ((self.least * pressure).min(most), self.mobilised_at * depth);
                 let most = (most - least) * height;

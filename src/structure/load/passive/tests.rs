@@ -1,4 +1,4 @@
-use super::super::fill::{FillBacking, SurfaceLine};
+use super::super::fill::{FillBacking, Layer, SurfaceLine};
 use super::super::tests::{arch_of, close, fill, ring};
 use super::*;
 use crate::arch::profile::Profile;
@@ -76,6 +76,20 @@ fn backing_resists_with_its_own_strength() {
     close(below, 1.2 * 5e4, 1e-8);
     let plain = PASSIVE.of(&fill(Some(3.0)), &semicircle(12)).0;
     assert!(elements.iter().filter(|e| e.at.y > 1.9).all(|e| plain.iter().any(|p| p == e)));
+}
+
+#[test]
+fn backing_resists_below_the_layers_only() {
+    let layer = |bottom: f64, top: f64| Layer { bottom, top, density: 1600.0 };
+    let layers = vec![layer(f64::NEG_INFINITY, -2.2), layer(-2.2, 0.0)];
+    let backing = |height: f64| Some(FillBacking { height, density: 1600.0 });
+    let backed = |height: f64| Fill { layers: layers.clone(), backing: backing(height), ..fill(Some(3.0)) };
+    let passive = Passive { backing: Some(5e4), ..PASSIVE };
+    let [(high, _), (level, _)] = [1.2, 0.8].map(|height| passive.of(&backed(height), &semicircle(12)));
+    let below: f64 = high.iter().filter(|e| e.way > 0.0 && e.at.y < 0.8).map(|e| e.most).sum();
+    close(below, 0.8 * 5e4, 1e-8);
+    let [high, level] = [high, level].map(|all| all.iter().map(|e| e.most).sum::<f64>());
+    close(high, level, 1e-8);
 }
 
 #[test]
