@@ -91,8 +91,9 @@ impl Bridge {
                 checks.stone(place("stone"), ring.stone);
             }
         }
-        if self.spans.iter().any(|span| span.rings.len() > 1) {
-            let (angle, needs) = (self.ring_friction_angle, "at least 0 and less than 90 degrees");
+        let between_rings = self.spans.iter().any(|span| span.rings.len() > 1);
+        if let Some(angle) = self.ring_friction_angle.filter(|_| between_rings) {
+            let needs = "at least 0 and less than 90 degrees";
             checks.number("ring_friction_angle".to_owned(), angle, (0.0..FRAC_PI_2).contains(&angle), needs);
         }
     }

@@ -92,8 +92,8 @@ pub struct Bridge {
     pub ends: [BridgeEnd; 2],
     /// Masonry over the haunches.
     pub backing: Option<Backing>,
-    /// Friction angle between two rings of a span, rad; there is no cohesion between them.
-    pub ring_friction_angle: f64,
+    /// Friction angle between two rings of a span, rad; none: that of the rings' stones. There is no cohesion between them.
+    pub ring_friction_angle: Option<f64>,
     /// What all is made of. Between two of them the lower friction and the lower cohesion hold.
     pub stones: Vec<Stone>,
 }
@@ -236,8 +236,11 @@ impl Works<'_> {
     }
 
     fn between_rings(&mut self, span: usize) {
-        let law = JointLaw::Dry { friction: self.bridge.ring_friction_angle.tan(), cohesion: 0.0 };
+        let Bridge { stones, spans, ring_friction_angle, .. } = self.bridge;
         for (m, pair) in self.numbers.rings[span].windows(2).enumerate() {
+            let [below, above] = [m, m + 1].map(|ring| &stones[spans[span].rings[ring].stone]);
+            let angle = ring_friction_angle.unwrap_or_else(|| below.friction_angle.min(above.friction_angle));
+            let law = JointLaw::Dry { friction: angle.tan(), cohesion: 0.0 };
             for (below, above, [left, right]) in self.spans[span].between_rings(m) {
                 let between = [Side::Body(pair[0] + below), Side::Body(pair[1] + above)];
                 self.structure.joints.push(Joint { between, intrados: right, extrados: left, law });

@@ -16,7 +16,7 @@ fn pier(top_width: f64) -> Pier {
 
 fn bridge(spans: Vec<BridgeSpan>, piers: Vec<Pier>) -> Bridge {
     let stones = vec![Stone::default(); 2];
-    Bridge { spans, piers, ends: [BridgeEnd::Ground; 2], backing: None, ring_friction_angle: 0.5, stones }
+    Bridge { spans, piers, ends: [BridgeEnd::Ground; 2], backing: None, ring_friction_angle: Some(0.5), stones }
 }
 
 fn segmental() -> Profile {
@@ -82,6 +82,22 @@ fn rings_of_one_number_have_their_joints_in_line() {
         let (lower, upper) = (structure.joints[k], structure.joints[11 + k]);
         assert_eq!(lower.extrados, upper.intrados);
         assert!(cross(lower.tangent(), upper.tangent()).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn the_lower_friction_of_their_stones_holds_between_rings_unless_it_is_given() {
+    let upper = RingCourse { stone: 1, ..ring(0.3, 10) };
+    let mut bridge = bridge(vec![span(segmental(), &[ring(0.4, 10), upper])], Vec::new());
+    let between =
+        |bridge: &Bridge| bridge.build().unwrap().joints[22..].iter().map(|joint| joint.law).collect::<Vec<_>>();
+    let dry = |angle: f64| vec![JointLaw::Dry { friction: angle.tan(), cohesion: 0.0 }; 10];
+    assert_eq!(between(&bridge), dry(0.5));
+    bridge.ring_friction_angle = None;
+    for angles in [[0.3, 0.7], [0.6, 0.4]] {
+        bridge.stones =
+            angles.map(|friction_angle| Stone { friction_angle, cohesion: 1e5, ..Stone::default() }).to_vec();
+        assert_eq!(between(&bridge), dry(angles[0].min(angles[1])));
     }
 }
 
@@ -212,7 +228,7 @@ fn every_number_out_of_range_is_named() {
     wrong.piers[0] = Pier { top_width: f64::NAN, height: 0.0, courses: 0, batter: -0.1, stone: 9 };
     wrong.ends[1] = BridgeEnd::Abutment { height: -1.0, width: Some(0.0), stone: 5 };
     wrong.backing = Some(Backing { level: f64::INFINITY, stone: 2 });
-    wrong.ring_friction_angle = 2.0;
+    wrong.ring_friction_angle = Some(2.0);
     let words: Vec<_> = faults(&wrong).iter().map(|fault| fault.to_string()).collect();
     let places = [
         "spans[0].rings[0].stone is 2",

@@ -191,7 +191,7 @@ function bridge(draft) {
           stoneOf(draft, '/bridge/backing'),
         ],
       number(draft, '/bridge/ring_friction_angle_deg', 'Friction between rings', 'degrees', {
-        usual: 'that of the stone',
+        usual: 'that of the stones',
       }),
     ),
   ];

@@ -34,7 +34,7 @@ fn bridge() -> Vec<Body> {
         piers: Vec::new(),
         ends: [end; 2],
         backing: Some(Backing { level: 3.0, stone: 0 }),
-        ring_friction_angle: 0.6,
+        ring_friction_angle: Some(0.6),
         stones: vec![Stone::default()],
     };
     bridge.build().unwrap().bodies

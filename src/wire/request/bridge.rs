@@ -23,7 +23,8 @@ pub struct BridgeRequest {
     /// which no joint holds, is `backfill.backing`. At an end without an abutment its plumb back leans on the ground behind, by a joint
     /// with the friction of its stone: that ground gives way to no thrust, and may hold the backing down.
     pub backing: Option<BackingRequest>,
-    /// Friction angle between two rings of a span, degrees; there is no cohesion between them. Left out: that of `stone`.
+    /// Friction angle between two rings of a span, degrees; there is no cohesion between them. Left out: the lower of their
+    /// stones'.
     #[schema(minimum = 0.0, exclusive_maximum = 90.0)]
     pub ring_friction_angle_deg: Option<f64>,
 }

@@ -22,8 +22,7 @@ pub fn bridge(request: &BridgeRequest, stones: &Stones<'_>, faults: &mut Faults)
         let stone = stones.named(backing.stone.as_deref(), "/bridge/backing/stone", faults);
         Backing { level: backing.level_m, stone }
     });
-    let ring_friction_angle =
-        request.ring_friction_angle_deg.map_or_else(|| stones.all[0].friction_angle, f64::to_radians);
+    let ring_friction_angle = request.ring_friction_angle_deg.map(f64::to_radians);
     let (spans, piers) = (spans?, piers?);
     if faults.len() > before {
         return None;

@@ -70,7 +70,7 @@ fn one_span_of_one_ring_is_the_ring_of_an_arch() {
                 piers: Vec::new(),
                 ends: [BridgeEnd::Ground; 2],
                 backing: None,
-                ring_friction_angle: 0.5,
+                ring_friction_angle: Some(0.5),
                 stones: vec![Stone::default()],
             };
             let structure = bridge.build().unwrap();

@@ -28,7 +28,7 @@ fn bridges() -> Vec<Bridge> {
         piers: Vec::new(),
         ends: [BridgeEnd::Ground; 2],
         backing: None,
-        ring_friction_angle: 0.5,
+        ring_friction_angle: Some(0.5),
         stones: vec![Stone::default(), Stone { friction_angle: 0.4, ..Stone::default() }],
     };
     let two = Bridge {
@@ -179,7 +179,7 @@ fn random_bridge(dice: &mut Dice) -> Bridge {
     };
     let ends = [end(), end()];
     let backing = (dice.below(2) == 0).then(|| Backing { level: dice.between(0.0, 3.0), stone: 1 });
-    Bridge { spans, piers, ends, backing, ring_friction_angle: 0.5, stones: vec![Stone::default(); 2] }
+    Bridge { spans, piers, ends, backing, ring_friction_angle: Some(0.5), stones: vec![Stone::default(); 2] }
 }
 
 #[test]
