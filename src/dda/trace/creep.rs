@@ -4,6 +4,10 @@ use super::moving::{Patience, farthest};
 use super::point::PathState;
 use super::{Peak, Tracer};
 
+/// A parameter that rises by more than `creep` times this times what it had risen by goes on, however little that is of the rise that
+/// counts: four times as far is out of reach.
+const OUT_OF_REACH: f64 = 4.0;
+
 /// A stretch of a path, from where its parameter had last risen by enough.
 #[derive(Debug, Clone)]
 pub(super) struct Stretch {
@@ -56,6 +60,12 @@ impl Tracer<'_> {
         }
         let falls = self.peak.as_ref().is_some_and(|peak| peak.parameter > self.parameter);
         if moved <= 1.0 || falls {
+            return false;
+        }
+        let knee = stretch.knee.parameter;
+        if self.parameter - knee > patience.creep * OUT_OF_REACH * (knee - stretch.start) {
+            (stretch.from, stretch.knee, stretch.above) = (stretch.last.clone(), self.as_peak(), 0.0);
+            stretch.rise = (self.parameter - stretch.start).max(patience.rise);
             return false;
         }
         self.peak = Some(stretch.knee.clone());
