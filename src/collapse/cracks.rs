@@ -3,7 +3,7 @@
 use super::discretise::Model;
 use super::{Face, OpenJoint, SettlementPath, Thrust};
 use crate::dda::Tracer;
-use crate::structure::{Joint, JointLaw, Structure};
+use crate::structure::{Joint, Structure};
 
 /// A joint that is open by less than this share of its length is shut: that is strain of stones and contacts.
 const SHUT: f64 = 1e-6;
@@ -17,9 +17,8 @@ const AT_END: f64 = 0.99;
 pub(super) fn open_joints(structure: &Structure, model: &Model, tracer: &Tracer) -> Vec<OpenJoint> {
     let opens = |(k, joint): (usize, &Joint)| {
         joint.law.coulomb()?;
-        // The other stone's half of a joint on the plane of symmetry is its mirror image.
-        let both = if joint.law == JointLaw::Wall { 2.0 } else { 1.0 };
-        let gaps: Vec<[f64; 2]> = model.contacts(k).map(|p| [model.position(k, p), both * tracer.gap(p)[0]]).collect();
+        let gap = |p: usize| model.opening(k, tracer.gap_between_bodies(p));
+        let gaps: Vec<[f64; 2]> = model.contacts(k).map(|p| [model.position(k, p), gap(p)]).collect();
         open_joint(k, joint, &gaps)
     };
     structure.ring().iter().enumerate().filter_map(opens).collect()
@@ -66,7 +65,7 @@ pub(super) fn shared(structure: &Structure, path: &SettlementPath) -> Option<usi
 mod tests {
     use super::*;
     use crate::geometry::Vec2;
-    use crate::structure::Side;
+    use crate::structure::{JointLaw, Side};
 
     #[test]
     fn width_and_depth_are_those_of_a_gap_linear_between_points() {

@@ -35,6 +35,8 @@ pub(super) struct Model<'p> {
     pub grids: Vec<Grid>,
     /// Places of every joint's contact points: 0 at its first end, 1 at its second.
     positions: Vec<Vec<f64>>,
+    /// How many times as far every joint opens as its contact points do.
+    halves: Vec<f64>,
     /// Extent, m.
     pub size: f64,
     /// Whether the assembly is its own mirror image.
@@ -141,6 +143,7 @@ pub(super) fn discretise<'p>(
         size: extent(structure.ring().iter().flat_map(|j| [j.intrados, j.extrados])),
         softest: f64::INFINITY,
         positions,
+        halves: structure.ring().iter().map(|joint| joint.law.halves()).collect(),
         assembly,
         grids,
     };
@@ -317,6 +320,11 @@ impl Model<'_> {
     /// Whether the contact points of joint `k` are capped.
     pub(super) fn crushes(&self, joint: usize) -> bool {
         self.contacts(joint).any(|p| self.assembly.contacts()[p].cap().is_finite())
+    }
+
+    /// How far joint `k` is open where the gap between bodies at a contact of it is this, m.
+    pub(super) fn opening(&self, joint: usize, gap: f64) -> f64 {
+        self.halves[joint] * gap
     }
 
     /// Place of contact `p` on joint `k`: 0 at its first end, 1 at its second.

@@ -80,7 +80,7 @@ pub struct ContactPoint {
     pub normal: f64,
     /// Tangential force on the stone after the joint, towards the extrados positive, N/m.
     pub tangential: f64,
-    /// Opening, positive when open, m.
+    /// Opening between the stones, positive when open, m; on a plane of symmetry that of the whole joint.
     pub gap: f64,
 }
 

@@ -26,7 +26,7 @@ pub(super) fn snapshot(model: &Model, state: &Standing) -> Result<Snapshot, Anal
         position: model.position(joint, p),
         normal: forces[p].normal,
         tangential: forces[p].tangential,
-        gap: forces[p].gap,
+        gap: model.opening(joint, forces[p].gap),
     };
     let contacts =
         (0..model.joints).flat_map(|joint| model.contacts(joint).map(move |p| (joint, p))).map(|(j, p)| contact(j, p));

@@ -147,6 +147,12 @@ impl JointLaw {
             JointLaw::Bonded | JointLaw::Mirror => None,
         }
     }
+
+    /// How many times as far a joint opens as what is analysed of it: the other half of a joint on the plane of symmetry is its mirror
+    /// image.
+    pub fn halves(self) -> f64 {
+        if self == JointLaw::Wall { 2.0 } else { 1.0 }
+    }
 }
 
 /// The contact between two bodies, or a body and the ground: a straight segment.

@@ -160,3 +160,45 @@ fn cracks_that_may_be_elsewhere_are_noted() {
     let answer = solved(&flat);
     assert!(!answer["notes"].to_string().contains("no more than three"), "{}", answer["notes"]);
 }
+
+fn soft(voussoirs: usize, half: bool, loads: Value, settlement: Value) -> CollapseReport {
+    let profile = json!({"circular": {"span_m": 6, "rise_m": 2}});
+    solve(&json!({
+        "arch": {"profile": profile, "thickness": {"constant_m": 0.5}, "voussoirs": voussoirs, "half": half},
+        "loads": loads,
+        "analysis": {"settlement": settlement},
+    }))
+}
+
+/// Springings that hardly move leave the state at the start, whose gaps are those between the stones.
+#[test]
+fn a_joint_is_open_to_where_its_stones_touch() {
+    let patch = json!({"load": {"patch_load": {"centre_x_m": -1.4, "width_m": 0.3, "force_n_per_m": 15000}}});
+    let loads = json!([{"load": {"self_weight": {}}}, patch]);
+    let report = soft(15, false, loads, json!({"right": {"outwards_m": 1e-10}}));
+    let contacts = &report.at_start.as_ref().unwrap().contacts;
+    let open = &report.settlement().unwrap().first_order.open_joints;
+    assert!(open.len() >= 3, "{open:?}");
+    for joint in open {
+        let [a, b] = [0, 1].map(|end| contacts.iter().filter(|at| at.joint == joint.joint).nth(end).unwrap().gap);
+        close(joint.depth, 0.5 * a.max(b) / (a - b).abs(), 1e-6, "depth");
+    }
+}
+
+#[test]
+fn half_an_arch_opens_at_the_crown_as_the_whole_does() {
+    let weight = json!([{"load": {"self_weight": {}}}]);
+    let outwards = json!({"outwards_m": 1e-4});
+    let whole = soft(16, false, weight.clone(), json!({"left": outwards, "right": outwards}));
+    let half = soft(16, true, weight, json!({"left": outwards}));
+    let [of_whole, of_half] = [&whole, &half].map(|report| open(report, 8));
+    close(of_half.width, of_whole.width, 1e-5, "width");
+    close(of_half.depth, of_whole.depth, 1e-5, "depth");
+    let gaps = |report: &CollapseReport| -> Vec<f64> {
+        let contacts = &report.at_start.as_ref().unwrap().contacts;
+        contacts.iter().filter(|at| at.joint == 8).map(|at| at.gap).collect()
+    };
+    for (half, whole) in gaps(&half).into_iter().zip(gaps(&whole)) {
+        close(half, whole, 1e-5, "gap");
+    }
+}

@@ -53,12 +53,9 @@ fn unfolded(structure: &Structure, left: &Snapshot) -> Snapshot {
     };
     let start = |joint: usize| left.contacts.partition_point(|contact| contact.joint < joint);
     let joint = |k: usize| left.contacts[start(k)..start(k + 1)].iter();
-    let crown = |k: usize| keystone.is_none() && 2 * k == n;
-    let contact = |k: usize, contact: &ContactPoint| match (crown(k), 2 * k > n) {
-        // The wall stands for the other stone, which moves away from it as far.
-        (true, _) => ContactPoint { gap: 2.0 * contact.gap, ..*contact },
-        (_, true) => ContactPoint { joint: k, tangential: -contact.tangential, ..*contact },
-        _ => *contact,
+    let contact = |k: usize, contact: &ContactPoint| match 2 * k > n {
+        true => ContactPoint { joint: k, tangential: -contact.tangential, ..*contact },
+        false => *contact,
     };
     let contacts = (0..=n).flat_map(|k| joint(k.min(n - k)).map(move |c| contact(k, c)));
     let (blocks, contacts) = ((0..n).map(block).collect(), contacts.collect());

@@ -27,10 +27,15 @@ impl Assembly {
         let force = |p: usize| {
             let [gap, slip] = self.gap(p, d);
             let force = contacts[p].force(gap, slip);
-            let ties = self.places[p].iter().flatten().count() as f64;
-            ContactForce { gap: gap - ties * force.normal / self.links[p][0], ..force }
+            ContactForce { gap: self.gap_between_bodies(p, gap, force.normal), ..force }
         };
         (0..self.contacts.len()).map(force).collect()
+    }
+
+    /// Gap between the bodies at contact `p`, links and contact together, when its own gap and normal force are these, m.
+    pub(in crate::dda) fn gap_between_bodies(&self, p: usize, gap: f64, normal: f64) -> f64 {
+        let links = self.places[p].iter().flatten().count() as f64;
+        gap - links * normal / self.links[p][0]
     }
 
     /// Fills `into` with `loads` minus the resistance of bodies and `contacts` at displacements `d` of every node, N/m, the

@@ -59,9 +59,9 @@ impl Tracer<'_> {
         self.rate
     }
 
-    /// Gap, positive when open, and slip of contact `p`, as the state reached has them, m.
-    pub fn gap(&self, p: usize) -> [f64; 2] {
-        self.gaps[p]
+    /// Gap between the bodies at contact `p` in the state reached, links and contact together; positive when open, m.
+    pub fn gap_between_bodies(&self, p: usize) -> f64 {
+        self.assembly.gap_between_bodies(p, self.gaps[p][0], self.force_seen(p)[0])
     }
 
     /// Rates of gap and slip of contact `p` in that direction.

@@ -37,7 +37,7 @@ pub struct CurvedBeamRequest {
     /// Inner radius, m.
     #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub inner_radius_m: f64,
-    /// Outer radius, m; 1.001 to 1000 times the inner one.
+    /// Outer radius, m; more than 1.001 times the inner one, and at most 1000 times.
     #[schema(exclusive_minimum = 0.0, maximum = 1e5)]
     pub outer_radius_m: f64,
     /// Resultant of the tractions at its ends, N per metre of width; not 0.

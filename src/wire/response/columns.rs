@@ -127,7 +127,7 @@ pub struct ContactColumns {
     pub normal_n_per_m: Vec<f64>,
     /// Tangential force on the stone after the joint, towards the extrados positive.
     pub tangential_n_per_m: Vec<f64>,
-    /// Gap, positive when open.
+    /// Gap between the stones, positive when open; at the crown of half an arch that of the whole joint.
     pub gap_m: Vec<f64>,
 }
 
@@ -144,7 +144,8 @@ impl ContactColumns {
     }
 }
 
-/// The load path, event by event; one array per quantity.
+/// The load path, event by event; one array per quantity. Its attempt disturbs stiffness and loads a little, so that events come one by
+/// one: displacements may be off those of the states by 1e-4 of the largest.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct HistoryColumns {
     /// Load factor.

@@ -43,7 +43,8 @@ impl ScaledLoadBody {
 }
 
 /// Horizontal thrust under the fixed loads, by the static theorem, with which the left springing pushes to the right; negative:
-/// to the left. With `backfill.passive` it counts the soil, which presses as equilibrium needs, up to its limits.
+/// to the left. With `backfill.passive` it counts the soil, which presses as equilibrium needs, up to its limits; of half an arch on
+/// both sides alike, which may leave the ends of the whole arch's range out.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct ThrustRangeBody {
     /// Least, kN per metre of width; null: as far the other way as one likes.

@@ -13,8 +13,6 @@ const REACH: f64 = 10.0;
 const LINK: f64 = 4.0;
 /// Stiffness may differ by this share from what is said of it.
 const UNKNOWN: f64 = 1.01e-4;
-/// Stiffness of half an arch's crown joint over that of others.
-const CROWN: f64 = 2.0;
 
 /// By how much a state breaks the law.
 #[derive(Debug, Default, Clone, Copy)]
@@ -140,8 +138,7 @@ fn of_contact(analysis: &Analysis, k: usize, joint: &Joint, share: f64, contact:
     };
     let ground = |end: usize, here: bool| here && arch.abutments()[end].is_none();
     let links = if ground(0, k == 0) || ground(1, last) { 1.0 } else { 2.0 };
-    let stiffer = if arch.is_half() && last { CROWN } else { 1.0 };
-    let stiffness = 2.0 * stiffer * share * analysis.penalty_ratio * analysis.structure.stones[0].youngs_modulus;
+    let stiffness = 2.0 * share * analysis.penalty_ratio * analysis.structure.stones[0].youngs_modulus;
     let held = share * cohesion * joint.length();
     let reach = REACH * held * (1.0 - links / LINK) / stiffness;
     let bound = match gap > 0.0 {
