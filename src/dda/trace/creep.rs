@@ -4,8 +4,8 @@ use super::moving::{Patience, farthest};
 use super::point::PathState;
 use super::{Peak, Tracer};
 
-/// A parameter that rises by more than `creep` times this times what it had risen by goes on, however little that is of the rise that
-/// counts: four times as far is out of reach.
+/// A rise that counts is no measure where it is more than so many times what the parameter had risen by: soft joints may let a
+/// structure come to a small part of its load at first order.
 const OUT_OF_REACH: f64 = 4.0;
 
 /// A stretch of a path, from where its parameter had last risen by enough.
@@ -25,6 +25,12 @@ pub(super) struct Stretch {
 }
 
 impl Stretch {
+    /// Begins anew, from there.
+    fn begin(&mut self, from: PathState, patience: Patience) {
+        self.rise = (from.parameter - self.start).max(patience.rise);
+        self.from = from;
+    }
+
     /// The parameter at which it has risen by enough.
     fn enough(&self, patience: Patience) -> f64 {
         self.from.parameter + patience.creep * self.rise
@@ -47,8 +53,8 @@ impl Tracer<'_> {
             let risen = stretch.enough(patience);
             // What is lost in rounding is no way to go.
             let goes = risen > stretch.from.parameter;
-            stretch.from = if goes { stretch.last.towards(&here, risen) } else { here.clone() };
-            stretch.rise = (stretch.from.parameter - stretch.start).max(patience.rise);
+            let from = if goes { stretch.last.towards(&here, risen) } else { here.clone() };
+            stretch.begin(from, patience);
             begins = true;
         }
         let (needed, far) = (patience.creep * stretch.rise, patience.movement[1] * self.size);
@@ -64,8 +70,8 @@ impl Tracer<'_> {
         }
         let knee = stretch.knee.parameter;
         if self.parameter - knee > patience.creep * OUT_OF_REACH * (knee - stretch.start) {
-            (stretch.from, stretch.knee, stretch.above) = (stretch.last.clone(), self.as_peak(), 0.0);
-            stretch.rise = (self.parameter - stretch.start).max(patience.rise);
+            stretch.begin(stretch.last.clone(), patience);
+            (stretch.knee, stretch.above) = (self.as_peak(), 0.0);
             return false;
         }
         self.peak = Some(stretch.knee.clone());
