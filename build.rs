@@ -24,7 +24,7 @@ fn main() {
 /// heap lie anywhere all the same. Not where glibc is linked in: that takes another start.
 ///
 /// What unwinds the stack in a panic is linked in, where the compiler has it for that: the shared library asks the processor what it is
-/// whenever it is loaded, for which a virtual machine has to stop. That took 0.17 of the 0.6 ms that were left.
+/// whenever it is loaded, for which a virtual machine has to stop. That took 0.1 of the 0.6 ms that were left.
 fn start_soon() {
     println!("cargo::rustc-link-arg-bins=-no-pie");
     if let Some(unwinder) = file_of_compiler("libgcc_eh.a")
