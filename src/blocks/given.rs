@@ -182,7 +182,7 @@ fn one(
 
 fn law(given: GivenLaw, a: &Stone, b: &Stone, place: &str) -> Result<JointLaw, BlocksFault> {
     let GivenLaw::Dry { friction_angle, cohesion } = given else { return Ok(JointLaw::Bonded) };
-    let angle = friction_angle.unwrap_or(a.friction_angle.min(b.friction_angle));
+    let angle = friction_angle.unwrap_or_else(|| a.friction_angle_on(b));
     let cohesion = cohesion.unwrap_or(a.cohesion.min(b.cohesion));
     if !((0.0..FRAC_PI_2).contains(&angle) && cohesion.is_finite() && cohesion >= 0.0) {
         return Err(BlocksFault::BadLaw { place: place.to_owned() });

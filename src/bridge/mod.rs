@@ -238,8 +238,8 @@ impl Works<'_> {
     fn between_rings(&mut self, span: usize) {
         let Bridge { stones, spans, ring_friction_angle, .. } = self.bridge;
         for (m, pair) in self.numbers.rings[span].windows(2).enumerate() {
-            let [below, above] = [m, m + 1].map(|ring| &stones[spans[span].rings[ring].stone]);
-            let angle = ring_friction_angle.unwrap_or_else(|| below.friction_angle.min(above.friction_angle));
+            let [lower, upper] = [m, m + 1].map(|ring| &stones[spans[span].rings[ring].stone]);
+            let angle = ring_friction_angle.unwrap_or_else(|| lower.friction_angle_on(upper));
             let law = JointLaw::Dry { friction: angle.tan(), cohesion: 0.0 };
             for (below, above, [left, right]) in self.spans[span].between_rings(m) {
                 let between = [Side::Body(pair[0] + below), Side::Body(pair[1] + above)];

@@ -322,7 +322,7 @@ impl Model<'_> {
         self.contacts(joint).any(|p| self.assembly.contacts()[p].cap().is_finite())
     }
 
-    /// How far joint `k` is open where the gap between bodies at a contact of it is this, m.
+    /// How far a joint is open where the gap between bodies at a contact of it is this, m.
     pub(super) fn opening(&self, joint: usize, gap: f64) -> f64 {
         self.halves[joint] * gap
     }

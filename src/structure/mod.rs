@@ -55,12 +55,14 @@ impl Default for Stone {
 }
 
 impl Stone {
+    /// Friction angle on another stone, rad: the lower of both.
+    pub fn friction_angle_on(&self, other: &Stone) -> f64 {
+        self.friction_angle.min(other.friction_angle)
+    }
+
     /// The dry joint with another stone: the lower friction and the lower cohesion of both.
     pub fn dry_joint_with(&self, other: &Stone) -> JointLaw {
-        JointLaw::Dry {
-            friction: self.friction_angle.min(other.friction_angle).tan(),
-            cohesion: self.cohesion.min(other.cohesion),
-        }
+        JointLaw::Dry { friction: self.friction_angle_on(other).tan(), cohesion: self.cohesion.min(other.cohesion) }
     }
 }
 

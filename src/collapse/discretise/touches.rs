@@ -12,10 +12,8 @@ use crate::structure::{Joint, JointLaw, PassiveElement};
 /// links (one towards the ground, two between stones) make up the joint's own.
 const LINK: f64 = 4.0;
 
-/// Stiffness of a crown joint on the plane of symmetry over that of others: its stone moves half as far towards the mirror plane as
-/// the two towards each other.
-const CROWN_JOINT: f64 = 2.0;
-/// The same of the cut through a keystone, where there is no joint: its compliance, a hundredth of a joint's, is not seen.
+/// Stiffness of the cut through a keystone, where there is no joint, over that of joints: its compliance, a hundredth of theirs, is not
+/// seen.
 const CUT_STONE: f64 = 100.0;
 
 /// What lies before and after a joint, and where the joint lies on it; none: the ground.
@@ -30,8 +28,8 @@ pub(super) fn around<'g>(joint: &Joint, grids: &'g [Grid]) -> Around<'g> {
 pub(super) fn penalties(analysis: &Analysis, joint: &Joint) -> [f64; 2] {
     let stiffer = match joint.law {
         JointLaw::Mirror => CUT_STONE,
-        JointLaw::Wall => CROWN_JOINT,
-        JointLaw::Dry { .. } | JointLaw::Bonded => 1.0,
+        // On the plane of symmetry a stone moves half as far towards it as two towards each other.
+        law => law.halves(),
     };
     let softest = analysis.structure.stones_at(joint).map(|stone| stone.youngs_modulus).fold(f64::INFINITY, f64::min);
     let penalty = analysis.penalty_ratio * softest;

@@ -31,11 +31,11 @@ pub fn strata(structure: &Structure, fills: &[Fill]) -> Vec<Stratum> {
     let mut all = Vec::new();
     for fill in fills {
         let bottom = refined(&bare, fill);
-        let line = |p: &Vec2| fill.line.as_ref().map_or(p.y, |line| line.height(p.x));
+        let line = |p: &Vec2| fill.line_over(*p);
         for layer in fill.layers.iter().rev() {
             let [low, high] = [layer.bottom, layer.top]
                 .map(|height| move |p: &Vec2| if height.is_finite() { p.y.max(line(p) + height) } else { p.y });
-            let lies_deepest = layer.bottom == f64::NEG_INFINITY;
+            let lies_deepest = layer.is_lowest();
             let class = match (lies_deepest, layer.bottom >= 0.0) {
                 (true, _) => "fill",
                 (_, true) => "embankment",

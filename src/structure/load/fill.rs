@@ -72,6 +72,13 @@ pub struct Layer {
     pub density: f64,
 }
 
+impl Layer {
+    /// Whether it goes down to the structure.
+    pub fn is_lowest(&self) -> bool {
+        self.bottom == f64::NEG_INFINITY
+    }
+}
+
 /// Another material up to a level, in place of the layer that goes down to the structure.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FillBacking {
@@ -112,9 +119,14 @@ impl Fill {
         })
     }
 
+    /// Height of the line over a point, m; without one that of the point.
+    pub fn line_over(&self, at: Vec2) -> f64 {
+        self.line.as_ref().map_or(at.y, |line| line.height(at.x))
+    }
+
     /// Depth of a point below the line, m; 0 without one.
     pub(super) fn depth(&self, at: Vec2) -> f64 {
-        self.line.as_ref().map_or(0.0, |line| line.height(at.x) - at.y)
+        self.line_over(at) - at.y
     }
 
     /// Mass of the column over a point, kg/m2 of plan.
@@ -129,10 +141,10 @@ impl Fill {
 
     /// What the column over a point is made of: from and to which height over the point, m, and its density.
     fn column(&self, at: Vec2) -> impl Iterator<Item = [f64; 3]> {
-        let line = self.line.as_ref().map_or(at.y, |line| line.height(at.x));
+        let line = self.line_over(at);
         self.layers.iter().flat_map(move |layer| {
             let [from, to] = [layer.bottom, layer.top].map(|height| (line + height - at.y).max(0.0));
-            let backing = self.backing.filter(|_| layer.bottom == f64::NEG_INFINITY);
+            let backing = self.backing.filter(|_| layer.is_lowest());
             let (top, density) =
                 backing.map_or((from, 0.0), |backing| ((backing.height - at.y).clamp(from, to), backing.density));
             [[from, top, density], [top, to, layer.density]]
@@ -141,8 +153,8 @@ impl Fill {
 
     /// Whether backing lies at a point: below its top, and below all layers but the lowest.
     pub(super) fn is_backing(&self, at: Vec2) -> bool {
-        let line = self.line.as_ref().map_or(at.y, |line| line.height(at.x));
-        let mut lowest = self.layers.iter().filter(|layer| layer.bottom == f64::NEG_INFINITY);
+        let line = self.line_over(at);
+        let mut lowest = self.layers.iter().filter(|layer| layer.is_lowest());
         self.backing.is_some_and(|backing| at.y < backing.height) && lowest.any(|layer| at.y < line + layer.top)
     }
 
@@ -172,10 +184,10 @@ impl Fill {
 
     /// What changes its sign where the mass of the column over a point stops being linear, m.
     fn clearances(&self, at: Vec2) -> Vec<f64> {
-        let line = self.line.as_ref().map_or(at.y, |line| line.height(at.x));
+        let line = self.line_over(at);
         let heights =
             self.layers.iter().flat_map(|layer| [layer.bottom, layer.top]).filter(|height| height.is_finite());
-        let lowest = self.layers.iter().filter(|layer| layer.bottom == f64::NEG_INFINITY).map(|layer| layer.top);
+        let lowest = self.layers.iter().filter(|layer| layer.is_lowest()).map(|layer| layer.top);
         let of_backing = |backing: &FillBacking| {
             let under = lowest.clone().map(|top| line + top - backing.height);
             under.chain([backing.height - at.y]).collect::<Vec<_>>()
