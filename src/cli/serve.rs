@@ -106,7 +106,7 @@ async fn open(options: &Serve, limits: Limits) -> io::Result<Arc<dyn Store>> {
 /// Once told to stop: accepts no more jobs and ends event streams. Within `grace`, and until told a second time, jobs may end
 /// and, where they go with the process, their results be read; it goes on when there is nothing more to wait for. Then it cancels
 /// the rest or gives it back, and lets the last answers out.
-async fn end(service: Service, handle: Handle<SocketAddr>, grace: Duration) {
+async fn end(service: Arc<Service>, handle: Handle<SocketAddr>, grace: Duration) {
     asked_to_stop().await;
     tracing::info!("stopping");
     service.store.close();

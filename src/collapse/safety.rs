@@ -140,15 +140,15 @@ fn elastic(crushing: &Crushing) -> Reach {
 
 /// Not looked for beyond the `cap`, as instability is not.
 fn plastic(crushing: &Crushing, cap: f64) -> Reach {
-    if let Some(followed) = &crushing.on_path[1] {
-        return Reach::At(followed.load_factor);
-    }
-    match crushing.plastic_section.as_ref().map(|plastic| plastic.window) {
-        None => Reach::Unknown,
-        Some(None) => Reach::DoesNotStand,
-        Some(Some(window)) if window.lowest > 1.0 || window.highest <= 0.0 => Reach::DoesNotStand,
-        Some(Some(window)) if window.highest <= cap => Reach::At(window.highest),
-        Some(Some(_)) => Reach::Never,
+    let window = crushing.plastic_section.as_ref().map(|plastic| plastic.window);
+    match (window, &crushing.on_path[1]) {
+        (Some(None), _) => Reach::DoesNotStand,
+        (Some(Some(window)), _) if window.lowest > 1.0 || window.highest <= 0.0 => Reach::DoesNotStand,
+        (_, Some(followed)) if followed.load_factor <= 0.0 => Reach::DoesNotStand,
+        (_, Some(followed)) => Reach::At(followed.load_factor),
+        (None, None) => Reach::Unknown,
+        (Some(Some(window)), None) if window.highest <= cap => Reach::At(window.highest),
+        (Some(Some(_)), None) => Reach::Never,
     }
 }
 

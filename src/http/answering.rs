@@ -98,7 +98,7 @@ mod tests {
         line(&read_question(REQUEST.as_bytes()).unwrap().0).unwrap().into()
     }
 
-    fn service(solve: Solver) -> Service {
+    fn service(solve: Solver) -> Arc<Service> {
         let (many, long) = (1 << 30, Duration::from_secs(1000));
         let limits = Limits::ample();
         let api = ApiLimits {

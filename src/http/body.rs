@@ -11,6 +11,7 @@ use futures_util::StreamExt;
 use headers::{ContentLength, HeaderMapExt};
 use serde::de::IgnoredAny;
 use std::ops::Deref;
+use std::sync::Arc;
 
 /// What the shortest body counts, bytes: what is kept beside it, and reading it, cost no less.
 pub(super) const LEAST: usize = 16 << 10;
@@ -43,18 +44,18 @@ impl Deref for CsvBody {
     }
 }
 
-impl FromRequest<Service> for JsonBody {
+impl FromRequest<Arc<Service>> for JsonBody {
     type Rejection = Problem;
 
-    async fn from_request(request: Request, service: &Service) -> Result<Self, Problem> {
+    async fn from_request(request: Request, service: &Arc<Service>) -> Result<Self, Problem> {
         Arrived::as_said(request, service, "application/json").await.map(JsonBody)
     }
 }
 
-impl FromRequest<Service> for CsvBody {
+impl FromRequest<Arc<Service>> for CsvBody {
     type Rejection = Problem;
 
-    async fn from_request(request: Request, service: &Service) -> Result<Self, Problem> {
+    async fn from_request(request: Request, service: &Arc<Service>) -> Result<Self, Problem> {
         Arrived::as_said(request, service, "text/csv").await.map(CsvBody)
     }
 }

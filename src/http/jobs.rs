@@ -15,6 +15,7 @@ use axum::http::request::Parts;
 use axum::http::{HeaderMap, HeaderValue, Method, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 use utoipa::IntoParams;
 
 /// Jobs listed when nothing is asked.
@@ -157,10 +158,10 @@ pub(super) async fn forget(state: AppState, Known(job): Known) -> Result<Respons
 /// The job of a path.
 pub(super) struct Known(pub(super) Job);
 
-impl FromRequestParts<Service> for Known {
+impl FromRequestParts<Arc<Service>> for Known {
     type Rejection = Problem;
 
-    async fn from_request_parts(parts: &mut Parts, service: &Service) -> Result<Self, Problem> {
+    async fn from_request_parts(parts: &mut Parts, service: &Arc<Service>) -> Result<Self, Problem> {
         let path = Path::<Vec<(String, String)>>::from_request_parts(parts, service).await;
         let id = path.ok().and_then(|Path(names)| names.into_iter().find(|(name, _)| name == "id"));
         let (_, id) = id.ok_or_else(|| Problem::no_such_path(parts.uri.path()))?;

@@ -1,7 +1,8 @@
 //! Handlers about the service itself.
 
+use super::document;
 use super::problem::Problem;
-use super::{Service, document};
+use super::service::AppState;
 use axum::Json;
 use axum::http::header;
 use axum::response::IntoResponse;
@@ -41,7 +42,7 @@ pub(super) async fn live() -> Json<Health> {
     get, path = "/health/ready", tag = "service", operation_id = "ready",
     responses((status = 200, description = "Ready", body = Health))
 )]
-pub(super) async fn ready(state: axum::extract::State<Service>) -> Result<Json<Health>, Problem> {
+pub(super) async fn ready(state: AppState) -> Result<Json<Health>, Problem> {
     // The store may be elsewhere, and out of reach.
     state.store.occupancy().await?;
     if state.store.is_open() { Ok(Health::of("ready")) } else { Err(Problem::shutting_down()) }

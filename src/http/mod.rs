@@ -33,6 +33,7 @@ pub use service::{Service, Settings, Solver};
 
 use crate::page;
 use axum::Router;
+use std::sync::Arc;
 use utoipa::OpenApi;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
@@ -49,7 +50,7 @@ use utoipa_axum::routes;
 struct Document;
 
 /// What needs a token, where there are tokens.
-fn guarded() -> OpenApiRouter<Service> {
+fn guarded() -> OpenApiRouter<Arc<Service>> {
     OpenApiRouter::with_openapi(Document::openapi())
         .routes(routes!(submit::submit, jobs::list))
         .routes(routes!(jobs::show, jobs::dismiss))
@@ -70,12 +71,12 @@ fn guarded() -> OpenApiRouter<Service> {
 }
 
 /// What is open to all.
-fn open() -> OpenApiRouter<Service> {
+fn open() -> OpenApiRouter<Arc<Service>> {
     OpenApiRouter::new().routes(routes!(meta::live)).routes(routes!(meta::ready)).routes(routes!(meta::openapi))
 }
 
 /// The service, ready to be served.
-pub fn router(service: Service) -> Router {
+pub fn router(service: Arc<Service>) -> Router {
     let (guarded, _) = guarded().split_for_parts();
     let (open, _) = open().split_for_parts();
     let router =
@@ -84,7 +85,7 @@ pub fn router(service: Service) -> Router {
 }
 
 /// What a process answers that only works: whether it lives, and what it counts.
-pub fn worker_router(service: Service) -> Router {
+pub fn worker_router(service: Arc<Service>) -> Router {
     let (guarded, _) = OpenApiRouter::new().routes(routes!(metrics::metrics)).split_for_parts();
     let (open, _) = open().split_for_parts();
     let router = layers::guard(guarded, service.settings.clone()).merge(open);

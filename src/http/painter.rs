@@ -16,11 +16,11 @@ use tokio::task::spawn_blocking;
 const MOST: usize = 64;
 const MOST_EACH: usize = 16;
 
-/// Who paints; copies are the same.
-#[derive(Debug, Clone)]
+/// Who paints.
+#[derive(Debug)]
 pub(super) struct Painter {
     of_all: Arc<Semaphore>,
-    of_clients: Arc<Mutex<BTreeMap<String, Weak<Semaphore>>>>,
+    of_clients: Mutex<BTreeMap<String, Weak<Semaphore>>>,
     asked: Quota,
 }
 
@@ -35,7 +35,7 @@ pub(super) struct Turn {
 impl Painter {
     pub(super) fn new() -> Self {
         let of_all = Arc::new(Semaphore::new(1));
-        Painter { of_all, of_clients: Arc::default(), asked: Quota::new(MOST, MOST_EACH) }
+        Painter { of_all, of_clients: Mutex::default(), asked: Quota::new(MOST, MOST_EACH) }
     }
 
     /// Waits for a client's turn: first among what the client itself asks for.

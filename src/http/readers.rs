@@ -8,8 +8,8 @@ use tokio::sync::{OwnedSemaphorePermit, Semaphore};
 /// Bodies of more bytes may take so long to read that others do not wait behind them.
 const SMALL: usize = 64 << 10;
 
-/// Who reads; copies are the same.
-#[derive(Debug, Clone)]
+/// Who reads.
+#[derive(Debug)]
 pub(super) struct Readers {
     all: Arc<Semaphore>,
     large: Arc<Semaphore>,

@@ -30,17 +30,17 @@ struct FormatQuery {
 
 /// What is asked of an answer: whose, in which format, and what the client has already.
 pub(super) struct Asked {
-    service: Service,
+    service: Arc<Service>,
     job: Job,
     f: Option<String>,
     headers: HeaderMap,
     client: Arc<str>,
 }
 
-impl FromRequestParts<Service> for Asked {
+impl FromRequestParts<Arc<Service>> for Asked {
     type Rejection = Problem;
 
-    async fn from_request_parts(parts: &mut Parts, service: &Service) -> Result<Self, Problem> {
+    async fn from_request_parts(parts: &mut Parts, service: &Arc<Service>) -> Result<Self, Problem> {
         let Known(job) = Known::from_request_parts(parts, service).await?;
         let query: Result<Query<FormatQuery>, QueryRejection> = Query::from_request_parts(parts, service).await;
         let Query(FormatQuery { f }) = query.map_err(|bad| query_fault(&bad))?;

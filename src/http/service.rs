@@ -45,16 +45,15 @@ fn part(all: usize) -> usize {
     all.div_ceil(4)
 }
 
-/// How a handler is given the service.
-pub(super) type AppState = axum::extract::State<Service>;
+/// How a handler is given the service: one for all, which many layers copy for every request.
+pub(super) type AppState = axum::extract::State<Arc<Service>>;
 
-/// What every handler can reach; copies are the same service.
-#[derive(Clone)]
+/// What every handler can reach.
 pub struct Service {
     /// All jobs.
     pub store: Arc<dyn Store>,
     /// Who works them off.
-    pub workers: Arc<Workers>,
+    pub workers: Workers,
     /// Cancelled when the service is to stop: ends event streams.
     pub stopping: CancellationToken,
     pub(super) work: Work,
@@ -71,16 +70,16 @@ pub struct Service {
 
 impl Service {
     /// Starts the workers, in the runtime of the caller; of the memory for bodies and answers each client may have a part.
-    pub fn start(store: Arc<dyn Store>, work: Work, settings: Settings, solve: Solver) -> Self {
+    pub fn start(store: Arc<dyn Store>, work: Work, settings: Settings, solve: Solver) -> Arc<Self> {
         let metrics = Metrics::new(work, &settings);
         let counted = metrics.clone();
         let analyse = move |request: &Bytes, budget: &Budget| perform(request, budget, solve);
         let workers = Workers::start(store.clone(), work, analyse, move |job| ended(&counted, job));
         let (limits, longest) = (settings.limits, settings.limits.body.max(body::LEAST));
         let incoming = limits.incoming.max(longest);
-        Service {
+        Arc::new(Service {
             store,
-            workers: Arc::new(workers),
+            workers,
             stopping: CancellationToken::new(),
             work,
             solve,
@@ -91,7 +90,7 @@ impl Service {
             outgoing: Outgoing::new(limits.outgoing, part(limits.outgoing)),
             painter: Painter::new(),
             settings: Arc::new(settings),
-        }
+        })
     }
 
     /// A client is told how a job stands: of one that has failed there is no more to learn.

@@ -8,7 +8,7 @@
 //! too many unknowns tangents help where rounding defeats that one.
 
 use super::linear_program::Basis;
-use super::programme::{MOST_DENSE, Objective, Programme, ProgrammeOutcome};
+use super::programme::{Dual, MOST_DENSE, Objective, Programme, ProgrammeOutcome};
 use super::resultant::Resultant;
 use super::static_theorem::{Equilibrium, Limit};
 use super::{StaticTheorem, Unsolved, WindowBases};
@@ -29,6 +29,8 @@ const BLOCK: f64 = 1e-4;
 const TOLD: f64 = 1e-5;
 /// Joints that bear so many times the loads crush at none.
 const HARD: f64 = 1e12;
+/// Forces of so many times the loads, all unknowns added up, are in no structure's reach.
+const REACH: f64 = 1e8;
 /// Rounds of cuts after which the method has failed (it needs five to thirty).
 const MOST_ROUNDS: usize = 300;
 /// Normal force N / (f t) of the last tangent: it says N_i, N_e <= f t / 2, which no larger force satisfies.
@@ -168,6 +170,9 @@ impl StaticTheorem {
             false => conic.maximise_sparsely(objective, budget),
         };
         match first {
+            ProgrammeOutcome::Infeasible(dual) if few && self.excludes_all(&dual, &cut.limits) => {
+                ProgrammeOutcome::Infeasible(dual)
+            }
             // A basis that is lost in rounding leads nowhere, and tangents far outside may seem to exclude everything.
             ProgrammeOutcome::Lost | ProgrammeOutcome::Infeasible(_) if few && from.is_some() => {
                 self.crushing_end(objective, None, cut, conic, budget)
@@ -181,6 +186,21 @@ impl StaticTheorem {
             }
             first => first,
         }
+    }
+
+    /// Whether multipliers of the joints' laws and these `cuts` prove that no forces in reach violate none of them (Farkas): limits so
+    /// added up say that less than nothing is as much as nothing, but for rounding.
+    fn excludes_all(&self, dual: &Dual, cuts: &[Limit]) -> bool {
+        let n = self.unknowns();
+        let mut sum = vec![0.0; n + 1];
+        for (limit, y) in self.limits.iter().chain(cuts).zip(&dual.multipliers).filter(|(_, y)| **y != 0.0) {
+            let mut row = vec![0.0; n + 1];
+            self.add_row(limit.joint, limit.weights, &mut row);
+            row[n] += limit.constant;
+            sum.iter_mut().zip(row).for_each(|(sum, by)| *sum += y * by);
+        }
+        let off = sum[..n].iter().fold(0.0, |most: f64, by| most.max(by.abs()));
+        off * REACH < -sum[n]
     }
 
     /// Whether any joint of these strengths, Pa, crushes under loads in reach.

@@ -5,7 +5,7 @@ use crate::common::largest::larger;
 use crate::common::{door, random_arch};
 use serde_json::{Value, json};
 use voussoir::budget::Budget;
-use voussoir::collapse::Analysis;
+use voussoir::collapse::{Analysis, Outcome};
 use voussoir::limit::StaticTheorem;
 use voussoir::structure::{Joint, PointForce};
 
@@ -102,6 +102,33 @@ fn random_arches_crush_where_the_cones_say() {
     assert!(complaints.is_empty(), "{} complaints:\n{}", complaints.len(), complaints.join("\n"));
     // The set must go on asking real questions.
     assert!(windows >= ARCHES / 2 && moved >= ARCHES / 5 && empty >= ARCHES / 30);
+}
+
+/// The least strength of which a semicircle stands under some load, Pa, by a linear programme of its own with tangents.
+const NEEDED: f64 = 4.6246e6;
+
+#[test]
+fn stone_that_is_just_too_weak_for_any_load_is_not_told_to_bear_some() {
+    let request = json!({
+        "arch": {
+            "profile": {"circular": {"radius_m": 6.240944217339987, "opening_angle_deg": 180}},
+            "thickness": {"constant_m": 0.6920099039563394},
+            "voussoirs": 27,
+        },
+        "stone": {"density_kg_m3": 2300, "friction_angle_deg": 60},
+        "loads": [
+            {"load": {"self_weight": {}}},
+            {"load": {"point_load": {"force_n_per_m": 6108.842482634062, "voussoir": 18, "inclination_deg": 0}}, "scaled": true},
+        ],
+    });
+    let theorem = theorem(&door::analysis(&request).unwrap());
+    for share in [0.5, 0.9, 0.95, 0.99, 0.999, 1.001] {
+        let window = theorem.crushing_window(&vec![share * NEEDED; theorem.joints()], &Budget::unlimited());
+        assert_eq!(window.unwrap().is_some(), share > 1.0, "{share} of what it needs");
+    }
+    let mut weak = request;
+    weak["stone"]["compressive_strength_pa"] = json!(0.95 * NEEDED);
+    assert_eq!(door::solve(&weak).outcome, Outcome::Crushes);
 }
 
 /// Equilibrium however far the loads grow.

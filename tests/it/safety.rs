@@ -104,6 +104,36 @@ fn stone_too_weak_for_what_the_arch_starts_with_crushes() {
     assert_eq!(window, hard.limit_window);
 }
 
+/// Pressure that has to be reversed: the arch stands only under some of it, seen from which load factor 1 and all above 0 lie outside.
+#[test]
+fn a_factor_below_nought_is_none() {
+    let request = json!({
+        "arch": {
+            "profile": {"elliptical": {"span_m": 10.399501342810378, "rise_m": 1.7094493888141038}},
+            "thickness": {"constant_m": 1.0909612390111096},
+            "voussoirs": 44,
+        },
+        "stone": {"density_kg_m3": 1675.7004920858353, "friction_angle_deg": 30, "compressive_strength_pa": 771005.5479630372},
+        "loads": [
+            {"load": {"self_weight": {}}},
+            {"load": {"patch_load": {"centre_x_m": -2.298733827893909, "width_m": 2.8136071151849467, "force_n_per_m": 23601.185176403786}}},
+            {
+                "load": {"lateral_pressure": {"side": "both", "bands": [
+                    {"from_m": 0.5784099045289178, "to_m": 2.145141405233399, "pressure_pa": 1580.9688210291652},
+                ]}},
+                "scaled": true,
+                "coefficient": -0.631437244161257,
+            },
+        ],
+        "analysis": {"safety": {}},
+    });
+    let (_, question) = read_question(request.to_string().as_bytes()).unwrap();
+    let Answer::One(report) = answer(&question, &Budget::unlimited()).unwrap() else { unreachable!("one analysis") };
+    let safety = *report.safety().unwrap();
+    assert!(report.limit_window.unwrap().highest < 0.0);
+    assert_eq!([safety.plastic_section, safety.governing], [Reach::DoesNotStand; 2]);
+}
+
 #[test]
 fn first_yield_is_where_the_field_says() {
     let report = oval(by_first_yield);

@@ -16,10 +16,9 @@ const TILTS: [f64; 3] = [1e-1, 1e-2, 1e-3];
 const MOTIONS: usize = 2;
 /// Random costs that lie apart are between 1 and 10 to the power of minus twice this.
 const DECADES: f64 = 2.0;
-/// A corner for so many starts of [`super::shear`], but no fewer than these, may give nothing lower before the
-/// search ends (chosen on 20 random structures whose least load is known: with 40 starts, not 60, one is told too high).
+/// A corner for so many starts of [`super::shear`], but no fewer and no more than these, may give nothing lower before the search ends.
 const STARTS_A_CORNER: usize = 5;
-const FEWEST_CORNERS: usize = 4;
+const QUIET_CORNERS: [usize; 2] = [4, 12];
 /// So many in all.
 const MOST_CORNERS: usize = 48;
 
@@ -217,7 +216,7 @@ impl<'s> Hunt<'s> {
 
     /// From random corners at and near the least equilibrium of the best mechanism.
     pub(super) fn round_corners(&mut self) {
-        let enough = (self.starts() / STARTS_A_CORNER).max(FEWEST_CORNERS);
+        let enough = (self.starts() / STARTS_A_CORNER).clamp(QUIET_CORNERS[0], QUIET_CORNERS[1]);
         let mut quiet = 0;
         for round in 0..MOST_CORNERS {
             let Some(best) = &self.best else { return };

@@ -9,18 +9,26 @@ use super::groups::partings;
 use super::hunt::{Hunt, Tried};
 use crate::limit::{Resultant, StaticTheorem};
 
-/// Equilibria to start from: so many over the square of the number of joints, as programmes of many joints take long, but no fewer and
-/// no more than these.
-const STARTS: usize = 16_000;
+/// Equilibria to start from: so many, and so many a joint where that is more, as more joints have more mechanisms; but no more than so many
+/// over the square of their number, as programmes of many joints take long, and no fewer and no more than these.
+const STARTS: usize = 60;
+const STARTS_A_JOINT: usize = 5;
+const STARTS_BY_JOINTS: usize = 200_000;
 const FEWEST: usize = 8;
-const MOST: usize = 60;
-/// The same of joints between rings that are taken out together: in a vault of 24 stones these are all that there are.
+const MOST: usize = 150;
+/// Over the square of the number of joints, too, those between rings that are taken out together: in a vault of 24 stones these are all that
+/// there are.
 const PARTINGS: usize = 56_000;
 const MOST_PARTINGS: usize = 32;
+/// Of structures of more joints than this half as many start where some joints carry nothing (up to 6 blocks, mixed-integer programmes found
+/// no mechanism that was missed).
+const FEW_JOINTS: usize = 12;
+/// Joints that carry nothing by chance: shares of all, in turn.
+const PARTED: [f64; 4] = [0.05, 0.1, 0.15, 0.2];
 /// So many times friction is given (measured on random structures of blocks: 10 rounds of fewer starts find no more).
 const ROUNDS: usize = 4;
-/// Least share of the load at the end, counted from where the path starts, at which it starts.
-const LEAST_SHARE: f64 = 0.3;
+/// How many times the load factor at which scaled loads are as large as fixed ones it starts at most, counted from where the path starts.
+const REACH: f64 = 30.0;
 /// How far below the load at which joints give way the next forces are taken, in turn, as a share of it.
 const BACK: [f64; 2] = [1e-6, 0.1];
 /// Of the random weights that lead to an equilibrium with few forces most are so many times smaller, in every second one.
@@ -31,20 +39,23 @@ const HEAVY: f64 = 0.2;
 const SLACK: f64 = 1e-5;
 
 impl Hunt<'_> {
-    /// From random equilibria on the way to the load factor `end`; where rings lie on each other, first from those in which parts of them
-    /// are apart.
+    /// From random equilibria on the way to the load factor `end`; first from those in which joints carry nothing: some at random where
+    /// there are loops, and parts of rings that lie on each other.
     pub(super) fn give_shear(&mut self, end: f64) {
         let search = self.search;
         let partings = partings(&search.analysis.structure, self.worth(PARTINGS, MOST_PARTINGS));
-        for (number, joints) in partings.into_iter().enumerate() {
-            let Some(apart) = Apart::new(search, joints) else { continue };
-            if let Ok(Some(end)) = apart.theorem.at_end(search.sign, search.budget) {
-                self.give_shear_from(Some(&apart), apart.theorem.resultants(&end), number);
+        partings.into_iter().enumerate().for_each(|(number, joints)| self.give_shear_apart(joints, number));
+        for number in 0..self.random_partings() {
+            let joints = (0..search.theorem.joints()).filter(|_| self.random() < PARTED[number % PARTED.len()]);
+            let joints = joints.collect();
+            self.give_shear_apart(joints, number);
+            if search.budget.ask().is_err() {
+                return;
             }
         }
+        let way = (end - search.start).abs().min(REACH * search.theorem.load_factor_scale());
         for number in 0..self.starts() {
-            let share = LEAST_SHARE + (1.0 - LEAST_SHARE) * self.random();
-            let at = search.start + share * (end - search.start);
+            let at = search.start + search.sign * self.random() * way;
             let Some(first) = self.forces_at(search.theorem, at, number) else { continue };
             self.give_shear_from(None, first, number);
             if search.budget.ask().is_err() {
@@ -53,9 +64,25 @@ impl Hunt<'_> {
         }
     }
 
+    /// From where the structure gives way without these joints, in rising order.
+    fn give_shear_apart(&mut self, joints: Vec<usize>, number: usize) {
+        let search = self.search;
+        let Some(apart) = Apart::new(search, joints) else { return };
+        if let Ok(Some(end)) = apart.theorem.at_end(search.sign, search.budget) {
+            self.give_shear_from(Some(&apart), apart.theorem.resultants(&end), number);
+        }
+    }
+
     /// How many equilibria such a structure is worth.
     pub(super) fn starts(&self) -> usize {
-        self.worth(STARTS, MOST)
+        let joints = self.search.theorem.joints();
+        self.worth(STARTS_BY_JOINTS, MOST).min(STARTS.max(STARTS_A_JOINT * joints))
+    }
+
+    /// How many times joints carry nothing by chance.
+    fn random_partings(&self) -> usize {
+        let theorem = self.search.theorem;
+        if theorem.has_loops() && theorem.joints() > FEW_JOINTS { self.starts() / 2 } else { 0 }
     }
 
     /// So many over the square of the number of joints, but no more than `most`.

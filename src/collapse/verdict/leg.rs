@@ -4,6 +4,7 @@ use super::{OnEvent, Setup};
 use crate::collapse::certificate::range_note;
 use crate::collapse::chain_path::Followed;
 use crate::collapse::ending::{self, Ending};
+use crate::collapse::mechanism::Released;
 use crate::collapse::path::{Leg, follow};
 use crate::collapse::record::{MOST_FIXED_STEPS, Recorder};
 use crate::collapse::sliding::{FullSolution, Search};
@@ -81,12 +82,18 @@ impl Setup<'_> {
             Leg::Stopped => return Err(self.budget.stopped().into()),
             Leg::TooManySteps => return Err(AnalysisError::TooManySteps { most: MOST_FIXED_STEPS }),
             Leg::Lost => return Ok(Some(Doubt::Lost)),
-            Leg::Endless => {
-                report.add_fields(analysis, states, &recorder, None)?;
-                report.history = recorder.history;
-                report.outcome = Outcome::Stands;
-                return Ok(self.certificate.endless(sign, self.cap).or(self.certificate.standing_doubt(residual)));
-            }
+            Leg::Endless => match self.slides_sooner(sign, residual)? {
+                None => {
+                    report.add_fields(analysis, states, &recorder, None)?;
+                    report.history = recorder.history;
+                    report.outcome = Outcome::Stands;
+                    return Ok(self.certificate.endless(sign, self.cap).or(self.certificate.standing_doubt(residual)));
+                }
+                Some(end) => {
+                    peak_load = Some(end.on_path());
+                    (Ending { end, later: false, at_limits: Vec::new() }, false)
+                }
+            },
             Leg::Criterion(at) => {
                 let end = ending::at_criterion(analysis, model, recorder.displacements(), at, residual);
                 (Ending { end, later: false, at_limits: Vec::new() }, false)
@@ -97,6 +104,9 @@ impl Setup<'_> {
                 self.budget.check()?;
                 peak_load = Some(ending.end.load_factor);
                 ending.end.load_factor = self.read_off(ending.end.load_factor, sign);
+                if self.looks_for_least() && ending.end.crushed.is_empty() {
+                    self.take_least(&mut ending, sign)?;
+                }
                 (ending, fall.turned_back)
             }
         };
@@ -117,29 +127,23 @@ impl Setup<'_> {
         sign: f64,
         turned_back: bool,
     ) -> Result<Option<Doubt>, AnalysisError> {
-        let path = ending.end.load_factor;
+        let path = ending.end.on_path();
         let doubt = match self.analysis.task.method() {
             Method::FixedSteps { step, .. } => {
                 let limit = self.certificate.end(sign).unwrap_or(0.0);
                 report.notes.push(Note::ReadAtSteps { step, limit });
                 None
             }
-            method @ (Method::EventPath(_) | Method::CrushingPath { .. }) => {
-                let looks = !matches!(method, Method::CrushingPath { least: false });
-                if looks && ending.end.crushed.is_empty() {
-                    self.take_least(&mut ending, sign)?;
-                }
-                match self.certificate.compare(&ending.end, sign) {
-                    Err(doubt) => Some(doubt),
-                    Ok(short) => {
-                        // What path and window tell apart there is rounding.
-                        if !short && ending.end.range.is_none() && self.certificate.ends_at_zero(sign) {
-                            ending.end.load_factor = 0.0;
-                        }
-                        (turned_back && short && ending.later).then_some(Doubt::TurnedBack(path))
+            Method::EventPath(_) | Method::CrushingPath { .. } => match self.certificate.compare(&ending.end, sign) {
+                Err(doubt) => Some(doubt),
+                Ok(short) => {
+                    // What path and window tell apart there is rounding.
+                    if !short && ending.end.range.is_none() && self.certificate.ends_at_zero(sign) {
+                        ending.end.load_factor = 0.0;
                     }
+                    (turned_back && short && ending.later).then_some(Doubt::TurnedBack(path))
                 }
-            }
+            },
         };
         if let Some(doubt @ (Doubt::TurnedBack(_) | Doubt::Stray { .. })) = &doubt
             && self.crushes_before(&ending.end, sign)
@@ -177,21 +181,44 @@ impl Setup<'_> {
         matches!(self.analysis.task, Task::Collapse(_)) && crushes.is_some_and(before)
     }
 
+    /// Whether the least load at which joints slide is looked for.
+    fn looks_for_least(&self) -> bool {
+        match self.analysis.task.method() {
+            Method::EventPath(_) => true,
+            Method::CrushingPath { least } => least,
+            Method::FixedSteps { .. } => false,
+        }
+    }
+
+    /// How a structure with loops that stands on its path up to the cap falls before as joints slide, if that is found: joints that jam on
+    /// one path need not on another.
+    fn slides_sooner(&self, sign: f64, residual: f64) -> Result<Option<PathEnd>, AnalysisError> {
+        if !self.certificate.theorem.has_loops() || !self.looks_for_least() {
+            return Ok(None);
+        }
+        let free = without_soil(self.analysis)?;
+        let (search, path) = (self.search(&free, sign), sign * self.cap);
+        let (found, mechanisms_tried) = self.least_sliding(&search, &mut Vec::new(), path)?;
+        let sooner = found.filter(|found| search.is_beyond(path, found.load_factor, tolerances::SAME_LOAD));
+        let end = |FullSolution { load_factor, forces, soil, mechanism }| PathEnd {
+            load_factor,
+            range: Some(LoadRange { least: load_factor, greatest: self.greatest(sign), path, mechanisms_tried }),
+            residual,
+            mechanism,
+            thrust_line: ending::thrust_line(&self.analysis.structure, &forces),
+            soil,
+            crushed: Vec::new(),
+        };
+        Ok(sooner.map(end))
+    }
+
     /// Where joints slide, takes the least load at which they let the arch fall for the end.
     pub(super) fn take_least(&self, ending: &mut Ending, sign: f64) -> Result<(), AnalysisError> {
         let Ending { end, later, at_limits } = ending;
-        let theorem = &self.certificate.theorem;
         let free = without_soil(self.analysis)?;
-        let (analysis, free) = free.as_ref().map_or((self.analysis, theorem), |(analysis, free)| (analysis, free));
-        let (mut path, greatest) = (end.load_factor, self.certificate.end(sign).unwrap_or(0.0));
-        let soil = &self.analysis.structure.passive[..];
-        let search = Search { analysis, soil, theorem, free, budget: self.budget, start: self.start, sign };
-        at_limits.extend(search.at_window_end(greatest));
-        let (found, mechanisms_tried) = search.least(at_limits, path);
-        self.budget.check()?;
-        let is_borne = |found: &FullSolution| !self.analysis.task.crushes_on_path() || self.bears(&found.forces);
-        let slides = found.filter(|found| found.mechanism.slips() && is_borne(found));
-        if let Some(found) = slides.filter(|found| !search.is_beyond(found.load_factor, path, tolerances::POLISH)) {
+        let (search, mut path) = (self.search(&free, sign), end.load_factor);
+        let (found, mechanisms_tried) = self.least_sliding(&search, at_limits, path)?;
+        if let Some(found) = found.filter(|found| !search.is_beyond(found.load_factor, path, tolerances::POLISH)) {
             // A path that nothing polished carries the disturbance of its attempt: what is as near is the same load.
             if !search.is_beyond(path, found.load_factor, tolerances::POLISH) {
                 path = found.load_factor;
@@ -199,16 +226,45 @@ impl Setup<'_> {
             // The path's own mechanism is the smallest motion of its joints, where it has one at its peak.
             if search.is_beyond(path, found.load_factor, tolerances::SAME_LOAD) || *later {
                 end.mechanism = found.mechanism;
-                end.thrust_line = ending::thrust_line(&analysis.structure, &found.forces);
+                end.thrust_line = ending::thrust_line(&search.analysis.structure, &found.forces);
                 end.soil = found.soil;
                 *later = false;
             }
             end.load_factor = found.load_factor;
         }
         if end.mechanism.slips() {
-            end.range = Some(LoadRange { least: end.load_factor, greatest, path, mechanisms_tried });
+            end.range =
+                Some(LoadRange { least: end.load_factor, greatest: self.greatest(sign), path, mechanisms_tried });
         }
         Ok(())
+    }
+
+    /// The search for the least load; `free` as from [`without_soil`].
+    fn search<'s>(&'s self, free: &'s Option<(Analysis, StaticTheorem)>, sign: f64) -> Search<'s> {
+        let theorem = &self.certificate.theorem;
+        let (analysis, free) = free.as_ref().map_or((self.analysis, theorem), |(analysis, free)| (analysis, free));
+        let soil = &self.analysis.structure.passive[..];
+        Search { analysis, soil, theorem, free, budget: self.budget, start: self.start, sign }
+    }
+
+    /// The least full solution found on the way to load factor `path`, if joints slide in it and bear it; and how many mechanisms were
+    /// tried. What is at its limits at the window's end joins `at_limits`.
+    fn least_sliding(
+        &self,
+        search: &Search,
+        at_limits: &mut Vec<Vec<Released>>,
+        path: f64,
+    ) -> Result<(Option<FullSolution>, usize), AnalysisError> {
+        at_limits.extend(search.at_window_end(self.greatest(search.sign)));
+        let (found, tried) = search.least(at_limits, path);
+        self.budget.check()?;
+        let is_borne = |found: &FullSolution| !self.analysis.task.crushes_on_path() || self.bears(&found.forces);
+        Ok((found.filter(|found| found.mechanism.slips() && is_borne(found)), tried))
+    }
+
+    /// End of the limit window; 0 where nothing stands.
+    fn greatest(&self, sign: f64) -> f64 {
+        self.certificate.end(sign).unwrap_or(0.0)
     }
 
     /// Whether every joint bears its force on a rectangular block of stress at its strength, but for a sliver.

@@ -7,6 +7,7 @@ use crate::jobs::{Job, Status};
 use crate::wire::json::{NotFinite, compact};
 use futures_util::stream::{self, Stream};
 use serde::Serialize;
+use std::sync::Arc;
 use std::time::Duration;
 use tokio::time::{Instant, sleep_until};
 
@@ -62,14 +63,18 @@ impl Seen {
 }
 
 struct Follower {
-    service: Service,
+    service: Arc<Service>,
     job: Job,
     seen: Option<Seen>,
     told: Instant,
 }
 
 /// What becomes of a job after it was `seen`; nothing more after its end, or when the service stops.
-pub(super) fn follow(service: Service, job: Job, seen: Option<Seen>) -> impl Stream<Item = Result<Told, NotFinite>> {
+pub(super) fn follow(
+    service: Arc<Service>,
+    job: Job,
+    seen: Option<Seen>,
+) -> impl Stream<Item = Result<Told, NotFinite>> {
     let follower = Follower { service, job, seen, told: Instant::now() };
     stream::unfold(follower, |mut follower| async { Some((follower.next().await?, follower)) })
 }

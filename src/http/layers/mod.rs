@@ -45,12 +45,12 @@ const REMEMBERED: Duration = Duration::from_secs(86_400);
 const ASK_AGAIN: HeaderValue = HeaderValue::from_static("no-cache");
 
 /// Shuts `router` to those without a token or a link.
-pub(super) fn guard(router: Router<Service>, settings: Arc<Settings>) -> Router<Service> {
+pub(super) fn guard(router: Router<Arc<Service>>, settings: Arc<Settings>) -> Router<Arc<Service>> {
     router.route_layer(from_fn_with_state(settings, auth::admit))
 }
 
 /// Wraps `router`; of the layers the last one sees a request first.
-pub(super) fn wrap(router: Router, service: &Service) -> Router {
+pub(super) fn wrap(router: Router, service: &Arc<Service>) -> Router {
     let trace = TraceLayer::new_for_http().make_span_with(span).on_request(()).on_response(log).on_failure(());
     let origins = &service.settings.origins;
     let no_sniffing = HeaderValue::from_static("nosniff");
@@ -88,7 +88,7 @@ fn cors(origins: &[HeaderValue]) -> CorsLayer {
 }
 
 /// Counts the answer by its route: the pattern, not the path, so that there are only so many.
-async fn count(State(service): State<Service>, request: Request<Body>, next: Next) -> Response {
+async fn count(State(service): State<Arc<Service>>, request: Request<Body>, next: Next) -> Response {
     let method = request.method().clone();
     let route = request.extensions().get::<MatchedPath>().map(|path| path.as_str().to_owned());
     let clock = Instant::now();

@@ -134,7 +134,7 @@ fn sole_load(LoadRange { least, mechanisms_tried, .. }: &LoadRange) -> String {
     format!(
         "Joints slide. Load factor {} is the only one found at which the arch falls, for stone that does not crush: limit \
          analysis, which lets sliding joints dilate (associated friction), allows no more, and no mechanism without dilation was \
-         found in equilibrium at less ({mechanisms_tried} tried).",
+         found in equilibrium at less ({mechanisms_tried} tried, which is no proof).",
         Digits(*least)
     )
 }
@@ -151,7 +151,7 @@ fn many_loads(LoadRange { least, greatest, path, mechanisms_tried }: &LoadRange)
     format!(
         "Joints slide without dilating, so the load at which the arch falls is not one number: it depends on the stiffness of \
          the joints and the order of loading. Load factor {least} is the least found at which a mechanism without dilation is \
-         in equilibrium ({mechanisms_tried} tried); {bound}. This load path ended at load factor {path}. Of these \
+         in equilibrium ({mechanisms_tried} tried, which is no proof); {bound}. This load path ended at load factor {path}. Of these \
          the least governs, for stone that does not crush and the shape as built."
     )
 }

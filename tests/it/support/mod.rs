@@ -132,7 +132,7 @@ pub fn settings() -> Settings {
 
 pub struct Server {
     pub address: SocketAddr,
-    pub service: Service,
+    pub service: Arc<Service>,
     runtime: Option<Runtime>,
 }
 
