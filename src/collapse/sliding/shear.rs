@@ -9,24 +9,26 @@ use super::groups::partings;
 use super::hunt::{Hunt, Tried};
 use crate::limit::{Resultant, StaticTheorem};
 
-/// Equilibria to start from: so many, and so many a joint where that is more, as more joints have more mechanisms; but no more than so many
-/// over the square of their number, as programmes of many joints take long, and no fewer and no more than these.
-const STARTS: usize = 60;
-const STARTS_A_JOINT: usize = 5;
-const STARTS_BY_JOINTS: usize = 200_000;
+/// Equilibria to start from: so many over the square of the number of joints, as programmes of many joints take long, but no fewer and no
+/// more than these.
+const STARTS: usize = 16_000;
 const FEWEST: usize = 8;
-const MOST: usize = 150;
+const MOST: usize = 60;
+/// The same of structures with loops of more joints than `FEW_JOINTS`, which have many more mechanisms; half as many start where some
+/// joints carry nothing. (Up to 6 blocks mixed-integer programmes found none that was missed.)
+const STARTS_OF_MANY: usize = 150_000;
+const MOST_OF_MANY: usize = 100;
+const FEW_JOINTS: usize = 12;
 /// Over the square of the number of joints, too, those between rings that are taken out together: in a vault of 24 stones these are all that
 /// there are.
 const PARTINGS: usize = 56_000;
 const MOST_PARTINGS: usize = 32;
-/// Of structures of more joints than this half as many start where some joints carry nothing (up to 6 blocks, mixed-integer programmes found
-/// no mechanism that was missed).
-const FEW_JOINTS: usize = 12;
 /// Joints that carry nothing by chance: shares of all, in turn.
 const PARTED: [f64; 4] = [0.05, 0.1, 0.15, 0.2];
 /// So many times friction is given (measured on random structures of blocks: 10 rounds of fewer starts find no more).
 const ROUNDS: usize = 4;
+/// Least share of the load at the end, counted from where the path starts, at which it starts where there are few mechanisms.
+const LEAST_SHARE: f64 = 0.3;
 /// How many times the load factor at which scaled loads are as large as fixed ones it starts at most, counted from where the path starts.
 const REACH: f64 = 30.0;
 /// How far below the load at which joints give way the next forces are taken, in turn, as a share of it.
@@ -53,9 +55,10 @@ impl Hunt<'_> {
                 return;
             }
         }
+        let least = if self.has_many_mechanisms() { 0.0 } else { LEAST_SHARE };
         let way = (end - search.start).abs().min(REACH * search.theorem.load_factor_scale());
         for number in 0..self.starts() {
-            let at = search.start + search.sign * self.random() * way;
+            let at = search.start + search.sign * (least + (1.0 - least) * self.random()) * way;
             let Some(first) = self.forces_at(search.theorem, at, number) else { continue };
             self.give_shear_from(None, first, number);
             if search.budget.ask().is_err() {
@@ -75,14 +78,20 @@ impl Hunt<'_> {
 
     /// How many equilibria such a structure is worth.
     pub(super) fn starts(&self) -> usize {
-        let joints = self.search.theorem.joints();
-        self.worth(STARTS_BY_JOINTS, MOST).min(STARTS.max(STARTS_A_JOINT * joints))
+        match self.has_many_mechanisms() {
+            true => self.worth(STARTS_OF_MANY, MOST_OF_MANY),
+            false => self.worth(STARTS, MOST),
+        }
     }
 
     /// How many times joints carry nothing by chance.
     fn random_partings(&self) -> usize {
+        if self.has_many_mechanisms() { self.starts() / 2 } else { 0 }
+    }
+
+    fn has_many_mechanisms(&self) -> bool {
         let theorem = self.search.theorem;
-        if theorem.has_loops() && theorem.joints() > FEW_JOINTS { self.starts() / 2 } else { 0 }
+        theorem.has_loops() && theorem.joints() > FEW_JOINTS
     }
 
     /// So many over the square of the number of joints, but no more than `most`.
