@@ -149,10 +149,4 @@ impl Search<'_> {
         let share = if self.theorem.has_loops() { WORTH } else { tolerances::SAME_LOAD };
         best - self.sign * share * best.abs().max(self.theorem.load_factor_scale())
     }
-
-    /// True where a load factor lies beyond another, seen from the start, by more than this share of it (or of that at which the
-    /// scaled loads are as large as the fixed ones).
-    pub(super) fn is_beyond(&self, load_factor: f64, other: f64, share: f64) -> bool {
-        self.sign * (load_factor - other) > share * other.abs().max(self.theorem.load_factor_scale())
-    }
 }

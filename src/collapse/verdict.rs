@@ -4,6 +4,7 @@ mod blank;
 mod crushing;
 mod directly;
 mod fallen;
+mod least;
 mod leg;
 mod mesh;
 mod softer;
@@ -48,6 +49,8 @@ struct Setup<'a> {
     crushing: Crushing,
     /// Limit window of rigid stones.
     rigid: Option<[f64; 2]>,
+    /// The answer of whole stones to the same question, where it is known.
+    whole: Option<&'a CollapseReport>,
     /// Joints that crush on the path.
     strips: Strips,
 }
@@ -70,6 +73,16 @@ pub(super) fn run<'a>(analysis: &'a Analysis, built: &mut Discretisation<'a>) ->
 /// Limit window and load path on the mesh given; what follows from them is left to [`run`].
 pub(super) fn solve(analysis: &Analysis, budget: &Budget) -> Result<CollapseReport, AnalysisError> {
     Setup::new(analysis, budget)?.solve(&mut Discretisation::new(budget))
+}
+
+/// The same where the answer of whole stones is known.
+pub(super) fn solve_beside(
+    analysis: &Analysis,
+    whole: &CollapseReport,
+    budget: &Budget,
+) -> Result<CollapseReport, AnalysisError> {
+    let setup = Setup { whole: Some(whole), ..Setup::new(analysis, budget)? };
+    setup.solve(&mut Discretisation::new(budget))
 }
 
 impl Attempted {
@@ -119,7 +132,20 @@ impl<'a> Setup<'a> {
             let ends = forces.iter().zip([-1.0, 1.0]).filter(|(_, end)| *end == sign || !certificate.stands_at(0.0));
             ends.for_each(|(forces, _)| strips.expect(forces));
         }
-        Ok(Setup { analysis, budget, certificate, thrust, crushing, rigid, strips, sign, start, cap, weight })
+        Ok(Setup {
+            analysis,
+            budget,
+            certificate,
+            thrust,
+            crushing,
+            rigid,
+            strips,
+            whole: None,
+            sign,
+            start,
+            cap,
+            weight,
+        })
     }
 
     /// Limit window, load path and all that follows from them.

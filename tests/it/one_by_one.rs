@@ -16,8 +16,8 @@ use voussoir::structure::Joint;
 const ARCHES: u64 = 600;
 const ASKED: usize = 80;
 /// How many random bridges and portals, and how many of them at least have to ask a question; of walls none does.
-const STRUCTURES: u64 = 8;
-const ASKED_OF_STRUCTURES: usize = 1;
+const STRUCTURES: u64 = 24;
+const ASKED_OF_STRUCTURES: usize = 5;
 /// Largest difference of a contact's force, over the largest, before and near collapse, where a state follows its load a thousandfold.
 const EQUAL: [f64; 2] = [1e-9, 1e-6];
 const FOLLOWS: f64 = 2e3;

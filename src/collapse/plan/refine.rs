@@ -64,7 +64,8 @@ pub(super) fn solve(
         let why = PlanReason::CoarsestTooLarge { subblocks: fewest, allowed: most };
         return Ok(Err((why, Cost::default())));
     }
-    let on_path = |subblocks: &[[usize; 2]]| verdict::solve(&with_mesh(analysis, subblocks.to_vec()), budget);
+    let on_path =
+        |subblocks: &[[usize; 2]]| verdict::solve_beside(&with_mesh(analysis, subblocks.to_vec()), whole, budget);
     let solve = |subblocks: &[[usize; 2]], coarser: Option<&States>| {
         let analysis = with_mesh(analysis, subblocks.to_vec());
         match States::solve(&analysis, whole, coarser, budget)? {

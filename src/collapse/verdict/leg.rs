@@ -4,22 +4,14 @@ use super::{OnEvent, Setup};
 use crate::collapse::certificate::range_note;
 use crate::collapse::chain_path::Followed;
 use crate::collapse::ending::{self, Ending};
-use crate::collapse::mechanism::Released;
 use crate::collapse::path::{Leg, follow};
 use crate::collapse::record::{MOST_FIXED_STEPS, Recorder};
-use crate::collapse::sliding::{FullSolution, Search};
 use crate::collapse::snapshot::snapshot;
 use crate::collapse::state::States;
 use crate::collapse::tolerances;
 use crate::collapse::yielding::Averaged;
-use crate::collapse::{
-    Analysis, AnalysisError, CollapseReport, Cost, Doubt, LoadRange, Method, Note, Outcome, PathEnd, Task,
-};
+use crate::collapse::{AnalysisError, CollapseReport, Cost, Doubt, LoadRange, Method, Note, Outcome, PathEnd, Task};
 use crate::dda::Tracer;
-use crate::limit::{Resultant, StaticTheorem};
-
-/// Share of a joint that may crush without being told.
-const SLIVER: f64 = 1e-6;
 
 /// Where a leg starts, under these fixed loads on the nodes, and what is known of the path as far.
 pub(super) struct LegStart<'l> {
@@ -181,103 +173,6 @@ impl Setup<'_> {
         matches!(self.analysis.task, Task::Collapse(_)) && crushes.is_some_and(before)
     }
 
-    /// Whether the least load at which joints slide is looked for.
-    fn looks_for_least(&self) -> bool {
-        match self.analysis.task.method() {
-            Method::EventPath(_) => true,
-            Method::CrushingPath { least } => least,
-            Method::FixedSteps { .. } => false,
-        }
-    }
-
-    /// How a structure with loops that stands on its path up to the cap falls before as joints slide, if that is found: joints that jam on
-    /// one path need not on another.
-    fn slides_sooner(&self, sign: f64, residual: f64) -> Result<Option<PathEnd>, AnalysisError> {
-        if !self.certificate.theorem.has_loops() || !self.looks_for_least() {
-            return Ok(None);
-        }
-        let free = without_soil(self.analysis)?;
-        let (search, path) = (self.search(&free, sign), sign * self.cap);
-        let (found, mechanisms_tried) = self.least_sliding(&search, &mut Vec::new(), path)?;
-        let sooner = found.filter(|found| search.is_beyond(path, found.load_factor, tolerances::SAME_LOAD));
-        let end = |FullSolution { load_factor, forces, soil, mechanism }| PathEnd {
-            load_factor,
-            range: Some(LoadRange { least: load_factor, greatest: self.greatest(sign), path, mechanisms_tried }),
-            residual,
-            mechanism,
-            thrust_line: ending::thrust_line(&self.analysis.structure, &forces),
-            soil,
-            crushed: Vec::new(),
-        };
-        Ok(sooner.map(end))
-    }
-
-    /// Where joints slide, takes the least load at which they let the arch fall for the end.
-    pub(super) fn take_least(&self, ending: &mut Ending, sign: f64) -> Result<(), AnalysisError> {
-        let Ending { end, later, at_limits } = ending;
-        let free = without_soil(self.analysis)?;
-        let (search, mut path) = (self.search(&free, sign), end.load_factor);
-        let (found, mechanisms_tried) = self.least_sliding(&search, at_limits, path)?;
-        if let Some(found) = found.filter(|found| !search.is_beyond(found.load_factor, path, tolerances::POLISH)) {
-            // A path that nothing polished carries the disturbance of its attempt: what is as near is the same load.
-            if !search.is_beyond(path, found.load_factor, tolerances::POLISH) {
-                path = found.load_factor;
-            }
-            // The path's own mechanism is the smallest motion of its joints, where it has one at its peak.
-            if search.is_beyond(path, found.load_factor, tolerances::SAME_LOAD) || *later {
-                end.mechanism = found.mechanism;
-                end.thrust_line = ending::thrust_line(&search.analysis.structure, &found.forces);
-                end.soil = found.soil;
-                *later = false;
-            }
-            end.load_factor = found.load_factor;
-        }
-        if end.mechanism.slips() {
-            end.range =
-                Some(LoadRange { least: end.load_factor, greatest: self.greatest(sign), path, mechanisms_tried });
-        }
-        Ok(())
-    }
-
-    /// The search for the least load; `free` as from [`without_soil`].
-    fn search<'s>(&'s self, free: &'s Option<(Analysis, StaticTheorem)>, sign: f64) -> Search<'s> {
-        let theorem = &self.certificate.theorem;
-        let (analysis, free) = free.as_ref().map_or((self.analysis, theorem), |(analysis, free)| (analysis, free));
-        let soil = &self.analysis.structure.passive[..];
-        Search { analysis, soil, theorem, free, budget: self.budget, start: self.start, sign }
-    }
-
-    /// The least full solution found on the way to load factor `path`, if joints slide in it and bear it; and how many mechanisms were
-    /// tried. What is at its limits at the window's end joins `at_limits`.
-    fn least_sliding(
-        &self,
-        search: &Search,
-        at_limits: &mut Vec<Vec<Released>>,
-        path: f64,
-    ) -> Result<(Option<FullSolution>, usize), AnalysisError> {
-        at_limits.extend(search.at_window_end(self.greatest(search.sign)));
-        let (found, tried) = search.least(at_limits, path);
-        self.budget.check()?;
-        let is_borne = |found: &FullSolution| !self.analysis.task.crushes_on_path() || self.bears(&found.forces);
-        Ok((found.filter(|found| found.mechanism.slips() && is_borne(found)), tried))
-    }
-
-    /// End of the limit window; 0 where nothing stands.
-    fn greatest(&self, sign: f64) -> f64 {
-        self.certificate.end(sign).unwrap_or(0.0)
-    }
-
-    /// Whether every joint bears its force on a rectangular block of stress at its strength, but for a sliver.
-    fn bears(&self, forces: &[Resultant]) -> bool {
-        let structure = &self.analysis.structure;
-        forces.iter().zip(&structure.joints).all(|(force, joint)| {
-            let normal = force.normal();
-            let share = if normal > 0.0 { 2.0 * force.intrados.min(force.extrados) / normal } else { 1.0 };
-            let most = structure.strength_at(joint) * (share + SLIVER) * joint.length();
-            joint.law.coulomb().is_none() || normal <= most
-        })
-    }
-
     /// The collapse load as the method reads it: exact, or the first whole step beyond.
     fn read_off(&self, load_factor: f64, sign: f64) -> f64 {
         match self.analysis.task.method() {
@@ -288,16 +183,4 @@ impl Setup<'_> {
             }
         }
     }
-}
-
-/// The analysis of the same structure without its passive elements, and its static theorem; none where it has none.
-fn without_soil(analysis: &Analysis) -> Result<Option<(Analysis, StaticTheorem)>, AnalysisError> {
-    if analysis.structure.passive.is_empty() {
-        return Ok(None);
-    }
-    let mut free = analysis.clone();
-    free.structure.passive.clear();
-    let theorem = StaticTheorem::new(&free.structure, &free.fixed, &free.scaled);
-    let theorem = theorem.map_err(|bodies| AnalysisError::Unconnected(bodies[0]))?;
-    Ok(Some((free, theorem)))
 }
