@@ -64,17 +64,27 @@ impl Search<'_> {
     /// forces.
     pub(super) fn least(&self, at_limits: &[Vec<Released>], end: f64) -> (Option<FullSolution>, usize) {
         let mut hunt = Hunt::new(self);
+        hunt.try_each(at_limits);
         if self.theorem.has_loops() {
-            at_limits.iter().for_each(|released| hunt.try_some(released));
             hunt.give_shear(end);
             hunt.round_corners();
         } else {
-            at_limits.iter().for_each(|released| hunt.exchange(released));
             hunt.wander();
             if !self.is_ring() {
                 hunt.give_shear(end);
             }
         }
+        self.found(hunt)
+    }
+
+    /// The least of the mechanisms of these joints alone.
+    pub(super) fn least_of(&self, at_limits: &[Vec<Released>]) -> (Option<FullSolution>, usize) {
+        let mut hunt = Hunt::new(self);
+        hunt.try_each(at_limits);
+        self.found(hunt)
+    }
+
+    fn found(&self, hunt: Hunt) -> (Option<FullSolution>, usize) {
         let tried = hunt.tried();
         let solution = hunt.best.map(|Candidate { equilibrium, moving, rates, .. }| FullSolution {
             load_factor: equilibrium.load_factor,

@@ -7,6 +7,7 @@ mod fallen;
 mod least;
 mod leg;
 mod mesh;
+mod moved;
 mod softer;
 
 pub(super) use mesh::{is_cohesive, notes_on_mesh};
@@ -17,15 +18,15 @@ use super::path::{ATTEMPTS, Attempt, disturbed, nothing_grows, stand, total};
 use super::snapshot::snapshot;
 use super::state::{Standing, States};
 use super::strips::Strips;
-use super::updated::{self, Course};
 use super::{
-    Analysis, AnalysisError, CollapseReport, Cost, Crushing, Doubt, Geometry, Method, Note, Order, Outcome,
-    SettlementEnd, SupportMovement, Task, TaskReport, ThrustRange, UpdatedGeometry, cracks, falling, geometric, plan,
-    rounding, safety, settlement,
+    Analysis, AnalysisError, CollapseReport, Cost, Crushing, Doubt, Geometry, Method, Note, Order, Outcome, Task,
+    ThrustRange, falling, geometric, plan, rounding, safety,
 };
 use crate::budget::Budget;
 use crate::dda::{self, Tracer};
+use least::Searched;
 
+use std::cell::RefCell;
 use std::ops::ControlFlow;
 
 /// By default the load factor is raised until the scaled loads are so many times the fixed ones.
@@ -51,6 +52,8 @@ struct Setup<'a> {
     rigid: Option<[f64; 2]>,
     /// The answer of whole stones to the same question, where it is known.
     whole: Option<&'a CollapseReport>,
+    /// Least loads at which joints slide that were found.
+    searched: RefCell<Searched>,
     /// Joints that crush on the path.
     strips: Strips,
 }
@@ -141,6 +144,7 @@ impl<'a> Setup<'a> {
             rigid,
             strips,
             whole: None,
+            searched: RefCell::default(),
             sign,
             start,
             cap,
@@ -317,49 +321,6 @@ impl<'a> Setup<'a> {
         at_start.map(|state| report.fields_at_rest(self.analysis, model, &state)).transpose()?;
         let cancel = !self.analysis.scaled.is_empty();
         report.notes.extend(self.analysis.task.grows().then_some(Note::NothingGrows { cancel }));
-        Ok(())
-    }
-
-    /// The answer on moving geometry, where it is asked for and the arch stands at first order.
-    fn updated(
-        &self,
-        report: &mut CollapseReport,
-        built: &mut Discretisation<'a>,
-    ) -> Result<Option<UpdatedGeometry>, AnalysisError> {
-        let stands = report.at_start.is_some() && report.outcome != Outcome::CannotTell;
-        if self.analysis.task.geometry() == Geometry::FirstOrder || !stands || !self.analysis.task.grows() {
-            return Ok(None);
-        }
-        let (start, sign, cap, weight) = (self.start, self.sign, self.cap, self.weight);
-        let as_much = weight / total(&self.analysis.scaled).max(f64::MIN_POSITIVE);
-        let rise = report.end.as_ref().map_or(as_much, |end| (end.on_path() - start).abs());
-        let course = Course { start, sign, cap, rise, ends: report.end.is_some(), weight };
-        updated::follow(self.analysis, course, &mut report.cost, built).map(Some)
-    }
-
-    /// What becomes of a standing structure as its supports move.
-    fn settle(
-        &self,
-        report: &mut CollapseReport,
-        movements: &[SupportMovement],
-        built: &mut Discretisation<'a>,
-    ) -> Result<(), AnalysisError> {
-        safety::crushed(report, false);
-        if report.at_start.is_none() || report.outcome == Outcome::CannotTell {
-            return Ok(());
-        }
-        let settlement = settlement::follow(self.analysis, movements, self.weight, &mut report.cost, built)?;
-        let shared =
-            settlement.as_ref().and_then(|report| cracks::shared(&self.analysis.structure, &report.first_order));
-        report.notes.extend(shared.map(Note::CracksShared));
-        if report.outcome != Outcome::Crushes {
-            report.outcome = match settlement.as_ref().map(|s| s.updated.as_ref().unwrap_or(&s.first_order).end) {
-                Some(SettlementEnd::Follows) => Outcome::FollowsMovement,
-                Some(SettlementEnd::Collapse | SettlementEnd::FallsAsLoaded) => Outcome::FallsByMovement,
-                Some(SettlementEnd::CannotTell) | None => Outcome::CannotTell,
-            };
-        }
-        report.task = TaskReport::Settlement(settlement.map(Box::new));
         Ok(())
     }
 }

@@ -146,9 +146,16 @@ impl<'s> Hunt<'s> {
         Tried::Lower
     }
 
+    /// From joints that are at their limits together, in any of several states.
+    pub(super) fn try_each(&mut self, at_limits: &[Vec<Released>]) {
+        for released in at_limits {
+            if self.search.theorem.has_loops() { self.try_some(released) } else { self.exchange(released) }
+        }
+    }
+
     /// From one state on, whose programmes end in a corner of all equilibria. Where nothing slides virtual work gives every motion that
     /// has admissible forces the load at the end of the limit window.
-    pub(super) fn exchange(&mut self, released: &[Released]) {
+    fn exchange(&mut self, released: &[Released]) {
         let (mut released, mut quiet) = (released.to_vec(), 0);
         while quiet < QUIET && released.iter().any(slides) {
             quiet += 1;
@@ -165,7 +172,7 @@ impl<'s> Hunt<'s> {
     }
 
     /// From one state where there are many loops: rough rates may fail to close; those of other costs need not.
-    pub(super) fn try_some(&mut self, released: &[Released]) {
+    fn try_some(&mut self, released: &[Released]) {
         _ = (0..STARTS).any(|_| self.tries(released, Costs::Apart) == Some(Tried::Lower));
     }
 

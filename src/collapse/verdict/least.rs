@@ -10,12 +10,19 @@ use crate::limit::{Resultant, StaticTheorem};
 
 /// Share of a joint that may crush without being told.
 const SLIVER: f64 = 1e-6;
+/// Attempts that end within this share of a load factor have the same mechanisms before them: they are looked for from all over the way.
+const SAME_WAY: f64 = 1e-2;
 
 /// The least full solution found in which joints slide and bear it, if any; and how many mechanisms were tried.
+#[derive(Clone)]
 struct Least {
     end: Option<PathEnd>,
     mechanisms_tried: usize,
 }
+
+/// What was found either way, and on the way to which load factors, to be taken up by other attempts that end there.
+#[derive(Default)]
+pub(super) struct Searched([Option<(f64, Least)>; 2]);
 
 impl Setup<'_> {
     /// Whether the least load at which joints slide is looked for.
@@ -36,7 +43,7 @@ impl Setup<'_> {
         let path = sign * self.cap;
         let least = match self.known_least(sign) {
             Some(known) => known,
-            None => self.least(sign, &mut Vec::new(), path)?,
+            None => self.least(sign, &[], path)?,
         };
         let Some(end) = least.end.filter(|end| self.is_beyond(sign, path, end.load_factor, tolerances::SAME_LOAD))
         else {
@@ -86,14 +93,23 @@ impl Setup<'_> {
         Some(Least { end: end.clone().filter(|_| range.is_some()), mechanisms_tried })
     }
 
-    /// The least load that is found on the way to load factor `path`. What is at its limits at the window's end joins `at_limits`.
-    fn least(&self, sign: f64, at_limits: &mut Vec<Vec<Released>>, path: f64) -> Result<Least, AnalysisError> {
+    /// The least load that is found on the way to load factor `path`, from joints that are at their limits together. Another attempt that
+    /// ends at about the same load has the same mechanisms before it, and adds those of its own joints.
+    fn least(&self, sign: f64, at_limits: &[Vec<Released>], path: f64) -> Result<Least, AnalysisError> {
         let (theorem, free) = (&self.certificate.theorem, without_soil(self.analysis)?);
         let (analysis, free) = free.as_ref().map_or((self.analysis, theorem), |(analysis, free)| (analysis, free));
         let soil = &self.analysis.structure.passive[..];
         let search = Search { analysis, soil, theorem, free, budget: self.budget, start: self.start, sign };
-        at_limits.extend(search.at_window_end(self.greatest(sign)));
-        let (found, mechanisms_tried) = search.least(at_limits, path);
+        let side = usize::from(sign > 0.0);
+        let same_way = |(to, _): &&(f64, Least)| (to - path).abs() <= SAME_WAY * path.abs();
+        let before = self.searched.borrow().0[side].as_ref().filter(same_way).map(|(_, least)| least.clone());
+        let (found, mechanisms_tried) = match &before {
+            Some(_) => search.least_of(at_limits),
+            None => {
+                let at_end = search.at_window_end(self.greatest(sign));
+                search.least(&at_limits.iter().cloned().chain(at_end).collect::<Vec<_>>(), path)
+            }
+        };
         self.budget.check()?;
         let is_borne = |found: &FullSolution| !self.analysis.task.crushes_on_path() || self.bears(&found.forces);
         let end = |FullSolution { load_factor, forces, soil, mechanism }| {
@@ -101,7 +117,12 @@ impl Setup<'_> {
             PathEnd { load_factor, range: None, residual: 0.0, mechanism, thrust_line, soil, crushed: Vec::new() }
         };
         let end = found.filter(|found| found.mechanism.slips() && is_borne(found)).map(end);
-        Ok(Least { end, mechanisms_tried })
+        let least = match before {
+            Some(before) => before.or_lower(Least { end, mechanisms_tried }, sign),
+            None => Least { end, mechanisms_tried },
+        };
+        self.searched.borrow_mut().0[side] = Some((path, least.clone()));
+        Ok(least)
     }
 
     fn range(&self, sign: f64, least: f64, path: f64, mechanisms_tried: usize) -> LoadRange {
@@ -128,6 +149,16 @@ impl Setup<'_> {
             let most = structure.strength_at(joint) * (share + SLIVER) * joint.length();
             joint.law.coulomb().is_none() || normal <= most
         })
+    }
+}
+
+impl Least {
+    /// The lower of two, seen in the direction of `sign`; some of the mechanisms of the second may have been tried before.
+    fn or_lower(self, other: Least, sign: f64) -> Least {
+        let mechanisms_tried = self.mechanisms_tried.max(other.mechanisms_tried);
+        let ends = self.end.into_iter().chain(other.end);
+        let end = ends.min_by(|a, b| (sign * a.load_factor).total_cmp(&(sign * b.load_factor)));
+        Least { end, mechanisms_tried }
     }
 }
 

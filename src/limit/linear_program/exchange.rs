@@ -68,6 +68,9 @@ impl Basis {
         let others = others.chain(after.chunks_exact_mut(n).enumerate().map(|(i, other)| (i + leaving + 1, other)));
         for (i, other) in others {
             let weight = self.weights[i];
+            if weight == 0.0 {
+                continue;
+            }
             other.iter_mut().zip(&*column).for_each(|(x, c)| *x -= weight * c);
             self.dual[i] -= weight * y;
         }

@@ -3,14 +3,14 @@
 use super::norm;
 
 /// Rows that are multiplied at a time.
-pub(super) const LANES: usize = 4;
+pub(super) const LANES: usize = 8;
 
 /// Half spaces `row . x + constant >= 0` whose rows have unit length and point inside.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HalfSpaces {
     pub(super) unknowns: usize,
     rows: usize,
-    /// Four rows at a time: their coefficients of every unknown, then their constants.
+    /// So many rows at a time: their coefficients of every unknown, then their constants.
     pub(super) tiles: Vec<[f64; LANES]>,
 }
 

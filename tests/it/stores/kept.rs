@@ -11,11 +11,11 @@ const PROMISED: Duration = Duration::from_secs(1000);
 
 pub(super) async fn what_was_not_read_is_kept_and_submissions_are_refused(new: New<'_>) {
     let store = new(Limits { bytes: 2 * ANSWER + ANSWER / 2, promised: PROMISED, ..limits() });
-    let _workers = workers(&store, 1);
     let mut ids = vec![];
     for _ in 0..4 {
         ids.push(submitted(&store, QUICK).await);
     }
+    let _workers = workers(&store, 1);
     // The third answer takes more than there is; the fourth job waits until something may be forgotten.
     until(&store, ids[2], ended).await;
     assert!(matches!(store.submit(order(QUICK)).await.unwrap_err(), Refusal::MemoryFull(bytes) if bytes > 3 * ANSWER));
