@@ -102,7 +102,7 @@ impl Setup<'_> {
         let search = Search { analysis, soil, theorem, free, budget: self.budget, start: self.start, sign };
         let side = usize::from(sign > 0.0);
         let same_way = |(to, _): &&(f64, Least)| (to - path).abs() <= SAME_WAY * path.abs();
-        let before = self.searched.borrow().0[side].as_ref().filter(same_way).map(|(_, least)| least.clone());
+        let before = self.searched.borrow().0[side].as_ref().filter(same_way).cloned();
         let (found, mechanisms_tried) = match &before {
             Some(_) => search.least_of(at_limits),
             None => {
@@ -117,11 +117,13 @@ impl Setup<'_> {
             PathEnd { load_factor, range: None, residual: 0.0, mechanism, thrust_line, soil, crushed: Vec::new() }
         };
         let end = found.filter(|found| found.mechanism.slips() && is_borne(found)).map(end);
-        let least = match before {
-            Some(before) => before.or_lower(Least { end, mechanisms_tried }, sign),
-            None => Least { end, mechanisms_tried },
+        let found = Least { end, mechanisms_tried };
+        // Held against where it was first looked for, attempts cannot lead away from there step by step.
+        let (to, least) = match before {
+            Some((to, before)) => (to, before.or_lower(found, sign)),
+            None => (path, found),
         };
-        self.searched.borrow_mut().0[side] = Some((path, least.clone()));
+        self.searched.borrow_mut().0[side] = Some((to, least.clone()));
         Ok(least)
     }
 
