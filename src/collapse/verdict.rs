@@ -28,6 +28,7 @@ use least::Searched;
 
 use std::cell::RefCell;
 use std::ops::ControlFlow;
+use std::rc::Rc;
 
 /// By default the load factor is raised until the scaled loads are so many times the fixed ones.
 const DEFAULT_CAP: f64 = 1e6;
@@ -52,8 +53,8 @@ struct Setup<'a> {
     rigid: Option<[f64; 2]>,
     /// The answer of whole stones to the same question, where it is known.
     whole: Option<&'a CollapseReport>,
-    /// Least loads at which joints slide that were found.
-    searched: RefCell<Searched>,
+    /// Least loads at which joints slide that were found, with contacts of any stiffness.
+    searched: Rc<RefCell<Searched>>,
     /// Joints that crush on the path.
     strips: Strips,
 }
@@ -69,8 +70,9 @@ type OnEvent<'w> = dyn FnMut(&Tracer, f64) -> ControlFlow<()> + 'w;
 
 /// The whole answer; stones that are in `built` already are not condensed again.
 pub(super) fn run<'a>(analysis: &'a Analysis, built: &mut Discretisation<'a>) -> Result<CollapseReport, AnalysisError> {
-    let report = softer::as_asked(analysis, built)?;
-    softer::or_softer(analysis, report, built)
+    let question = Setup::new(analysis, built.budget)?;
+    let report = softer::as_asked(&question, built)?;
+    softer::or_softer(&question, report, built)
 }
 
 /// Limit window and load path on the mesh given; what follows from them is left to [`run`].
@@ -144,7 +146,7 @@ impl<'a> Setup<'a> {
             rigid,
             strips,
             whole: None,
-            searched: RefCell::default(),
+            searched: Rc::default(),
             sign,
             start,
             cap,

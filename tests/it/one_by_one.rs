@@ -1,6 +1,7 @@
 //! States on a refined mesh, solved for one by one, against those on the path that is followed on the same mesh.
 
 use crate::common::largest::larger;
+use crate::common::rigid_blocks::{portal, scene::Scene};
 use crate::common::snapshots::apart;
 use crate::common::structures::{self, FAMILIES};
 use crate::common::{door, random_arch};
@@ -18,6 +19,8 @@ const ASKED: usize = 80;
 /// How many random bridges and portals, and how many of them at least have to ask a question; of walls none does.
 const STRUCTURES: u64 = 24;
 const ASKED_OF_STRUCTURES: usize = 5;
+/// Random portals that slide, and whose paths are followed on their meshes.
+const PORTALS: [u64; 4] = [3, 9, 12, 13];
 /// Largest difference of a contact's force, over the largest, before and near collapse, where a state follows its load a thousandfold.
 const EQUAL: [f64; 2] = [1e-9, 1e-6];
 const FOLLOWS: f64 = 2e3;
@@ -111,19 +114,42 @@ fn where_there_are_others_the_path_tells_which() {
     }
 }
 
+/// A random structure that is asked for stress.
+fn structure(scene: &Scene) -> Analysis {
+    let mut analysis = structures::analysis(scene);
+    let accuracy = Accuracy { collapse_intensity: None, stress: Some(0.3), most_subblocks: 600 };
+    let states = StatesAsked { fields: vec![FieldAt::NearCollapse], ..StatesAsked::default() };
+    let method = Method::EventPath(Path::Refined(accuracy));
+    analysis.task = Task::Collapse(CollapseTask { method, states, ..CollapseTask::default() });
+    analysis
+}
+
 #[test]
 fn so_they_are_in_any_structure() {
     let mut compared = Compared::default();
     for (family, scene) in FAMILIES.into_iter().filter(|(family, _)| *family != "walls") {
         for seed in 0..STRUCTURES {
-            let mut analysis = structures::analysis(&scene(seed));
-            let accuracy = Accuracy { collapse_intensity: None, stress: Some(0.3), most_subblocks: 600 };
-            let states = StatesAsked { fields: vec![FieldAt::NearCollapse], ..StatesAsked::default() };
-            let method = Method::EventPath(Path::Refined(accuracy));
-            analysis.task = Task::Collapse(CollapseTask { method, states, ..CollapseTask::default() });
-            compared.compare(&format!("{family} {seed}"), &analysis);
+            compared.compare(&format!("{family} {seed}"), &structure(&scene(seed)));
         }
     }
     println!("{compared:?}");
     assert!(compared.asked >= ASKED_OF_STRUCTURES, "{compared:?}");
+}
+
+/// Where joints slide it is that of rigid stones: it is not looked for once more on a mesh, where others may be found.
+#[test]
+fn the_least_load_is_taken_from_whole_stones() {
+    for seed in PORTALS {
+        let asked = structure(&portal::random(seed));
+        let of_whole_stones = Analysis { task: Task::Collapse(CollapseTask::default()), ..asked.clone() };
+        let [on_mesh, whole] = [&asked, &of_whole_stones].map(|analysis| run(analysis, &Budget::unlimited()).unwrap());
+        let plan = on_mesh.plan.as_ref().unwrap();
+        let on_path = !plan.why.contains(&PlanReason::StatesOneByOne) && !plan.subblocks.contains(&[1, 1]);
+        assert!(on_path, "portal {seed}: {:?}", plan.why);
+        let [on_mesh, whole] = [on_mesh, whole].map(|report| {
+            let end = report.end.unwrap();
+            (end.load_factor, end.range.unwrap().mechanisms_tried)
+        });
+        assert_eq!(on_mesh, whole, "portal {seed}");
+    }
 }

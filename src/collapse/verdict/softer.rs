@@ -9,26 +9,27 @@ use super::Setup;
 use crate::collapse::discretise::Discretisation;
 use crate::collapse::{Analysis, AnalysisError, CollapseReport, Doubt, Note, Outcome};
 
+use std::rc::Rc;
+
 /// Contact penalties that are tried instead of stiffer ones, as multiples of Young's modulus.
 const SOFTER: [f64; 2] = [1.0, 0.1];
 
 /// The answer with contacts as stiff as asked.
 pub(super) fn as_asked<'a>(
-    analysis: &'a Analysis,
+    question: &Setup<'a>,
     built: &mut Discretisation<'a>,
 ) -> Result<CollapseReport, AnalysisError> {
-    let question = Setup::new(analysis, built.budget)?;
     let report = question.answer(built)?;
     Ok(report.or_cannot_tell(question.blank(0)))
 }
 
 /// The same answer, or where its path was lost that of softer contacts, whose loads are as good where stones are rigid.
 pub(super) fn or_softer<'a>(
-    analysis: &Analysis,
+    question: &Setup<'a>,
     mut report: CollapseReport,
     built: &mut Discretisation<'a>,
 ) -> Result<CollapseReport, AnalysisError> {
-    let budget = built.budget;
+    let Setup { analysis, budget, .. } = question;
     for taken in SOFTER.into_iter().filter(|ratio| *ratio < analysis.penalty_ratio) {
         let Some(doubt) = report.lost() else { break };
         let turned_back = match doubt {
@@ -37,8 +38,10 @@ pub(super) fn or_softer<'a>(
         };
         // One model at a time.
         *built = Discretisation::new(budget);
-        let softer = Analysis { penalty_ratio: taken, ..analysis.clone() };
-        let mut next = as_asked(&softer, &mut Discretisation::new(budget))?;
+        let softer = Analysis { penalty_ratio: taken, ..Analysis::clone(analysis) };
+        // Stones are rigid where the least load at which joints slide is looked for.
+        let question = Setup { searched: Rc::clone(&question.searched), ..Setup::new(&softer, budget)? };
+        let mut next = as_asked(&question, &mut Discretisation::new(budget))?;
         if next.outcome == Outcome::CannotTell {
             report.cost.join(next.cost);
             continue;
