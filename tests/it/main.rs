@@ -7,6 +7,11 @@
 )]
 #![cfg_attr(not(feature = "server"), allow(dead_code, reason = "without the service few tests are left"))]
 
+/// That of the program.
+#[cfg(feature = "server")]
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 #[cfg(feature = "server")]
 mod accuracy;
 #[cfg(feature = "server")]
