@@ -232,18 +232,14 @@ fn states_on_a_mesh_are_those_of_its_path() {
     assert!(compared.direct >= 4, "{compared:?}");
 }
 
-/// And in random arches, with few voussoirs and many. Where joints slide in whole stones, which takes less to find out, the path tells on a
-/// mesh, too.
+/// And in random arches, with few voussoirs and many.
 #[test]
 fn states_of_random_arches_on_a_mesh_are_those_of_its_path() {
     let mut compared = Compared::default();
     for seed in 0..ON_MESH {
         let mut request = random_arch::request(seed);
-        let slides = door::analysis(&request).is_ok_and(|whole| {
-            run(&whole, &Budget::unlimited()).is_ok_and(|report| report.states_from == StatesFrom::LoadPath)
-        });
         request["mesh"] = mesh(4, 3);
-        if !slides && let Ok(analysis) = door::analysis(&request) {
+        if let Ok(analysis) = door::analysis(&request) {
             compared.compare(&format!("seed {seed}"), &analysis);
         }
     }
