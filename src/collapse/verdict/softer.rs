@@ -29,7 +29,7 @@ pub(super) fn or_softer<'a>(
     mut report: CollapseReport,
     built: &mut Discretisation<'a>,
 ) -> Result<CollapseReport, AnalysisError> {
-    let Setup { analysis, budget, .. } = question;
+    let (analysis, budget) = (question.analysis, question.budget);
     for taken in SOFTER.into_iter().filter(|ratio| *ratio < analysis.penalty_ratio) {
         let Some(doubt) = report.lost() else { break };
         let turned_back = match doubt {
@@ -38,7 +38,7 @@ pub(super) fn or_softer<'a>(
         };
         // One model at a time.
         *built = Discretisation::new(budget);
-        let softer = Analysis { penalty_ratio: taken, ..Analysis::clone(analysis) };
+        let softer = Analysis { penalty_ratio: taken, ..analysis.clone() };
         // Stones are rigid where the least load at which joints slide is looked for.
         let question = Setup { searched: Rc::clone(&question.searched), ..Setup::new(&softer, budget)? };
         let mut next = as_asked(&question, &mut Discretisation::new(budget))?;
