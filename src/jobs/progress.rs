@@ -91,11 +91,14 @@ impl<'a> Observer<'a> {
         self.place.outgrown().map(Reason::Outgrown)
     }
 
-    /// Why it was stopped, where its client did not ask for it.
+    /// Why it was stopped, where its client did not ask for it. Asked for when all that the analysis had is dropped.
     pub(super) fn failure(&self, Stopped(LoadStep { load_factor, events, .. }): Stopped) -> Option<Failure> {
         Some(match self.reason.get()? {
             Reason::Overdue => Failure::Overdue { limit: self.limit, load_factor, events },
-            Reason::Outgrown(limit) => Failure::Outgrown { limit, load_factor, events },
+            Reason::Outgrown(limit) => {
+                self.place.settle();
+                Failure::Outgrown { limit, load_factor, events }
+            }
         })
     }
 }

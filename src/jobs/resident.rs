@@ -5,8 +5,10 @@
 
 use super::job::JobId;
 use std::collections::BTreeSet;
-use std::fs;
+use std::hint::black_box;
 use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+use std::{fs, thread};
 
 /// Memory of this process, bytes; none where the system does not tell it as Linux does.
 pub fn resident() -> Option<usize> {
@@ -15,6 +17,13 @@ pub fn resident() -> Option<usize> {
     let kibibytes: usize = line.split_whitespace().next()?.parse().ok()?;
     kibibytes.checked_mul(1024)
 }
+
+/// Time for the allocator to give back what was freed, and how often it gets that.
+const LULL: Duration = Duration::from_millis(50);
+const TRIES: usize = 6;
+
+/// Bytes of a block that the allocator keeps by itself.
+const LARGE: usize = 64 << 20;
 
 /// Analyses that run in this process, by what they were estimated to take.
 #[derive(Debug)]
@@ -36,6 +45,11 @@ impl Running {
         Place { running: self, mine: (memory, id) }
     }
 
+    /// Whether the process has grown beyond its bound.
+    fn is_beyond(&self) -> bool {
+        resident().is_some_and(|memory| memory > self.most)
+    }
+
     fn estimates(&self) -> MutexGuard<'_, BTreeSet<(usize, JobId)>> {
         self.estimates.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -51,9 +65,22 @@ pub(super) struct Place<'a> {
 impl Place<'_> {
     /// The bound of the process, bytes, where it has grown beyond that and no larger analysis runs that could stop instead.
     pub(super) fn outgrown(&self) -> Option<usize> {
-        let most = self.running.most;
-        let beyond = resident().is_some_and(|memory| memory > most);
-        (beyond && self.running.estimates().last() == Some(&self.mine)).then_some(most)
+        // Nobody leaves while memory is measured: it would be held against the next.
+        let estimates = self.running.estimates();
+        (estimates.last() == Some(&self.mine) && self.running.is_beyond()).then_some(self.running.most)
+    }
+
+    /// Waits until the process is within its bound again, where this analysis was stopped and has dropped what it had: as long as it
+    /// keeps its place no other is stopped. Not longer than [`TRIES`] times [`LULL`]: then it was not this one alone.
+    pub(super) fn settle(&self) {
+        for _ in 0..TRIES {
+            if !self.running.is_beyond() {
+                return;
+            }
+            thread::sleep(LULL);
+            // The allocator keeps what is freed for a while, and then until somebody frees a large block.
+            drop(black_box(Vec::<u8>::with_capacity(LARGE)));
+        }
     }
 }
 

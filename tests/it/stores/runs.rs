@@ -4,7 +4,7 @@ use super::{ANSWER, ENDLESS, ERROR, New, PANIC, PATIENCE, QUICK};
 use super::{answer, ended, failed, limits, order, running, stand_in, submitted, until, work, workers};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 use tokio::time::{sleep, timeout};
 use voussoir::budget::Budget;
 use voussoir::jobs::{Cancelled, Failure, Job, JobState, Product, Status, Submission, Work, Workers, resident};
@@ -104,9 +104,11 @@ pub(super) async fn an_analysis_that_outgrows_the_process_is_stopped_and_the_sma
             over.store(true, Ordering::SeqCst);
             return result;
         }
-        // At work as long as the large one is there.
-        while !over.load(Ordering::SeqCst) {
+        // At work as long as the large one is there, and for a while when it is gone: what that had is not held against this one.
+        let mut gone = None;
+        while gone.is_none_or(|since: Instant| since.elapsed() < Duration::from_millis(500)) {
             budget.ask().map_err(|stopped| Failure::Analysis(stopped.to_string()))?;
+            gone = gone.or_else(|| over.load(Ordering::SeqCst).then(Instant::now));
         }
         Ok(answer())
     };
