@@ -4,6 +4,7 @@
 //! press the joints so that friction is the shear that was given, it is a mechanism of joints with friction, too; what friction is
 //! under those forces can be given in a next step (Gilbert, Casapulla and Ahmed, Computers and Structures 84 (2006) 873-887).
 
+use super::linear_program::Basis;
 use super::non_dilating::Release;
 use super::programme::{Dual, Objective, Programme, ProgrammeOutcome, Rows};
 use super::static_theorem::{Equilibrium, Limit, StaticTheorem};
@@ -55,12 +56,19 @@ impl StaticTheorem {
     /// # Errors
     /// When rounding, or `budget`, kept the linear programme from an answer.
     pub fn at_end(&self, sign: f64, budget: &Budget) -> Result<Option<Equilibrium>, Unsolved> {
-        self.end(sign, budget).map(|end| end.map(|(equilibrium, _)| equilibrium))
+        self.end(sign, &mut None, budget).map(|end| end.map(|(equilibrium, _)| equilibrium))
     }
 
-    fn end(&self, sign: f64, budget: &Budget) -> Result<Option<(Equilibrium, Dual)>, Unsolved> {
+    fn end(
+        &self,
+        sign: f64,
+        basis: &mut Option<Basis>,
+        budget: &Budget,
+    ) -> Result<Option<(Equilibrium, Dual)>, Unsolved> {
         let programme = Programme { errors: ERRORS, ..Programme::new(self) };
-        match programme.maximise(&Objective::load_factor(sign), budget) {
+        let (outcome, reached) = programme.maximise_from(basis.take(), &Objective::load_factor(sign), budget);
+        *basis = reached;
+        match outcome {
             ProgrammeOutcome::At(equilibrium, dual) => Ok(Some((equilibrium, dual))),
             ProgrammeOutcome::Infeasible(_) | ProgrammeOutcome::Unbounded(_) => Ok(None),
             ProgrammeOutcome::Lost => Err(Unsolved),
@@ -68,12 +76,18 @@ impl StaticTheorem {
     }
 
     /// The mechanism in which joints without friction give way as the loads grow in the direction of `sign`; None where they do not
-    /// stand, or never give way.
+    /// stand, or never give way. `basis`: where joints of the same structure gave way under other shears, and then where these do; to
+    /// go on from there saves time and no more.
     ///
     /// # Errors
     /// When rounding, or `budget`, kept the linear programme from an answer.
-    pub fn gives_way(&self, sign: f64, budget: &Budget) -> Result<Option<GivesWay>, Unsolved> {
-        let Some((equilibrium, dual)) = self.end(sign, budget)? else { return Ok(None) };
+    pub fn gives_way(
+        &self,
+        sign: f64,
+        basis: &mut Option<Basis>,
+        budget: &Budget,
+    ) -> Result<Option<GivesWay>, Unsolved> {
+        let Some((equilibrium, dual)) = self.end(sign, basis, budget)? else { return Ok(None) };
         let (moving, rates) = self.moving(&dual.multipliers);
         Ok(Some(GivesWay { load_factor: equilibrium.load_factor, moving, rates }))
     }

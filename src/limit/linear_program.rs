@@ -17,8 +17,8 @@ const SMALLER_BOXES: [f64; 3] = [1e1, 1e3, 1e6];
 const TOLERANCE: f64 = 1e-12;
 /// Far above what the method needs (two to five pivots an unknown); reached only if rounding defeats the tie rule.
 const MOST_PIVOTS: usize = 10_000;
-/// Pivots after which the inverse is computed anew.
-const REFRESH: usize = 32;
+/// Pivots after which point and multipliers are corrected.
+const SETTLE: usize = 32;
 
 /// Outcome of a maximisation.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,10 +44,10 @@ fn climb(basis: &mut Basis, half_spaces: &HalfSpaces, budget: &Budget) -> Optimu
         let MostViolated::Worst(entering) = found else {
             match found {
                 MostViolated::NotANumber => return Optimum::Lost,
-                _ if basis.fresh => return basis.optimum(),
+                _ if basis.exact => return basis.optimum(),
                 _ => {}
             }
-            if !basis.refresh(half_spaces) {
+            if !basis.settle(half_spaces) {
                 return Optimum::Lost;
             }
             continue;
@@ -68,7 +68,7 @@ fn climb(basis: &mut Basis, half_spaces: &HalfSpaces, budget: &Budget) -> Optimu
                 }
             }
         }
-        if pivot % REFRESH == 0 && !basis.refresh(half_spaces) {
+        if pivot % SETTLE == 0 && !basis.settle(half_spaces) {
             return Optimum::Lost;
         }
     }
@@ -91,7 +91,7 @@ enum MostViolated {
 
 /// As many constraints as there are unknowns, the point where they meet, and scratch memory.
 ///
-/// Their multipliers stay what they are where half spaces are added, so that the method goes on from it.
+/// Their multipliers stay what they are where half spaces are added, or shifted, so that the method goes on from it.
 #[derive(Debug, Clone)]
 pub struct Basis {
     objective: Vec<f64>,
@@ -109,6 +109,8 @@ pub struct Basis {
     weights: Vec<f64>,
     /// Whether the inverse was computed from the rows themselves.
     fresh: bool,
+    /// Whether point and multipliers are as exact as the rows tell them.
+    exact: bool,
     matrix: Vec<f64>,
 }
 
@@ -118,11 +120,10 @@ impl Basis {
         let n = objective.len();
         let constraints = (0..n).map(|i| Facet::Wall(i, -corner_sign(objective[i]))).collect();
         let [mut inverse, matrix] = [(); 2].map(|()| vec![0.0; n * n]);
-        let [mut point, mut dual, row, weights] = [(); 4].map(|()| vec![0.0; n]);
+        let [point, mut dual, row, weights] = [(); 4].map(|()| vec![0.0; n]);
         for (i, coefficient) in objective.iter().enumerate() {
             let sign = corner_sign(*coefficient);
             inverse[i * n + i] = -sign;
-            point[i] = sign * BOX;
             dual[i] = sign * coefficient;
         }
         Basis {
@@ -136,11 +137,12 @@ impl Basis {
             violation: 0.0,
             weights,
             fresh: true,
+            exact: false,
             matrix,
         }
     }
 
-    /// Maximises `objective . x` over all `half_spaces`: those that it was last asked about, and any behind them.
+    /// Maximises `objective . x` over all `half_spaces`: those that it was last asked about, with any constants, and any behind them.
     ///
     /// Dual simplex, first from a corner of a large box: of the constraints in the basis one leaves for the most violated one,
     /// until none is violated. Ties are broken lexicographically, as if the objective were perturbed by (e, e^2, e^3, ...),
@@ -148,16 +150,16 @@ impl Basis {
     /// are not zero. Of many points that are as good, as where wedged stones may press on each other as they like, one near by is
     /// told: in others what is of order one would be lost to rounding.
     pub fn go_on(&mut self, half_spaces: &HalfSpaces, budget: &Budget) -> Optimum {
-        if self.size != BOX && !self.resize(BOX, half_spaces) {
-            return Optimum::Lost;
-        }
+        self.meet_in(BOX, half_spaces);
         let found = climb(self, half_spaces, budget);
         if !matches!(found, Optimum::At(..)) || !self.walls().any(|_| true) {
             return found;
         }
         // Multipliers do not depend on the size: the method goes on from where it is.
-        let nearer =
-            |size| if self.resize(size, half_spaces) { climb(self, half_spaces, budget) } else { Optimum::Lost };
+        let nearer = |size| {
+            self.meet_in(size, half_spaces);
+            climb(self, half_spaces, budget)
+        };
         SMALLER_BOXES.into_iter().map(nearer).find(|nearer| matches!(nearer, Optimum::At(..))).unwrap_or(found)
     }
 
@@ -221,10 +223,10 @@ impl Basis {
         pairs.filter(|(constraint, _)| matches!(constraint, Facet::Wall(..))).map(|(_, &y)| y)
     }
 
-    /// The point where the same constraints meet in a box of another size; false where they depend on each other.
-    fn resize(&mut self, size: f64, half_spaces: &HalfSpaces) -> bool {
+    /// Finds the point where the same constraints meet in a box of this size.
+    fn meet_in(&mut self, size: f64, half_spaces: &HalfSpaces) {
         self.size = size;
-        self.refresh(half_spaces)
+        self.meet(half_spaces);
     }
 
     fn optimum(&self) -> Optimum {

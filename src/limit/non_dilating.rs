@@ -5,6 +5,7 @@
 //! the end that opens, shear at its bound against the motion. These are linear conditions on the unknowns of the static
 //! theorem, and what they leave open is a whole range of load factors. Its least value is a linear programme.
 
+use super::linear_program::Basis;
 use super::passive::SoilEnd;
 use super::programme::{Objective, Programme, ProgrammeOutcome};
 use super::resultant::Resultant;
@@ -52,59 +53,101 @@ pub fn releases(joint: &Joint, forces: &Resultant, none: f64) -> Vec<Release> {
     rotations.into_iter().chain(slides).collect()
 }
 
-impl StaticTheorem {
-    /// The equilibrium of the smallest load factor, in the direction of `sign`, at which the joints that `moving` names are at
+/// The least loads of mechanisms of one structure, of which many are tried.
+#[derive(Debug)]
+pub struct LeastLoads<'t> {
+    theorem: &'t StaticTheorem,
+    /// Load factor from which loads grow, and +1 or -1 for their direction.
+    start: f64,
+    sign: f64,
+    /// Where the least load of all equilibria is, whatever moves: the simplex method goes on from there for every mechanism.
+    basis: Option<Basis>,
+}
+
+impl LeastLoads<'_> {
+    /// The equilibrium of the smallest load factor, in the direction of the loads, at which the joints that `moving` names are at
     /// those limits, the passive elements that `pinned` names at those of theirs, and every other is admissible; None where
-    /// there is none between `start` and `end`.
+    /// there is none between the start and `end`.
     ///
     /// An end that opens carries nothing. How much of its cohesion a joint that opens has left depends on where along it the
     /// cohesion sits, so where it slides too, anything from none to all is admitted.
     ///
-    /// `tilts` put some weight on the forces of joints, the intrados force, the extrados force and the shear of every one (none:
-    /// no weights), of which 1 counts for all loads as much as the load factor for its scale. Many equilibria may share the
-    /// smallest load factor; an interior point method ends in their middle, where as few joints as may be are at their limits.
-    /// Slight random weights lead to one of their corners, where as many as may be are. Such an equilibrium is rough, and may lie
-    /// beyond `end`.
-    ///
     /// # Errors
     /// When rounding, or `budget`, kept the linear programme from an answer.
-    pub fn least_load(
+    pub fn of(
         &self,
         moving: &[(usize, Release)],
         pinned: &[(usize, SoilEnd)],
-        [start, end]: [f64; 2],
-        sign: f64,
-        tilts: &[[f64; 3]],
+        end: f64,
         budget: &Budget,
     ) -> Result<Option<Equilibrium>, Unsolved> {
+        let mut programme = self.theorem.from_start(self.start, self.sign);
+        programme.limits = self.theorem.at_limits(moving, pinned);
+        programme.cutoff = -self.sign * end / self.theorem.factor;
+        let (found, _) = programme.maximise_from(self.basis.clone(), &Objective::load_factor(-self.sign), budget);
+        Ok(found.equilibrium()?.filter(|equilibrium| self.sign * (equilibrium.load_factor - end) < 0.0))
+    }
+}
+
+impl StaticTheorem {
+    /// The least loads of mechanisms from load factor `start` on, in the direction of `sign`.
+    pub fn least_loads(&self, start: f64, sign: f64, budget: &Budget) -> LeastLoads<'_> {
+        let basis = self.has_few_unknowns().then(|| {
+            let programme = self.from_start(start, sign);
+            programme.maximise_to(&Objective::load_factor(-sign), budget).1
+        });
+        LeastLoads { theorem: self, start, sign, basis: basis.flatten() }
+    }
+
+    /// A corner of the equilibria near the smallest load factor from `start` on, in the direction of `sign`, with joints and passive
+    /// elements at their limits as for [`LeastLoads::of`]; None where there is none.
+    ///
+    /// Many equilibria may share the smallest load factor; an interior point method ends in their middle, where as few joints as may be
+    /// are at their limits. Slight random `tilts` lead to one of their corners, where as many as may be are: weights on the intrados
+    /// force, the extrados force and the shear of every joint, of which 1 counts for all loads as much as the load factor for its
+    /// scale. Such an equilibrium is rough.
+    ///
+    /// `basis`: where a corner was found with the same tilts, and the same limits but for their constants, and then where this one is.
+    ///
+    /// # Errors
+    /// When rounding, or `budget`, kept the linear programme from an answer.
+    pub fn corner(
+        &self,
+        (moving, pinned): (&[(usize, Release)], &[(usize, SoilEnd)]),
+        [start, sign]: [f64; 2],
+        tilts: &[[f64; 3]],
+        basis: &mut Option<Basis>,
+        budget: &Budget,
+    ) -> Result<Option<Equilibrium>, Unsolved> {
+        let mut programme = self.from_start(start, sign);
+        programme.limits = self.at_limits(moving, pinned);
+        programme.errors = CORNER;
+        let objective = Objective { load_factor: -sign, forces: tilts.iter().copied().enumerate().collect() };
+        if !self.has_few_unknowns() {
+            // A corner that this method does not reach takes the other one up to a second: there are more of them.
+            return programme.maximise_sparsely(&objective, budget).equilibrium();
+        }
+        let (found, reached) = programme.maximise_from(basis.take(), &objective, budget);
+        *basis = reached;
+        found.equilibrium()
+    }
+
+    /// All admissible equilibria from load factor `start` on.
+    fn from_start(&self, start: f64, sign: f64) -> Programme<'_> {
         let mut programme = Programme::new(self);
-        programme.limits.extend(pinned.iter().map(|&(element, end)| self.pin(element, end)));
-        for &(joint, release) in moving {
+        programme.bounds[if sign > 0.0 { 0 } else { 1 }] = start;
+        programme
+    }
+
+    /// What holds where these joints and passive elements are at their limits.
+    fn at_limits(&self, moving: &[(usize, Release)], pinned: &[(usize, SoilEnd)]) -> Vec<Limit> {
+        let of_joint = |&(joint, release): &(usize, Release)| {
             let turns =
                 |&(other, release): &(usize, Release)| other == joint && matches!(release, Release::Rotation(_));
-            programme.limits.extend(self.at_limit(joint, release, moving.iter().any(turns)));
-        }
-        programme.bounds[if sign > 0.0 { 0 } else { 1 }] = start;
-        if tilts.is_empty() {
-            programme.cutoff = -sign * end / self.factor;
-        } else {
-            programme.errors = CORNER;
-        }
-        let forces = tilts.iter().copied().enumerate().collect();
-        let objective = Objective { load_factor: -sign, forces };
-        let found = match tilts.is_empty() || self.has_few_unknowns() {
-            true => programme.maximise(&objective, budget),
-            // A corner that this method does not reach takes the other one up to a second: there are more of them.
-            false => programme.maximise_sparsely(&objective, budget),
+            self.at_limit(joint, release, moving.iter().any(turns))
         };
-        match found {
-            ProgrammeOutcome::At(equilibrium, _) => {
-                let lies_before = !tilts.is_empty() || sign * (equilibrium.load_factor - end) < 0.0;
-                Ok(lies_before.then_some(equilibrium))
-            }
-            ProgrammeOutcome::Infeasible(_) => Ok(None),
-            ProgrammeOutcome::Unbounded(_) | ProgrammeOutcome::Lost => Err(Unsolved),
-        }
+        let pinned = pinned.iter().map(|&(element, end)| self.pin(element, end));
+        pinned.chain(moving.iter().filter_map(of_joint)).collect()
     }
 
     /// What `joint` at the limit of `release` is held to; `turns`: some end of it opens.

@@ -2,7 +2,7 @@
 
 use super::crushing::Section;
 use super::linear_program::{Basis, HalfSpaces, Optimum, norm};
-use super::static_theorem::{Equilibrium, Limit, StaticTheorem};
+use super::static_theorem::{Equilibrium, Limit, StaticTheorem, Unsolved};
 use crate::budget::Budget;
 
 /// Rows shorter than this, in units of the loads, are none: the unknowns do not reach the limit.
@@ -47,6 +47,20 @@ pub(super) enum ProgrammeOutcome {
     Infeasible(Dual),
     /// Rounding kept the method from an answer, or who asked for it no longer wants one.
     Lost,
+}
+
+impl ProgrammeOutcome {
+    /// The best equilibrium; None where there is none.
+    ///
+    /// # Errors
+    /// Where the best is not known.
+    pub(super) fn equilibrium(self) -> Result<Option<Equilibrium>, Unsolved> {
+        match self {
+            ProgrammeOutcome::At(equilibrium, _) => Ok(Some(equilibrium)),
+            ProgrammeOutcome::Infeasible(_) => Ok(None),
+            ProgrammeOutcome::Unbounded(_) | ProgrammeOutcome::Lost => Err(Unsolved),
+        }
+    }
 }
 
 /// A solution of the dual programme: a motion that no limit hinders.
@@ -114,8 +128,20 @@ impl<'t> Programme<'t> {
 
     /// Also the basis at which the dense method ended, to go on from where limits are added; none where the other found it.
     pub(super) fn maximise_to(&self, objective: &Objective, budget: &Budget) -> (ProgrammeOutcome, Option<Basis>) {
+        self.maximise_from(None, objective, budget)
+    }
+
+    /// The same from a basis of the same objective over the first of these limits, whose constants may have been others.
+    pub(super) fn maximise_from(
+        &self,
+        basis: Option<Basis>,
+        objective: &Objective,
+        budget: &Budget,
+    ) -> (ProgrammeOutcome, Option<Basis>) {
         if self.theorem.has_few_unknowns() {
-            return match self.densely_to(objective, budget) {
+            let started = basis.is_some();
+            return match self.densely_from(basis, objective, budget) {
+                (ProgrammeOutcome::Lost, _) if started => self.maximise_from(None, objective, budget),
                 (ProgrammeOutcome::Lost, _) => (self.maximise_sparsely(objective, budget), None),
                 (first, basis) => (first, Some(basis)),
             };
@@ -129,12 +155,12 @@ impl<'t> Programme<'t> {
 
     /// The exact method in loop space.
     pub(super) fn maximise_densely(&self, objective: &Objective, budget: &Budget) -> ProgrammeOutcome {
-        self.densely_to(objective, budget).0
+        self.densely_from(None, objective, budget).0
     }
 
-    /// The same, with the basis at which it ended.
-    fn densely_to(&self, objective: &Objective, budget: &Budget) -> (ProgrammeOutcome, Basis) {
-        let mut basis = Basis::new(self.over_unknowns(objective));
+    /// The same from a basis, with the basis at which it ended.
+    fn densely_from(&self, basis: Option<Basis>, objective: &Objective, budget: &Budget) -> (ProgrammeOutcome, Basis) {
+        let mut basis = basis.unwrap_or_else(|| Basis::new(self.over_unknowns(objective)));
         let outcome = match &self.theorem.rows {
             Some(rows) if self.is_plain() => self.go_on(&mut basis, rows, budget),
             _ => self.go_on(&mut basis, &self.dense_rows(), budget),
@@ -150,8 +176,9 @@ impl<'t> Programme<'t> {
             Some(rows) => rows.clone(),
             None => Rows::of_laws(theorem),
         };
-        self.limits.iter().for_each(|limit| rows.push(theorem, limit, self.complete));
+        // Before the limits, which may be added to a programme that has such bounds.
         rows.bound(self.bounds.map(|bound| bound / theorem.factor));
+        self.limits.iter().for_each(|limit| rows.push(theorem, limit, self.complete));
         if self.slack != 0.0 {
             rows.half_spaces.relax(self.slack);
         }
@@ -196,8 +223,8 @@ impl<'t> Programme<'t> {
 #[derive(Debug, Clone)]
 pub(super) struct Rows {
     half_spaces: HalfSpaces,
-    /// Of every row of a limit: which of them it is, and by what it was scaled to unit length.
-    limits: Vec<(usize, f64)>,
+    /// Of every row: which of the limits it is, and by what it was scaled to unit length; none where it bounds the load factor.
+    limits: Vec<Option<(usize, f64)>>,
     /// How many limits there were.
     given: usize,
     /// Smallest constant of a limit that the unknowns do not reach, in units of the loads, and which limit that is.
@@ -225,7 +252,7 @@ impl Rows {
         let norm = norm(&row[..n]);
         if norm > NO_ROW {
             self.half_spaces.push(&row[..n], constant);
-            self.limits.push((self.given, 1.0 / norm));
+            self.limits.push(Some((self.given, 1.0 / norm)));
         } else if constant < self.unreached.0 {
             self.unreached = (constant, self.given);
         }
@@ -240,6 +267,7 @@ impl Rows {
             if bound.is_finite() {
                 row[last] = sign;
                 self.half_spaces.push(&row, -sign * bound);
+                self.limits.push(None);
             }
         }
     }
@@ -254,9 +282,8 @@ impl Rows {
     fn dual(&self, held: &[(usize, f64)]) -> Dual {
         let mut multipliers = vec![0.0; self.given];
         for &(row, multiplier) in held {
-            // Rows behind those of the limits bound the load factor.
-            if let Some((limit, scale)) = self.limits.get(row) {
-                multipliers[*limit] = multiplier * scale;
+            if let Some((limit, scale)) = self.limits[row] {
+                multipliers[limit] = multiplier * scale;
             }
         }
         Dual { multipliers, motion: None }

@@ -4,7 +4,7 @@ use super::super::mechanism::Released;
 use super::super::mirror::is_even;
 use super::super::scatter::Scatter;
 use super::{Search, groups};
-use crate::limit::{Equilibrium, Release, Resultant, SoilEnd, releases};
+use crate::limit::{Basis, Equilibrium, LeastLoads, Release, Resultant, SoilEnd, releases};
 use crate::structure::{Face, Structure};
 use std::collections::BTreeSet;
 
@@ -33,6 +33,9 @@ const MOST_CHAINED: usize = 12;
 /// The mechanisms tried so far and the best of them.
 pub(super) struct Hunt<'s> {
     pub search: &'s Search<'s>,
+    least_loads: LeastLoads<'s>,
+    /// Where joints last gave way under given shears.
+    pub gave_way: Option<Basis>,
     seen: BTreeSet<Vec<(usize, u8)>>,
     pub best: Option<Candidate>,
     pub scatter: Scatter,
@@ -82,6 +85,8 @@ impl<'s> Hunt<'s> {
         let adheres = cohesive && !search.theorem.has_loops();
         Hunt {
             search,
+            least_loads: search.theorem.least_loads(search.start, search.sign, search.budget),
+            gave_way: None,
             seen: BTreeSet::new(),
             best: None,
             scatter: Scatter::new(0x51DE),
@@ -136,7 +141,7 @@ impl<'s> Hunt<'s> {
         }
         let end = self.best.as_ref().map_or(search.far(), |best| search.worth(best.equilibrium.load_factor));
         let pinned = search.pinned(&moving, &rates);
-        let found = search.theorem.least_load(&moving, &pinned, [search.start, end], search.sign, &[], search.budget);
+        let found = self.least_loads.of(&moving, &pinned, end, search.budget);
         let Ok(Some(equilibrium)) = found else { return Tried::InVain };
         if search.theorem.has_loops() {
             let Some(closed) = search.closed(&moving, &rates) else { return Tried::InVain };
@@ -231,8 +236,9 @@ impl<'s> Hunt<'s> {
             let tilt = TILTS[round % TILTS.len()];
             let tilts: Vec<[f64; 3]> =
                 (0..search.theorem.joints()).map(|_| [(); 3].map(|()| tilt * self.scatter.next())).collect();
-            let range = [search.start, search.far()];
-            let corner = search.theorem.least_load(&moving, &pinned, range, search.sign, &tilts, search.budget);
+            let at_limits = (&moving[..], &pinned[..]);
+            let from = [search.start, search.sign];
+            let corner = search.theorem.corner(at_limits, from, &tilts, &mut None, search.budget);
             let Ok(Some(corner)) = corner else { continue };
             let mut released = search.at_limits(&corner);
             let missing: Vec<Released> = moving.into_iter().filter(|release| !released.contains(release)).collect();

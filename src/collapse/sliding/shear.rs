@@ -3,7 +3,6 @@
 //! The friction that joints have in such an equilibrium is given to them as shear, whatever presses them then. What gives way has a load
 //! of its own as a mechanism with friction. The forces with which it gives way press the joints otherwise: their friction is given next.
 
-use super::Search;
 use super::apart::Apart;
 use super::groups::partings;
 use super::hunt::{Hunt, Tried};
@@ -59,8 +58,11 @@ impl Hunt<'_> {
         let way = (end - search.start).abs().min(REACH * search.theorem.load_factor_scale());
         for number in 0..self.starts() {
             let at = search.start + search.sign * (least + (1.0 - least) * self.random()) * way;
-            let Some(first) = self.forces_at(search.theorem, at, number) else { continue };
-            self.give_shear_from(None, first, number);
+            let tilts = self.tilts(search.theorem, number);
+            let first = search.theorem.corner((&[], &[]), [at, search.sign], &tilts, &mut None, search.budget);
+            if let Ok(Some(first)) = first {
+                self.give_shear_from(None, search.theorem.resultants(&first), number);
+            }
             if search.budget.ask().is_err() {
                 return;
             }
@@ -103,10 +105,13 @@ impl Hunt<'_> {
     pub(super) fn give_shear_from(&mut self, apart: Option<&Apart>, mut forces: Vec<Resultant>, number: usize) {
         let search = self.search;
         let theorem = apart.map_or(search.theorem, |apart| &apart.theorem);
+        let tilts = self.tilts(theorem, number);
+        let [mut gave_way, mut pressed] = [const { None }; 2];
         for round in 0..ROUNDS {
             let slack: Vec<[f64; 3]> = forces.iter().map(|_| [(); 3].map(|()| SLACK * self.random())).collect();
             let given = theorem.with_shear_under(&forces, &slack);
-            let Ok(Some(found)) = given.gives_way(search.sign, search.budget) else { return };
+            let basis = if apart.is_some() { &mut gave_way } else { &mut self.gave_way };
+            let Ok(Some(found)) = given.gives_way(search.sign, basis, search.budget) else { return };
             let motion = match apart {
                 Some(apart) => apart.in_whole(search, &found.moving, &found.rates),
                 None => Some((found.moving, found.rates)),
@@ -116,21 +121,20 @@ impl Hunt<'_> {
                 self.go_on_from_best();
             }
             let back = BACK[(number + round) % BACK.len()] * (found.load_factor - search.start);
-            let Some(next) = self.forces_at(&given, found.load_factor - back, number) else { return };
-            forces = next;
+            let from = [found.load_factor - back, search.sign];
+            let next = given.corner((&[], &[]), from, &tilts, &mut pressed, search.budget);
+            let Ok(Some(next)) = next else { return };
+            forces = given.resultants(&next);
         }
     }
 
-    /// Forces of all joints at this load factor; of all that are in equilibrium some that press little, at random.
-    fn forces_at(&mut self, theorem: &StaticTheorem, at: f64, number: usize) -> Option<Vec<Resultant>> {
-        let Search { sign, budget, .. } = *self.search;
+    /// Random weights that lead to forces which press little.
+    fn tilts(&mut self, theorem: &StaticTheorem, number: usize) -> Vec<[f64; 3]> {
         let mut weight = || {
             let light = number % 2 == 1 && self.random() > HEAVY;
             if light { -LIGHT * self.random() } else { -self.random() }
         };
-        let tilts: Vec<[f64; 3]> = (0..theorem.joints()).map(|_| [weight(), weight(), 0.0]).collect();
-        let found = theorem.least_load(&[], &[], [at, self.search.far()], sign, &tilts, budget);
-        found.ok().flatten().map(|equilibrium| theorem.resultants(&equilibrium))
+        (0..theorem.joints()).map(|_| [weight(), weight(), 0.0]).collect()
     }
 
     /// Between 0 and 1.

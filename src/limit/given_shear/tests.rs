@@ -23,7 +23,7 @@ fn pressed(by: f64) -> Resultant {
 
 fn gives_way(theorem: &StaticTheorem, forces: &[Resultant], slack: f64) -> GivesWay {
     let given = theorem.with_shear_under(forces, &vec![[slack; 3]; forces.len()]);
-    given.gives_way(1.0, &Budget::unlimited()).unwrap().unwrap()
+    given.gives_way(1.0, &mut None, &Budget::unlimited()).unwrap().unwrap()
 }
 
 #[test]
@@ -68,7 +68,7 @@ fn a_wedged_stone_slides_without_pushing_its_walls_apart() {
     let structure = ring(&[0.0, 1.0].map(|x| [Vec2::new(x, 0.0), Vec2::new(x, 1.0)]), law);
     let [fixed, scaled] = [-100.0, -1.0].map(|force| per_area(&structure, Vec2::new(0.0, force)));
     let theorem = StaticTheorem::new(&structure, &fixed, &scaled).unwrap();
-    assert_eq!(theorem.gives_way(1.0, &Budget::unlimited()), Ok(None));
+    assert_eq!(theorem.gives_way(1.0, &mut None, &Budget::unlimited()), Ok(None));
     let found = gives_way(&theorem, &[pressed(50.0), pressed(50.0)], 0.0);
     // Cohesion and friction at both sides, less the weight.
     assert!((found.load_factor - (2.0 * (150.0 + FRICTION * 50.0) - 100.0)).abs() < 1e-9);

@@ -13,6 +13,9 @@ const FEW: usize = 4;
 /// Weights between these shares of the largest may be rounding of an inverse that was carried on, which would put rows into the basis
 /// that depend on each other.
 const DOUBTFUL: [f64; 2] = [1e-14, 1e-9];
+/// Corrections of point and multipliers, each by no more than such a share of the largest, after which they are exact.
+const CORRECTIONS: usize = 2;
+const GOOD: f64 = 1e-10;
 
 impl Basis {
     /// Weights with which the entering row is a combination of the rows in the basis.
@@ -77,7 +80,50 @@ impl Basis {
         self.dual[leaving] = y;
         self.point.iter_mut().zip(&*column).for_each(|(x, c)| *x -= self.violation * c);
         self.constraints[leaving] = entering;
-        self.fresh = false;
+        (self.fresh, self.exact) = (false, false);
+    }
+
+    /// Corrects point and multipliers by what the rows themselves say; where they are off by much, computes the inverse anew, too. False
+    /// where the rows depend on each other.
+    pub(super) fn settle(&mut self, half_spaces: &HalfSpaces) -> bool {
+        for _ in 0..CORRECTIONS {
+            if !(self.correct(half_spaces) <= GOOD) {
+                return self.refresh(half_spaces);
+            }
+        }
+        self.exact = true;
+        true
+    }
+
+    /// One step of iterative refinement; how far point and multipliers move, as a share of the largest.
+    fn correct(&mut self, half_spaces: &HalfSpaces) -> f64 {
+        let n = self.objective.len();
+        let largest = |values: &[f64]| values.iter().fold(0.0, |largest, x| larger(largest, x.abs()));
+        let sizes = [largest(&self.point), largest(&self.dual)];
+        // What is left of the objective, and of every constraint.
+        self.row.copy_from_slice(&self.objective);
+        for (i, &constraint) in self.constraints.iter().enumerate() {
+            self.weights[i] = self.entry(half_spaces, constraint, n);
+            for j in 0..n {
+                let entry = self.entry(half_spaces, constraint, j);
+                self.weights[i] += entry * self.point[j];
+                self.row[j] += entry * self.dual[i];
+            }
+        }
+        let mut steps = [0.0; 2];
+        let before = self.point.clone();
+        for (i, column) in self.inverse.chunks_exact(n).enumerate() {
+            self.point.iter_mut().zip(column).for_each(|(x, c)| *x -= self.weights[i] * c);
+            let step = dot(column, &self.row);
+            self.dual[i] -= step;
+            steps[1] = larger(steps[1], step.abs());
+        }
+        steps[0] = self.point.iter().zip(before).fold(0.0, |largest, (x, before)| larger(largest, (x - before).abs()));
+        steps
+            .into_iter()
+            .zip(sizes)
+            .filter(|(step, _)| *step != 0.0)
+            .fold(0.0, |most, (step, size)| larger(most, step / size))
     }
 
     /// Computes inverse, point and multipliers from the rows themselves; false where the rows depend on each other.
@@ -91,14 +137,27 @@ impl Basis {
         if !invert_transposed(&mut self.matrix, &mut self.inverse, n) {
             return false;
         }
-        self.point.fill(0.0);
-        for i in 0..n {
-            let constant = self.entry(half_spaces, self.constraints[i], n);
-            let column = &self.inverse[i * n..(i + 1) * n];
-            self.point.iter_mut().zip(column).for_each(|(x, c)| *x -= constant * c);
-            self.dual[i] = -dot(column, &self.objective);
+        for (y, column) in self.dual.iter_mut().zip(self.inverse.chunks_exact(n)) {
+            *y = -dot(column, &self.objective);
         }
         self.fresh = true;
+        self.meet(half_spaces);
         true
     }
+
+    /// Computes the point from the constants of the constraints.
+    pub(super) fn meet(&mut self, half_spaces: &HalfSpaces) {
+        let n = self.objective.len();
+        self.point.fill(0.0);
+        for (i, column) in self.inverse.chunks_exact(n).enumerate() {
+            let constant = self.entry(half_spaces, self.constraints[i], n);
+            self.point.iter_mut().zip(column).for_each(|(x, c)| *x -= constant * c);
+        }
+        self.exact = self.fresh;
+    }
+}
+
+/// The larger of two, or what is no number.
+fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || a > b { a } else { b }
 }

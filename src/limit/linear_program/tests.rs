@@ -125,3 +125,33 @@ fn goes_on_from_where_it_is() {
     let disc = 0.3 + 0.73f64.sqrt();
     assert!(value >= disc && value < disc + 1e-3, "{value} {disc}");
 }
+
+/// Random half spaces whose constants change all the time: every time the optimum over all of them.
+#[test]
+fn goes_on_where_half_spaces_are_shifted() {
+    // Between -1 and 1, hardly in any order.
+    let scattered = |k: usize| (2.4 * (k * k) as f64).cos();
+    for n in [3, 12, 40] {
+        let row = |i: usize| (0..n).map(|j| scattered(i * n + j)).collect::<Vec<_>>();
+        let (objective, rows) = (row(6 * n), (0..6 * n).map(row).collect::<Vec<_>>());
+        let mut basis = Basis::new(objective.clone());
+        for round in 0..30 {
+            let constant = |i: usize| 1.0 + 0.5 * scattered(31 * i + round);
+            let shifted: Vec<_> = rows.iter().enumerate().map(|(i, row)| (row, constant(i))).collect();
+            let mut half_spaces = HalfSpaces::new(n);
+            shifted.iter().for_each(|(row, constant)| half_spaces.push(row, *constant));
+            let warm = basis.go_on(&half_spaces, &Budget::unlimited());
+            let cold = maximise(&objective, &half_spaces, &Budget::unlimited());
+            let [Optimum::At(warm, point, held), Optimum::At(cold, ..)] = [warm, cold] else { panic!("{n}, {round}") };
+            assert!((warm / cold - 1.0).abs() < 1e-12, "{n}, {round}: {warm} {cold}");
+            // Admissible, and multipliers that prove that nothing is better.
+            let violated = shifted.iter().map(|(row, constant)| -(dot(row, &point) + constant)).fold(0.0, f64::max);
+            let unit = |k: usize| (norm(shifted[k].0), &shifted[k]);
+            let proved: f64 = held.iter().map(|&(k, y)| y * unit(k).1.1 / unit(k).0).sum();
+            let left: f64 = (0..n)
+                .map(|j| objective[j] + held.iter().map(|&(k, y)| y * unit(k).1.0[j] / unit(k).0).sum::<f64>())
+                .fold(0.0, |most, x| x.abs().max(most));
+            assert!(violated < 1e-11 && left < 1e-12 && (proved / cold - 1.0).abs() < 1e-12, "{n}, {round}");
+        }
+    }
+}

@@ -43,6 +43,11 @@ fn a_joint_at_its_limits_lets_go_what_it_can_no_longer_hold() {
     assert_eq!(of(&joint(0.0, JointLaw::Mirror), [9.0, 9.0], 0.0).len(), 2);
 }
 
+/// The least load of a mechanism from load factor `start` on.
+fn least_load(theorem: &StaticTheorem, moving: &[(usize, Release)], start: f64) -> Option<Equilibrium> {
+    theorem.least_loads(start, 1.0, &Budget::unlimited()).of(moving, &[], f64::INFINITY, &Budget::unlimited()).unwrap()
+}
+
 /// A stone that slides down between two walls may be wedged as little as not at all: then only the cohesion of both joints
 /// holds it. Limit analysis, in which the slides push the walls apart, knows no end.
 #[test]
@@ -53,18 +58,16 @@ fn the_least_load_of_a_stone_between_two_walls_is_that_without_thrust() {
         assert_eq!(highest, f64::INFINITY);
         // The stone after joint 0 goes down: towards the intrados; the wall after joint 1 stays, so that it goes up against it.
         let moving = [(0, Release::Sliding(-1.0)), (1, Release::Sliding(1.0))];
-        let least =
-            theorem.least_load(&moving, &[], [0.0, f64::INFINITY], 1.0, &[], &Budget::unlimited()).unwrap().unwrap();
+        let least = least_load(&theorem, &moving, 0.0).unwrap();
         assert!((least.load_factor - (2.0 * cohesion - 100.0)).abs() < 1e-9, "{least:?}");
         let [left, right] = theorem.resultants(&least)[..] else { panic!() };
         assert!((left.shear - cohesion).abs() < 1e-9 && (right.shear + cohesion).abs() < 1e-9);
         // From a start beyond it, the start itself is the least: there the stone is wedged.
-        let later =
-            theorem.least_load(&moving, &[], [500.0, f64::INFINITY], 1.0, &[], &Budget::unlimited()).unwrap().unwrap();
+        let later = least_load(&theorem, &moving, 500.0).unwrap();
         assert!((later.load_factor - 500.0).abs() < 1e-9);
         // Sliding up has no admissible forces at a load that pushes down.
         let up = [(0, Release::Sliding(1.0)), (1, Release::Sliding(-1.0))];
-        assert_eq!(theorem.least_load(&up, &[], [0.0, f64::INFINITY], 1.0, &[], &Budget::unlimited()).unwrap(), None);
+        assert_eq!(least_load(&theorem, &up, 0.0), None);
     }
 }
 
@@ -79,8 +82,7 @@ fn a_joint_that_opens_may_have_lost_its_cohesion() {
         (1, Release::Rotation(Face::Intrados)),
     ];
     // The least is that without cohesion and thrust: the stone hangs on nothing, so that the load must pull it up.
-    let least =
-        theorem.least_load(&moving, &[], [-1000.0, f64::INFINITY], 1.0, &[], &Budget::unlimited()).unwrap().unwrap();
+    let least = least_load(&theorem, &moving, -1000.0).unwrap();
     for forces in theorem.resultants(&least) {
         assert!(forces.extrados.abs() < 1e-9 && forces.intrados.abs() < 1e-9 && forces.shear.abs() < 1e-9);
     }
