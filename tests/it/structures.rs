@@ -5,11 +5,13 @@
 use crate::common::door;
 use crate::common::rigid_blocks::full_solution::{Gap, measure};
 use crate::common::rigid_blocks::recheck::{Reported, recheck};
+use crate::common::rigid_blocks::scene::{Load, Scene, Support};
 use crate::common::rigid_blocks::wall::PUBLISHED;
 use crate::common::structures::{FAMILIES, Judged, analysis, judge};
 use serde_json::{Value, json};
 use voussoir::budget::Budget;
 use voussoir::collapse::{Outcome, Thrust, run};
+use voussoir::limit::StaticTheorem;
 
 /// How many of each kind.
 const SCENES: u64 = 12;
@@ -32,6 +34,32 @@ fn random_structures_fall_where_the_oracle_says_or_below_where_joints_slide() {
     println!("{equal} of {} equal, {} untold", 3 * SCENES, untold.len());
     assert!(untold.len() <= CANNOT_TELL, "{untold:?}");
     assert!(equal > SCENES, "only {equal} equal");
+}
+
+/// Its window is found by the interior point method: some 1,700 loops.
+#[test]
+fn a_wall_of_many_stones_is_pushed_over_as_soon_from_either_side() {
+    let (columns, courses) = (30, 20);
+    let course = |k: usize| {
+        let edge = move |i: usize| (i as f64 - 0.5 * (k % 2) as f64).clamp(0.0, columns as f64);
+        let [bottom, top] = [k, k + 1].map(|k| 0.5 * k as f64);
+        let block = move |i: usize| {
+            let [left, right] = [edge(i), edge(i + 1)];
+            vec![[left, bottom], [right, bottom], [right, top], [left, top]]
+        };
+        (0..columns + k % 2).map(block)
+    };
+    let scene = Scene {
+        blocks: (0..courses).flat_map(course).collect(),
+        supports: vec![Support { name: "ground".to_owned(), sides: (0..columns).map(|block| (block, 0)).collect() }],
+        scaled: vec![Load::Acceleration([1.0, 0.0])],
+        density: 2000.0,
+        friction_angle_deg: 35.0,
+    };
+    let wall = analysis(&scene);
+    let theorem = StaticTheorem::new(&wall.structure, &wall.fixed, &wall.scaled).unwrap();
+    let [lowest, highest] = theorem.window(&Budget::unlimited()).unwrap().ends().unwrap();
+    assert!(highest > 0.1 && (lowest + highest).abs() < 1e-8 * highest, "{lowest} to {highest}");
 }
 
 /// A wall one stone wide of so many courses, without the right half of one: the stone above rests on its very tip.

@@ -58,7 +58,7 @@ fn density(points: &[[f64; 2]], [x, y]: [f64; 2]) -> f64 {
 /// Wrench about the origin of what lies over a straight side: its weight, with 0.4 of it pressing sideways, or its mass in an
 /// `acceleration`; summed over small cells of every column.
 fn summed(points: &[[f64; 2]], a: [f64; 2], b: [f64; 2], acceleration: Option<Vec2>) -> [f64; 3] {
-    let (columns, cells, top) = (3000, 3000, 4.0);
+    let (columns, cells, top) = (1000, 3000, 4.0);
     let mut total = [0.0; 3];
     for i in 0..columns {
         let share = (f64::from(i) + 0.5) / f64::from(columns);
