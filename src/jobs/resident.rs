@@ -72,6 +72,7 @@ impl Place<'_> {
 
     /// Waits until the process is within its bound again, where this analysis was stopped and has dropped what it had: as long as it
     /// keeps its place no other is stopped. Not longer than [`TRIES`] times [`LULL`]: then it was not this one alone.
+    #[expect(clippy::disallowed_methods, reason = "the allocator tells nobody when it gives memory back")]
     pub(super) fn settle(&self) {
         for _ in 0..TRIES {
             if !self.running.is_beyond() {

@@ -23,7 +23,7 @@ pub use crushing::CrushingWindow;
 pub use geometric::ShortenedJoints;
 pub use given_shear::GivesWay;
 pub use linear_program::Basis;
-pub use non_dilating::{LeastLoads, Release, releases};
+pub use non_dilating::{AtLimits, LeastLoads, Release, releases};
 pub use passive::SoilEnd;
 pub use resultant::{Condition, Resultant};
 pub use static_theorem::{Equilibrium, StaticTheorem, Unsolved};

@@ -53,6 +53,9 @@ pub fn releases(joint: &Joint, forces: &Resultant, none: f64) -> Vec<Release> {
     rotations.into_iter().chain(slides).collect()
 }
 
+/// Joints that move, and passive elements, by the limits that they are at.
+pub type AtLimits<'m> = (&'m [(usize, Release)], &'m [(usize, SoilEnd)]);
+
 /// The least loads of mechanisms of one structure, of which many are tried.
 #[derive(Debug)]
 pub struct LeastLoads<'t> {
@@ -81,8 +84,8 @@ impl LeastLoads<'_> {
         end: f64,
         budget: &Budget,
     ) -> Result<Option<Equilibrium>, Unsolved> {
-        let mut programme = self.theorem.from_start(self.start, self.sign);
-        programme.limits = self.theorem.at_limits(moving, pinned);
+        let mut programme = self.theorem.grown_from(self.start, self.sign);
+        programme.limits = self.theorem.at_limits((moving, pinned));
         programme.cutoff = -self.sign * end / self.theorem.factor;
         let (found, _) = programme.maximise_from(self.basis.clone(), &Objective::load_factor(-self.sign), budget);
         Ok(found.equilibrium()?.filter(|equilibrium| self.sign * (equilibrium.load_factor - end) < 0.0))
@@ -93,7 +96,7 @@ impl StaticTheorem {
     /// The least loads of mechanisms from load factor `start` on, in the direction of `sign`.
     pub fn least_loads(&self, start: f64, sign: f64, budget: &Budget) -> LeastLoads<'_> {
         let basis = self.has_few_unknowns().then(|| {
-            let programme = self.from_start(start, sign);
+            let programme = self.grown_from(start, sign);
             programme.maximise_to(&Objective::load_factor(-sign), budget).1
         });
         LeastLoads { theorem: self, start, sign, basis: basis.flatten() }
@@ -113,14 +116,14 @@ impl StaticTheorem {
     /// When rounding, or `budget`, kept the linear programme from an answer.
     pub fn corner(
         &self,
-        (moving, pinned): (&[(usize, Release)], &[(usize, SoilEnd)]),
+        at_limits: AtLimits,
         [start, sign]: [f64; 2],
         tilts: &[[f64; 3]],
         basis: &mut Option<Basis>,
         budget: &Budget,
     ) -> Result<Option<Equilibrium>, Unsolved> {
-        let mut programme = self.from_start(start, sign);
-        programme.limits = self.at_limits(moving, pinned);
+        let mut programme = self.grown_from(start, sign);
+        programme.limits = self.at_limits(at_limits);
         programme.errors = CORNER;
         let objective = Objective { load_factor: -sign, forces: tilts.iter().copied().enumerate().collect() };
         if !self.has_few_unknowns() {
@@ -133,14 +136,14 @@ impl StaticTheorem {
     }
 
     /// All admissible equilibria from load factor `start` on.
-    fn from_start(&self, start: f64, sign: f64) -> Programme<'_> {
+    fn grown_from(&self, start: f64, sign: f64) -> Programme<'_> {
         let mut programme = Programme::new(self);
         programme.bounds[if sign > 0.0 { 0 } else { 1 }] = start;
         programme
     }
 
     /// What holds where these joints and passive elements are at their limits.
-    fn at_limits(&self, moving: &[(usize, Release)], pinned: &[(usize, SoilEnd)]) -> Vec<Limit> {
+    fn at_limits(&self, (moving, pinned): AtLimits) -> Vec<Limit> {
         let of_joint = |&(joint, release): &(usize, Release)| {
             let turns =
                 |&(other, release): &(usize, Release)| other == joint && matches!(release, Release::Rotation(_));

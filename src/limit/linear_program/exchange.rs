@@ -87,7 +87,8 @@ impl Basis {
     /// where the rows depend on each other.
     pub(super) fn settle(&mut self, half_spaces: &HalfSpaces) -> bool {
         for _ in 0..CORRECTIONS {
-            if !(self.correct(half_spaces) <= GOOD) {
+            let moved = self.correct(half_spaces);
+            if moved.is_nan() || moved > GOOD {
                 return self.refresh(half_spaces);
             }
         }
