@@ -111,22 +111,32 @@ impl StaticTheorem {
 
     /// Any load factor from that of `at` in the direction of `sign` is in equilibrium.
     fn unbounded(&self, sign: f64, at: Equilibrium, budget: &Budget) -> WindowEnd {
+        let ray = if self.loads[1].as_flattened().iter().any(|load| *load != 0.0) {
+            self.ray(sign, budget)
+        } else {
+            // Without loads that grow nothing is added, not even rounding.
+            Some(vec![Resultant::default(); self.joints()])
+        };
+        let (forces, soil) = self.apart(&at.forces);
+        WindowEnd::Unbounded { load_factor: at.load_factor, forces, soil, ray }
+    }
+
+    /// What a unit of load factor in the direction of `sign` adds to the forces of every joint, whatever these are; None where rounding
+    /// keeps the linear programme from an answer.
+    fn ray(&self, sign: f64, budget: &Budget) -> Option<Vec<Resultant>> {
         let mut programme = Programme::unlimited(self);
         programme.limits = self.limits.iter().map(|limit| Limit { constant: 0.0, ..*limit }).collect();
         programme.bounds[if sign > 0.0 { 1 } else { 0 }] = sign * self.factor;
-        let ray = match programme.maximise(&Objective::load_factor(sign), budget) {
+        match programme.maximise(&Objective::load_factor(sign), budget) {
             ProgrammeOutcome::At(ray, _) if ray.load_factor != 0.0 => {
                 let per_unit = 1.0 / ray.load_factor.abs();
                 Some(self.apart(&ray.forces).0.iter().map(|of| of.times(per_unit)).collect())
             }
-            // Without loads that grow nothing is added.
             ProgrammeOutcome::At(..) | ProgrammeOutcome::Unbounded(_) => {
                 Some(vec![Resultant::default(); self.joints()])
             }
             ProgrammeOutcome::Infeasible(_) | ProgrammeOutcome::Lost => None,
-        };
-        let (forces, soil) = self.apart(&at.forces);
-        WindowEnd::Unbounded { load_factor: at.load_factor, forces, soil, ray }
+        }
     }
 
     /// The motion of every body that no limit hinders: joints yield as the multipliers of their limits, and of those that a
