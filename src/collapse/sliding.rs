@@ -103,7 +103,7 @@ impl Search<'_> {
 
     /// What is at its limits in an equilibrium at the end of the limit window.
     pub(super) fn at_window_end(&self, greatest: f64) -> Option<Vec<Released>> {
-        let found = self.theorem.least_loads(greatest, self.sign, self.budget).of(&[], &[], self.far(), self.budget);
+        let found = self.theorem.least(greatest, self.sign, self.budget);
         found.ok().flatten().filter(|_| greatest.is_finite()).map(|equilibrium| self.at_limits(&equilibrium))
     }
 

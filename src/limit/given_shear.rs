@@ -66,9 +66,7 @@ impl StaticTheorem {
         budget: &Budget,
     ) -> Result<Option<(Equilibrium, Dual)>, Unsolved> {
         let programme = Programme { errors: ERRORS, ..Programme::new(self) };
-        let (outcome, reached) = programme.maximise_from(basis.take(), &Objective::load_factor(sign), budget);
-        *basis = reached;
-        match outcome {
+        match programme.maximise_from(basis, &Objective::load_factor(sign), budget) {
             ProgrammeOutcome::At(equilibrium, dual) => Ok(Some((equilibrium, dual))),
             ProgrammeOutcome::Infeasible(_) | ProgrammeOutcome::Unbounded(_) => Ok(None),
             ProgrammeOutcome::Lost => Err(Unsolved),

@@ -10,7 +10,7 @@ mod cone;
 mod newton;
 mod sparse;
 
-use super::linear_program::dot;
+use super::linear_program::{dot, largest};
 use crate::budget::Budget;
 use cone::reach;
 use newton::Newton;
@@ -276,9 +276,4 @@ fn longest(point: &Point, direction: &Point, linear: usize) -> f64 {
 
 fn sum(a: &[f64], b: &[f64], by: f64) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a + by * b).collect()
-}
-
-/// Largest entry; NaN if there is one.
-fn largest(v: &[f64]) -> f64 {
-    v.iter().fold(0.0, |m, x| if x.is_nan() || x.abs() > m { x.abs() } else { m })
 }

@@ -252,6 +252,11 @@ pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
+/// Size of the largest entry; NaN if there is one.
+pub fn largest(a: &[f64]) -> f64 {
+    a.iter().fold(0.0, |most, x| if x.is_nan() || x.abs() > most { x.abs() } else { most })
+}
+
 /// The Euclidean norm.
 pub fn norm(a: &[f64]) -> f64 {
     dot(a, a).sqrt()

@@ -68,38 +68,40 @@ pub struct LeastLoads<'t> {
 }
 
 impl LeastLoads<'_> {
-    /// The equilibrium of the smallest load factor, in the direction of the loads, at which the joints that `moving` names are at
-    /// those limits, the passive elements that `pinned` names at those of theirs, and every other is admissible; None where
-    /// there is none between the start and `end`.
+    /// The equilibrium of the smallest load factor, in the direction of the loads, with these joints and passive elements at their
+    /// limits and every other admissible; None where there is none between the start and `end`.
     ///
     /// An end that opens carries nothing. How much of its cohesion a joint that opens has left depends on where along it the
     /// cohesion sits, so where it slides too, anything from none to all is admitted.
     ///
     /// # Errors
     /// When rounding, or `budget`, kept the linear programme from an answer.
-    pub fn of(
-        &self,
-        moving: &[(usize, Release)],
-        pinned: &[(usize, SoilEnd)],
-        end: f64,
-        budget: &Budget,
-    ) -> Result<Option<Equilibrium>, Unsolved> {
+    pub fn of(&self, at_limits: AtLimits, end: f64, budget: &Budget) -> Result<Option<Equilibrium>, Unsolved> {
         let mut programme = self.theorem.grown_from(self.start, self.sign);
-        programme.limits = self.theorem.at_limits((moving, pinned));
+        programme.limits = self.theorem.at_limits(at_limits);
         programme.cutoff = -self.sign * end / self.theorem.factor;
-        let (found, _) = programme.maximise_from(self.basis.clone(), &Objective::load_factor(-self.sign), budget);
-        Ok(found.equilibrium()?.filter(|equilibrium| self.sign * (equilibrium.load_factor - end) < 0.0))
+        let objective = Objective::load_factor(-self.sign);
+        let found = programme.maximise_from(&mut self.basis.clone(), &objective, budget).equilibrium()?;
+        Ok(found.filter(|equilibrium| self.sign * (equilibrium.load_factor - end) < 0.0))
     }
 }
 
 impl StaticTheorem {
     /// The least loads of mechanisms from load factor `start` on, in the direction of `sign`.
     pub fn least_loads(&self, start: f64, sign: f64, budget: &Budget) -> LeastLoads<'_> {
-        let basis = self.has_few_unknowns().then(|| {
-            let programme = self.grown_from(start, sign);
-            programme.maximise_to(&Objective::load_factor(-sign), budget).1
-        });
-        LeastLoads { theorem: self, start, sign, basis: basis.flatten() }
+        let mut basis = None;
+        if self.has_few_unknowns() {
+            self.grown_from(start, sign).maximise_from(&mut basis, &Objective::load_factor(-sign), budget);
+        }
+        LeastLoads { theorem: self, start, sign, basis }
+    }
+
+    /// The equilibrium of the smallest load factor from `start` on, in the direction of `sign`, whatever moves; None where there is none.
+    ///
+    /// # Errors
+    /// When rounding, or `budget`, kept the linear programme from an answer.
+    pub fn least(&self, start: f64, sign: f64, budget: &Budget) -> Result<Option<Equilibrium>, Unsolved> {
+        self.grown_from(start, sign).maximise(&Objective::load_factor(-sign), budget).equilibrium()
     }
 
     /// A corner of the equilibria near the smallest load factor from `start` on, in the direction of `sign`, with joints and passive
@@ -130,9 +132,7 @@ impl StaticTheorem {
             // A corner that this method does not reach takes the other one up to a second: there are more of them.
             return programme.maximise_sparsely(&objective, budget).equilibrium();
         }
-        let (found, reached) = programme.maximise_from(basis.take(), &objective, budget);
-        *basis = reached;
-        found.equilibrium()
+        programme.maximise_from(basis, &objective, budget).equilibrium()
     }
 
     /// All admissible equilibria from load factor `start` on.

@@ -123,49 +123,47 @@ impl<'t> Programme<'t> {
 
     /// By the method that suits the size; where rounding keeps that from an answer, by the other.
     pub(super) fn maximise(&self, objective: &Objective, budget: &Budget) -> ProgrammeOutcome {
-        self.maximise_to(objective, budget).0
+        self.maximise_from(&mut None, objective, budget)
     }
 
-    /// Also the basis at which the dense method ended, to go on from where limits are added; none where the other found it.
-    pub(super) fn maximise_to(&self, objective: &Objective, budget: &Budget) -> (ProgrammeOutcome, Option<Basis>) {
-        self.maximise_from(None, objective, budget)
-    }
-
-    /// The same from a basis of the same objective over the first of these limits, whose constants may have been others.
+    /// The same from a basis of the same objective over the first of these limits, whose constants may have been others; none: from the
+    /// beginning. It is left where the dense method ends; none where the other tells the outcome.
     pub(super) fn maximise_from(
         &self,
-        basis: Option<Basis>,
+        basis: &mut Option<Basis>,
         objective: &Objective,
         budget: &Budget,
-    ) -> (ProgrammeOutcome, Option<Basis>) {
+    ) -> ProgrammeOutcome {
         if self.theorem.has_few_unknowns() {
             let started = basis.is_some();
-            return match self.densely_from(basis, objective, budget) {
-                (ProgrammeOutcome::Lost, _) if started => self.maximise_from(None, objective, budget),
-                (ProgrammeOutcome::Lost, _) => (self.maximise_sparsely(objective, budget), None),
-                (first, basis) => (first, Some(basis)),
+            let first = self.densely_from(basis, objective, budget);
+            if first != ProgrammeOutcome::Lost {
+                return first;
+            }
+            *basis = None;
+            return match started {
+                true => self.maximise_from(basis, objective, budget),
+                false => self.maximise_sparsely(objective, budget),
             };
         }
-        let first = match self.maximise_sparsely(objective, budget) {
+        match self.maximise_sparsely(objective, budget) {
             ProgrammeOutcome::Lost if self.theorem.unknowns() <= MOST_DENSE => self.maximise_densely(objective, budget),
             first => first,
-        };
-        (first, None)
+        }
     }
 
     /// The exact method in loop space.
     pub(super) fn maximise_densely(&self, objective: &Objective, budget: &Budget) -> ProgrammeOutcome {
-        self.densely_from(None, objective, budget).0
+        self.densely_from(&mut None, objective, budget)
     }
 
-    /// The same from a basis, with the basis at which it ended.
-    fn densely_from(&self, basis: Option<Basis>, objective: &Objective, budget: &Budget) -> (ProgrammeOutcome, Basis) {
-        let mut basis = basis.unwrap_or_else(|| Basis::new(self.over_unknowns(objective)));
-        let outcome = match &self.theorem.rows {
-            Some(rows) if self.is_plain() => self.go_on(&mut basis, rows, budget),
-            _ => self.go_on(&mut basis, &self.dense_rows(), budget),
-        };
-        (outcome, basis)
+    /// The same from a basis, if there is one, and left in one.
+    fn densely_from(&self, basis: &mut Option<Basis>, objective: &Objective, budget: &Budget) -> ProgrammeOutcome {
+        let basis = basis.get_or_insert_with(|| Basis::new(self.over_unknowns(objective)));
+        match &self.theorem.rows {
+            Some(rows) if self.is_plain() => self.go_on(basis, rows, budget),
+            _ => self.go_on(basis, &self.dense_rows(), budget),
+        }
     }
 
     /// All limits over the unknowns.

@@ -80,9 +80,8 @@ impl StaticTheorem {
     pub fn window_and_bases(&self, budget: &Budget) -> Result<(Window, WindowBases), Unsolved> {
         let (mut found, mut bases) = (Vec::new(), WindowBases::default());
         for (end, sign) in [-1.0, 1.0].into_iter().enumerate() {
-            let (outcome, basis) = Programme::new(self).maximise_to(&Objective::load_factor(sign), budget);
-            bases.0[end] = basis;
-            found.push(match outcome {
+            let objective = Objective::load_factor(sign);
+            found.push(match Programme::new(self).maximise_from(&mut bases.0[end], &objective, budget) {
                 ProgrammeOutcome::At(equilibrium, dual) => Some((equilibrium, self.motion(&dual, &[]))),
                 ProgrammeOutcome::Unbounded(_) => None,
                 ProgrammeOutcome::Infeasible(dual) => return Ok((Window::Falls(self.motion(&dual, &[])), bases)),
@@ -111,19 +110,18 @@ impl StaticTheorem {
 
     /// Any load factor from that of `at` in the direction of `sign` is in equilibrium.
     fn unbounded(&self, sign: f64, at: Equilibrium, budget: &Budget) -> WindowEnd {
-        let ray = if self.loads[1].as_flattened().iter().any(|load| *load != 0.0) {
-            self.ray(sign, budget)
-        } else {
-            // Without loads that grow nothing is added, not even rounding.
-            Some(vec![Resultant::default(); self.joints()])
-        };
         let (forces, soil) = self.apart(&at.forces);
-        WindowEnd::Unbounded { load_factor: at.load_factor, forces, soil, ray }
+        WindowEnd::Unbounded { load_factor: at.load_factor, forces, soil, ray: self.ray(sign, budget) }
     }
 
     /// What a unit of load factor in the direction of `sign` adds to the forces of every joint, whatever these are; None where rounding
     /// keeps the linear programme from an answer.
     fn ray(&self, sign: f64, budget: &Budget) -> Option<Vec<Resultant>> {
+        let nothing = vec![Resultant::default(); self.joints()];
+        // Without loads that grow nothing is added, not even rounding.
+        if self.loads[1].as_flattened().iter().all(|load| *load == 0.0) {
+            return Some(nothing);
+        }
         let mut programme = Programme::unlimited(self);
         programme.limits = self.limits.iter().map(|limit| Limit { constant: 0.0, ..*limit }).collect();
         programme.bounds[if sign > 0.0 { 1 } else { 0 }] = sign * self.factor;
@@ -132,9 +130,7 @@ impl StaticTheorem {
                 let per_unit = 1.0 / ray.load_factor.abs();
                 Some(self.apart(&ray.forces).0.iter().map(|of| of.times(per_unit)).collect())
             }
-            ProgrammeOutcome::At(..) | ProgrammeOutcome::Unbounded(_) => {
-                Some(vec![Resultant::default(); self.joints()])
-            }
+            ProgrammeOutcome::At(..) | ProgrammeOutcome::Unbounded(_) => Some(nothing),
             ProgrammeOutcome::Infeasible(_) | ProgrammeOutcome::Lost => None,
         }
     }

@@ -141,7 +141,7 @@ impl<'s> Hunt<'s> {
         }
         let end = self.best.as_ref().map_or(search.far(), |best| search.worth(best.equilibrium.load_factor));
         let pinned = search.pinned(&moving, &rates);
-        let found = self.least_loads.of(&moving, &pinned, end, search.budget);
+        let found = self.least_loads.of((&moving, &pinned), end, search.budget);
         let Ok(Some(equilibrium)) = found else { return Tried::InVain };
         if search.theorem.has_loops() {
             let Some(closed) = search.closed(&moving, &rates) else { return Tried::InVain };
@@ -236,9 +236,8 @@ impl<'s> Hunt<'s> {
             let tilt = TILTS[round % TILTS.len()];
             let tilts: Vec<[f64; 3]> =
                 (0..search.theorem.joints()).map(|_| [(); 3].map(|()| tilt * self.scatter.next())).collect();
-            let at_limits = (&moving[..], &pinned[..]);
             let from = [search.start, search.sign];
-            let corner = search.theorem.corner(at_limits, from, &tilts, &mut None, search.budget);
+            let corner = search.theorem.corner((&moving, &pinned), from, &tilts, &mut None, search.budget);
             let Ok(Some(corner)) = corner else { continue };
             let mut released = search.at_limits(&corner);
             let missing: Vec<Released> = moving.into_iter().filter(|release| !released.contains(release)).collect();

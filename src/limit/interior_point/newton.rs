@@ -1,9 +1,9 @@
 //! The Newton system of the interior point method; the only file of this room that knows faer.
 
-use super::super::linear_program::dot;
+use super::super::linear_program::{dot, largest};
 use super::cone::Scaling;
 use super::sparse::dot3;
-use super::{Point, Sparse, Square, largest, sum};
+use super::{Point, Sparse, Square, sum};
 use faer::linalg::solvers::Solve;
 use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};

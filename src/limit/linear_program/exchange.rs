@@ -1,7 +1,7 @@
 //! One constraint of a basis exchanged for another, and what depends on which are in it.
 
 use super::inverse::invert_transposed;
-use super::{Basis, Facet, HalfSpaces, corner_sign, dot};
+use super::{Basis, Facet, HalfSpaces, corner_sign, dot, largest};
 
 /// Weights of the entering row below this are none.
 const NO_WEIGHT: f64 = 1e-13;
@@ -99,8 +99,8 @@ impl Basis {
     /// One step of iterative refinement; how far point and multipliers move, as a share of the largest.
     fn correct(&mut self, half_spaces: &HalfSpaces) -> f64 {
         let n = self.objective.len();
-        let largest = |values: &[f64]| values.iter().fold(0.0, |largest, x| larger(largest, x.abs()));
-        let sizes = [largest(&self.point), largest(&self.dual)];
+        let sizes =
+            [&self.point, &self.dual].map(|values| largest(values)).map(|size| if size > 0.0 { size } else { 1.0 });
         // What is left of the objective, and of every constraint.
         self.row.copy_from_slice(&self.objective);
         for (i, &constraint) in self.constraints.iter().enumerate() {
@@ -111,20 +111,14 @@ impl Basis {
                 self.row[j] += entry * self.dual[i];
             }
         }
-        let mut steps = [0.0; 2];
-        let before = self.point.clone();
+        let [mut moved, mut changed] = [(); 2].map(|()| vec![0.0; n]);
         for (i, column) in self.inverse.chunks_exact(n).enumerate() {
-            self.point.iter_mut().zip(column).for_each(|(x, c)| *x -= self.weights[i] * c);
-            let step = dot(column, &self.row);
-            self.dual[i] -= step;
-            steps[1] = larger(steps[1], step.abs());
+            moved.iter_mut().zip(column).for_each(|(step, c)| *step -= self.weights[i] * c);
+            changed[i] = -dot(column, &self.row);
         }
-        steps[0] = self.point.iter().zip(before).fold(0.0, |largest, (x, before)| larger(largest, (x - before).abs()));
-        steps
-            .into_iter()
-            .zip(sizes)
-            .filter(|(step, _)| *step != 0.0)
-            .fold(0.0, |most, (step, size)| larger(most, step / size))
+        self.point.iter_mut().zip(&moved).for_each(|(x, step)| *x += step);
+        self.dual.iter_mut().zip(&changed).for_each(|(y, step)| *y += step);
+        largest(&[largest(&moved) / sizes[0], largest(&changed) / sizes[1]])
     }
 
     /// Computes inverse, point and multipliers from the rows themselves; false where the rows depend on each other.
@@ -156,9 +150,4 @@ impl Basis {
         }
         self.exact = self.fresh;
     }
-}
-
-/// The larger of two, or what is no number.
-fn larger(a: f64, b: f64) -> f64 {
-    if a.is_nan() || a > b { a } else { b }
 }

@@ -45,7 +45,10 @@ fn a_joint_at_its_limits_lets_go_what_it_can_no_longer_hold() {
 
 /// The least load of a mechanism from load factor `start` on.
 fn least_load(theorem: &StaticTheorem, moving: &[(usize, Release)], start: f64) -> Option<Equilibrium> {
-    theorem.least_loads(start, 1.0, &Budget::unlimited()).of(moving, &[], f64::INFINITY, &Budget::unlimited()).unwrap()
+    theorem
+        .least_loads(start, 1.0, &Budget::unlimited())
+        .of((moving, &[]), f64::INFINITY, &Budget::unlimited())
+        .unwrap()
 }
 
 /// A stone that slides down between two walls may be wedged as little as not at all: then only the cohesion of both joints
