@@ -15,6 +15,8 @@ const BOX: f64 = 1e9;
 const SMALLER_BOXES: [f64; 3] = [1e1, 1e3, 1e6];
 /// A row (of unit length) may be violated by this, relative to the size of the point.
 const TOLERANCE: f64 = 1e-12;
+/// Multipliers below 0 by this share of the largest prove nothing.
+const NEGATIVE: f64 = 1e-9;
 /// Far above what the method needs (two to five pivots an unknown); reached only if rounding defeats the tie rule.
 const MOST_PIVOTS: usize = 10_000;
 /// Pivots after which point and multipliers are corrected.
@@ -229,7 +231,12 @@ impl Basis {
         self.meet(half_spaces);
     }
 
+    /// No constraint is violated: the best point, if no multiplier is negative.
     fn optimum(&self) -> Optimum {
+        let least = -NEGATIVE * largest(&self.dual);
+        if self.dual.iter().any(|y| *y < least) {
+            return Optimum::Lost;
+        }
         let point = self.point.clone();
         if self.walls().any(|y| y > TOLERANCE) {
             return Optimum::Unbounded(point);

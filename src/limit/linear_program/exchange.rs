@@ -3,8 +3,9 @@
 use super::inverse::invert_transposed;
 use super::{Basis, Facet, HalfSpaces, corner_sign, dot, largest};
 
-/// Weights of the entering row below this are none.
-const NO_WEIGHT: f64 = 1e-13;
+/// Weights of the entering row below the last of these shares of the largest are none, and those below the first the last resort: it would
+/// all but depend on what stays in the basis.
+const NO_WEIGHT: [f64; 2] = [1e-9, 1e-13];
 /// Ratios of a multiplier to a weight that differ by less than this share of them are equal.
 const TIE: f64 = 1e-11;
 /// So are those that differ by rounding, of few unknowns and of more, whose multipliers gather it over many pivots.
@@ -48,7 +49,7 @@ impl Basis {
             };
             multiplier / self.weights[i]
         };
-        (0..n).filter(|&i| self.weights[i] > NO_WEIGHT * largest).min_by(|&a, &b| {
+        let by_ratio = |&a: &usize, &b: &usize| {
             let ratios = (0..=n).map(|k| (ratio(a, k), ratio(b, k)));
             let rounding = match n <= FEW {
                 true => EQUAL_RATIO[0],
@@ -56,7 +57,8 @@ impl Basis {
             };
             let differing = ratios.into_iter().find(|(x, y)| (x - y).abs() > TIE * (x.abs() + y.abs()) + rounding);
             differing.map_or(a.cmp(&b), |(x, y)| x.total_cmp(&y))
-        })
+        };
+        NO_WEIGHT.into_iter().find_map(|share| (0..n).filter(|&i| self.weights[i] > share * largest).min_by(by_ratio))
     }
 
     /// Puts the entering constraint in the place of the leaving one.
@@ -137,7 +139,8 @@ impl Basis {
         }
         self.fresh = true;
         self.meet(half_spaces);
-        true
+        // Where rows all but depend on each other, what the point is off by would pass for a violated constraint.
+        self.correct(half_spaces).is_finite()
     }
 
     /// Computes the point from the constants of the constraints.
