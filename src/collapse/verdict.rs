@@ -209,11 +209,12 @@ impl<'a> Setup<'a> {
         Ok(report)
     }
 
-    /// The first attempt that is not in doubt, or the one least so.
+    /// The first attempt that is not in doubt, or the one least so; of paths that are lost fewer where softer contacts are left.
     fn attempts(&self, built: &mut Discretisation<'a>) -> Result<Attempted, AnalysisError> {
         let mut attempted = self.attempt(Attempt::number(0), built)?;
         for i in 1..ATTEMPTS {
-            if attempted.doubt.is_none() {
+            let Some(doubt) = &attempted.doubt else { break };
+            if i == softer::BEFORE && doubt.is_lost() && softer::are_left(self.analysis) {
                 break;
             }
             let next = self.attempt(Attempt::number(i), built)?;

@@ -104,7 +104,7 @@ fn no_analysis_takes_more_than_its_estimate() {
         ("wide joints", uneven(9, &json!({"mesh": mesh(40, 1)}))),
         ("long stones, stress", uneven(60, &json!({"mesh": mesh(1, 48), "report": {"stress_fields": fields}}))),
         ("moving geometry", uneven(31, &json!({"mesh": mesh(3, 3), "geometry": "updated"}))),
-        ("wall", wall(10, 10, &json!({}))),
+        ("wall", wall(8, 8, &json!({}))),
         ("slab", slab(100, &json!({}))),
         ("slab of subblocks, no two stones alike", slab(9, &json!({"mesh": mesh(27, 16), "analysis": {"safety": {}}}))),
         ("frames", slab(27, &motion)),

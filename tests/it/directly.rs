@@ -24,11 +24,11 @@ const DIRECT: usize = 1300;
 /// How many of those arches at least have to have a history that is told without the tracer.
 const TOLD: usize = 1200;
 /// How many random arches whose voussoirs are given as polygons, and how many of them at least have to be solved directly.
-const AS_BLOCKS: u64 = 400;
-const DIRECT_AS_BLOCKS: usize = 90;
+const AS_BLOCKS: u64 = 200;
+const DIRECT_AS_BLOCKS: usize = 40;
 /// How many random arches on a mesh, and how many of them at least have to be solved directly.
-const ON_MESH: u64 = 300;
-const DIRECT_ON_MESH: usize = 35;
+const ON_MESH: u64 = 200;
+const DIRECT_ON_MESH: usize = 23;
 /// Events from the last state that is solved directly to collapse, of nearly all random arches, in whole stones and on their mesh; paths
 /// from the start have more.
 const LAST_EVENTS: usize = 10;

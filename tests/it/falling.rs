@@ -25,9 +25,9 @@ const RESIDUAL: f64 = 1e-9;
 /// Most friction beyond its bound, share of the loads.
 const EXCESS: f64 = 1e-6;
 /// How many random arches.
-const ARCHES: usize = 200;
+const ARCHES: usize = 120;
 /// How many random structures of every family.
-const STRUCTURES: u64 = 10;
+const STRUCTURES: u64 = 5;
 
 fn with_motion(mut request: Value) -> Value {
     request["motion"] = json!({});
@@ -176,7 +176,7 @@ fn random_arches_fall_to_one_of_the_ends() {
     );
     println!("friction beyond its bound by more than 1e-6 of the loads in {lagging} of {steps} steps");
     assert!(all.is_empty(), "{} complaints: {all:#?}", all.len());
-    assert!(lagging == 0 && steps > 10_000 && count(|end| matches!(end, MotionEnd::AtRest)) * 20 < seen.len());
+    assert!(lagging == 0 && steps > 6_000 && count(|end| matches!(end, MotionEnd::AtRest)) * 20 < seen.len());
 }
 
 /// Bridges, walls and portals: stones that are no neighbours touch, concave ones, and those that fall to the ground.
@@ -204,7 +204,7 @@ fn random_structures_fall_to_one_of_the_ends() {
     }
     println!("{motions} motions; in {strangers} stones touch that were no neighbours");
     assert!(all.is_empty(), "{} complaints: {all:#?}", all.len());
-    assert!(motions >= 20 && strangers > 0);
+    assert!(motions >= 10 && strangers > 0);
 }
 
 /// Corners of stone `k` of the last frame that two motions both have, at most `most`.

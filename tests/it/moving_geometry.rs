@@ -170,7 +170,7 @@ fn a_quarter_load_on_moving_geometry_falls_just_below_first_order() {
 #[test]
 fn random_arches_on_moving_geometry() {
     let (mut fell, mut near, mut worst, mut least, mut lost) = (0, 0, 0f64, 0f64, Vec::new());
-    for seed in 0..150 {
+    for seed in 0..100 {
         let mut request = crate::common::random_arch::request(seed);
         request["stone"]["youngs_modulus_pa"] = json!(1e11);
         request["geometry"] = json!("updated");
@@ -199,7 +199,7 @@ fn random_arches_on_moving_geometry() {
     );
     println!("could not be followed: {lost:?}");
     // No more than today: a count of what is not solved, not a tolerance.
-    assert!(fell > 80 && near > 30 && worst < 0.02 && lost.len() <= 5);
+    assert!(fell > 50 && near > 20 && worst < 0.02 && lost.len() <= 5);
 }
 
 /// Three stones of a pointed ring on rays that slide, or a flat ring that a load lifts: requests on which gradual sliding was taken
@@ -308,7 +308,7 @@ fn the_load_at_which_an_arch_begins_to_creep_does_not_hang_on_steps() {
 #[test]
 fn arches_that_slide_pass_no_limit_window_and_tend_to_first_order_as_stone_stiffens() {
     let (mut slide, mut tend, mut lost, mut asked, mut most) = (0, 0, 0, 0, 0f64);
-    for seed in 0..400 {
+    for seed in 0..250 {
         let request = crate::common::random_arch::request(seed);
         let few = request["arch"]["voussoirs"].as_u64().is_some_and(|count| count <= 25);
         let Ok(arch) = crate::common::door::analysis(&request) else { continue };
@@ -342,7 +342,7 @@ fn arches_that_slide_pass_no_limit_window_and_tend_to_first_order_as_stone_stiff
     println!(
         "{slide} slide, {tend} tend to first order, {lost} of {asked} cannot tell; above the window by {most:.2} of movement / thickness"
     );
-    assert!(slide > 30 && 10 * tend > 8 * slide && 20 * lost < asked);
+    assert!(slide > 20 && 10 * tend > 8 * slide && 20 * lost < asked);
 }
 
 /// Slender, and lost without a word before: it gives up its load so fast that it comes back past its start.

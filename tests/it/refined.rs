@@ -16,7 +16,7 @@ use voussoir::collapse::{Analysis, CollapseReport, Direction, Face, Outcome, Pat
 const EQUAL: f64 = 1e-6;
 /// Seeds of the random arches; and how many of them have to hinge, or slide, for the set to ask real questions.
 const HINGING: (u64, usize) = (150, 25);
-const SLIDING: (u64, usize) = (1400, 500);
+const SLIDING: (u64, usize) = (700, 250);
 /// More stones than this would make the tests slow without asking anything else.
 const MOST_VOUSSOIRS: usize = 40;
 /// Meshes of the arches that slide, in turn.

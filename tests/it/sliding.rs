@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use voussoir::collapse::{Doubt, GovernedBy, LoadRange, Note, Outcome};
 
 /// Random arches, from seed 0; the bench `sliding` takes more.
-const ARCHES: u64 = 1000;
+const ARCHES: u64 = 500;
 /// The oracle grants every condition 1e-9 of the loads.
 const EXACT: f64 = 1e-8;
 
@@ -78,7 +78,7 @@ fn the_least_is_never_above_a_variant_and_is_the_least_of_all_mechanisms_of_smal
         .collect();
     assert!(complaints.is_empty(), "{}", complaints.join("\n"));
     // The set must go on asking real questions.
-    assert!(slide >= 500 && ranges >= 80 && tried >= 300);
+    assert!(slide >= 250 && ranges >= 35 && tried >= 150);
 }
 
 #[test]

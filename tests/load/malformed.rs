@@ -19,6 +19,7 @@ mod bodies;
 #[allow(dead_code, reason = "the tests use the rest")]
 mod dice;
 #[path = "../it/common/folders.rs"]
+#[allow(dead_code, reason = "the tests use the rest")]
 mod folders;
 mod held;
 mod inputs;

@@ -138,11 +138,14 @@ fn row(measured: &Value, name: &str) {
     );
 }
 
+/// What a search climbs towards: its name, and how far a measured run has come.
+type Aim = (&'static str, fn(&Value) -> f64);
+
 /// Climbs from random requests, a third of the time each, towards more memory over the estimate, more memory, and later ends.
 fn search(seconds: f64, seed: u64, limit: f64, job_time: f64) -> ExitCode {
     let clock = Instant::now();
     let mut dice = Dice::new(seed);
-    let aims: [(&str, fn(&Value) -> f64); 3] = [
+    let aims: [Aim; 3] = [
         ("memory over estimate", |measured| taken(measured)[1] * f64::from(u8::from(taken(measured)[0] > SMALL * MIB))),
         ("memory", |measured| taken(measured)[0]),
         ("longest time between questions", |measured| measured["gap"].as_f64().unwrap_or(0.0)),
