@@ -170,7 +170,7 @@ fn a_quarter_load_on_moving_geometry_falls_just_below_first_order() {
 #[test]
 fn random_arches_on_moving_geometry() {
     let (mut fell, mut near, mut worst, mut least, mut lost) = (0, 0, 0f64, 0f64, Vec::new());
-    for seed in 0..100 {
+    for seed in 0..60 {
         let mut request = crate::common::random_arch::request(seed);
         request["stone"]["youngs_modulus_pa"] = json!(1e11);
         request["geometry"] = json!("updated");
@@ -199,7 +199,7 @@ fn random_arches_on_moving_geometry() {
     );
     println!("could not be followed: {lost:?}");
     // No more than today: a count of what is not solved, not a tolerance.
-    assert!(fell > 50 && near > 20 && worst < 0.02 && lost.len() <= 5);
+    assert!(fell > 30 && near > 12 && worst < 0.02 && lost.len() <= 5);
 }
 
 /// Three stones of a pointed ring on rays that slide, or a flat ring that a load lifts: requests on which gradual sliding was taken

@@ -4,7 +4,7 @@ use crate::common::verify::check;
 use voussoir::collapse::Outcome;
 
 /// How many, from seed 0.
-const ARCHES: u64 = 300;
+const ARCHES: u64 = 200;
 
 #[test]
 fn random_arches_fall_where_limit_analysis_says() {

@@ -3,17 +3,17 @@
 use super::inverse::invert_transposed;
 use super::{Basis, Facet, HalfSpaces, corner_sign, dot, largest};
 
-/// Weights of the entering row below the last of these shares of the largest are none, and those below the first the last resort: it would
-/// all but depend on what stays in the basis.
-const NO_WEIGHT: [f64; 2] = [1e-9, 1e-13];
+/// A row that enters with a weight below this share of the largest all but depends on what stays in the basis.
+const DEPENDENT: f64 = 1e-9;
+/// Weights below this share of the largest are none.
+const NO_WEIGHT: f64 = 1e-13;
 /// Ratios of a multiplier to a weight that differ by less than this share of them are equal.
 const TIE: f64 = 1e-11;
 /// So are those that differ by rounding, of few unknowns and of more, whose multipliers gather it over many pivots.
 const EQUAL_RATIO: [f64; 2] = [1e-15, 1e-14];
 const FEW: usize = 4;
-/// Weights between these shares of the largest may be rounding of an inverse that was carried on, which would put rows into the basis
-/// that depend on each other.
-const DOUBTFUL: [f64; 2] = [1e-14, 1e-9];
+/// Weights of an inverse that was carried on may be rounding from this share of the largest on, up to [`DEPENDENT`].
+const ROUNDING: f64 = 1e-14;
 /// Corrections of point and multipliers, each by no more than such a share of the largest, after which they are exact.
 const CORRECTIONS: usize = 2;
 const GOOD: f64 = 1e-10;
@@ -32,15 +32,19 @@ impl Basis {
 
     /// Whether the inverse was carried on and some weight may be rounding.
     pub(super) fn is_doubtful(&self) -> bool {
-        let largest = self.weights.iter().fold(1.0, |largest: f64, weight| largest.max(weight.abs()));
-        let [low, high] = DOUBTFUL.map(|share| share * largest);
+        let [low, high] = [ROUNDING, DEPENDENT].map(|share| share * self.scale());
         !self.fresh && self.weights.iter().any(|weight| weight.abs() > low && weight.abs() < high)
     }
 
-    /// The constraint that leaves: the smallest ratio of multiplier over weight, ties broken lexicographically.
+    /// The largest weight; at least 1, that of a row that is in the basis.
+    fn scale(&self) -> f64 {
+        largest(&self.weights).max(1.0)
+    }
+
+    /// The constraint that leaves: the smallest ratio of multiplier over weight, ties broken lexicographically. One of hardly any weight is
+    /// the last resort.
     pub(super) fn leaving(&self) -> Option<usize> {
-        let n = self.objective.len();
-        let largest = self.weights.iter().fold(1.0, |largest: f64, weight| largest.max(weight.abs()));
+        let (n, scale) = (self.objective.len(), self.scale());
         // The multiplier itself, then those of the perturbations of the objective.
         let ratio = |i: usize, k: usize| {
             let multiplier = match k {
@@ -58,7 +62,8 @@ impl Basis {
             let differing = ratios.into_iter().find(|(x, y)| (x - y).abs() > TIE * (x.abs() + y.abs()) + rounding);
             differing.map_or(a.cmp(&b), |(x, y)| x.total_cmp(&y))
         };
-        NO_WEIGHT.into_iter().find_map(|share| (0..n).filter(|&i| self.weights[i] > share * largest).min_by(by_ratio))
+        let above = |share: f64| (0..n).filter(move |&i| self.weights[i] > share * scale).min_by(by_ratio);
+        above(DEPENDENT).or_else(|| above(NO_WEIGHT))
     }
 
     /// Puts the entering constraint in the place of the leaving one.

@@ -10,7 +10,7 @@ use voussoir::geometry::{Region, Vec2};
 use voussoir::structure::Stone;
 
 /// How many beams.
-const BEAMS: u64 = 250;
+const BEAMS: u64 = 160;
 
 #[test]
 fn beams_are_as_accurate_as_asked() {
