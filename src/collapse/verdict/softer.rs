@@ -14,7 +14,8 @@ use std::rc::Rc;
 /// Contact penalties that are tried instead of stiffer ones, as multiples of Young's modulus.
 const SOFTER: [f64; 2] = [1.0, 0.1];
 
-/// So many attempts are made before (measured: of 3,300 random arches 11 were told at the second or third, none later).
+/// So many attempts are made before (measured: of 3,458 paths of random arches 27 were in doubt; 4 were told at the second attempt, 7 at the
+/// third, none later).
 pub(super) const BEFORE: usize = 3;
 
 /// Whether there are contacts softer than asked that could be tried.
