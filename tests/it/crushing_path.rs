@@ -14,7 +14,7 @@ use voussoir::structure::GRAVITY;
 /// How many random arches, from seed 0.
 const ARCHES: u64 = 100;
 /// How many random structures of each family.
-const STRUCTURES: u64 = 4;
+const STRUCTURES: u64 = 12;
 /// Path and linear programme with the same points agree to this share.
 const EQUAL: f64 = 1e-7;
 /// Path and plastic sections agree to this share, the path being below.

@@ -25,7 +25,7 @@ const DIRECT: usize = 1300;
 const TOLD: usize = 1200;
 /// How many random arches whose voussoirs are given as polygons, and how many of them at least have to be solved directly.
 const AS_BLOCKS: u64 = 200;
-const DIRECT_AS_BLOCKS: usize = 40;
+const DIRECT_AS_BLOCKS: usize = 42;
 /// How many random arches on a mesh, and how many of them at least have to be solved directly.
 const ON_MESH: u64 = 200;
 const DIRECT_ON_MESH: usize = 23;

@@ -199,7 +199,7 @@ fn random_arches_on_moving_geometry() {
     );
     println!("could not be followed: {lost:?}");
     // No more than today: a count of what is not solved, not a tolerance.
-    assert!(fell > 30 && near > 12 && worst < 0.02 && lost.len() <= 5);
+    assert!(fell > 40 && near > 16 && worst < 0.02 && lost.len() <= 1);
 }
 
 /// Three stones of a pointed ring on rays that slide, or a flat ring that a load lifts: requests on which gradual sliding was taken
@@ -342,7 +342,7 @@ fn arches_that_slide_pass_no_limit_window_and_tend_to_first_order_as_stone_stiff
     println!(
         "{slide} slide, {tend} tend to first order, {lost} of {asked} cannot tell; above the window by {most:.2} of movement / thickness"
     );
-    assert!(slide > 20 && 10 * tend > 8 * slide && 20 * lost < asked);
+    assert!(slide > 40 && 10 * tend > 8 * slide && 20 * lost < asked);
 }
 
 /// Slender, and lost without a word before: it gives up its load so fast that it comes back past its start.

@@ -15,10 +15,10 @@ use voussoir::structure::Joint;
 
 /// How many random arches, and how many of them at least have to ask a question.
 const ARCHES: u64 = 400;
-const ASKED: usize = 50;
+const ASKED: usize = 55;
 /// How many random bridges and portals, and how many of them at least have to ask a question; of walls none does.
 const STRUCTURES: u64 = 12;
-const ASKED_OF_STRUCTURES: usize = 2;
+const ASKED_OF_STRUCTURES: usize = 3;
 /// Random portals that slide, and whose paths are followed on their meshes.
 const PORTALS: [u64; 4] = [3, 9, 12, 13];
 /// Largest difference of a contact's force, over the largest, before and near collapse, where a state follows its load a thousandfold.

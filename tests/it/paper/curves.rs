@@ -71,7 +71,8 @@ fn table(heading: &str) -> Vec<Vec<String>> {
     section.lines().filter(|line| line.starts_with('|')).skip(2).map(cells).collect()
 }
 
-/// Holds a curve against limit analysis and the cone programme, and those of its points that a table tells against that; every zone.
+/// Holds a curve against limit analysis and the cone programme; and the printed rows against it, which this program made: they say no
+/// more than that the document is up to date.
 fn compare(case: &str, table: &[Vec<String>]) -> Vec<(f64, &'static str)> {
     let (request, expected) = (request(case), expected(case));
     let answer = solve(&request);
