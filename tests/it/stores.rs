@@ -2,6 +2,7 @@
 
 mod kept;
 mod memory;
+mod outgrown;
 #[cfg(feature = "postgres")]
 mod postgresql;
 mod queue;
@@ -58,7 +59,7 @@ promises! {
     runs::progress_is_seen_and_cancel_is_heard
     runs::a_cancelled_job_stays_until_it_is_forgotten
     runs::a_job_that_takes_too_long_fails
-    runs::an_analysis_that_outgrows_the_process_is_stopped_and_the_smaller_go_on
+    runs::a_job_that_outgrows_the_process_fails
     runs::those_who_wait_are_told_of_every_change
     runs::every_end_is_told_once
     runs::jobs_dismissed_at_any_moment_leave_the_workers_whole
