@@ -54,7 +54,7 @@ def cells(stones, radial):
     """Cells of a stone each way: about twice as many radially as along, fewer along narrow stones."""
     inner, after, outer, _ = stones[0].corners
     slender = np.hypot(*(after - inner)) / np.hypot(*(outer - after))
-    return max(4, round(radial * min(0.5, 0.7 * slender))), round(radial)
+    return max(4, round(radial / 5), round(radial * min(0.5, 0.7 * slender))), round(radial)
 
 
 def solve_levels(asked, shares, radial, told):
