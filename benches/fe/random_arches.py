@@ -29,7 +29,8 @@ NEWTON_STEPS = 8
 
 
 def answer(program, request):
-    ran = subprocess.run([program, "solve", "--json", "/dev/stdin"], input=json.dumps(request), capture_output=True, text=True)
+    named = json.dumps({"name": "random arch", **request})
+    ran = subprocess.run([program, "solve", "--json", "/dev/stdin"], input=named, capture_output=True, text=True)
     if ran.returncode:
         raise RuntimeError(ran.stderr)
     return json.loads(ran.stdout)
@@ -49,7 +50,6 @@ def arch(seed, program):
         "density_kg_m3": round(dice.uniform(1800, 2700)),
     }
     request = {
-        "name": f"random arch {seed}",
         "arch": {
             "profile": {"circular": {"radius_m": radius, "opening_angle_deg": opening}},
             "thickness": {"constant_m": thickness},
@@ -139,10 +139,9 @@ def main():
         if made is None:
             continue
         request, said = made
-        asked_of = scene.read(request["name"], {k: v for k, v in request.items() if k != "name"})
-        header, rows = fields.field(request["name"], {k: v for k, v in request.items() if k != "name"}, RADIAL, lambda _: None)
+        header, rows = fields.field(f"random arch {seed}", request, RADIAL, lambda _: None)
         own = header[1].split(": ")[1]
-        counts = counted(asked_of, rows)
+        counts = counted(scene.read(f"random arch {seed}", request), rows)
         for asked in ASKED:
             told = answer(options.program, {**request, "accuracy": {"stress": asked}})
             stress = told["plan"]["stress"]
