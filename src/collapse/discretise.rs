@@ -4,12 +4,12 @@ mod touches;
 
 use super::grid::{Cut, Grid, cuts};
 use super::narrow::{Outermost, outermost};
-use super::near_point::{NearPoint, near_points};
+use super::near_point::{NearPoint, near_points, pressed_points};
 use super::path::Attempt;
 use super::recovery::{self, Told};
 use super::scatter::Scatter;
 use super::strips::{Points, Strips};
-use super::{Analysis, AnalysisError, Geometry, Mesh, PlaneModel, Seams};
+use super::{Analysis, AnalysisError, Geometry, Mesh, PlaneModel, Seams, Spacing};
 use crate::budget::Budget;
 use crate::dda::{Assembly, AssemblyBuilder, Beside, Bond, Elasticity, Loads, MeanMotion, Push, Touch};
 use crate::geometry::Vec2;
@@ -105,10 +105,11 @@ impl<'a> Discretisation<'a> {
     }
 }
 
-/// Whether two analyses are of the same stones, joints and subblocks.
+/// Whether two analyses are of the same stones, joints and subblocks, whose lines may be drawn close to forces on points.
 fn same_stones(a: &Analysis, b: &Analysis) -> bool {
     let stiffness = |of: &Analysis| (of.plane, of.penalty_ratio, of.shear_penalty_ratio);
-    stiffness(a) == stiffness(b) && a.mesh == b.mesh && a.structure == b.structure
+    let same_lines = || a.mesh.spacing == Spacing::Even || pressed_points(a) == pressed_points(b);
+    stiffness(a) == stiffness(b) && a.mesh == b.mesh && a.structure == b.structure && same_lines()
 }
 
 fn same_loads(a: &Analysis, b: &Analysis) -> bool {
@@ -212,7 +213,7 @@ pub(super) fn touching(analysis: &Analysis, k: usize, grids: &[Grid], strips: Op
 /// How every body is cut: whole, where the mesh says nothing of it.
 pub(super) fn grids(analysis: &Analysis) -> Vec<Grid> {
     let Mesh { subblocks, order, spacing, .. } = &analysis.mesh;
-    let cuts = cuts(&analysis.structure, *order, *spacing);
+    let cuts = cuts(&analysis.structure, &pressed_points(analysis), *order, *spacing);
     let grid = |(k, body): (usize, &Body)| match subblocks.get(k) {
         Some(subblocks) => Grid::of(body, *subblocks, cuts[k]),
         None => Grid::of(body, [1, 1], Cut::default()),

@@ -1,7 +1,7 @@
 //! The grid of subblocks in one stone.
 
 mod cell;
-mod held;
+mod cuts;
 mod parts;
 mod patch;
 mod places;
@@ -13,7 +13,7 @@ use super::{Order, Spacing, SubblockStress};
 use crate::dda::{Block, Bond, Elasticity, Inside, Macroblock, Seam};
 use crate::geometry::{Region, Vec2, perpendicular};
 use crate::structure::{Body, Sides};
-pub(super) use held::cuts;
+pub(super) use cuts::cuts;
 use parts::{is_simple, parts};
 pub(super) use patch::Lines;
 use patch::Patch;
@@ -26,6 +26,8 @@ pub(super) struct Cut {
     pub order: Order,
     pub spacing: Spacing,
     pub held: Held,
+    /// Where a force acts on a point between the sides across (0) and along (1), from 0 to 1: a line goes through it.
+    pub pressed: [Option<f64>; 2],
 }
 
 /// Whether intrados and extrados (0), and the sides of the joints before and after (1), lie on the ground.
@@ -126,14 +128,9 @@ impl Grid {
         (straight || grid.is_sound()).then_some(grid)
     }
 
-    fn within(
-        patches: Vec<Patch>,
-        whole: Region,
-        [radial, along]: [usize; 2],
-        Cut { order, spacing, held }: Cut,
-    ) -> Self {
-        let lines = spacing::lines(spacing, held, [radial, along / patches.len()], patches.len() > 1);
-        let mut grid = Grid { patches, radial, along, order, lines, whole, outlines: Vec::new() };
+    fn within(patches: Vec<Patch>, whole: Region, [radial, along]: [usize; 2], cut: Cut) -> Self {
+        let lines = spacing::lines(cut, [radial, along / patches.len()], patches.len() > 1);
+        let mut grid = Grid { patches, radial, along, order: cut.order, lines, whole, outlines: Vec::new() };
         grid.outlines = grid.cells().map(|(i, j)| grid.outline(i, j)).collect();
         grid
     }

@@ -93,7 +93,7 @@ mod tests {
 
     fn outermost_of(law: JointLaw, order: Order) -> Vec<Outermost> {
         let structure = pair(law);
-        let cuts = cuts(&structure, order, Spacing::Even);
+        let cuts = cuts(&structure, &[], order, Spacing::Even);
         let grids: Vec<Grid> =
             structure.bodies.iter().zip(cuts).map(|(body, cut): (_, Cut)| Grid::of(body, [5, 2], cut)).collect();
         outermost(&structure, &grids)

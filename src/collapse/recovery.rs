@@ -117,7 +117,8 @@ fn fitted(samples: &[([f64; 2], [f64; 3])], most: [usize; 2], together: usize) -
 /// How far the smooth field of a stone is from the one that goes through the samples of its subblocks.
 fn roughness(grid: &Grid, samples: &[[f64; 3]], pieces: &[Piece], near: &[NearPoint]) -> Roughness {
     let coarse = grid.radial.min(grid.columns()) <= WINDOW;
-    let mut sum = Roughness { coarse, near_point: !near.is_empty(), ..Roughness::default() };
+    let near_point = !near.iter().all(|near| grid.has_lines_through(near.centre));
+    let mut sum = Roughness { coarse, near_point, ..Roughness::default() };
     for ((of, (i, j)), piece) in samples.chunks_exact(4).zip(grid.cells()).zip(pieces) {
         let counts = |place: &[f64; 2]| !near.iter().any(|near| near.has(grid.point(j, *place)));
         for (local, place, area) in grid.quadrature(i, j).into_iter().filter(|(_, place, _)| counts(place)) {

@@ -1,6 +1,6 @@
 //! Where the lines of a grid lie.
 
-use super::Held;
+use super::{Cut, Held, ON_LINE};
 use crate::collapse::Spacing;
 
 /// How steep graded lines are towards a face, a joint, the ground, and a side next to that on the ground: with these the stress of six
@@ -9,25 +9,49 @@ const FACE: f64 = 1.4;
 const JOINT: f64 = 1.5;
 const GROUND: f64 = 2.0;
 const NEXT_TO_GROUND: f64 = 1.7;
+/// The same towards a force on a point, next to which stress grows as at a joint's end (2 makes no answer of five arches better).
+const FORCE: f64 = 1.5;
 
-/// Places, from 0 to 1, of the ends of so many intervals either way. Graded ones lie at u^a / (u^a + (1 - u)^b) for even shares u, with the
-/// [`steepness`] a and b of the two ends; in one of `several` parts, whose other end is inside the stone, as in half of that.
-pub(super) fn lines(spacing: Spacing, held: Held, counts: [usize; 2], several: bool) -> [Vec<f64>; 2] {
+/// Places, from 0 to 1, of the ends of so many intervals either way.
+///
+/// Graded ones lie at u^a / (u^a + (1 - u)^b) for even shares u, with the [`steepness`] a and b of the two ends; in one of `several` parts,
+/// whose other end is inside the stone, as in half of that; and where a force acts on a point in between, on either side of it.
+pub(super) fn lines(cut: Cut, counts: [usize; 2], several: bool) -> [Vec<f64>; 2] {
     [0, 1].map(|way| {
-        let steepness = steepness(held, way);
-        let place = |share: f64| match spacing {
-            Spacing::Even => share,
-            Spacing::Graded if several => 2.0 * graded(0.5 * share, steepness),
-            Spacing::Graded => graded(share, steepness),
+        let (count, steepness) = (counts[way], steepness(cut.held, way));
+        let place = |line: usize| {
+            let share = line as f64 / count as f64;
+            match cut.spacing {
+                Spacing::Even => share,
+                Spacing::Graded if several => 2.0 * graded(0.5 * share, steepness),
+                Spacing::Graded => beside(cut.pressed[way], [line, count], steepness),
+            }
         };
-        let count = counts[way];
-        (0..=count).map(|i| if i == count { 1.0 } else { place(i as f64 / count as f64) }).collect()
+        (0..=count).map(|line| if line == count { 1.0 } else { place(line) }).collect()
     })
 }
 
 fn graded(share: f64, [a, b]: [f64; 2]) -> f64 {
     let [near, far] = [share.powf(a), (1.0 - share).powf(b)];
     near / (near + far)
+}
+
+/// Place of a line of so many intervals where a force may act in between.
+fn beside(pressed: Option<f64>, [line, count]: [usize; 2], [a, b]: [f64; 2]) -> f64 {
+    let within = |from: usize, to: usize| (line - from) as f64 / (to - from) as f64;
+    match pressed.and_then(|at| Some((at, line_through(at, count)?))) {
+        None => graded(within(0, count), [a, b]),
+        Some((at, through)) if line < through => at * graded(within(0, through), [a, FORCE]),
+        Some((at, through)) => at + (1.0 - at) * graded(within(through, count), [FORCE, b]),
+    }
+}
+
+/// Number of the line nearest to a place, by numbers, of so many intervals. None where two are as near: a stone and its mirror image are
+/// to have the same lines.
+fn line_through(place: f64, count: usize) -> Option<usize> {
+    let among = (place * count as f64).clamp(1.0, (count as f64 - 1.0).max(1.0));
+    let tells = count > 1 && (among.fract() - 0.5).abs() > ON_LINE;
+    tells.then_some(among.round() as usize)
 }
 
 /// Towards either end across (0) or along (1).
@@ -61,18 +85,22 @@ mod tests {
     const FREE: Held = [[false; 2]; 2];
     const EXACT: f64 = 1e-15;
 
+    fn graded_lines(held: Held, counts: [usize; 2], several: bool) -> [Vec<f64>; 2] {
+        lines(Cut { spacing: Spacing::Graded, held, ..Cut::default() }, counts, several)
+    }
+
     #[test]
     fn graded_lines_part_a_stone_as_the_formula_says() {
         // 0.25^1.4 / (0.25^1.4 + 0.75^1.4), by the exponential function.
         let third = (-1.4 * 3.0f64.ln()).exp();
-        let [across, along] = lines(Spacing::Graded, FREE, [4, 2], false);
+        let [across, along] = graded_lines(FREE, [4, 2], false);
         assert!((across[1] - third / (1.0 + third)).abs() < EXACT && (along[1] - 0.5).abs() < EXACT);
         // 0.5^2 / (0.5^2 + 0.5^1.5): nearer to the ground.
-        let [_, along] = lines(Spacing::Graded, [[false; 2], [true, false]], [4, 2], false);
+        let [_, along] = graded_lines([[false; 2], [true, false]], [4, 2], false);
         assert!((along[1] - 1.0 / (1.0 + 2.0f64.sqrt())).abs() < EXACT, "{along:?}");
         // And steeper across where that ground is.
         let third = (-1.7 * 3.0f64.ln()).exp();
-        let [across, _] = lines(Spacing::Graded, [[false; 2], [true, false]], [4, 2], false);
+        let [across, _] = graded_lines([[false; 2], [true, false]], [4, 2], false);
         assert!((across[1] - third / (1.0 + third)).abs() < EXACT, "{across:?}");
     }
 
@@ -81,7 +109,7 @@ mod tests {
         for sides in 0..16 {
             let on = |side: usize| sides >> side & 1 == 1;
             let [here, there] = [[[on(0), on(1)], [on(2), on(3)]], [[on(1), on(0)], [on(3), on(2)]]];
-            let [here, there] = [here, there].map(|held| lines(Spacing::Graded, held, [7, 48], false));
+            let [here, there] = [here, there].map(|held| graded_lines(held, [7, 48], false));
             for (here, there) in here.iter().zip(&there) {
                 assert!(here[0] == 0.0 && here[here.len() - 1] == 1.0 && here.windows(2).all(|two| two[0] < two[1]));
                 let apart = |(x, y): (&f64, &f64)| (x + y - 1.0).abs();
@@ -92,13 +120,36 @@ mod tests {
 
     #[test]
     fn a_part_of_several_is_divided_as_half_of_a_stone() {
-        let [half, whole] =
-            [([3, 3], true), ([6, 6], false)].map(|(n, several)| lines(Spacing::Graded, FREE, n, several));
+        let [half, whole] = [([3, 3], true), ([6, 6], false)].map(|(n, several)| graded_lines(FREE, n, several));
         for (half, whole) in half.iter().zip(&whole) {
             assert!(
                 half.iter().zip(whole).all(|(half, whole)| (0.5 * half - whole).abs() < EXACT),
                 "{half:?} {whole:?}"
             );
         }
+    }
+    #[test]
+    fn a_line_goes_through_a_force_and_others_are_close_to_it() {
+        let along = |at: f64, count: usize| {
+            let pressed = [None, Some(at)];
+            lines(Cut { spacing: Spacing::Graded, pressed, ..Cut::default() }, [3, count], false)[1].clone()
+        };
+        // As in two stones, one on either side of the force.
+        let [_, alone] = graded_lines(FREE, [3, 4], false);
+        for (line, place) in along(0.4, 9).iter().enumerate() {
+            let expected = match line {
+                ..4 => 0.4 * alone[line],
+                _ => 0.4 + 0.6 * graded_lines(FREE, [3, 5], false)[1][line - 4],
+            };
+            assert!((place - expected).abs() < EXACT, "{line}: {place}");
+        }
+        for (at, count) in [(0.02, 2), (0.1, 3), (0.3, 7), (0.5, 4), (0.37, 48)] {
+            let (here, there) = (along(at, count), along(1.0 - at, count));
+            assert!(here.contains(&at) && here.windows(2).all(|two| two[0] < two[1]), "{at} {count}: {here:?}");
+            assert!(here.iter().zip(there.iter().rev()).all(|(x, y)| (x + y - 1.0).abs() < EXACT), "{at} {count}");
+        }
+        // In the middle of three there is none, and of one none at all.
+        assert_eq!(along(0.5, 3), graded_lines(FREE, [3, 3], false)[1]);
+        assert_eq!(along(0.3, 1), [0.0, 1.0]);
     }
 }

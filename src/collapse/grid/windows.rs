@@ -61,7 +61,7 @@ pub(in super::super) fn wanted(body: &Body, length: f64, cut: Cut) -> Option<[us
         let size = (0..parts).map(|part| grid.sizes(part)[way]).fold(0.0, f64::max);
         let width = (length / size).min(1.0) * (1.0 + SAME_PLACE);
         let serves = |n: &usize| {
-            let lines = spacing::lines(cut.spacing, cut.held, [*n; 2], parts > 1);
+            let lines = spacing::lines(cut, [*n; 2], parts > 1);
             shortest(&lines[way]).is_some_and(|shortest| shortest <= width)
         };
         (1..=MOST_EACH_WAY).find(serves)

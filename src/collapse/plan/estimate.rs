@@ -63,9 +63,9 @@ pub(super) fn area_of(subblock: &SubblockStress) -> f64 {
     Region::polygon(&subblock.corners).area
 }
 
-/// What an error is taken to be over the roughness; so many times as much in a body of few subblocks, in one with a force on a point, which
-/// more than what is left out feels, and where a strip is pressed that is narrower than the subblocks show (measured: 1.2 and 2.6, over 1.28
-/// times the roughness).
+/// What an error is taken to be over the roughness; so many times as much in a body of few subblocks, in one with a force on a point between
+/// its lines, which more than what is left out feels, and where a strip is pressed that is narrower than the subblocks show (measured: 1.2
+/// and 2.6, over 1.28 times the roughness).
 const MARGIN: f64 = 1.2;
 const COARSE: f64 = 1.1;
 const NEAR_POINT: f64 = 1.3;

@@ -1,6 +1,7 @@
 //! Meshes of one body that nest, from coarse to fine, of subblocks that are about square.
 
 use super::super::grid::{Cut, Grid, can_be_cut, can_bend, cuts, extents, subblocks_of};
+use super::super::near_point::pressed_points;
 use super::super::{Analysis, Order, Spacing};
 use crate::structure::{Body, Joint, JointLaw, Side, Structure};
 
@@ -37,7 +38,7 @@ pub(super) fn ladders(analysis: &Analysis, most: usize) -> Vec<Vec<[usize; 2]>> 
     let (order, spacing) = drawing(structure);
     // Two meshes of first order tell an error, one of second does.
     let needed = if order == Order::First { 2 } else { 1 };
-    let cuts = cuts(structure, order, spacing);
+    let cuts = cuts(structure, &pressed_points(analysis), order, spacing);
     let telling = |((ladder, body), cut): ((&Vec<[usize; 2]>, &Body), &Cut)| {
         let tells = |mesh: &[usize; 2]| Grid::of(body, *mesh, *cut).windows(length).is_some();
         let first = ladder.iter().position(tells).unwrap_or(0);

@@ -33,7 +33,7 @@ pub struct Roughness {
     /// Whether the body has no more subblocks, across or along, than the smooth field takes in at once: it then goes with them more
     /// than it should.
     pub coarse: bool,
-    /// Whether some of the body is near a force on a point.
+    /// Whether a force acts on a point of the body that lies between its lines.
     pub near_point: bool,
     /// Whether a joint of the body presses on a strip that is much narrower than the subblocks there.
     pub narrow: bool,

@@ -2,6 +2,7 @@
 
 use crate::collapse::discretise::Model;
 use crate::collapse::grid::{Grid, Windows, cuts, wanted};
+use crate::collapse::near_point::pressed_points;
 use crate::collapse::record::PathPoint;
 use crate::collapse::snapshot::stresses;
 use crate::collapse::state::Standing;
@@ -148,7 +149,7 @@ fn most_of_subblocks(
 fn too_coarse(analysis: &Analysis, grids: &[Grid], length: f64) -> Note {
     let least = grids.iter().map(Grid::least_window).try_fold(0.0, |most: f64, least| Some(most.max(least?)));
     let (bodies, mesh) = (&analysis.structure.bodies, &analysis.mesh);
-    let cuts = cuts(&analysis.structure, mesh.order, mesh.spacing);
+    let cuts = cuts(&analysis.structure, &pressed_points(analysis), mesh.order, mesh.spacing);
     let of_bodies = bodies.iter().zip(cuts).map(|(body, cut)| wanted(body, length, cut));
     let wanted = of_bodies.take(grids.len()).try_fold([0, 0], |[across, along]: [usize; 2], wanted| {
         let [i, j] = wanted?;

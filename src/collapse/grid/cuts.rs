@@ -1,0 +1,160 @@
+//! What the lines of a body have to be close to: sides on the ground, which holds them, as stress rises steeply in the corners there; and
+//! forces on points.
+
+use super::{Cut, Grid, Held, ON_LINE, Patch, places};
+use crate::collapse::{Order, Spacing};
+use crate::geometry::Vec2;
+use crate::structure::{Joint, Side, Structure};
+
+/// A force this close to a side, as a share of the way to the opposite one, is in its corner: lines are close together there anyway.
+const IN_CORNER: f64 = 0.02;
+
+/// How the subblocks of every body are drawn, with forces on these points of bodies.
+pub(in super::super) fn cuts(
+    structure: &Structure,
+    points: &[(usize, Vec2)],
+    order: Order,
+    spacing: Spacing,
+) -> Vec<Cut> {
+    let mut cuts = vec![Cut { order, spacing, ..Cut::default() }; structure.bodies.len()];
+    if spacing == Spacing::Even {
+        return cuts;
+    }
+    let grid = |body: usize| Grid::of(&structure.bodies[body], [2, 2], Cut::default());
+    // Planes of symmetry do not hold what slides along them.
+    for joint in structure.joints.iter().filter(|joint| !joint.is_symmetry()) {
+        if let [Side::Body(body), Side::Support(_)] | [Side::Support(_), Side::Body(body)] = joint.between {
+            hold(&mut cuts[body].held, &grid(body), joint);
+        }
+    }
+    for (body, cut) in cuts.iter_mut().enumerate() {
+        let on_it: Vec<Vec2> = points.iter().filter(|(other, _)| *other == body).map(|(_, at)| *at).collect();
+        if !on_it.is_empty() {
+            cut.pressed = grid(body).only_patch().map(|patch| pressed(patch, &on_it)).unwrap_or_default();
+        }
+    }
+    cuts
+}
+
+/// Where forces on these points of a body act between its sides: at one place either way, or no line goes through them.
+fn pressed(patch: &Patch, points: &[Vec2]) -> [Option<f64>; 2] {
+    let places: Vec<[f64; 2]> = points.iter().map(|at| places::place(patch, *at)).map(|(xi, eta)| [eta, xi]).collect();
+    [0, 1].map(|way| {
+        let inside = |place: &f64| (IN_CORNER..=1.0 - IN_CORNER).contains(place);
+        let mut inside = places.iter().map(|place| place[way]).filter(inside);
+        let first = inside.next()?;
+        inside.all(|other| (other - first).abs() < ON_LINE).then_some(first)
+    })
+}
+
+impl Grid {
+    /// The part of a body of one, with straight sides or arcs.
+    fn only_patch(&self) -> Option<&Patch> {
+        let [patch] = self.patches.as_slice() else { return None };
+        patch.has_straight_sides().then_some(patch)
+    }
+
+    /// Whether lines go through a point, or very close to it.
+    pub(in super::super) fn has_lines_through(&self, at: Vec2) -> bool {
+        self.only_patch().is_some_and(|patch| {
+            let (xi, eta) = places::place(patch, at);
+            let near = |(place, way): (f64, usize)| self.lines[way].iter().any(|line| (line - place).abs() < IN_CORNER);
+            [(eta, 0), (xi, 1)].into_iter().all(near)
+        })
+    }
+}
+
+/// Of several parts, or with bent sides, none is held: their lines are those of all parts, or may cross.
+fn hold(held: &mut Held, grid: &Grid, joint: &Joint) {
+    if grid.only_patch().is_some() {
+        let side = grid.beside([joint.intrados, joint.extrados]).side;
+        held[1 - side / 2][side % 2] = true;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::limit::scenes;
+    use crate::structure::JointLaw;
+
+    /// A body with a joint of this law between the ground and every one of these of its sides, each from corner to next corner.
+    fn standing(corners: &[[f64; 2]], sides: &[(usize, JointLaw)]) -> Structure {
+        let corners: Vec<Vec2> = corners.iter().map(|&[x, y]| Vec2::new(x, y)).collect();
+        let joint = |&(side, law): &(usize, JointLaw)| {
+            let (intrados, extrados) = (corners[side], corners[(side + 1) % corners.len()]);
+            Joint { between: [Side::Body(0), Side::Support(0)], intrados, extrados, law }
+        };
+        let joints = sides.iter().map(joint).collect();
+        scenes::structure(std::slice::from_ref(&corners), joints, 1)
+    }
+
+    fn held(structure: &Structure) -> Held {
+        cuts(structure, &[], Order::Second, Spacing::Graded)[0].held
+    }
+
+    const BLOCK: [[f64; 2]; 4] = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.1, 1.0]];
+    const DRY: JointLaw = JointLaw::Dry { friction: 0.7, cohesion: 0.0 };
+
+    #[test]
+    fn the_sides_on_the_ground_are_held() {
+        let expected = [
+            [[true, false], [false; 2]],
+            [[false; 2], [false, true]],
+            [[false, true], [false; 2]],
+            [[false; 2], [true, false]],
+        ];
+        for (side, expected) in expected.into_iter().enumerate() {
+            assert_eq!(held(&standing(&BLOCK, &[(side, DRY)])), expected, "side {side}");
+        }
+        assert_eq!(held(&standing(&BLOCK, &[(0, DRY), (3, JointLaw::Bonded)])), [[true, false], [true, false]]);
+        assert_eq!(held(&standing(&BLOCK, &[])), Held::default());
+    }
+
+    #[test]
+    fn planes_of_symmetry_hold_nothing_and_nothing_holds_bodies_of_several_parts_and_even_lines() {
+        let none = Held::default();
+        assert_eq!(held(&standing(&BLOCK, &[(0, JointLaw::Wall), (1, JointLaw::Mirror)])), none);
+        assert_eq!(held(&standing(&[[0.0, 0.0], [2.0, 0.0], [1.0, 1.5]], &[(0, DRY)])), none);
+        assert_eq!(cuts(&standing(&BLOCK, &[(0, DRY)]), &[], Order::Second, Spacing::Even)[0].held, none);
+    }
+
+    #[test]
+    fn lines_go_through_a_force_on_a_point_if_there_is_one_between_sides() {
+        let square = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]];
+        let pressed_at = |corners: &[[f64; 2]], points: &[[f64; 2]]| {
+            let points: Vec<_> = points.iter().map(|&at| (0, at.into())).collect();
+            cuts(&standing(corners, &[]), &points, Order::Second, Spacing::Graded)[0].pressed
+        };
+        for (points, expected) in [
+            (vec![], [None, None]),
+            (vec![[0.5, 1.0]], [None, Some(0.25)]),
+            (vec![[2.0, 0.3]], [Some(0.3), None]),
+            (vec![[1.5, 0.8]], [Some(0.8), Some(0.75)]),
+            (vec![[0.5, 1.0], [0.5, 0.0], [0.01, 1.0]], [None, Some(0.25)]),
+            (vec![[0.5, 1.0], [1.0, 1.0]], [None, None]),
+            (vec![[2.0, 1.0]], [None, None]),
+        ] {
+            let found = pressed_at(&square, &points);
+            let same = |(found, expected): (&Option<f64>, &Option<f64>)| match (found, expected) {
+                (Some(found), Some(expected)) => (found - expected).abs() < 1e-12,
+                (found, expected) => found == expected,
+            };
+            assert!(found.iter().zip(&expected).all(same), "{points:?}: {found:?}");
+        }
+        assert_eq!(pressed_at(&[[0.0, 0.0], [2.0, 0.0], [1.0, 1.5]], &[[1.0, 0.0]]), [None, None], "several parts");
+    }
+
+    #[test]
+    fn lines_go_through_a_point_or_do_not() {
+        let structure = standing(&[[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]], &[]);
+        let grid = |points: &[(usize, Vec2)]| {
+            let cut = cuts(&structure, points, Order::Second, Spacing::Graded)[0];
+            Grid::of(&structure.bodies[0], [4, 4], cut)
+        };
+        let at = Vec2::new(0.7, 1.0);
+        assert!(grid(&[(0, at)]).has_lines_through(at) && !grid(&[]).has_lines_through(at));
+        assert!(!grid(&[(0, at)]).has_lines_through(Vec2::new(0.7, 0.9)), "below the side");
+        assert!(grid(&[]).has_lines_through(Vec2::new(0.01, 1.0)), "in a corner");
+    }
+}
