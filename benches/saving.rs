@@ -3,8 +3,8 @@
 //!
 //! `cargo bench --bench saving -- [accuracy ...] [word ...]`, by default 0.1 and 0.05 in all cases; words choose those whose names
 //! have one of them. The field is half-way to collapse. Its errors are those had, not estimated ones: point by point but for what is near
-//! forces on points, against graded subblocks of second order, 16 across and as many along as make them square, or, in bodies with such
-//! a force, even ones, 24 across. How far those are off, `benches/chart` tells, against finite elements. Uniform meshes are of n x n
+//! forces on points, against graded subblocks of second order, 16 across, or 24 in bodies with such a force, and as many along as make
+//! them square. How far those are off, `benches/chart` tells, against finite elements. Uniform meshes are of n x n
 //! subblocks in every body, and their stress is read in two ways: constant in every subblock, as the paper has it, and bilinear between
 //! corners to which it was recovered. Where not even the finest is good enough, more than that many unknowns are needed, and the saving
 //! is a lower bound.
@@ -25,9 +25,9 @@ use voussoir::collapse::{
 use voussoir::structure::{ActsOn, Body};
 use voussoir::wire::read::read_question;
 
-/// Subblocks across of the mesh that stands for the exact stress; and of the even one that does in bodies with a force on a point.
+/// Subblocks across of the mesh that stands for the exact stress, and in bodies with a force on a point.
 const FINE: usize = 16;
-const EVEN: usize = 24;
+const LOADED: usize = 24;
 /// Uniform meshes that are tried, subblocks each way.
 const UNIFORM: [usize; 7] = [2, 4, 8, 12, 16, 24, 32];
 /// Structures with more bodies, or so many subblocks in the fine mesh, take long to be found exactly.
@@ -149,8 +149,13 @@ impl Scene {
     /// Or why there is no such stress.
     fn new(analysis: Analysis) -> Result<Self, String> {
         let bodies = analysis.structure.voussoirs();
-        let across = |count: usize| bodies.iter().map(|body| square(body, count)).collect::<Result<Vec<_>, _>>();
-        let count: usize = across(FINE)?.iter().map(|[radial, along]| radial * along).sum();
+        let loaded = |body: usize| {
+            let mut forces = analysis.fixed.iter().chain(&analysis.scaled);
+            forces.any(|force| force.body == body && force.acts_on == ActsOn::Point)
+        };
+        let fine = |(k, body): (usize, &Body)| square(body, if loaded(k) { LOADED } else { FINE });
+        let fine = bodies.iter().enumerate().map(fine).collect::<Result<Vec<_>, _>>()?;
+        let count: usize = fine.iter().map(|[radial, along]| radial * along).sum();
         if bodies.len() > MOST_BODIES || count > MOST_FINE {
             return Err(format!("{} bodies, of {count} subblocks in the fine mesh", bodies.len()));
         }
@@ -158,20 +163,8 @@ impl Scene {
         let end = rigid.end.as_ref().ok_or(format!("{:?}", rigid.outcome))?;
         let at = 0.5 * (rigid.start + end.load_factor);
         let half_way = asking(&analysis, Path::FirstOrder, vec![FieldAt::LoadFactor(at)])?;
-        let fine = |spacing: Spacing, count: usize| {
-            on_mesh(&half_way, Mesh { order: Order::Second, spacing, ..Mesh::of(across(count)?) })
-        };
-        let mut exact = fine(Spacing::Graded, FINE)?;
-        // Beside a force in the middle of a side graded subblocks are long and low.
-        let loaded = |body: usize| {
-            let mut forces = analysis.fixed.iter().chain(&analysis.scaled);
-            forces.any(|force| force.body == body && force.acts_on == ActsOn::Point)
-        };
-        if (0..bodies.len()).any(loaded) {
-            let even = fine(Spacing::Even, EVEN)?;
-            exact.subblocks.retain(|subblock| !loaded(subblock.voussoir));
-            exact.subblocks.extend(even.subblocks.into_iter().filter(|subblock| loaded(subblock.voussoir)));
-        }
+        let mesh = Mesh { order: Order::Second, spacing: Spacing::Graded, ..Mesh::of(fine) };
+        let exact = on_mesh(&half_way, mesh)?;
         Ok(Scene { analysis: half_way, exact })
     }
 
@@ -221,7 +214,7 @@ fn square(body: &Body, across: usize) -> Result<[usize; 2], String> {
         4 => (apart(0, 1) + apart(2, 3)) / (apart(0, 3) + apart(1, 2)),
         _ => 1.0,
     };
-    // An even number: a force in the middle of a side acts where subblocks meet.
+    // An even number: a line goes through a force in the middle of a side, too.
     let wanted = [across, 2 * (0.5 * along * across as f64).round().clamp(1.0, 24.0) as usize];
     let subblocks = subblocks_of(body, wanted, Order::Second).filter(|_| can_bend(body));
     subblocks.ok_or("a body cannot be of second order".into())

@@ -13,7 +13,7 @@ use super::{Order, Spacing, SubblockStress};
 use crate::dda::{Block, Bond, Elasticity, Inside, Macroblock, Seam};
 use crate::geometry::{Region, Vec2, perpendicular};
 use crate::structure::{Body, Sides};
-pub(super) use cuts::cuts;
+pub(super) use cuts::{cuts, ends_alone};
 use parts::{is_simple, parts};
 pub(super) use patch::Lines;
 use patch::Patch;
@@ -26,7 +26,7 @@ pub(super) struct Cut {
     pub order: Order,
     pub spacing: Spacing,
     pub held: Held,
-    /// Where a force acts on a point between the sides across (0) and along (1), from 0 to 1: a line goes through it.
+    /// Where a force acts on a point, or a joint ends, between the sides across (0) and along (1), from 0 to 1: a line goes through it.
     pub pressed: [Option<f64>; 2],
 }
 

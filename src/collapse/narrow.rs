@@ -1,12 +1,12 @@
 //! Strips of a joint that are pressed and much narrower than the subblocks beside them, as next to a hinge: these show little of the
-//! stress there, and a field that is smooth may be far from it.
+//! stress there, and a field that is smooth may be far from it. So it may where a joint ends within a side, between lines.
 
 use super::discretise::Model;
 use super::ending::resultants;
-use super::grid::{Grid, OnSide};
+use super::grid::{Grid, OnSide, ends_alone};
 use super::{Order, Roughness};
 use crate::dda::ContactForce;
-use crate::structure::{Joint, Side, Structure};
+use crate::structure::{Side, Structure};
 
 /// A thrust nearer to the end of a joint than this share of the subblock there presses a strip that is too narrow: were pressure linear,
 /// three tenths of the subblock's side. On the arches of the chart stress of second order is off by what its roughness tells as long as
@@ -25,23 +25,30 @@ pub(super) struct Outermost {
     grounded: bool,
     /// How much of the joint each takes, as a share.
     lengths: [f64; 2],
+    /// Whether the joint ends between their lines.
+    unlined: bool,
 }
 
 /// Those of second-order subblocks, at all joints that can open.
 pub(super) fn outermost(structure: &Structure, grids: &[Grid]) -> Vec<Outermost> {
-    let opening = structure.ring().iter().enumerate().filter(|(_, joint)| joint.law.coulomb().is_some());
-    opening.flat_map(|(k, joint)| beside(k, joint, grids)).collect()
+    let second = |body: usize| grids[body].order == Order::Second;
+    let opening = |k: usize| k < structure.ring().len() && structure.joints[k].law.coulomb().is_some();
+    let joints_of_bodies = structure.joints_of_bodies();
+    let of_body = |(body, joints): (usize, &Vec<usize>)| {
+        let opening = joints.iter().filter(|k| opening(**k));
+        opening.map(|&k| beside(structure, &grids[body], [body, k], joints)).collect::<Vec<_>>()
+    };
+    joints_of_bodies.iter().enumerate().filter(|(body, _)| second(*body)).flat_map(of_body).collect()
 }
 
-fn beside<'g>(number: usize, joint: &'g Joint, grids: &'g [Grid]) -> impl Iterator<Item = Outermost> + 'g {
-    let bodies = joint.between.into_iter().filter_map(|side| side.body());
+/// Those of a body, which has these joints, at joint `k`.
+fn beside(structure: &Structure, grid: &Grid, [body, k]: [usize; 2], joints: &[usize]) -> Outermost {
+    let joint = &structure.joints[k];
     let grounded = joint.between.iter().any(|side| matches!(side, Side::Support(_)));
-    bodies.filter(|body| grids[*body].order == Order::Second).map(move |body| {
-        let on: OnSide = grids[body].beside([joint.intrados, joint.extrados]);
-        let (first, last) =
-            grids[body].lines_on(on).fold((1.0f64, 0.0f64), |(low, high), at| (low.min(at), high.max(at)));
-        Outermost { body, joint: number, grounded, lengths: [first, 1.0 - last] }
-    })
+    let on: OnSide = grid.beside([joint.intrados, joint.extrados]);
+    let (first, last) = grid.lines_on(on).fold((1.0f64, 0.0f64), |(low, high), at| (low.min(at), high.max(at)));
+    let unlined = ends_alone(structure, joints, k).any(|end| !grid.has_lines_through(end));
+    Outermost { body, joint: k, grounded, lengths: [first, 1.0 - last], unlined }
 }
 
 /// Marks the bodies that have such a strip, and those that stand on a joint that is open at one end, by the forces of all contacts.
@@ -54,7 +61,7 @@ pub(super) fn mark(model: &Model, forces: &[ContactForce], roughness: &mut [Roug
         let resultant = resultants[outermost.joint];
         let thrust = resultant.extrados / resultant.normal();
         let rough = &mut roughness[outermost.body];
-        rough.narrow |= outermost.is_too_coarse_for(thrust);
+        rough.narrow |= outermost.unlined || outermost.is_too_coarse_for(thrust);
         rough.gapes |= outermost.gapes_under(thrust);
     }
 }
@@ -79,7 +86,7 @@ mod tests {
     use crate::collapse::grid::{Cut, cuts};
     use crate::geometry::Vec2;
     use crate::limit::scenes;
-    use crate::structure::JointLaw;
+    use crate::structure::{Joint, JointLaw};
 
     /// Two blocks side by side, the left one twice as high, with a joint of this law between them.
     fn pair(law: JointLaw) -> Structure {
@@ -116,7 +123,7 @@ mod tests {
 
     #[test]
     fn a_joint_on_the_ground_gapes_where_the_thrust_leaves_its_middle_third() {
-        let outermost = Outermost { body: 0, joint: 0, grounded: true, lengths: [0.4, 0.2] };
+        let outermost = Outermost { body: 0, joint: 0, grounded: true, lengths: [0.4, 0.2], unlined: false };
         for (thrust, expected) in [(0.3, true), (0.35, false), (0.65, false), (0.7, true), (f64::NAN, false)] {
             assert_eq!(outermost.gapes_under(thrust), expected, "{thrust}");
             assert!(!Outermost { grounded: false, ..outermost }.gapes_under(thrust));
@@ -125,7 +132,7 @@ mod tests {
 
     #[test]
     fn a_thrust_next_to_an_end_presses_too_narrow_a_strip() {
-        let outermost = Outermost { body: 0, joint: 0, grounded: false, lengths: [0.4, 0.2] };
+        let outermost = Outermost { body: 0, joint: 0, grounded: false, lengths: [0.4, 0.2], unlined: false };
         for (thrust, expected) in
             [(0.03, true), (0.05, false), (0.5, false), (0.97, false), (0.99, true), (f64::NAN, false)]
         {

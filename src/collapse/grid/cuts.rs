@@ -1,15 +1,17 @@
-//! What the lines of a body have to be close to: sides on the ground, which holds them, as stress rises steeply in the corners there; and
-//! forces on points.
+//! What the lines of a body have to be close to, as stress rises steeply there: sides on the ground, which holds them; ends of joints within
+//! a side; and forces on points.
 
 use super::{Cut, Grid, Held, ON_LINE, Patch, places};
 use crate::collapse::{Order, Spacing};
-use crate::geometry::Vec2;
+use crate::geometry::{Vec2, cross};
 use crate::structure::{Joint, Side, Structure};
 
 /// A force this close to a side, as a share of the way to the opposite one, is in its corner: lines are close together there anyway.
 const IN_CORNER: f64 = 0.02;
+/// Joints go on in each other that end so close together, over their length, and turn no more than that.
+const SAME_END: f64 = 1e-6;
 
-/// How the subblocks of every body are drawn, with forces on these points of bodies.
+/// How the subblocks of every body are drawn, with forces on these points.
 pub(in super::super) fn cuts(
     structure: &Structure,
     points: &[(usize, Vec2)],
@@ -27,16 +29,30 @@ pub(in super::super) fn cuts(
             hold(&mut cuts[body].held, &grid(body), joint);
         }
     }
-    for (body, cut) in cuts.iter_mut().enumerate() {
-        let on_it: Vec<Vec2> = points.iter().filter(|(other, _)| *other == body).map(|(_, at)| *at).collect();
-        if !on_it.is_empty() {
-            cut.pressed = grid(body).only_patch().map(|patch| pressed(patch, &on_it)).unwrap_or_default();
-        }
+    let mut of_bodies = vec![Vec::new(); structure.bodies.len()];
+    points.iter().for_each(|&(body, at)| of_bodies[body].push(at));
+    for (body, joints) in structure.joints_of_bodies().iter().enumerate() {
+        joints.iter().for_each(|&k| of_bodies[body].extend(ends_alone(structure, joints, k)));
+    }
+    for ((body, cut), points) in cuts.iter_mut().enumerate().zip(of_bodies) {
+        cut.pressed = grid(body).only_patch().map(|patch| pressed(patch, &points)).unwrap_or_default();
     }
     cuts
 }
 
-/// Where forces on these points of a body act between its sides: at one place either way, or no line goes through them.
+/// The ends of joint `k`, one of these of a body, but those at which another of them goes on along the same line.
+pub(in super::super) fn ends_alone(structure: &Structure, of_body: &[usize], k: usize) -> impl Iterator<Item = Vec2> {
+    let joint = &structure.joints[k];
+    let goes_on = move |end: &Vec2| {
+        let others = of_body.iter().filter(|other| **other != k).map(|other| &structure.joints[*other]);
+        let along = |other: &&Joint| cross(other.tangent(), joint.tangent()).abs() < SAME_END;
+        let mut ends = others.filter(along).flat_map(|other| [other.intrados, other.extrados]);
+        ends.any(|other| (other - end).norm() < SAME_END * joint.length())
+    };
+    [joint.intrados, joint.extrados].into_iter().filter(move |end| !goes_on(end))
+}
+
+/// Where these points of a body lie between its sides: at one place either way, or no line goes through them.
 fn pressed(patch: &Patch, points: &[Vec2]) -> [Option<f64>; 2] {
     let places: Vec<[f64; 2]> = points.iter().map(|at| places::place(patch, *at)).map(|(xi, eta)| [eta, xi]).collect();
     [0, 1].map(|way| {
@@ -54,13 +70,15 @@ impl Grid {
         patch.has_straight_sides().then_some(patch)
     }
 
-    /// Whether lines go through a point, or very close to it.
+    /// Whether lines go through a point, or very close to it; of bodies of several parts, or with bent sides, whether some meet there.
     pub(in super::super) fn has_lines_through(&self, at: Vec2) -> bool {
-        self.only_patch().is_some_and(|patch| {
-            let (xi, eta) = places::place(patch, at);
-            let near = |(place, way): (f64, usize)| self.lines[way].iter().any(|line| (line - place).abs() < IN_CORNER);
-            [(eta, 0), (xi, 1)].into_iter().all(near)
-        })
+        let Some(patch) = self.only_patch() else {
+            let near = SAME_END * self.whole.area.sqrt();
+            return self.outlines.iter().flatten().any(|corner| (corner - at).norm() < near);
+        };
+        let (xi, eta) = places::place(patch, at);
+        let near = |(place, way): (f64, usize)| self.lines[way].iter().any(|line| (line - place).abs() < IN_CORNER);
+        [(eta, 0), (xi, 1)].into_iter().all(near)
     }
 }
 
@@ -156,5 +174,31 @@ mod tests {
         assert!(grid(&[(0, at)]).has_lines_through(at) && !grid(&[]).has_lines_through(at));
         assert!(!grid(&[(0, at)]).has_lines_through(Vec2::new(0.7, 0.9)), "below the side");
         assert!(grid(&[]).has_lines_through(Vec2::new(0.01, 1.0)), "in a corner");
+    }
+    #[test]
+    fn lines_go_through_the_end_of_a_joint_within_a_side_where_no_other_goes_on() {
+        // A slab on one or two blocks, which reach from here to there.
+        let on_blocks = |blocks: &[[f64; 2]]| {
+            let block = |&[from, to]: &[f64; 2]| [[from, -1.0], [to, -1.0], [to, 0.0], [from, 0.0]];
+            let slab = [[0.0, 0.0], [4.0, 0.0], [4.0, 1.0], [0.0, 1.0]];
+            let bodies: Vec<Vec<Vec2>> =
+                blocks.iter().map(block).chain([slab]).map(|body| body.map(Vec2::from).to_vec()).collect();
+            let joint = |(k, &[from, to]): (usize, &[f64; 2])| Joint {
+                between: [Side::Body(k), Side::Body(blocks.len())],
+                intrados: Vec2::new(to, 0.0),
+                extrados: Vec2::new(from, 0.0),
+                law: DRY,
+            };
+            let joints = blocks.iter().enumerate().map(joint).collect();
+            let structure = scenes::structure(&bodies, joints, 0);
+            let cut = cuts(&structure, &[], Order::Second, Spacing::Graded)[blocks.len()];
+            (cut.pressed[1], Grid::of(&structure.bodies[blocks.len()], [4, 4], cut))
+        };
+        let (place, grid) = on_blocks(&[[0.0, 1.0]]);
+        assert!((place.unwrap() - 0.25).abs() < 1e-12 && grid.has_lines_through(Vec2::new(1.0, 0.0)));
+        let (place, grid) = on_blocks(&[[1.0, 3.0]]);
+        assert!(place.is_none() && !grid.has_lines_through(Vec2::new(1.0, 0.0)), "two ends");
+        assert_eq!(on_blocks(&[[0.0, 1.5], [1.5, 4.0]]).0, None, "one joint goes on where the other ends");
+        assert_eq!(on_blocks(&[[0.0, 4.0]]).0, None);
     }
 }

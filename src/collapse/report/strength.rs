@@ -35,7 +35,7 @@ pub struct Roughness {
     pub coarse: bool,
     /// Whether a force acts on a point of the body that lies between its lines.
     pub near_point: bool,
-    /// Whether a joint of the body presses on a strip that is much narrower than the subblocks there.
+    /// Whether a joint of the body presses on a strip that is much narrower than the subblocks there, or ends between their lines.
     pub narrow: bool,
     /// Whether it stands on the ground with a joint that is open at one end.
     pub gapes: bool,

@@ -81,8 +81,8 @@ const LOAD_NEEDS_NO_MESH: &str =
 const HALF_MODELLED: &str = "Arch, loads and mechanism are symmetric: half the arch is modelled for the stress.";
 const STATES_ONE_BY_ONE: &str = "The states on this mesh were solved for one by one. The load path is that of \
      whole stones.";
-const NEAR_POINTS_LEFT_OUT: &str = "Next to a force on a point, stress has no bound: the error leaves out what is nearer to it than a quarter of \
-     the body's least width.";
+const NEAR_POINTS_LEFT_OUT: &str = "Next to a force on a point, stress has no bound: the error leaves out what is nearer to it than a tenth of \
+     the body's longest joint, or than a quarter of its least width where that is less.";
 const WHOLE_MODELLED: &str =
     "Arch, loads or mechanism are not symmetric, or joints slide: the whole arch is modelled for the stress.";
 

@@ -16,8 +16,8 @@ pub struct AccuracyRequest {
     /// Largest error of the stress, as a share, instead of a mesh. It is the root mean square, by area, of the error
     /// of the stress over that of the stress itself, all components of it, point by point, in the worst of
     /// `report.stress_fields`. Without those there is one field, at load factor 1. Where some body has corners within a side it is that of
-    /// the mean of every subblock. What is nearer to a force on a point than a quarter of the body's least width is not counted: stress
-    /// has no bound there.
+    /// the mean of every subblock. What is nearer to a force on a point than a tenth of the body's longest joint, or than a
+    /// quarter of its least width where that is less, is not counted: stress has no bound there.
     #[schema(exclusive_minimum = 0.0, maximum = 1.0)]
     pub stress: Option<f64>,
     /// Most subblocks that the model may have, for the sake of `stress`.

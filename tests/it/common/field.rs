@@ -5,7 +5,7 @@ use super::masonry::polygon;
 use std::collections::BTreeMap;
 use voussoir::collapse::{Analysis, StressField, SubblockStress};
 use voussoir::geometry::{Vec2, cross};
-use voussoir::structure::ActsOn;
+use voussoir::structure::{ActsOn, Side};
 
 /// Subblocks of one voussoir, radial and along, and what is in each.
 struct Stone<'a> {
@@ -79,7 +79,8 @@ fn bilinear(subblock: &SubblockStress, place: [f64; 2]) -> [f64; 3] {
     of.fold([0.0; 3], |sum, (stress, share)| [0, 1, 2].map(|c| sum[c] + share * stress[c]))
 }
 
-/// Places of forces on points, by voussoir, and how far around them stress is not counted, m: a quarter of the least width.
+/// Places of forces on points, by voussoir, and how far around them stress is not counted, m: a tenth of the longest joint, or a quarter
+/// of the least width.
 fn left_out(analysis: &Analysis) -> Vec<(usize, Vec2, f64)> {
     let loads = analysis.fixed.iter().chain(&analysis.scaled).filter(|load| load.acts_on == ActsOn::Point);
     let soil = analysis.structure.passive.iter().map(|element| (element.body, element.at));
@@ -87,7 +88,9 @@ fn left_out(analysis: &Analysis) -> Vec<(usize, Vec2, f64)> {
         let corners = &analysis.structure.bodies[body].corners;
         let lengths = corners.iter().flat_map(|a| corners.iter().map(move |b| (b - a).norm()));
         let area = polygon(&corners.iter().map(|corner| (*corner).into()).collect::<Vec<_>>()).0;
-        (body, at, 0.25 * area / lengths.fold(0.0, f64::max))
+        let joints = analysis.structure.joints.iter().filter(|joint| joint.between.contains(&Side::Body(body)));
+        let longest = joints.map(|joint| (joint.extrados - joint.intrados).norm()).fold(0.0, f64::max);
+        (body, at, f64::min(0.25 * area / lengths.fold(0.0, f64::max), 0.1 * longest))
     };
     loads.map(|load| (load.body, load.at)).chain(soil).map(near).collect()
 }
