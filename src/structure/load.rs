@@ -12,7 +12,7 @@ mod passive;
 mod patch;
 mod vehicle;
 
-use super::{ActsOn, Body, GRAVITY, PointForce, Structure, Surface};
+use super::{ActsOn, Body, GRAVITY, PointForce, Sides, Structure, Surface};
 use crate::geometry::{Vec2, distance_from_segment, lies_inside, perpendicular};
 pub use dispersal::{Dispersal, Distribution};
 pub use fill::{Fill, FillBacking, Layer, SurfaceLine};
@@ -128,6 +128,11 @@ pub enum LoadFault {
         /// Greatest, m.
         high: [f64; 2],
     },
+    /// Where it acts is not known.
+    #[error(
+        "an inclined force cannot be placed on a curved side of several arcs: put a joint where they meet (another number of voussoirs), set curved_sides to false, or set inclination_deg to 0"
+    )]
+    OnSeveralArcs,
     /// A tie that holds nothing.
     #[error("the tie has no length, or both its ends are fixed to one block, where it does nothing")]
     TieHoldsNothing,
@@ -165,8 +170,8 @@ impl Load {
             Load::BodyAcceleration(acceleration) => body_force(structure, *acceleration),
             Load::Fill(fill) => fill.on(structure, &sides)?,
             Load::Lateral(bands, flanks) => lateral(&sides, bands, *flanks),
-            Load::Point(force, Place::Abscissa(x)) => point_load(structure, *force, *x)?,
-            Load::Point(force, Place::Body(k)) => vec![middle_load(structure, *force, *k)?],
+            Load::Point(force, Place::Abscissa(x)) => placed(point_load(structure, *force, *x)?, structure)?,
+            Load::Point(force, Place::Body(k)) => placed(vec![middle_load(structure, *force, *k)?], structure)?,
             Load::Force { body, at, force } => vec![force_on(structure, *body, *at, *force)?],
             Load::Tie { ends, force } => tie(structure, *ends, *force)?,
             Load::Patch(patch) => patch.on(structure, &sides)?,
@@ -266,6 +271,12 @@ fn middle_load(structure: &Structure, force: Vec2, body: usize) -> Result<PointF
     Ok(PointForce { body, at, force, acts_on: ActsOn::Point })
 }
 
+/// These forces, where their lines of action are known: on sides of several arcs those of vertical ones are.
+fn placed(forces: Vec<PointForce>, structure: &Structure) -> Result<Vec<PointForce>, LoadFault> {
+    let unknown = |f: &PointForce| f.force.x != 0.0 && structure.bodies[f.body].sides == Sides::Compound;
+    if forces.iter().any(unknown) { Err(LoadFault::OnSeveralArcs) } else { Ok(forces) }
+}
+
 fn force_on(structure: &Structure, body: usize, at: Vec2, force: Vec2) -> Result<PointForce, LoadFault> {
     let corners = &structure.bodies[body].corners;
     let sides = || corners.iter().zip(corners.iter().cycle().skip(1));
@@ -331,7 +342,7 @@ fn point_load(structure: &Structure, force: Vec2, x: f64) -> Result<Vec<PointFor
     bearers.sort_unstable();
     let share = force / bearers.len() as f64;
     let on = |body: usize| {
-        let at = structure.bodies[body].onto_arc(Vec2::new(x, y), Vec2::y());
+        let at = structure.bodies[body].plumb_onto_arc(Vec2::new(x, y));
         PointForce { body, at, force: share, acts_on: ActsOn::Point }
     };
     Ok(bearers.into_iter().map(|i| on(surfaces[i].body)).collect())

@@ -70,6 +70,9 @@ const MARGIN: f64 = 1.2;
 const COARSE: f64 = 1.1;
 const NEAR_POINT: f64 = 1.3;
 const NARROW: f64 = 2.8;
+/// And so many times where a joint of the body ends within a side of one beside it, in whose corner stress rises more steeply than at ends in
+/// corners of both (measured, by finite elements, on lintels, columns and joints with lost mortar: 1.43 times the estimate without).
+const PUNCHED: f64 = 1.5;
 
 /// How many times larger it may be yet: in any body, in one of few subblocks, in one of these between stiff joints (measured on 128 random
 /// arches: 1.43), and in one that stands on a joint that is open at one end (1.98).
@@ -144,7 +147,8 @@ impl FieldErrors {
     pub(super) fn take_rough(&mut self, roughness: &[Roughness], refined: &[bool]) {
         self.norm = roughness.iter().map(|rough| rough.whole).sum::<f64>().sqrt();
         for ((known, rough), refined) in self.voussoirs.iter_mut().zip(roughness).zip(refined) {
-            let more = [(rough.coarse, COARSE), (rough.near_point, NEAR_POINT), (rough.narrow, NARROW)];
+            let (near, strip) = ((rough.near_point, NEAR_POINT), (rough.narrow, NARROW));
+            let more = [(rough.coarse, COARSE), near, strip, (rough.punched, PUNCHED)];
             let more: f64 = more.into_iter().filter(|(is, _)| *is).map(|(_, more)| more).product();
             let now = rough.apart.sqrt();
             if *refined {
@@ -213,6 +217,20 @@ mod tests {
         let near = NearPoint { centre: Vec2::new(1.0, 1.0), radius: 0.4 };
         let rest = differences(&coarse, &fine, &[vec![near]], apart)[0];
         assert!(rest.apart.abs() < 1e-12 && (rest.whole - 0.75).abs() < 1e-12, "{rest:?}");
+    }
+
+    #[test]
+    fn what_makes_stress_steep_makes_an_estimate_larger() {
+        let told = |rough: Roughness| {
+            let mut errors = FieldErrors::new(1, [1.0, 2.0]);
+            errors.take_rough(&[Roughness { apart: 1.0, whole: 1e4, ..rough }], &[true]);
+            100.0 * errors.estimate() / MARGIN
+        };
+        let none = Roughness::default();
+        let (near_point, narrow) = (Roughness { near_point: true, ..none }, Roughness { narrow: true, ..none });
+        let both = Roughness { punched: true, ..narrow };
+        let expected = [(none, 1.0), (near_point, NEAR_POINT), (narrow, NARROW), (both, NARROW * PUNCHED)];
+        assert!(expected.iter().all(|(rough, times)| (told(*rough) - times).abs() < 1e-12));
     }
 
     #[test]

@@ -37,6 +37,8 @@ pub struct Roughness {
     pub near_point: bool,
     /// Whether a joint of the body presses on a strip that is much narrower than the subblocks there, or ends between their lines.
     pub narrow: bool,
+    /// Whether a joint of the body ends within a side of it, or of the body on the other side.
+    pub punched: bool,
     /// Whether it stands on the ground with a joint that is open at one end.
     pub gapes: bool,
 }

@@ -198,6 +198,7 @@ impl LoadRequest {
             (LoadRequest::FillPressure(FillPressure { fill_height_m: None, .. }), _) => Some("embankment_thickness_m"),
             (LoadRequest::FillPressure(_), _) => Some("fill_height_m"),
             (LoadRequest::PointLoad(_), LoadFault::NoSuchVoussoir { .. }) => Some("voussoir"),
+            (LoadRequest::PointLoad(_), LoadFault::OnSeveralArcs) => Some("inclination_deg"),
             (LoadRequest::PointLoad(_), _) => Some("x_m"),
             (
                 LoadRequest::PatchLoad(PatchLoad { dispersal: Some(dispersal), .. })
