@@ -141,6 +141,9 @@ pub enum LoadFault {
 /// How far outside its body a force may act, as a share of the body's longest side.
 const ON_THE_BODY: f64 = 1e-6;
 
+/// A force leans by no more than rounding with so small a share across.
+const UPRIGHT: f64 = 1e-12;
+
 /// Places and halves of the two-point Gauss rule: exact for a linear pressure and for its moment.
 const GAUSS_2: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
 
@@ -273,7 +276,8 @@ fn middle_load(structure: &Structure, force: Vec2, body: usize) -> Result<PointF
 
 /// These forces, where their lines of action are known: on sides of several arcs those of vertical ones are.
 fn placed(forces: Vec<PointForce>, structure: &Structure) -> Result<Vec<PointForce>, LoadFault> {
-    let unknown = |f: &PointForce| f.force.x != 0.0 && structure.bodies[f.body].sides == Sides::Compound;
+    let inclined = |f: &PointForce| f.force.x.abs() > UPRIGHT * f.force.norm();
+    let unknown = |f: &PointForce| inclined(f) && structure.bodies[f.body].sides == Sides::Compound;
     if forces.iter().any(unknown) { Err(LoadFault::OnSeveralArcs) } else { Ok(forces) }
 }
 

@@ -46,10 +46,12 @@ fn beside(pressed: Option<f64>, [line, count]: [usize; 2], [a, b]: [f64; 2]) -> 
     }
 }
 
-/// Number of the line nearest to a place, by numbers, of so many intervals. None where two are as near: a stone and its mirror image are
-/// to have the same lines.
+/// Number of the line that goes through a force at this place, of so many intervals: those next to it are as long on either side, about.
+/// None where two numbers do as well: a stone and its mirror image are to have the same lines.
 fn line_through(place: f64, count: usize) -> Option<usize> {
-    let among = (place * count as f64).clamp(1.0, (count as f64 - 1.0).max(1.0));
+    // The first of n intervals is about n^-FORCE of the way.
+    let [before, after] = [place, 1.0 - place].map(|way| way.powf(1.0 / FORCE));
+    let among = (count as f64 * before / (before + after)).clamp(1.0, (count as f64 - 1.0).max(1.0));
     let tells = count > 1 && (among.fract() - 0.5).abs() > ON_LINE;
     tells.then_some(among.round() as usize)
 }
@@ -134,13 +136,10 @@ mod tests {
             let pressed = [None, Some(at)];
             lines(Cut { spacing: Spacing::Graded, pressed, ..Cut::default() }, [3, count], false)[1].clone()
         };
-        // As in two stones, one on either side of the force.
-        let [_, alone] = graded_lines(FREE, [3, 4], false);
-        for (line, place) in along(0.4, 9).iter().enumerate() {
-            let expected = match line {
-                ..4 => 0.4 * alone[line],
-                _ => 0.4 + 0.6 * graded_lines(FREE, [3, 5], false)[1][line - 4],
-            };
+        // As in two stones, one on either side of the force: 0.2^(2/3) to 0.8^(2/3) is 2.8 to 7.2.
+        let [few, many] = [3, 7].map(|count| graded_lines(FREE, [3, count], false)[1].clone());
+        for (line, place) in along(0.2, 10).iter().enumerate() {
+            let expected = if line < 3 { 0.2 * few[line] } else { 0.2 + 0.8 * many[line - 3] };
             assert!((place - expected).abs() < EXACT, "{line}: {place}");
         }
         for (at, count) in [(0.02, 2), (0.1, 3), (0.3, 7), (0.5, 4), (0.37, 48)] {

@@ -118,6 +118,8 @@ mod tests {
         for place in [Place::Abscissa(0.3), Place::Body(3)] {
             let on = |x: f64| Load::Point(Vec2::new(x, -1.0), place).on(&arch, 1.0);
             assert_eq!((on(0.2).unwrap_err(), on(0.0).is_ok()), (LoadFault::OnSeveralArcs, true));
+            let (sin, cos) = PI.sin_cos();
+            assert!(Load::Point(Vec2::new(sin, -cos), place).on(&arch, 1.0).is_ok(), "upwards");
         }
     }
 
