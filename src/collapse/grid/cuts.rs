@@ -175,6 +175,7 @@ mod tests {
         assert!(!grid(&[(0, at)]).has_lines_through(Vec2::new(0.7, 0.9)), "below the side");
         assert!(grid(&[]).has_lines_through(Vec2::new(0.01, 1.0)), "in a corner");
     }
+
     #[test]
     fn lines_go_through_the_end_of_a_joint_within_a_side_where_no_other_goes_on() {
         // A slab on one or two blocks, which reach from here to there.
