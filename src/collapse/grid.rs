@@ -13,7 +13,7 @@ use super::{Order, Spacing, SubblockStress};
 use crate::dda::{Block, Bond, Elasticity, Inside, Macroblock, Seam};
 use crate::geometry::{Region, Vec2, perpendicular};
 use crate::structure::{Body, Sides};
-pub(super) use cuts::{cuts, ends_alone};
+pub(super) use cuts::{cuts, ends_within};
 use parts::{is_simple, parts};
 pub(super) use patch::Lines;
 use patch::Patch;

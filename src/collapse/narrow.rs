@@ -3,11 +3,10 @@
 
 use super::discretise::Model;
 use super::ending::resultants;
-use super::grid::{Grid, OnSide, ends_alone};
+use super::grid::{Grid, OnSide, ends_within};
 use super::{Order, Roughness};
 use crate::dda::ContactForce;
-use crate::geometry::Vec2;
-use crate::structure::{Side, Structure};
+use crate::structure::{Joint, Structure};
 
 /// A thrust nearer to the end of a joint than this share of the subblock there presses a strip that is too narrow: were pressure linear,
 /// three tenths of the subblock's side. On the arches of the chart stress of second order is off by what its roughness tells as long as
@@ -16,9 +15,6 @@ const TOO_NEAR: f64 = 0.1;
 
 /// A joint whose thrust is farther from its middle is open at one end, were pressure linear.
 const KERN: f64 = 1.0 / 6.0;
-
-/// A joint this close to a corner, over its length, ends there.
-const AT_CORNER: f64 = 1e-6;
 
 /// The subblocks of a body at the ends of a joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,32 +34,26 @@ pub(super) struct Outermost {
 /// Those of second-order subblocks, at all joints that can open.
 pub(super) fn outermost(structure: &Structure, grids: &[Grid]) -> Vec<Outermost> {
     let second = |body: usize| grids[body].order == Order::Second;
-    let opening = |k: usize| k < structure.ring().len() && structure.joints[k].law.coulomb().is_some();
-    let joints_of_bodies = structure.joints_of_bodies();
-    let ends_within = |body: usize, k: usize| {
-        let near = |corner: &Vec2, end: Vec2| (corner - end).norm() < AT_CORNER * structure.joints[k].length();
-        let within = |end: Vec2| !structure.bodies[body].corners.iter().any(|corner| near(corner, end));
-        ends_alone(structure, &joints_of_bodies[body], k).any(within)
-    };
-    let of_body = |(body, joints): (usize, &Vec<usize>)| {
-        let beside = |&k: &usize| {
-            let mut bodies = structure.joints[k].between.into_iter().filter_map(|side| side.body());
-            let punches = bodies.any(|body| ends_within(body, k));
-            Outermost { punches, ..beside(structure, &grids[body], [body, k], joints) }
+    if !(0..grids.len()).any(second) {
+        return Vec::new();
+    }
+    let of_bodies = structure.joints_of_bodies();
+    let opening = structure.ring().iter().enumerate().filter(|(_, joint)| joint.law.coulomb().is_some());
+    let at_joint = |(k, joint): (usize, &Joint)| {
+        let bodies: Vec<usize> = joint.between.into_iter().filter_map(|side| side.body()).collect();
+        let ends = |body: usize| ends_within(structure, &of_bodies[body], [body, k]);
+        let grounded = bodies.len() == 1;
+        let punches = bodies.iter().any(|&body| ends(body).next().is_some());
+        let beside = |&body: &usize| {
+            let grid = &grids[body];
+            let on: OnSide = grid.beside([joint.intrados, joint.extrados]);
+            let (first, last) = grid.lines_on(on).fold((1.0f64, 0.0f64), |(low, high), at| (low.min(at), high.max(at)));
+            let unlined = ends(body).any(|end| !grid.has_lines_through(end));
+            Outermost { body, joint: k, grounded, lengths: [first, 1.0 - last], unlined, punches }
         };
-        joints.iter().filter(|k| opening(**k)).map(beside).collect::<Vec<_>>()
+        bodies.iter().filter(|body| second(**body)).map(beside).collect::<Vec<_>>()
     };
-    joints_of_bodies.iter().enumerate().filter(|(body, _)| second(*body)).flat_map(of_body).collect()
-}
-
-/// Those of a body, which has these joints, at joint `k`.
-fn beside(structure: &Structure, grid: &Grid, [body, k]: [usize; 2], joints: &[usize]) -> Outermost {
-    let joint = &structure.joints[k];
-    let grounded = joint.between.iter().any(|side| matches!(side, Side::Support(_)));
-    let on: OnSide = grid.beside([joint.intrados, joint.extrados]);
-    let (first, last) = grid.lines_on(on).fold((1.0f64, 0.0f64), |(low, high), at| (low.min(at), high.max(at)));
-    let unlined = ends_alone(structure, joints, k).any(|end| !grid.has_lines_through(end));
-    Outermost { body, joint: k, grounded, lengths: [first, 1.0 - last], unlined, punches: false }
+    opening.flat_map(at_joint).collect()
 }
 
 /// Marks the bodies that have such a strip, and those that stand on a joint that is open at one end, by the forces of all contacts.
@@ -100,8 +90,9 @@ mod tests {
     use super::*;
     use crate::collapse::Spacing;
     use crate::collapse::grid::{Cut, cuts};
+    use crate::geometry::Vec2;
     use crate::limit::scenes;
-    use crate::structure::{Joint, JointLaw};
+    use crate::structure::{JointLaw, Side};
 
     /// Two blocks side by side, the left one twice as high, with a joint of this law between them.
     fn pair(law: JointLaw) -> Structure {

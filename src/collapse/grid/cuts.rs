@@ -8,7 +8,7 @@ use crate::structure::{Joint, Side, Structure};
 
 /// A force this close to a side, as a share of the way to the opposite one, is in its corner: lines are close together there anyway.
 const IN_CORNER: f64 = 0.02;
-/// Joints go on in each other that end so close together, over their length, and turn no more than that.
+/// A joint ends at a corner, or another goes on where it ends, that is so close, over its length, and turns no more than that.
 const SAME_END: f64 = 1e-6;
 
 /// How the subblocks of every body are drawn, with forces on these points.
@@ -32,24 +32,32 @@ pub(in super::super) fn cuts(
     let mut of_bodies = vec![Vec::new(); structure.bodies.len()];
     points.iter().for_each(|&(body, at)| of_bodies[body].push(at));
     for (body, joints) in structure.joints_of_bodies().iter().enumerate() {
-        joints.iter().for_each(|&k| of_bodies[body].extend(ends_alone(structure, joints, k)));
-    }
-    for ((body, cut), points) in cuts.iter_mut().enumerate().zip(of_bodies) {
-        cut.pressed = grid(body).only_patch().map(|patch| pressed(patch, &points)).unwrap_or_default();
+        let points = &mut of_bodies[body];
+        points.extend(joints.iter().flat_map(|&k| ends_within(structure, joints, [body, k])));
+        if !points.is_empty() {
+            cuts[body].pressed = grid(body).only_patch().map(|patch| pressed(patch, points)).unwrap_or_default();
+        }
     }
     cuts
 }
 
-/// The ends of joint `k`, one of these of a body, but those at which another of them goes on along the same line.
-pub(in super::super) fn ends_alone(structure: &Structure, of_body: &[usize], k: usize) -> impl Iterator<Item = Vec2> {
-    let joint = &structure.joints[k];
-    let goes_on = move |end: &Vec2| {
+/// The ends of joint `k`, one of these of a body, that lie within a side of it, but those at which another of them goes on along that side.
+pub(in super::super) fn ends_within(
+    structure: &Structure,
+    of_body: &[usize],
+    [body, k]: [usize; 2],
+) -> impl Iterator<Item = Vec2> {
+    let (joint, corners) = (&structure.joints[k], &structure.bodies[body].corners);
+    let near = SAME_END * joint.length();
+    let is_there = move |end: Vec2, other: Vec2| (other - end).norm() < near;
+    let goes_on = move |end: Vec2| {
         let others = of_body.iter().filter(|other| **other != k).map(|other| &structure.joints[*other]);
         let along = |other: &&Joint| cross(other.tangent(), joint.tangent()).abs() < SAME_END;
         let mut ends = others.filter(along).flat_map(|other| [other.intrados, other.extrados]);
-        ends.any(|other| (other - end).norm() < SAME_END * joint.length())
+        ends.any(|other| is_there(end, other))
     };
-    [joint.intrados, joint.extrados].into_iter().filter(move |end| !goes_on(end))
+    let within = move |end: &Vec2| !corners.iter().any(|corner| is_there(*end, *corner)) && !goes_on(*end);
+    [joint.intrados, joint.extrados].into_iter().filter(within)
 }
 
 /// Where these points of a body lie between its sides: at one place either way, or no line goes through them.

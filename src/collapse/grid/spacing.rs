@@ -9,13 +9,13 @@ const FACE: f64 = 1.4;
 const JOINT: f64 = 1.5;
 const GROUND: f64 = 2.0;
 const NEXT_TO_GROUND: f64 = 1.7;
-/// The same towards a force on a point, next to which stress grows as at a joint's end (2 makes no answer of five arches better).
+/// The same towards a force on a point, or the end of a joint within a side (2 makes no answer of five arches with a force better).
 const FORCE: f64 = 1.5;
 
 /// Places, from 0 to 1, of the ends of so many intervals either way.
 ///
 /// Graded ones lie at u^a / (u^a + (1 - u)^b) for even shares u, with the [`steepness`] a and b of the two ends; in one of `several` parts,
-/// whose other end is inside the stone, as in half of that; and where a force acts on a point in between, on either side of it.
+/// whose other end is inside the stone, as in half of that; and where a line has to go through a place in between, on either side of that.
 pub(super) fn lines(cut: Cut, counts: [usize; 2], several: bool) -> [Vec<f64>; 2] {
     [0, 1].map(|way| {
         let (count, steepness) = (counts[way], steepness(cut.held, way));
@@ -36,7 +36,7 @@ fn graded(share: f64, [a, b]: [f64; 2]) -> f64 {
     near / (near + far)
 }
 
-/// Place of a line of so many intervals where a force may act in between.
+/// Place of a line of so many intervals of which one may have to go through a place in between.
 fn beside(pressed: Option<f64>, [line, count]: [usize; 2], [a, b]: [f64; 2]) -> f64 {
     let within = |from: usize, to: usize| (line - from) as f64 / (to - from) as f64;
     match pressed.and_then(|at| Some((at, line_through(at, count)?))) {
@@ -46,7 +46,7 @@ fn beside(pressed: Option<f64>, [line, count]: [usize; 2], [a, b]: [f64; 2]) -> 
     }
 }
 
-/// Number of the line that goes through a force at this place, of so many intervals: those next to it are as long on either side, about.
+/// Number of the line that goes through this place, of so many intervals: those next to it are as long on either side, about.
 /// None where two numbers do as well: a stone and its mirror image are to have the same lines.
 fn line_through(place: f64, count: usize) -> Option<usize> {
     // The first of n intervals is about n^-FORCE of the way.

@@ -147,9 +147,9 @@ impl FieldErrors {
     pub(super) fn take_rough(&mut self, roughness: &[Roughness], refined: &[bool]) {
         self.norm = roughness.iter().map(|rough| rough.whole).sum::<f64>().sqrt();
         for ((known, rough), refined) in self.voussoirs.iter_mut().zip(roughness).zip(refined) {
-            let (near, strip) = ((rough.near_point, NEAR_POINT), (rough.narrow, NARROW));
-            let more = [(rough.coarse, COARSE), near, strip, (rough.punched, PUNCHED)];
-            let more: f64 = more.into_iter().filter(|(is, _)| *is).map(|(_, more)| more).product();
+            let is = [rough.coarse, rough.near_point, rough.narrow, rough.punched];
+            let steep = is.into_iter().zip([COARSE, NEAR_POINT, NARROW, PUNCHED]).filter(|(is, _)| *is);
+            let more: f64 = steep.map(|(_, more)| more).product();
             let now = rough.apart.sqrt();
             if *refined {
                 let [slowest, fastest] = self.orders;

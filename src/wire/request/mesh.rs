@@ -27,8 +27,9 @@ pub struct MeshRequest {
     /// Where the lines between subblocks lie. `even`: evenly. `graded`: close together at joints and faces, where stress changes
     /// most next to hinges, and more so in bodies of four sides that stand on the ground: from one side to the other at
     /// u^a / (u^a + (1 - u)^b) for even shares u, with exponents of 1.4 at faces, 1.5 at joints, 2 at the ground and 1.7 at sides
-    /// next to it. In bodies of four sides one line goes through a force on a point, if there is one, and those on either side of it are
-    /// drawn so between it, with an exponent of 1.5, and the side; with an odd number of subblocks none through the middle.
+    /// next to it. In bodies of four sides one line goes through a force on a point or the end of a joint within a side, if there is just
+    /// one, and those on either side of it are drawn so between it, with an exponent of 1.5, and the side; with an odd number of subblocks
+    /// none through the middle.
     pub lines: Spacing,
 }
 
